@@ -149,8 +149,8 @@ WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster draw vertex api w
 WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/texture/decode.c
 WEB_NOT := report/output_file report/terminal need/camera need/reader need/requirement need/view need/check \
     plot/canvas plot/fights plot/normals plot/pareto plot/stability plot/scene plot/pixels \
-    cli/texture_% cli/cmd_texture cli/cmd_bench cli/cmd_stability cli/cmd_check cli/check_report cli/cmd_shadow \
-    cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_disocclusion cli/cmd_probe cli/cmd_web cli/completions cli/stop cli/junit cli/option_profile api/profile_file
+    cli/texture_% cli/cmd_texture cli/cmd_methods cli/cmd_check cli/check_report cli/cmd_shadow \
+    cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_probe cli/link cli/completions cli/stop cli/junit cli/option_profile api/profile_file
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
@@ -357,7 +357,7 @@ plots: all
 BENCHED := interval linearize encode worst position normal
 bench: all $(BENCH_PROGRAMS)
 	@sh tests/bench.sh $(foreach b,$(filter-out %/bench_empty,$(BENCH_PROGRAMS)),'$b $(B)/depthprec') \
-	    $(foreach f,$(BENCHED),'echo && $(B)/depthprec bench $f') \
+	    $(foreach f,$(BENCHED),'echo && $(B)/depthprec methods $f') \
 	    'sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize'
 
 clean distclean:

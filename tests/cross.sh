@@ -70,8 +70,8 @@ each transforms budget -n 0.3 -F all $every --at 17.25 --world 1000 --csv --comp
 list encodings --json
 list methods --json
 list presets --json
-stability linearize --csv
-stability encode --csv
+plot stability linearize --csv
+plot stability encode --csv
 zfight -n 1 -f 1.2 -F unorm16 -m all --csv
 zfight -n 1 -f 1.5 -F fp16 --sample 2000 --gap 0.0001 --json
 solve -f 1000 -F all $every --separation 0.01 --at 100 --json

@@ -33,11 +33,11 @@ all_named plot interval
 all_named plot map -F unorm24
 all_named plot budget -F unorm24
 all_named plot scene tests/needs/village.need
-for what in formats mappings presets platforms apis rasterizers programs schemes encodings packings effects scenes positions normals figures; do all_named list $what; done
+for what in formats mappings presets platforms apis rasterizers programs upscalers schemes encodings packings effects scenes positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --triangles --sample 10
-all_named zfight --against fma --sample 100
+all_named prepass --against fma --sample 100
 all_named scene tests/models/street.obj --gap 0.02 --from 0,2,10 --look 0,0,0
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --viewport 640x480
 all_named scene tests/models/street.obj --gap 0.02 --viewport 640x480
@@ -61,7 +61,6 @@ all_named solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.0
 all_named solve --for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01
 all_named table --at 10 --range 5:50
 all_named table --depth 0.5
-all_named disocclusion
 all_named world
 all_named world --distance 1km,1e6m
 all_named budget --at 10 --world 1e5 --scheme split
@@ -83,8 +82,8 @@ all_named bias --api all --range 1:10
 all_named shadow -f 50 --api all
 all_named shadow --light-box 5x5x5 --range 1:4
 all_named plot shadow
-all_named bench worst --tolerance 0.1
-all_named stability encode
+all_named methods worst --tolerance 0.1
+all_named methods
 all_named texture --scene decals --size 64x36
 all_named texture --scene decals --size 64x36 --pixel 1,2
 all_named texture --effect intersection --at 10

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The bounds of `bench linearize` against those that Gappa proves of the same operations: an independent judge. Writes
+# The bounds of `methods linearize` against those that Gappa proves of the same operations: an independent judge. Writes
 # a script for each method and camera to gappa/ in the build folder, with or without Gappa here.
 . tests/tap.sh
 
@@ -86,7 +86,7 @@ proven() { # proven SCRIPT: the greater end of what Gappa says
 # Each method that has a bound: its script, Gappa's bound where Gappa is here, and the three numbers compared. What has
 # no script must come so near to the worst error found that no proof could be much better.
 judge() { # judge NEAR FAR MAPPING
-    "$DEPTHPREC" bench linearize -n "$1" -f "$2" -F fp32 -m "$3" --json >"$scratch/bench" || return 1
+    "$DEPTHPREC" methods linearize -n "$1" -f "$2" -F fp32 -m "$3" --json >"$scratch/bench" || return 1
     jq -r '.methods[] | select(.bound != null) | "\(.name) \(.error) \(.bound)"' "$scratch/bench" >"$scratch/rows" ||
         return 1
     while read -r method error bound; do

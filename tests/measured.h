@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file measured.h  In place of the measuring of bench and stability: numbers that are all different. Included by one
+ * @file measured.h  In place of the measuring of methods: numbers that are all different. Included by one
  * file of a test program; the linker then leaves the real ones out.
  */
 #ifndef TESTS_MEASURED_H
@@ -14,8 +14,7 @@
 #include "method/choose.h"
 #include "printed.h"
 
-int cmd_bench(const options *o);
-int cmd_stability(const options *o);
+int cmd_methods(const options *o);
 int cmd_plot(const options *o);
 
 /* ---- In place of the measuring ----------------------------------------------------------------------------------- */
@@ -24,7 +23,7 @@ static bench_result timed[BENCH_METHODS_MAX];
 static stability_result walked[STABILITY_MAX];
 static stability_verdict verdicts[STABILITY_MAX]; /* for the results in turn */
 static size_t walked_count;
-static dp_setup asked; /* of the last bench */
+static dp_setup asked; /* that was timed last */
 static size_t asked_which;
 
 /* A new number each time, over some decades. */
@@ -87,11 +86,11 @@ const char *stability_verdict_name(stability_verdict verdict) {
     return names[verdict];
 }
 
-size_t stability_run(const method_family_row *family, stability_result results[STABILITY_MAX]) {
+size_t stability_run(const method_family_row *family, unsigned cases, stability_result *results) {
     size_t count = 0;
     for (size_t i = 0; i < *family->method_count; i++)
         for (size_t k = 0; k < family->case_count; k++) {
-            if (!method_speaks(&family->methods[i], k))
+            if ((cases >> k & 1) == 0 || !method_speaks(&family->methods[i], k))
                 continue;
             stability_result *r = &results[count];
             *r = (stability_result){.row = &family->methods[i],

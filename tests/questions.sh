@@ -88,7 +88,7 @@ check "10. half a step before the far plane" agrees '^' '1000 - eye(1 - d24 / 2,
     '1000 - eye(1 - d24 / 2, 0.1, 1000) + 1e-6'
 check "11. the step of an orthographic camera" answers 0 'depthprec table --ortho -n 0 -f 500 -F d16 -m d3d' 'worst interval'
 check "11. by the formula" agrees 'worst interval' '500 / 65535 - 1e-8' '500 / 65535 + 1e-8'
-check "12. which linearization" answers 0 'depthprec bench linearize -F fp32 -m reversed' 'complement'
+check "12. which linearization" answers 0 'depthprec methods linearize -F fp32 -m reversed' 'complement'
 check "12. the exact one, rounded once, is off by half an ulp" agrees ' double [^ ]* [^ ]* ' '2 ^ -24 * 0.99' '2 ^ -24 * 1.01'
 check "13. must float arithmetic be modelled" answers 0 'depthprec table -F d24 -m d3d --at 100' 'model staged is enough'
 check "13. by so much more than the lattice" agrees 'makes this' \

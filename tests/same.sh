@@ -10,7 +10,7 @@ everything() { # everything PROGRAM...: what commands print that use threads, es
         # shellcheck disable=SC2086
         "$@" $arguments </dev/null || echo "exit status $?"
     done <<END
-stability linearize
+plot stability linearize --csv
 table --at 0.5,10 -m d3d,reversed,log --csv
 zfight -n 1 -f 1.5 -F unorm16 --sample 2000 --gap 0.0001
 zfight -n 1 -f 1.5 -F unorm16 -m d3d --sample 60000 --json

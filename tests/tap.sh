@@ -52,7 +52,7 @@ lines() { # lines GREP_ARGUMENTS...: grep for which it is fine to find nothing, 
 # Text is 80 columns wide. Wider by design are JSON, CSV, JUnit, --full, colours, what a shell reads, links, and messages,
 # a line each.
 too_wide() { # too_wide COMMANDS TEXT: prints the lines of the text that are too wide for what the commands ask for
-    grep -qE -e '--(json|csv|full|report|color)|completions| web ' "$1" || awk 'length > 80 && !/^depthprec: /' "$2"
+    grep -qE -e '--(json|csv|full|report|color|link)|completions' "$1" || awk 'length > 80 && !/^depthprec: /' "$2"
 }
 
 finish() {

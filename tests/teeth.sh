@@ -40,7 +40,7 @@ gappa.sh                     | gappa     | 0 | all
 cli.sh tests/cli/help.txt    | depthprec | 1 | all
 cli.sh tests/cli/help.txt    | depthprec | 0 | all
 cli.sh tests/cli/solve.txt   | jq        | 1 | 1
-cli.sh tests/cli/bench.txt   | awk       | 1 | 2
+cli.sh tests/cli/methods.txt | awk       | 1 | 4
 '
 
 idle() { # idle NAME STATUS: a folder with a program of that name that does nothing

@@ -14,15 +14,14 @@ static const struct {
     {VERB_TABLE, "table"},
     {VERB_PLOT, "plot error --csv"},
     {VERB_ZFIGHT, "zfight --range 1:1.01"},
+    {VERB_PREPASS, "prepass --sample 1000"},
     {VERB_BUDGET, "budget"},
     {VERB_TEXTURE, "texture --scene steps --size 64x36"},
-    {VERB_BENCH, "bench interval --json"},
+    {VERB_METHODS, "methods interval --json"},
     {VERB_CHECK, "check tests/needs/village.need"},
     {VERB_SOLVE, "solve -F d24 -m d3d --separation 0.01 --at 50"},
     {VERB_BIAS, "bias --units -1"},
-    {VERB_STABILITY, "stability encode"},
     {VERB_SHADOW, "shadow"},
-    {VERB_DISOCCLUSION, "disocclusion"},
     {VERB_WORLD, "world --distance 1e5"},
     {VERB_SCENE, "scene tests/models/street.obj --gap 0.02"},
     {VERB_LIST, "list scenes"},
@@ -56,9 +55,8 @@ static const struct {
      IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE), NULL, "--viewport 640x480"},
     {VERB_ZFIGHT, IDS(OPTION_FOV, OPTION_RASTER, OPTION_SLANT, OPTION_TRIANGLE),
      "zfight -F fp32 -m d3d --triangles --sample 20", ""},
-    {VERB_ZFIGHT, IDS(OPTION_WORLD, OPTION_PROGRAM, OPTION_VERTICES), "zfight -F d24 -m d3d",
-     "--against fma --sample 1000"},
     {VERB_ZFIGHT, IDS(OPTION_SEED), NULL, "--sample 1000"},
+    {VERB_PREPASS, IDS(OPTION_SAMPLE), "prepass -F d24 -m d3d --against fma", ""},
     {VERB_BIAS, IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE), "bias --at 10", "--viewport 640x480"},
     {VERB_BIAS, IDS(OPTION_CLAMP), NULL, "--api vulkan"},
     {VERB_BIAS, IDS(OPTION_API), "bias -F fp32", ""},
@@ -92,7 +90,6 @@ static const struct {
     {VERB_TABLE, IDS(OPTION_AT), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
     {VERB_BUDGET | VERB_BIAS, IDS(OPTION_AT), "0.1:1000:log:9", NULL, ""},
     {VERB_TEXTURE, IDS(OPTION_AT), "0.1:1000:log:9", "texture --effect fog -F d16 -m d3d", ""},
-    {VERB_DISOCCLUSION, IDS(OPTION_AT), "10", NULL, "-n 0.1 -f 1000"},
     {VERB_WORLD, IDS(OPTION_AT), "10", NULL, ""},
     {VERB_WORLD, IDS(OPTION_AT), "10m", NULL, "--unit cm"},
     {VERB_WORLD, IDS(OPTION_GAP), "0.01", NULL, ""},
@@ -107,13 +104,14 @@ static const struct {
     {VERB_SOLVE, IDS(OPTION_MAPPING), "all", "solve -F d24 --separation 0.01 --at 50", ""},
     {VERB_SOLVE, IDS(OPTION_RANGE), "0.1:1000", "solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01",
      ""},
-    {VERB_BENCH, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
-    {VERB_BENCH, IDS(OPTION_MAPPING), "d3d", NULL, ""},
+    {VERB_METHODS, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
+    {VERB_METHODS, IDS(OPTION_MAPPING), "d3d", NULL, ""},
     {VERB_TEXTURE, IDS(OPTION_FORMAT), "unorm24", NULL, "--pixel 9,9 --csv"},
     {VERB_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --effect fog", ""},
     {VERB_TEXTURE, IDS(OPTION_MAPPING), "d3d", NULL, "--pixel 9,9 --csv"},
     {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
     {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
+    {VERB_PREPASS, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
     {VERB_ZFIGHT, IDS(OPTION_RANGE), "1:1.0078125", "zfight -n 1 -f 1.0078125 -F d24 -m d3d --csv", ""},
     {VERB_BUDGET, IDS(OPTION_SCHEME), "world", NULL, "--world 100"},
     {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
@@ -176,7 +174,7 @@ static void keep_setup(char *text) {
 
 static void same_with(tally *t, const verb *v, const char *line, const option_row *row, const char *value) {
     printed without = print_of("%s", line), with = print_of("%s --%s %s", line, row->name, value);
-    if (v->bit == VERB_BENCH) {
+    if (v->bit == VERB_METHODS) {
         keep_setup(without.out);
         keep_setup(with.out);
     }
@@ -198,7 +196,7 @@ static void test_spelled_out(void **state) {
             const struct option_exception *e = option_exception_of(row, v);
             const char *standard = e != NULL ? e->standard : row->standard;
             if ((row->commands & v->bit) == 0 || standard == NULL || id == OPTION_THEME || id == OPTION_TYPE ||
-                id == OPTION_NORMAL_FORMAT || id == OPTION_PAGE || v->bit == VERB_PROBE)
+                id == OPTION_NORMAL_FORMAT || v->bit == VERB_PROBE)
                 /* test_png_out, cli/web.txt and probe.sh have these */
                 continue;
             char line[256];

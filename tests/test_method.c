@@ -48,6 +48,29 @@ static void every_row_is_whole(void **state) {
     assert_null(method_family_find("areas"));
 }
 
+/* A method that only --full shows is beaten in each case by one that costs less and claims no more, at any far/near. */
+static void those_behind_are_beaten(void **state) {
+    (void)state;
+    int behind = 0;
+    for (size_t i = 0; method_get(i) != NULL; i++)
+        for (size_t which = 0; method_get(i)->behind && which < METHOD_CASES; which++) {
+            const method_row *row = method_get(i);
+            bool beaten = !method_speaks(row, which);
+            behind += !beaten;
+            for (size_t k = 0; method_get(k) != NULL && !beaten; k++) {
+                const method_row *other = method_get(k);
+                beaten = other->family == row->family && other->cost < row->cost && method_speaks(other, which) &&
+                         other->available == NULL;
+                for (double ratio = METHOD_RATIO_LO; ratio <= METHOD_RATIO_HI; ratio *= 10)
+                    beaten = beaten && method_claim_at(&other->claims[which], ratio) <=
+                                           method_claim_at(&row->claims[which], ratio);
+            }
+            if (!beaten)
+                fail_msg("%s is on the front of a case", row->name);
+        }
+    assert_int_equal(behind, 9);
+}
+
 /* Errors, twice: the same numbers; within the claim where one is made; families as wide as promised. */
 static void errors_are_within_claims_and_repeat(void **state) {
     (void)state;
@@ -195,6 +218,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_codes_that_there_are_not),
         cmocka_unit_test(every_row_is_whole),
+        cmocka_unit_test(those_behind_are_beaten),
         cmocka_unit_test(errors_are_within_claims_and_repeat),
         cmocka_unit_test(linearize_errors_are_the_published_ones),
         cmocka_unit_test(the_front_holds_no_beaten_method),

@@ -276,7 +276,7 @@ static void test_words(void **state) {
          "auto, always or never",
          {{"auto", OUTPUT_COLOUR_AUTO}, {"always", OUTPUT_COLOUR_ALWAYS}, {"never", OUTPUT_COLOUR_NEVER}}},
         {"scene m.obj", OPTION_TRANSFORMS, WORD_AT(transforms), "exact or binary32", {{"exact", 0}, {"binary32", 1}}},
-        {"zfight",
+        {"prepass",
          OPTION_VERTICES,
          WORD_AT(vertices),
          "eye-log or box",
@@ -328,7 +328,7 @@ static void test_rows(void **state) {
         {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
         {"bias", OPTION_API, AT(api), "all", NULL, 0, "metall", "metal"},
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
-        {"zfight", OPTION_PROGRAM, AT(program), "FMA", "fma", offsetof(vertex_program, name), "separatr", "separate"},
+        {"prepass", OPTION_PROGRAM, AT(program), "FMA", "fma", offsetof(vertex_program, name), "separatr", "separate"},
         {"table", OPTION_RASTER, AT(raster), "LLVMpipe", "llvmpipe", offsetof(raster_row, name), "lavapip", "lavapipe"},
         {"budget", OPTION_RASTER, AT(raster), "spec-gl", "spec-gl", offsetof(raster_row, name), "spec-d3", "spec-d3d"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
@@ -508,6 +508,12 @@ static void test_optional(void **state) {
     assert_string_equal(o.error_file, "a.npy");
     assert_int_equal(options_parse(&o, 4, (char *[]){"depthprec", "texture", "--error-map", "a.npy", NULL}), EXIT_FINE);
     assert_true(o.error_map && o.error_file == NULL && o.operand_count == 1);
+    assert_int_equal(parse(&o, "table", OPTION_LINK, NULL, line), EXIT_FINE);
+    assert_string_equal(o.link, "depthprec.html");
+    assert_int_equal(options_parse(&o, 3, (char *[]){"depthprec", "bias", "--link=a.html", NULL}), EXIT_FINE);
+    assert_string_equal(o.link, "a.html");
+    assert_int_equal(parse(&o, "table", OPTION_QUIET, NULL, line), EXIT_FINE);
+    assert_null(o.link);
 }
 
 /* ---- Languages of their own, and all rows ------------------------------------------------------------------------ */
@@ -555,9 +561,9 @@ static void test_own(void **state) {
     assert_string_equal(o.formats[2].name, "fp32");
     assert_int_equal(parse(&o, "table", OPTION_MAPPING, "log,all,gl", line), EXIT_FINE);
     assert_true(o.mapping_count == 4 && o.mappings[0] == DP_MAPPING_LOG && o.mappings[3] == DP_MAPPING_GL);
-    assert_int_equal(parse(&o, "zfight", OPTION_AGAINST, "fma,ONCE,fma", line), EXIT_FINE);
+    assert_int_equal(parse(&o, "prepass", OPTION_AGAINST, "fma,ONCE,fma", line), EXIT_FINE);
     assert_true(o.against_count == 2 && strcmp(o.against[0]->name, "fma") == 0 && o.against[1] == o.program);
-    assert_int_equal(parse(&o, "zfight", OPTION_AGAINST, "pairs,all", line), EXIT_FINE);
+    assert_int_equal(parse(&o, "prepass", OPTION_AGAINST, "pairs,all", line), EXIT_FINE);
     assert_true(strcmp(o.against[0]->name, "pairs") == 0 && o.against[1] == vertex_program_get(0));
     assert_true(vertex_program_get(o.against_count - 1) != NULL && vertex_program_get(o.against_count) == NULL);
     assert_int_equal(parse(&o, "scene m.obj", OPTION_ALSO, "Thin,facing", line), EXIT_FINE);
@@ -599,9 +605,6 @@ static void test_own(void **state) {
     assert_true(strcmp(o.unit->name, "cm") == 0 && o.znear == 0.1);
     assert_int_equal(parse(&o, "table", OPTION_CSV, NULL, line), EXIT_FINE);
     assert_true(o.form == FORM_CSV);
-    assert_int_equal(parse(&o, "web table", OPTION_PAGE, "a.html", line), EXIT_FINE);
-    assert_true(strcmp(o.page, "a.html") == 0 && o.operand_count == 1 && strcmp(o.operands[0], "table") == 0);
-    assert_int_equal(parse(&o, "web table", OPTION_PAGE, "", line), EXIT_USAGE);
     assert_int_equal(parse(&o, "plot", OPTION_HELP, NULL, line), EXIT_FINE);
     assert_true(strcmp(o.verb->name, "help") == 0 && strcmp(((const verb *)o.operand_row)->name, "plot") == 0);
 }

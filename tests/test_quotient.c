@@ -106,17 +106,18 @@ static void test_every_divisor(void **state) {
             code[i] = first + i;
         for (uint64_t k = 0; k < tops; k++) {
             const uint64_t which = tops == DP_BATCH_TOPS ? k : rng_below(&r, DP_BATCH_TOPS);
-            fast.numbers.eye_top = (float)dp_batch_top((int)which);
-            fast.numbers.eye_slope = 1.0F;
-            fast.numbers.eye_base = 0x1p23F;
-            plain.numbers = fast.numbers;
+            dp_batch_write(&fast)->numbers.eye_top = (float)dp_batch_top((int)which);
+            dp_batch_write(&fast)->numbers.eye_slope = 1.0F;
+            dp_batch_write(&fast)->numbers.eye_base = 0x1p23F;
+            dp_batch_write(&plain)->numbers = dp_batch_write(&fast)->numbers;
             dp_batch_run(&plain, code, want, CHUNK);
             for (int half = 0; half < 2; half++) { /* either half of a pair goes without the divider */
                 const size_t from = half == 0 ? 0 : 16;
                 dp_batch_run(&fast, code + from, got + from, CHUNK - from);
                 t.cases += CHUNK - from;
                 if (memcmp(want + from, got + from, (CHUNK - from) * sizeof *got) != 0)
-                    tally_fail(&t, "numerator %a, codes from %u", (double)fast.numbers.eye_top, first);
+                    tally_fail(&t, "numerator %a, codes from %u", (double)dp_batch_write(&fast)->numbers.eye_top,
+                               first);
             }
         }
     }
@@ -158,9 +159,9 @@ static void test_doubles(void **state) {
             top = 1.0; /* a power of two by ones */
         if (top == 0.0)
             continue;
-        b.numbers.top = top;
-        b.numbers.to_near = (double)divisor / 2; /* of code 1: 2 to_near + (den - 2) to_far */
-        b.numbers.to_far = 0x1p-1000;
+        dp_batch_write(&b)->numbers.top = top;
+        dp_batch_write(&b)->numbers.to_near = (double)divisor / 2; /* of code 1: 2 to_near + (den - 2) to_far */
+        dp_batch_write(&b)->numbers.to_far = 0x1p-1000;
         dp_batch_run(&b, code, got, 16);
         for (int i = 0; i < 16; i++)
             want[i] = top / (double)divisor;

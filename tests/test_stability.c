@@ -11,7 +11,7 @@ static stability_result results[STABILITY_MAX];
 
 static void check_family(const char *name) {
     const method_family_row *family = method_family_find(name);
-    size_t count = stability_run(family, results);
+    size_t count = stability_run(family, STABILITY_ALL, results);
     tally t = {.name = name};
     assert_true(count > 0);
     for (size_t i = 0; i < count; i++) {
@@ -82,7 +82,7 @@ static stability_verdict verdict_by(const char *name, method_claim claim) {
     forgery = *family;
     forgery.methods = &forged;
     forgery.method_count = &one;
-    assert_int_equal(stability_run(&forgery, results), 1);
+    assert_int_equal(stability_run(&forgery, STABILITY_ALL, results), 1);
     return results[0].verdict;
 }
 
@@ -125,7 +125,7 @@ static void worst_is_where_it_is_said(void **state) {
     (void)state;
     for (size_t f = 0; f < 3; f++) {
         const method_family_row *family = method_family_find(names[f]);
-        const size_t count = stability_run(family, results);
+        const size_t count = stability_run(family, STABILITY_ALL, results);
         for (size_t i = 0; i < count; i++) {
             const stability_result *r = &results[i];
             method_inputs in;
@@ -184,7 +184,7 @@ static stability_verdict verdict_where(bool (*is_wrong)(const dp_spec *), unsign
     forgery = *family;
     forgery.methods = &forged;
     forgery.method_count = &one;
-    assert_int_equal(stability_run(&forgery, results), 1);
+    assert_int_equal(stability_run(&forgery, STABILITY_ALL, results), 1);
     return results[0].verdict;
 }
 

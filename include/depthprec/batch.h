@@ -64,21 +64,7 @@ typedef struct dp_batch {
     dp_word word;
     dp_path path;
     size_t in_size, out_size; /**< bytes of an element read and of one written */
-    /** The rest is private to the library. */
-    int kernel, direct;
-    int32_t doubt;
-    struct dp_batch_numbers {
-        double lo, hi, from, slope, scale, magic;
-        uint64_t half;
-        int shift, cut, mantissa, bias, reversed, truncates;
-        uint32_t rebias, code_max;
-        double least_normal, top, to_near, to_far, den, steps, rest, width, first, last, before_width, first_width,
-            last_width, after_width;
-        double value, value_rest;
-        float z_lo, z_hi, reach, reach_rest, reach_inverse, offset;
-        int32_t whole;
-        float unit, unit_rest, split, eye_top, eye_slope, eye_base;
-    } numbers;
+    uint64_t opaque[48];      /**< the library's own */
 } dp_batch;
 
 /**

@@ -8,7 +8,6 @@
 #include "cli/slant.h"
 #include "cli/stop.h"
 #include "cli/walk.h"
-#include "cli/zfight_against.h"
 #include "cli/zfight_triangles.h"
 #include "report/number.h"
 
@@ -312,29 +311,11 @@ static int run(zfight *z) {
     return output_close(&z->walk.out);
 }
 
-/* Options that only one kind of question has. */
-static int check_question(const options *o) {
-    static const option_id of_programs[] = {OPTION_PROGRAM, OPTION_VERTICES, OPTION_WORLD};
-    const bool against = option_given(o, OPTION_AGAINST), triangles = option_given(o, OPTION_TRIANGLES);
-    for (size_t i = 0; i < sizeof of_programs / sizeof of_programs[0]; i++)
-        if (option_given(o, of_programs[i]) && !against)
-            return option_error(of_programs[i], "needs --against");
-    for (option_id id = OPTION_FOV; id <= OPTION_TRIANGLE; id++)
-        if (option_given(o, id) && against)
-            return option_error(id, "cannot be combined with --against");
-    if (option_given(o, OPTION_PLANE) && !triangles)
-        return option_error(OPTION_PLANE, "needs --triangles");
-    return against && triangles ? option_error(OPTION_AGAINST, "cannot be combined with --triangles") : EXIT_FINE;
-}
-
 int cmd_zfight(const options *o) {
-    const int refused = check_question(o);
-    if (refused != EXIT_FINE)
-        return refused;
-    if (o->against_count > 0)
-        return zfight_against(o);
     if (o->drawn)
         return zfight_triangles(o);
+    if (option_given(o, OPTION_PLANE))
+        return option_error(OPTION_PLANE, "needs --triangles");
     zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
     z.triangles = slant_fields_of(o, &z.slant);
     int status = check(&z);

@@ -16,7 +16,7 @@ static void version(output *out) {
                      "There is NO WARRANTY, to the extent permitted by law.\n");
 }
 
-/* A screen of 24 lines. */
+/* In groups by what a person asks of. */
 static void list_commands(output *out) {
     page p = page_start(out, 18);
     output_text(out, "What a depth buffer can tell apart: exact precision and certified worst cases.\n\n"
@@ -25,6 +25,8 @@ static void list_commands(output *out) {
                      "Commands: depthprec [COMMAND] [options]\n");
     for (size_t i = 0; i < verb_count; i++) {
         char label[64] = "";
+        if (verb_rows[i].group != NULL)
+            page_title(&p, "%s", verb_rows[i].group);
         append(label, sizeof label, "%s%s%.*s", verb_rows[i].name, *verb_rows[i].operand != '\0' ? " " : "",
                (int)strcspn(verb_rows[i].operand, " "), verb_rows[i].operand);
         page_note(&p, label, "%s%s", verb_rows[i].summary, i == 0 ? " (default)" : "");
@@ -58,8 +60,8 @@ static void add_exception(const struct option_exception *e, char out[DESCRIPTION
         add_default(e->help != NULL ? "" : takers, e->standard, e->without, true, out);
 }
 
-/* "what it does (LEAST to MOST UNIT; default D: what that means)" for a command; for all of them, those with another
- * default at the end. */
+/* "what it does (LEAST to MOST UNIT; default D: what that means)" for a command, in its own words; for all of them,
+ * those with another default at the end. */
 static const char *describe(const verb *v, const option_row *row, char out[DESCRIPTION_SIZE]) {
     char text[OPTION_TEXT_SIZE];
     const struct option_exception *other = v != NULL ? option_exception_of(row, v) : NULL;
@@ -72,6 +74,9 @@ static const char *describe(const verb *v, const option_row *row, char out[DESCR
     append(out, DESCRIPTION_SIZE, "%.*s", before, help);
     if (named)
         append(out, DESCRIPTION_SIZE, "%s%s", names_join(row->names, ", ", ", ", text), help + before + 1);
+    for (int i = 0; i < OPTION_ADDITIONS; i++)
+        if (row->adds[i].commands != 0 && (v == NULL || (row->adds[i].commands & v->bit) != 0))
+            append(out, DESCRIPTION_SIZE, "; %s", row->adds[i].words);
     if (limited)
         append(out, DESCRIPTION_SIZE, " (%s", option_limits(row, text));
     if (standard != NULL || without != NULL) {

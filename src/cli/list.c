@@ -8,6 +8,7 @@
 #include "api/platform.h"
 #include "api/presets.h"
 #include "api/unit.h"
+#include "api/upscaler.h"
 #include "core/append.h"
 #include "method/method.h"
 #include "need/model.h"
@@ -197,6 +198,17 @@ bool list_filter(size_t index, list_item *item) {
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->note, .row = row});
 }
 
+static bool list_upscaler(size_t index, list_item *item) {
+    static const upscaler_view view = {1920, 1080, 60.0};
+    const upscaler_row *row = upscaler_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->formula, .source = row->source, .row = row};
+    append(item->bound, sizeof item->bound, "%s %% of z at %dx%d, fov %g", number_of(100.0 * row->share(&view), 3).text,
+           view.width, view.height, view.fov_y);
+    return true;
+}
+
 bool list_program(size_t index, list_item *item) {
     const vertex_program *row = vertex_program_get(index);
     return row != NULL &&
@@ -338,7 +350,8 @@ static const topic topics[] = {
     {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
     {"rasterizers", "how rasterizers snap vertices and step depth across triangles", list_rasterizer,
      .bound = "arithmetic"},
-    {"programs", "how a vertex program makes clip coordinates, for zfight --against", list_program, .bound = "bound"},
+    {"programs", "how a vertex program makes clip coordinates, for prepass", list_program, .bound = "bound"},
+    {"upscalers", "how far apart along z upscalers take two samples for two surfaces", list_upscaler, .bound = "share"},
     {"schemes", "ways to bring a large world before the camera, for world --scheme", list_scheme, .bound = "size"},
     {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
      .bound = "bound"},

@@ -2,7 +2,7 @@
 /* No setlocale here or anywhere: numbers are read and written in the C locale whatever LC_ALL says. */
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/link.h"
 #include "method/method.h"
 #include "opened/input.h"
 
@@ -13,17 +13,15 @@ static const struct {
     {VERB_TABLE, cmd_table},
     {VERB_PLOT, cmd_plot},
     {VERB_ZFIGHT, cmd_zfight},
+    {VERB_PREPASS, cmd_prepass},
     {VERB_BUDGET, cmd_budget},
     {VERB_TEXTURE, cmd_texture},
-    {VERB_BENCH, cmd_bench},
-    {VERB_STABILITY, cmd_stability},
+    {VERB_METHODS, cmd_methods},
     {VERB_CHECK, cmd_check},
     {VERB_SOLVE, cmd_solve},
     {VERB_BIAS, cmd_bias},
     {VERB_SHADOW, cmd_shadow},
     {VERB_SCENE, cmd_scene},
-    {VERB_DISOCCLUSION, cmd_disocclusion},
-    {VERB_WEB, cmd_web},
     {VERB_PROBE, cmd_probe},
     {VERB_WORLD, cmd_world},
     {VERB_LIST, cmd_list},
@@ -32,6 +30,8 @@ static const struct {
 };
 
 static int run(const options *o) {
+    if (option_given(o, OPTION_LINK))
+        return link_write(o);
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
         if (commands[i].bit == o->verb->bit)
             return commands[i].run(o);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file methods.h  What bench, stability and their figures share: which family, which case, on which machine. */
+/** @file methods.h  What methods and its figures share: which family, which case, on which machine. */
 #ifndef CLI_METHODS_H
 #define CLI_METHODS_H
 

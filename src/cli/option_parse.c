@@ -245,6 +245,7 @@ static int add_program(options *o, const option_row *row, const char *name) {
 }
 
 int parse_against(options *o, const option_row *row, const char *value) {
+    o->against_count = 0;
     return parse_names(o, row, value, add_program);
 }
 
@@ -360,6 +361,13 @@ int parse_error_map(options *o, const option_row *row, const char *value) {
     o->error_map = value == NULL;
     o->error_file = value;
     return value == NULL || *value != '\0' ? EXIT_FINE : option_refuse(row, "must be a file name, got ''");
+}
+
+int parse_link(options *o, const option_row *row, const char *value) {
+    o->link = value != NULL ? value : "depthprec.html";
+    if (*o->link == '\0' || o->link[strcspn(o->link, "# \n")] != '\0')
+        return option_refuse(row, "must be a URL without '#' and blanks, got '%s'", value);
+    return EXIT_FINE;
 }
 
 int parse_form(options *o, const option_row *row, const char *value) {

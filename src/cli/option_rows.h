@@ -13,7 +13,7 @@
 
 struct option_row;
 
-enum { OPTION_EXCEPTIONS = 8 };
+enum { OPTION_EXCEPTIONS = 8, OPTION_ADDITIONS = 3 };
 
 /** Reads an argument of the option of that row. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 typedef int option_parser(options *o, const struct option_row *row, const char *value);
@@ -37,6 +37,11 @@ typedef struct option_row {
         unsigned commands;
         const char *standard, *without, *help;
     } except[OPTION_EXCEPTIONS];
+    /** What else it does for some commands, as words that say which even in a list of all options. */
+    struct {
+        unsigned commands;
+        const char *words;
+    } adds[OPTION_ADDITIONS];
     const char *instead;  /**< what a command that does not take it may be meant to have; or null */
     const char *optional; /**< an argument that may be left out, and is written behind "=": "FILE"; else null */
     const char *group;    /**< the heading above this row and those behind it; null where the one before goes on */
@@ -98,7 +103,7 @@ option_parser parse_pixels;  /**< the same, pairs of them with a semicolon in be
 
 option_parser parse_unit, parse_presets, parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance,
     parse_at, parse_schemes, parse_range, parse_origin, parse_error_map;
-option_parser parse_size, parse_parameter, parse_form, parse_against, parse_gap, parse_also;
+option_parser parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_gap, parse_also;
 option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
 option_parser parse_viewport, parse_slant, parse_plane, parse_triangle, parse_light_box;
 

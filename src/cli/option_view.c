@@ -89,9 +89,8 @@ int slant_view(options *o) {
 
 /* From an eye in a model surfaces slant. */
 static bool is_slanted(const options *o) {
-    return option_given(o, OPTION_VIEWPORT) || o->drawn || o->verb->bit == VERB_DISOCCLUSION ||
-           o->verb->bit == VERB_WORLD || option_given(o, OPTION_FROM) || option_given(o, OPTION_PATH) ||
-           option_given(o, OPTION_CAMERA);
+    return option_given(o, OPTION_VIEWPORT) || o->drawn || o->verb->bit == VERB_WORLD || option_given(o, OPTION_FROM) ||
+           option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
 }
 
 int slant_complete(options *o) {

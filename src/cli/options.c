@@ -362,7 +362,7 @@ static int read_words(options *o, int argc, char **argv, const verb *asked, bool
     char letters[2 * OPTION_COUNT + 2];
     struct option longs[OPTION_COUNT + 1];
     char text[OPTION_TEXT_SIZE];
-    make_getopt_arrays(o->verb->bit == VERB_WEB ? "+" : "", letters, longs); /* behind its operand all is another's */
+    make_getopt_arrays("", letters, longs);
     optind = 0; /* start anew, also when an earlier call stopped half-way */
     for (int value; (value = getopt_long(argc, argv, letters, longs, NULL)) != -1;) {
         const int id = id_of_value(value == ':' ? optopt : value);

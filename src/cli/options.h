@@ -139,7 +139,7 @@ typedef enum option_id {
     OPTION_WIDTH,
     OPTION_HEIGHT,
     OPTION_TITLE,
-    OPTION_PAGE,
+    OPTION_LINK,
     OPTION_REPORT,
     OPTION_JSON,
     OPTION_CSV,
@@ -244,7 +244,7 @@ typedef struct options {
     uint64_t sample;          /**< pairs to draw; 0 when not given */
     uint64_t seed;
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
-    size_t against_count;                         /**< 0: --against was not given */
+    size_t against_count;
     const vertex_program *program;                /**< what they are compared with */
     unsigned vertices;                            /**< how they are drawn: a vertex_spread */
     bool drawn;                                   /**< --triangles: the surfaces are drawn */
@@ -289,7 +289,7 @@ typedef struct options {
     int width, height; /**< px; 0 when not given, so that each figure has its own default */
     const char *title; /**< null when not given */
 
-    const char *page; /**< of a link */
+    const char *link; /**< where the page is that the link opens; null when none is asked for */
 
     report_form report;
     output_form form;

@@ -17,7 +17,78 @@ const verb verb_rows[] = {
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --viewport 1920x1080\n"
      "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
-     "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n", 0},
+     "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"
+     "  depthprec table -n 0.1 -f 1000 -F d24 -m d3d --link\n", 0, "A camera"},
+    {"budget", VERB_BUDGET, "", 0, 0, NULL,
+     "how much of the separation each cause takes",
+     "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
+     "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"
+     "  depthprec budget -F fp32 -m reversed --viewport 1920x1080 --raster spec-d3d\n", 0, NULL},
+    {"solve", VERB_SOLVE, "", 0, 0, NULL,
+     "near, far, format, mapping or distance for a separation",
+     "  depthprec solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01\n"
+     "  depthprec solve -F unorm24 -m d3d -f 10000 --separation 0.01 --at 5000\n"
+     "  depthprec solve -n 0.1 -f 4000 --separation 0.001 --range 0.1:100\n"
+     "  depthprec solve --for far -n 0.1 -F d24 -m d3d --error 0.05 --at 500\n", 0, NULL},
+    {"check", VERB_CHECK, "FILE...", 1, 1000, NULL,
+     "cameras against requirement files; exit 1 if one is missed",
+     "  depthprec check engine.need\n"
+     "  depthprec check --report junit -o depth.xml engine.need\n"
+     "  generate | depthprec check -\n", 1, NULL},
+    {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
+     "where surfaces start to fight, by a census of every depth",
+     "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
+     "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
+     "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n"
+     "  depthprec zfight --triangles -F fp32 -m reversed --range 16:64\n", 0, NULL},
+    {"prepass", VERB_PREPASS, "", 0, 0, NULL,
+     "is EQUAL safe behind a depth prepass, what LEQUAL needs",
+     "  depthprec prepass -F d24 -m d3d\n"
+     "  depthprec prepass --program once --against separate,fma -F fp32 -m reversed\n"
+     "  depthprec list programs\n", 0, NULL},
+    {"bias", VERB_BIAS, "", 0, 0, NULL,
+     "what a depth bias does, how much is enough, per API",
+     "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
+     "  depthprec bias --api all --gap 0.02 --at 300\n"
+     "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
+     "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0, NULL},
+    {"world", VERB_WORLD, "", 0, 0, NULL,
+     "large worlds: safe gap and jitter so far from the origin",
+     "  depthprec world --distance 100km --gap 1cm --at 10m\n"
+     "  depthprec world --scheme camera-float,split --at 1m\n"
+     "  depthprec solve --for world --separation 1cm --at 10m\n", 0, NULL},
+    {"scene", VERB_SCENE, "MODEL", 1, 1, NULL,
+     "a model: which surfaces fight, from where on",
+     "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
+     "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
+     "  depthprec scene house.glb --from 0,2,30 --look 0,2,0 --render seen.png\n"
+     "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1, "A model, an image, a shadow map"},
+    {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
+     "a depth image: depths, positions, normals, effects, errors",
+     "  depthprec texture depth.png -n 0.3 -f 1000\n"
+     "  capture | depthprec texture - -n 0.3 -f 1000\n"
+     "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
+     "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
+     "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1, NULL},
+    {"shadow", VERB_SHADOW, "", 0, 0, NULL,
+     "shadow maps: the bias without acne, and its gap",
+     "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
+     "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
+     "  depthprec shadow -f 300 --cascades 3 --lambda 0.8 --api all\n"
+     "  depthprec plot shadow -f 150 -o shadow.svg\n", 0, NULL},
+    {"methods", VERB_METHODS, "FAMILY", 0, 1, &families,
+     "ways to a quantity: time, worst error, where they fail",
+     "  depthprec methods\n"
+     "  depthprec methods linearize -n 0.1 -f 1000\n"
+     "  depthprec methods interval -F fp32 -m reversed --tolerance 1e-6\n"
+     "  depthprec plot pareto linearize -o pareto.svg\n"
+     "  depthprec plot stability interval -o stability.svg\n", 0, "Methods and hardware"},
+    {"probe", VERB_PROBE, "", 0, 0, NULL,
+     "what the GPU of this machine does to depth, measured",
+     "  depthprec probe\n"
+     "  depthprec probe --device 1 --keep codes.csv\n"
+     "  depthprec probe --device gl\n"
+     "  depthprec probe --json -o gpu.json\n", 0, NULL},
     {"plot", VERB_PLOT, "FIGURE [FILE|FAMILY]", 1, 2, &figures,
      "a figure: SVG, PDF or PNG by the ending of -o, or --type",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
@@ -25,96 +96,19 @@ const verb verb_rows[] = {
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
      "  depthprec plot fight -F fp32 -m reversed --at 500 -o fight.svg\n"
      "  depthprec plot scene engine.need -o scene.svg\n"
-     "  depthprec plot scene-fights house.glb -F d24 -m d3d -o fights.svg\n", 2},
-    {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
-     "where surfaces start to fight, by a census of every depth",
-     "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
-     "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
-     "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n"
-     "  depthprec zfight --triangles -F fp32 -m reversed --range 16:64\n"
-     "  depthprec zfight --against separate,fma -F fp32 -m reversed\n", 0},
-    {"budget", VERB_BUDGET, "", 0, 0, NULL,
-     "how much of the separation each cause takes",
-     "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
-     "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"
-     "  depthprec budget -F fp32 -m reversed --viewport 1920x1080 --raster spec-d3d\n", 0},
-    {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
-     "a depth image: depths, positions, normals, effects, errors",
-     "  depthprec texture depth.png -n 0.3 -f 1000\n"
-     "  capture | depthprec texture - -n 0.3 -f 1000\n"
-     "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
-     "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
-     "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
-    {"bench", VERB_BENCH, "FAMILY", 1, 1, &families,
-     "methods of a family: time against worst error",
-     "  depthprec bench linearize -n 0.1 -f 1000\n"
-     "  depthprec bench interval -F fp32 -m reversed --tolerance 1e-6\n"
-     "  depthprec plot pareto linearize -o pareto.svg\n", 0},
-    {"stability", VERB_STABILITY, "FAMILY", 1, 1, &families,
-     "where the methods of a family lose what they claim",
-     "  depthprec stability linearize\n"
-     "  depthprec plot stability interval -o stability.svg\n", 0},
-    {"check", VERB_CHECK, "FILE...", 1, 1000, NULL,
-     "cameras against requirement files; exit 1 if one is missed",
-     "  depthprec check engine.need\n"
-     "  depthprec check --report junit -o depth.xml engine.need\n"
-     "  generate | depthprec check -\n", 1},
-    {"solve", VERB_SOLVE, "", 0, 0, NULL,
-     "near, far, format, mapping or distance for a separation",
-     "  depthprec solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01\n"
-     "  depthprec solve -F unorm24 -m d3d -f 10000 --separation 0.01 --at 5000\n"
-     "  depthprec solve -n 0.1 -f 4000 --separation 0.001 --range 0.1:100\n"
-     "  depthprec solve --for far -n 0.1 -F d24 -m d3d --error 0.05 --at 500\n", 0},
-    {"bias", VERB_BIAS, "", 0, 0, NULL,
-     "what a depth bias does, how much is enough, per API",
-     "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
-     "  depthprec bias --api all --gap 0.02 --at 300\n"
-     "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
-     "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0},
-    {"shadow", VERB_SHADOW, "", 0, 0, NULL,
-     "shadow maps: the bias without acne, and its gap",
-     "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
-     "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
-     "  depthprec shadow -f 300 --cascades 3 --lambda 0.8 --api all\n"
-     "  depthprec plot shadow -f 150 -o shadow.svg\n", 0},
-    {"scene", VERB_SCENE, "MODEL", 1, 1, NULL,
-     "a model: which surfaces fight, from where on",
-     "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
-     "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
-     "  depthprec scene house.glb --from 0,2,30 --look 0,2,0 --render seen.png\n"
-     "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1},
-    {"disocclusion", VERB_DISOCCLUSION, "", 0, 0, NULL,
-     "how far apart two samples are surely of two surfaces",
-     "  depthprec disocclusion -n 0.1 -f inf -m reversed --hfov 90\n"
-     "  depthprec disocclusion --preset bevy --at 1,10,100\n", 0},
-    {"web", VERB_WEB, "COMMAND...", 1, 1000, NULL,
-     "the link that opens a command in the page depthprec.html",
-     "  depthprec web table -n 0.1 -f 1000 -F d24 -m d3d\n"
-     "  depthprec web table -F d24 -m d3d ';' table -F fp32 -m reversed\n"
-     "  depthprec web --page https://example.org/depth.html plot error -F d24\n", 0},
-    {"probe", VERB_PROBE, "", 0, 0, NULL,
-     "what the GPU of this machine does to depth, measured",
-     "  depthprec probe\n"
-     "  depthprec probe --device 1 --keep codes.csv\n"
-     "  depthprec probe --device gl\n"
-     "  depthprec probe --json -o gpu.json\n", 0},
-    {"world", VERB_WORLD, "", 0, 0, NULL,
-     "large worlds: safe gap and jitter so far from the origin",
-     "  depthprec world --distance 100km --gap 1cm --at 10m\n"
-     "  depthprec world --scheme camera-float,split --at 1m\n"
-     "  depthprec solve --for world --separation 1cm --at 10m\n", 0},
+     "  depthprec plot scene-fights house.glb -F d24 -m d3d -o fights.svg\n", 2, "Figures, lists and help"},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"
      "  depthprec list formats\n"
-     "  depthprec list mappings --json\n", 0},
+     "  depthprec list mappings --json\n", 0, NULL},
     {"help", VERB_HELP, "COMMAND", 0, 1, &commands,
      "the options of a command; 'help options': those of all",
      "  depthprec help table\n"
-     "  depthprec help options\n", 0},
+     "  depthprec help options\n", 0, NULL},
     {"completions", VERB_COMPLETIONS, "SHELL", 1, 1, &shells,
      "a script that completes commands, options and values",
-     "  . <(depthprec completions bash)\n", 0},
+     "  . <(depthprec completions bash)\n", 0, NULL},
 };
 /* clang-format on */
 const size_t verb_count = sizeof verb_rows / sizeof verb_rows[0];

@@ -23,14 +23,12 @@ enum {
     VERB_CHECK = 1u << 6,
     VERB_SOLVE = 1u << 7,
     VERB_BIAS = 1u << 8,
-    VERB_BENCH = 1u << 9,
-    VERB_STABILITY = 1u << 10,
+    VERB_METHODS = 1u << 9,
+    VERB_PREPASS = 1u << 10,
     VERB_TEXTURE = 1u << 11,
     VERB_COMPLETIONS = 1u << 12,
     VERB_SHADOW = 1u << 13,
-    VERB_DISOCCLUSION = 1u << 14,
     VERB_SCENE = 1u << 15,
-    VERB_WEB = 1u << 16,
     VERB_PROBE = 1u << 17,
     VERB_WORLD = 1u << 18
 };
@@ -44,6 +42,7 @@ typedef struct verb {
     const char *summary;          /**< one line for `depthprec --help` */
     const char *example;          /**< command lines for the command's own help, one a line */
     int files_from;               /**< operands from this one on are files that it reads, counted from 1; 0: none */
+    const char *group;            /**< the heading above this row and those behind it; null where the last goes on */
 } verb;
 
 extern const verb verb_rows[];
@@ -55,17 +54,15 @@ int cmd_budget(const struct options *o);
 int cmd_bias(const struct options *o);
 int cmd_shadow(const struct options *o);
 int cmd_scene(const struct options *o);
-int cmd_web(const struct options *o);
 int cmd_probe(const struct options *o);
 int cmd_list(const struct options *o);
 int cmd_plot(const struct options *o);
 int cmd_zfight(const struct options *o);
-int cmd_bench(const struct options *o);
-int cmd_stability(const struct options *o);
+int cmd_prepass(const struct options *o);
+int cmd_methods(const struct options *o);
 int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
 int cmd_texture(const struct options *o);
-int cmd_disocclusion(const struct options *o);
 int cmd_world(const struct options *o);
 int solve_world(const struct options *o); /**< of cmd_world.c: solve --for world */
 int cmd_help(const struct options *o);

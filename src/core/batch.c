@@ -167,8 +167,8 @@ static void run_plain(const dp_batch *b, const unsigned char *from, unsigned cha
 /* One kernel call, with conversions around a general one; at most BLOCK elements. */
 static int32_t run_kernel(const dp_batch *b, const void *from, void *to, size_t count) {
     dp_batch_kernel *const *const kernel = paths[b->path].table;
-    if (b->direct)
-        return kernel[b->kernel](b, from, to, count);
+    if (dp_batch_read(b)->direct)
+        return kernel[dp_batch_read(b)->kernel](b, from, to, count);
     double wide[BLOCK];
     uint32_t codes[BLOCK];
     const int narrow_real = b->real == DP_REAL_FLOAT;
@@ -176,14 +176,15 @@ static int32_t run_kernel(const dp_batch *b, const void *from, void *to, size_t 
     if (dp_task_reads_code(b->task)) {
         if (narrow_code)
             kernel[DP_KERNEL_WIDEN_CODE](b, from, codes, count);
-        kernel[b->kernel](b, narrow_code ? codes : from, narrow_real ? wide : to, count);
+        kernel[dp_batch_read(b)->kernel](b, narrow_code ? codes : from, narrow_real ? wide : to, count);
         if (narrow_real)
             kernel[DP_KERNEL_NARROW_REAL](b, wide, to, count);
         return INT32_MAX;
     }
     if (narrow_real)
         kernel[DP_KERNEL_WIDEN_REAL](b, from, wide, count);
-    const int32_t least = kernel[b->kernel](b, narrow_real ? wide : from, narrow_code ? codes : to, count);
+    const int32_t least =
+        kernel[dp_batch_read(b)->kernel](b, narrow_real ? wide : from, narrow_code ? codes : to, count);
     if (narrow_code)
         kernel[DP_KERNEL_NARROW_CODE](b, codes, to, count);
     return least;
@@ -193,7 +194,7 @@ static int32_t run_kernel(const dp_batch *b, const void *from, void *to, size_t 
 static void run_patches(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
     for (size_t i = 0; i < count; i += PATCH) {
         const size_t some = count - i < PATCH ? count - i : PATCH;
-        if (run_kernel(b, from + i * b->in_size, to + i * b->out_size, some) < b->doubt)
+        if (run_kernel(b, from + i * b->in_size, to + i * b->out_size, some) < dp_batch_read(b)->doubt)
             run_plain(b, from + i * b->in_size, to + i * b->out_size, some);
     }
 }
@@ -220,9 +221,9 @@ void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count
             memcpy(saved, from, some * batch->in_size);
             source = (const unsigned char *)saved;
         }
-        if (batch->kernel == DP_KERNEL_NONE)
+        if (dp_batch_read(batch)->kernel == DP_KERNEL_NONE)
             run_plain(batch, source, to, some);
-        else if (run_kernel(batch, source, to, some) < batch->doubt)
+        else if (run_kernel(batch, source, to, some) < dp_batch_read(batch)->doubt)
             run_patches(batch, source, to, some);
         left -= some;
         from += some * batch->in_size;

@@ -89,8 +89,8 @@ TARGET DP_INLINE __m512i codes_at(const void *in, size_t i, __mmask16 mask, int 
     return _mm512_maskz_loadu_epi32(mask, (const uint32_t *)in + i);
 }
 
-TARGET DP_INLINE void fast_eye_vector(const struct dp_batch_numbers *k, const void *in, float *to, size_t i,
-                                      __mmask16 mask, int word, int reversed, int divide) {
+TARGET DP_INLINE void fast_eye_vector(const dp_batch_numbers *k, const void *in, float *to, size_t i, __mmask16 mask,
+                                      int word, int reversed, int divide) {
     const __m512i code = _mm512_min_epu32(codes_at(in, i, mask, word), _mm512_set1_epi32((int32_t)k->code_max));
     const __m512 c = _mm512_cvtepi32_ps(code);
     const __m512 steps = reversed ? c : _mm512_sub_ps(_mm512_set1_ps(k->unit), c);
@@ -103,7 +103,7 @@ TARGET DP_INLINE void fast_eye_vector(const struct dp_batch_numbers *k, const vo
 /* The quotient at infinity is 1/0, which the divider alone can do. */
 TARGET DP_INLINE int32_t fast_eye(const dp_batch *batch, const void *in, float *to, size_t count, int word,
                                   int reversed) {
-    const struct dp_batch_numbers k = batch->numbers;
+    const dp_batch_numbers k = dp_batch_read(batch)->numbers;
     size_t i = 0;
     for (; i + 32 <= count && k.eye_base > 0.0F; i += 32) {
         fast_eye_vector(&k, in, to, i, 0xFFFF, word, reversed, 1);
@@ -134,7 +134,7 @@ TARGET DP_INLINE void store_quotients(double *to, __mmask16 mask, __m512d top, c
 }
 
 /* The value of FLOAT codes, as value_float() of batch_loops.h. */
-TARGET DP_INLINE __m512d float_values(const struct dp_batch_numbers *k, __m512i codes, int upper) {
+TARGET DP_INLINE __m512d float_values(const dp_batch_numbers *k, __m512i codes, int upper) {
     const __m256i half = upper ? _mm512_extracti32x8_epi32(codes, 1) : _mm512_castsi512_si256(codes);
     const __m512d least = _mm512_set1_pd(k->least_normal);
     const __m512i shifted = _mm512_sll_epi64(_mm512_cvtepu32_epi64(half), _mm_cvtsi32_si128(52 - k->mantissa));
@@ -145,7 +145,7 @@ TARGET DP_INLINE __m512d float_values(const struct dp_batch_numbers *k, __m512i 
 }
 
 TARGET DP_INLINE int32_t eye_depths(const dp_batch *batch, const void *in, double *to, size_t count, int is_float) {
-    const struct dp_batch_numbers *k = &batch->numbers;
+    const dp_batch_numbers *k = &dp_batch_read(batch)->numbers;
     const int divide = k->to_far == 0.0 || power_of_two(k->top);
     const __m512i code_max = _mm512_set1_epi32((int32_t)k->code_max);
     const __m512d den = _mm512_set1_pd(k->den);
@@ -176,7 +176,7 @@ TARGET static int32_t kernel_EYE_PERSPECTIVE_FLOAT(const dp_batch *batch, const 
 
 /* The cells at the planes are rare. */
 static void mend_ends(const dp_batch *batch, const uint32_t *from, double *to, size_t count) {
-    const struct dp_batch_numbers *k = &batch->numbers;
+    const dp_batch_numbers *k = &dp_batch_read(batch)->numbers;
     for (size_t i = 0; i < count; i++) {
         const double c = (double)(from[i] < k->code_max ? from[i] : k->code_max);
         if (c <= k->first)
@@ -188,7 +188,7 @@ static void mend_ends(const dp_batch *batch, const uint32_t *from, double *to, s
 
 /* v is taken with the sign that the sense of the depths gives it. */
 TARGET static int32_t kernel_WIDTH_PERSPECTIVE_UNORM(const dp_batch *batch, const void *in, void *out, size_t count) {
-    const struct dp_batch_numbers *k = &batch->numbers;
+    const dp_batch_numbers *k = &dp_batch_read(batch)->numbers;
     const uint32_t *from = in;
     double *to = out;
     const int divide = power_of_two(k->width);

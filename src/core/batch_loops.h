@@ -17,7 +17,7 @@ typedef uint32_t ALIAS word32;
 
 #define PRAGMA(TEXT) _Pragma(#TEXT)
 
-typedef struct dp_batch_numbers numbers;
+typedef dp_batch_numbers numbers;
 
 /*
  * A kernel out of what it does to an element; what is the same for all of them the compiler does before the loop. The
@@ -28,7 +28,7 @@ typedef struct dp_batch_numbers numbers;
     TARGET static int32_t kernel_##NAME(const dp_batch *batch, const void *in, void *out, size_t count) {              \
         const IN *restrict from = in;                                                                                  \
         OUT *restrict to = out;                                                                                        \
-        const numbers k = batch->numbers;                                                                              \
+        const numbers k = dp_batch_read(batch)->numbers;                                                               \
         int32_t least = INT32_MAX;                                                                                     \
         PRAGMA(omp simd reduction(min : least))                                                                        \
         for (size_t i = 0; i < count; i++)                                                                             \
@@ -41,7 +41,7 @@ typedef struct dp_batch_numbers numbers;
     TARGET static int32_t kernel_##NAME(const dp_batch *batch, const void *in, void *out, size_t count) {              \
         const IN *restrict from = in;                                                                                  \
         OUT *restrict to = out;                                                                                        \
-        const numbers k = batch->numbers;                                                                              \
+        const numbers k = dp_batch_read(batch)->numbers;                                                               \
         int32_t least = INT32_MAX;                                                                                     \
         PRAGMA(omp simd reduction(min : least))                                                                        \
         for (size_t i = 0; i < count; i++) {                                                                           \

@@ -11,7 +11,7 @@
 
 static void plan_format(dp_batch *b) {
     const dp_format *f = &b->setup.spec.format;
-    struct dp_batch_numbers *k = &b->numbers;
+    dp_batch_numbers *k = &dp_batch_write(b)->numbers;
     k->code_max = f->code_max;
     k->reversed = b->setup.reversed;
     k->truncates = b->setup.spec.rounding == DP_ROUND_ZERO;
@@ -38,7 +38,7 @@ static void plan_format(dp_batch *b) {
 static void plan_code(dp_batch *b) {
     const dp_setup *s = &b->setup;
     const dp_format *f = &s->spec.format;
-    struct dp_batch_numbers *k = &b->numbers;
+    dp_batch_numbers *k = &dp_batch_write(b)->numbers;
     const int nearest = s->spec.rounding != DP_ROUND_ZERO;
     const double n = s->spec.znear;
     const double z_far = s->spec.zfar;
@@ -62,14 +62,14 @@ static void plan_code(dp_batch *b) {
         k->scale *= (double)f->code_max;
         k->magic = 0x1p32 + (nearest ? 0.5 : 0.0) + slack * 0x1p-20;
         k->shift = 20;
-        b->doubt = 2 * slack;
+        dp_batch_write(b)->doubt = 2 * slack;
         return;
     }
     k->shift = 52 - f->mantissa_bits;
     k->cut = k->shift - 20;
     k->rebias = (uint32_t)(1023 - f->bias) << f->mantissa_bits;
     k->half = ((uint64_t)2 << k->cut) + (nearest ? (uint64_t)1 << (k->shift - 1) : 0);
-    b->doubt = 4;
+    dp_batch_write(b)->doubt = 4;
 }
 
 /*
@@ -79,7 +79,7 @@ static void plan_code(dp_batch *b) {
  */
 static void plan_cells(dp_batch *b) {
     const dp_setup *s = &b->setup;
-    struct dp_batch_numbers *k = &b->numbers;
+    dp_batch_numbers *k = &dp_batch_write(b)->numbers;
     const double n = s->spec.znear;
     const double f = s->spec.zfar;
     const double middle = s->spec.rounding != DP_ROUND_ZERO ? 0.0 : s->reversed ? 0.5 : -0.5;
@@ -96,7 +96,7 @@ static void plan_cells(dp_batch *b) {
 
 static void plan_width(dp_batch *b) {
     const dp_setup *s = &b->setup;
-    struct dp_batch_numbers *k = &b->numbers;
+    dp_batch_numbers *k = &dp_batch_write(b)->numbers;
     const int unorm = s->spec.format.kind == DP_FORMAT_UNORM;
     const uint32_t first = s->code_near < s->code_far ? s->code_near : s->code_far;
     uint32_t last = s->code_near < s->code_far ? s->code_far : s->code_near;
@@ -119,7 +119,7 @@ static void plan_width(dp_batch *b) {
 
 static void plan_depth(dp_batch *b) {
     const dp_setup *s = &b->setup;
-    struct dp_batch_numbers *k = &b->numbers;
+    dp_batch_numbers *k = &dp_batch_write(b)->numbers;
     const double n = s->spec.znear;
     const double f = s->spec.zfar;
     if (s->curve == DP_CURVE_LINEAR) {
@@ -138,8 +138,8 @@ static void plan_depth(dp_batch *b) {
 
 static int nearest_unorm(dp_batch *b) {
     const dp_format *f = &b->setup.spec.format;
-    b->numbers.unit = (float)f->code_max;
-    b->numbers.split = (float)dp_power2(f->bits);
+    dp_batch_write(b)->numbers.unit = (float)f->code_max;
+    dp_batch_write(b)->numbers.split = (float)dp_power2(f->bits);
     return f->bits >= 2 && f->bits < 24 && b->setup.spec.rounding != DP_ROUND_ZERO;
 }
 
@@ -155,7 +155,7 @@ static int nearest_unorm24(dp_batch *b) {
 static int quotient_unorm(dp_batch *b) {
     enum { SLACK = 3 };
     const dp_spec *spec = &b->setup.spec;
-    struct dp_batch_numbers *k = &b->numbers;
+    dp_batch_numbers *k = &dp_batch_write(b)->numbers;
     const double n = spec->znear;
     const double f = spec->zfar;
     if (spec->format.bits > 24 || !(f >= 16.0 * n))
@@ -179,7 +179,7 @@ static int quotient_unorm(dp_batch *b) {
     k->offset = (float)(sum - whole + 12.0);
     /* the bits of a float in [8, 16) shifted by 20 are 1040 at 8 */
     k->whole = (int32_t)whole - 12 - (1040 - 8);
-    b->doubt = 2 * SLACK + 1;
+    dp_batch_write(b)->doubt = 2 * SLACK + 1;
     return 1;
 }
 
@@ -197,8 +197,9 @@ static int value_unorm(dp_batch *b) {
     if (bits < 16 || bits > 24)
         return 0;
     const double unit = dp_power2(-bits);
-    b->numbers.unit = (float)unit;
-    b->numbers.unit_rest = (float)(unit / (double)b->setup.spec.format.code_max); /* 1/M - 2^-N = 2^-N / M */
+    dp_batch_write(b)->numbers.unit = (float)unit;
+    dp_batch_write(b)->numbers.unit_rest =
+        (float)(unit / (double)b->setup.spec.format.code_max); /* 1/M - 2^-N = 2^-N / M */
     return 1;
 }
 
@@ -208,7 +209,7 @@ static int value_unorm(dp_batch *b) {
  */
 static int fast_eye(dp_batch *b) {
     const dp_spec *spec = &b->setup.spec;
-    struct dp_batch_numbers *k = &b->numbers;
+    dp_batch_numbers *k = &dp_batch_write(b)->numbers;
     if (spec->format.bits > 24)
         return 0;
     const double top = (double)spec->format.code_max;
@@ -295,10 +296,10 @@ static int general_kernel(const dp_batch *b) {
 
 void dp_batch_plan(dp_batch *b, dp_batch_kernel *const *table) {
     plan_format(b);
-    b->doubt = 0;
-    b->direct = 0;
-    b->kernel = general_kernel(b);
-    if (b->kernel == DP_KERNEL_NONE)
+    dp_batch_write(b)->doubt = 0;
+    dp_batch_write(b)->direct = 0;
+    dp_batch_write(b)->kernel = general_kernel(b);
+    if (dp_batch_write(b)->kernel == DP_KERNEL_NONE)
         return;
     if (b->task == DP_TASK_CODE || b->task == DP_TASK_ENCODE)
         plan_code(b);
@@ -308,10 +309,10 @@ void dp_batch_plan(dp_batch *b, dp_batch_kernel *const *table) {
         const direct_row *r = &direct_rows[i];
         if (r->task == (int)b->task && r->kind == (int)b->setup.spec.format.kind && r->word == (int)b->word &&
             (r->curve == ANY || r->curve == (int)b->setup.curve) && table[r->kernel] != NULL && r->fits(b)) {
-            b->kernel = r->kernel;
-            b->direct = 1;
+            dp_batch_write(b)->kernel = r->kernel;
+            dp_batch_write(b)->direct = 1;
             if (b->task != DP_TASK_CODE)
-                b->doubt = 0;
+                dp_batch_write(b)->doubt = 0;
             return;
         }
     }

@@ -35,6 +35,37 @@
 #define DP_BATCH_NAME(K) DP_KERNEL_##K,
 enum { DP_BATCH_KERNELS(DP_BATCH_NAME) DP_KERNEL_COUNT, DP_KERNEL_NONE = DP_KERNEL_COUNT };
 
+/* What a task is prepared with. It stands in the public struct's opaque words, as if it had been declared there. */
+#define DP_BATCH_ALIAS __attribute__((may_alias))
+typedef struct DP_BATCH_ALIAS dp_batch_numbers {
+    double lo, hi, from, slope, scale, magic;
+    uint64_t half;
+    int shift, cut, mantissa, bias, reversed, truncates;
+    uint32_t rebias, code_max;
+    double least_normal, top, to_near, to_far, den, steps, rest, width, first, last, before_width, first_width,
+        last_width, after_width;
+    double value, value_rest;
+    float z_lo, z_hi, reach, reach_rest, reach_inverse, offset;
+    int32_t whole;
+    float unit, unit_rest, split, eye_top, eye_slope, eye_base;
+} dp_batch_numbers;
+
+typedef struct DP_BATCH_ALIAS dp_batch_own {
+    int kernel, direct;
+    int32_t doubt;
+    dp_batch_numbers numbers;
+} dp_batch_own;
+
+_Static_assert(sizeof(dp_batch_own) <= sizeof((dp_batch){0}.opaque), "dp_batch is too small");
+
+static inline const dp_batch_own *dp_batch_read(const dp_batch *batch) {
+    return (const dp_batch_own *)(const void *)batch->opaque;
+}
+
+static inline dp_batch_own *dp_batch_write(dp_batch *batch) {
+    return (dp_batch_own *)(void *)batch->opaque;
+}
+
 typedef int32_t dp_batch_kernel(const dp_batch *batch, const void *in, void *out, size_t count);
 
 /* The kernels of a path by name; null where a path has no direct one. Null tables: compiled for another processor. */

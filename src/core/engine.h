@@ -42,6 +42,12 @@ double dp_lattice_exact(const dp_setup *setup, double z);
 double dp_lattice_above(const dp_setup *setup, double z);
 
 /*
+ * How far from itself any depth of lo..hi can lie at most once a shader stored it, whatever its log2, and it is decoded
+ * with the shader's constants: scene units; *z is where. Of a set-up with a logarithmic curve.
+ */
+double dp_shader_error_over(const dp_setup *setup, double lo, double hi, double *z);
+
+/*
  * Whether dp_separation() is at most `limit` at every depth of [lo, hi] in every camera whose near and far lie between
  * those of two set-ups, which are alike but for one of the two, where that of the model exact is. Model fp32 of a
  * mapping that has a matrix; 0 also where it could not be shown. A bound, not samples.

@@ -3,6 +3,7 @@
 
 #include "core/demand.h"
 #include "core/elementary.h"
+#include "core/engine.h"
 #include "core/extremes.h"
 #include "core/rounding.h"
 
@@ -219,18 +220,19 @@ static double error_in(const dp_log_shader *s, dp_span span) {
 
 /* Errors grow with z but for steps in what rounds, so the search goes down from hi until nothing nearer can be worse.
  */
-double dp_log_error_over(const dp_log_shader *s, double lo, double hi, double *z) {
+double dp_shader_error_over(const dp_setup *setup, double lo, double hi, double *z) {
     static const double stretch = 1.0 + 0x1p-5;
+    const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(0));
     double worst = 0.0;
     *z = hi;
     for (double top = hi;;) {
         const double bottom = larger(top / stretch, lo);
-        const double error = error_in(s, (dp_span){(double)(float)bottom, (double)(float)top});
+        const double error = error_in(&s, (dp_span){(double)(float)bottom, (double)(float)top});
         if (error > worst) {
             worst = error;
             *z = top;
         }
-        if (bottom <= lo || error_in(s, (dp_span){(double)(float)lo, (double)(float)bottom}) <= worst)
+        if (bottom <= lo || error_in(&s, (dp_span){(double)(float)lo, (double)(float)bottom}) <= worst)
             return worst;
         top = bottom;
     }

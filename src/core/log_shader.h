@@ -51,10 +51,4 @@ typedef struct dp_log_demand {
  */
 double dp_log_longest(const dp_log_shader *s, dp_span run, double extra, dp_log_demand *out);
 
-/*
- * How far from itself any depth of lo..hi can lie at most once it is stored and decoded with the shader's constants,
- * scene units; *z is where.
- */
-double dp_log_error_over(const dp_log_shader *s, double lo, double hi, double *z);
-
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file choose.h  The cheapest method that is good enough, from the claims alone: for bench, table and figures.
+ * @file choose.h  The cheapest method that is good enough, from the claims alone: for methods, table and figures.
  */
 #ifndef METHOD_CHOOSE_H
 #define METHOD_CHOOSE_H

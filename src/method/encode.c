@@ -123,7 +123,8 @@ static const method_row methods[] = {
      {FULL(0.5)}, ANY, 0.7, "1", 0, "", .run = bits_run},
     {METHOD_ENCODE, "table", "fp16 by a table of bases and shifts, truncated",
      {FULL(1.0)}, ANY, 0.9, "1", 0,
-     "van der Zijp 2008, Fast half float conversions", .run = half_run, .open = half_open, .close = free},
+     "van der Zijp 2008, Fast half float conversions", .run = half_run, .open = half_open, .close = free,
+     .behind = true},
     {METHOD_ENCODE, "engine", "the engine, for each format and rounding",
      {FULL(0.5), FULL(0.5), FULL(0.5)}, ANY, 8, "1", 16384, "depthprec(3)", .run = engine_run},
 };

@@ -358,7 +358,7 @@ static const method_row methods[] = {
      .timed = rcpps_run, .bound = &bound_newton},
     {METHOD_LINEARIZE, "table-nearest", "the nearest of 65536 depths in equal steps of d, binary32",
      {FORMULA(nearest_claim, 0, 0), FORMULA(nearest_claim, 0, 0)}, 0, 0.6, "1", 0,
-     "", .run = table_nearest, .open = table_open, .close = free},
+     "", .run = table_nearest, .behind = true, .open = table_open, .close = free},
     {METHOD_LINEARIZE, "double", "n f/(f - d (f - n)) in double, rounded to binary32",
      {FORMULA(double_claim, 0, 0), FULL(UNIT)}, 0, 0.58, "1", 0,
      "", .run = double_run, .bound = &bound_double},
@@ -367,7 +367,7 @@ static const method_row methods[] = {
      "depthprec(7)", .run = phi_run, .bound = &bound_phi},
     {METHOD_LINEARIZE, "table-linear", "between two of 65536 depths in equal steps of d, binary32",
      {FORMULA(linear_claim, 0, 0), FORMULA(linear_claim, 0, 0)}, 0, 1.1, "1", 0,
-     "", .run = table_linear, .open = table_open, .close = free},
+     "", .run = table_linear, .behind = true, .open = table_open, .close = free},
     {METHOD_LINEARIZE, "pair", "the complement form with pairs of binary32 numbers, rounded once",
      {FULL(UNIT + 0x1p-41), FULL(UNIT + 0x1p-41)}, 0, 1.4, "1", 0,
      "Dekker 1971, A floating-point technique for extending the available precision", .run = pair_run,
@@ -377,10 +377,10 @@ static const method_row methods[] = {
      "", .run = fused_run, .bound = &bound_fused},
     {METHOD_LINEARIZE, "spline", "cubic spline through 4097 depths in equal steps of d",
      {FORMULA(spline_claim, 0, 0), FORMULA(spline_claim, 0, 0)}, 0, 52, "1", 16384,
-     gsl, .run = spline_run, .open = spline_open, .close = spline_close},
+     gsl, .run = spline_run, .behind = true, .open = spline_open, .close = spline_close},
     {METHOD_LINEARIZE, "chebyshev", "Chebyshev series of order 40 over d",
      {FORMULA(chebyshev_claim, 0, 0), FORMULA(chebyshev_claim, 0, 0)}, 0, 50, "1", 16384,
-     gsl, .run = chebyshev_run, .open = chebyshev_open, .close = chebyshev_close},
+     gsl, .run = chebyshev_run, .behind = true, .open = chebyshev_open, .close = chebyshev_close},
 };
 /* clang-format on */
 static const size_t method_count = sizeof methods / sizeof methods[0];

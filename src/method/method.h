@@ -130,6 +130,7 @@ struct method_row {
     const decode_row *decode;
     const position_row *position;
     const normal_row *normal;
+    bool behind; /**< others are faster and more exact for every far/near: text shows it only where all are asked for */
 };
 
 /** How far an answer is off. */

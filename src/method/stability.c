@@ -147,12 +147,12 @@ static void walk_one(const method_family_row *family, stability_result *r, bool 
     *failed = *failed || w.failed;
 }
 
-size_t stability_run(const method_family_row *family, stability_result results[STABILITY_MAX]) {
+size_t stability_run(const method_family_row *family, unsigned cases, stability_result *results) {
     size_t count = 0;
     bool failed = false;
     for (size_t i = 0; i < *family->method_count; i++)
         for (size_t k = 0; k < family->case_count; k++)
-            if (method_speaks(&family->methods[i], k) && method_available(&family->methods[i]))
+            if ((cases >> k & 1) != 0 && method_speaks(&family->methods[i], k) && method_available(&family->methods[i]))
                 results[count++] = (stability_result){.row = &family->methods[i], .which = k};
 #pragma omp parallel for schedule(dynamic) reduction(|| : failed)
     for (size_t i = 0; i < count; i++)

@@ -13,6 +13,9 @@ enum { STABILITY_STEPS_MAX = 23, STABILITY_MAX = BENCH_METHODS_MAX * METHOD_CASE
 /** How far beyond its claimed span a claim may still hold before the span is too modest. */
 #define STABILITY_SLACK 4.0
 
+/** All cases, which have up to STABILITY_MAX results; one has up to BENCH_METHODS_MAX. */
+#define STABILITY_ALL (~0U)
+
 typedef enum stability_verdict {
     STABILITY_HOLDS = 0, /**< within the claim where claimed, and not far below; breaks where the row says so */
     STABILITY_BROKEN,    /**< an error above the claim where it should hold */
@@ -44,9 +47,10 @@ bool stability_must_break(const method_claim *claim);
 const char *stability_verdict_name(stability_verdict verdict);
 
 /**
- * Walks every method in every case that it speaks of. The result does not depend on the number of threads.
+ * Walks every method in those of the cases, 1 << index or-ed, that it speaks of. The result does not depend on the
+ * number of threads.
  * @return how many results, in the order of rows, cases within a row; 0 when out of memory
  */
-size_t stability_run(const method_family_row *family, stability_result results[STABILITY_MAX]);
+size_t stability_run(const method_family_row *family, unsigned cases, stability_result *results);
 
 #endif

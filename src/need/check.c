@@ -75,13 +75,11 @@ static void judge_separation(const need *n, const need_camera *camera, const dp_
 }
 
 static void judge_error(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
+    const dp_setup full = dp_setup_guaranteed(asked);
     dp_setup setup;
     judge_in(n, asked, v);
-    if (!camera->automatic || !v->passed)
-        return;
-    setup = dp_setup_guaranteed(asked);
-    if (setup.shader || with_model(asked, DP_MODEL_STAGED, &setup))
-        judge_in(n, &setup, v);
+    if (camera->automatic && v->passed && with_model(asked, DP_MODEL_STAGED, &setup))
+        judge_in(n, full.shader ? &full : &setup, v);
 }
 
 /* Whether the guarantee holds between any two neighbours: then nothing ties. Binade by binade, as the step of z, which

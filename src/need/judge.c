@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "core/log_shader.h"
+#include "core/engine.h"
 
 static judgement of_separation(const dp_setup *setup, double lo, double hi, double limit) {
     dp_separation_worst worst = {.bound = HUGE_VAL, .separation = HUGE_VAL, .z = hi};
@@ -18,9 +18,8 @@ static judgement of_separation(const dp_setup *setup, double lo, double hi, doub
 
 /* Of what a shader writes, whatever its log2. */
 static judgement of_written_error(const dp_setup *setup, double lo, double hi, double limit) {
-    const dp_log_shader shader = dp_log_shader_make(setup, dp_log2_get(0));
     judgement out;
-    out.value = dp_log_error_over(&shader, lo, hi, &out.z);
+    out.value = dp_shader_error_over(setup, lo, hi, &out.z);
     out.code = dp_code(setup, out.z);
     out.passed = out.value <= limit;
     return out;

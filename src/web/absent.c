@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "cli/check_report.h"
+#include "cli/link.h"
 #include "cli/methods.h"
 #include "cli/option_rows.h"
 #include "cli/scene_figure.h"
@@ -23,16 +24,14 @@ static int absent(const options *o) {
         return absent(o);                                                                                              \
     }
 
-ABSENT(cmd_bench)
 ABSENT(cmd_check)
 ABSENT(cmd_completions)
-ABSENT(cmd_disocclusion)
+ABSENT(cmd_methods)
 ABSENT(cmd_probe)
 ABSENT(cmd_scene)
 ABSENT(cmd_shadow)
-ABSENT(cmd_stability)
 ABSENT(cmd_texture)
-ABSENT(cmd_web)
+ABSENT(link_write)
 
 #define ABSENT_FIGURE(name)                                                                                            \
     const char *name(const figure_request *request, chart *out) {                                                      \

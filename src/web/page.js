@@ -17,18 +17,19 @@ function make(name, attributes = {}, ...children) {
 
 // ---- What there is ------------------------------------------------------------------------------------------------
 
-const VERBS = ["table", "plot", "solve", "bias", "budget", "zfight"];
+const VERBS = ["table", "plot", "solve", "bias", "budget", "zfight", "prepass"];
 const FIGURES = ["interval", "error", "distribution", "budget", "share", "map"];
 const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
 // Options of the panels, and of a picture, are not those of a set-up.
 const ASKED = {
     solve: ["for", "separation", "error", "at", "range"],
     bias: ["gap", "at", "range", "api", "units", "factor", "clamp", "slope"],
-    zfight: ["gap", "sample", "seed", "triangles", "against", "program", "vertices", "plane"],
+    zfight: ["gap", "sample", "seed", "triangles", "plane"],
+    prepass: ["against", "program", "vertices", "sample", "seed"],
     table: [], plot: [], budget: [],
 };
 const REFUSED = 2; // the exit status of a command
-const NEVER = ["output", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
+const NEVER = ["link", "output", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
 // A figure does not refuse what it has no use for: it leaves it out.
 const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"];
 const UNUSED = {
@@ -430,7 +431,7 @@ function count() {
 }
 
 // Commands that take tenths of a second never hold the page: they run aside. On paper all has to be there at once.
-const slow = (verb) => !printing && (verb === "zfight" || (verb === "plot" && state.figure === "map"));
+const slow = (verb) => !printing && (verb === "zfight" || verb === "prepass" || (verb === "plot" && state.figure === "map"));
 const unknown = (panel, verb) => outputsOf(panel).some((one, i) => !known(lineOf(verb, state.setups[i], one)));
 
 // While something is dragged, a frame shows what is on the screen and quick; the rest follows when the hand rests.
@@ -616,6 +617,7 @@ async function begin() {
         solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]),
         bias: new Map([["gap", "2cm"], ["at", "100m"], ["api", "all"]]),
         zfight: new Map(),
+        prepass: new Map([["sample", "100000"]]),
     };
     buildSetup(0);
     buildSetup(1);

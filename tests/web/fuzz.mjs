@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the page makes of an address and of a pasted line, whatever stands there:  node fuzz.mjs COMMAND.mjs COUNT
-// The words are those of a shell, and those of which `depthprec web` made the link.
+// The words are those of a shell, and those of which --link made the link.
 import { execFileSync } from "node:child_process";
 import { pathToFileURL } from "node:url";
 import { native } from "./native.mjs";
@@ -77,13 +77,13 @@ await test("words, written for a shell and read again", () => {
     }
 });
 
-await test("a link of depthprec web is the command again", async () => {
-    const lines = Array.from({ length: 300 }, () => state(r)), links = await native(lines.map((line) => ["web", "--", ...line]));
+await test("a link is the command again", async () => {
+    const lines = Array.from({ length: 300 }, () => state(r)), links = await native(lines.map((line) => ["--link", ...line]));
     let good = 0;
     links.forEach(({ status, out }, i) => {
         if (status !== 0) return;
         const fragment = out.trim().replace(/^[^#]*#/, ""), [words] = fromFragment(fragment);
-        demand(same(words, lines[i]) && toFragment([words]) === fragment, `${lines[i].join(" ")} -> ${out}`);
+        demand(same(words, lines[i].filter((word) => word !== "--")) && toFragment([words]) === fragment, `${lines[i].join(" ")} -> ${out}`);
         good++;
     });
     demand(good > 150, `only ${good}`);

@@ -9,7 +9,7 @@ import { demand, note, test } from "./tap.mjs";
 
 const FORMS = ["--json", "--csv", "--full", "-v"]; // what the page leaves to its own buttons, or to the program
 
-// The words of a shell's line as `depthprec web` and the page write it.
+// The words of a shell's line as --link and the page write it.
 export const words = (line) => line.match(/(?:'[^']*'|\\.|[^\s'\\])+/g).map((word) => word.replace(/'([^']*)'|\\(.)/g, "$1$2"));
 
 async function namesOf(page) {
@@ -61,7 +61,7 @@ async function setOne(page, line, link, there, byLink) {
     if (refused) {
         const now = await shown(page), why = refusal(link.status !== 0 ? link : there);
         demand(now.error !== "" && now.link === before.link, `refused by the program, not by the page: ${what}`);
-        demand(why.startsWith("web: ") || now.error === why, `${what}: ${why}\n${now.error}`);
+        demand(why.startsWith("--link: ") || now.error === why, `${what}: ${why}\n${now.error}`);
         return 0;
     }
     const { now, count } = await compareShown(page, what);
@@ -74,7 +74,7 @@ async function setOne(page, line, link, there, byLink) {
 
 async function people(page, r, count) {
     const lines = Array.from({ length: count }, () => state(r).filter((word) => !FORMS.includes(word)));
-    const links = await native(lines.map((line) => ["web", "--page", address, ...line]));
+    const links = await native(lines.map((line) => [`--link=${address}`, ...line]));
     const plain = await native(lines);
     let set = 0, compared = 0;
     for (let i = 0; i < count; i++) {
@@ -130,7 +130,7 @@ async function thereAndBack(page, r, count) {
         for (const part of ["error", "link", "runs"])
             demand(JSON.stringify(before[part]) === JSON.stringify(after[part]),
                 `${part}: ${hash}\n${JSON.stringify(before[part], null, 1)}\n${JSON.stringify(after[part], null, 1)}`);
-        const taken = await native(before.link.split("\n").map((text) => ["web", ...words(text).slice(1)]));
+        const taken = await native(before.link.split("\n").map((text) => ["--link", ...words(text).slice(1)]));
         demand(taken.every((one) => one.status === 0), `${before.link}: ${taken.map((one) => one.err).join("")}`);
     }
     return `${count} links`;

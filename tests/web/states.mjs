@@ -100,6 +100,9 @@ const commands = {
             ...some(r, 0.3, () => ["--arith", r.of(names.ariths)]), ...some(r, 0.5, () => ["--gap", written(r, r.spread(1e-6, 0.1), true)]),
             ...some(r, 0.3, () => ["--sample", String(1 + r.below(300)), "--seed", String(r.below(1000))]), ...some(r, 0.2, () => view(r))];
     },
+    prepass: (r, c) => [...c.words, "--against", r.of(["fma", "separate,right", "all"]), ...some(r, 0.3, () => ["--program", r.of(["fma", "pairs"])]),
+        "--sample", String(1 + r.below(2000)), ...some(r, 0.3, () => ["--vertices", "box", "--world", written(r, r.spread(1, 1e4))]),
+        ...some(r, 0.3, () => ["--range", range(r, c)]), ...some(r, 0.3, () => ["--seed", String(r.below(1000))])],
     budget: (r, c) => [...c.words, ...planned(r), ...some(r, 0.3, () => ["--arith", r.of(names.ariths)]),
         ...some(r, 0.6, () => ["--at", depths(r, c)]), ...terms(r), ...some(r, 0.4, () => view(r))],
     solve: (r, c) => {
@@ -131,7 +134,7 @@ function spoil(r, words) {
 // A random command line, as words.
 export function state(r) {
     const verb = r.chance(0.03) ? "zfight" // which takes seconds
-        : r.of(["table", "table", "table", "budget", "budget", "solve", "solve", "bias", "bias", "plot"]);
+        : r.of(["table", "table", "table", "budget", "budget", "solve", "solve", "bias", "bias", "plot", "prepass"]);
     const words = [verb, ...commands[verb](r, camera(r)), ...(verb === "plot" ? [] : form(r))];
     return r.chance(0.06) ? spoil(r, words) : words;
 }

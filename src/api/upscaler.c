@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "api/disocclusion.h"
+#include "api/upscaler.h"
 
 #include <math.h>
 
@@ -8,25 +8,25 @@
 static const double factor = 1.37e-5, degree = 0.017453292519943295;
 
 /* Tangents of the half angles. */
-static double half_height(const disocclusion_view *v) {
+static double half_height(const upscaler_view *v) {
     return dp_tan(0.5 * degree * v->fov_y);
 }
 
-static double half_width(const disocclusion_view *v) {
+static double half_width(const upscaler_view *v) {
     return half_height(v) * v->width / v->height;
 }
 
-static double by_tangent(const disocclusion_view *v) {
+static double by_tangent(const upscaler_view *v) {
     return factor * half_width(v) * 0.5 * v->width;
 }
 
-static double by_diagonal(const disocclusion_view *v) {
+static double by_diagonal(const upscaler_view *v) {
     const double corner = dp_hypot(1.0, dp_hypot(half_width(v), half_height(v))); /* over the ray in the middle */
     return factor * corner * dp_hypot(v->width, v->height);
 }
 
 /* clang-format off */
-static const disocclusion_row rows[DISOCCLUSION_ROWS] = {
+static const upscaler_row rows[UPSCALER_ROWS] = {
     {"tangent", "1.37e-5 z tan(hfov/2) W/2", by_tangent,
      "FidelityFX Super Resolution 2, first releases, depth clip, marked as for reversed infinite depth alone; "
      "attributed there to Akeley and Su 2006"},
@@ -35,6 +35,6 @@ static const disocclusion_row rows[DISOCCLUSION_ROWS] = {
 };
 /* clang-format on */
 
-const disocclusion_row *disocclusion_get(size_t index) {
-    return index < DISOCCLUSION_ROWS ? &rows[index] : NULL;
+const upscaler_row *upscaler_get(size_t index) {
+    return index < UPSCALER_ROWS ? &rows[index] : NULL;
 }

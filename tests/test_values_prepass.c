@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every value that zfight --against prints, against a comparison of the same vertices. */
+/* Every value that prepass prints, against a comparison of the same vertices. */
 #include <stdio.h>
 #include <string.h>
 
@@ -167,13 +167,13 @@ static void test_against(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const against_case *c = &cases[i];
-        values v = values_of("zfight");
+        values v = values_of("prepass");
         v.unit = c->camera.unit;
         line_places lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         char camera[512], arguments[1024];
         size_t used = (size_t)snprintf(arguments, sizeof arguments,
-                                       "zfight %s -q --range %.17g:%.17g --against %s --sample %llu --seed %llu",
+                                       "prepass %s -q --range %.17g:%.17g --against %s --sample %llu --seed %llu",
                                        camera_options(&c->camera, camera), c->lo, c->hi, c->against,
                                        (unsigned long long)c->sample, (unsigned long long)c->seed);
         if (c->program != NULL)

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * zfight --against: a depth prepass by one vertex program and a main pass by another. How many vertices get different
+ * prepass: a depth prepass by one vertex program and a main pass by another. How many vertices get different
  * codes, whether EQUAL is safe, and the bias of the main pass that makes LEQUAL safe (GEQUAL where reversed).
  */
-#include "cli/zfight_against.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -31,7 +29,7 @@ typedef struct line {
 } line;
 
 /* Below `line`, what belongs to the set-up at hand. */
-typedef struct against {
+typedef struct prepass {
     walk walk;
     vertex_request request;
     vertex_difference (*results)[VERTEX_OTHERS]; /* one of each set-up */
@@ -39,17 +37,15 @@ typedef struct against {
     uint64_t before;
     line line;
     size_t setup;
-} against;
+} prepass;
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
-static int check(against *a) {
+static int check(prepass *a) {
     const options *o = a->walk.o;
     vertex_request *r = &a->request;
     options fp32 = *o;
     fp32.model = DP_MODEL_FP32;
-    if (o->gap > 0.0)
-        return option_error(OPTION_GAP, "cannot be combined with --against");
     int status = setups_make(&fp32, &a->walk.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &r->lo, &r->hi);
@@ -65,11 +61,11 @@ static int check(against *a) {
 }
 
 static void tick(void *context, uint64_t done) {
-    against *a = context;
+    prepass *a = context;
     progress_step(&a->walk.progress, a->before + done);
 }
 
-static int work(against *a) {
+static int work(prepass *a) {
     bool fine = true;
     a->results = calloc(a->walk.all.count, sizeof *a->results);
     a->walk.progress = progress_start("vertices", a->walk.all.count * a->request.count, a->walk.o->quiet);
@@ -93,7 +89,7 @@ static api_bias bias_for(const dp_setup *setup, const bias_api *api, const verte
 }
 
 static void *next_api(void *of, size_t i) {
-    against *a = of;
+    prepass *a = of;
     const bias_api *api = bias_api_get(i);
     if (api == NULL)
         return NULL;
@@ -102,7 +98,7 @@ static void *next_api(void *of, size_t i) {
 }
 
 static void *next_program(void *of, size_t i) {
-    against *a = of;
+    prepass *a = of;
     if (i == a->request.others)
         return NULL;
     const vertex_difference *d = &a->results[a->setup][i];
@@ -115,13 +111,13 @@ static void *next_program(void *of, size_t i) {
 }
 
 static void *next_setup(void *of, size_t i) {
-    against *a = of;
+    prepass *a = of;
     a->setup = i;
     return walk_setup(&a->walk, i) ? a : NULL;
 }
 
 /* The greatest of all programs, as if it were one. */
-static vertex_difference worst_of(const against *a) {
+static vertex_difference worst_of(const prepass *a) {
     vertex_difference worst = a->results[a->setup][0];
     for (size_t i = 1; i < a->request.others; i++) {
         const vertex_difference *d = &a->results[a->setup][i];
@@ -133,7 +129,7 @@ static vertex_difference worst_of(const against *a) {
 }
 
 static void say_answer(page *p, void *item) {
-    const against *a = item;
+    const prepass *a = item;
     const vertex_request *r = &a->request;
     const vertex_difference worst = worst_of(a);
     walk_title(p, item);
@@ -152,7 +148,7 @@ static void say_answer(page *p, void *item) {
 }
 
 static void say_apis(page *p, void *item) {
-    const against *a = item;
+    const prepass *a = item;
     const vertex_difference worst = worst_of(a);
     if (worst.differ == 0)
         return;
@@ -191,11 +187,11 @@ static const column code_columns[] = {
     {.kind = COLUMN_END}};
 
 static const column program_columns[] = {
-    {FIELD(against, line.program, "against", ""), SHOWN("against", -14, 0)},
-    {PART(against, line.found, NULL, found_columns), .pointed = true, .only = AS_JSON | AS_CSV},
-    {TEXT_FIELD(against, line.share, "differ %", 10, 4), .fixed = true},
-    {PART(against, line.found, NULL, code_columns), .pointed = true},
-    {FIELD(against, line.bias, "bias", ""), SHOWN("bias", 12, DIGITS), .upward = true},
+    {FIELD(prepass, line.program, "against", ""), SHOWN("against", -14, 0)},
+    {PART(prepass, line.found, NULL, found_columns), .pointed = true, .only = AS_JSON | AS_CSV},
+    {TEXT_FIELD(prepass, line.share, "differ %", 10, 4), .fixed = true},
+    {PART(prepass, line.found, NULL, code_columns), .pointed = true},
+    {FIELD(prepass, line.bias, "bias", ""), SHOWN("bias", 12, DIGITS), .upward = true},
     {LIST("bias_units", api_columns, next_api), .only = AS_JSON},
     {.kind = COLUMN_END}};
 
@@ -204,18 +200,18 @@ static const column drawn_columns[] = {
     {FIELD(vertex_request, world, "world", "scene")}, {FIELD(vertex_request, count, "drawn", "")},
     {FIELD(vertex_request, seed, "seed", "")},        {.kind = COLUMN_END}};
 
-static const column setup_report[] = {{PART(against, walk.fields, NULL, setup_columns)},
-                                      {FIELD(against, walk.fields.arith, "arith", ""), .only = AS_CSV},
-                                      {FIELD(against, program, "program", "")},
-                                      {FIELD(against, vertices, "distribution", "")},
-                                      {PART(against, request, NULL, drawn_columns)},
+static const column setup_report[] = {{PART(prepass, walk.fields, NULL, setup_columns)},
+                                      {FIELD(prepass, walk.fields.arith, "arith", ""), .only = AS_CSV},
+                                      {FIELD(prepass, program, "program", "")},
+                                      {FIELD(prepass, vertices, "distribution", "")},
+                                      {PART(prepass, request, NULL, drawn_columns)},
                                       {LIST("programs", program_columns, next_program), .notes = say_apis, .indent = 2},
                                       {.kind = COLUMN_END}};
 
 static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer}, {.kind = COLUMN_END}};
 
-int zfight_against(const options *o) {
-    against a = {.walk.o = o,
+int cmd_prepass(const options *o) {
+    prepass a = {.walk.o = o,
                  .program = o->program->name,
                  .vertices = vertex_spread_name((vertex_spread)o->vertices),
                  .request = {.spread = (vertex_spread)o->vertices,
@@ -235,7 +231,7 @@ int zfight_against(const options *o) {
     if (status == EXIT_FINE)
         status = options_open(o, &a.walk.out);
     if (status == EXIT_FINE) {
-        report_write(&(report_spec){"zfight", columns, &a, .label = 14}, &a.walk.out, o->form);
+        report_write(&(report_spec){"prepass", columns, &a, .label = 14}, &a.walk.out, o->form);
         status = output_close(&a.walk.out);
     }
     free(a.results);
