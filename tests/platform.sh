@@ -63,7 +63,6 @@ check "scene: one of them" named
 "$DEPTHPREC" texture --scene decals -F unorm24 -m d3d --raw -o "$scratch/open.npy" >"$scratch/out" 2>&1
 check "texture: of two formats an image has one" found "$scratch/told.npy" firefox-vulkan fp32
 check "texture: where an image does not tell, one is asked for" refuses "$either" texture "$scratch/open.npy" --platform firefox-vulkan
-finish
 
 # ---- What a rasterizer brings ------------------------------------------------------------------------------------
 
@@ -141,3 +140,4 @@ unity|D3D11_RASTERIZER_DESC.DepthBias =
 godot-forward|depthBiasConstantFactor =
 bevy|depthBias:
 END
+finish
