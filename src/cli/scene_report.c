@@ -223,7 +223,8 @@ static void say_bias(page *p, const scene *s) {
     else
         page_text(p, "Or, for what is drawn second: %s; enough up to %s%s.",
                   bias_call(s->o.api, s->bias.units, s->bias.factor).text, length(p, s->within).text,
-                  s->triangles != NULL ? "" : " where they face the camera; --viewport counts slants, too");
+                  s->triangles != NULL ? " in triangles as above"
+                                       : " where they face the camera; --viewport counts slants, too");
 }
 
 static void say_picture(page *p, const scene *s) {
