@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The page in a browser (make check-web): Chromium without a window, driven by playwright-core, judged by axe-core.
 # Both are npm's packages, pinned by version and digest in tests/web/package-lock.json; nothing of them is run on install.
-# What is seen of the page is left in $B/web/shots. ONLY=redraw,people,bad,shots,states takes a part.
+# What is seen of the page is left in $B/web/shots. ONLY=redraw,controls,people,bad,shots,states takes a part.
 . tests/tap.sh
 
 # prints why there is no browser, or no driver for it

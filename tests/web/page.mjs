@@ -2,6 +2,7 @@
 // The page in a browser:  B=build DEPTHPREC=build/depthprec node page.mjs
 import { asked, browser, dialogs, said } from "./browser.mjs";
 import { bad } from "./page_bad.mjs";
+import { controls } from "./page_controls.mjs";
 import { people } from "./page_people.mjs";
 import { redraw } from "./page_redraw.mjs";
 import { shots } from "./page_shots.mjs";
@@ -9,7 +10,7 @@ import { states } from "./page_states.mjs";
 import { seed } from "./states.mjs";
 import { demand, finish, test } from "./tap.mjs";
 
-const parts = { redraw, people, bad, shots, states: () => states(seed()) };
+const parts = { redraw, controls, people, bad, shots, states: () => states(seed()) };
 const only = process.env.ONLY?.split(",") ?? Object.keys(parts);
 for (const name of only) await parts[name]();
 await test("nothing was said on the console", () => demand(said.length === 0, [...new Set(said)].slice(0, 20).join("\n")));

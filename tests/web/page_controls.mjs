@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each control does what it says: it is set as a person sets it, and what is shown, beside it, above the panels and of
+// which set-up, is what the program prints for a command that is written here by hand.
+import { close, open, settled } from "./browser.mjs";
+import { native } from "./native.mjs";
+import { demand, test } from "./tap.mjs";
+
+const A = ["-n", "0.1", "-f", "1000", "-F", "unorm24", "-m", "d3d", "--unit", "m"];
+const B = ["-n", "0.1", "-f", "1000", "-F", "fp32", "-m", "reversed", "--unit", "m"];
+
+// A command with other words behind some of its options; null takes one out.
+function changed(words, changes) {
+    const pairs = new Map();
+    for (let i = 0; i < words.length; i += 2) pairs.set(words[i], words[i + 1]);
+    for (const [name, value] of Object.entries(changes)) value === null ? pairs.delete(name) : pairs.set(name, value);
+    return [...pairs].flatMap(([name, value]) => (value === "" ? [name] : [name, value]));
+}
+
+const flat = (text) => text.replaceAll(/\s+/g, " ").trim();
+
+// What stands above the numbers: of a table the sentences on what is told apart, of an answer its first.
+const promise = (out) => flat((out.match(/^Guaranteed[^]*?\.$/gm) ?? []).join(" "));
+const sentence = (out) => flat(/^[^]*?\.$/m.exec(out)?.[0] ?? "");
+
+const updated = (page, act) => page.evaluate(() => document.documentElement.dataset.updates).then(async (before) => {
+    await act();
+    await page.waitForFunction((old) => document.documentElement.dataset.updates !== old, before);
+});
+
+async function put(page, selector, value) {
+    const at = page.locator(selector), kind = await at.evaluate((one) => (one.tagName === "SELECT" ? "select" : one.type));
+    await updated(page, async () => {
+        if (kind === "select") await at.selectOption(value);
+        else if (kind === "checkbox") await at.setChecked(value);
+        else if (kind === "range") await at.evaluate((one, to) => ((one.value = to), one.dispatchEvent(new Event("input"))), value);
+        else await at.fill(value).then(() => at.blur()); // some follow each letter, some the whole
+    });
+}
+
+const seen = (page, panel, index) => page.evaluate(([name, i]) => {
+    const one = document.querySelectorAll(`[data-panel=${name}] [data-run]`)[i], text = (at) => at?.textContent ?? "";
+    const verdicts = [...document.querySelectorAll("#verdicts p")].map(text);
+    return { text: text(one?.querySelector("pre")), above: text(one?.querySelector(".answer")), verdicts };
+}, [panel, index]);
+
+const CONTROLS = [
+    ["[data-option=near]", "0.25", { "-n": "0.25" }],
+    ["[data-option=far]", "2km", { "-f": "2km" }],
+    ["[data-slider=near]", "250", { "-n": "0.316" }], // half way from 0.001 to 100, three digits
+    ["[data-slider=far]", "0", { "-f": "1" }],
+    ["[data-slider=far]", "500", { "-f": "inf" }],
+    ["[data-option=format]", "unorm16", { "-F": "unorm16" }],
+    ["[data-option=mapping]", "gl", { "-m": "gl" }],
+    ["[data-option=ortho]", true, { "--ortho": "" }],
+    ["[data-option=model]", "float", { "--model": "float" }],
+    ["[data-option=arith]", "fused", { "--model": "float", "--arith": "fused" }, [["[data-option=model]", "float"]]],
+    ["[data-option=viewport]", "800x600", { "--viewport": "800x600" }],
+    ["[data-option=slant]", "10:20", { "--viewport": "800x600", "--slant": "10:20" }, [["[data-option=viewport]", "800x600"]]],
+    ["[data-option=at]", "3,30", { "--at": "3,30" }],
+    ["[data-option=unit]", "cm", { "--unit": "cm" }],
+    [".more", "--rounding zero", { "--rounding": "zero" }],
+];
+
+// One control of one set-up: its table, and both sentences above, each under its own letter.
+async function setUp(page, which, [selector, value, changes, before = []]) {
+    const both = [A, B].map((words, i) => ["table", ...changed(words, i === which ? changes : {})]);
+    for (const [other, to] of before) await put(page, `#${"ab"[which]} ${other}`, to);
+    await put(page, `#${"ab"[which]} ${selector}`, value);
+    await settled(page);
+    const said = await native(both), what = `${"AB"[which]}, ${selector} at ${value}`;
+    for (let i = 0; i < 2; i++) {
+        const { text, verdicts } = await seen(page, "table", i), want = `${"AB"[i]} ${promise(said[i].out)}`;
+        demand(said[i].status === 0 && text === said[i].out, `${what}: ${both[i].join(" ")}\n${text}${said[i].out}${said[i].err}`);
+        demand(want.length > 40 && verdicts[i] === want, `${what}: above stands ${verdicts[i]}\nnot ${want}`);
+    }
+}
+
+const solve = (more) => ["solve", ...changed([...changed(A, { "-n": null }), "--separation", "1cm", "--at", "500m", "--for", "near"], more)];
+const bias = (more) => ["bias", ...changed([...A, "--gap", "2cm", "--at", "100m", "--api", "all"], more)];
+const QUESTIONS = [
+    ["solve", "separation", "3cm", solve({ "--separation": "3cm" })],
+    ["solve", "at", "70m", solve({ "--at": "70m" })],
+    ["solve", "for", "far", ["solve", ...changed(A, { "-f": null }), "--separation", "1cm", "--at", "500m", "--for", "far"]],
+    ["solve", "for", "distance", ["solve", ...A, "--separation", "1cm", "--for", "distance"]],
+    ["bias", "gap", "5cm", bias({ "--gap": "5cm" })],
+    ["bias", "at", "30m", bias({ "--at": "30m" })],
+    ["bias", "api", "gl", bias({ "--api": "gl" })],
+];
+
+async function question(page, [panel, option, value, line]) {
+    await put(page, `[data-asks=${panel}] [data-option=${option}]`, value);
+    await settled(page);
+    const [said] = await native([line]), { text, above } = await seen(page, panel, 0);
+    demand(said.status < 2 && text === said.out, `${option} at ${value}: ${line.join(" ")}\n${text}${said.out}${said.err}`);
+    if (panel === "solve") demand(above === sentence(said.out), `${option} at ${value}: above stands ${above}\nnot ${sentence(said.out)}`);
+}
+
+export async function controls() {
+    await test("each control of both set-ups: table, sentence and letter are those of the command", async () => {
+        for (const which of [0, 1])
+            for (const control of CONTROLS) {
+                const page = await open();
+                await updated(page, () => page.locator("#add-b").click());
+                await setUp(page, which, control);
+                await close(page);
+            }
+        return `${2 * CONTROLS.length} controls`;
+    });
+    await test("each field of a question: the answer and what stands above it are those of the command", async () => {
+        for (const one of QUESTIONS) {
+            const page = await open();
+            await question(page, one);
+            await close(page);
+        }
+        return `${QUESTIONS.length} fields`;
+    });
+}
