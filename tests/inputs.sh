@@ -51,15 +51,12 @@ depth.png | texture depth.png -n 0.1 -f 10 -F unorm16 -m d3d --histogram @
 depth.png | texture depth.png -n 0.1 -f 10 -F unorm16 -m d3d --eye -o new.npy --error-map=@
 eyes.txt | scene house.gltf --path eyes.txt -o @
 eyes.txt | scene house.gltf --path eyes.txt --emit-need @
-eyes.txt | scene house.gltf --path eyes.txt --annotate @
 house.gltf | scene house.gltf -o @
 house.gltf | scene house.gltf --emit-need @
-house.gltf | scene house.gltf --annotate @
 house.gltf | scene house.gltf --report json -o @
 house.gltf | plot scene-fights house.gltf --type svg -o @
 house.gltf | plot scene-fights - --type svg -o @ <house.gltf
 folder/house.bin | scene folder/house.gltf -o @
-folder/house.bin | scene folder/house.gltf --annotate @
 folder/house.bin | plot scene-fights folder/house.gltf --type svg -o @
 street.obj | scene street.obj --emit-need @
 folder/a.mtl | scene folder/a.obj -o @

@@ -477,7 +477,6 @@ static void test_texts(void **state) {
                  {"probe", OPTION_DEVICE, AT(device), true},
                  {"scene m.obj", OPTION_PATH, AT(path), true},
                  {"scene m.obj", OPTION_CAMERA, AT(model_camera), false},
-                 {"scene m.obj", OPTION_ANNOTATE, AT(annotate), true},
                  {"scene m.obj", OPTION_EMIT_NEED, AT(emit_need), true}};
     tally t = {.name = "texts"};
     (void)state;

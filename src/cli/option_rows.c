@@ -369,8 +369,6 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_RENDER] = {"render", 0, "FILE", VERB_SCENE,
         "draw what the camera sees, as --raster draws it, with the pixels in red that show the wrong surface: PNG",
         FILE_WRITTEN(render)},
-    [OPTION_ANNOTATE] = {"annotate", 0, "FILE", VERB_SCENE,
-        "write the model as .glb, with the triangles that fight in materials of their own", FILE_WRITTEN(annotate)},
     [OPTION_EMIT_NEED] = {"emit-need", 0, "FILE", VERB_SCENE,
         "write what the camera must tell apart up to --within as a requirement file of check", FILE_WRITTEN(emit_need)},
     [OPTION_DEVICE] = {"device", 0, "N|NAME|gl", VERB_PROBE,

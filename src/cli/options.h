@@ -99,7 +99,6 @@ typedef enum option_id {
     OPTION_CAMERA,
     OPTION_TRANSFORMS,
     OPTION_RENDER,
-    OPTION_ANNOTATE,
     OPTION_EMIT_NEED,
     OPTION_DEVICE,
     OPTION_KEEP,
@@ -239,7 +238,6 @@ typedef struct options {
     unsigned transforms;      /**< of a model's nodes: a model_transforms */
     unsigned filters_off;     /**< of a model's pairs: 1 << finder_filter, or-ed */
     const char *render;       /**< file of a picture; null when not given */
-    const char *annotate;     /**< file of a model; null when not given */
     const char *emit_need;    /**< file of requirements; null when not given */
     uint64_t sample;          /**< pairs to draw; 0 when not given */
     uint64_t seed;

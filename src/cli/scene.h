@@ -135,7 +135,4 @@ int scene_render_check(scene *s);
 /** Draws the model into the file of --render, and counts. @return EXIT_FINE, also where it was interrupted */
 int scene_render(scene *s);
 
-/** Writes the model into the file of --annotate. @return EXIT_FINE, or an exit status after one line */
-int scene_annotate(scene *s);
-
 #endif
