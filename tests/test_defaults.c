@@ -91,7 +91,7 @@ static const struct {
     {VERB_TABLE, IDS(OPTION_AT), "0.1,1,10,100,1000", NULL, ""},
     {VERB_TABLE, IDS(OPTION_AT), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
     {VERB_BUDGET | VERB_BIAS, IDS(OPTION_AT), "0.1:1000:log:9", NULL, ""},
-    {VERB_TEXTURE, IDS(OPTION_AT), "0.1:1000:log:9", "texture --effect fog -F d16 -m d3d", ""},
+    {VERB_TEXTURE, IDS(OPTION_AT), "0.1:1000:log:9", "texture --product effect:fog -F d16 -m d3d", ""},
     {VERB_DISOCCLUSION, IDS(OPTION_AT), "10", NULL, "-n 0.1 -f 1000"},
     {VERB_WORLD, IDS(OPTION_AT), "10", NULL, ""},
     {VERB_WORLD, IDS(OPTION_AT), "10m", NULL, "--unit cm"},
@@ -110,7 +110,7 @@ static const struct {
     {VERB_BENCH, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
     {VERB_BENCH, IDS(OPTION_MAPPING), "d3d", NULL, ""},
     {VERB_TEXTURE, IDS(OPTION_FORMAT), "unorm24", NULL, "--pixel 9,9 --csv"},
-    {VERB_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --effect fog", ""},
+    {VERB_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --product effect:fog", ""},
     {VERB_TEXTURE, IDS(OPTION_MAPPING), "d3d", NULL, "--pixel 9,9 --csv"},
     {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
     {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
@@ -133,6 +133,7 @@ static const struct {
     {VERB_TABLE | VERB_BIAS | VERB_SHADOW, IDS(OPTION_RANGE), NULL, NULL, ""}, /* given, more is said of it */
     {VERB_TABLE | VERB_BUDGET | VERB_BIAS | VERB_SOLVE, IDS(OPTION_VIEWPORT), NULL, NULL, ""},
     {VERB_ZFIGHT, IDS(OPTION_PLANE), NULL, NULL, ""},
+    {VERB_TEXTURE, IDS(OPTION_NORMALS_BY), NULL, NULL, ""},
 };
 
 static bool among(const option_id *ids, option_id id) {

@@ -332,12 +332,19 @@ static void test_rows(void **state) {
         {"table", OPTION_RASTER, AT(raster), "LLVMpipe", "llvmpipe", offsetof(raster_row, name), "lavapip", "lavapipe"},
         {"budget", OPTION_RASTER, AT(raster), "spec-gl", "spec-gl", offsetof(raster_row, name), "spec-d3", "spec-d3d"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
-        {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
-        {"texture", OPTION_POSITION, AT(position), "exact", NULL, 0, "exakt", "exact"},
-        {"texture", OPTION_NORMAL, AT(normal), "high-1", "high-1", offsetof(normal_row, name), "meduim", "medium"},
+        {"texture", OPTION_PRODUCT, AT(product), "Linear01", "linear01", offsetof(product_row, name), "radail",
+         "radial"},
+        {"texture", OPTION_PRODUCT, AT(position), "position:rays", "rays", offsetof(position_row, name),
+         "position:matirx", "matrix"},
+        {"texture", OPTION_PRODUCT, AT(position), "position:exact", NULL, 0, "position:exakt", "exact"},
+        {"texture", OPTION_PRODUCT, AT(position), "position", NULL, 0, "positoin", "position"},
+        {"texture", OPTION_PRODUCT, AT(normal), "normal:high-1", "high-1", offsetof(normal_row, name), "normal:meduim",
+         "medium"},
+        {"texture", OPTION_PRODUCT, AT(normal), "normal", "projective", offsetof(normal_row, name), "norml", "normal"},
+        {"texture", OPTION_PRODUCT, AT(effect), "effect:Fog", "fog", offsetof(effect_row, name), "effect:edeg", "edge"},
+        {"texture", OPTION_NORMALS_BY, AT(normals_by), "low", "low", offsetof(normal_row, name), "hihg", "high"},
         {"texture", OPTION_PACKING, AT(packing), "rgb24", "rgb24", offsetof(packing, name), "rgb42", "rgb24"},
         {"texture", OPTION_PACK, AT(pack), "RG", "rg", offsetof(packing, name), "depth-normal", "depth-normals"},
-        {"texture", OPTION_EFFECT, AT(effect), "fog", "fog", offsetof(effect_row, name), "edeg", "edge"},
     };
     tally t = {.name = "rows"};
     (void)state;
@@ -430,19 +437,10 @@ static void test_flags(void **state) {
         const char *command;
         option_id id;
         size_t field, size;
-    } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},
-                 {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
-                 {"zfight", OPTION_TRIANGLES, WORD_AT(drawn)},
-                 {"texture", OPTION_EYE, WORD_AT(eye)},
-                 {"texture", OPTION_RADIAL, WORD_AT(radial)},
-                 {"texture", OPTION_LINEAR01, WORD_AT(linear01)},
-                 {"texture", OPTION_RAW, WORD_AT(raw)},
-                 {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
-                 {"texture", OPTION_PACKED_NORMAL, WORD_AT(packed_normal)},
-                 {"list", OPTION_QUIET, WORD_AT(quiet)},
-                 {"table", OPTION_VERBOSE, WORD_AT(verbose)},
-                 {"list", OPTION_FULL, WORD_AT(full)},
-                 {"list", OPTION_VERSION, WORD_AT(version)}};
+    } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},      {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
+                 {"zfight", OPTION_TRIANGLES, WORD_AT(drawn)}, {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
+                 {"list", OPTION_QUIET, WORD_AT(quiet)},       {"table", OPTION_VERBOSE, WORD_AT(verbose)},
+                 {"list", OPTION_FULL, WORD_AT(full)},         {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];
     tally t = {.name = "flags"};
     (void)state;

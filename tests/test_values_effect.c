@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every value in the table of an effect, texture --effect without an image. */
+/* Every value in the table of an effect, texture --product effect:NAME without an image. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -174,8 +174,8 @@ static void test_effects(void **state) {
         v.unit = effects[i].camera.unit;
         assert_non_null(row);
         parameter_defaults(row->parameters, parameters);
-        size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --effect %s %s %s --at ", row->name,
-                                       effects[i].view != NULL ? effects[i].view : "",
+        size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --product effect:%s %s %s --at ",
+                                       row->name, effects[i].view != NULL ? effects[i].view : "",
                                        camera_options(&effects[i].camera, options));
         for (int k = 0; k < DEPTHS; k++)
             used += (size_t)snprintf(arguments + used, sizeof arguments - used, "%s%.17g", k > 0 ? "," : "",
@@ -246,7 +246,7 @@ static void test_pixels(void **state) {
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
         const char *name = shown[i].name;
         printed p = print_of("texture --scene plane --parameter distance=30 --parameter tilt=40 --size 64x36 --fov 50 "
-                             "-n 0.3 -f 900 -F unorm16 -m d3d --effect %s %s --pixel '20,3;20,17;20,30' --json",
+                             "-n 0.3 -f 900 -F unorm16 -m d3d --product effect:%s %s --pixel '20,3;20,17;20,30' --json",
                              name, shown[i].parameters);
         json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
         assert_string_equal(json_string_value(json_object_get(root, "effect")), name);
@@ -268,9 +268,9 @@ static void test_pixels(void **state) {
     }
     assert_true(inside >= 6);
     /* A silhouette: the corners of this pixel lie on either side of it. */
-    printed p =
-        print_of("texture --scene sphere --size 64x36 -F unorm16 -m d3d --effect edge --pixel '36,18;41,18;60,3' "
-                 "--json");
+    printed p = print_of(
+        "texture --scene sphere --size 64x36 -F unorm16 -m d3d --product effect:edge --pixel '36,18;41,18;60,3' "
+        "--json");
     json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
     int edges = 0;
     for (size_t k = 0; k < json_array_size(pixels); k++) {

@@ -29,11 +29,10 @@ static const name_list rasters = {.get = list_rasterizer};
 static const name_list filters_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_filter};
 static const name_list transforms = {.words = (const char *const[]){"exact", "binary32", NULL}};
 static const name_list scenes = {.get = list_scene};
-static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
+static const name_list products = {.get = list_product};
 static const name_list normals = {.get = list_normal};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
 static const name_list packings = {.get = list_packing};
-static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
 static const name_list targets = {.words = (const char *const[]){"near", "far", "format", "mapping", "separation",
                                                                  "distance", "frusta", "world", NULL}};
@@ -106,7 +105,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | MAPPED,
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
-        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --scene; all with --effect alone", NULL),
+        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --scene; all with an effect alone", NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_BIAS, "fp32,unorm16,unorm24", "the depth buffers", NULL),
                    BUT(VERB_SHADOW | VERB_SCENE | VERB_WORLD, "fp32", NULL, NULL),
@@ -114,7 +113,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | MAPPED,
         "mappings: @; all means d3d and reversed",
         parse_mappings, .names = &mappings, .standard = "all",
-        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --scene; all with --effect alone", NULL),
+        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --scene; all with an effect alone", NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL),
                    BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
@@ -403,7 +402,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH|N", VERB_TEXTURE | SHADOWED,
-        "the image's pixels: with --scene, with a raw FILE, and with --effect alone if that needs the position",
+        "the image's pixels: with --scene, with a raw FILE, and with an effect alone if that needs the position",
         parse_size,
         .standard = "640x360", .except = {BUT(SHADOWED, "2048x2048", NULL, "texels of each shadow map; N is NxN")},
         .instead = "; a figure's size is --width and --height"},
@@ -423,30 +422,19 @@ const option_row option_rows[OPTION_COUNT] = {
         "the channel of an EXR that is read", TEXT(channel), .without = "Z, R or depth, the first that is there"},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "describe single pixels: code, eye depth and its range, neighbours, position, normal; 0,0 is the "
-        "top left. With --effect alone: the pixel that sees the depths",
+        "top left. With an effect alone: the pixel that sees the depths",
         SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
-    [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
-        "product: eye depth", FLAG(eye)},
-    [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,
-        "with --eye: distance from the camera instead", FLAG(radial)},
-    [OPTION_LINEAR01] = {"linear01", 0, NULL, VERB_TEXTURE,
-        "product: eye depth over far, as Unity's Linear01Depth", FLAG(linear01)},
-    [OPTION_RAW] = {"raw", 0, NULL, VERB_TEXTURE,
-        "product: window depth, of sky too", FLAG(raw)},
-    [OPTION_POSITION] = {"position", 0, "METHOD", VERB_TEXTURE,
-        "product: world positions by @; exact is the truth", ROW(position, positions)},
-    [OPTION_NORMAL] = {"normal", 0, "METHOD", VERB_TEXTURE,
-        "product: normals by @; with --effect outline those that it compares", ROW(normal, normals)},
+    [OPTION_PRODUCT] = {"product", 0, "KIND[:METHOD]", VERB_TEXTURE,
+        "what is made of the depths: @; position:METHOD and normal:METHOD say how, effect:NAME which; see 'depthprec "
+        "list products'. An effect without an image: the usable values of its parameter",
+        .parse = parse_product, FIELD(const product_row *, product), .names = &products},
+    [OPTION_NORMALS_BY] = {"normals-by", 0, "METHOD", VERB_TEXTURE,
+        "the normals that effect:outline compares, and those of --pack depth-normals: @", ROW(normals_by, normals),
+        .without = "those that FILE holds or, for effect:outline, the scene has; else projective"},
     [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL, VERB_TEXTURE,
         "which way y runs in a PNG of normals: up, or down", WORD(normal_format, normal_formats), .standard = "opengl"},
-    [OPTION_PACKED_NORMAL] = {"packed-normal", 0, NULL, VERB_TEXTURE,
-        "product: the normals that --packing depth-normals holds beside the depth", FLAG(packed_normal)},
     [OPTION_PACK] = {"pack", 0, "NAME", VERB_TEXTURE,
-        "write the depths to -o FILE, a PNG or NPY of 8 bits, in several channels: @; with --normal the normals of "
-        "depth-normals are by that method, else projective", ROW(pack, packings)},
-    [OPTION_EFFECT] = {"effect", 0, "NAME", VERB_TEXTURE,
-        "product: an effect that reads depth: @; without an image, the usable values of its parameter",
-        ROW(effect, effects)},
+        "write the depths to -o FILE, a PNG or NPY of 8 bits, in several channels: @", ROW(pack, packings)},
     [OPTION_ERROR_MAP] = {"error-map", 0, NULL, VERB_TEXTURE,
         "write the error of the product instead; with =FILE, beside the product in the same pass",
         .parse = parse_error_map, SIZED(error_map), .optional = "FILE"},

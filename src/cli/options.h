@@ -20,6 +20,7 @@
 #include "api/unit.h"
 #include "cli/depths.h"
 #include "cli/errors.h"
+#include "cli/product.h"
 #include "cli/verbs.h"
 #include "depthprec/depthprec.h"
 #include "raster/raster.h"
@@ -119,16 +120,10 @@ typedef enum option_id {
     OPTION_PACKING,
     OPTION_CHANNEL,
     OPTION_PIXEL,
-    OPTION_EYE,
-    OPTION_RADIAL,
-    OPTION_LINEAR01,
-    OPTION_RAW,
-    OPTION_POSITION,
-    OPTION_NORMAL,
+    OPTION_PRODUCT,
+    OPTION_NORMALS_BY,
     OPTION_NORMAL_FORMAT,
-    OPTION_PACKED_NORMAL,
     OPTION_PACK,
-    OPTION_EFFECT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
     OPTION_OVERLAY,
@@ -269,16 +264,17 @@ typedef struct options {
     double sky;    /**< window depth */
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
     depths pixels; /**< column and row of each in turn; count is 0 when not given */
-    bool linear01, raw;
-    bool eye, radial, error_map, packed_normal; /**< error_map: in place of the product */
-    const char *error_file;                     /**< beside it; or null */
-    unsigned normal_format;                     /**< of a PNG: 0: y up, 1: y down */
-    const char *channel;                        /**< of FILE, by name; null: that which is depth */
-    const packing *packing;                     /**< of FILE */
-    const packing *pack;                        /**< of what is written */
-    const position_row *position;               /**< null for exact as well */
-    const normal_row *normal;
-    const effect_row *effect;
+    const product_row *product;
+    const position_row *position;   /**< of --product position; null for exact as well */
+    const normal_row *normal;       /**< of --product normal */
+    const effect_row *effect;       /**< of --product effect */
+    const normal_row *normals_by;   /**< of an effect, or of what is packed */
+    bool error_map;                 /**< in place of the product */
+    const char *error_file;         /**< beside it; or null */
+    unsigned normal_format;         /**< of a PNG: 0: y up, 1: y down */
+    const char *channel;            /**< of FILE, by name; null: that which is depth */
+    const packing *packing;         /**< of FILE */
+    const packing *pack;            /**< of what is written */
     const char *figure, *histogram; /**< files */
     double overlay;                 /**< errors above it are shown, scene units; 0 when not given */
 

@@ -13,12 +13,12 @@ static bool needs_last_frame(const effect_row *row) {
     return row != NULL && (row->needs & EFFECT_LAST_FRAME) != 0;
 }
 
-/* "--effect motion-blur": those that look back. */
+/* "--product effect:motion-blur": those that look back. */
 static const char *names_of_those(char out[NAMES_SIZE]) {
     out[0] = '\0';
     for (size_t i = 0; effect_get(i) != NULL; i++)
         if (needs_last_frame(effect_get(i)))
-            append(out, NAMES_SIZE, "%s%s", out[0] == '\0' ? "--effect " : " or ", effect_get(i)->name);
+            append(out, NAMES_SIZE, "%s%s", out[0] == '\0' ? "--product effect:" : " or effect:", effect_get(i)->name);
     return out;
 }
 
@@ -40,8 +40,8 @@ int texture_camera_check(const options *o) {
     if (o->ortho && option_given(o, OPTION_LAST_FOV))
         return option_error(OPTION_LAST_FOV, "does not apply with --ortho");
     if (looks_back && !any)
-        return option_error(OPTION_EFFECT,
-                            "%s needs last frame's camera: --last-origin, --last-yaw, --last-pitch or "
+        return option_error(OPTION_PRODUCT,
+                            "effect:%s needs last frame's camera: --last-origin, --last-yaw, --last-pitch or "
                             "--last-fov",
                             o->effect->name);
     return EXIT_FINE;

@@ -43,7 +43,7 @@ const verb verb_rows[] = {
      "  depthprec texture depth.png -n 0.3 -f 1000\n"
      "  capture | depthprec texture - -n 0.3 -f 1000\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
-     "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
+     "  depthprec texture depth.png -f 1000 --product normal:high -o normals.npy\n"
      "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
     {"bench", VERB_BENCH, "FAMILY", 1, 1, &families,
      "methods of a family: time against worst error",
