@@ -86,7 +86,7 @@ each normals texture -o product.pfm $scene sphere --product normal:
 each normals texture -o product.npy $scene sphere --error-map --product normal:
 each effects texture -o product.png $scene steps --product effect:
 each effects texture -o product.png $scene steps --parameter reference=10 --product effect:
-texture -o product.png $scene steps --product effect:motion-blur --last-origin 1,0.5,-1 --last-yaw 3
+texture -o product.png $scene steps --product effect:motion-blur --last-eye 1,0.5,-1 --last-look 2,0.5,18
 texture -o depth.png -F unorm16 $scene decals
 texture depth.png --product normal:projective -o product.npy --error-map=product.pfm
 texture depth.png --product linear01 -o product.npy --error-map=product.pfm

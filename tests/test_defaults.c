@@ -118,7 +118,7 @@ static const struct {
     {VERB_BUDGET, IDS(OPTION_SCHEME), "world", NULL, "--world 100"},
     {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
     {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot shadow --csv", ""},
-    {VERB_SCENE, IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --from 0,2,30 --look 0,2,0", ""},
+    {VERB_SCENE, IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --eye 0,2,30 --look 0,2,0", ""},
     {VERB_ZFIGHT, IDS(OPTION_VIEWPORT), "1920x1080", "zfight -F fp32 -m d3d --triangles --sample 20", ""},
     {ALL & ~(unsigned)VERB_SOLVE, IDS(OPTION_UNIT), "m", NULL, "-n 10cm"},
     {VERB_SOLVE, IDS(OPTION_UNIT), "m", "solve --for far -n 10cm -F d24 -m d3d --separation 0.01 --at 50", ""},
@@ -126,8 +126,8 @@ static const struct {
     /* what no value means */
     {ALL, IDS(OPTION_ORTHO, OPTION_SHARE, OPTION_HFOV, OPTION_MATRIX, OPTION_LIGHT_BOX, OPTION_CURVATURE), NULL, NULL,
      ""},
-    {ALL, IDS(OPTION_WIDTH, OPTION_HEIGHT, OPTION_RASTER, OPTION_CHANNEL, OPTION_DEVICE, OPTION_FROM), NULL, NULL, ""},
-    {ALL, IDS(OPTION_LAST_FOV, OPTION_LAST_ORIGIN, OPTION_LAST_PITCH, OPTION_LAST_YAW, OPTION_SAMPLE), NULL, NULL, ""},
+    {ALL, IDS(OPTION_WIDTH, OPTION_HEIGHT, OPTION_RASTER, OPTION_CHANNEL, OPTION_DEVICE), NULL, NULL, ""},
+    {ALL, IDS(OPTION_EYE, OPTION_LOOK, OPTION_LAST_EYE, OPTION_LAST_LOOK, OPTION_SAMPLE), NULL, NULL, ""},
     {ALL, IDS(OPTION_TOLERANCE, OPTION_WITHIN, OPTION_UNITS, OPTION_DISTANCE), NULL, NULL, ""},
     {VERB_ZFIGHT | VERB_BIAS | VERB_PLOT | VERB_SCENE, IDS(OPTION_GAP), NULL, NULL, ""},
     {VERB_TABLE | VERB_BIAS | VERB_SHADOW, IDS(OPTION_RANGE), NULL, NULL, ""}, /* given, more is said of it */

@@ -115,7 +115,7 @@ static const picture_case cases[] = {
      false,
      false,
      1},
-    {"--scene sphere --product position:matrix --yaw 20 --origin 3,1,-2",
+    {"--scene sphere --product position:matrix --eye 3,1,-2 --look 16836.119889,1,46246.616794",
      "Positions by matrix",
      "scene sphere, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "coordinate (scene units)",

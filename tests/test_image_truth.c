@@ -424,7 +424,7 @@ static double one_effect(tally *t, rng *r, const file_kind *k) {
         return 0;
     const double at = z[rng_below(r, PIXELS)];
     if (effects[e].of == motion_blur) {
-        truth_add(&base, "--last-origin");
+        truth_add(&base, "--last-eye");
         truth_add(&base, "0.1,0,0");
     }
     compared = base;

@@ -84,16 +84,6 @@ static const struct {
     {"shadow", OPTION_FACET, AT(facet), 0, 0, 1e18, "0", "1e18", "-1", "2e18", "a number from 0 to 1e18 scene units"},
     {"shadow", OPTION_CASTERS, AT(casters), 100, 0, 1e12, "0", "1e12", "-1", "2e12",
      "a number from 0 to 1e12 scene units"},
-    {"texture", OPTION_YAW, AT(camera.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
-     "a number from -360 to 360 degrees"},
-    {"texture", OPTION_PITCH, AT(camera.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
-     "a number from -90 to 90 degrees"},
-    {"texture", OPTION_LAST_FOV, AT(last.fov_y), 0, 0.01, 179, "0.01", "179", "0", "180",
-     "a number from 0.01 to 179 degrees"},
-    {"texture", OPTION_LAST_YAW, AT(last.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
-     "a number from -360 to 360 degrees"},
-    {"texture", OPTION_LAST_PITCH, AT(last.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
-     "a number from -90 to 90 degrees"},
     {"texture", OPTION_SKY, AT(sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5"},
     {"texture", OPTION_METRIC, AT(metric), 0, 1e-9, 1e6, "1e-9", "1e6", "0", "1e7",
      "a number from 1e-9 to 1e6 scene units"},
@@ -541,6 +531,24 @@ static void test_worlds(void **state) {
     assert_true(o.shared_origin && o.scheme_count == WORLD_ROWS && o.triangles.width == 1920);
 }
 
+/* Where a camera stands and what it looks at, in a model and in a world. */
+static void test_places(void **state) {
+    char line[1024] = "";
+    options o;
+    (void)state;
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_EYE, "1,-2,3e4", line), EXIT_FINE);
+    assert_true(o.eye[0] == 1 && o.eye[1] == -2 && o.eye[2] == 3e4 && o.look[0] == 0 && o.triangles.width == 1920);
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_LOOK, "-5m,60cm,7m", line), EXIT_FINE);
+    assert_true(o.look[0] == -5 && o.look[1] == 0.6 && o.look[2] == 7 && o.eye[0] == 0 && o.triangles.width == 0);
+    assert_int_equal(parse(&o, "texture", OPTION_EYE, "1,-2,3e4", line), EXIT_FINE);
+    assert_true(o.eye[0] == 1 && o.eye[1] == -2 && o.eye[2] == 3e4 && o.triangles.width == 0);
+    assert_true(o.camera.width == 640 && o.camera.height == 360);
+    assert_int_equal(parse(&o, "texture", OPTION_LAST_EYE, "5,6,-7", line), EXIT_FINE);
+    assert_true(o.last_eye[0] == 5 && o.last_eye[2] == -7 && o.eye[0] == 0 && o.last_look[0] == 0);
+    assert_int_equal(parse(&o, "texture", OPTION_LAST_LOOK, "5,6,-7", line), EXIT_FINE);
+    assert_true(o.last_look[0] == 5 && o.last_look[2] == -7 && o.look[0] == 0 && o.last_eye[0] == 0);
+}
+
 static void test_own(void **state) {
     char line[1024] = "";
     options o;
@@ -561,10 +569,6 @@ static void test_own(void **state) {
     assert_int_equal(o.filters_off, 1U << FINDER_THIN | 1U << FINDER_FACING);
     assert_int_equal(parse(&o, "scene m.obj", OPTION_ALSO, "all", line), EXIT_FINE);
     assert_int_equal(o.filters_off, (1U << FINDER_FILTERS) - 1);
-    assert_int_equal(parse(&o, "scene m.obj", OPTION_FROM, "1,-2,3e4", line), EXIT_FINE);
-    assert_true(o.from[0] == 1 && o.from[1] == -2 && o.from[2] == 3e4 && o.look[0] == 0 && o.triangles.width == 1920);
-    assert_int_equal(parse(&o, "scene m.obj", OPTION_LOOK, "-5m,60cm,7m", line), EXIT_FINE);
-    assert_true(o.look[0] == -5 && o.look[1] == 0.6 && o.look[2] == 7 && o.from[0] == 0 && o.triangles.width == 0);
     assert_int_equal(parse(&o, "scene m.obj", OPTION_GAP, "0", line), EXIT_FINE);
     assert_true(o.gap == 0.0 && option_given(&o, OPTION_GAP));
     assert_int_equal(parse(&o, "zfight", OPTION_GAP, "0", line), EXIT_USAGE);
@@ -575,13 +579,8 @@ static void test_own(void **state) {
     options_release(&o);
     assert_int_equal(parse(&o, "table", OPTION_RANGE, "2:5", line), EXIT_FINE);
     assert_true(o.range_lo == 2 && o.range_hi == 5);
-    assert_int_equal(parse(&o, "texture", OPTION_ORIGIN, "1,-2,3e4", line), EXIT_FINE);
-    assert_true(o.camera.origin[0] == 1 && o.camera.origin[1] == -2 && o.camera.origin[2] == 3e4);
-    assert_true(o.camera.width == 640 && o.camera.height == 360);
-    assert_int_equal(parse(&o, "texture", OPTION_LAST_ORIGIN, "5,6,-7", line), EXIT_FINE);
-    assert_true(o.last.origin[0] == 5 && o.last.origin[1] == 6 && o.last.origin[2] == -7 && o.camera.origin[0] == 0);
     assert_int_equal(parse(&o, "texture", OPTION_SIZE, "65536x1", line), EXIT_FINE);
-    assert_true(o.camera.width == 65536 && o.camera.height == 1 && o.camera.origin[0] == 0);
+    assert_true(o.camera.width == 65536 && o.camera.height == 1 && o.eye[0] == 0);
     assert_int_equal(parse(&o, "shadow", OPTION_SIZE, "1024", line), EXIT_FINE);
     assert_true(o.camera.width == 1024 && o.camera.height == 1024 && o.light_box[0] == 0);
     assert_int_equal(parse(&o, "shadow", OPTION_SIZE, "512x256", line), EXIT_FINE);
@@ -700,8 +699,8 @@ int main(void) {
 
         cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),
         cmocka_unit_test(test_flags),   cmocka_unit_test(test_texts),   cmocka_unit_test(test_optional),
-        cmocka_unit_test(test_own),     cmocka_unit_test(test_worlds),  cmocka_unit_test(test_boxes),
-        cmocka_unit_test(test_slanted), cmocka_unit_test(test_formats), cmocka_unit_test(test_lists),
-        cmocka_unit_test(test_all)};
+        cmocka_unit_test(test_places),  cmocka_unit_test(test_own),     cmocka_unit_test(test_worlds),
+        cmocka_unit_test(test_boxes),   cmocka_unit_test(test_slanted), cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
     return run_tap(tests);
 }

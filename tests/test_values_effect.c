@@ -33,10 +33,10 @@ static const struct {
     {.effect = "scan-line", .camera = PERSPECTIVE("gl", "unorm16"), .z = AHEAD},
     {.effect = "edge", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
     {.effect = "height-fog", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
-     .view = "--fov 40 --pitch -3 --yaw 20 --origin 7,9,-2", .column = 320, .row = 359,
+     .view = "--fov 40 --eye 7,9,-2 --look 38.337342473601,4.1981760147099,84.098640831935", .column = 320, .row = 359,
      .now = {640, 360, 40, 5, 20, -3, {7, 9, -2}, NULL}},
     {.effect = "water-line", .camera = {0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 1}, .z = AHEAD,
-     .view = "--half-height 3 --pitch 8 --size 90x60 --pixel 70,12", .column = 70, .row = 12,
+     .view = "--half-height 3 --look 0,857.027955712,6098.07076731 --size 90x60 --pixel 70,12", .column = 70, .row = 12,
      .now = {90, 60, 60, 3, 0, 8, {0, 0, 0}, NULL}},
     {.effect = "ambient-occlusion", .camera = PERSPECTIVE("linear", "unorm16"), .z = AHEAD},
     {.effect = "shadow", .camera = PERSPECTIVE("d3d", "unorm16", "fp32"), .z = AHEAD},
@@ -47,13 +47,16 @@ static const struct {
      /* 2 atan(9/16) */
      .view = "--hfov 90 --pixel 0,0", .now = {640, 360, 58.71550708558254, 5, 0, 0, {0, 0, 0}, NULL}},
     {.effect = "decal", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
-     .view = "--yaw 30", .column = 320, .row = 359, .now = {640, 360, 60, 5, 30, 0, {0, 0, 0}, NULL}},
+     .view = "--look 1,0,1.7320508075688772", .column = 320, .row = 359,
+     .now = {640, 360, 60, 5, 30.000000000000004, 0, {0, 0, 0}, NULL}},
     {.effect = "motion-blur", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
-     .view = "--yaw 10 --last-origin 0.1,0.05,0 --last-yaw 9 --last-pitch 1 --last-fov 59", .column = 320, .row = 359,
-     .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}, NULL}, .last = {640, 360, 59, 5, 9, 1, {0.1, 0.05, 0}, NULL}},
+     .view = "--look 677.141068812,0,3840.25783287 --last-eye 0.1,0.05,0 "
+             "--last-look 5529.568023671,617.0318354725,34911.6871098", .column = 320, .row = 359,
+     .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}, NULL}, .last = {640, 360, 60, 5, 9, 1, {0.1, 0.05, 0}, NULL}},
     {.effect = "intersection", .camera = BEHIND("d3d", "unorm16", "fp32"), .z = AROUND},
     {.effect = "height-fog", .camera = BEHIND("reversed", "unorm16"), .z = AROUND,
-     .view = "--pitch -20", .column = 320, .row = 359, .now = {640, 360, 60, 5, 0, -20, {0, 0, 0}, NULL}},
+     .view = "--look 0,-16833.119889,46248.616794", .column = 320, .row = 359,
+     .now = {640, 360, 60, 5, 0, -20, {0, 0, 0}, NULL}},
 };
 /* clang-format on */
 
@@ -229,7 +232,7 @@ static void test_pixels(void **state) {
     static const struct {
         const char *name, *parameters;
     } shown[] = {{"intersection", "--parameter half-width=4 --parameter reference=29"},
-                 {"height-fog", "--parameter density=0.5 --parameter start=9 --parameter end=-50 --origin 5,2,-3"},
+                 {"height-fog", "--parameter density=0.5 --parameter start=9 --parameter end=-50 --eye 5,2,-3"},
                  {"fog", "--parameter density=3"}};
     static const uint32_t rows[] = {3, 17, 30};
     int inside = 0;

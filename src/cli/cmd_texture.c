@@ -43,8 +43,8 @@ static int check_table(const options *o) {
         OPTION_SKY,        OPTION_METRIC,  OPTION_ERROR_MAP, OPTION_FIGURE,  OPTION_THEME,     OPTION_WIDTH,
         OPTION_HEIGHT,     OPTION_TITLE,   OPTION_THREADS,   OPTION_TYPE,    OPTION_PACKING,   OPTION_NORMAL_FORMAT,
         OPTION_NORMALS_BY, OPTION_CHANNEL, OPTION_PACK,      OPTION_OVERLAY, OPTION_HISTOGRAM, OPTION_MATRIX};
-    static const option_id cameras[] = {OPTION_FOV,   OPTION_HFOV,   OPTION_HALF_HEIGHT, OPTION_YAW,
-                                        OPTION_PITCH, OPTION_ORIGIN, OPTION_SIZE,        OPTION_PIXEL};
+    static const option_id cameras[] = {OPTION_FOV,  OPTION_HFOV, OPTION_HALF_HEIGHT, OPTION_EYE,
+                                        OPTION_LOOK, OPTION_SIZE, OPTION_PIXEL};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
         if (option_given(o, images[i]))
             return option_error(images[i], "does not apply to an effect alone, only with FILE or --scene");

@@ -64,6 +64,10 @@ typedef enum option_id {
     OPTION_SHARE,
     OPTION_LINEARIZE,
     OPTION_LOG2,
+    OPTION_EYE,
+    OPTION_LOOK,
+    OPTION_PATH,
+    OPTION_CAMERA,
     OPTION_FOV,
     OPTION_HFOV,
     OPTION_VIEWPORT,
@@ -94,10 +98,6 @@ typedef enum option_id {
     OPTION_VERTICES,
     OPTION_WITHIN,
     OPTION_ALSO,
-    OPTION_FROM,
-    OPTION_LOOK,
-    OPTION_PATH,
-    OPTION_CAMERA,
     OPTION_TRANSFORMS,
     OPTION_RENDER,
     OPTION_EMIT_NEED,
@@ -105,13 +105,8 @@ typedef enum option_id {
     OPTION_KEEP,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
-    OPTION_YAW,
-    OPTION_PITCH,
-    OPTION_ORIGIN,
-    OPTION_LAST_FOV,
-    OPTION_LAST_YAW,
-    OPTION_LAST_PITCH,
-    OPTION_LAST_ORIGIN,
+    OPTION_LAST_EYE,
+    OPTION_LAST_LOOK,
     OPTION_SCENE,
     OPTION_SIZE,
     OPTION_PARAMETER,
@@ -227,7 +222,7 @@ typedef struct options {
 
     double gap;               /**< scene units; 0 when not given */
     double within;            /**< eye depth; 0 when not given */
-    double from[3], look[3];  /**< places in a model: of an eye, and what it looks at */
+    double eye[3], look[3];   /**< places: of an eye, and what it looks at */
     const char *path;         /**< file of such places; or null */
     const char *model_camera; /**< a camera of the model, by name; or null */
     unsigned transforms;      /**< of a model's nodes: a model_transforms */
@@ -255,10 +250,10 @@ typedef struct options {
     double curvature;    /**< radius of curvature of receivers, scene units; read where it is given */
     double facet;        /**< of the circles about their triangles, scene units */
 
-    camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
-    const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
-    camera_spec last;       /**< --last-fov, --last-yaw, --last-pitch, --last-origin: what was given of them */
-    const scene_row *scene; /**< null when not given, as all rows and names here */
+    camera_spec camera; /**< --size, --fov, --half-height; see texture_camera_place() */
+    const char *matrix; /**< file of a projection matrix, which then says the planes and the field of view */
+    double last_eye[3], last_look[3]; /**< of last frame's camera */
+    const scene_row *scene;           /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
     double sky;    /**< window depth */

@@ -93,7 +93,7 @@ void scene_end(scene *s);
 /** How many of the findings can fight up to `within`, from an eye where it sees them; they come first. */
 size_t scene_fighting(const scene *s);
 
-/** Whether --from, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
+/** Whether --eye, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
 int scene_eyes_check(const options *o);
 
 /**

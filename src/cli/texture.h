@@ -96,7 +96,10 @@ int texture_parameter_set(const char *whose, const texture_parameter *list, cons
 /** Options of cameras that have no meaning beside others. @return an exit status, after one line on stderr */
 int texture_camera_check(const options *o);
 
-/** Last frame's camera: as `now`, but for what --last-fov and the like say. @return as texture_camera_check() */
+/** Puts it at --eye, and turns it to --look. @return as texture_camera_check() */
+int texture_camera_place(const options *o, camera_spec *spec);
+
+/** Last frame's camera: as `now`, but for what --last-eye and --last-look say. @return as texture_camera_check() */
 int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
 
 /** Reads the file of --matrix into s->matrix, and what it says of planes and mapping into `with`, whose format is

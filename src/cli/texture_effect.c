@@ -78,7 +78,9 @@ static int choose_pixel(table *t, const options *o) {
     t->spec = o->camera;
     t->column = t->spec.width / 2;
     t->line = t->spec.height - 1;
-    const int status = view_vertical(o, (int)t->spec.width, (int)t->spec.height, &t->spec.fov_y);
+    int status = view_vertical(o, (int)t->spec.width, (int)t->spec.height, &t->spec.fov_y);
+    if (status == EXIT_FINE)
+        status = texture_camera_place(o, &t->spec);
     if (status != EXIT_FINE || !option_given(o, OPTION_PIXEL))
         return status;
     if (o->pixels.count != 2)

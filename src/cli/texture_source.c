@@ -309,6 +309,8 @@ static int make_camera(const options *o, texture_source *s) {
     }
     if (status == EXIT_FINE)
         status = view_vertical(o, (int)spec.width, (int)spec.height, &spec.fov_y);
+    if (status == EXIT_FINE)
+        status = texture_camera_place(o, &spec);
     if (status != EXIT_FINE)
         return status;
     s->fov_y = spec.fov_y;

@@ -81,7 +81,7 @@ const verb verb_rows[] = {
      "a model: which surfaces fight, from where on",
      "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
-     "  depthprec scene house.glb --from 0,2,30 --look 0,2,0 --render seen.png\n"
+     "  depthprec scene house.glb --eye 0,2,30 --look 0,2,0 --render seen.png\n"
      "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1},
     {"disocclusion", VERB_DISOCCLUSION, "", 0, 0, NULL,
      "how far apart two samples are surely of two surfaces",
