@@ -33,12 +33,12 @@ typedef struct way {
 } way;
 
 static const way ways[] = {
-    {"eye depth", "--eye -o out.npy", 1, AIM_COUNT},
-    {"  and its error", "--eye -o out.npy --error-map=error.npy", 2, AIM_EYE_MAP},
-    {"places", "--position view -o out.npy", 3, AIM_COUNT},
-    {"  and their errors", "--position view -o out.npy --error-map=error.npy", 4, AIM_PLACES_MAP},
-    {"normals", "--normal projective -o out.npy", 3, AIM_COUNT},
-    {"  and their errors", "--normal projective -o out.npy --error-map=error.npy", 4, AIM_NORMALS_MAP},
+    {"eye depth", "--product eye -o out.npy", 1, AIM_COUNT},
+    {"  and its error", "--product eye -o out.npy --error-map=error.npy", 2, AIM_EYE_MAP},
+    {"places", "--product position:view -o out.npy", 3, AIM_COUNT},
+    {"  and their errors", "--product position:view -o out.npy --error-map=error.npy", 4, AIM_PLACES_MAP},
+    {"normals", "--product normal:projective -o out.npy", 3, AIM_COUNT},
+    {"  and their errors", "--product normal:projective -o out.npy --error-map=error.npy", 4, AIM_NORMALS_MAP},
     {"statistics", "-o out.txt", 0, AIM_STATISTICS},
     {"a figure of 3840 px", "--figure out.png --width 3840", 0, AIM_FIGURE},
 };

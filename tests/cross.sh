@@ -57,7 +57,7 @@ make --no-print-directory --output-sync=target -j"${JOBS:-$(nproc)}" all || exit
 
 # ---- The same bytes ----------------------------------------------------------------------------------------------
 
-# One command a line. With `each KIND` before it, it is run for each name that `depthprec list KIND` has.
+# One command a line. With `each KIND` before it, it is run with each name that `depthprec list KIND` has.
 every='-m d3d,gl,reversed,gl-reversed'
 scene='--size 96x54 --scene'
 commands="
@@ -80,18 +80,18 @@ bias --range 1:10 --gap 0.01 --csv
 check village.need --csv
 each scenes texture -F unorm16 -m d3d --json $scene
 each scenes texture -F fp32 -m reversed --json $scene
-each positions texture -o product.npy $scene sphere --position
-each positions texture -o product.pfm $scene steps --error-map --position
-each normals texture -o product.pfm $scene sphere --normal
-each normals texture -o product.npy $scene sphere --error-map --normal
-each effects texture -o product.png $scene steps --effect
-each effects texture -o product.png $scene steps --parameter reference=10 --effect
-texture -o product.png $scene steps --effect motion-blur --last-origin 1,0.5,-1 --last-yaw 3
+each positions texture -o product.npy $scene sphere --product position:
+each positions texture -o product.pfm $scene steps --error-map --product position:
+each normals texture -o product.pfm $scene sphere --product normal:
+each normals texture -o product.npy $scene sphere --error-map --product normal:
+each effects texture -o product.png $scene steps --product effect:
+each effects texture -o product.png $scene steps --parameter reference=10 --product effect:
+texture -o product.png $scene steps --product effect:motion-blur --last-eye 1,0.5,-1 --last-look 2,0.5,18
 texture -o depth.png -F unorm16 $scene decals
-texture depth.png --normal projective -o product.npy --error-map=product.pfm
-texture depth.png --linear01 -o product.npy --error-map=product.pfm
-texture depth.png --raw -o product.npy --error-map=product.pfm
-texture depth.png --eye -o eye.npy
+texture depth.png --product normal:projective -o product.npy --error-map=product.pfm
+texture depth.png --product linear01 -o product.npy --error-map=product.pfm
+texture depth.png --product raw -o product.npy --error-map=product.pfm
+texture depth.png --product eye -o eye.npy
 texture depth.png --json
 texture eye.npy --metric 1 --json
 "
@@ -111,8 +111,9 @@ everything() { # everything FOLDER PROGRAM...: what the commands print and write
         esac
         for name in ${names:-''}; do
             [ "$name" != "''" ] || name=
-            echo "$arguments $name"
-            "$@" $arguments $name </dev/null || echo "exit status $?"
+            case $arguments in *:) line=$arguments$name ;; *) line="$arguments $name" ;; esac
+            echo "$line"
+            "$@" $line </dev/null || echo "exit status $?"
             cksum depth.* eye.* product.* 2>/dev/null
             rm -f product.*
         done

@@ -33,12 +33,12 @@ all_named plot interval
 all_named plot map -F unorm24
 all_named plot budget -F unorm24
 all_named plot scene tests/needs/village.need
-for what in formats mappings presets platforms apis rasterizers programs upscalers schemes encodings packings effects scenes positions normals figures; do all_named list $what; done
+for what in formats mappings presets platforms apis rasterizers programs upscalers schemes encodings packings products effects scenes positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --triangles --sample 10
 all_named prepass --against fma --sample 100
-all_named scene tests/models/street.obj --gap 0.02 --from 0,2,10 --look 0,0,0
+all_named scene tests/models/street.obj --gap 0.02 --eye 0,2,10 --look 0,0,0
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --viewport 640x480
 all_named scene tests/models/street.obj --gap 0.02 --viewport 640x480
 all_named budget --at 10
@@ -86,15 +86,15 @@ all_named methods worst --tolerance 0.1
 all_named methods
 all_named texture --scene decals --size 64x36
 all_named texture --scene decals --size 64x36 --pixel 1,2
-all_named texture --effect intersection --at 10
-all_named texture --effect shadow --at 10
-all_named texture --scene plane --size 64x36 --effect fog --pixel 1,2
+all_named texture --product effect:intersection --at 10
+all_named texture --product effect:shadow --at 10
+all_named texture --scene plane --size 64x36 --product effect:fog --pixel 1,2
 "$DEPTHPREC" texture --scene plane --size 64x36 -F unorm16 -m d3d -o "$scratch/depth.npy"
 all_named texture "$scratch/depth.npy"
-"$DEPTHPREC" texture --scene plane --size 64x36 -F fp32 -m reversed --eye -o "$scratch/metres.npy"
+"$DEPTHPREC" texture --scene plane --size 64x36 -F fp32 -m reversed --product eye -o "$scratch/metres.npy"
 all_named texture "$scratch/metres.npy" --metric 1
-all_named texture --scene plane --eye -o "$scratch/eye.png"
-all_named texture --scene plane --eye -o "$scratch/eye.png" --error-map="$scratch/map.png"
+all_named texture --scene plane --product eye -o "$scratch/eye.png"
+all_named texture --scene plane --product eye -o "$scratch/eye.png" --error-map="$scratch/map.png"
 all_named texture --scene plane --size 64x36 --histogram "$scratch/histogram.svg"
 "$DEPTHPREC" texture --scene plane --size 64x36 --pack rg -o "$scratch/packed.png"
 all_named texture "$scratch/packed.png"

@@ -59,8 +59,8 @@ named() {
     diff "$scratch/line_platform" "$scratch/line_options"
 }
 check "scene: one of them" named
-"$DEPTHPREC" texture --scene decals -F fp32 -m reversed --raw -o "$scratch/told.npy" >"$scratch/out" 2>&1
-"$DEPTHPREC" texture --scene decals -F unorm24 -m d3d --raw -o "$scratch/open.npy" >"$scratch/out" 2>&1
+"$DEPTHPREC" texture --scene decals -F fp32 -m reversed --product raw -o "$scratch/told.npy" >"$scratch/out" 2>&1
+"$DEPTHPREC" texture --scene decals -F unorm24 -m d3d --product raw -o "$scratch/open.npy" >"$scratch/out" 2>&1
 check "texture: of two formats an image has one" found "$scratch/told.npy" firefox-vulkan fp32
 check "texture: where an image does not tell, one is asked for" refuses "$either" texture "$scratch/open.npy" --platform firefox-vulkan
 

@@ -100,6 +100,38 @@ static void pixels_look_where_they_should(void **state) {
     assert_true(camera_radial(&camera, 3, 1) == 1);
 }
 
+/* The view axis passes through what the camera looks at, and its right is level, in long double. */
+static void looks_at(void **state) {
+    (void)state;
+    rng r = rng_make("looks");
+    tally t = {.name = "looks"};
+    for (uint64_t n = test_cases(200, 2000, 20000); n > 0; n--) {
+        camera_spec spec = spec_of(4, 3);
+        const double far = rng_log(&r, 1e-3, 1e6);
+        double at[3];
+        long double length = 0;
+        for (int k = 0; k < 3; k++) {
+            spec.origin[k] = rng_uniform(&r, -1, 1);
+            at[k] = spec.origin[k] + rng_uniform(&r, -far, far);
+            length = hypotl(length, (long double)at[k] - (long double)spec.origin[k]);
+        }
+        assert_true(camera_look(&spec, at));
+        const texture_camera c = camera_of(0, spec);
+        for (int k = 0; k < 3; k++) {
+            const double want = (double)(((long double)at[k] - (long double)spec.origin[k]) / length);
+            TALLY(&t, fabs(c.axis[2][k] - want) < 1e-15, "ahead %d: %.17g, not %.17g", k, c.axis[2][k], want);
+        }
+        TALLY(&t, c.axis[0][1] == 0 && c.axis[1][1] >= 0, "leans");
+    }
+    tally_end(&t);
+    camera_spec spec = spec_of(4, 3);
+    assert_true(camera_look(&spec, (double[]){0, 0, 1e-300}) && spec.yaw == 0 && spec.pitch == 0);
+    assert_true(camera_look(&spec, (double[]){0, 7, 0}) && spec.yaw == 0 && spec.pitch == 90);
+    assert_true(camera_look(&spec, (double[]){0, -7, 0}) && spec.yaw == 0 && spec.pitch == -90);
+    assert_true(camera_look(&spec, (double[]){-1e12, 0, 0}) && spec.yaw == -90 && spec.pitch == 0);
+    assert_false(camera_look(&spec, (double[]){0, 0, 0}));
+}
+
 /* Right-angled axes of length 1 and left-handed; slopes to two units in the last place against long double. */
 static void axes_and_slopes(void **state) {
     (void)state;
@@ -139,6 +171,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_door),
         cmocka_unit_test(pixels_look_where_they_should),
+        cmocka_unit_test(looks_at),
         cmocka_unit_test(axes_and_slopes),
     };
     return run_tap(tests);

@@ -89,7 +89,7 @@ static const struct {
     {VERB_TABLE, IDS(OPTION_AT), "0.1,1,10,100,1000", NULL, ""},
     {VERB_TABLE, IDS(OPTION_AT), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
     {VERB_BUDGET | VERB_BIAS, IDS(OPTION_AT), "0.1:1000:log:9", NULL, ""},
-    {VERB_TEXTURE, IDS(OPTION_AT), "0.1:1000:log:9", "texture --effect fog -F d16 -m d3d", ""},
+    {VERB_TEXTURE, IDS(OPTION_AT), "0.1:1000:log:9", "texture --product effect:fog -F d16 -m d3d", ""},
     {VERB_WORLD, IDS(OPTION_AT), "10", NULL, ""},
     {VERB_WORLD, IDS(OPTION_AT), "10m", NULL, "--unit cm"},
     {VERB_WORLD, IDS(OPTION_GAP), "0.01", NULL, ""},
@@ -107,7 +107,7 @@ static const struct {
     {VERB_METHODS, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
     {VERB_METHODS, IDS(OPTION_MAPPING), "d3d", NULL, ""},
     {VERB_TEXTURE, IDS(OPTION_FORMAT), "unorm24", NULL, "--pixel 9,9 --csv"},
-    {VERB_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --effect fog", ""},
+    {VERB_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --product effect:fog", ""},
     {VERB_TEXTURE, IDS(OPTION_MAPPING), "d3d", NULL, "--pixel 9,9 --csv"},
     {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
     {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
@@ -116,7 +116,7 @@ static const struct {
     {VERB_BUDGET, IDS(OPTION_SCHEME), "world", NULL, "--world 100"},
     {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
     {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot shadow --csv", ""},
-    {VERB_SCENE, IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --from 0,2,30 --look 0,2,0", ""},
+    {VERB_SCENE, IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --eye 0,2,30 --look 0,2,0", ""},
     {VERB_ZFIGHT, IDS(OPTION_VIEWPORT), "1920x1080", "zfight -F fp32 -m d3d --triangles --sample 20", ""},
     {ALL & ~(unsigned)VERB_SOLVE, IDS(OPTION_UNIT), "m", NULL, "-n 10cm"},
     {VERB_SOLVE, IDS(OPTION_UNIT), "m", "solve --for far -n 10cm -F d24 -m d3d --separation 0.01 --at 50", ""},
@@ -124,13 +124,14 @@ static const struct {
     /* what no value means */
     {ALL, IDS(OPTION_ORTHO, OPTION_SHARE, OPTION_HFOV, OPTION_MATRIX, OPTION_LIGHT_BOX, OPTION_CURVATURE), NULL, NULL,
      ""},
-    {ALL, IDS(OPTION_WIDTH, OPTION_HEIGHT, OPTION_RASTER, OPTION_CHANNEL, OPTION_DEVICE, OPTION_FROM), NULL, NULL, ""},
-    {ALL, IDS(OPTION_LAST_FOV, OPTION_LAST_ORIGIN, OPTION_LAST_PITCH, OPTION_LAST_YAW, OPTION_SAMPLE), NULL, NULL, ""},
+    {ALL, IDS(OPTION_WIDTH, OPTION_HEIGHT, OPTION_RASTER, OPTION_CHANNEL, OPTION_DEVICE), NULL, NULL, ""},
+    {ALL, IDS(OPTION_EYE, OPTION_LOOK, OPTION_LAST_EYE, OPTION_LAST_LOOK, OPTION_SAMPLE), NULL, NULL, ""},
     {ALL, IDS(OPTION_TOLERANCE, OPTION_WITHIN, OPTION_UNITS, OPTION_DISTANCE), NULL, NULL, ""},
     {VERB_ZFIGHT | VERB_BIAS | VERB_PLOT | VERB_SCENE, IDS(OPTION_GAP), NULL, NULL, ""},
     {VERB_TABLE | VERB_BIAS | VERB_SHADOW, IDS(OPTION_RANGE), NULL, NULL, ""}, /* given, more is said of it */
     {VERB_TABLE | VERB_BUDGET | VERB_BIAS | VERB_SOLVE, IDS(OPTION_VIEWPORT), NULL, NULL, ""},
     {VERB_ZFIGHT, IDS(OPTION_PLANE), NULL, NULL, ""},
+    {VERB_TEXTURE, IDS(OPTION_NORMALS_BY), NULL, NULL, ""},
 };
 
 /* What a command takes where nothing was said and help spells it out; of two rows the first holds. */
@@ -185,9 +186,6 @@ static const struct {
     {OPTION_VERTICES, ALL, "eye-log"},
     {OPTION_TRANSFORMS, ALL, "exact"},
     {OPTION_HALF_HEIGHT, ALL, "5"},
-    {OPTION_YAW, ALL, "0"},
-    {OPTION_PITCH, ALL, "0"},
-    {OPTION_ORIGIN, ALL, "0,0,0"},
     {OPTION_SIZE, VERB_TEXTURE, "640x360"},
     {OPTION_SIZE, ALL, "2048x2048"},
     {OPTION_SKY, ALL, "0.0001"},

@@ -39,7 +39,7 @@ static image depths_of(const char *arguments) {
     if (dark != NULL)
         *dark = '\0';
     snprintf(path, sizeof path, "%s/eye.npy", drawn_folder());
-    free(drawn_output("texture %s --eye -q -o %s", plain, path));
+    free(drawn_output("texture %s --product eye -q -o %s", plain, path));
     assert_true(image_read(path, &out, &error));
     return out;
 }
@@ -164,7 +164,9 @@ static void metric_depth(void **state) {
     (void)state;
     char path[320];
     snprintf(path, sizeof path, "%s/metres.npy", drawn_folder());
-    free(drawn_output("texture --scene steps --parameter to=290 --size 96x8 -F fp32 -m reversed --eye -q -o %s", path));
+    free(drawn_output("texture --scene steps --parameter to=290 --size 96x8 -F fp32 -m reversed --product eye -q "
+                      "-o %s",
+                      path));
     drawn *d = drawn_run(&drawn_light, "texture %s --metric 1 --unit m --title 'In metres' -q --histogram", path);
     assert_string_equal(d->title, "In metres");
     assert_string_equal(d->subtitle, "metres.npy, 96 x 8; metric depth, 1 m a unit");

@@ -17,15 +17,15 @@ static const struct {
     double above;                   /* in scene units */
     const char *title, *caption, *grey;
 } cases[] = {
-    {"--scene decals -F unorm16 -m d3d --size 160x90 --eye", "5cm", 0.05,
+    {"--scene decals -F unorm16 -m d3d --size 160x90 --product eye", "5cm", 0.05,
      "Eye depth, in colour where eye depth is off by more than 0.05 m", "error of eye depth (m)", ", logarithmic"},
-    {"--scene sphere -F unorm24 -m d3d --size 60x40 --radial --eye", "1e-5", 1e-5,
+    {"--scene sphere -F unorm24 -m d3d --size 60x40 --product radial", "1e-5", 1e-5,
      "Distance from the camera, in colour where it is off by more than 1e-05 scene units",
      "error of the distance (scene units)", ""},
-    {"--scene plane --parameter turn=40 --parameter tilt=60 -F unorm16 -m d3d --size 150x80 --raw --theme dark", "0.1",
-     0.1, "Window depth, in colour where eye depth is off by more than 0.1 scene units",
+    {"--scene plane --parameter turn=40 --parameter tilt=60 -F unorm16 -m d3d --size 150x80 --product raw --theme dark",
+     "0.1", 0.1, "Window depth, in colour where eye depth is off by more than 0.1 scene units",
      "error of eye depth (scene units)", ""},
-    {"--scene steps -F unorm16 -m reversed --size 80x64 --linear01", "100", 100,
+    {"--scene steps -F unorm16 -m reversed --size 80x64 --product linear01", "100", 100,
      "Eye depth over far, in colour where eye depth is off by more than 100 scene units",
      "error of eye depth (scene units)", ", logarithmic"},
 };
@@ -58,9 +58,9 @@ static void check_overlay(size_t k) {
     if (dark != NULL)
         *dark = '\0';
     image shown = numbers_of(plain, "");
-    char *product = strstr(plain, strstr(plain, "--raw") != NULL ? "--raw" : "--linear01");
-    if (product != NULL)
-        memcpy(product, "--eye           ", strlen(product));
+    char *product = strstr(plain, "--product ");
+    const char *eye = strstr(product, "radial") != NULL ? "--product radial" : "--product eye";
+    snprintf(product, sizeof plain - (size_t)(product - plain), "%s", eye);
     image error = numbers_of(plain, "--error-map");
     const float *value = shown.data, *off = error.data;
     const int width = (int)shown.width, height = (int)shown.height;
@@ -137,7 +137,7 @@ static void nothing_but_sky(void **state) {
     assert_null(strstr(d->subtitle, "grey"));
     assert_null(strstr(d->subtitle, "%"));
     drawn_close(d);
-    d = drawn_run(&drawn_light, "texture --scene plane --parameter distance=2000 --size 8x8 --raw --overlay 1");
+    d = drawn_run(&drawn_light, "texture --scene plane --parameter distance=2000 --size 8x8 --product raw --overlay 1");
     assert_non_null(strstr(d->subtitle, "; grey from "));
     assert_null(strstr(d->subtitle, "%"));
     drawn_close(d);
@@ -146,9 +146,10 @@ static void nothing_but_sky(void **state) {
 /* A colour is then the largest of several, also where no two are side by side. */
 static void more_pixels_than_points(void **state) {
     (void)state;
-    const char *const sizes[][2] = {{"--size 1600x20 --overlay 1", "; a colour is the largest error of 4 pixels"},
-                                    {"--size 1x3200 --overlay 1", "; a colour is the largest error of 4 pixels"},
-                                    {"--size 1x3200 --error-map --eye", "; a point is the largest of 4 pixels"}};
+    const char *const sizes[][2] = {
+        {"--size 1600x20 --overlay 1", "; a colour is the largest error of 4 pixels"},
+        {"--size 1x3200 --overlay 1", "; a colour is the largest error of 4 pixels"},
+        {"--size 1x3200 --error-map --product eye", "; a point is the largest of 4 pixels"}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         char *text = drawn_output("texture --scene plane %s -q --figure -", sizes[i][0]);
         if (strstr(text, sizes[i][1]) == NULL)

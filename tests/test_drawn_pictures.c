@@ -55,7 +55,7 @@ typedef struct picture_case {
 } picture_case;
 
 static const picture_case cases[] = {
-    {"--scene steps -F unorm16 -m d3d --eye",
+    {"--scene steps -F unorm16 -m d3d --product eye",
      "Eye depth",
      "scene steps, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "eye depth (scene units)",
@@ -64,7 +64,7 @@ static const picture_case cases[] = {
      false,
      false,
      1},
-    {"--scene decals -F unorm16 -m d3d --eye --size 640x360 --error-map --theme dark",
+    {"--scene decals -F unorm16 -m d3d --product eye --size 640x360 --error-map --theme dark",
      "Eye depth, error",
      "scene decals, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "error (scene units)",
@@ -73,7 +73,7 @@ static const picture_case cases[] = {
      true,
      false,
      1},
-    {"--scene decals -F unorm16 -m d3d --eye --size 1600x800 --error-map",
+    {"--scene decals -F unorm16 -m d3d --product eye --size 1600x800 --error-map",
      "Eye depth, error",
      "scene decals, 1600 x 800; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; a point is the largest "
      "of "
@@ -84,7 +84,7 @@ static const picture_case cases[] = {
      true,
      false,
      2},
-    {"--scene plane --parameter turn=20 --parameter tilt=30 -F unorm16 -m d3d --eye --size 2400x1200",
+    {"--scene plane --parameter turn=20 --parameter tilt=30 -F unorm16 -m d3d --product eye --size 2400x1200",
      "Eye depth",
      "scene plane, 2400 x 1200; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; one of 9 pixels",
      "eye depth (scene units)",
@@ -93,8 +93,8 @@ static const picture_case cases[] = {
      false,
      false,
      3},
-    {"--scene plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --effect "
-     "soft-particles "
+    {"--scene plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --product "
+     "effect:soft-particles "
      "--parameter reference=27 --parameter fade-distance=18",
      "Soft-particles, fade-distance 18",
      "scene plane, 640 x 240; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
@@ -104,7 +104,8 @@ static const picture_case cases[] = {
      false,
      false,
      1},
-    {"--scene plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --effect force-field "
+    {"--scene plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --product "
+     "effect:force-field "
      "--parameter reference=20 --parameter power=2",
      "Force-field, power 2",
      "scene plane, 640 x 240; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
@@ -114,7 +115,7 @@ static const picture_case cases[] = {
      false,
      false,
      1},
-    {"--scene sphere --position matrix --yaw 20 --origin 3,1,-2",
+    {"--scene sphere --product position:matrix --eye 3,1,-2 --look 16836.119889,1,46246.616794",
      "Positions by matrix",
      "scene sphere, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "coordinate (scene units)",
@@ -123,7 +124,7 @@ static const picture_case cases[] = {
      false,
      true,
      1},
-    {"--scene sphere --parameter wall=20 -F unorm16 -m d3d --normal high",
+    {"--scene sphere --parameter wall=20 -F unorm16 -m d3d --product normal:high",
      "Normals by high",
      "scene sphere, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      NULL,
@@ -132,7 +133,7 @@ static const picture_case cases[] = {
      false,
      false,
      1},
-    {"--scene sphere --parameter wall=20 -F unorm24 -m d3d --eye --size 40x24",
+    {"--scene sphere --parameter wall=20 -F unorm24 -m d3d --product eye --size 40x24",
      "Eye depth",
      "scene sphere, 40 x 24; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "eye depth (scene units)",
@@ -313,7 +314,7 @@ static void pictures_show_the_product(void **state) {
 static void decals_that_fight(void **state) {
     (void)state;
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d");
-    drawn *d = drawn_run(&drawn_light, "texture --scene decals -F unorm16 -m d3d --eye --parameter count=6");
+    drawn *d = drawn_run(&drawn_light, "texture --scene decals -F unorm16 -m d3d --product eye --parameter count=6");
     drawn_marker all[64];
     const drawn_panel *p = &d->panels[0];
     const size_t count = drawn_markers(d, p, all, 64);
@@ -331,7 +332,7 @@ static void decals_that_fight(void **state) {
     assert_int_equal(count, ties);
     assert_true(ties > 5 && ties < 31);
     drawn_close(d);
-    d = drawn_run(&drawn_light, "texture --scene decals -F fp32 -m reversed --eye");
+    d = drawn_run(&drawn_light, "texture --scene decals -F fp32 -m reversed --product eye");
     assert_int_equal(d->entry_count, 0);
     drawn_close(d);
 }
@@ -339,7 +340,8 @@ static void decals_that_fight(void **state) {
 /* One value alone has the middle of a bar that goes to both sides of it; no error at all is dark. */
 static void a_single_value(void **state) {
     (void)state;
-    drawn *d = drawn_run(&drawn_light, "texture --scene plane --parameter distance=16 -F fp32 -m reversed --eye");
+    drawn *d =
+        drawn_run(&drawn_light, "texture --scene plane --parameter distance=16 -F fp32 -m reversed --product eye");
     const svg_mark *image = drawn_map_image(d, &d->panels[0]);
     const double middle = svg_middle_y(d->bar->box);
     for (int i = 0; i < image->columns * image->rows; i += 997)
@@ -354,7 +356,7 @@ static void a_file(void **state) {
     char path[320];
     snprintf(path, sizeof path, "%s/depth.png", drawn_folder());
     free(drawn_output("texture --scene steps --size 160x90 -F unorm16 -m d3d -q -o %s", path));
-    drawn *d = drawn_run(&drawn_light, "texture %s -F unorm16 -m d3d --eye --title 'Of a file'", path);
+    drawn *d = drawn_run(&drawn_light, "texture %s -F unorm16 -m d3d --product eye --title 'Of a file'", path);
     assert_string_equal(d->title, "Of a file");
     assert_string_equal(d->subtitle,
                         "depth.png, 160 x 90; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact");
@@ -365,8 +367,8 @@ static void a_file(void **state) {
     }
     drawn_close(d);
     snprintf(path, sizeof path, "%s/depth.npy", drawn_folder());
-    free(drawn_output("texture --scene steps --size 160x90 -F unorm16 -m d3d --eye -q -o %s", path));
-    d = drawn_run(&drawn_light, "texture %s --metric 1 --unit m --eye", path);
+    free(drawn_output("texture --scene steps --size 160x90 -F unorm16 -m d3d --product eye -q -o %s", path));
+    d = drawn_run(&drawn_light, "texture %s --metric 1 --unit m --product eye", path);
     assert_string_equal(d->subtitle, "depth.npy, 160 x 90; metric depth, 1 m a unit");
     assert_string_equal(d->right_caption->text, "eye depth (m)");
     drawn_close(d);

@@ -321,7 +321,7 @@ static double mapped(const char *method, double z) {
     size_t count = 0;
     snprintf(path, sizeof path, "%s/normals.npy", drawn_folder());
     free(drawn_output("texture --scene plane --parameter distance=%.17g --parameter tilt=33 --parameter turn=53.4 "
-                      "--size 48x48 --sky 0 --fov %.17g -F unorm16 -m d3d --normal %s --error-map -q -o %s",
+                      "--size 48x48 --sky 0 --fov %.17g -F unorm16 -m d3d --product normal:%s --error-map -q -o %s",
                       z, fov, method, path));
     FILE *in = fopen(path, "rb");
     assert_non_null(in);

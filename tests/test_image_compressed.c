@@ -147,7 +147,7 @@ static void said_by_name(void **state) {
     assert_string_equal(p.errors, "");
     assert_non_null(strstr(p.out, "\"lossy\":\"PXR24\""));
     printed_free(&p);
-    p = print_of("texture %s -F fp32 -m d3d --eye -o %s.npy", path, path);
+    p = print_of("texture %s -F fp32 -m d3d --product eye -o %s.npy", path, path);
     assert_non_null(strstr(p.errors, "PXR24"));
     printed_free(&p);
     assert_null(exr_make(path, &exact));

@@ -255,8 +255,8 @@ static void one_image(tally *t, rng *r, const file_kind *k, bool either_sign, us
     truth_write(path, k->file, k->type, data);
     command base;
     base_command(&base, &c, path, given, !curved);
-    truth_product(&base, "eye.npy", "--eye", NULL, false);
-    truth_product(&base, "map.npy", "--eye", NULL, true);
+    truth_product(&base, "eye.npy", "eye", NULL, false);
+    truth_product(&base, "map.npy", "eye", NULL, true);
     truth_floats("eye.npy", 1, eye);
     truth_floats("map.npy", 1, map);
     widen(eye, got);
@@ -268,9 +268,9 @@ static void one_image(tally *t, rng *r, const file_kind *k, bool either_sign, us
         TALLY(t, isnan(most) || isnan(got[i]) || fabs(got[i] - z[i]) <= most, "%s: the statistics say %g", k->name,
               most);
     if (rng_below(r, 4) == 0) {
-        truth_product(&base, "eye.png", "--eye", NULL, false);
+        truth_product(&base, "eye.png", "eye", NULL, false);
         truth_greys("eye.png", got);
-        truth_product(&base, "map.png", "--eye", NULL, true);
+        truth_product(&base, "map.png", "eye", NULL, true);
         truth_greys("map.png", bound);
         used other = {0};
         double lo = INFINITY, hi = -INFINITY;
@@ -389,8 +389,8 @@ static double one_place(tally *t, rng *r, const file_kind *k) {
     float got[3 * PIXELS], bound[PIXELS];
     random_image(r, k, &c, &base, z);
     const char *method = rng_below(r, 2) == 0 ? "exact" : "view";
-    truth_product(&base, "place.npy", "--position", method, false);
-    truth_product(&base, "map.npy", "--position", method, true);
+    truth_product(&base, "place.npy", "position", method, false);
+    truth_product(&base, "map.npy", "position", method, true);
     truth_floats("place.npy", 3, got);
     truth_floats("map.npy", 1, bound);
     for (int i = 0; i < PIXELS; i++) {
@@ -424,7 +424,7 @@ static double one_effect(tally *t, rng *r, const file_kind *k) {
         return 0;
     const double at = z[rng_below(r, PIXELS)];
     if (effects[e].of == motion_blur) {
-        truth_add(&base, "--last-origin");
+        truth_add(&base, "--last-eye");
         truth_add(&base, "0.1,0,0");
     }
     compared = base;
@@ -433,8 +433,8 @@ static double one_effect(tally *t, rng *r, const file_kind *k) {
         truth_add(&compared, "--parameter");
         truth_add(&compared, reference);
     }
-    truth_product(&compared, "effect.npy", "--effect", effects[e].name, false);
-    truth_product(&base, "map.npy", "--effect", effects[e].name, true);
+    truth_product(&compared, "effect.npy", "effect", effects[e].name, false);
+    truth_product(&base, "map.npy", "effect", effects[e].name, true);
     truth_floats("effect.npy", 1, got);
     truth_floats("map.npy", 1, bound);
     for (int i = 0; i < PIXELS; i++) {

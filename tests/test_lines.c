@@ -76,9 +76,9 @@ static const struct {
     {"budget|--world|2km", AT(terms.world), 2000, "m"},
     {"texture|x|--half-height|10ft", AT(camera.half_height), 3.048, "m"},
     {"texture|x|--metric|1mm", AT(metric), 0.001, "m"},
-    {"texture|x|--origin|-1m,0,20cm", AT(camera.origin[0]), -1, "m"},
-    {"texture|x|--origin|-1m,0,20cm", AT(camera.origin[2]), 0.2, "m"},
-    {"texture|x|--last-origin|0,0,30cm", AT(last.origin[2]), 0.3, "m"},
+    {"texture|x|--eye|-1m,0,20cm", AT(eye[0]), -1, "m"},
+    {"texture|x|--eye|-1m,0,20cm", AT(eye[2]), 0.2, "m"},
+    {"texture|x|--last-eye|0,0,30cm", AT(last_eye[2]), 0.3, "m"},
 };
 
 static void test_units(void **state) {
@@ -120,8 +120,8 @@ static void test_no_units(void **state) {
                                         "table|--unit|parsec",
                                         "solve|--separation|1mmm",
                                         "solve|--error|1e-320nm",
-                                        "texture|x|--origin|1m,2m,3",
-                                        "texture|x|--origin|1m,2m,3q",
+                                        "texture|x|--eye|1m,2m,3",
+                                        "texture|x|--eye|1m,2m,3q",
                                         "bias|--slope|1m/s",
                                         "texture|x|--metric|1 millimetre"};
     tally t = {.name = "no units"};

@@ -30,13 +30,12 @@ static void assert_same_file(const char *a, const char *b) {
     assert_memory_equal(one, other, size);
 }
 
-static command start(const char *what, const char *method, const char *file) {
+static command start(const char *what, const char *file) {
     command c = {.count = 0};
     for (size_t i = 0; i < sizeof scene / sizeof scene[0]; i++)
         truth_add(&c, scene[i]);
+    truth_add(&c, "--product");
     truth_add(&c, what);
-    if (method != NULL)
-        truth_add(&c, method);
     truth_add(&c, "-o");
     truth_add(&c, truth_path(file));
     return c;
@@ -48,25 +47,25 @@ static void run(const command *c) {
 
 static void files_are_those_written_alone(void **state) {
     static const struct {
-        const char *what, *method, *both, *product, *map, *alone;
+        const char *what, *both, *product, *map, *alone;
     } cases[] = {
-        {"--eye", NULL, "both.npy", "product.npy", "map.npy", "alone.npy"},
-        {"--linear01", NULL, "both.png", "product.png", "map.npy", "alone.npy"},
-        {"--raw", NULL, "both.npy", "product.npy", "map.png", "alone.png"},
-        {"--normal", "projective", "both.png", "product.png", "map.png", "alone.png"},
-        {"--position", "view", "both.pfm", "product.pfm", "map.npy", "alone.npy"},
-        {"--position", "matrix", "both.npy", "product.npy", "map.pfm", "alone.pfm"},
+        {"eye", "both.npy", "product.npy", "map.npy", "alone.npy"},
+        {"linear01", "both.png", "product.png", "map.npy", "alone.npy"},
+        {"raw", "both.npy", "product.npy", "map.png", "alone.png"},
+        {"normal:projective", "both.png", "product.png", "map.png", "alone.png"},
+        {"position:view", "both.pfm", "product.pfm", "map.npy", "alone.npy"},
+        {"position:matrix", "both.npy", "product.npy", "map.pfm", "alone.pfm"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char option[256];
         snprintf(option, sizeof option, "--error-map=%s", truth_path(cases[i].map));
-        command c = start(cases[i].what, cases[i].method, cases[i].both);
+        command c = start(cases[i].what, cases[i].both);
         truth_add(&c, option);
         run(&c);
-        c = start(cases[i].what, cases[i].method, cases[i].product);
+        c = start(cases[i].what, cases[i].product);
         run(&c);
-        c = start(cases[i].what, cases[i].method, cases[i].alone);
+        c = start(cases[i].what, cases[i].alone);
         truth_add(&c, "--error-map");
         run(&c);
         assert_same_file(cases[i].both, cases[i].product);
@@ -79,7 +78,7 @@ static void files_are_those_written_alone(void **state) {
 
 static void what_fails_leaves_neither(void **state) {
     (void)state;
-    command c = start("--eye", NULL, "both.npy");
+    command c = start("eye", "both.npy");
     char option[256];
     snprintf(option, sizeof option, "--error-map=%s/map.npy", truth_path("nowhere"));
     truth_add(&c, option);

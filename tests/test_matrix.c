@@ -305,8 +305,9 @@ static double farthest(const eyes *e, double got) {
 }
 
 static void judge_products(tally *t, const view_case *c) {
-    image eye = numbers_of(c, "--eye"), eye_off = numbers_of(c, "--eye --error-map");
-    image place = numbers_of(c, "--position exact"), place_off = numbers_of(c, "--position exact --error-map");
+    image eye = numbers_of(c, "--product eye"), eye_off = numbers_of(c, "--product eye --error-map");
+    image place = numbers_of(c, "--product position:exact"),
+          place_off = numbers_of(c, "--product position:exact --error-map");
     for (size_t i = 0; i < ALL; i++) {
         ray r;
         eyes e;
@@ -439,7 +440,7 @@ static void normals(void **state) {
         static const char *const methods[] = {"low", "medium-1", "high-half", "projective"};
         const size_t method = rng_below(&r, c.oblique ? 3 : 4);
         char product[64], map[128];
-        snprintf(product, sizeof product, "--normal %s", methods[method]);
+        snprintf(product, sizeof product, "--product normal:%s", methods[method]);
         snprintf(map, sizeof map, "%s --error-map", product);
         image found = numbers_of(&c, product), off = numbers_of(&c, map);
         for (size_t i = 0; i < ALL; i++) {
@@ -479,12 +480,12 @@ static void same_camera(void **state) {
         {"1 0 0 0  0 2 0 0  0 0 0.125 0.75  0 0 0 1", "--ortho -n -2 -f 6 --half-height 0.5", "reversed"},
         {"1 0 0 0  0 2 0 0  0 0 -0.25 -0.5  0 0 0 1", "--ortho -n -2 -f 6 --half-height 0.5", "gl"},
     };
-    static const char *const products[] = {"--eye",
-                                           "--eye --error-map",
-                                           "--position exact",
-                                           "--position matrix",
-                                           "--normal projective",
-                                           "--normal projective --error-map"};
+    static const char *const products[] = {"--product eye",
+                                           "--product eye --error-map",
+                                           "--product position:exact",
+                                           "--product position:matrix",
+                                           "--product normal:projective",
+                                           "--product normal:projective --error-map"};
     tally t = {.name = "matrices beside options"};
     char path[256], shot[256], one[256], other[256];
     (void)state;

@@ -110,8 +110,8 @@ static double one_picture(tally *t, rng *r, const metric_kind *k) {
     const size_t holes = picture(r, k, z);
     truth_add(&base, truth_path("in.npy"));
     truth_add_number(&base, 0, "--metric", k->scale);
-    truth_product(&base, "eye.npy", "--eye", NULL, false);
-    truth_product(&base, "map.npy", "--eye", NULL, true);
+    truth_product(&base, "eye.npy", "eye", NULL, false);
+    truth_product(&base, "map.npy", "eye", NULL, true);
     truth_floats("eye.npy", 1, eye);
     truth_floats("map.npy", 1, map);
     for (int i = 0; i < PIXELS; i++) {
@@ -127,8 +127,8 @@ static double one_picture(tally *t, rng *r, const metric_kind *k) {
         TALLY(t, (double)map[i] <= 1.01 * step + 4e-7 * z[i], "%s: %.9g may be %g off", k->name, z[i], (double)map[i]);
     }
     check_statistics(k, &base, holes, worst);
-    truth_product(&base, "place.npy", "--position", "view", false);
-    truth_product(&base, "map.npy", "--position", "view", true);
+    truth_product(&base, "place.npy", "position", "view", false);
+    truth_product(&base, "map.npy", "position", "view", true);
     truth_floats("place.npy", 3, place);
     truth_floats("map.npy", 1, map);
     for (int i = 0; i < PIXELS; i++) {
@@ -141,8 +141,8 @@ static double one_picture(tally *t, rng *r, const metric_kind *k) {
               isnan(z[i]) ? isnan(place[3 * i]) && isnan(map[i]) : sqrt(dx * dx + dy * dy + dz * dz) <= (double)map[i],
               "%s: a place at %.9g", k->name, z[i]);
     }
-    truth_product(&base, "effect.npy", "--effect", "fog", false);
-    truth_product(&base, "map.npy", "--effect", "fog", true);
+    truth_product(&base, "effect.npy", "effect", "fog", false);
+    truth_product(&base, "map.npy", "effect", "fog", true);
     truth_floats("effect.npy", 1, fog);
     truth_floats("map.npy", 1, map);
     for (int i = 0; i < PIXELS; i++)
@@ -195,7 +195,8 @@ static void it_is_suspected(void **state) {
     assert_string_equal(json_string_value(json_object_get(root, "direction_from")), "assumed"); /* no sky, but holes */
     json_decref(root);
     command quiet = c;
-    truth_add(&quiet, "--eye");
+    truth_add(&quiet, "--product");
+    truth_add(&quiet, "eye");
     truth_add(&quiet, "-o");
     truth_add(&quiet, truth_path("eye.npy"));
     assert_int_equal(truth_run(quiet.arguments, quiet.count), 0);
@@ -224,7 +225,7 @@ static void holes_are_counted(void **state) {
     }
     truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, data);
     truth_add(&c, truth_path("in.npy"));
-    truth_product(&c, "eye.npy", "--eye", NULL, false);
+    truth_product(&c, "eye.npy", "eye", NULL, false);
     truth_floats("eye.npy", 1, eye);
     for (int i = 0; i < PIXELS; i++)
         assert_true(!isnan(((float *)(void *)data)[i]) == !isnan(eye[i]));

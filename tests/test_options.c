@@ -84,16 +84,6 @@ static const struct {
     {"shadow", OPTION_FACET, AT(facet), 0, 0, 1e18, "0", "1e18", "-1", "2e18", "a number from 0 to 1e18 scene units"},
     {"shadow", OPTION_CASTERS, AT(casters), 100, 0, 1e12, "0", "1e12", "-1", "2e12",
      "a number from 0 to 1e12 scene units"},
-    {"texture", OPTION_YAW, AT(camera.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
-     "a number from -360 to 360 degrees"},
-    {"texture", OPTION_PITCH, AT(camera.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
-     "a number from -90 to 90 degrees"},
-    {"texture", OPTION_LAST_FOV, AT(last.fov_y), 0, 0.01, 179, "0.01", "179", "0", "180",
-     "a number from 0.01 to 179 degrees"},
-    {"texture", OPTION_LAST_YAW, AT(last.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
-     "a number from -360 to 360 degrees"},
-    {"texture", OPTION_LAST_PITCH, AT(last.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
-     "a number from -90 to 90 degrees"},
     {"texture", OPTION_SKY, AT(sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5"},
     {"texture", OPTION_METRIC, AT(metric), 0, 1e-9, 1e6, "1e-9", "1e6", "0", "1e7",
      "a number from 1e-9 to 1e6 scene units"},
@@ -332,12 +322,19 @@ static void test_rows(void **state) {
         {"table", OPTION_RASTER, AT(raster), "LLVMpipe", "llvmpipe", offsetof(raster_row, name), "lavapip", "lavapipe"},
         {"budget", OPTION_RASTER, AT(raster), "spec-gl", "spec-gl", offsetof(raster_row, name), "spec-d3", "spec-d3d"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
-        {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
-        {"texture", OPTION_POSITION, AT(position), "exact", NULL, 0, "exakt", "exact"},
-        {"texture", OPTION_NORMAL, AT(normal), "high-1", "high-1", offsetof(normal_row, name), "meduim", "medium"},
+        {"texture", OPTION_PRODUCT, AT(product), "Linear01", "linear01", offsetof(product_row, name), "radail",
+         "radial"},
+        {"texture", OPTION_PRODUCT, AT(position), "position:rays", "rays", offsetof(position_row, name),
+         "position:matirx", "matrix"},
+        {"texture", OPTION_PRODUCT, AT(position), "position:exact", NULL, 0, "position:exakt", "exact"},
+        {"texture", OPTION_PRODUCT, AT(position), "position", NULL, 0, "positoin", "position"},
+        {"texture", OPTION_PRODUCT, AT(normal), "normal:high-1", "high-1", offsetof(normal_row, name), "normal:meduim",
+         "medium"},
+        {"texture", OPTION_PRODUCT, AT(normal), "normal", "projective", offsetof(normal_row, name), "norml", "normal"},
+        {"texture", OPTION_PRODUCT, AT(effect), "effect:Fog", "fog", offsetof(effect_row, name), "effect:edeg", "edge"},
+        {"texture", OPTION_NORMALS_BY, AT(normals_by), "low", "low", offsetof(normal_row, name), "hihg", "high"},
         {"texture", OPTION_PACKING, AT(packing), "rgb24", "rgb24", offsetof(packing, name), "rgb42", "rgb24"},
         {"texture", OPTION_PACK, AT(pack), "RG", "rg", offsetof(packing, name), "depth-normal", "depth-normals"},
-        {"texture", OPTION_EFFECT, AT(effect), "fog", "fog", offsetof(effect_row, name), "edeg", "edge"},
     };
     tally t = {.name = "rows"};
     (void)state;
@@ -430,19 +427,10 @@ static void test_flags(void **state) {
         const char *command;
         option_id id;
         size_t field, size;
-    } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},
-                 {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
-                 {"zfight", OPTION_TRIANGLES, WORD_AT(drawn)},
-                 {"texture", OPTION_EYE, WORD_AT(eye)},
-                 {"texture", OPTION_RADIAL, WORD_AT(radial)},
-                 {"texture", OPTION_LINEAR01, WORD_AT(linear01)},
-                 {"texture", OPTION_RAW, WORD_AT(raw)},
-                 {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
-                 {"texture", OPTION_PACKED_NORMAL, WORD_AT(packed_normal)},
-                 {"list", OPTION_QUIET, WORD_AT(quiet)},
-                 {"table", OPTION_VERBOSE, WORD_AT(verbose)},
-                 {"list", OPTION_FULL, WORD_AT(full)},
-                 {"list", OPTION_VERSION, WORD_AT(version)}};
+    } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},      {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
+                 {"zfight", OPTION_TRIANGLES, WORD_AT(drawn)}, {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
+                 {"list", OPTION_QUIET, WORD_AT(quiet)},       {"table", OPTION_VERBOSE, WORD_AT(verbose)},
+                 {"list", OPTION_FULL, WORD_AT(full)},         {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];
     tally t = {.name = "flags"};
     (void)state;
@@ -477,7 +465,6 @@ static void test_texts(void **state) {
                  {"probe", OPTION_DEVICE, AT(device), true},
                  {"scene m.obj", OPTION_PATH, AT(path), true},
                  {"scene m.obj", OPTION_CAMERA, AT(model_camera), false},
-                 {"scene m.obj", OPTION_ANNOTATE, AT(annotate), true},
                  {"scene m.obj", OPTION_EMIT_NEED, AT(emit_need), true}};
     tally t = {.name = "texts"};
     (void)state;
@@ -550,6 +537,24 @@ static void test_worlds(void **state) {
     assert_true(o.shared_origin && o.scheme_count == WORLD_ROWS && o.triangles.width == 1920);
 }
 
+/* Where a camera stands and what it looks at, in a model and in a world. */
+static void test_places(void **state) {
+    char line[1024] = "";
+    options o;
+    (void)state;
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_EYE, "1,-2,3e4", line), EXIT_FINE);
+    assert_true(o.eye[0] == 1 && o.eye[1] == -2 && o.eye[2] == 3e4 && o.look[0] == 0 && o.triangles.width == 1920);
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_LOOK, "-5m,60cm,7m", line), EXIT_FINE);
+    assert_true(o.look[0] == -5 && o.look[1] == 0.6 && o.look[2] == 7 && o.eye[0] == 0 && o.triangles.width == 0);
+    assert_int_equal(parse(&o, "texture", OPTION_EYE, "1,-2,3e4", line), EXIT_FINE);
+    assert_true(o.eye[0] == 1 && o.eye[1] == -2 && o.eye[2] == 3e4 && o.triangles.width == 0);
+    assert_true(o.camera.width == 640 && o.camera.height == 360);
+    assert_int_equal(parse(&o, "texture", OPTION_LAST_EYE, "5,6,-7", line), EXIT_FINE);
+    assert_true(o.last_eye[0] == 5 && o.last_eye[2] == -7 && o.eye[0] == 0 && o.last_look[0] == 0);
+    assert_int_equal(parse(&o, "texture", OPTION_LAST_LOOK, "5,6,-7", line), EXIT_FINE);
+    assert_true(o.last_look[0] == 5 && o.last_look[2] == -7 && o.look[0] == 0 && o.last_eye[0] == 0);
+}
+
 static void test_own(void **state) {
     char line[1024] = "";
     options o;
@@ -570,10 +575,6 @@ static void test_own(void **state) {
     assert_int_equal(o.filters_off, 1U << FINDER_THIN | 1U << FINDER_FACING);
     assert_int_equal(parse(&o, "scene m.obj", OPTION_ALSO, "all", line), EXIT_FINE);
     assert_int_equal(o.filters_off, (1U << FINDER_FILTERS) - 1);
-    assert_int_equal(parse(&o, "scene m.obj", OPTION_FROM, "1,-2,3e4", line), EXIT_FINE);
-    assert_true(o.from[0] == 1 && o.from[1] == -2 && o.from[2] == 3e4 && o.look[0] == 0 && o.triangles.width == 1920);
-    assert_int_equal(parse(&o, "scene m.obj", OPTION_LOOK, "-5m,60cm,7m", line), EXIT_FINE);
-    assert_true(o.look[0] == -5 && o.look[1] == 0.6 && o.look[2] == 7 && o.from[0] == 0 && o.triangles.width == 0);
     assert_int_equal(parse(&o, "scene m.obj", OPTION_GAP, "0", line), EXIT_FINE);
     assert_true(o.gap == 0.0 && option_given(&o, OPTION_GAP));
     assert_int_equal(parse(&o, "zfight", OPTION_GAP, "0", line), EXIT_USAGE);
@@ -584,13 +585,8 @@ static void test_own(void **state) {
     options_release(&o);
     assert_int_equal(parse(&o, "table", OPTION_RANGE, "2:5", line), EXIT_FINE);
     assert_true(o.range_lo == 2 && o.range_hi == 5);
-    assert_int_equal(parse(&o, "texture", OPTION_ORIGIN, "1,-2,3e4", line), EXIT_FINE);
-    assert_true(o.camera.origin[0] == 1 && o.camera.origin[1] == -2 && o.camera.origin[2] == 3e4);
-    assert_true(o.camera.width == 640 && o.camera.height == 360);
-    assert_int_equal(parse(&o, "texture", OPTION_LAST_ORIGIN, "5,6,-7", line), EXIT_FINE);
-    assert_true(o.last.origin[0] == 5 && o.last.origin[1] == 6 && o.last.origin[2] == -7 && o.camera.origin[0] == 0);
     assert_int_equal(parse(&o, "texture", OPTION_SIZE, "65536x1", line), EXIT_FINE);
-    assert_true(o.camera.width == 65536 && o.camera.height == 1 && o.camera.origin[0] == 0);
+    assert_true(o.camera.width == 65536 && o.camera.height == 1 && o.eye[0] == 0);
     assert_int_equal(parse(&o, "shadow", OPTION_SIZE, "1024", line), EXIT_FINE);
     assert_true(o.camera.width == 1024 && o.camera.height == 1024 && o.light_box[0] == 0);
     assert_int_equal(parse(&o, "shadow", OPTION_SIZE, "512x256", line), EXIT_FINE);
@@ -706,8 +702,8 @@ int main(void) {
 
         cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),
         cmocka_unit_test(test_flags),   cmocka_unit_test(test_texts),   cmocka_unit_test(test_optional),
-        cmocka_unit_test(test_own),     cmocka_unit_test(test_worlds),  cmocka_unit_test(test_boxes),
-        cmocka_unit_test(test_slanted), cmocka_unit_test(test_formats), cmocka_unit_test(test_lists),
-        cmocka_unit_test(test_all)};
+        cmocka_unit_test(test_places),  cmocka_unit_test(test_own),     cmocka_unit_test(test_worlds),
+        cmocka_unit_test(test_boxes),   cmocka_unit_test(test_slanted), cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
     return run_tap(tests);
 }

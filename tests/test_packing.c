@@ -548,8 +548,8 @@ static void there_and_back(void **state) {
         snprintf(field, sizeof field, "\"packing\":\"%s\"", all[i].name);
         assert_int_equal(run((const char *const[]){png, "-q", "--json", "-o", truth_path("said.json"), NULL}), 0);
         assert_true(holds("said.json", field));
-        truth_product(&base, "eye.npy", "--eye", NULL, false);
-        truth_product(&base, "map.npy", "--eye", NULL, true);
+        truth_product(&base, "eye.npy", "eye", NULL, false);
+        truth_product(&base, "map.npy", "eye", NULL, true);
         truth_floats("eye.npy", 1, eyes);
         truth_floats("map.npy", 1, errors);
         tally t = {.name = all[i].name};
@@ -599,7 +599,7 @@ static void normals_come_back(void **state) {
         run((const char *const[]){"--scene", "plane", "--size", "24x10", "-n", "1", "-f", "20", "--fov", "40",
                                   "--parameter", "tilt=30", "--pack", "depth-normals", "-o", png, NULL}),
         0);
-    assert_int_equal(run((const char *const[]){png, "--packed-normal", "-o", npy, NULL}), 0);
+    assert_int_equal(run((const char *const[]){png, "--product", "packed-normal", "-o", npy, NULL}), 0);
     truth_floats("place.npy", 3, normals);
     double want[3];
     packing_normal((const uint8_t[]){128, 128}, want);
@@ -608,8 +608,9 @@ static void normals_come_back(void **state) {
         assert_true(fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-6);
         assert_true(n[2] < -0.8 && n[2] > -0.92); /* tilted by 30 degrees */
     }
-    assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--packed-normal", "-o", npy, NULL}), 2);
-    assert_true(was_said("--packed-normal: needs FILE with --packing depth-normals"));
+    assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--product", "packed-normal", "-o", npy, NULL}),
+                     2);
+    assert_true(was_said("--product: packed-normal needs FILE with --packing depth-normals"));
 }
 
 static void warnings(void **state) {
@@ -633,8 +634,8 @@ static void warnings(void **state) {
         FILE *f = fopen(truth_path("in.png"), "wb");
         assert_int_equal(fwrite(with.at, 1, with.size, f), with.size);
         fclose(f);
-        assert_int_equal(run((const char *const[]){truth_path("in.png"), "--packing", "rgb24", "-m", "d3d", "--eye",
-                                                   "-o", truth_path("eye.npy"), NULL}),
+        assert_int_equal(run((const char *const[]){truth_path("in.png"), "--packing", "rgb24", "-m", "d3d", "--product",
+                                                   "eye", "-o", truth_path("eye.npy"), NULL}),
                          0);
         assert_int_equal(was_said("chunk"), rows[i].said != NULL);
         assert_true(rows[i].said == NULL || was_said(rows[i].said));
@@ -667,8 +668,9 @@ static void notes_of_others(void **state) {
         FILE *f = fopen(truth_path("in.png"), "wb");
         assert_int_equal(fwrite(with.at, 1, with.size, f), with.size);
         fclose(f);
-        assert_int_equal(run((const char *const[]){truth_path("in.png"), "--eye", "-o", truth_path("eye.npy"), NULL}),
-                         rows[i].status);
+        assert_int_equal(
+            run((const char *const[]){truth_path("in.png"), "--product", "eye", "-o", truth_path("eye.npy"), NULL}),
+            rows[i].status);
         if (rows[i].said != NULL && !was_said(rows[i].said))
             fail_msg("not said: %s", rows[i].said);
     }
@@ -690,10 +692,10 @@ static void refusals(void **state) {
         {{"--scene", "plane", "--packing", "rg"}, "--packing: needs FILE"},
         {{in, "--packing", "rgb24", "--pack", "rg"}, "--pack needs -o FILE"},
         {{in, "--pack", "rg", "-o", "x.pfm"}, "must end in .png or .npy for --pack, got 'x.pfm'"},
-        {{in, "--pack", "rg", "--eye", "-o", out}, "--eye: does not apply with --pack"},
+        {{in, "--pack", "rg", "--product", "eye", "-o", out}, "--product: does not apply with --pack"},
         {{in, "--pack", "rg", "--json", "-o", out}, "--json: does not apply with --pack"},
-        {{in, "--pack", "rg", "--normal", "low", "-o", out}, "--normal: does not apply with --pack rg"},
-        {{in, "--pack", "rg", "--packed-normal", "-o", out}, "must not be given together with --pack"},
+        {{in, "--pack", "rg", "--normals-by", "low", "-o", out}, "--normals-by: does not apply with --pack rg"},
+        {{in, "--pack", "rg", "--product", "packed-normal", "-o", out}, "--product: does not apply with --pack"},
         {{"--scene", "plane", "-f", "inf", "--pack", "rg", "-o", out}, "it needs a finite far plane"},
         {{"--scene", "plane", "--ortho", "-n", "-5", "-f", "9", "--pack", "rg", "-o", out},
          "it needs near not less than 0"},

@@ -9,7 +9,9 @@
 #include "texture/image.h"
 
 /* A sphere that stands before the sky, turned away from the axes. */
-#define SCENE "texture --scene sphere --size 48x30 -n 0.5 -f 90 -F fp32 -m d3d --fov 50 --yaw 8 --pitch -3"
+#define SCENE                                                                                                          \
+    "texture --scene sphere --size 48x30 -n 0.5 -f 90 -F fp32 -m d3d --fov 50 "                                        \
+    "--look 710.09566913054,-267.39748443426,5052.5932241276"
 
 /* Reads both files; as many samples as there are. */
 static size_t pair_of(const char *png, const char *npy, image *codes, image *numbers) {
@@ -41,12 +43,12 @@ static void make(const char *options, const char *file, const char *more) {
 static void normals(void **state) {
     (void)state;
     static const char *const formats[] = {"", "--normal-format opengl", "--normal-format directx"};
-    make("--normal high", "n.npy", "");
+    make("--product normal:high", "n.npy", "");
     for (int f = 0; f < 3; f++) {
         image codes, numbers;
         tally t = {.name = formats[f]};
         uint64_t none = 0, blue = 0;
-        make("--normal high", "n.png", formats[f]);
+        make("--product normal:high", "n.png", formats[f]);
         const size_t count = pair_of("n.png", "n.npy", &codes, &numbers);
         for (size_t i = 0; i < count; i++) {
             const double n = (double)((const float *)numbers.data)[i];
@@ -72,16 +74,16 @@ static void meanings(void **state) {
         const char *options, *product, *unit, *says;
         bool up; /* an error, which is rounded up */
     } rows[] = {
-        {"--eye", "eye depth", "scene units", "product=depth", false},
-        {"--eye --radial", "distance from the camera", "scene units", "product=distances", false},
-        {"--eye --error-map", "eye depth, error", "scene units", "product=eye-depths,-the-error", true},
-        {"--linear01", "eye depth over far", NULL, "product=eye-depths-over-far", false},
-        {"--raw", "window depth", NULL, "product=window-depths", false},
-        {"--raw --error-map", "window depth, error", NULL, "product=window-depths,-the-error", true},
-        {"--position rays", "positions by rays", "scene units", "product=positions", false},
-        {"--normal high", "normals by high", NULL, "product=normals", false},
-        {"--normal high --error-map", "normals by high, error", "degrees", "product=normals,-the-error", true},
-        {"--effect fog --parameter density=3", "fog", NULL, "product=an-effect", false},
+        {"--product eye", "eye depth", "scene units", "product=depth", false},
+        {"--product radial", "distance from the camera", "scene units", "product=distances", false},
+        {"--product eye --error-map", "eye depth, error", "scene units", "product=eye-depths,-the-error", true},
+        {"--product linear01", "eye depth over far", NULL, "product=eye-depths-over-far", false},
+        {"--product raw", "window depth", NULL, "product=window-depths", false},
+        {"--product raw --error-map", "window depth, error", NULL, "product=window-depths,-the-error", true},
+        {"--product position:rays", "positions by rays", "scene units", "product=positions", false},
+        {"--product normal:high", "normals by high", NULL, "product=normals", false},
+        {"--product normal:high --error-map", "normals by high, error", "degrees", "product=normals,-the-error", true},
+        {"--product effect:fog --parameter density=3", "fog", NULL, "product=an-effect", false},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         image codes, numbers;
@@ -110,7 +112,8 @@ static void meanings(void **state) {
         }
         for (size_t k = 0; k < count; k++) {
             const double want = (double)((const float *)numbers.data)[k];
-            const double flip = strncmp(rows[i].options, "--normal", 8) == 0 && !rows[i].up && k % 3 == 2 ? -1 : 1;
+            const double flip =
+                strncmp(rows[i].options, "--product normal", 16) == 0 && !rows[i].up && k % 3 == 2 ? -1 : 1;
             const uint16_t code = ((const uint16_t *)codes.data)[k];
             const double got = flip * (offset + scale * code), slack = 0.5 * scale * (1 + 1e-6) + 1e-12;
             if (isnan(want))
@@ -131,7 +134,7 @@ static void meanings(void **state) {
 /* A file of numbers has no scale. */
 static void numbers_as_they_are(void **state) {
     (void)state;
-    printed p = made("--position exact", "p.npy", "--json");
+    printed p = made("--product position:exact", "p.npy", "--json");
     json_t *root = json_of(p.out);
     assert_string_equal(json_string_value(json_object_get(root, "type")), "f4");
     assert_true(json_number_value(json_object_get(root, "offset")) == 0);
@@ -149,8 +152,8 @@ static void maps_beside(void **state) {
         image codes;
         image_error error;
         snprintf(map, sizeof map, "%s", scratch_file("map.png"));
-        printed p = print_of("%s %s --error-map=%s -o %s --json", SCENE, normals ? "--normal high" : "--eye", map,
-                             scratch_file("p.png"));
+        printed p = print_of("%s %s --error-map=%s -o %s --json", SCENE,
+                             normals ? "--product normal:high" : "--product eye", map, scratch_file("p.png"));
         assert_int_equal(p.status, 0);
         assert_string_equal(p.errors, "");
         json_t *root = json_of(p.out);
@@ -172,7 +175,7 @@ static void maps_beside(void **state) {
         json_decref(root);
         printed_free(&p);
     }
-    printed p = made("--eye", "p.png", "--json");
+    printed p = made("--product eye", "p.png", "--json");
     json_t *root = json_of(p.out);
     assert_true(json_is_null(json_object_get(root, "error_map")));
     json_decref(root);
@@ -188,16 +191,16 @@ static void eye_depths_come_back(void **state) {
     snprintf(first, sizeof first, "%s", scratch_file("e.png"));
     snprintf(again, sizeof again, "%s", scratch_file("again.png"));
     snprintf(back, sizeof back, "%s", scratch_file("back.npy"));
-    make("--eye", "e.png", "");
-    make("--eye", "e.npy", "");
-    printed p = print_of("texture %s --eye -o %s", first, back);
+    make("--product eye", "e.png", "");
+    make("--product eye", "e.npy", "");
+    printed p = print_of("texture %s --product eye -o %s", first, back);
     if (p.status != 0)
         fail_msg("%s", p.errors);
     printed_free(&p);
-    p = print_of("texture %s --eye -o %s", first, again);
+    p = print_of("texture %s --product eye -o %s", first, again);
     assert_int_equal(p.status, 0);
     printed_free(&p);
-    p = print_of("texture %s -q --eye --error-map -o %s", first, scratch_file("map.npy"));
+    p = print_of("texture %s -q --product eye --error-map -o %s", first, scratch_file("map.npy"));
     assert_int_equal(p.status, 0);
     printed_free(&p);
     image map, depths;
@@ -224,10 +227,10 @@ static void eye_depths_come_back(void **state) {
 /* What is no depth says so, unless somebody insists. */
 static void no_depths(void **state) {
     (void)state;
-    static const char *const products[][2] = {{"--position exact", "positions"},
-                                              {"--normal low", "normals"},
-                                              {"--eye --radial", "distances"},
-                                              {"--effect fog", "an-effect"}};
+    static const char *const products[][2] = {{"--product position:exact", "positions"},
+                                              {"--product normal:low", "normals"},
+                                              {"--product radial", "distances"},
+                                              {"--product effect:fog", "an-effect"}};
     for (size_t i = 0; i < sizeof products / sizeof products[0]; i++) {
         char want[128];
         make(products[i][0], "x.png", "-q");
@@ -242,11 +245,11 @@ static void no_depths(void **state) {
         assert_int_equal(p.status, 0);
         printed_free(&p);
     }
-    printed p = print_of("%s --eye -o %s --normal-format directx", SCENE, scratch_file("x.png"));
+    printed p = print_of("%s --product eye -o %s --normal-format directx", SCENE, scratch_file("x.png"));
     assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--normal-format: needs --normal or --packed-normal"));
+    assert_non_null(strstr(p.errors, "--normal-format: needs --product normal or packed-normal"));
     printed_free(&p);
-    p = print_of("%s --normal low -o %s --normal-format directx", SCENE, scratch_file("x.npy"));
+    p = print_of("%s --product normal:low -o %s --normal-format directx", SCENE, scratch_file("x.npy"));
     assert_int_equal(p.status, 2);
     assert_non_null(strstr(p.errors, "--normal-format: is for the normals in a PNG"));
     printed_free(&p);

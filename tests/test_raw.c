@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * texture --raw and --linear01: what codes stand for, worked out here in long double, and how far that can be off: of
- * an image half a cell and what binary32 loses, of a scene the distance from its known depth.
+ * texture --product raw and --product linear01: what codes stand for, worked out here in long double, and how far that
+ * can be off: of an image half a cell and what binary32 loses, of a scene the distance from its known depth.
  */
 #include <stdbool.h>
 #include <stdio.h>
@@ -126,10 +126,10 @@ static void images_are_off_by_half_a_cell(void **state) {
         write_samples(b, &r, samples, path);
         snprintf(source, sizeof source, "%s ", path);
         options_of(b, source + strlen(source));
-        const float *raw = product_of(source, "--raw", &made[0]);
-        const float *raw_map = product_of(source, "--raw --error-map", &made[1]);
-        const float *share = product_of(source, "--linear01", &made[2]);
-        const float *share_map = product_of(source, "--linear01 --error-map", &made[3]);
+        const float *raw = product_of(source, "--product raw", &made[0]);
+        const float *raw_map = product_of(source, "--product raw --error-map", &made[1]);
+        const float *share = product_of(source, "--product linear01", &made[2]);
+        const float *share_map = product_of(source, "--product linear01 --error-map", &made[3]);
         for (int i = 0; i < PIXELS; i++) {
             real d[3], z[3];
             if (isnan(samples[i])) {
@@ -173,7 +173,7 @@ static void samples_coarser_than_the_buffer_count(void **state) {
     assert_true(w != NULL && image_writer_rows(w, bytes, ROWS) && image_writer_close(w));
     fclose(stream);
     snprintf(source, sizeof source, "%s -F unorm24 -m d3d", path);
-    const float *got = product_of(source, "--raw --error-map", &map);
+    const float *got = product_of(source, "--product raw --error-map", &map);
     for (int i = 0; i < PIXELS; i++) {
         const double up = bytes[i] < 255 ? 1.0 / 255 : 0, down = fmin(bytes[i], fmax(0.5, bytes[i] / 256.0)) / 255;
         const double want = fmax(up, down), got_here = (double)got[i];
@@ -198,13 +198,13 @@ static void scenes_are_off_by_what_they_are(void **state) {
             image raw, raw_map, share, share_map;
             snprintf(source, sizeof source, "--scene plane --size 2x1 --parameter distance=%.17g ", z);
             options_of(b, source + strlen(source));
-            const real stored = (real)product_of(source, "--raw", &raw)[0];
-            const real off = (real)product_of(source, "--raw --error-map", &raw_map)[0];
+            const real stored = (real)product_of(source, "--product raw", &raw)[0];
+            const real off = (real)product_of(source, "--product raw --error-map", &raw_map)[0];
             const real want = fabsl(stored - d);
             TALLY(&t, off >= want && off <= want * (1 + 0x1p-22L) + 0x1p-49L * d, "%s %s at %.9g: %.9Lg, not %.9Lg",
                   b->format, b->mapping, z, off, want);
-            const real over_far = (real)product_of(source, "--linear01", &share)[0];
-            const real off_far = (real)product_of(source, "--linear01 --error-map", &share_map)[0];
+            const real over_far = (real)product_of(source, "--product linear01", &share)[0];
+            const real off_far = (real)product_of(source, "--product linear01 --error-map", &share_map)[0];
             const bool sky = isnan((double)over_far);
             TALLY(&t, sky == (fabsl(stored - (reversed(b) ? 0 : 1)) <= 1e-4L), "%s at %.9g: sky", b->format, z);
             TALLY(&t, sky || fabsl(fabsl(over_far - (real)z / b->f) - off_far) <= 0x1p-22L * over_far,
@@ -228,7 +228,7 @@ static void metric_depth_over_far(void **state) {
     snprintf(path, sizeof path, "%s", scratch_file("in.npy"));
     write_samples(&buffers[0], &r, samples, path);
     snprintf(source, sizeof source, "%s --metric 0.01 -f 800", path);
-    const float *got = product_of(source, "--linear01", &share);
+    const float *got = product_of(source, "--product linear01", &share);
     for (int i = 1; i < PIXELS; i++)
         TALLY(&t, fabs((double)got[i] - samples[i] / 80000) <= 0x1p-22 * (double)got[i], "%d: %.9g", i, (double)got[i]);
     image_free(&share);
@@ -238,16 +238,18 @@ static void metric_depth_over_far(void **state) {
 static void refusals(void **state) {
     (void)state;
     static const char *const rows[][2] = {
-        {"--metric 0.01 --raw", "depthprec: --raw: does not apply with --metric, which is not window depth\n"},
-        {"--metric 0.01 --linear01", "depthprec: --linear01: needs --far with --metric, which has none\n"},
-        {"--packing depth-normals --raw",
-         "depthprec: --raw: does not apply with --packing depth-normals, which is not window depth\n"},
-        {"-m d3d -f inf --linear01", "depthprec: texture: eye depth over far: this needs a finite far plane\n"},
-        {"-m d3d --ortho -n -3 -f 0 --linear01",
+        {"--metric 0.01 --product raw",
+         "depthprec: --product: raw does not apply with --metric, which is not window depth\n"},
+        {"--metric 0.01 --product linear01",
+         "depthprec: --product: linear01 needs --far with --metric, which has none\n"},
+        {"--packing depth-normals --product raw",
+         "depthprec: --product: raw does not apply with --packing depth-normals, which is not window depth\n"},
+        {"-m d3d -f inf --product linear01", "depthprec: texture: eye depth over far: this needs a finite far plane\n"},
+        {"-m d3d --ortho -n -3 -f 0 --product linear01",
          "depthprec: texture: eye depth over far: this needs far greater than 0\n"},
-        {"-m d3d --raw --linear01", "depthprec: --raw: cannot be combined with --linear01\n"},
-        {"-m d3d --radial --linear01", "depthprec: --radial: does not apply with --linear01\n"},
-        {"-m d3d --pack rg --raw", "depthprec: --raw: does not apply with --pack\n"}};
+        {"-m d3d --product raw --product linear01",
+         "depthprec: --product: must not be given twice, got 'linear01' too\n"},
+        {"-m d3d --pack rg --product raw", "depthprec: --product: does not apply with --pack\n"}};
     char path[512];
     double samples[PIXELS];
     rng r = rng_make("refusals");

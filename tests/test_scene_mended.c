@@ -103,7 +103,7 @@ static said ask(const char *path, const char *options) {
     const json_t *f = json_array_get(json_object_get(root, "findings"), 0);
     s.within = number_or_nan(root, "within");
     if (f != NULL) {
-        const bool eye = strstr(options, "--from") != NULL;
+        const bool eye = strstr(options, "--eye") != NULL;
         const double from = eye ? number_or_nan(f, "fights_from") : (double)NAN;
         s.is_seen = !eye || !isnan(number_or_nan(f, "seen_from"));
         s.fights = eye ? from < s.within : json_is_true(json_object_get(f, "fights"));
@@ -129,7 +129,7 @@ static void random_options(rng *r, double size, bool eye, char out[512]) {
     double from[3];
     const double away = size * rng_log(r, 1.2, 40);
     random_unit(r, from);
-    snprintf(out + used, 512 - used, " --from=%.9g,%.9g,%.9g --look 0,0,0", away * from[0], away * from[1],
+    snprintf(out + used, 512 - used, " --eye=%.9g,%.9g,%.9g --look 0,0,0", away * from[0], away * from[1],
              away * from[2]);
 }
 

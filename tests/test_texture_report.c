@@ -103,15 +103,16 @@ static void error_maps_are_called_what_they_are(void **state) {
     (void)state;
     char words[256];
     snprintf(words, sizeof words,
-             "--scene sphere --size %dx%d -F unorm24 -m d3d --normal projective --error-map --figure %s", WIDTH, HEIGHT,
-             truth_path("scene.svg"));
+             "--scene sphere --size %dx%d -F unorm24 -m d3d --product normal:projective --error-map "
+             "--figure %s",
+             WIDTH, HEIGHT, truth_path("scene.svg"));
     run(words);
     assert_true(holds("scene.svg", "Normals by projective, error"));
     assert_false(holds("scene.svg", "bound of the error"));
     snprintf(words, sizeof words, "--scene sphere --size %dx%d -F unorm24 -m d3d -o %s", WIDTH, HEIGHT,
              truth_path("in.npy"));
     run(words);
-    snprintf(words, sizeof words, "%s -F unorm24 -m d3d --normal projective --error-map --figure %s",
+    snprintf(words, sizeof words, "%s -F unorm24 -m d3d --product normal:projective --error-map --figure %s",
              truth_path("in.npy"), truth_path("image.svg"));
     run(words);
     assert_true(holds("image.svg", "Normals by projective, bound of the error on planes"));

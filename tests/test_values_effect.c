@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every value in the table of an effect, texture --effect without an image. */
+/* Every value in the table of an effect, texture --product effect:NAME without an image. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,10 +33,10 @@ static const struct {
     {.effect = "scan-line", .camera = PERSPECTIVE("gl", "unorm16"), .z = AHEAD},
     {.effect = "edge", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
     {.effect = "height-fog", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
-     .view = "--fov 40 --pitch -3 --yaw 20 --origin 7,9,-2", .column = 320, .row = 359,
+     .view = "--fov 40 --eye 7,9,-2 --look 38.337342473601,4.1981760147099,84.098640831935", .column = 320, .row = 359,
      .now = {640, 360, 40, 5, 20, -3, {7, 9, -2}, NULL}},
     {.effect = "water-line", .camera = {0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 1}, .z = AHEAD,
-     .view = "--half-height 3 --pitch 8 --size 90x60 --pixel 70,12", .column = 70, .row = 12,
+     .view = "--half-height 3 --look 0,857.027955712,6098.07076731 --size 90x60 --pixel 70,12", .column = 70, .row = 12,
      .now = {90, 60, 60, 3, 0, 8, {0, 0, 0}, NULL}},
     {.effect = "ambient-occlusion", .camera = PERSPECTIVE("linear", "unorm16"), .z = AHEAD},
     {.effect = "shadow", .camera = PERSPECTIVE("d3d", "unorm16", "fp32"), .z = AHEAD},
@@ -47,13 +47,16 @@ static const struct {
      /* 2 atan(9/16) */
      .view = "--hfov 90 --pixel 0,0", .now = {640, 360, 58.71550708558254, 5, 0, 0, {0, 0, 0}, NULL}},
     {.effect = "decal", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
-     .view = "--yaw 30", .column = 320, .row = 359, .now = {640, 360, 60, 5, 30, 0, {0, 0, 0}, NULL}},
+     .view = "--look 1,0,1.7320508075688772", .column = 320, .row = 359,
+     .now = {640, 360, 60, 5, 30.000000000000004, 0, {0, 0, 0}, NULL}},
     {.effect = "motion-blur", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
-     .view = "--yaw 10 --last-origin 0.1,0.05,0 --last-yaw 9 --last-pitch 1 --last-fov 59", .column = 320, .row = 359,
-     .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}, NULL}, .last = {640, 360, 59, 5, 9, 1, {0.1, 0.05, 0}, NULL}},
+     .view = "--look 677.141068812,0,3840.25783287 --last-eye 0.1,0.05,0 "
+             "--last-look 5529.568023671,617.0318354725,34911.6871098", .column = 320, .row = 359,
+     .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}, NULL}, .last = {640, 360, 60, 5, 9, 1, {0.1, 0.05, 0}, NULL}},
     {.effect = "intersection", .camera = BEHIND("d3d", "unorm16", "fp32"), .z = AROUND},
     {.effect = "height-fog", .camera = BEHIND("reversed", "unorm16"), .z = AROUND,
-     .view = "--pitch -20", .column = 320, .row = 359, .now = {640, 360, 60, 5, 0, -20, {0, 0, 0}, NULL}},
+     .view = "--look 0,-16833.119889,46248.616794", .column = 320, .row = 359,
+     .now = {640, 360, 60, 5, 0, -20, {0, 0, 0}, NULL}},
 };
 /* clang-format on */
 
@@ -174,8 +177,8 @@ static void test_effects(void **state) {
         v.unit = effects[i].camera.unit;
         assert_non_null(row);
         parameter_defaults(row->parameters, parameters);
-        size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --effect %s %s %s --at ", row->name,
-                                       effects[i].view != NULL ? effects[i].view : "",
+        size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --product effect:%s %s %s --at ",
+                                       row->name, effects[i].view != NULL ? effects[i].view : "",
                                        camera_options(&effects[i].camera, options));
         for (int k = 0; k < DEPTHS; k++)
             used += (size_t)snprintf(arguments + used, sizeof arguments - used, "%s%.17g", k > 0 ? "," : "",
@@ -229,7 +232,7 @@ static void test_pixels(void **state) {
     static const struct {
         const char *name, *parameters;
     } shown[] = {{"intersection", "--parameter half-width=4 --parameter reference=29"},
-                 {"height-fog", "--parameter density=0.5 --parameter start=9 --parameter end=-50 --origin 5,2,-3"},
+                 {"height-fog", "--parameter density=0.5 --parameter start=9 --parameter end=-50 --eye 5,2,-3"},
                  {"fog", "--parameter density=3"}};
     static const uint32_t rows[] = {3, 17, 30};
     int inside = 0;
@@ -246,7 +249,7 @@ static void test_pixels(void **state) {
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
         const char *name = shown[i].name;
         printed p = print_of("texture --scene plane --parameter distance=30 --parameter tilt=40 --size 64x36 --fov 50 "
-                             "-n 0.3 -f 900 -F unorm16 -m d3d --effect %s %s --pixel '20,3;20,17;20,30' --json",
+                             "-n 0.3 -f 900 -F unorm16 -m d3d --product effect:%s %s --pixel '20,3;20,17;20,30' --json",
                              name, shown[i].parameters);
         json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
         assert_string_equal(json_string_value(json_object_get(root, "effect")), name);
@@ -268,9 +271,9 @@ static void test_pixels(void **state) {
     }
     assert_true(inside >= 6);
     /* A silhouette: the corners of this pixel lie on either side of it. */
-    printed p =
-        print_of("texture --scene sphere --size 64x36 -F unorm16 -m d3d --effect edge --pixel '36,18;41,18;60,3' "
-                 "--json");
+    printed p = print_of(
+        "texture --scene sphere --size 64x36 -F unorm16 -m d3d --product effect:edge --pixel '36,18;41,18;60,3' "
+        "--json");
     json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
     int edges = 0;
     for (size_t k = 0; k < json_array_size(pixels); k++) {

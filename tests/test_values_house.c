@@ -291,7 +291,7 @@ static void mended_from_street(void **state) {
 /* From an eye that is farther off than the model is large, what is not said reaches as far as the eye sees: each lift
  * is for the farthest place. */
 static void far_off(void **state) {
-    printed p = print_of("scene " HOUSE " -F d24 -m d3d --from 0,50,400 --look 0,0,0 --json");
+    printed p = print_of("scene " HOUSE " -F d24 -m d3d --eye 0,50,400 --look 0,0,0 --json");
     json_t *root = json_of(p.out), *list = json_object_get(root, "findings");
     const double within = number(root, "within");
     size_t fighting = 0;

@@ -170,6 +170,15 @@ static bool packing_row(size_t i, listed *l) {
     return r != NULL;
 }
 
+static bool product(size_t i, listed *l) {
+    static const char *const kinds[] = {"eye",      "radial", "linear01",      "raw",
+                                        "position", "normal", "packed-normal", "effect"};
+    if (i >= sizeof kinds / sizeof kinds[0])
+        return false;
+    *l = (listed){kinds[i], "", NULL, NULL, {0}, 0};
+    return true;
+}
+
 static bool position(size_t i, listed *l) {
     const position_row *r = position_get(i);
     if (r != NULL)
@@ -217,6 +226,7 @@ static const struct {
               {"rasterizers", "arithmetic", rasterizer},
               {"encodings", "bound", encoding},
               {"packings", "bound", packing_row},
+              {"products", "methods", product},
               {"effects", "parameters", effect},
               {"figures", "bound", figure},
               {"scenes", "bound", scene},

@@ -22,7 +22,7 @@ typedef struct pixel_case {
 static const pixel_case cases[] = {
     {{0.3, 1000, {"unorm16"}, {"d3d"}, .ortho = 0},
      "decals",
-     "--fov 40 --yaw 10 --pitch=-5 --origin 1,-2,3",
+     "--fov 40 --eye 1,-2,3 --look 107.73322205178,-55.775093275305,608.31418177148",
      NULL,
      40,
      NAN,
@@ -33,7 +33,7 @@ static const pixel_case cases[] = {
      {{20, 12}, {0, 0}, {39, 23}, {3, 11}}},
     {{1, 60, {"fp16"}, {"gl"}, .ortho = 1},
      "sphere",
-     "--half-height 3 --yaw=-20",
+     "--half-height 3 --look=-16833.119889,0,46248.616794",
      NULL,
      NAN,
      3,
@@ -44,12 +44,12 @@ static const pixel_case cases[] = {
      {{20, 12}, {0, 0}, {26, 10}, {17, 15}}},
     {{0.2, 500, {"unorm16"}, {"reversed"}, .ortho = 0},
      NULL,
-     "--fov 70 --pitch 30 --sky 0.01",
+     "--fov 70 --look 0,1,1.7320508075688772 --sky 0.01",
      NULL,
      70,
      NAN,
      0,
-     30,
+     30.000000000000004,
      {0, 0, 0},
      0.01,
      {{5, 5}, {0, 15}, {10, 10}, {21, 22}}},
@@ -337,7 +337,9 @@ static void test_bounds(void **state) {
     assert_non_null(file);
     fputs("1 0 0 0  0 1 0 0  0.1 0 -0.0001 0.1  0 0 -1 0\n", file);
     assert_int_equal(fclose(file), 0);
-    printed p = print_of("texture %s -F fp32 -m reversed -q --effect outline --normal low --pixel 6,5", path);
+    printed p = print_of("texture %s -F fp32 -m reversed -q --product effect:outline --normals-by low "
+                         "--pixel 6,5",
+                         path);
     assert_non_null(strstr(p.out, " levels\n"));
     printed_free(&p);
     p = print_of("texture %s -F fp32 -m reversed -q --matrix %s --pixel 6,5", path, matrix);

@@ -104,7 +104,7 @@ static void one_eye(void **state) {
         double depth[2];
         char line[256];
         paint_depths(e, at, depth);
-        snprintf(line, sizeof line, "scene " STREET " -m d3d -F %s --from %g,%g,%g --look %g,%g,%g%s", rows[i].format,
+        snprintf(line, sizeof line, "scene " STREET " -m d3d -F %s --eye %g,%g,%g --look %g,%g,%g%s", rows[i].format,
                  e[0], e[1], e[2], at[0], at[1], at[2], rows[i].more);
         const double nearer_than = rows[i].within > 0 ? rows[i].within : HUGE_VAL;
         const bool must = bound_of(rows[i].format, depth[0], depth[1], 1000, true) > 0x1p-6;
@@ -151,7 +151,7 @@ static void one_eye(void **state) {
 /* What only a cut road would tell apart comes before what is told apart, however close that is; and is counted. */
 static void what_comes_first(void **state) {
     const char *path = scratch_file("order.obj");
-    const char *eye = "--gap 0.02 --from 0,1.7,2 --look 0,0,-10";
+    const char *eye = "--gap 0.02 --eye 0,1.7,2 --look 0,0,-10";
     char line[256];
     (void)state;
     write_file(path, "o road\nv -8 0 -8\nv 8 0 -8\nv 8 0 8\nv -8 0 8\nf 4 3 2 1\n" /* also behind the eye */
@@ -188,7 +188,7 @@ static void lift_of_parts(void **state) {
                  "v -2 -3 -9.0625\nv 2 -3 -9.0625\nv 0 1 -9.0625\nf -3 -2 -1\no near\n%s%s",
                  parts[first], parts[1 - first]);
         write_file(path, text);
-        snprintf(line, sizeof line, "scene %s --gap 0.1 -F d16 -m d3d --from 0,0,0 --look 0,0,-1", path);
+        snprintf(line, sizeof line, "scene %s --gap 0.1 -F d16 -m d3d --eye 0,0,0 --look 0,0,-1", path);
         json_t *root = object_of(0, line);
         const json_t *f = json_array_get(json_object_get(root, "findings"), 0);
         assert_int_equal(json_array_size(json_object_get(root, "findings")), 1);
@@ -201,14 +201,14 @@ static void lift_of_parts(void **state) {
 /* The sign, not in view; what hides behind the eye; text and CSV. */
 static void forms(void **state) {
     char want[128];
-    json_t *root = object_of(0, "scene " STREET " -m d3d -F d16 --from 0,4,20 --look 0,0,0");
+    json_t *root = object_of(0, "scene " STREET " -m d3d -F d16 --eye 0,4,20 --look 0,0,0");
     const json_t *sign = finding_of(root, "wall"), *paint = finding_of(root, "road");
     (void)state;
     assert_ptr_equal(json_array_get(json_object_get(root, "findings"), 0), paint); /* what is seen comes first */
     assert_true(json_is_null(json_object_get(sign, "seen_from")) && json_is_null(json_object_get(sign, "seen_to")));
     assert_true(json_is_false(json_object_get(sign, "fights")) && json_is_true(json_object_get(paint, "fights")));
     assert_true(json_is_true(json_object_get(sign, "covered")) && json_object_get(root, "passed") == NULL);
-    printed p = print_of("scene " STREET " -m d3d -F d16 --from 0,4,20 --look 0,0,0");
+    printed p = print_of("scene " STREET " -m d3d -F d16 --eye 0,4,20 --look 0,0,0");
     assert_int_equal(p.status, 0);
     assert_non_null(strstr(p.out, "from 0 4 20, looking along 0 -0.1961 -0.9806\n"));
     assert_non_null(strstr(p.out, "within 0.02 of each other: 1 seen, 1 can fight.\n"));
@@ -218,7 +218,7 @@ static void forms(void **state) {
         fail_msg("no '%s' in %s", want, p.out);
     assert_null(strstr(p.out, "'wall'"));
     printed_free(&p);
-    p = print_of("scene " STREET " -m d3d -F d16 --from 0,4,20 --look 0,0,0 --csv");
+    p = print_of("scene " STREET " -m d3d -F d16 --eye 0,4,20 --look 0,0,0 --csv");
     snprintf(want, sizeof want, ",true,%.17g,%.17g,", number(paint, "seen_from"), number(paint, "seen_to"));
     char *line = strstr(p.out, "\nroad,");
     assert_non_null(line);
@@ -231,12 +231,12 @@ static void forms(void **state) {
     printed_free(&p);
     json_decref(root);
     /* above the road, whose corners lie behind the eye */
-    p = print_of("scene " STREET " --from 0,1.7,2 --look 0,0,-10");
+    p = print_of("scene " STREET " --eye 0,1.7,2 --look 0,0,-10");
     assert_non_null(
         strstr(p.out, "1 seen, 0 can fight.\n1 more is told apart only if cut into the triangles above.\n"));
     assert_non_null(strstr(p.out, ": told apart only if cut into the triangles"));
     printed_free(&p);
-    p = print_of("scene " STREET " --from 0,4,20 --look 0,0,0 -m log");
+    p = print_of("scene " STREET " --eye 0,4,20 --look 0,0,0 -m log");
     assert_non_null(strstr(p.out, "1 seen, 0 can fight.\n1 more is told apart only facing the camera.\n"));
     printed_free(&p);
 }
@@ -333,7 +333,7 @@ static void model_cameras(void **state) {
     } wrong[] = {{"door", "--camera: must be Door, Plan, 3 or Odd, got 'door'; did you mean 'Door'?"},
                  {"Plan", "--camera: must be a perspective one, and 'Plan' is orthographic"},
                  {"Odd", "--camera: 'Odd' has a vertical field of view of 180 degrees"},
-                 {"Door --near 0.1 --from 1,2,3 --look 0,0,0", "--camera: cannot be combined with --from"}};
+                 {"Door --near 0.1 --eye 1,2,3 --look 0,0,0", "--camera: cannot be combined with --eye"}};
     char name[512], line[1024];
     (void)state;
     snprintf(name, sizeof name, "%s", scratch_file("cameras.gltf"));
@@ -366,14 +366,14 @@ static void model_cameras(void **state) {
 static void refused(void **state) {
     static const struct {
         const char *options, *said;
-    } rows[] = {{"--from 1,2,3", "--from: needs --look"},
-                {"--look 1,2,3", "--look: needs --from"},
-                {"--from 1,2,3 --look 1,2,3", "--look: must be another place than --from, which are both 1,2,3"},
-                {"--from 1,2 --look 1,2,3", "--from: must be X,Y,Z, each from -1e12 to 1e12, got '1,2'"},
-                {"--from 1,2,3 --look 0,0,0 --path x", "--path: cannot be combined with --from"},
+    } rows[] = {{"--eye 1,2,3", "--eye: needs --look"},
+                {"--look 1,2,3", "--look: needs --eye"},
+                {"--eye 1,2,3 --look 1,2,3", "--look: must be another place than --eye, which are both 1,2,3"},
+                {"--eye 1,2 --look 1,2,3", "--eye: must be X,Y,Z, each from -1e12 to 1e12, got '1,2'"},
+                {"--eye 1,2,3 --look 0,0,0 --path x", "--path: cannot be combined with --eye"},
                 {"--camera A --path x", "--path: cannot be combined with --camera"},
                 {"--camera A", "--camera: tests/models/street.obj has no camera, got 'A'"},
-                {"--from 1,2,3 --look 0,0,0 --slant 0:40", "--slant: does not apply from an eye"}};
+                {"--eye 1,2,3 --look 0,0,0 --slant 0:40", "--slant: does not apply from an eye"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         printed p = print_of("scene " STREET " %s", rows[i].options);

@@ -26,7 +26,7 @@ typedef struct texture_case {
 static const texture_case scenes[] = {
     {{0.3, 1000, {"unorm16"}, {"d3d"}, .unit = "cm"},
      "decals",
-     "--fov 40 --yaw 10 --pitch=-5 --origin 1,-2,3 --sky 0.001",
+     "--fov 40 --eye 1,-2,3 --look 107.73322205178,-55.775093275305,608.31418177148 --sky 0.001",
      "given",
      "given",
      "given",

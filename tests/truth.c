@@ -164,9 +164,10 @@ int truth_folder_end(void **state) {
 
 void truth_product(const command *base, const char *file, const char *what, const char *method, bool error) {
     command c = *base;
-    truth_add(&c, what);
-    if (method != NULL)
-        truth_add(&c, method);
+    char product[64];
+    snprintf(product, sizeof product, "%s%s%s", what, method != NULL ? ":" : "", method != NULL ? method : "");
+    truth_add(&c, "--product");
+    truth_add(&c, product);
     truth_add(&c, "-o");
     truth_add(&c, truth_path(file));
     if (error)

@@ -110,7 +110,7 @@ static const struct {
             {OPTION_WITHIN, FIGURE_MODEL, "scene-fights"},
             {OPTION_ALSO, FIGURE_MODEL, "scene-fights"},
             {OPTION_TRANSFORMS, FIGURE_MODEL, "scene-fights"},
-            {OPTION_FROM, FIGURE_MODEL, "scene-fights"},
+            {OPTION_EYE, FIGURE_MODEL, "scene-fights"},
             {OPTION_LOOK, FIGURE_MODEL, "scene-fights"},
             {OPTION_PATH, FIGURE_MODEL, "scene-fights"},
             {OPTION_CAMERA, FIGURE_MODEL, "scene-fights"},

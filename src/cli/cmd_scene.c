@@ -36,7 +36,7 @@ static options scene_options(const options *given) {
 
 /* The report is on stdout without -o; that the files beside it can be written is known before the search. */
 static int check_files(const scene *s) {
-    static const option_id files[] = {OPTION_RENDER, OPTION_ANNOTATE, OPTION_EMIT_NEED};
+    static const option_id files[] = {OPTION_RENDER, OPTION_EMIT_NEED};
     const options *o = &s->o;
     option_id on_stdout = o->output == NULL || strcmp(o->output, "-") == 0 ? OPTION_OUTPUT : OPTION_COUNT;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
@@ -303,7 +303,7 @@ static int write_files(scene *s, output *out) {
     const struct {
         const char *path;
         int (*write)(scene *s);
-    } files[] = {{s->o.render, scene_render}, {s->o.annotate, scene_annotate}, {s->o.emit_need, scene_need}};
+    } files[] = {{s->o.render, scene_render}, {s->o.emit_need, scene_need}};
     int status = EXIT_FINE;
     for (size_t i = 0; i < sizeof files / sizeof files[0] && status == EXIT_FINE; i++) {
         if (files[i].path != NULL)

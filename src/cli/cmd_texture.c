@@ -12,13 +12,14 @@ static int check_alone(const options *o) {
     if (o->error_map && o->effect != NULL && option_given(o, OPTION_PIXEL))
         return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
-        return option_error(OPTION_ERROR_MAP, "needs --eye, --linear01, --raw, --position, --normal or --effect");
-    if (o->radial && !texture_product_wanted(o))
-        return option_error(OPTION_RADIAL, "needs --eye");
+        return option_error(OPTION_ERROR_MAP, "needs --product");
     if (option_given(o, OPTION_AT))
-        return option_error(OPTION_AT, "is for the table of --effect without an image");
-    if (option_given(o, OPTION_NORMAL_FORMAT) && (o->normal == NULL || texture_normals_compared(o)))
-        return option_error(OPTION_NORMAL_FORMAT, "needs --normal or --packed-normal");
+        return option_error(OPTION_AT, "is for the table of an effect without an image");
+    if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
+        return option_error(OPTION_NORMAL_FORMAT, "needs --product normal or packed-normal");
+    if (o->normals_by != NULL && (o->effect == NULL || (o->effect->needs & EFFECT_NORMALS) == 0))
+        return option_error(OPTION_NORMALS_BY, "is for --product effect:outline and --pack depth-normals; --product "
+                                               "normal:METHOD makes normals");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
         return option_error(OPTION_PIXEL, "describes single pixels, and makes no image or figure");
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
@@ -39,15 +40,14 @@ static int check_alone(const options *o) {
 /* The table of an effect sees depths, and at most one pixel. */
 static int check_table(const options *o) {
     static const option_id images[] = {
-        OPTION_SKY,      OPTION_METRIC, OPTION_EYE,           OPTION_RADIAL,  OPTION_LINEAR01,  OPTION_RAW,
-        OPTION_POSITION, OPTION_NORMAL, OPTION_ERROR_MAP,     OPTION_FIGURE,  OPTION_THEME,     OPTION_WIDTH,
-        OPTION_HEIGHT,   OPTION_TITLE,  OPTION_THREADS,       OPTION_TYPE,    OPTION_PACKING,   OPTION_NORMAL_FORMAT,
-        OPTION_CHANNEL,  OPTION_PACK,   OPTION_PACKED_NORMAL, OPTION_OVERLAY, OPTION_HISTOGRAM, OPTION_MATRIX};
-    static const option_id cameras[] = {OPTION_FOV,   OPTION_HFOV,   OPTION_HALF_HEIGHT, OPTION_YAW,
-                                        OPTION_PITCH, OPTION_ORIGIN, OPTION_SIZE,        OPTION_PIXEL};
+        OPTION_SKY,        OPTION_METRIC,  OPTION_ERROR_MAP, OPTION_FIGURE,  OPTION_THEME,     OPTION_WIDTH,
+        OPTION_HEIGHT,     OPTION_TITLE,   OPTION_THREADS,   OPTION_TYPE,    OPTION_PACKING,   OPTION_NORMAL_FORMAT,
+        OPTION_NORMALS_BY, OPTION_CHANNEL, OPTION_PACK,      OPTION_OVERLAY, OPTION_HISTOGRAM, OPTION_MATRIX};
+    static const option_id cameras[] = {OPTION_FOV,  OPTION_HFOV, OPTION_HALF_HEIGHT, OPTION_EYE,
+                                        OPTION_LOOK, OPTION_SIZE, OPTION_PIXEL};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
         if (option_given(o, images[i]))
-            return option_error(images[i], "does not apply to --effect alone, only with FILE or --scene");
+            return option_error(images[i], "does not apply to an effect alone, only with FILE or --scene");
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0] && (o->effect->needs & EFFECT_POSITION) == 0; i++)
         if (option_given(o, cameras[i]))
             return option_error(cameras[i],
@@ -71,7 +71,7 @@ static int make_product(const options *o, const texture_source *source, texture_
 int cmd_texture(const options *given) {
     options own = *given, *o = &own;
     texture_product product = {0};
-    const bool packed = o->pack != NULL || o->packed_normal;
+    const bool beside = o->product != NULL && o->product->packed, packed = o->pack != NULL || beside;
     const bool described = option_given(o, OPTION_PIXEL) && o->effect != NULL;
     const bool made = !packed && texture_product_wanted(o);
     if (o->effect != NULL && o->operand_count == 0 && o->scene == NULL) {
@@ -92,7 +92,7 @@ int cmd_texture(const options *given) {
         status = make_product(o, &source, &product);
     else if (status == EXIT_FINE && o->pack != NULL)
         status = texture_pack_write(o, &source);
-    else if (status == EXIT_FINE && o->packed_normal)
+    else if (status == EXIT_FINE && beside)
         status = texture_packed_normal_write(o, &source);
     else if (status == EXIT_FINE && option_given(o, OPTION_PIXEL))
         status = texture_pixel_write(o, &source, described ? &product.made : NULL);

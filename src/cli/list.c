@@ -16,10 +16,8 @@
 #include "raster/raster.h"
 #include "report/number.h"
 #include "scene/find.h"
-#include "texture/effect.h"
 #include "texture/pack.h"
 #include "texture/packing.h"
-#include "texture/position.h"
 #include "texture/scene.h"
 #include "vertex/compare.h"
 #include "world/world.h"
@@ -255,31 +253,6 @@ bool list_packing(size_t index, list_item *item) {
     return true;
 }
 
-bool list_effect(size_t index, list_item *item) {
-    static const struct {
-        unsigned bit;
-        const char *name;
-    } needs[] = {{EFFECT_POSITION, "the position"},
-                 {EFFECT_LAST_FRAME, "last frame's camera"},
-                 {EFFECT_SECOND_DEPTH, "a second depth"},
-                 {EFFECT_NORMALS, "normals"}};
-    const effect_row *row = effect_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    for (int i = 0; row->parameters[i].name != NULL; i++) {
-        const texture_parameter *p = &row->parameters[i];
-        append(item->bound, sizeof item->bound, "%s%s %g [%s], %g to %g", i > 0 ? "; " : "", p->name, p->value, p->unit,
-               p->lo, p->hi);
-        if (i == row->wanted)
-            append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
-    }
-    for (size_t i = 0, count = 0; i < sizeof needs / sizeof needs[0]; i++)
-        if ((row->needs & needs[i].bit) != 0)
-            append(item->bound, sizeof item->bound, "%s%s", count++ == 0 ? "; needs " : ", ", needs[i].name);
-    return true;
-}
-
 bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
@@ -294,18 +267,6 @@ bool list_scene(size_t index, list_item *item) {
         append(item->bound, sizeof item->bound, "%s%s=%g", i > 0 ? ", " : "", row->parameters[i].name,
                row->parameters[i].value);
     return true;
-}
-
-bool list_position(size_t index, list_item *item) {
-    const position_row *row = position_get(index);
-    return row != NULL &&
-           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
-}
-
-bool list_normal(size_t index, list_item *item) {
-    const normal_row *row = normal_get(index);
-    return row != NULL &&
-           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
 }
 
 bool list_family(size_t index, list_item *item) {
@@ -357,11 +318,12 @@ static const topic topics[] = {
      .bound = "bound"},
     {"packings", "textures with a depth in several channels, for texture --packing and --pack", list_packing,
      .bound = "bound"},
-    {"effects", "effects for texture --effect: formulas and parameters", list_effect, .bound = "parameters"},
+    {"products", "what texture makes of the depths, for --product", list_product, .bound = "methods"},
+    {"effects", "effects for texture --product effect: formulas and parameters", list_effect, .bound = "parameters"},
     {"figures", "figures, for plot", list_figure, .bound = "bound"},
     {"scenes", "synthetic depth images, for texture --scene", list_scene, .bound = "bound", .shown = "parameters"},
-    {"positions", "positions from window depth, for texture --position", list_position, .bound = "bound"},
-    {"normals", "normals from depth, for texture --normal", list_normal, .bound = "bound"},
+    {"positions", "positions from window depth, for texture --product position", list_position, .bound = "bound"},
+    {"normals", "normals from depth, for texture --product normal", list_normal, .bound = "bound"},
     {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method,
      .bound = "bound"},
 };

@@ -356,6 +356,27 @@ int parse_parameter(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
+/* KIND, or KIND:METHOD. */
+int parse_product(options *o, const option_row *row, const char *value) {
+    char name[64], text[NAMES_SIZE];
+    list_item item;
+    const size_t length = strcspn(value, ":");
+    snprintf(name, sizeof name, "%.*s", (int)length, value);
+    if (!names_find(row->names, name, NULL, &item))
+        return option_refuse(row, "%s", names_refuse(row->names, name, text));
+    const product_row *p = o->product = item.row;
+    const char *method = value[length] == ':' ? value + length + 1 : p->standard;
+    if (p->methods == NULL)
+        return method == NULL ? EXIT_FINE : option_refuse(row, "%s has no methods, got '%s'", p->name, value);
+    if (method == NULL)
+        return option_refuse(row, "%s needs a name behind a colon: %s", p->name,
+                             names_join(p->methods, ", ", " or ", text));
+    if (!names_find(p->methods, method, NULL, &item))
+        return option_refuse(row, "%s: %s", p->name, names_refuse(p->methods, method, text));
+    memcpy((char *)o + p->place, &item.row, sizeof item.row);
+    return EXIT_FINE;
+}
+
 /* With a name it stands beside the product. */
 int parse_error_map(options *o, const option_row *row, const char *value) {
     o->error_map = value == NULL;

@@ -89,14 +89,15 @@ int slant_view(options *o) {
 
 /* From an eye in a model surfaces slant. */
 static bool is_slanted(const options *o) {
-    return option_given(o, OPTION_VIEWPORT) || o->drawn || o->verb->bit == VERB_WORLD || option_given(o, OPTION_FROM) ||
+    return option_given(o, OPTION_VIEWPORT) || o->drawn || o->verb->bit == VERB_WORLD || option_given(o, OPTION_EYE) ||
            option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
 }
 
 int slant_complete(options *o) {
-    if (!is_slanted(o))
+    const bool viewed = (o->verb->bit & option_rows[OPTION_VIEWPORT].commands) != 0;
+    if (!viewed || !is_slanted(o))
         o->triangles.width = 0;
-    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
+    if (!viewed)
         return EXIT_FINE;
     if ((o->verb->bit & (VERB_SHADOW | VERB_PLOT)) != 0) /* a shadow map's viewport says how wide the view is */
         return take_raster(o);

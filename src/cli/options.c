@@ -325,8 +325,8 @@ static int check_near(const options *o) {
         return option_error(OPTION_NEAR, "must be 0, or a number from %s or its negative, got '%s'",
                             option_limits(row, limits), given.text);
     if (o->effect != NULL && o->effect->eye01 && o->znear < 0.0)
-        return option_error(OPTION_EFFECT,
-                            "%s sees eye depth as a share of far, which needs near not less than 0, got '%s'",
+        return option_error(OPTION_PRODUCT,
+                            "effect:%s sees eye depth as a share of far, which needs near not less than 0, got '%s'",
                             o->effect->name, given.text);
     return EXIT_FINE;
 }

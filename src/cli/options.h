@@ -20,6 +20,7 @@
 #include "api/unit.h"
 #include "cli/depths.h"
 #include "cli/errors.h"
+#include "cli/product.h"
 #include "cli/verbs.h"
 #include "depthprec/depthprec.h"
 #include "raster/raster.h"
@@ -63,6 +64,10 @@ typedef enum option_id {
     OPTION_SHARE,
     OPTION_LINEARIZE,
     OPTION_LOG2,
+    OPTION_EYE,
+    OPTION_LOOK,
+    OPTION_PATH,
+    OPTION_CAMERA,
     OPTION_FOV,
     OPTION_HFOV,
     OPTION_VIEWPORT,
@@ -93,25 +98,15 @@ typedef enum option_id {
     OPTION_VERTICES,
     OPTION_WITHIN,
     OPTION_ALSO,
-    OPTION_FROM,
-    OPTION_LOOK,
-    OPTION_PATH,
-    OPTION_CAMERA,
     OPTION_TRANSFORMS,
     OPTION_RENDER,
-    OPTION_ANNOTATE,
     OPTION_EMIT_NEED,
     OPTION_DEVICE,
     OPTION_KEEP,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
-    OPTION_YAW,
-    OPTION_PITCH,
-    OPTION_ORIGIN,
-    OPTION_LAST_FOV,
-    OPTION_LAST_YAW,
-    OPTION_LAST_PITCH,
-    OPTION_LAST_ORIGIN,
+    OPTION_LAST_EYE,
+    OPTION_LAST_LOOK,
     OPTION_SCENE,
     OPTION_SIZE,
     OPTION_PARAMETER,
@@ -120,16 +115,10 @@ typedef enum option_id {
     OPTION_PACKING,
     OPTION_CHANNEL,
     OPTION_PIXEL,
-    OPTION_EYE,
-    OPTION_RADIAL,
-    OPTION_LINEAR01,
-    OPTION_RAW,
-    OPTION_POSITION,
-    OPTION_NORMAL,
+    OPTION_PRODUCT,
+    OPTION_NORMALS_BY,
     OPTION_NORMAL_FORMAT,
-    OPTION_PACKED_NORMAL,
     OPTION_PACK,
-    OPTION_EFFECT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
     OPTION_OVERLAY,
@@ -233,13 +222,12 @@ typedef struct options {
 
     double gap;               /**< scene units; 0 when not given */
     double within;            /**< eye depth; 0 when not given */
-    double from[3], look[3];  /**< places in a model: of an eye, and what it looks at */
+    double eye[3], look[3];   /**< places: of an eye, and what it looks at */
     const char *path;         /**< file of such places; or null */
     const char *model_camera; /**< a camera of the model, by name; or null */
     unsigned transforms;      /**< of a model's nodes: a model_transforms */
     unsigned filters_off;     /**< of a model's pairs: 1 << finder_filter, or-ed */
     const char *render;       /**< file of a picture; null when not given */
-    const char *annotate;     /**< file of a model; null when not given */
     const char *emit_need;    /**< file of requirements; null when not given */
     uint64_t sample;          /**< pairs to draw; 0 when not given */
     uint64_t seed;
@@ -262,25 +250,26 @@ typedef struct options {
     double curvature;    /**< radius of curvature of receivers, scene units; read where it is given */
     double facet;        /**< of the circles about their triangles, scene units */
 
-    camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
-    const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
-    camera_spec last;       /**< --last-fov, --last-yaw, --last-pitch, --last-origin: what was given of them */
-    const scene_row *scene; /**< null when not given, as all rows and names here */
+    camera_spec camera; /**< --size, --fov, --half-height; see texture_camera_place() */
+    const char *matrix; /**< file of a projection matrix, which then says the planes and the field of view */
+    double last_eye[3], last_look[3]; /**< of last frame's camera */
+    const scene_row *scene;           /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
     double sky;    /**< window depth */
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
     depths pixels; /**< column and row of each in turn; count is 0 when not given */
-    bool linear01, raw;
-    bool eye, radial, error_map, packed_normal; /**< error_map: in place of the product */
-    const char *error_file;                     /**< beside it; or null */
-    unsigned normal_format;                     /**< of a PNG: 0: y up, 1: y down */
-    const char *channel;                        /**< of FILE, by name; null: that which is depth */
-    const packing *packing;                     /**< of FILE */
-    const packing *pack;                        /**< of what is written */
-    const position_row *position;               /**< null for exact as well */
-    const normal_row *normal;
-    const effect_row *effect;
+    const product_row *product;
+    const position_row *position;   /**< of --product position; null for exact as well */
+    const normal_row *normal;       /**< of --product normal */
+    const effect_row *effect;       /**< of --product effect */
+    const normal_row *normals_by;   /**< of an effect, or of what is packed */
+    bool error_map;                 /**< in place of the product */
+    const char *error_file;         /**< beside it; or null */
+    unsigned normal_format;         /**< of a PNG: 0: y up, 1: y down */
+    const char *channel;            /**< of FILE, by name; null: that which is depth */
+    const packing *packing;         /**< of FILE */
+    const packing *pack;            /**< of what is written */
     const char *figure, *histogram; /**< files */
     double overlay;                 /**< errors above it are shown, scene units; 0 when not given */
 

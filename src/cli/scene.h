@@ -93,7 +93,7 @@ void scene_end(scene *s);
 /** How many of the findings can fight up to `within`, from an eye where it sees them; they come first. */
 size_t scene_fighting(const scene *s);
 
-/** Whether --from, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
+/** Whether --eye, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
 int scene_eyes_check(const options *o);
 
 /**
@@ -131,8 +131,5 @@ int scene_render_check(scene *s);
 
 /** Draws the model into the file of --render, and counts. @return EXIT_FINE, also where it was interrupted */
 int scene_render(scene *s);
-
-/** Writes the model into the file of --annotate. @return EXIT_FINE, or an exit status after one line */
-int scene_annotate(scene *s);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The eyes of `scene`: --from and --look, a file of them, or a camera of the model. */
+/* The eyes of `scene`: --eye and --look, a file of them, or a camera of the model. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,10 +28,10 @@ static int take_look(scene *s) {
     s->eyes.eye = malloc(sizeof *s->eyes.eye);
     if (s->eyes.eye == NULL)
         return usage_error("%s: no memory for an eye", s->file);
-    if (!scene_eye_look(s->o.from, s->o.look, upwards, s->eyes.eye))
-        return option_error(OPTION_LOOK, "must be another place than --from, which are both %s,%s,%s",
-                            number_full(s->o.from[0]).text, number_full(s->o.from[1]).text,
-                            number_full(s->o.from[2]).text);
+    if (!scene_eye_look(s->o.eye, s->o.look, upwards, s->eyes.eye))
+        return option_error(OPTION_LOOK, "must be another place than --eye, which are both %s,%s,%s",
+                            number_full(s->o.eye[0]).text, number_full(s->o.eye[1]).text,
+                            number_full(s->o.eye[2]).text);
     s->eyes.count = 1;
     return EXIT_FINE;
 }
@@ -188,15 +188,15 @@ static int take_path(scene *s) {
 /* ---- All ways ---------------------------------------------------------------------------------------------------- */
 
 int scene_eyes_check(const options *o) {
-    const bool from = option_given(o, OPTION_FROM), path = option_given(o, OPTION_PATH);
+    const bool eye = option_given(o, OPTION_EYE), path = option_given(o, OPTION_PATH);
     const bool camera = option_given(o, OPTION_CAMERA);
-    if (from != option_given(o, OPTION_LOOK))
-        return option_error(from ? OPTION_FROM : OPTION_LOOK, "needs --%s", from ? "look" : "from");
-    if (path && (from || camera))
-        return option_error(OPTION_PATH, "cannot be combined with --%s", from ? "from" : "camera");
-    if (camera && from)
-        return option_error(OPTION_CAMERA, "cannot be combined with --from");
-    if ((from || path || camera) && option_given(o, OPTION_SLANT))
+    if (eye != option_given(o, OPTION_LOOK))
+        return option_error(eye ? OPTION_EYE : OPTION_LOOK, "needs --%s", eye ? "look" : "eye");
+    if (path && (eye || camera))
+        return option_error(OPTION_PATH, "cannot be combined with --%s", eye ? "eye" : "camera");
+    if (camera && eye)
+        return option_error(OPTION_CAMERA, "cannot be combined with --eye");
+    if ((eye || path || camera) && option_given(o, OPTION_SLANT))
         return option_error(OPTION_SLANT, "does not apply from an eye: the model says how its surfaces slant");
     return EXIT_FINE;
 }
@@ -216,7 +216,7 @@ static void describe(scene *s) {
 }
 
 int scene_eyes_take(scene *s) {
-    const int status = option_given(&s->o, OPTION_FROM)   ? take_look(s)
+    const int status = option_given(&s->o, OPTION_EYE)    ? take_look(s)
                        : option_given(&s->o, OPTION_PATH) ? take_path(s)
                        : s->o.model_camera != NULL        ? take_camera(s)
                                                           : EXIT_FINE;

@@ -96,7 +96,10 @@ int texture_parameter_set(const char *whose, const texture_parameter *list, cons
 /** Options of cameras that have no meaning beside others. @return an exit status, after one line on stderr */
 int texture_camera_check(const options *o);
 
-/** Last frame's camera: as `now`, but for what --last-fov and the like say. @return as texture_camera_check() */
+/** Puts it at --eye, and turns it to --look. @return as texture_camera_check() */
+int texture_camera_place(const options *o, camera_spec *spec);
+
+/** Last frame's camera: as `now`, but for what --last-eye and --last-look say. @return as texture_camera_check() */
 int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
 
 /** Reads the file of --matrix into s->matrix, and what it says of planes and mapping into `with`, whose format is
@@ -111,7 +114,7 @@ extern const column texture_matrix_columns[];
 /** Does the scene of --scene have a parameter of this name? Then parameters not taken are the effect's. */
 bool texture_scene_takes(const options *o, const char *name);
 
-/* ---- What --eye, --position, --normal and --effect make: an image of numbers, or a figure ------------------------ */
+/* ---- What --product makes: an image of numbers, or a figure ------------------------ */
 
 enum { PRODUCT_NAME_SIZE = 96 };
 
@@ -123,17 +126,14 @@ typedef struct texture_product {
     const char *unit, *unit_of_error; /**< "scene units", "degrees", "levels of 1/255", "" */
 } texture_product;
 
-/** Is one asked for? --pixel describes that of --effect instead. */
+/** Is one asked for? --pixel describes an effect instead. */
 bool texture_product_wanted(const options *o);
 
-/** Whether --normal says by which normals an effect compares, in place of a product. */
-bool texture_normals_compared(const options *o);
-
-/** The normals of an effect that needs some: of --normal, those of the packing, else by projective.
+/** The normals of an effect that needs some: of --normals-by, those of the packing, else by projective.
  *  @return an exit status, after one line on stderr */
 int texture_effect_normals(const options *o, texture_source *s);
 
-/** The effect of --effect, its parameters and reference, as above. */
+/** The effect of --product, its parameters and reference, as above. */
 int texture_product_effect(const options *o, texture_product *out);
 
 /** Names and combinations, before anything is read. @return an exit status, after one line on stderr */
@@ -145,8 +145,7 @@ int texture_product_check(const options *o, const texture_source *s, texture_pro
 /** Writes the file of -o. */
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p);
 
-/** Is --pack or --packed-normal asked for? Options that have no meaning beside them are refused. @return an exit status
- */
+/** Options that have no meaning beside --pack or --product packed-normal are refused. @return an exit status */
 int texture_pack_check(const options *o);
 
 /** Writes the depths to the file of -o as --pack says. */
@@ -172,15 +171,15 @@ int texture_report_write(const options *o, const texture_source *source);
 /** Whether the pixels of --pixel lie in so many. @return an exit status, after one line on stderr */
 int texture_pixels_check(const options *o, uint32_t width, uint32_t height);
 
-/** What --pixel asks about, likewise; `effect` is the product of --effect beside it, or null. */
+/** What --pixel asks about, likewise; `effect` is the effect of --product beside it, or null. */
 int texture_pixel_write(const options *o, const texture_source *source, const frame_product *effect);
 
-/** The effect that --effect names, and its parameters, in an image or not. @return EXIT_FINE, or EXIT_USAGE after one
+/** The effect that --product names, and its parameters, in an image or not. @return EXIT_FINE, or EXIT_USAGE after one
  *  line on stderr */
 int texture_effect_resolve(const options *o, bool pictured, const effect_row **row,
                            double parameters[TEXTURE_PARAMETERS]);
 
-/** --effect without an image: for each set-up and depth, the error in levels and the usable values of the wanted
+/** An effect without an image: for each set-up and depth, the error in levels and the usable values of the wanted
  *  parameter. @return an exit status */
 int texture_effect_table(const options *o);
 

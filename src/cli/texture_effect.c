@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * texture --effect NAME without an image: what the stored depth does to an effect, depth by depth, and from which (or
- * up to which) value of its parameter on that is no more than a level of 8 bits.
+ * texture --product effect:NAME without an image: what the stored depth does to an effect, depth by depth, and from
+ * which (or up to which) value of its parameter on that is no more than a level of 8 bits.
  */
 #include <math.h>
 #include <stdio.h>
@@ -78,11 +78,13 @@ static int choose_pixel(table *t, const options *o) {
     t->spec = o->camera;
     t->column = t->spec.width / 2;
     t->line = t->spec.height - 1;
-    const int status = view_vertical(o, (int)t->spec.width, (int)t->spec.height, &t->spec.fov_y);
+    int status = view_vertical(o, (int)t->spec.width, (int)t->spec.height, &t->spec.fov_y);
+    if (status == EXIT_FINE)
+        status = texture_camera_place(o, &t->spec);
     if (status != EXIT_FINE || !option_given(o, OPTION_PIXEL))
         return status;
     if (o->pixels.count != 2)
-        return option_error(OPTION_PIXEL, "must be one pixel with --effect alone, got %zu", o->pixels.count / 2);
+        return option_error(OPTION_PIXEL, "must be one pixel with an effect alone, got %zu", o->pixels.count / 2);
     t->column = (uint32_t)depths_get(&o->pixels, 0);
     t->line = (uint32_t)depths_get(&o->pixels, 1);
     return texture_pixels_check(o, t->spec.width, t->spec.height);

@@ -10,20 +10,18 @@
 #include "texture/image_depths.h"
 
 int texture_pack_check(const options *o) {
-    static const option_id others[] = {OPTION_EYE,      OPTION_RADIAL,    OPTION_LINEAR01,  OPTION_RAW,
-                                       OPTION_POSITION, OPTION_EFFECT,    OPTION_ERROR_MAP, OPTION_FIGURE,
-                                       OPTION_OVERLAY,  OPTION_HISTOGRAM, OPTION_PIXEL,     OPTION_AT,
-                                       OPTION_JSON,     OPTION_CSV,       OPTION_PARAMETER, OPTION_TYPE,
-                                       OPTION_THEME,    OPTION_WIDTH,     OPTION_HEIGHT,    OPTION_TITLE};
-    const char *name = option_name(o->pack != NULL ? OPTION_PACK : OPTION_PACKED_NORMAL);
+    static const option_id others[] = {OPTION_PRODUCT,   OPTION_ERROR_MAP, OPTION_FIGURE, OPTION_OVERLAY,
+                                       OPTION_HISTOGRAM, OPTION_PIXEL,     OPTION_AT,     OPTION_JSON,
+                                       OPTION_CSV,       OPTION_PARAMETER, OPTION_TYPE,   OPTION_THEME,
+                                       OPTION_WIDTH,     OPTION_HEIGHT,    OPTION_TITLE};
+    const char *name = o->pack != NULL ? "pack" : "product packed-normal";
     image_file file;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->scene == NULL))
+        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->scene == NULL) &&
+            (others[i] != OPTION_PRODUCT || o->pack != NULL))
             return option_error(others[i], "does not apply with --%s", name);
-    if (o->pack != NULL && o->packed_normal)
-        return option_error(OPTION_PACKED_NORMAL, "must not be given together with --pack");
-    if (o->normal != NULL && (o->pack == NULL || !o->pack->normals))
-        return option_error(OPTION_NORMAL, "does not apply with --%s%s%s", name, o->pack != NULL ? " " : "",
+    if (o->normals_by != NULL && (o->pack == NULL || !o->pack->normals))
+        return option_error(OPTION_NORMALS_BY, "does not apply with --%s%s%s", name, o->pack != NULL ? " " : "",
                             o->pack != NULL ? o->pack->name : "");
     if (o->output == NULL)
         return usage_error("texture: --%s needs -o FILE", name);
@@ -97,9 +95,9 @@ static void note_of_packing(const options *o, const texture_source *s, char note
 }
 
 int texture_pack_write(const options *o, const texture_source *s) {
-    packing_on on = {.p = o->pack, .normals = o->normal == NULL ? s->unpacked.normals : NULL};
+    packing_on on = {.p = o->pack, .normals = o->normals_by == NULL ? s->unpacked.normals : NULL};
     frame_product product = {.kind = o->pack->normals ? FRAME_NORMAL : FRAME_EYE,
-                             .normal = o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE)};
+                             .normal = o->normals_by != NULL ? o->normals_by : normal_get(NORMAL_PROJECTIVE)};
     const dp_spec *planes = &frame_planes(&s->frame)->spec;
     char note[IMAGE_NOTE_SIZE];
     if (s->camera.oblique.on)
@@ -132,7 +130,7 @@ int texture_packed_normal_write(const options *o, const texture_source *s) {
     writing w = {.down = o->normal_format != 0};
     char note[IMAGE_NOTE_SIZE];
     if (s->unpacked.normals == NULL)
-        return option_error(OPTION_PACKED_NORMAL, "needs FILE with --packing depth-normals");
+        return option_error(OPTION_PRODUCT, "packed-normal needs FILE with --packing depth-normals");
     image_file_of(o->output, &w.file);
     const bool png = w.file == IMAGE_PNG;
     w.directions = png;

@@ -7,24 +7,18 @@
 #include "core/append.h"
 #include "texture/frame_normals.h"
 
-bool texture_normals_compared(const options *o) {
-    return o->normal != NULL && o->effect != NULL && (o->effect->needs & EFFECT_NORMALS) != 0;
-}
-
 bool texture_product_wanted(const options *o) {
-    const bool described = option_given(o, OPTION_PIXEL);
-    return o->eye || o->linear01 || o->raw || option_given(o, OPTION_POSITION) ||
-           (o->normal != NULL && !texture_normals_compared(o)) || (o->effect != NULL && !described) ||
-           o->figure != NULL;
+    const bool described = o->effect != NULL && option_given(o, OPTION_PIXEL);
+    return (o->product != NULL && !o->product->packed && !described) || o->figure != NULL;
 }
 
 int texture_effect_normals(const options *o, texture_source *s) {
-    if (o->effect == NULL || (o->effect->needs & EFFECT_NORMALS) == 0 || (s->path == NULL && o->normal == NULL))
+    if (o->effect == NULL || (o->effect->needs & EFFECT_NORMALS) == 0 || (s->path == NULL && o->normals_by == NULL))
         return EXIT_FINE;
-    if (o->normal == NULL && s->unpacked.normals != NULL)
+    if (o->normals_by == NULL && s->unpacked.normals != NULL)
         s->normals =
             (frame_normals){.texels = s->unpacked.normals, .truncated = s->unpacked.grain.rounding == GRAIN_ZERO};
-    else if (!frame_normals_make(&s->frame, o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE),
+    else if (!frame_normals_make(&s->frame, o->normals_by != NULL ? o->normals_by : normal_get(NORMAL_PROJECTIVE),
                                  option_given(o, OPTION_ERROR_MAP) || option_given(o, OPTION_PIXEL), &s->normals))
         return usage_error("texture: no memory");
     s->frame.normals = &s->normals;
@@ -56,17 +50,6 @@ int texture_product_effect(const options *o, texture_product *p) {
     return EXIT_FINE;
 }
 
-static const struct {
-    frame_kind kind;
-    option_id option;
-    const char *by, *unit, *unit_of_error;
-} kinds[] = {{FRAME_EYE, OPTION_EYE, "", "scene units", "scene units"},
-             {FRAME_LINEAR01, OPTION_LINEAR01, "", "", ""},
-             {FRAME_RAW, OPTION_RAW, "", "", ""},
-             {FRAME_POSITION, OPTION_POSITION, "positions by ", "scene units", "scene units"},
-             {FRAME_NORMAL, OPTION_NORMAL, "normals by ", "", "degrees"},
-             {FRAME_EFFECT, OPTION_EFFECT, "", "", "levels of 1/255"}};
-
 static int check_files(const options *o) {
     image_file file = IMAGE_FILE_COUNT;
     if (o->output == NULL && o->figure == NULL)
@@ -89,42 +72,34 @@ static int check_files(const options *o) {
     return EXIT_FINE;
 }
 
+static const char *method_of(const options *o) {
+    return o->effect != NULL ? o->effect->name : o->normal != NULL ? o->normal->name : "exact";
+}
+
 int texture_product_resolve(const options *o, texture_product *p) {
-    size_t chosen = 0; /* eye depth, where --figure is all that was said */
-    const char *const names[] = {[FRAME_EYE] = o->radial ? "distance from the camera" : "eye depth",
-                                 [FRAME_LINEAR01] = "eye depth over far",
-                                 [FRAME_RAW] = "window depth",
-                                 [FRAME_POSITION] = o->position != NULL ? o->position->name : "exact",
-                                 [FRAME_NORMAL] = o->normal != NULL ? o->normal->name : "",
-                                 [FRAME_EFFECT] = o->effect != NULL ? o->effect->name : ""};
-    *p = (texture_product){.made = {.error = o->error_map, .radial = o->radial}};
+    const product_row *row = o->product != NULL ? o->product : product_get(0); /* where --figure is all that was said */
     int status = EXIT_FINE;
-    for (size_t i = 0, found = 0; i < sizeof kinds / sizeof kinds[0] && status == EXIT_FINE; i++)
-        if (option_given(o, kinds[i].option) && !(kinds[i].kind == FRAME_NORMAL && texture_normals_compared(o))) {
-            if (found++ > 0)
-                status =
-                    option_error(kinds[i].option, "cannot be combined with --%s", option_name(kinds[chosen].option));
-            chosen = i;
-        }
-    if (status == EXIT_FINE && o->radial && kinds[chosen].kind != FRAME_EYE)
-        status = option_error(OPTION_RADIAL, "does not apply with --%s", option_name(kinds[chosen].option));
-    p->made.kind = kinds[chosen].kind;
-    if (status == EXIT_FINE && o->overlay > 0 && (o->error_map || p->made.kind >= FRAME_POSITION))
-        status = option_error(OPTION_OVERLAY, "does not apply with --%s, only with --eye, --linear01 and --raw",
-                              option_name(o->error_map ? OPTION_ERROR_MAP : kinds[chosen].option));
-    p->made.position = o->position;
-    p->made.normal = o->normal;
-    p->made.effect_settings = p->settings;
-    p->unit = o->error_map ? kinds[chosen].unit_of_error : kinds[chosen].unit;
-    snprintf(p->name, sizeof p->name, "%s%s", kinds[chosen].by, names[p->made.kind]);
-    if (status == EXIT_FINE && p->made.kind == FRAME_EFFECT)
+    *p = (texture_product){.made = {.kind = row->kind,
+                                    .error = o->error_map,
+                                    .radial = row->radial,
+                                    .position = o->position,
+                                    .normal = o->normal,
+                                    .effect_settings = p->settings},
+                           .unit = o->error_map ? row->unit_of_error : row->unit,
+                           .unit_of_error = row->unit_of_error};
+    snprintf(p->name, sizeof p->name, "%s%s", row->by,
+             row->methods == NULL  ? ""
+             : o->position != NULL ? o->position->name
+                                   : method_of(o));
+    if (o->overlay > 0 && (o->error_map || row->kind >= FRAME_POSITION))
+        return option_error(OPTION_OVERLAY,
+                            "does not apply with --%s%s, only with --product eye, radial, linear01 and raw",
+                            o->error_map ? "error-map" : "product ", o->error_map ? "" : row->name);
+    if (row->kind == FRAME_EFFECT)
         status = texture_product_effect(o, p);
     p->error = p->made;
     p->error.error = true;
-    p->unit_of_error = kinds[chosen].unit_of_error;
-    if (status == EXIT_FINE)
-        status = check_files(o);
-    return status;
+    return status == EXIT_FINE ? check_files(o) : status;
 }
 
 int texture_product_check(const options *o, const texture_source *s, texture_product *p) {
@@ -137,7 +112,7 @@ int texture_product_check(const options *o, const texture_source *s, texture_pro
         [FRAME_EFFECT] = {"largest possible error", "largest possible error"},
     };
     if (p->made.kind == FRAME_LINEAR01 && !texture_far_known(o))
-        return option_error(OPTION_LINEAR01, "needs --far with --metric, which has none");
+        return option_error(OPTION_PRODUCT, "linear01 needs --far with --metric, which has none");
     const char *wrong = frame_refuses(&s->frame, o->error_file != NULL ? &p->error : &p->made);
     if (wrong != NULL)
         return usage_error("texture: %s: %s", p->name, wrong);

@@ -67,11 +67,14 @@ bool texture_is_window(const options *o) {
 
 /* Options of window depth: again when a file has said what its samples are. */
 static int check_window(const options *o) {
-    static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_RAW, OPTION_SKY};
+    static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_PRODUCT, OPTION_SKY};
+    const bool raw = o->product != NULL && o->product->kind == FRAME_RAW;
     for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
-        if (option_given(o, window[i]) && (o->metric > 0 || window[i] != OPTION_SKY))
-            return option_error(window[i], "does not apply with --%s%s, which is not window depth",
-                                o->metric > 0 ? "metric" : "packing ", o->metric > 0 ? "" : o->packing->name);
+        if (option_given(o, window[i]) && (o->metric > 0 || window[i] != OPTION_SKY) &&
+            (raw || window[i] != OPTION_PRODUCT))
+            return option_error(window[i], "%sdoes not apply with --%s%s, which is not window depth",
+                                window[i] == OPTION_PRODUCT ? "raw " : "", o->metric > 0 ? "metric" : "packing ",
+                                o->metric > 0 ? "" : o->packing->name);
     return EXIT_FINE;
 }
 
@@ -83,7 +86,7 @@ static int check_together(const options *o) {
     if (!file && o->scene == NULL)
         return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF or raw image, or --scene NAME");
     if (file && o->effect == NULL && o->parameter_count > 0)
-        return option_error(OPTION_PARAMETER, "needs --scene or --effect");
+        return option_error(OPTION_PARAMETER, "needs --scene or --product effect");
     if (o->metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
     if (o->channel != NULL && !file)
@@ -306,6 +309,8 @@ static int make_camera(const options *o, texture_source *s) {
     }
     if (status == EXIT_FINE)
         status = view_vertical(o, (int)spec.width, (int)spec.height, &spec.fov_y);
+    if (status == EXIT_FINE)
+        status = texture_camera_place(o, &spec);
     if (status != EXIT_FINE)
         return status;
     s->fov_y = spec.fov_y;

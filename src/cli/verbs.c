@@ -61,14 +61,14 @@ const verb verb_rows[] = {
      "a model: which surfaces fight, from where on",
      "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
-     "  depthprec scene house.glb --from 0,2,30 --look 0,2,0 --render seen.png\n"
+     "  depthprec scene house.glb --eye 0,2,30 --look 0,2,0 --render seen.png\n"
      "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1, "A model, an image, a shadow map"},
     {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
      "a depth image: depths, positions, normals, effects, errors",
      "  depthprec texture depth.png -n 0.3 -f 1000\n"
      "  capture | depthprec texture - -n 0.3 -f 1000\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
-     "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
+     "  depthprec texture depth.png -f 1000 --product normal:high -o normals.npy\n"
      "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1, NULL},
     {"shadow", VERB_SHADOW, "", 0, 0, NULL,
      "shadow maps: the bias without acne, and its gap",

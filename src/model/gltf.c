@@ -239,7 +239,6 @@ static bool add_camera(gltf *g, long node, long index, const transform *world) {
     model_camera camera = {.name = gltf_name(g, GLTF_NODE, node),
                            .ortho = ortho,
                            .fov_y = member(lens, "yfov", 0.0) * (180.0 / 3.141592653589793),
-                           .height = 2.0 * member(lens, "ymag", 0.0),
                            .znear = member(lens, "znear", 0.0),
                            .zfar = member(lens, "zfar", HUGE_VAL)};
     if (camera.name != NULL && camera.name[0] == '\0')

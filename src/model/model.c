@@ -73,7 +73,6 @@ void model_scale(model *m, double factor) {
         model_camera *c = &m->camera[i];
         for (int k = 0; k < 3; k++)
             c->eye[k] *= factor;
-        c->height *= factor;
         c->znear *= factor;
         c->zfar *= factor;
     }

@@ -39,7 +39,6 @@ typedef struct model_camera {
     bool ortho;
     double eye[3], ahead[3], up[3]; /**< the directions have length 1 */
     double fov_y;                   /**< degrees; of a perspective one */
-    double height;                  /**< scene units; of an orthographic one */
     double znear, zfar;             /**< zfar INFINITY where the file has none */
 } model_camera;
 

@@ -12,6 +12,16 @@ camera_spec camera_spec_default(void) {
     return (camera_spec){.fov_y = 60, .half_height = 5};
 }
 
+bool camera_look(camera_spec *spec, const double at[3]) {
+    double ahead[3];
+    for (int i = 0; i < 3; i++)
+        ahead[i] = at[i] - spec->origin[i];
+    const double across = dp_hypot(ahead[0], ahead[2]);
+    spec->yaw = dp_atan2(ahead[0], ahead[2]) / DEGREE;
+    spec->pitch = dp_atan2(ahead[1], across) / DEGREE;
+    return across > 0 || ahead[1] != 0;
+}
+
 static bool within(double x, double lo, double hi) {
     return x >= lo && x <= hi; /* false for NaN */
 }

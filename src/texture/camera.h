@@ -40,6 +40,10 @@ typedef struct camera_spec {
 /** 60 degrees, half height 5, looking along z from the origin; width and height 0: to be filled in. */
 camera_spec camera_spec_default(void);
 
+/** Turns it so that it looks at a place, y upwards; straight up or down with yaw 0. @return false where it stands there
+ */
+bool camera_look(camera_spec *spec, const double at[3]);
+
 /** Where each pixel has planes of its own: its window depth is column (2i + 1 - width) + row (height - 1 - 2j) + base
  *  + pull/z. */
 typedef struct camera_oblique {

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/product.h"
+
+#include <stddef.h>
+
+#include "cli/options.h"
+#include "core/append.h"
+
+/* ---- Methods ---------------------------------------------------------------------------------------------------- */
+
+bool list_effect(size_t index, list_item *item) {
+    static const struct {
+        unsigned bit;
+        const char *name;
+    } needs[] = {{EFFECT_POSITION, "the position"},
+                 {EFFECT_LAST_FRAME, "last frame's camera"},
+                 {EFFECT_SECOND_DEPTH, "a second depth"},
+                 {EFFECT_NORMALS, "normals"}};
+    const effect_row *row = effect_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    for (int i = 0; row->parameters[i].name != NULL; i++) {
+        const texture_parameter *p = &row->parameters[i];
+        append(item->bound, sizeof item->bound, "%s%s %g [%s], %g to %g", i > 0 ? "; " : "", p->name, p->value, p->unit,
+               p->lo, p->hi);
+        if (i == row->wanted)
+            append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
+    }
+    for (size_t i = 0, count = 0; i < sizeof needs / sizeof needs[0]; i++)
+        if ((row->needs & needs[i].bit) != 0)
+            append(item->bound, sizeof item->bound, "%s%s", count++ == 0 ? "; needs " : ", ", needs[i].name);
+    return true;
+}
+
+bool list_position(size_t index, list_item *item) {
+    const position_row *row = position_get(index);
+    return row != NULL &&
+           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
+}
+
+bool list_normal(size_t index, list_item *item) {
+    const normal_row *row = normal_get(index);
+    return row != NULL &&
+           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
+}
+
+/* ---- Kinds ---------------------------------------------------------------------------------------------------- */
+
+static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
+static const name_list normals = {.get = list_normal};
+static const name_list effects = {.get = list_effect};
+
+#define METHOD(among, field, usual) .methods = &(among), .place = offsetof(options, field), .standard = (usual)
+
+static const product_row rows[] = {
+    {"eye", "eye depth", FRAME_EYE, .by = "eye depth", .unit = "scene units", .unit_of_error = "scene units"},
+    {"radial", "distance from the camera", FRAME_EYE, .radial = true, .by = "distance from the camera",
+     .unit = "scene units", .unit_of_error = "scene units"},
+    {"linear01", "eye depth over far, as Unity's Linear01Depth", FRAME_LINEAR01, .by = "eye depth over far", .unit = "",
+     .unit_of_error = ""},
+    {"raw", "window depth, of sky too", FRAME_RAW, .by = "window depth", .unit = "", .unit_of_error = ""},
+    {"position", "world positions, by default exact: the truth", FRAME_POSITION, METHOD(positions, position, "exact"),
+     .by = "positions by ", .unit = "scene units", .unit_of_error = "scene units"},
+    {"normal", "normals, by default projective", FRAME_NORMAL, METHOD(normals, normal, "projective"),
+     .by = "normals by ", .unit = "", .unit_of_error = "degrees"},
+    {"packed-normal", "the normals that --packing depth-normals holds beside the depth", FRAME_NORMAL, .packed = true,
+     .by = "", .unit = "", .unit_of_error = ""},
+    {"effect", "an effect that reads depth; without an image, the usable values of its parameter", FRAME_EFFECT,
+     METHOD(effects, effect, NULL), .by = "", .unit = "", .unit_of_error = "levels of 1/255"},
+};
+
+const product_row *product_get(size_t index) {
+    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+}
+
+bool list_product(size_t index, list_item *item) {
+    const product_row *row = product_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .row = row};
+    if (row->methods != NULL) {
+        char text[NAMES_SIZE];
+        append(item->bound, sizeof item->bound, "%s", names_join(row->methods, ", ", ", ", text));
+    }
+    return true;
+}
