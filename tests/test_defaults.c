@@ -186,6 +186,7 @@ static const struct {
     {OPTION_VERTICES, ALL, "eye-log"},
     {OPTION_TRANSFORMS, ALL, "exact"},
     {OPTION_HALF_HEIGHT, ALL, "5"},
+    {OPTION_EYE, ALL, "0,0,0"},
     {OPTION_SIZE, VERB_TEXTURE, "640x360"},
     {OPTION_SIZE, ALL, "2048x2048"},
     {OPTION_SKY, ALL, "0.0001"},
