@@ -55,7 +55,7 @@ static const disocclusion_case cases[] = {
      10},
     {{0.25, 400, {"unorm24"}, {"gl"}, .implied = true, .model = DP_MODEL_FP32, .arith = "mesa", .unit = "ft"},
      {800, 600, 35, 5, {2, 11, 2, 0}, 20, 70, 1.5, 90, 4},
-     "--viewport 800x600 --fov 35 --subpixel 5 --slant 20:70 --triangle depth=1.5,pixels=90,slim=4",
+     "--viewport 800x600 --fov 35 --subpixel 5 --slant 20:70 --triangle-class depth=1.5,pixels=90,slim=4",
      NULL,
      {0.5, 30, 390},
      3,

@@ -185,7 +185,7 @@ static void say_planes(page *p, void *item) {
     const zfight *z = item;
     const census_result *r = z->result;
     if (z->triangles != NULL)
-        page_line(p, "the pairs face the camera; --triangles draws slanted ones");
+        page_line(p, "the pairs face the camera; --rasterize draws slanted ones");
     if (isnan(r->near_effective))
         page_line(p, "clipping loses everything");
     else
@@ -315,16 +315,16 @@ static int run(zfight *z) {
 /* Options that only one kind of question has. */
 static int check_question(const options *o) {
     static const option_id of_programs[] = {OPTION_PROGRAM, OPTION_VERTICES, OPTION_WORLD};
-    const bool against = option_given(o, OPTION_AGAINST), triangles = option_given(o, OPTION_TRIANGLES);
+    const bool against = option_given(o, OPTION_AGAINST), triangles = option_given(o, OPTION_RASTERIZE);
     for (size_t i = 0; i < sizeof of_programs / sizeof of_programs[0]; i++)
         if (option_given(o, of_programs[i]) && !against)
             return option_error(of_programs[i], "needs --against");
-    for (option_id id = OPTION_FOV; id <= OPTION_TRIANGLE; id++)
+    for (option_id id = OPTION_FOV; id <= OPTION_TRIANGLE_CLASS; id++)
         if (option_given(o, id) && against)
             return option_error(id, "cannot be combined with --against");
     if (option_given(o, OPTION_PLANE) && !triangles)
-        return option_error(OPTION_PLANE, "needs --triangles");
-    return against && triangles ? option_error(OPTION_AGAINST, "cannot be combined with --triangles") : EXIT_FINE;
+        return option_error(OPTION_PLANE, "needs --rasterize");
+    return against && triangles ? option_error(OPTION_AGAINST, "cannot be combined with --rasterize") : EXIT_FINE;
 }
 
 int cmd_zfight(const options *o) {

@@ -24,13 +24,13 @@ const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
 const ASKED = {
     solve: ["for", "separation", "error", "at", "range"],
     bias: ["gap", "at", "range", "api", "units", "factor", "clamp", "slope"],
-    zfight: ["gap", "sample", "seed", "triangles", "against", "program", "vertices", "plane"],
+    zfight: ["gap", "sample", "seed", "rasterize", "against", "program", "vertices", "plane"],
     table: [], plot: [], budget: [],
 };
 const REFUSED = 2; // the exit status of a command
 const NEVER = ["output", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
 // A figure does not refuse what it has no use for: it leaves it out.
-const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"];
+const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle-class"];
 const UNUSED = {
     interval: ["at"], error: ["at", "tolerance", ...VIEW], distribution: ["at", "tolerance", ...VIEW],
     budget: ["at", "model"],
