@@ -36,7 +36,7 @@ all_named plot scene tests/needs/village.need
 for what in formats mappings presets platforms apis rasterizers programs upscalers schemes encodings packings products effects scenes positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
-all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --triangles --sample 10
+all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --rasterize --sample 10
 all_named prepass --against fma --sample 100
 all_named scene tests/models/street.obj --gap 0.02 --eye 0,2,10 --look 0,0,0
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --viewport 640x480

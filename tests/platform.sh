@@ -84,7 +84,7 @@ while IFS='|' read -r command; do
 done <<END
 table $bent --at 447
 budget $bent --at 447
-bias $bent --api vulkan-float --triangle depth=2,pixels=14,slim=16 --at 447
+bias $bent --api vulkan-float --triangle-class depth=2,pixels=14,slim=16 --at 447
 zfight $bent --range 100:1000
 solve --for distance $bent --separation 1
 scene tests/models/house.gltf $bent

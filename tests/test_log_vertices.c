@@ -178,8 +178,8 @@ static void test_printed(void **state) {
         dp_mapping mapping;
         double c, k;
     } rows[] = {{"-m log", DP_MAPPING_LOG, 1, 2},
-                {"-m log --log-c 0.01 --triangle depth=1.25", DP_MAPPING_LOG, 0.01, 1.25},
-                {"-m linear --triangle depth=3", DP_MAPPING_LINEAR, 1, 3}};
+                {"-m log --log-c 0.01 --triangle-class depth=1.25", DP_MAPPING_LOG, 0.01, 1.25},
+                {"-m linear --triangle-class depth=3", DP_MAPPING_LINEAR, 1, 3}};
     static const double depths[] = {0.1, 0.15, 7, 90, 999, 1000};
     tally t = {.name = "printed"};
     (void)state;
@@ -239,7 +239,7 @@ static void test_sentence(void **state) {
     assert_int_equal(sscanf(strstr(p.out, "k = 1 +"), "k = 1 + %lf", &said), 1);
     assert_true(said <= least && said > 0.9 * least);
     printed_free(&p);
-    p = print_of("table -F d24 -m log --viewport 64x48 --at 5,50,900 --triangle depth=1.0001");
+    p = print_of("table -F d24 -m log --viewport 64x48 --at 5,50,900 --triangle-class depth=1.0001");
     assert_non_null(strstr(p.out, "told apart"));
     assert_null(strstr(p.out, "per fragment"));
     printed_free(&p);

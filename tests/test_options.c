@@ -19,7 +19,7 @@ static bool tried[OPTION_COUNT];
 static int parse(options *o, const char *command, option_id id, const char *value, char line[1024]) {
     char words[32], name[64], given[128], viewport[] = "--viewport=64x48";
     const bool slants = id == OPTION_HFOV || id == OPTION_RASTER || id == OPTION_SUBPIXEL || id == OPTION_SLANT ||
-                        id == OPTION_TRIANGLE || id == OPTION_PLANE;
+                        id == OPTION_TRIANGLE_CLASS || id == OPTION_PLANE;
     snprintf(words, sizeof words, "%s", command);
     snprintf(name, sizeof name, "--%s", option_name(id));
     snprintf(given, sizeof given, "%s", value != NULL ? value : "");
@@ -428,7 +428,7 @@ static void test_flags(void **state) {
         option_id id;
         size_t field, size;
     } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},      {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
-                 {"zfight", OPTION_TRIANGLES, WORD_AT(drawn)}, {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
+                 {"zfight", OPTION_RASTERIZE, WORD_AT(drawn)}, {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
                  {"list", OPTION_QUIET, WORD_AT(quiet)},       {"table", OPTION_VERBOSE, WORD_AT(verbose)},
                  {"list", OPTION_FULL, WORD_AT(full)},         {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];
@@ -635,12 +635,12 @@ static void test_slanted(void **state) {
     assert_true(o.triangles.slant_lo == 0.5 && o.triangles.slant_hi == 80);
     assert_int_equal(parse(&o, "zfight", OPTION_PLANE, "30.5,-360", line), EXIT_FINE);
     assert_true(o.triangles.slant_lo == 30.5 && o.triangles.slant_hi == 30.5 && o.azimuth == -360);
-    assert_int_equal(parse(&o, "zfight", OPTION_TRIANGLES, NULL, line), EXIT_FINE);
+    assert_int_equal(parse(&o, "zfight", OPTION_RASTERIZE, NULL, line), EXIT_FINE);
     assert_true(isnan(o.azimuth) && o.triangles.width == 1920 && o.triangles.height == 1080 && o.format_count == 3);
     assert_string_equal(o.raster->name, "llvmpipe");
-    assert_int_equal(parse(&o, "table", OPTION_TRIANGLE, "slim=4,depth=3,pixels=20", line), EXIT_FINE);
+    assert_int_equal(parse(&o, "table", OPTION_TRIANGLE_CLASS, "slim=4,depth=3,pixels=20", line), EXIT_FINE);
     assert_true(o.triangles.depth == 3 && o.triangles.pixels == 20 && o.triangles.slim == 4);
-    assert_int_equal(parse(&o, "table", OPTION_TRIANGLE, "pixels=20", line), EXIT_FINE);
+    assert_int_equal(parse(&o, "table", OPTION_TRIANGLE_CLASS, "pixels=20", line), EXIT_FINE);
     assert_true(o.triangles.depth == 2 && o.triangles.pixels == 20 && o.triangles.slim == 16);
     assert_int_equal(parse(&o, "budget", OPTION_HFOV, "90", line), EXIT_FINE);
     assert_relative(o.triangles.fov_y, 2 * atan(0.75) * 180 / 3.14159265358979323846, 1e-14);
@@ -653,7 +653,7 @@ static void test_slanted(void **state) {
     for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
         refused(&t, "zfight", OPTION_PLANE, planes[i], "SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees");
     for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
-        refused(&t, "table", OPTION_TRIANGLE, classes[i],
+        refused(&t, "table", OPTION_TRIANGLE_CLASS, classes[i],
                 "depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, each at most once, "
                 "separated by "
                 "commas");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every value that zfight --triangles prints, against the room draw asked for the same pairs; options by hand. */
+/* Every value that zfight --rasterize prints, against the room draw asked for the same pairs; options by hand. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ typedef struct fight_case {
 
 static const fight_case cases[] = {
     {{0.25, 900, {"fp32", "unorm16"}, {"d3d", "reversed"}, .implied = true, .model = DP_MODEL_FP32},
-     "--raster swiftshader --viewport 640x360 --fov 75 --slant 20:70.5 --triangle slim=6,pixels=100,depth=1.5 "
+     "--raster swiftshader --viewport 640x360 --fov 75 --slant 20:70.5 --triangle-class slim=6,pixels=100,depth=1.5 "
      "--sample 21 --seed 8589934597",
      "swiftshader",
      "mesa",
@@ -164,7 +164,7 @@ static void test_fight(void **state) {
         line_places lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         char options[512], arguments[1024];
-        snprintf(arguments, sizeof arguments, "zfight --triangles %s --range %.17g:%.17g %s",
+        snprintf(arguments, sizeof arguments, "zfight --rasterize %s --range %.17g:%.17g %s",
                  camera_options(&c->camera, options), c->lo, c->hi, c->options);
         const size_t n = camera_setups(&c->camera, setups);
         for (size_t k = 0; k < n; k++)

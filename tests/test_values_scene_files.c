@@ -157,7 +157,7 @@ static void junit_edges(void **state) {
 static void needs(void **state) {
     static const char *const cameras[] = {
         CAMERA " --within 60",
-        CAMERA " --within 12 --raster swiftshader --slant 10:80 --triangle depth=1.5,pixels=100,slim=8",
+        CAMERA " --within 12 --raster swiftshader --slant 10:80 --triangle-class depth=1.5,pixels=100,slim=8",
         "-n 0.05 -F d24 -m d3d --within 60",
         "-n 1 -f inf -F fp32 -m reversed --gap 0.01 --within 90 --unit m",
         "-F fp16 -m d3d --within 30 --rounding zero",
@@ -310,11 +310,11 @@ static void no_bias(void **state) {
     spec.triangles.pixels = 60000.0;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     assert_true(isinf(bias_factor_least(&setup)));
-    json_t *root = printed_json("scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle pixels=60000");
+    json_t *root = printed_json("scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle-class pixels=60000");
     const json_t *said = json_object_get(root, "bias");
     assert_true(json_is_null(json_object_get(said, "units")) && json_is_null(json_object_get(said, "factor")));
     json_decref(root);
-    printed p = print_of("scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle pixels=60000");
+    printed p = print_of("scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle-class pixels=60000");
     assert_non_null(strstr(p.out, "No bias of d3d11 brings one of two surfaces in front up to "));
     assert_null(strstr(p.out, "drawn second"));
     printed_free(&p);

@@ -28,7 +28,7 @@ static const slant_case cases[] = {
      {1920, 1080, 40, 8, {2, 11, 2, 0}, 0, 90, 2, 512, 16},
      NULL},
     {"-n 0.5 -f 300 -F fp32 -m d3d",
-     "--viewport 640x360 --subpixel 4 --slant 10:45.5 --triangle slim=4,pixels=100,depth=1.5",
+     "--viewport 640x360 --subpixel 4 --slant 10:45.5 --triangle-class slim=4,pixels=100,depth=1.5",
      0.5,
      300,
      DP_MAPPING_D3D,

@@ -10,7 +10,7 @@
 
 #include "printed.h"
 
-#define VIEW "--viewport 1280x720 --fov 55 --subpixel 6 --slant 10:80 --triangle depth=1.5,pixels=300,slim=8"
+#define VIEW "--viewport 1280x720 --fov 55 --subpixel 6 --slant 10:80 --triangle-class depth=1.5,pixels=300,slim=8"
 
 static const dp_triangles view = {1280, 720, 55, 6, {0, 0, 0, 0}, 10, 80, 1.5, 300, 8}; /* anchored at a vertex */
 

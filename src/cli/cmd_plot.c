@@ -97,7 +97,7 @@ static const struct {
             {OPTION_HFOV, VIEWED, VIEWED_FIGURES},
             {OPTION_VIEWPORT, VIEWED, VIEWED_FIGURES},
             {OPTION_RASTER, VIEWED, VIEWED_FIGURES},
-            {OPTION_TRIANGLE, VIEWED, VIEWED_FIGURES},
+            {OPTION_TRIANGLE_CLASS, VIEWED, VIEWED_FIGURES},
             {OPTION_SUBPIXEL, SLANTED | FIGURE_SHADOW, "budget, interval, scene-fights and shadow"},
             {OPTION_SLANT, SLANTED, "budget, interval and scene-fights"},
             {OPTION_PLANE, FIGURE_DRAWN, "fight"},

@@ -184,7 +184,7 @@ static void say_planes(page *p, void *item) {
     const zfight *z = item;
     const census_result *r = z->result;
     if (z->triangles != NULL)
-        page_line(p, "the pairs face the camera; --triangles draws slanted ones");
+        page_line(p, "the pairs face the camera; --rasterize draws slanted ones");
     if (isnan(r->near_effective))
         page_line(p, "clipping loses everything");
     else
@@ -315,7 +315,7 @@ int cmd_zfight(const options *o) {
     if (o->drawn)
         return zfight_triangles(o);
     if (option_given(o, OPTION_PLANE))
-        return option_error(OPTION_PLANE, "needs --triangles");
+        return option_error(OPTION_PLANE, "needs --rasterize");
     zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
     z.triangles = slant_fields_of(o, &z.slant);
     int status = check(&z);

@@ -262,8 +262,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
         .parse = parse_viewport, .without = "surfaces face the camera",
-        .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --triangles, else surfaces face the camera",
-                       "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
+        .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --rasterize, else surfaces face the camera",
+                       "the pixels of the viewport; without --rasterize what is guaranteed at any slant stands beside "
                        "the census"),
                    BUT(VERB_WORLD, "1920x1080", NULL, "pixels of the view"),
                    BUT(VERB_SCENE, NULL, "1920x1080 from an eye, else surfaces face the camera", NULL),
@@ -275,8 +275,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "allow; see 'depthprec list rasterizers'; or as 'depthprec probe --json -o FILE' found it",
         .parse = parse_raster, FIELD(const raster_row *, raster), .names = &rasters,
         .without = "--subpixel, and a plane anchored at a vertex",
-        .except = {BUT(VERB_ZFIGHT, "llvmpipe", "with --triangles", "the rasterizer or specification, as in "
-                       "'depthprec list rasterizers'; with --triangles one that draws: llvmpipe, lavapipe, softpipe "
+        .except = {BUT(VERB_ZFIGHT, "llvmpipe", "with --rasterize", "the rasterizer or specification, as in "
+                       "'depthprec list rasterizers'; with --rasterize one that draws: llvmpipe, lavapipe, softpipe "
                        "or swiftshader")}},
     [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", VIEWED,
         "instead: bits of the grid to which vertices move; Direct3D has 8, Vulkan and OpenGL at least 4; with "
@@ -291,7 +291,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .parse = parse_plane, .without = "any azimuth",
         .except = {BUT(VERB_PLOT, "60,45", NULL, "the angle of the planes' normal to the view axis and where it points "
                        "on the screen, degrees, 0 to the right and 90 up")}},
-    [OPTION_TRIANGLE] = {"triangle", 0, "depth=K,pixels=P,slim=Q", VIEWED,
+    [OPTION_TRIANGLE_CLASS] = {"triangle-class", 0, "depth=K,pixels=P,slim=Q", VIEWED,
         "the triangles: vertices at depths from z/K to K z, at most P pixels wide and high, no slimmer than 1:Q",
         .parse = parse_triangle, .standard = "depth=2,pixels=512,slim=16"},
     [OPTION_CASCADES] = {"cascades", 0, "N", SHADOWED,
@@ -345,13 +345,13 @@ const option_row option_rows[OPTION_COUNT] = {
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL),
-        .without = "visit every depth; about 500 pairs of planes with --triangles",
+        .without = "visit every depth; about 500 pairs of planes with --rasterize",
         .except = {BUT(VERB_PREPASS, "1000000", NULL, "draw N vertices at random")}},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED | VERB_PROBE, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0",
         .except = {BUT(VERB_PROBE, "0", NULL, "seed of the random scene that is predicted"),
                    BUT(VERB_PREPASS, "0", NULL, "seed of the vertices: the same for the same seed")}},
-    [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,
+    [OPTION_RASTERIZE] = {"rasterize", 0, NULL, VERB_ZFIGHT,
         "draw pairs of slanted planes as random triangles: how near they come before a pixel is wrong, against what "
         "is guaranteed", FLAG(drawn)},
     [OPTION_AGAINST] = {"against", 0, "PROGRAM[,PROGRAM...]|all", VERB_PREPASS,

@@ -75,7 +75,7 @@ typedef enum option_id {
     OPTION_SUBPIXEL,
     OPTION_SLANT,
     OPTION_PLANE,
-    OPTION_TRIANGLE,
+    OPTION_TRIANGLE_CLASS,
     OPTION_CASCADES,
     OPTION_LAMBDA,
     OPTION_LIGHT_BOX,
@@ -92,7 +92,7 @@ typedef enum option_id {
     OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
-    OPTION_TRIANGLES,
+    OPTION_RASTERIZE,
     OPTION_AGAINST,
     OPTION_PROGRAM,
     OPTION_VERTICES,
@@ -205,7 +205,7 @@ typedef struct options {
     world_scheme schemes[OPTIONS_SCHEMES_MAX]; /**< in the order given, each once */
     size_t scheme_count;
     bool shared_origin;       /**< both surfaces are of meshes with one origin */
-    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0
+    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle-class; width 0
                                    without the first */
     double fov_x;             /**< --hfov, degrees */
     double azimuth;           /**< --plane, degrees from right to up; NaN when not given */
@@ -235,7 +235,7 @@ typedef struct options {
     size_t against_count;
     const vertex_program *program;                /**< what they are compared with */
     unsigned vertices;                            /**< how they are drawn: a vertex_spread */
-    bool drawn;                                   /**< --triangles: the surfaces are drawn */
+    bool drawn;                                   /**< --rasterize: the surfaces are drawn */
     int threads;                                  /**< 0 when not given: as many as there are cores */
 
     const char *device; /**< of probe; null when not given */

@@ -40,7 +40,7 @@ const verb verb_rows[] = {
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
      "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
      "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n"
-     "  depthprec zfight --triangles -F fp32 -m reversed --range 16:64\n", 0, NULL},
+     "  depthprec zfight --rasterize -F fp32 -m reversed --range 16:64\n", 0, NULL},
     {"prepass", VERB_PREPASS, "", 0, 0, NULL,
      "is EQUAL safe behind a depth prepass, what LEQUAL needs",
      "  depthprec prepass -F d24 -m d3d\n"

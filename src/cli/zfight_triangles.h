@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file zfight_triangles.h  zfight --triangles: pairs of slanted planes, drawn by the model of a rasterizer. */
+/** @file zfight_triangles.h  zfight --rasterize: pairs of slanted planes, drawn by the model of a rasterizer. */
 #ifndef CLI_ZFIGHT_TRIANGLES_H
 #define CLI_ZFIGHT_TRIANGLES_H
 

@@ -24,14 +24,14 @@ const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
 const ASKED = {
     solve: ["for", "separation", "error", "at", "range"],
     bias: ["gap", "at", "range", "api", "units", "factor", "clamp", "slope"],
-    zfight: ["gap", "sample", "seed", "triangles", "plane"],
+    zfight: ["gap", "sample", "seed", "rasterize", "plane"],
     prepass: ["against", "program", "vertices", "sample", "seed"],
     table: [], plot: [], budget: [],
 };
 const REFUSED = 2; // the exit status of a command
 const NEVER = ["link", "output", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
 // A figure does not refuse what it has no use for: it leaves it out.
-const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"];
+const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle-class"];
 const UNUSED = {
     interval: ["at"], error: ["at", "tolerance", ...VIEW], distribution: ["at", "tolerance", ...VIEW],
     budget: ["at", "model"],
