@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The page in a browser (make check-web): Chromium without a window, driven by playwright-core, judged by axe-core.
 # Both are npm's packages, pinned by version and digest in tests/web/package-lock.json; nothing of them is run on install.
-# What is seen of the page is left in $B/web/shots. ONLY=redraw,people,bad,shots,states takes a part.
+# What is seen of the page is left in $B/web/shots. ONLY=redraw,people,bad,shots,states takes a part; with DEPTHPREC_QUICK
+# it is a minute of it.
 . tests/tap.sh
+addresses=1000000
+[ -z "${DEPTHPREC_QUICK-}" ] || addresses=100000
 
 # prints why there is no browser, or no driver for it
 lacking() {
@@ -29,7 +32,7 @@ check "the page names no other file" alone
 check "the page has at most 328 KiB" small
 
 cp src/web/command.js "$scratch/command.mjs"
-node --no-warnings tests/web/fuzz.mjs "$scratch/command.mjs" 1000000 || failures=$((failures + 1))
+node --no-warnings tests/web/fuzz.mjs "$scratch/command.mjs" $addresses || failures=$((failures + 1))
 
 why=$(lacking)
 if [ -n "$why" ]; then
