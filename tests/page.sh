@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The page in a browser (make check-web): Chromium without a window, driven by playwright-core, judged by axe-core.
 # Both are npm's packages, pinned by version and digest in tests/web/package-lock.json; nothing of them is run on install.
-# What is seen of the page is left in $B/web/shots. ONLY=redraw,people,bad,shots,states takes a part; with DEPTHPREC_QUICK
-# it is a minute of it.
+# It takes a minute, all with DEPTHPREC_FULL: then what is seen of the page is left in $B/web/shots.
+# ONLY=redraw,people,bad,shots,states takes a part.
 . tests/tap.sh
-addresses=1000000
-[ -z "${DEPTHPREC_QUICK-}" ] || addresses=100000
+addresses=100000
+[ -z "${DEPTHPREC_FULL-}" ] || addresses=1000000
 
 # prints why there is no browser, or no driver for it
 lacking() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page in a browser:  B=build DEPTHPREC=build/depthprec node page.mjs
-// With DEPTHPREC_QUICK a minute of it: bad input, and a twentieth of the random commands.
+// A minute of it: bad input, and a tenth of the random commands. All with DEPTHPREC_FULL.
 import { asked, browser, dialogs, said } from "./browser.mjs";
 import { bad } from "./page_bad.mjs";
 import { people } from "./page_people.mjs";
@@ -10,9 +10,9 @@ import { states } from "./page_states.mjs";
 import { seed } from "./states.mjs";
 import { demand, finish, test } from "./tap.mjs";
 
-const quick = Boolean(process.env.DEPTHPREC_QUICK);
-const parts = { redraw, people, bad, shots, states: () => states(seed(), quick ? 0.05 : 1) };
-const only = process.env.ONLY?.split(",") ?? (quick ? ["bad", "states"] : Object.keys(parts));
+const full = Boolean(process.env.DEPTHPREC_FULL);
+const parts = { redraw, people, bad, shots, states: () => states(seed(), full ? 1 : 0.1) };
+const only = process.env.ONLY?.split(",") ?? (full ? Object.keys(parts) : ["bad", "states"]);
 for (const name of only) await parts[name]();
 await test("nothing was said on the console", () => demand(said.length === 0, [...new Set(said)].slice(0, 20).join("\n")));
 await test("nothing but the page itself was asked for", () => demand(asked.length === 0, asked.join("\n")));
