@@ -54,21 +54,26 @@ FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(B)/%,$(FUZZ))
 
 CFLAGS ?= $(or $(OPTIMIZE_$(CONF)),-O1 -g)
 OPTIMIZE_release := -O3
+OPTIMIZE_asan := -O2 -g
 
 SANITIZE := address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-MODE_asan := -fsanitize=$(SANITIZE)
+MODE_asan := -fsanitize=$(SANITIZE) -Wno-pass-failed # no loop with sanitizers in it becomes vectors
 MODE_coverage := --coverage
 MODE_fuzz := -fsanitize=fuzzer-no-link,$(SANITIZE)
 MODE := $(MODE_$(CONF))
-ifeq ($(CONF)-$(origin CC),fuzz-default)
+# Of another compiler than the release, whose sanitizers know more: its warnings and its results are judged, too.
+ifneq ($(filter asan-default fuzz-default,$(CONF)-$(origin CC)),)
 CC := clang
 endif
 
+# WERROR=-Werror is for .ci/run: another compiler's warnings stop nobody who builds. clang takes every INFINITY and NAN
+# for a promoted float; gcc, which does not, judges promotions alone.
 WARN := -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wstrict-prototypes $(WERROR)
+WARN_clang := $(WARN) -Wno-double-promotion
 # Without traps and errno loops with a choice become vectors; no result changes. Nor may contraction change one.
 EXACT := -fno-math-errno -fno-trapping-math -ffp-contract=off -fopenmp-simd
 INCLUDES := -Iinclude -Isrc -Itests
-COMPILE = $(CC) -std=gnu11 $(INCLUDES) $(CPPFLAGS) $(WARN) $(CFLAGS) $(MODE) $(EXACT) -fvisibility=hidden -fPIC -MMD -MP
+COMPILE = $(CC) -std=gnu11 $(INCLUDES) $(CPPFLAGS) $(if $(findstring clang,$(CC)),$(WARN_clang),$(WARN)) $(CFLAGS) $(MODE) $(EXACT) -fvisibility=hidden -fPIC -MMD -MP
 LINK = $(CC) $(CFLAGS) $(MODE) $(LDFLAGS) -Wl,--as-needed
 
 Q := $(if $(filter 1,$(V)),,@)
@@ -154,7 +159,7 @@ WEB_NOT := report/output_file report/terminal need/camera need/reader need/requi
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
-WEB_FLAGS := $(WARN) -Wno-double-promotion -Wno-shorten-64-to-32 $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections
+WEB_FLAGS := $(WARN_clang) -Wno-shorten-64-to-32 $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections
 # The stack below all else: what overflows it ends, and overwrites nothing.
 WEB_LINK = $(WEB_CC) -mexec-model=reactor -Wl,--gc-sections,--stack-first,-z,stack-size=1048576 -s
 web_objects = $(patsubst %.c,$(B)/web/obj/%.o,$(1))
@@ -196,9 +201,10 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
-.PHONY: check check-full check-programs check-clang check-baseline check-probe check-web asan fuzz coverage mutants cross
+.PHONY: check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
-ONCE := tests/layers.sh tests/headers.sh tests/install.sh
+# In the release alone: of objects, headers, the tests themselves and what clang makes for the web no sanitizer has a say.
+ONCE := $(patsubst %,tests/%.sh,layers headers install teeth mutants aims web)
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 
 check:
@@ -208,22 +214,44 @@ check:
 
 check-programs: $(TEST_PROGRAMS)
 
+# All cases, the whole of what .ci/run takes a part of, and what it leaves out. `make cross` and `make deb` need Debian.
+FULL := check check-web check-probe cross deb
 check-full:
-	@DEPTHPREC_FULL=1 $(MAKE) --no-print-directory check
+	@failed=; for t in $(FULL); do echo "make $$t"; DEPTHPREC_FULL=1 $(MAKE) --no-print-directory $$t || failed="$$failed $$t"; done; \
+	    [ -z "$$failed" ] || { echo "failed: make$$failed" && exit 1; }
 
 asan:
+	@sh src/packages.sh fuzz
 	@DEPTHPREC_QUICK=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 \
 	    $(MAKE) --no-print-directory CONF=asan check
 
-# The programs with few cases, and the recorded texts: of another compiler (its warnings: see lint-clang), and without
-# what needs AVX, neither kernels of the library's own nor the C library's functions.
-VARIANT = DEPTHPREC_QUICK=1 $(MAKE) --no-print-directory RUN_TESTS='$$(TEST_PROGRAMS) tests/cli.sh'
-check-clang:
-	@sh src/packages.sh clang
-	@$(VARIANT) B=build/clang CC=clang WERROR=-Wno-double-promotion check
-
+# Without what needs AVX: neither kernels of the library's own, of which src/core/batch.c alone knows, nor the C library's
+# functions. The programs whose numbers may come from either, with few cases, and the recorded texts.
+WITHOUT_AVX := batch bias_drawn bound census census_asked census_kernel code decode draw draw_fight effect effects_pixels \
+    elementary frame frame_errors frame_summary grain image_depths normal picture position quotient raster \
+    raster_any raster_input rasterizers scene_render shadow_drawn staged texture_report triangles triangles_drawn \
+    values_texture values_zfight vertex world
+BASELINE_PROGRAMS := $(patsubst %,$(B)/baseline/test_%,$(WITHOUT_AVX))
 check-baseline:
-	@GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 $(VARIANT) B=build/baseline CPPFLAGS='$(CPPFLAGS) -DDP_BASELINE' check
+	@sh src/packages.sh check
+	@$(MAKE) $(PARALLEL) $(B)/baseline/depthprec $(BASELINE_PROGRAMS)
+	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/baseline/depthprec DEPTHPREC_QUICK=1 \
+	    GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 sh tests/run.sh $(BASELINE_PROGRAMS) tests/cli.sh
+
+$(B)/baseline/batch.o: src/core/batch.c Makefile
+	@mkdir -p $(@D)
+	$(call say,CC)
+	$(Q)$(COMPILE) -DDP_BASELINE -c -o $@ $<
+
+# It stands before the libraries, and is taken instead of theirs.
+$(B)/baseline/depthprec: $(ROOMS_O) $(B)/baseline/batch.o $(B)/libdepthprec.a | $(B)/build.libs
+	$(call say,LD)
+	$(Q)$(LINK) -o $@ $^ @$(B)/build.libs -lm
+
+$(BASELINE_PROGRAMS): $(B)/baseline/%: $(B)/obj/tests/%.o $(B)/baseline/batch.o $(B)/libsupport.a $(B)/librooms.a \
+    $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
+	$(call say,LD)
+	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
 
 # The page in a browser, which page.sh installs where it can.
 check-web: web
@@ -282,7 +310,7 @@ endif
 
 # ---- Lint --------------------------------------------------------------------------------------------------------
 
-LINTS := lint-format lint-gcc lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence
+LINTS := lint-format lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence
 .PHONY: lint $(LINTS)
 lint:
 	@sh src/packages.sh lint
@@ -291,12 +319,9 @@ lint:
 lint-format:
 	$(Q)clang-format --dry-run -Werror $(ALL_C) $(ALL_H)
 
-lint-gcc:
-	$(Q)$(MAKE) $(PARALLEL) B=build/lint CC=gcc WERROR=-Werror all check-programs
-
-# clang takes every INFINITY and NAN for a promoted float; gcc, which does not, judges promotions alone.
+# What is not built on the way by clang with sanitizers is judged, too: benchmarks and fuzz targets.
 lint-clang: $(B)/build.cflags $(B)/check.cflags
-	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN) -Wno-double-promotion -Werror $(EXACT) \
+	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN_clang) -Werror $(EXACT) \
 	    @$(B)/build.cflags @$(B)/check.cflags $(filter-out $(PAGE),$(ALL_C))
 
 lint-cppcheck:
@@ -377,16 +402,16 @@ help:
 
 ## make demo        install what is missing, build, print the table of one camera and draw its figures
 ## make             build the library and the program into build/
-## make check       install what is missing, build, run the quick tests
-## make check-full  the exhaustive tests too
-## make check-clang     built by clang, the quick tests; check-baseline: without AVX
+## make check       install what is missing, build, run the tests: at most 5 minutes on two cores
+## make check-full  all cases, and check-web, check-probe, cross and deb: hours, before a release (Debian)
+## make check-baseline  the tests that know it, without AVX
 ## make check-probe  a Vulkan driver without a GPU, and what the probe finds there (Debian)
 ## make cross       built for MACHINES="aarch64 s390x" and run, emulated: the tests, and the same bytes as here (Debian)
-## make asan        the tests under the address and undefined-behaviour sanitizers
+## make asan        the tests, built by clang, under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
 ## make mutants     whether the tests notice the changes of the source in tests/mutants.txt: an hour (ROOM=, ONLY=)
 ## make coverage    the lines that the tests reach, per file
-## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
+## make lint        format, warnings of clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
 ## make bench       measure the speed of the engine and the methods, redraw the charts of both; last, which aims are met
 ## make check-web       the page in Chromium, which it installs: what it shows against the program, keyboard, speed
@@ -398,5 +423,6 @@ help:
 ## make deb         Debian's source package and three packages in build/deb/, judged by lintian (Debian)
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
+## WERROR=-Werror makes warnings errors
 
--include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))
+-include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))

@@ -9,79 +9,111 @@
 #     = exit status             ends the case
 # cli.sh FILE... runs these files alone. RECORD=1 sh tests/cli.sh writes what came out into the files instead: judge that
 # with git diff.
+#
+# A case costs a shell and what it runs, no more: one awk takes the files apart, one diff compares all that came out.
+# Case N is run in run/N/work; want/N and got/N hold its stdout, stderr and status, run/N/wrong what is wrong with it.
 . tests/tap.sh
 
-root=$PWD
-mkdir "$scratch/bin"
+mkdir "$scratch/bin" "$scratch/run" "$scratch/want" "$scratch/got"
 ln -s "$DEPTHPREC" "$scratch/bin/depthprec"
 PATH=$scratch/bin:$PATH
 unset NO_COLOR LANGUAGE LANG POSIXLY_CORRECT
 export TERM=dumb
 
-start_case() {
-    rm -rf "$scratch/case"
-    mkdir -p "$scratch/case/work"
-    : >"$scratch/case/command"
-    : >"$scratch/case/stdout"
-    : >"$scratch/case/stderr"
-    title='' tool=''
+take_apart() { # take_apart FILE...: writes command, stdout, stderr and status of each case; prints number, tool or -, name
+    awk -v at="$scratch" '
+        function clear() { title = command = out = err = ""; tool = "-" }
+        function put(text, file) { printf "%s", text >file; close(file) }
+        FNR == 1 { clear() }
+        { rest = substr($0, 3) "\n" }
+        /^# / { title = substr($0, 3) }
+        /^\? / { tool = substr($0, 3) }
+        /^\$ / { command = command rest }
+        /^\| / || $0 == "|" { out = out rest }
+        /^! / { err = err rest }
+        /^= / {
+            number++
+            put(command, at "/run/" number "/command")
+            put(out, at "/want/" number "/stdout")
+            put(err, at "/want/" number "/stderr")
+            put(rest, at "/want/" number "/status")
+            print number, tool, title
+            clear()
+        }' "$@"
 }
 
-run_case() { # leaves got.stdout, got.stderr, got.status in the case's folder
-    (cd "$scratch/case/work" && sh ../command >../got.stdout 2>../got.stderr </dev/null)
-    status=$?
+run_cases() {
+    while read -r number tool title; do
+        if [ "$tool" != - ] && ! command -v "$tool" >/dev/null; then
+            cp "$scratch/want/$number"/* "$scratch/got/$number"
+            continue
+        fi
+        (cd "$scratch/run/$number/work" &&
+            exec sh ../command >"$scratch/got/$number/stdout" 2>"$scratch/got/$number/stderr" </dev/null)
+        echo $? >"$scratch/got/$number/status"
+        [ ! -s "$broken" ] || { cp "$broken" "$scratch/run/$number/wrong" && : >"$broken"; }
+    done <"$scratch/cases"
     # What a shell says about itself names a path that is new in every run.
-    sed "s|$scratch/case/work|.|g" "$scratch/case/got.stderr" >"$scratch/case/got.stderr.plain"
+    for file in $(lines -lF "$scratch/run/" "$scratch"/got/*/stderr); do
+        sed "s|$scratch/run/[0-9]*/work|.|g" "$file" >"$scratch/plain" && mv "$scratch/plain" "$file"
+    done
 }
 
-compare() { # compare EXPECTED_STATUS
-    if [ "$status" != "$1" ]; then
-        echo "exit status $status, expected $1"
-        cat "$scratch/case/got.stderr.plain"
-        return 1
-    fi
-    empty too_wide "$scratch/case/command" "$scratch/case/got.stdout" || return
-    diff "$scratch/case/stdout" "$scratch/case/got.stdout" && diff "$scratch/case/stderr" "$scratch/case/got.stderr.plain"
+compare() { # adds to what is wrong with each case what differs, and lines that are too wide
+    (cd "$scratch" && diff -r want got) >"$scratch/apart"
+    awk -v at="$scratch" '
+        match($0, /^(diff -r|Binary files|Only in) (want|got)\/[0-9]+/) { split(substr($0, 1, RLENGTH), part, "/") }
+        { print >(at "/run/" part[2] "/wrong") }' "$scratch/apart"
+    # shellcheck disable=SC2046
+    (cd "$scratch" && too_wide $(awk '{ print "run/" $1 "/command", "got/" $1 "/stdout" }' cases)) >"$scratch/wide"
+    while IFS= read -r line; do
+        number=${line#got/}
+        printf 'too wide: %s\n' "$line" >>"$scratch/run/${number%%/*}/wrong"
+    done <"$scratch/wide"
 }
 
-record() {
-    [ -z "$tool" ] || echo "? $tool"
-    sed 's/^/$ /' "$scratch/case/command"
-    sed 's/^/| /; s/ $//' "$scratch/case/got.stdout"
-    sed 's/^/! /' "$scratch/case/got.stderr.plain"
-    echo "= $status"
+fine() { # fine NUMBER
+    [ ! -e "$scratch/run/$1/wrong" ] || { cat "$scratch/run/$1/wrong" && return 1; }
 }
 
-end_case() { # end_case EXPECTED_STATUS
-    if [ -n "$tool" ] && ! command -v "$tool" >/dev/null; then
-        skip "$title" "$tool is not installed"
-    else
-        run_case
-        check "$title" compare "$1"
-    fi
-    [ -z "${RECORD-}" ] || record >>"$scratch/record"
-    start_case
+record() { # record FILE NUMBER: prints the file with what came out of its cases, the first of which has that number
+    awk -v at="$scratch" -v number="$2" '
+        function show(sign, file,    line) {
+            while ((getline line <file) > 0) print sign == "| " && line == "" ? "|" : sign line
+            close(file)
+        }
+        /^[$!] / || /^\|/ { next }
+        /^= / {
+            show("$ ", at "/run/" number "/command")
+            show("| ", at "/got/" number "/stdout")
+            show("! ", at "/got/" number "/stderr")
+            show("= ", at "/got/" number++ "/status")
+            next
+        }
+        { print }' "$1"
 }
 
 [ $# -gt 0 ] || set -- tests/cli/*.txt
-for file; do
-    start_case
-    : >"$scratch/record"
-    while IFS= read -r line; do
-        case $line in
-        '# '*) title=${line#??} ;;
-        '? '*) tool=${line#??} ;;
-        '$ '*) printf '%s\n' "${line#??}" >>"$scratch/case/command" ;;
-        '| '*) printf '%s\n' "${line#??}" >>"$scratch/case/stdout" ;;
-        '|') echo >>"$scratch/case/stdout" ;;
-        '! '*) printf '%s\n' "${line#??}" >>"$scratch/case/stderr" ;;
-        '= '*) end_case "${line#??}" ;;
-        esac
-        case $line in
-        '? '* | '$ '* | '|'* | '! '* | '= '*) ;;
-        *) printf '%s\n' "$line" >>"$scratch/record" ;;
-        esac
-    done <"$file"
-    [ -z "${RECORD-}" ] || cp "$scratch/record" "$root/$file"
+count=$(cat "$@" | lines -c '^= ')
+seq 0 "$count" | (cd "$scratch" && sed 's|.*|run/&/work want/& got/&|' | xargs mkdir -p)
+echo "what differs" >"$scratch/want/0/status" # case 0: it must be noticed
+take_apart "$@" >"$scratch/cases"
+run_cases
+compare
+
+[ -s "$scratch/run/0/wrong" ] || check "what differs is noticed" false
+[ "$(wc -l <"$scratch/cases")" -eq "$count" ] || check "all $count cases are run" false
+while read -r number tool title; do
+    if [ "$tool" != - ] && ! command -v "$tool" >/dev/null; then
+        skip "$title" "$tool is not installed"
+    else
+        check "$title" fine "$number"
+    fi
+done <"$scratch/cases"
+
+number=1
+for file in ${RECORD:+"$@"}; do
+    record "$file" $number >"$scratch/recorded" && cp "$scratch/recorded" "$file"
+    number=$((number + $(lines -c '^= ' "$file")))
 done
 finish

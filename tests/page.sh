@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The page in a browser (make check-web): Chromium without a window, driven by playwright-core, judged by axe-core.
 # Both are npm's packages, pinned by version and digest in tests/web/package-lock.json; nothing of them is run on install.
-# What is seen of the page is left in $B/web/shots. ONLY=redraw,controls,people,bad,shots,states takes a part.
+# It takes a minute, all with DEPTHPREC_FULL: then what is seen of the page is left in $B/web/shots.
+# ONLY=redraw,controls,people,bad,shots,states takes a part.
 . tests/tap.sh
+addresses=100000
+[ -z "${DEPTHPREC_FULL-}" ] || addresses=1000000
 
 # prints why there is no browser, or no driver for it
 lacking() {
@@ -29,7 +32,7 @@ check "the page names no other file" alone
 check "the page has at most 328 KiB" small
 
 cp src/web/command.js "$scratch/command.mjs"
-node --no-warnings tests/web/fuzz.mjs "$scratch/command.mjs" 1000000 || failures=$((failures + 1))
+node --no-warnings tests/web/fuzz.mjs "$scratch/command.mjs" $addresses || failures=$((failures + 1))
 
 why=$(lacking)
 if [ -n "$why" ]; then

@@ -51,8 +51,18 @@ lines() { # lines GREP_ARGUMENTS...: grep for which it is fine to find nothing, 
 
 # Text is 80 columns wide. Wider by design are JSON, CSV, JUnit, --full, colours, what a shell reads, links, and messages,
 # a line each.
-too_wide() { # too_wide COMMANDS TEXT: prints the lines of the text that are too wide for what the commands ask for
-    grep -qE -e '--(json|csv|full|report|color|link)|completions' "$1" || awk 'length > 80 && !/^depthprec: /' "$2"
+too_wide() { # too_wide COMMANDS TEXT [COMMANDS TEXT]...: prints the lines of texts that are too wide for what their commands ask for
+    awk 'BEGIN {
+        for (i = 1; i < ARGC; i += 2) {
+            free = 0
+            while ((more = (getline line <ARGV[i])) > 0) free = free || line ~ /--(json|csv|full|report|color|link)|completions/
+            if (more < 0) print ARGV[i] ": cannot be read"
+            while ((more = (getline line <ARGV[i + 1])) > 0)
+                if (!free && length(line) > 80 && line !~ /^depthprec: /) print ARGV[i + 1] ": " line
+            if (more < 0) print ARGV[i + 1] ": cannot be read"
+            close(ARGV[i]); close(ARGV[i + 1])
+        }
+    }' "$@"
 }
 
 finish() {

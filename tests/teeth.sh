@@ -22,10 +22,7 @@ needs.sh                     | jq        | 1 | 1
 needs.sh                     | xmllint   | 1 | 1
 needs.sh                     | depthprec | 1 | all
 needs.sh                     | depthprec | 0 | 2
-install.sh                   | readelf   | 1 | 3
-install.sh                   | readelf   | 0 | 3
-install.sh                   | nm        | 1 | 1
-install.sh                   | nm        | 0 | 1
+install.sh                   | readelf nm | 0 | 4
 headers.sh                   | cc        | 1 | 10
 examples.sh                  | depthprec | 1 | 33
 examples.sh                  | depthprec | 0 | 31
@@ -40,14 +37,23 @@ gappa.sh                     | gappa     | 0 | all
 cli.sh tests/cli/help.txt    | depthprec | 1 | all
 cli.sh tests/cli/help.txt    | depthprec | 0 | all
 cli.sh tests/cli/solve.txt   | jq        | 1 | 1
-cli.sh tests/cli/methods.txt | awk       | 1 | 4
+cli.sh tests/cli/methods.txt | awk       | 1 | all
+cli.sh tests/cli/methods.txt | diff      | 0 | 1
 '
+[ -z "${DEPTHPREC_FULL-}" ] || cases="$cases
+install.sh                   | readelf   | 1 | 3
+install.sh                   | nm        | 1 | 1
+"
 
-idle() { # idle NAME STATUS: a folder with a program of that name that does nothing
-    mkdir -p "$scratch/idle/$1$2"
-    printf '#!/bin/sh\nexit %s\n' "$2" >"$scratch/idle/$1$2/$1"
-    chmod +x "$scratch/idle/$1$2/$1"
-    folder=$scratch/idle/$1$2
+idle() { # idle STATUS NAME...: a folder with programs of these names that do nothing
+    ends=$1
+    shift
+    folder=$scratch/idle/$(echo "$@" "$ends" | tr ' ' -)
+    mkdir -p "$folder"
+    for tool; do
+        printf '#!/bin/sh\nexit %s\n' "$ends" >"$folder/$tool"
+        chmod +x "$folder/$tool"
+    done
 }
 
 bites() { # bites FAILURES TEST ARGUMENT...: exits non-zero, and so many tests fail
@@ -68,14 +74,15 @@ path=${PATH#"$scratch/tools:"} compiler=$CC # the tests bring wrappers of their 
 echo "$cases" >"$scratch/cases"
 while IFS='|' read -r test name status least; do
     [ -n "$name" ] || continue
-    name=${name# } name=${name%% *}
-    idle "$name" ${status# }
+    name=$(echo $name) status=$(echo $status)
+    # shellcheck disable=SC2086
+    idle $status $name
     PATH=$folder:$path
     export DEPTHPREC="$untouched" CC="$compiler"
     [ "$name" != depthprec ] || DEPTHPREC=$folder/depthprec
     [ "$name" != cc ] || CC=$folder/cc
     # shellcheck disable=SC2086
-    check "$(echo $test) with a $name that does nothing, exit status ${status# }" bites ${least# } $test
+    check "$(echo $test) with $name doing nothing, exit status $status" bites ${least# } $test
     PATH=$path
 done <"$scratch/cases"
 finish

@@ -213,7 +213,7 @@ static void random_ranges(void **state) {
     (void)state;
     rng r = rng_make("bounds");
     tally t = {.name = "random cameras and ranges"};
-    uint64_t count = test_cases(60, 3000, 10000);
+    uint64_t count = test_cases(60, 600, 10000);
     for (uint64_t i = 0; i < count; i++) {
         dp_spec spec = dp_spec_default();
         int kind = (int)rng_below(&r, DP_MAPPING_COUNT + 8) - 8; /* all mappings, 4 orthographic, 4 infinite */

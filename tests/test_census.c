@@ -228,7 +228,7 @@ static void matches_plain(void **state) {
     rng r = rng_make("census");
     compare_plain(&t, &r, test_cases(30, 400, 4000), 200.0, false);
     compare_plain(&t, &r, test_cases(20, 300, 3000), 5000.0, false);
-    compare_plain(&t, &r, test_cases(2, 24, 400), 1.5e6, false);
+    compare_plain(&t, &r, test_cases(2, 8, 400), 1.5e6, false);
     tally_end(&t);
 }
 
@@ -239,7 +239,7 @@ static void matches_plain_of_either_sign(void **state) {
     rng r = rng_make("census of either sign");
     compare_plain(&t, &r, test_cases(60, 800, 8000), 200.0, true);
     compare_plain(&t, &r, test_cases(20, 300, 3000), 5000.0, true);
-    compare_plain(&t, &r, test_cases(2, 24, 400), 1.5e6, true);
+    compare_plain(&t, &r, test_cases(2, 8, 400), 1.5e6, true);
     assert_true(t.cases > test_cases(60, 900, 9000));
     tally_end(&t);
 }
@@ -409,7 +409,7 @@ static void same_levels(void **state) {
     (void)state;
     tally t = {.name = "levels"};
     rng r = rng_make("levels");
-    const uint64_t cases = test_cases(30, 600, 6000);
+    const uint64_t cases = test_cases(30, 200, 6000);
     for (uint64_t n = 0; n < cases; n++) {
         const dp_setup setup = random_setup(&r, n % 4 == 0);
         census_request q = {.setup = &setup, .threads = 1};

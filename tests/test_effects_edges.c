@@ -23,7 +23,7 @@ static void test_edges(void **state) {
     tally t = {.name = "edges"};
     uint64_t doubtful = 0, sky = 0;
     (void)state;
-    for (uint64_t i = 0; i < test_cases(40, 400, 10000); i++) {
+    for (uint64_t i = 0; i < test_cases(40, 100, 10000); i++) {
         stage s;
         double at[TEXTURE_PARAMETERS];
         const int away = 1 + (int)rng_below(&r, 4);
@@ -92,7 +92,7 @@ static void test_occlusion(void **state) {
     tally t = {.name = "occlusion"};
     uint64_t some = 0;
     (void)state;
-    for (uint64_t i = 0; i < test_cases(40, 400, 10000); i++) {
+    for (uint64_t i = 0; i < test_cases(40, 100, 10000); i++) {
         stage s;
         double at[TEXTURE_PARAMETERS];
         const int away = 1 + (int)rng_below(&r, 4);
@@ -234,7 +234,7 @@ static void test_refraction_unsure(void **state) {
     stage_set("water-depth", at, "density", 0.05);
     stage_set("water-depth", at, "refraction", 3);
     const uint32_t middle = code_of(20);
-    for (uint64_t i = 0; i < test_cases(20, 200, 2000); i++) {
+    for (uint64_t i = 0; i < test_cases(20, 60, 2000); i++) {
         const bool known = i % 2 == 0;
         const double surface = known ? eye_of(middle + rng_unit(&r) - 0.5) : 0;
         for (int k = 0; k < PIXELS; k++)

@@ -89,7 +89,10 @@ static void report(const char *what, const slack_report *slack) {
            slack->most, slack->sum / (double)slack->bands, slack->worst);
 }
 
-/* Every pair of a census, for 12 cameras x 4 mappings x 4 formats; by default in `ieee`, with effort in every row. */
+/*
+ * Every pair of a census, for 12 cameras x 4 mappings x 4 formats, in every row of arithmetic; by default in `ieee`, and
+ * of each mapping and format three cameras, each camera with a format of every mapping.
+ */
 static void never_violated_and_tight(void **state) {
     (void)state;
     const dp_arith rows = test_cases(1, 1, dp_arith_count());
@@ -102,6 +105,8 @@ static void never_violated_and_tight(void **state) {
             for (int m = 0; m < MAPPINGS; m++)
                 for (int f = 0; f < FORMATS; f++) {
                     dp_setup setup;
+                    if (test_effort() == EFFORT_CHECK && (c + m + f) % FORMATS != 0)
+                        continue;
                     assert_true(make(&setup, c, m, f, a, 0));
                     const double reach = test_effort() == EFFORT_QUICK ? 4.0 * setup.spec.znear : HUGE_VAL;
                     check_setup(&setup, setup.spec.znear, fmin(reach, range_end(&setup)), &violated, &loose, &slack);
@@ -120,7 +125,7 @@ static void every_arithmetic(void **state) {
         tally violated = {.name = "guarantee"};
         tally loose = {.name = "tightness in stretches is not judged"};
         slack_report slack = {0};
-        for (uint64_t i = test_cases(20, 400, 4000); i > 0; i--) {
+        for (uint64_t i = test_cases(20, 100, 4000); i > 0; i--) {
             dp_setup setup;
             if (!make(&setup, (int)rng_below(&r, CAMERAS), (int)rng_below(&r, MAPPINGS), (int)rng_below(&r, FORMATS), a,
                       rng_below(&r, 3) == 0))

@@ -222,23 +222,23 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
 
 static void test_fp32(void **state) {
     (void)state;
-    in_model(DP_MODEL_FP32, MEASURE_SEPARATION, test_cases(100, 2000, 20000));
+    in_model(DP_MODEL_FP32, MEASURE_SEPARATION, test_cases(100, 500, 20000));
 }
 
 static void test_staged(void **state) {
     (void)state;
-    in_model(DP_MODEL_STAGED, MEASURE_SEPARATION, test_cases(100, 1000, 10000));
+    in_model(DP_MODEL_STAGED, MEASURE_SEPARATION, test_cases(100, 250, 10000));
 }
 
 static void test_exact(void **state) {
     (void)state;
-    in_model(DP_MODEL_EXACT, MEASURE_SEPARATION, test_cases(100, 1000, 10000));
+    in_model(DP_MODEL_EXACT, MEASURE_SEPARATION, test_cases(100, 250, 10000));
 }
 
 static void test_error(void **state) {
     (void)state;
-    in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(100, 1000, 10000));
-    in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(50, 300, 3000));
+    in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(100, 250, 10000));
+    in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(50, 100, 3000));
 }
 
 /* |stored - z| of UNORM under an infinite or finite perspective, in long double, without the library. */
@@ -262,7 +262,7 @@ static void test_error_by_hand(void **state) {
     rng r = rng_make("plane error by hand");
     tally least = {.name = "least near of an error: just below it fails"};
     tally all = {.name = "least near of an error: all from it on pass"};
-    const uint64_t cases = test_cases(20, 200, 2000);
+    const uint64_t cases = test_cases(20, 100, 2000);
     for (uint64_t i = 0; i < cases; i++) {
         static const char *const names[] = {"unorm8", "unorm12", "unorm16"};
         static const int widths[] = {8, 12, 16};

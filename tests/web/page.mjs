@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page in a browser:  B=build DEPTHPREC=build/depthprec node page.mjs
+// A minute of it: bad input, and a tenth of the random commands. All with DEPTHPREC_FULL.
 import { asked, browser, dialogs, said } from "./browser.mjs";
 import { bad } from "./page_bad.mjs";
 import { controls } from "./page_controls.mjs";
@@ -10,8 +11,9 @@ import { states } from "./page_states.mjs";
 import { seed } from "./states.mjs";
 import { demand, finish, test } from "./tap.mjs";
 
-const parts = { redraw, controls, people, bad, shots, states: () => states(seed()) };
-const only = process.env.ONLY?.split(",") ?? Object.keys(parts);
+const full = Boolean(process.env.DEPTHPREC_FULL);
+const parts = { redraw, controls, people, bad, shots, states: () => states(seed(), full ? 1 : 0.1) };
+const only = process.env.ONLY?.split(",") ?? (full ? Object.keys(parts) : ["bad", "states"]);
 for (const name of only) await parts[name]();
 await test("nothing was said on the console", () => demand(said.length === 0, [...new Set(said)].slice(0, 20).join("\n")));
 await test("nothing but the page itself was asked for", () => demand(asked.length === 0, asked.join("\n")));

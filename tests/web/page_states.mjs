@@ -163,16 +163,16 @@ async function files(r, count) {
     return `${saved} files`;
 }
 
-export async function states(seed) {
-    const r = random(seed);
+export async function states(seed, share) { // a share of all cases
+    const r = random(seed), cases = (all) => Math.ceil(all * share);
     let page = await open();
     await namesOf(page);
     note(`seed ${seed}`);
-    await test("random commands in the browser are the program's, to the byte", () => engines(page, r, 10000));
-    await test("a link or a command sets the page, and what is shown is what the program prints", () => people(page, r, 100));
+    await test("random commands in the browser are the program's, to the byte", () => engines(page, r, cases(10000)));
+    await test("a link or a command sets the page, and what is shown is what the program prints", () => people(page, r, cases(100)));
     await close(page);
     page = await open(); // what was asked before stays shown
-    await test("the page's own link and commands bring it back", () => thereAndBack(page, r, 10));
-    await test("what is saved is what the program prints", () => files(r, 8));
+    await test("the page's own link and commands bring it back", () => thereAndBack(page, r, cases(10)));
+    await test("what is saved is what the program prints", () => files(r, cases(8)));
     await close(page);
 }
