@@ -390,25 +390,28 @@ static void resampled(void **state) {
 }
 
 /* Thin things before a slope, as near to it as a coarse step or much nearer to the eye: fences whose pales are a pixel
- * wide, wire meshes, grass. They are what they are; enlarged, what stands apart is refused. */
+ * wide, wire meshes, grass, and, far before it, posts where the slope's coarse code steps and nowhere else. They are
+ * what they are; enlarged, what stands apart is refused. */
 static void thin_things(void **state) {
     static const double slopes[] = {3e-4, 7e-4, 1e-3}, nearer[] = {0.0012, 0.003, 0.05};
     uint8_t given[SIDE * SIDE * 2], larger[4 * SIDE * SIDE * 2];
     rng r = rng_make("thin things");
     unpacked out;
     (void)state;
-    for (int kind = 0; kind < 5; kind++)
-        for (size_t i = 0; i < 9; i++) {
+    for (int kind = 0; kind < 6; kind++)
+        for (size_t i = kind < 5 ? 0 : 6; i < 9; i++) {
             const double by = nearer[i / 3];
             for (int y = 0; y < SIDE; y++)
                 for (int x = 0; x < SIDE; x++) {
+                    const double behind = 0.1 + (x + 0.37 * y) * slopes[i % 3];
+                    const bool steps = floor(255 * behind) > floor(255 * (behind - slopes[i % 3]));
                     const bool thin = kind == 0   ? x % 2 == 1
                                       : kind == 1 ? x % 3 == 0
                                       : kind == 2 ? x % 5 == 0 || y % 4 == 0
                                       : kind == 3 ? rng_below(&r, 3) == 0
-                                                  : (x + y) % 4 == 0;
-                    const double away = kind == 3 ? rng_unit(&r) * by : by,
-                                 behind = 0.1 + (x + 0.37 * y) * slopes[i % 3];
+                                      : kind == 4 ? (x + y) % 4 == 0
+                                                  : steps;
+                    const double away = kind == 3 ? rng_unit(&r) * by : by;
                     packing_texel(row_of("rg"), packing_nearest(row_of("rg"), behind - (thin ? away : 0)),
                                   given + 2 * (y * SIDE + x));
                 }
