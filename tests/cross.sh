@@ -19,7 +19,7 @@ root=$PWD/$B/root
 
 # Those that an instruction, a byte order or a C library could break, and that an emulator ends within a minute.
 tests='batch elementary code depth format mapping setup model separation quotient published rasterizers estimate bias
-decode effect effects_pixels image image_damage image_depths image_raw normal position recognise scene number report requirement options'
+decode effect effects_pixels image image_damage image_depths image_raw normal position recognise synthetic number report requirement options'
 
 # ---- The other machine's libraries -------------------------------------------------------------------------------
 
@@ -59,7 +59,7 @@ make --no-print-directory --output-sync=target -j"${JOBS:-$(nproc)}" all || exit
 
 # One command a line. With `each KIND` before it, it is run for each name that `depthprec list KIND` has.
 every='-m d3d,gl,reversed,gl-reversed'
-scene='--size 96x54 --scene'
+synthetic='--size 96x54 --synthetic'
 commands="
 table --at 0.1:1000:log:2500 -F fp16,fp32,unorm16,unorm24,float5.10,unorm20 $every,linear,log --csv -v
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding zero --ortho --csv
@@ -78,16 +78,16 @@ solve -f 1000 -F all $every --separation 0.01 --at 100 --json
 solve --for distance -n 0.1 -F unorm24 -m d3d --separation 0.01 --json
 bias --range 1:10 --gap 0.01 --csv
 check village.need --csv
-each scenes texture -F unorm16 -m d3d --json $scene
-each scenes texture -F fp32 -m reversed --json $scene
-each positions texture -o product.npy $scene sphere --position
-each positions texture -o product.pfm $scene steps --error-map --position
-each normals texture -o product.pfm $scene sphere --normal
-each normals texture -o product.npy $scene sphere --error-map --normal
-each effects texture -o product.png $scene steps --effect
-each effects texture -o product.png $scene steps --parameter reference=10 --effect
-texture -o product.png $scene steps --effect motion-blur --last-origin 1,0.5,-1 --last-yaw 3
-texture -o depth.png -F unorm16 $scene decals
+each synthetic texture -F unorm16 -m d3d --json $synthetic
+each synthetic texture -F fp32 -m reversed --json $synthetic
+each positions texture -o product.npy $synthetic sphere --position
+each positions texture -o product.pfm $synthetic steps --error-map --position
+each normals texture -o product.pfm $synthetic sphere --normal
+each normals texture -o product.npy $synthetic sphere --error-map --normal
+each effects texture -o product.png $synthetic steps --effect
+each effects texture -o product.png $synthetic steps --parameter reference=10 --effect
+texture -o product.png $synthetic steps --effect motion-blur --last-origin 1,0.5,-1 --last-yaw 3
+texture -o depth.png -F unorm16 $synthetic decals
 texture depth.png --normal projective -o product.npy --error-map=product.pfm
 texture depth.png --linear01 -o product.npy --error-map=product.pfm
 texture depth.png --raw -o product.npy --error-map=product.pfm

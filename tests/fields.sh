@@ -33,7 +33,7 @@ all_named plot interval
 all_named plot map -F unorm24
 all_named plot budget -F unorm24
 all_named plot scene tests/needs/village.need
-for what in formats mappings presets platforms apis rasterizers programs schemes encodings packings effects scenes positions normals figures; do all_named list $what; done
+for what in formats mappings presets platforms apis rasterizers programs schemes encodings packings effects synthetic positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --triangles --sample 10
@@ -85,18 +85,18 @@ all_named shadow --light-box 5x5x5 --range 1:4
 all_named plot shadow
 all_named bench worst --tolerance 0.1
 all_named stability encode
-all_named texture --scene decals --size 64x36
-all_named texture --scene decals --size 64x36 --pixel 1,2
+all_named texture --synthetic decals --size 64x36
+all_named texture --synthetic decals --size 64x36 --pixel 1,2
 all_named texture --effect intersection --at 10
 all_named texture --effect shadow --at 10
-all_named texture --scene plane --size 64x36 --effect fog --pixel 1,2
-"$DEPTHPREC" texture --scene plane --size 64x36 -F unorm16 -m d3d -o "$scratch/depth.npy"
+all_named texture --synthetic plane --size 64x36 --effect fog --pixel 1,2
+"$DEPTHPREC" texture --synthetic plane --size 64x36 -F unorm16 -m d3d -o "$scratch/depth.npy"
 all_named texture "$scratch/depth.npy"
-"$DEPTHPREC" texture --scene plane --size 64x36 -F fp32 -m reversed --eye -o "$scratch/metres.npy"
+"$DEPTHPREC" texture --synthetic plane --size 64x36 -F fp32 -m reversed --eye -o "$scratch/metres.npy"
 all_named texture "$scratch/metres.npy" --metric 1
-all_named texture --scene plane --eye -o "$scratch/eye.png"
-all_named texture --scene plane --eye -o "$scratch/eye.png" --error-map="$scratch/map.png"
-all_named texture --scene plane --size 64x36 --histogram "$scratch/histogram.svg"
-"$DEPTHPREC" texture --scene plane --size 64x36 --pack rg -o "$scratch/packed.png"
+all_named texture --synthetic plane --eye -o "$scratch/eye.png"
+all_named texture --synthetic plane --eye -o "$scratch/eye.png" --error-map="$scratch/map.png"
+all_named texture --synthetic plane --size 64x36 --histogram "$scratch/histogram.svg"
+"$DEPTHPREC" texture --synthetic plane --size 64x36 --pack rg -o "$scratch/packed.png"
 all_named texture "$scratch/packed.png"
 finish

@@ -18,7 +18,7 @@ echo 'cameras = { a = { near = 0.1; far = 1000; format = "fp32"; mapping = "reve
 requirements = { b = { camera = "a"; range = [1.0, 10.0]; separation = 1.0; }; };' >a.need
 cp gpu.json folder
 sed 's|gpu.json|folder/gpu.json|' a.need >b.need
-"$DEPTHPREC" texture --scene plane -F unorm16 -m d3d -n 0.1 -f 10 --size 8x8 --raw -o depth.png 2>/dev/null
+"$DEPTHPREC" texture --synthetic plane -F unorm16 -m d3d -n 0.1 -f 10 --size 8x8 --raw -o depth.png 2>/dev/null
 cp depth.png depth.img
 jq -r '.buffers[0].uri' house.gltf | sed 's/^[^,]*,//' | base64 -d >folder/house.bin
 jq -c '.buffers[0].uri = "house.bin"' house.gltf >folder/house.gltf

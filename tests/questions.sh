@@ -12,7 +12,7 @@ export TERM=dumb
 
 # ---- The files that the questions are about ----
 
-depthprec texture --scene plane --parameter tilt=60 -F unorm16 -m d3d -o "$scratch/work/depth.png" 2>/dev/null
+depthprec texture --synthetic plane --parameter tilt=60 -F unorm16 -m d3d -o "$scratch/work/depth.png" 2>/dev/null
 cat >"$scratch/work/game.need" <<'END'
 unit = "m";
 cameras = { game = { near = 0.1; far = 1000; mapping = "d3d"; format = "d24"; }; };

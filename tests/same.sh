@@ -19,7 +19,7 @@ plot fight --csv
 budget -n 0.3 --at 17.25 --json
 solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
 bias --range 1:10 --gap 0.01
-texture --scene sphere --size 96x54 -F unorm16 -m d3d --json
+texture --synthetic sphere --size 96x54 -F unorm16 -m d3d --json
 plot map -F unorm24 --width 320 --height 240 -o $scratch/map.svg
 plot share -F unorm24 -m d3d,log -o $scratch/share.svg
 END

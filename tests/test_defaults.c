@@ -15,7 +15,7 @@ static const struct {
     {VERB_PLOT, "plot error --csv"},
     {VERB_ZFIGHT, "zfight --range 1:1.01"},
     {VERB_BUDGET, "budget"},
-    {VERB_TEXTURE, "texture --scene steps --size 64x36"},
+    {VERB_TEXTURE, "texture --synthetic steps --size 64x36"},
     {VERB_BENCH, "bench interval --json"},
     {VERB_CHECK, "check tests/needs/village.need"},
     {VERB_SOLVE, "solve -F d24 -m d3d --separation 0.01 --at 50"},
@@ -25,7 +25,7 @@ static const struct {
     {VERB_DISOCCLUSION, "disocclusion"},
     {VERB_WORLD, "world --distance 1e5"},
     {VERB_SCENE, "scene tests/models/street.obj --gap 0.02"},
-    {VERB_LIST, "list scenes"},
+    {VERB_LIST, "list synthetic"},
 };
 
 /* Where options matter only beside another, or in another line. */
@@ -64,7 +64,7 @@ static const struct {
     {VERB_BIAS, IDS(OPTION_API), "bias -F fp32", ""},
     {VERB_SHADOW, IDS(OPTION_FACET), NULL, "--curvature 5"},
     {VERB_TEXTURE, IDS(OPTION_HALF_HEIGHT), NULL, "--ortho"},
-    {VERB_TEXTURE, IDS(OPTION_SIZE), "texture --scene plane", ""},
+    {VERB_TEXTURE, IDS(OPTION_SIZE), "texture --synthetic plane", ""},
     {VERB_TABLE, IDS(OPTION_MODEL), "table -F d24 -m d3d", ""},
     {VERB_TABLE, IDS(OPTION_ARITH), NULL, "--model float"},
     {VERB_TABLE | VERB_PLOT | VERB_TEXTURE | VERB_BIAS | VERB_SCENE, IDS(OPTION_LOG_C), NULL, "-m log"},

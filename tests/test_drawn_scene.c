@@ -320,7 +320,7 @@ static double mapped(const char *method, double z) {
     const double fov = 2 * atan(tan(30 * 3.14159265358979323846 / 180) * SIDE / 1080) * 180 / 3.14159265358979323846;
     size_t count = 0;
     snprintf(path, sizeof path, "%s/normals.npy", drawn_folder());
-    free(drawn_output("texture --scene plane --parameter distance=%.17g --parameter tilt=33 --parameter turn=53.4 "
+    free(drawn_output("texture --synthetic plane --parameter distance=%.17g --parameter tilt=33 --parameter turn=53.4 "
                       "--size 48x48 --sky 0 --fov %.17g -F unorm16 -m d3d --normal %s --error-map -q -o %s",
                       z, fov, method, path));
     FILE *in = fopen(path, "rb");
@@ -349,7 +349,7 @@ static double outlined(const char *method, double z) {
     assert_null(camera_init(&camera, &c.setups[0], &spec));
     const double radius = z * RADIUS * 2 * tan(30 * 3.14159265358979323846 / 180) / 1080;
     const double sphere[] = {z, radius, z + 2 * radius, 0};
-    assert_true(normal_measure(normal_find(method), &camera, scene_find("sphere"), sphere, 0, SIDE, &m));
+    assert_true(normal_measure(normal_find(method), &camera, synthetic_find("sphere"), sphere, 0, SIDE, &m));
     return m.edges.mean * 180 / 3.14159265358979323846;
 }
 

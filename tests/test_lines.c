@@ -191,7 +191,7 @@ static void test_platforms(void **state) {
 static void test_twice(void **state) {
     static const char *const examples[OPTION_COUNT] = {
         [OPTION_NEAR] = "1",       [OPTION_FORMAT] = "d24",    [OPTION_AT] = "1",     [OPTION_PRESET] = "unity",
-        [OPTION_UNIT] = "cm",      [OPTION_OUTPUT] = "x",      [OPTION_SEED] = "1",   [OPTION_SCENE] = "steps",
+        [OPTION_UNIT] = "cm",      [OPTION_OUTPUT] = "x",      [OPTION_SEED] = "1",   [OPTION_SYNTHETIC] = "steps",
         [OPTION_MODEL] = "staged", [OPTION_SEPARATION] = "1m", [OPTION_FAR] = "1000", [OPTION_MAPPING] = "gl"};
     tally t = {.name = "twice"};
     (void)state;

@@ -9,7 +9,7 @@
 #include "texture/image.h"
 
 /* A sphere that stands before the sky, turned away from the axes. */
-#define SCENE "texture --scene sphere --size 48x30 -n 0.5 -f 90 -F fp32 -m d3d --fov 50 --yaw 8 --pitch -3"
+#define SCENE "texture --synthetic sphere --size 48x30 -n 0.5 -f 90 -F fp32 -m d3d --fov 50 --yaw 8 --pitch -3"
 
 /* Reads both files; as many samples as there are. */
 static size_t pair_of(const char *png, const char *npy, image *codes, image *numbers) {

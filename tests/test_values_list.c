@@ -17,7 +17,7 @@
 #include "texture/pack.h"
 #include "texture/packing.h"
 #include "texture/position.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 
 enum { NUMBERS = 32 };
 
@@ -149,8 +149,8 @@ static bool figure(size_t i, listed *l) {
     return r != NULL;
 }
 
-static bool scene(size_t i, listed *l) {
-    const scene_row *r = scene_get(i);
+static bool synthetic(size_t i, listed *l) {
+    const synthetic_row *r = synthetic_get(i);
     if (r == NULL)
         return false;
     *l = (listed){r->name, "", r->note, NULL, {0}, 0};
@@ -219,7 +219,7 @@ static const struct {
               {"packings", "bound", packing_row},
               {"effects", "parameters", effect},
               {"figures", "bound", figure},
-              {"scenes", "bound", scene},
+              {"synthetic", "bound", synthetic},
               {"positions", "bound", position},
               {"normals", "bound", normal},
               {"methods", "bound", method}};
@@ -321,7 +321,7 @@ static void check_forms(const json_t *items, const char *what, const char *bound
                      json_string_value(name));
         const char *fields[] = {text_in(o, "name"), text_in(o, "note"), text_in(o, bound), text_in(o, "source"),
                                 aliases};
-        const char *shown = strcmp(what, "scenes") == 0 ? "parameters" : bound;
+        const char *shown = strcmp(what, "synthetic") == 0 ? "parameters" : bound;
         const char *labels[] = {"", "", shown, "source", "also"};
         const char *const keys[] = {"name", "note", "bound", "source", "aliases"};
         values_under(&v, "%zu.", i);

@@ -19,7 +19,7 @@
 #include "texture/pack.h"
 #include "texture/packing.h"
 #include "texture/position.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 #include "vertex/compare.h"
 #include "world/world.h"
 
@@ -273,8 +273,8 @@ bool list_figure(size_t index, list_item *item) {
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
 }
 
-bool list_scene(size_t index, list_item *item) {
-    const scene_row *row = scene_get(index);
+bool list_synthetic(size_t index, list_item *item) {
+    const synthetic_row *row = synthetic_get(index);
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .row = row};
@@ -346,7 +346,8 @@ static const topic topics[] = {
      .bound = "bound"},
     {"effects", "effects for texture --effect: formulas and parameters", list_effect, .bound = "parameters"},
     {"figures", "figures, for plot", list_figure, .bound = "bound"},
-    {"scenes", "synthetic depth images, for texture --scene", list_scene, .bound = "bound", .shown = "parameters"},
+    {"synthetic", "synthetic depth images, for texture --synthetic", list_synthetic, .bound = "bound",
+     .shown = "parameters"},
     {"positions", "positions from window depth, for texture --position", list_position, .bound = "bound"},
     {"normals", "normals from depth, for texture --normal", list_normal, .bound = "bound"},
     {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method,

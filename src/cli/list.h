@@ -52,7 +52,7 @@ bool list_filter(size_t index, list_item *item);
 bool list_effect(size_t index, list_item *item);
 bool list_topic(size_t index, list_item *item);
 bool list_figure(size_t index, list_item *item);
-bool list_scene(size_t index, list_item *item);
+bool list_synthetic(size_t index, list_item *item);
 bool list_position(size_t index, list_item *item);
 bool list_normal(size_t index, list_item *item);
 bool list_packing(size_t index, list_item *item);

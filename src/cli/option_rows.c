@@ -28,7 +28,7 @@ static const name_list spreads = {.get = list_vertices};
 static const name_list rasters = {.get = list_rasterizer};
 static const name_list filters_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_filter};
 static const name_list transforms = {.words = (const char *const[]){"exact", "binary32", NULL}};
-static const name_list scenes = {.get = list_scene};
+static const name_list synthetics = {.get = list_synthetic};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
@@ -106,7 +106,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | MAPPED,
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
-        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --scene; all with --effect alone", NULL),
+        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --synthetic; all with --effect alone",
+                       NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_BIAS, "fp32,unorm16,unorm24", "the depth buffers", NULL),
                    BUT(VERB_SHADOW | VERB_SCENE | VERB_WORLD, "fp32", NULL, NULL),
@@ -114,7 +115,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | MAPPED,
         "mappings: @; all means d3d and reversed",
         parse_mappings, .names = &mappings, .standard = "all",
-        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --scene; all with --effect alone", NULL),
+        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --synthetic; all with --effect alone", NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL),
                    BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
@@ -402,15 +403,16 @@ const option_row option_rows[OPTION_COUNT] = {
         "last frame's turn upwards", NUMBER(last.pitch, -90, 90, "degrees"), .without = "that of this frame"},
     [OPTION_LAST_ORIGIN] = {"last-origin", 0, "X,Y,Z", VERB_TEXTURE,
         "the camera's position in the last frame", ORIGIN(last.origin), .without = "that of this frame"},
-    [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
-        "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
+    [OPTION_SYNTHETIC] = {"synthetic", 0, "NAME", VERB_TEXTURE,
+        "a synthetic image in place of FILE: @; 'depthprec list synthetic' has their parameters",
+        ROW(synthetic, synthetics)},
     [OPTION_SIZE] = {"size", 0, "WxH|N", VERB_TEXTURE | SHADOWED,
-        "the image's pixels: with --scene, with a raw FILE, and with --effect alone if that needs the position",
+        "the image's pixels: with --synthetic, with a raw FILE, and with --effect alone if that needs the position",
         parse_size,
         .standard = "640x360", .except = {BUT(SHADOWED, "2048x2048", NULL, "texels of each shadow map; N is NxN")},
         .instead = "; a figure's size is --width and --height"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
-        "a parameter of the scene or the effect; may be repeated", .parse = parse_parameter},
+        "a parameter of the synthetic image or the effect; may be repeated", .parse = parse_parameter},
     [OPTION_SKY] = {"sky", 0, "T", VERB_TEXTURE,
         "window depths within T of the far plane's are sky; with 0 only the plane's own",
         NUMBER(sky, 0, 0.5, NULL), .standard = "0.0001",
@@ -453,8 +455,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "write the error of the product instead; with =FILE, beside the product in the same pass",
         .parse = parse_error_map, SIZED(error_map), .optional = "FILE"},
     [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
-        "draw the product: SVG, PDF or PNG; up to 256 surfaces of a scene that share a code with what is behind are "
-        "marked", FILE_WRITTEN(figure)},
+        "draw the product: SVG, PDF or PNG; up to 256 surfaces of a synthetic image that share a code with what is "
+        "behind are marked", FILE_WRITTEN(figure)},
     [OPTION_OVERLAY] = {"overlay", 0, "E", VERB_TEXTURE,
         "with --figure: depth in grey, and in colour where eye depth is, or can be, off by more than E scene units",
         POSITIVE(overlay)},

@@ -29,7 +29,7 @@
 #include "texture/normal.h"
 #include "texture/packing.h"
 #include "texture/position.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 #include "vertex/compare.h"
 #include "world/world.h"
 
@@ -112,7 +112,7 @@ typedef enum option_id {
     OPTION_LAST_YAW,
     OPTION_LAST_PITCH,
     OPTION_LAST_ORIGIN,
-    OPTION_SCENE,
+    OPTION_SYNTHETIC,
     OPTION_SIZE,
     OPTION_PARAMETER,
     OPTION_SKY,
@@ -262,10 +262,10 @@ typedef struct options {
     double curvature;    /**< radius of curvature of receivers, scene units; read where it is given */
     double facet;        /**< of the circles about their triangles, scene units */
 
-    camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
-    const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
-    camera_spec last;       /**< --last-fov, --last-yaw, --last-pitch, --last-origin: what was given of them */
-    const scene_row *scene; /**< null when not given, as all rows and names here */
+    camera_spec camera; /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
+    const char *matrix; /**< file of a projection matrix, which then says the planes and the field of view */
+    camera_spec last;   /**< --last-fov, --last-yaw, --last-pitch, --last-origin: what was given of them */
+    const synthetic_row *synthetic; /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
     double sky;    /**< window depth */

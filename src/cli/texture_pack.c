@@ -18,7 +18,7 @@ int texture_pack_check(const options *o) {
     const char *name = option_name(o->pack != NULL ? OPTION_PACK : OPTION_PACKED_NORMAL);
     image_file file;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->scene == NULL))
+        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->synthetic == NULL))
             return option_error(others[i], "does not apply with --%s", name);
     if (o->pack != NULL && o->packed_normal)
         return option_error(OPTION_PACKED_NORMAL, "must not be given together with --pack");

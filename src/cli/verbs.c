@@ -44,7 +44,7 @@ const verb verb_rows[] = {
      "  capture | depthprec texture - -n 0.3 -f 1000\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
-     "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
+     "  depthprec texture --synthetic decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
     {"bench", VERB_BENCH, "FAMILY", 1, 1, &families,
      "methods of a family: time against worst error",
      "  depthprec bench linearize -n 0.1 -f 1000\n"

@@ -34,7 +34,7 @@ enum {
     EFFECT_POSITION = 1,     /**< the world position of the pixel, so the camera */
     EFFECT_LAST_FRAME = 2,   /**< last frame's view-projection */
     EFFECT_SECOND_DEPTH = 4, /**< another depth: of a surface that is drawn, or of other pixels */
-    EFFECT_NORMALS = 8       /**< normals: of a scene, or packed, or made of the depths */
+    EFFECT_NORMALS = 8       /**< normals: of a synthetic image, or packed, or made of the depths */
 };
 
 /** Which pixels an effect looks at besides its own: corners of a square, `sample-distance` away on both axes. */

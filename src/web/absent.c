@@ -62,7 +62,7 @@ ABSENT_ROWS(normal_row, normal_get)
 ABSENT_ROWS(pack_row, pack_get)
 ABSENT_ROWS(packing, packing_get)
 ABSENT_ROWS(position_row, position_get)
-ABSENT_ROWS(scene_row, scene_get)
+ABSENT_ROWS(synthetic_row, synthetic_get)
 
 /* Families of methods but interval, which figures are drawn by. */
 static const size_t none;
