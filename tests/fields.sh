@@ -32,7 +32,7 @@ all_named list methods --tolerance 1%
 all_named plot interval
 all_named plot map -F unorm24
 all_named plot budget -F unorm24
-all_named plot scene tests/needs/village.need
+all_named plot needs tests/needs/village.need
 for what in formats mappings presets platforms apis rasterizers programs schemes encodings packings effects synthetic positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01

@@ -36,10 +36,10 @@ gpu.json | scene house.gltf --arith gpu.json --emit-need @
 gpu.json | check a.need -o @
 folder/gpu.json | check b.need -o @
 folder/gpu.json | check b.need --report junit -o @
-gpu.json | plot scene a.need --type svg -o @
+gpu.json | plot needs a.need --type svg -o @
 a.need | check a.need -o @
 a.need | check - -o @ <a.need
-a.need | plot scene a.need --type svg -o @
+a.need | plot needs a.need --type svg -o @
 m.npy | texture depth.png -F unorm16 --matrix m.npy --eye -o @
 m.txt | texture depth.png -F unorm16 --matrix m.txt --json -o @
 m.npy | texture depth.png -F unorm16 --matrix m.npy --type svg --figure @
@@ -56,11 +56,11 @@ house.gltf | scene house.gltf -o @
 house.gltf | scene house.gltf --emit-need @
 house.gltf | scene house.gltf --annotate @
 house.gltf | scene house.gltf --report json -o @
-house.gltf | plot scene-fights house.gltf --type svg -o @
-house.gltf | plot scene-fights - --type svg -o @ <house.gltf
+house.gltf | plot scene house.gltf --type svg -o @
+house.gltf | plot scene - --type svg -o @ <house.gltf
 folder/house.bin | scene folder/house.gltf -o @
 folder/house.bin | scene folder/house.gltf --annotate @
-folder/house.bin | plot scene-fights folder/house.gltf --type svg -o @
+folder/house.bin | plot scene folder/house.gltf --type svg -o @
 street.obj | scene street.obj --emit-need @
 folder/a.mtl | scene folder/a.obj -o @
 folder/a.mtl | scene folder/a.obj --emit-need @

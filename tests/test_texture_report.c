@@ -105,10 +105,10 @@ static void error_maps_are_called_what_they_are(void **state) {
     char words[256];
     snprintf(words, sizeof words,
              "--synthetic sphere --size %dx%d -F unorm24 -m d3d --normal projective --error-map --figure %s", WIDTH,
-             HEIGHT, truth_path("scene.svg"));
+             HEIGHT, truth_path("synthetic.svg"));
     run(words);
-    assert_true(holds("scene.svg", "Normals by projective, error"));
-    assert_false(holds("scene.svg", "bound of the error"));
+    assert_true(holds("synthetic.svg", "Normals by projective, error"));
+    assert_false(holds("synthetic.svg", "bound of the error"));
     snprintf(words, sizeof words, "--synthetic sphere --size %dx%d -F unorm24 -m d3d -o %s", WIDTH, HEIGHT,
              truth_path("in.npy"));
     run(words);

@@ -116,7 +116,7 @@ static void test_both_forms(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++)
         check_both(figures[i], INFINITY);
-    check_both("scene tests/needs/village.need", NAN);
+    check_both("needs tests/needs/village.need", NAN);
 }
 
 /* ---- Values ------------------------------------------------------------------------------------------------------ */

@@ -81,7 +81,7 @@ static int check_file_given(const options *o, const figure_row *row) {
 
 #define SLANTED        (FIGURE_SLANTED | FIGURE_MODEL)
 #define VIEWED         (SLANTED | FIGURE_DRAWN | FIGURE_SHADOW)
-#define VIEWED_FIGURES "budget, fight, interval, scene-fights and shadow"
+#define VIEWED_FIGURES "budget, fight, interval, scene and shadow"
 
 /* Options of some figures alone. */
 static const struct {
@@ -98,23 +98,23 @@ static const struct {
             {OPTION_VIEWPORT, VIEWED, VIEWED_FIGURES},
             {OPTION_RASTER, VIEWED, VIEWED_FIGURES},
             {OPTION_TRIANGLE, VIEWED, VIEWED_FIGURES},
-            {OPTION_SUBPIXEL, SLANTED | FIGURE_SHADOW, "budget, interval, scene-fights and shadow"},
-            {OPTION_SLANT, SLANTED, "budget, interval and scene-fights"},
+            {OPTION_SUBPIXEL, SLANTED | FIGURE_SHADOW, "budget, interval, scene and shadow"},
+            {OPTION_SLANT, SLANTED, "budget, interval and scene"},
             {OPTION_PLANE, FIGURE_DRAWN, "fight"},
             {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},
             {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
             {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},
             {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},
-            {OPTION_ANGLE, FIGURE_SHADOW | FIGURE_MODEL, "scene-fights and shadow"},
-            {OPTION_GAP, FIGURE_MODEL, "scene-fights"},
-            {OPTION_WITHIN, FIGURE_MODEL, "scene-fights"},
-            {OPTION_ALSO, FIGURE_MODEL, "scene-fights"},
-            {OPTION_TRANSFORMS, FIGURE_MODEL, "scene-fights"},
-            {OPTION_FROM, FIGURE_MODEL, "scene-fights"},
-            {OPTION_LOOK, FIGURE_MODEL, "scene-fights"},
-            {OPTION_PATH, FIGURE_MODEL, "scene-fights"},
-            {OPTION_CAMERA, FIGURE_MODEL, "scene-fights"},
-            {OPTION_THREADS, FIGURE_MODEL, "scene-fights"},
+            {OPTION_ANGLE, FIGURE_SHADOW | FIGURE_MODEL, "scene and shadow"},
+            {OPTION_GAP, FIGURE_MODEL, "scene"},
+            {OPTION_WITHIN, FIGURE_MODEL, "scene"},
+            {OPTION_ALSO, FIGURE_MODEL, "scene"},
+            {OPTION_TRANSFORMS, FIGURE_MODEL, "scene"},
+            {OPTION_FROM, FIGURE_MODEL, "scene"},
+            {OPTION_LOOK, FIGURE_MODEL, "scene"},
+            {OPTION_PATH, FIGURE_MODEL, "scene"},
+            {OPTION_CAMERA, FIGURE_MODEL, "scene"},
+            {OPTION_THREADS, FIGURE_MODEL, "scene"},
             {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
 
 static int check_only(const options *o, const figure_row *row) {

@@ -24,8 +24,8 @@ const verb verb_rows[] = {
      "  depthprec plot error -F fp32 -m d3d,reversed -o - --type png >error.png\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
      "  depthprec plot fight -F fp32 -m reversed --at 500 -o fight.svg\n"
-     "  depthprec plot scene engine.need -o scene.svg\n"
-     "  depthprec plot scene-fights house.glb -F d24 -m d3d -o fights.svg\n", 2},
+     "  depthprec plot needs engine.need -o needs.svg\n"
+     "  depthprec plot scene house.glb -F d24 -m d3d -o house.svg\n", 2},
     {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
      "where surfaces start to fight, by a census of every depth",
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"

@@ -32,7 +32,7 @@ typedef struct figure_request {
     const raster_row *raster;          /**< for the figures that draw */
     double slant, azimuth;             /**< the normal of what they draw, see draw/fight.h; degrees */
     const struct need_file *file;      /**< for the figures that take a file, else null */
-    const struct fights_asked *fights; /**< for the figures of a model, else null: see fights.h */
+    const struct fights_asked *fights; /**< for the figures of a model, else null: see scene.h */
     const method_family_row *family;   /**< for the figures that show methods, else null */
     size_t which;                      /**< its case, where times are measured, */
     const char *where;                 /**< and in words at which planes, on which machine */
@@ -86,8 +86,8 @@ void figure_range(const figure_request *request, double *lo, double *hi);
  *  of 0 or less. */
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
-figure_build distribution_build, share_build, error_build, interval_build, budget_build, scene_build, map_build,
-    pareto_build, stability_build, normals_build, shadow_build, world_build, fight_build, fights_build;
+figure_build distribution_build, share_build, error_build, interval_build, budget_build, needs_build, map_build,
+    pareto_build, stability_build, normals_build, shadow_build, world_build, fight_build, scene_build;
 
 /** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);

@@ -39,12 +39,12 @@ static const figure_row rows[] = {
      "a wall and a decal before it, pixel by pixel, as slanted triangles: nearer than is guaranteed, and as far as "
      "that",
      1, FIGURE_AT | FIGURE_FP32 | FIGURE_BINARY32 | FIGURE_DRAWN, NULL, "unorm24", fight_build},
-    {"scene-fights", "Which surfaces of the model fight, and from where on",
+    {"scene", "Which surfaces of the model fight, and from where on",
      "a model from above and from the side: where surfaces overlap, colour = depth from which they can fight", 1,
-     FIGURE_MODEL, NULL, NULL, fights_build},
-    {"scene", "What the scene needs and what the cameras give",
+     FIGURE_MODEL, NULL, NULL, scene_build},
+    {"needs", "What is needed, and what the cameras give",
      "a requirement file: the separation (or error) that each requirement allows against what its set-up gives",
-     CHART_PANELS, FIGURE_FILE, NULL, NULL, scene_build},
+     CHART_PANELS, FIGURE_FILE, NULL, NULL, needs_build},
 };
 
 const figure_row *figure_get(size_t index) {

@@ -41,10 +41,10 @@ ABSENT(cmd_web)
         return "plot: this figure is not in the page: the program has it";                                             \
     }
 
-ABSENT_FIGURE(fights_build)
+ABSENT_FIGURE(scene_build)
 ABSENT_FIGURE(normals_build)
 ABSENT_FIGURE(pareto_build)
-ABSENT_FIGURE(scene_build)
+ABSENT_FIGURE(needs_build)
 ABSENT_FIGURE(stability_build)
 
 /* ---- Rows that options of those commands name ---------------------------------------------------------------------
