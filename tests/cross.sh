@@ -66,7 +66,7 @@ table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding zero --ortho --c
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding even --csv
 table -f inf --at 0.1:1e6:log:500 -F all -m all --model staged --csv
 each arithmetic table --at 0.1:1000:log:100 -F all $every --model fp32 --csv --arith
-each transforms budget -n 0.3 -F all $every --at 17.25 --world 1000 --csv --composition
+each transforms budget -n 0.3 -F all $every --at 17.25 --from-origin 1000 --csv --composition
 list encodings --json
 list methods --json
 list presets --json

@@ -63,8 +63,8 @@ all_named table --at 10 --range 5:50
 all_named table --depth 0.5
 all_named disocclusion
 all_named world
-all_named world --distance 1km,1e6m
-all_named budget --at 10 --world 1e5 --scheme split
+all_named world --from-origin 1km,1e6m
+all_named budget --at 10 --from-origin 1e5 --scheme split
 section probe | sort -u >"$scratch/known_probe"
 profile_fields() { # what of a profile is not in the page, or that it is none
     jq -r '[.. | objects | keys[]] | unique[]' "$1" | sort -u >"$scratch/keys"

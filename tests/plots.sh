@@ -83,7 +83,7 @@ check "error in the model fp32" refuses 2 "--model: float has no cells for the f
 check "map where auto chooses fp32" refuses 2 "--model: float has no cells for the figure map" map --model auto -F unorm24 -m d3d -o "$scratch/x.svg"
 check "budget in another model" refuses 2 "--model: must be float in the figure budget, got 'staged'" budget --model staged -o "$scratch/x.svg"
 check "budget of linear" refuses 2 "--mapping: a budget needs one of" budget -m linear -o "$scratch/x.svg"
-check "--world where it has no meaning" refuses 2 "--world: does not apply to the figure share" share --world 3 -o "$scratch/x.svg"
+check "--from-origin where it has no meaning" refuses 2 "--from-origin: does not apply to the figure share" share --from-origin 3 -o "$scratch/x.svg"
 check "--tolerance without auto" refuses 2 "--tolerance: needs --model auto in the figure share" share --tolerance 1% -o "$scratch/x.svg"
 check "too many budgets" refuses 2 "at most 8 set-ups" budget -m d3d,gl,reversed -o "$scratch/x.svg"
 check "too many normals" refuses 2 "at most 4 set-ups, got 6" normals -F unorm16,unorm24,fp32 -m d3d,reversed -o "$scratch/x.svg"

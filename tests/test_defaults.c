@@ -23,7 +23,7 @@ static const struct {
     {VERB_STABILITY, "stability encode"},
     {VERB_SHADOW, "shadow"},
     {VERB_DISOCCLUSION, "disocclusion"},
-    {VERB_WORLD, "world --distance 1e5"},
+    {VERB_WORLD, "world --from-origin 1e5"},
     {VERB_SCENE, "scene tests/models/street.obj --gap 0.02"},
     {VERB_LIST, "list synthetic"},
 };
@@ -40,8 +40,8 @@ static const struct {
     const char *more;
 } besides[] = {
     {VERB_PLOT, IDS(OPTION_PLANE), "plot fight --csv", ""},
-    {VERB_PLOT, IDS(OPTION_INTERPOLATION, OPTION_WORLD), "plot budget -F d24 -m d3d --csv", ""},
-    {VERB_PLOT, IDS(OPTION_COMPOSITION), "plot budget -F d24 -m d3d --csv", "--world 100"},
+    {VERB_PLOT, IDS(OPTION_INTERPOLATION, OPTION_FROM_ORIGIN), "plot budget -F d24 -m d3d --csv", ""},
+    {VERB_PLOT, IDS(OPTION_COMPOSITION), "plot budget -F d24 -m d3d --csv", "--from-origin 100"},
     {VERB_PLOT, IDS(OPTION_LOG2), "plot budget -F d24 -m log --csv", ""},
     {VERB_BUDGET, IDS(OPTION_LOG2), "budget -F d24 -m log", ""},
     {VERB_PLOT, IDS(OPTION_SLANT), "plot budget -F d24 -m d3d --csv", "--viewport 640x480"},
@@ -51,12 +51,12 @@ static const struct {
      "plot shadow --csv", ""},
     {VERB_PLOT, IDS(OPTION_TRANSFORMS), "plot scene tests/models/street.obj --gap 0.02 --csv", ""},
     {VERB_PLOT, IDS(OPTION_ARITH), "plot interval -F d24 -m d3d --csv", "--model float"},
-    {VERB_BUDGET, IDS(OPTION_COMPOSITION), NULL, "--world 100"},
+    {VERB_BUDGET, IDS(OPTION_COMPOSITION), NULL, "--from-origin 100"},
     {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE,
      IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE), NULL, "--viewport 640x480"},
     {VERB_ZFIGHT, IDS(OPTION_FOV, OPTION_RASTER, OPTION_SLANT, OPTION_TRIANGLE),
      "zfight -F fp32 -m d3d --triangles --sample 20", ""},
-    {VERB_ZFIGHT, IDS(OPTION_WORLD, OPTION_PROGRAM, OPTION_VERTICES), "zfight -F d24 -m d3d",
+    {VERB_ZFIGHT, IDS(OPTION_FROM_ORIGIN, OPTION_PROGRAM, OPTION_VERTICES), "zfight -F d24 -m d3d",
      "--against fma --sample 1000"},
     {VERB_ZFIGHT, IDS(OPTION_SEED), NULL, "--sample 1000"},
     {VERB_BIAS, IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE), "bias --at 10", "--viewport 640x480"},
@@ -68,7 +68,6 @@ static const struct {
     {VERB_TABLE, IDS(OPTION_MODEL), "table -F d24 -m d3d", ""},
     {VERB_TABLE, IDS(OPTION_ARITH), NULL, "--model float"},
     {VERB_TABLE | VERB_PLOT | VERB_TEXTURE | VERB_BIAS | VERB_SCENE, IDS(OPTION_LOG_C), NULL, "-m log"},
-    {VERB_SOLVE, IDS(OPTION_SCHEME), "solve --for world", ""},
     {VERB_SOLVE, IDS(OPTION_LOG_C), "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
 };
 
@@ -115,7 +114,7 @@ static const struct {
     {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
     {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
     {VERB_ZFIGHT, IDS(OPTION_RANGE), "1:1.0078125", "zfight -n 1 -f 1.0078125 -F d24 -m d3d --csv", ""},
-    {VERB_BUDGET, IDS(OPTION_SCHEME), "world", NULL, "--world 100"},
+    {VERB_BUDGET, IDS(OPTION_SCHEME), "absolute", NULL, "--from-origin 100"},
     {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
     {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot shadow --csv", ""},
     {VERB_SCENE, IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --from 0,2,30 --look 0,2,0", ""},
@@ -128,11 +127,12 @@ static const struct {
      ""},
     {ALL, IDS(OPTION_WIDTH, OPTION_HEIGHT, OPTION_RASTER, OPTION_CHANNEL, OPTION_DEVICE, OPTION_FROM), NULL, NULL, ""},
     {ALL, IDS(OPTION_LAST_FOV, OPTION_LAST_ORIGIN, OPTION_LAST_PITCH, OPTION_LAST_YAW, OPTION_SAMPLE), NULL, NULL, ""},
-    {ALL, IDS(OPTION_TOLERANCE, OPTION_WITHIN, OPTION_UNITS, OPTION_DISTANCE), NULL, NULL, ""},
+    {ALL, IDS(OPTION_TOLERANCE, OPTION_WITHIN, OPTION_UNITS), NULL, NULL, ""},
     {VERB_ZFIGHT | VERB_BIAS | VERB_PLOT | VERB_SCENE, IDS(OPTION_GAP), NULL, NULL, ""},
     {VERB_TABLE | VERB_BIAS | VERB_SHADOW, IDS(OPTION_RANGE), NULL, NULL, ""}, /* given, more is said of it */
     {VERB_TABLE | VERB_BUDGET | VERB_BIAS | VERB_SOLVE, IDS(OPTION_VIEWPORT), NULL, NULL, ""},
     {VERB_ZFIGHT, IDS(OPTION_PLANE), NULL, NULL, ""},
+    {VERB_WORLD, IDS(OPTION_FROM_ORIGIN), NULL, NULL, ""},
 };
 
 static bool among(const option_id *ids, option_id id) {

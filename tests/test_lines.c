@@ -73,7 +73,7 @@ static const struct {
     {"solve|--error|2 cm|--preset|unreal", AT(wanted_error), 2, "cm"},
     {"bias|--gap|3mm|--unit|cm", AT(gap), 0.3, "cm"},
     {"bias|--slope|5cm", AT(slope), 0.05, "m"},
-    {"budget|--world|2km", AT(terms.world), 2000, "m"},
+    {"budget|--from-origin|2km", AT(terms.world), 2000, "m"},
     {"texture|x|--half-height|10ft", AT(camera.half_height), 3.048, "m"},
     {"texture|x|--metric|1mm", AT(metric), 0.001, "m"},
     {"texture|x|--origin|-1m,0,20cm", AT(camera.origin[0]), -1, "m"},

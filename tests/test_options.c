@@ -64,7 +64,7 @@ static const struct {
     {"table", OPTION_LOG_C, AT(log_c), 1, 1e-12, 1e12, "1e-12", "1e12", "0", "2e12", "a number from 1e-12 to 1e12"},
     {"budget", OPTION_INTERPOLATION, AT(terms.interpolation), 0, 0, 16777216, "0", "16777216", "-1", "16777217",
      "a number from 0 to 16777216 units of 2^-24"},
-    {"budget", OPTION_WORLD, AT(terms.world), 0, 0, 1e18, "0", "1e18", "-1e-9", "1.1e18",
+    {"budget", OPTION_FROM_ORIGIN, AT(terms.world), 0, 0, 1e18, "0", "1e18", "-1e-9", "1.1e18",
      "a number from 0 to 1e18 scene units"},
     {"bias", OPTION_UNITS, AT(units), 0, -1e12, 1e12, "-1e12", "1e12", "-2e12", "2e12", "a number from -1e12 to 1e12"},
     {"bias", OPTION_FACTOR, AT(factor), 0, -1e12, 1e12, "-1e12", "1e12", "-2e12", "2e12",
@@ -260,12 +260,11 @@ static void test_words(void **state) {
         {"solve",
          OPTION_FOR,
          WORD_AT(target),
-         "near, far, format, mapping, separation, distance, frusta or world",
+         "near, far, format, mapping, separation, distance or frusta",
          {{"near", SOLVE_FOR_NEAR},
           {"far", SOLVE_FOR_FAR},
           {"format", SOLVE_FOR_FORMAT},
           {"mapping", SOLVE_FOR_MAPPING},
-          {"world", SOLVE_FOR_WORLD},
           {"separation", SOLVE_FOR_SEPARATION},
           {"distance", SOLVE_FOR_DISTANCE},
           {"frusta", SOLVE_FOR_FRUSTA}}},
@@ -535,7 +534,7 @@ static void test_worlds(void **state) {
     options o;
     char line[1024] = "";
     (void)state;
-    assert_int_equal(parse(&o, "world", OPTION_DISTANCE, "8km,200m", line), EXIT_FINE);
+    assert_int_equal(parse(&o, "world", OPTION_FROM_ORIGIN, "8km,200m", line), EXIT_FINE);
     assert_true(o.distances.count == 2 && o.distances.lo == 200 && o.distances.hi == 8000 && o.at.count == 0);
     options_release(&o);
     assert_int_equal(parse(&o, "world", OPTION_SCHEME, "Split:1024,two-sum,split:1024,tile", line), EXIT_FINE);

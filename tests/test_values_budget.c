@@ -25,15 +25,15 @@ static const budget_case budgets[] = {
     {{0.1, INFINITY, {"fp32", "unorm16"}, {"reversed", "gl"}, .implied = true, .model = DP_MODEL_FP32, .arith = "mesa"},
      {0.1, 3, 4e2, 1e4, 1e6, 3e9},
      {.interpolation = 1.5, .world = 700, .linearize = 1},
-     .options = " --interpolation 1.5 --world 700 --linearize"},
+     .options = " --interpolation 1.5 --from-origin 700 --linearize"},
     {{0.5, 400, {"fp32", "unorm24"}, {"reversed"}, .implied = true, .model = DP_MODEL_FP32},
      {0.5, 2, 9, 33, 150, 390},
      {.interpolation = 2, .world = 30, .composition = DP_COMPOSITION_RELATIVE},
-     .options = " --interpolation 2 --world 30 --composition relative"},
+     .options = " --interpolation 2 --from-origin 30 --composition relative"},
     {{0.5, 400, {"unorm24"}, {"gl-reversed", "d3d"}, .implied = true, .model = DP_MODEL_FP32},
      {0.6, 2, 9, 33, 150, 390},
      {.world = 5000, .composition = DP_COMPOSITION_PRODUCTS},
-     .options = " --world 5000 --composition products"},
+     .options = " --from-origin 5000 --composition products"},
     {{2,
       90,
       {"unorm24"},
@@ -337,7 +337,7 @@ static void test_budget(void **state) {
             used += (size_t)snprintf(arguments + used, 1024 - used, "%s%.17g", k > 0 ? "," : "", c->z[k]);
         values_under(&v, "terms.");
         want_number(&v, "interpolation", c->terms.interpolation);
-        want_number(&v, "world", c->terms.world);
+        want_number(&v, "from_origin", c->terms.world);
         want_bool(&v, "linearize", c->terms.linearize);
         want_text(&v, "composition", composition_of(c));
         if (c->shader)

@@ -234,7 +234,7 @@ static void test_budget(void **state) {
     dp_setup setup = setup_of(0.5, 300, "fp32", DP_MAPPING_D3D, DP_MODEL_FP32);
     const dp_budget_terms terms = {.interpolation = 2, .world = 50, .linearize = 1};
     (void)state;
-    check_budget("d3d --interpolation 2 --world 50 --linearize", &setup, &terms, 7);
+    check_budget("d3d --interpolation 2 --from-origin 50 --linearize", &setup, &terms, 7);
     setup.spec.triangles = (dp_triangles){640, 480, 50, 0, {3, 10, 2, 4}, 20, 90, 2, 100, 16};
     assert_int_equal(dp_arith_parse("mesa", &setup.spec.arith), DP_OK); /* the rasterizer brings it */
     check_budget("d3d --viewport 640x480 --fov 50 --raster llvmpipe --slant 20:90 --triangle pixels=100", &setup,

@@ -209,7 +209,7 @@ static void test_world(void **state) {
         const double z = 700;
         dp_budget of_slanted, of_facing, without;
         printed p =
-            print_of("budget %s %s --at 700 --world 20000 --composition %s --json", c->camera, c->options, names[i]);
+            print_of("budget %s %s --at 700 --from-origin 20000 --composition %s --json", c->camera, c->options, names[i]);
         json_t *root = json_of(p.out);
         const json_t *row = row_of(root, 0);
         const double part = at(json_object_get(row, "causes"), "composition");

@@ -89,7 +89,7 @@ static const struct {
     unsigned takes;
     const char *figure;
 } only[] = {{OPTION_INTERPOLATION, FIGURE_TERMS, "budget"},
-            {OPTION_WORLD, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
+            {OPTION_FROM_ORIGIN, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
             {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},
             {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
             {OPTION_LOG2, FIGURE_TERMS, "budget"},
@@ -131,7 +131,7 @@ static int check_options(const options *o, const figure_row *row) {
         return option_error(OPTION_NEAR, "must be greater than 0 in the figure %s, got '%s'", row->name,
                             number_full(o->znear).text);
     if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
-        return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
+        return option_error(OPTION_COMPOSITION, "needs --from-origin: eye depth is given");
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be float in the figure %s, got '%s'", row->name,
                             option_word(OPTION_MODEL, o->model_auto ? DP_MODEL_COUNT : o->model));

@@ -351,8 +351,6 @@ int cmd_solve(const options *o) {
     solve_report r = {.o = o, .items = items};
     if (o->target == SOLVE_FOR_FRUSTA)
         return solve_frusta(o);
-    if (o->target == SOLVE_FOR_WORLD)
-        return solve_world(o);
     int status = setup_decided(o);
     if (status == EXIT_FINE)
         status = check_target(o, &r);

@@ -314,7 +314,7 @@ static int run(zfight *z) {
 
 /* Options that only one kind of question has. */
 static int check_question(const options *o) {
-    static const option_id of_programs[] = {OPTION_PROGRAM, OPTION_VERTICES, OPTION_WORLD};
+    static const option_id of_programs[] = {OPTION_PROGRAM, OPTION_VERTICES, OPTION_FROM_ORIGIN};
     const bool against = option_given(o, OPTION_AGAINST), triangles = option_given(o, OPTION_TRIANGLES);
     for (size_t i = 0; i < sizeof of_programs / sizeof of_programs[0]; i++)
         if (option_given(o, of_programs[i]) && !against)

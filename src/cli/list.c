@@ -87,7 +87,7 @@ bool list_composition(size_t index, list_item *item) {
 static bool list_cause(size_t index, list_item *item) {
     static const char *const notes[DP_CAUSE_COUNT] = {
         [DP_CAUSE_EYE] = "rounding the eye depth itself to binary32: surfaces lie anywhere",
-        [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --world and --composition",
+        [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --from-origin and --composition",
         [DP_CAUSE_PROJECTION] = "A z + B in binary32, and the remap if there is one",
         [DP_CAUSE_ARGUMENT] = "what a shader takes the logarithm of, 1 + C w, of logarithmic mappings",
         [DP_CAUSE_LOG2] = "of them: log2, as wrong as the language allows, see --log2",

@@ -215,13 +215,25 @@ int parse_pixels(options *o, const option_row *row, const char *value) {
     return parse_list(o, row, value);
 }
 
-int parse_at(options *o, const option_row *row, const char *value) {
-    depths *out = option_field(o, row);
+static int read_depths(options *o, const option_row *row, const char *value, depths *out) {
     lengths seen = {.o = o};
     const int status = strchr(value, ':') != NULL
                            ? parse_spaced(&seen, row, value, out)
                            : parse_listed(&seen, row, value, "Z[,Z...] or LO:HI:log|lin:COUNT", out);
     return status == EXIT_FINE ? check_mixed(&seen, row, value) : status;
+}
+
+int parse_at(options *o, const option_row *row, const char *value) {
+    return read_depths(o, row, value, option_field(o, row));
+}
+
+/* The command world asks where the camera is, at several places, the others for a bound of coordinates. */
+int parse_from_origin(options *o, const option_row *row, const char *value) {
+    option_row bound = *row;
+    bound.most = 1e18;
+    bound.unit = "scene units";
+    return o->verb != NULL && o->verb->bit == VERB_WORLD ? read_depths(o, row, value, &o->distances)
+                                                         : parse_length(o, &bound, value);
 }
 
 int parse_range(options *o, const option_row *row, const char *value) {

@@ -35,8 +35,8 @@ static const name_list normal_formats = {.words = (const char *const[]){"opengl"
 static const name_list packings = {.get = list_packing};
 static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
-static const name_list targets = {.words = (const char *const[]){"near", "far", "format", "mapping", "separation",
-                                                                 "distance", "frusta", "world", NULL}};
+static const name_list targets = {
+    .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", "frusta", NULL}};
 static const name_list themes = {.words = (const char *const[]){"light", "dark", "print", NULL}};
 static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
 static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
@@ -206,32 +206,28 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
         "error of a window depth interpolated across a triangle",
         NUMBER(terms.interpolation, 0, 0x1p24, "units of 2^-24"), .standard = "0", .group = "The budget"},
-    [OPTION_WORLD] = {"world", 0, "R", BUDGETED | VERB_SHADOW | VERB_ZFIGHT,
-        "start from world positions; no coordinate of theirs or of the camera exceeds R",
-        LENGTH(terms.world, 0, 1e18, "scene units"), .standard = "0", .without = "eye depth is given",
+    [OPTION_FROM_ORIGIN] = {"from-origin", 0, "R", BUDGETED | VERB_SHADOW | VERB_ZFIGHT | VERB_WORLD,
+        "start from world positions; no coordinate of theirs or of the camera exceeds R, at most 1e18 scene units",
+        .parse = parse_from_origin, FIELD(double, terms.world), .standard = "0", .without = "eye depth is given",
         .except = {BUT(VERB_SHADOW, "0", "positions about the middle of the light's box",
-                       "no coordinate of positions exceeds R"),
-                   BUT(VERB_ZFIGHT, "100", NULL, "with --against: no coordinate of a camera exceeds R")}},
+                       "no coordinate of positions exceeds R, at most 1e18 scene units"),
+                   BUT(VERB_ZFIGHT, "100", NULL, "with --against: no coordinate of a camera exceeds R, at most 1e18 "
+                       "scene units"),
+                   BUT(VERB_WORLD, NULL, "how far each scheme reaches", "how far the camera is from the world's "
+                       "origin, at most 1e12 scene units; several: R,R or LO:HI:log|lin:COUNT")}},
     [OPTION_COMPOSITION] = {"composition", 0, NULL, BUDGETED,
         "how they become clip coordinates: by one binary32 matrix of view and projection, multiplied in double and "
         "rounded, or in binary32; or after the camera's position is subtracted in double",
         WORD(terms.composition, compositions), .standard = "once"},
-    [OPTION_DISTANCE] = {"distance", 0, "D[,D...]|LO:HI:log|lin:COUNT", VERB_WORLD,
-        "how far the camera is from the world's origin, at most 1e12 scene units", parse_at,
-        FIELD(depths, distances), .without = "how far each scheme reaches"},
-    [OPTION_SCHEME] = {"scheme", 0, "NAME[:SIZE][,NAME...]|all", VERB_WORLD | VERB_SOLVE | VERB_BUDGET,
+    [OPTION_SCHEME] = {"scheme", 0, "NAME[:SIZE][,NAME...]|all", VERB_WORLD | VERB_BUDGET,
         "how vertices come before the camera: @; the size of a split, tile or cell in scene units; see 'depthprec "
         "list schemes'", parse_schemes, .names = &schemes_or_all, .standard = "all",
-        .except = {BUT(VERB_BUDGET, NULL, "world: as --composition says", "with --world: how vertices come before the "
-                       "camera, one scheme, see 'depthprec list schemes'"),
-                   BUT(VERB_SOLVE, "all", NULL, "with --for world: how vertices come before the camera, see "
-                       "'depthprec list schemes'")}},
-    [OPTION_SHARE] = {"share", 0, NULL, VERB_WORLD | VERB_SOLVE | VERB_BUDGET,
+        .except = {BUT(VERB_BUDGET, NULL, "absolute: as --composition says", "with --from-origin: how vertices come "
+                       "before the camera, one scheme, see 'depthprec list schemes'")}},
+    [OPTION_SHARE] = {"share", 0, NULL, VERB_WORLD | VERB_BUDGET,
         "both surfaces are of meshes about one origin, whose rounding they share", FLAG(shared_origin),
         .without = "each has its own",
         .except = {BUT(VERB_BUDGET, NULL, "each has its own", "with --scheme: both surfaces are of meshes about one "
-                       "origin"),
-                   BUT(VERB_SOLVE, NULL, "each has its own", "with --for world: both surfaces are of meshes about one "
                        "origin")}},
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "also count the loss of reading eye depth back in a binary32 shader", FLAG(terms.linearize)},
@@ -346,7 +342,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "what they are compared with", ROW(program, programs), .standard = "once"},
     [OPTION_VERTICES] = {"vertices", 0, NULL, VERB_ZFIGHT,
         "how vertices are drawn: eye depth log-uniform over --range, in a round view of 90 degrees; or uniform in the "
-        "box of --world", WORD(vertices, spreads), .standard = "eye-log"},
+        "box of --from-origin", WORD(vertices, spreads), .standard = "eye-log"},
     [OPTION_WITHIN] = {"within", 0, "Z", SEARCHED,
         "exit 1 where surfaces can fight nearer than this depth; and the distance that mends it", POSITIVE(within),
         .without = "10 times the model's extent, or as far as the camera tells 1 % of it apart; from eyes, as far as "

@@ -56,9 +56,8 @@ typedef enum option_id {
     OPTION_SEPARATION,
     OPTION_ERROR,
     OPTION_INTERPOLATION,
-    OPTION_WORLD,
+    OPTION_FROM_ORIGIN,
     OPTION_COMPOSITION,
-    OPTION_DISTANCE,
     OPTION_SCHEME,
     OPTION_SHARE,
     OPTION_LINEARIZE,
@@ -163,7 +162,6 @@ typedef enum solve_target {
     SOLVE_FOR_SEPARATION,
     SOLVE_FOR_DISTANCE,
     SOLVE_FOR_FRUSTA,
-    SOLVE_FOR_WORLD,
     SOLVE_FOR_ANY
 } solve_target;
 
@@ -211,8 +209,9 @@ typedef struct options {
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
-    dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize, --log2; zero when not given */
-    depths distances;      /**< of the camera from the world's origin; count is 0 when not given */
+    dp_budget_terms
+        terms;        /**< --interpolation, --from-origin, --composition, --linearize, --log2; zero when not given */
+    depths distances; /**< of the camera from the world's origin; count is 0 when not given */
     world_scheme schemes[OPTIONS_SCHEMES_MAX]; /**< in the order given, each once */
     size_t scheme_count;
     bool shared_origin;       /**< both surfaces are of meshes with one origin */

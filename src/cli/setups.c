@@ -53,7 +53,7 @@ static int check_budget(const options *o, const dp_spec *spec) {
     static const struct {
         option_id id;
         const char *why;
-    } others[] = {{OPTION_WORLD, "budget begins with eye depth"},
+    } others[] = {{OPTION_FROM_ORIGIN, "budget begins with eye depth"},
                   {OPTION_LINEARIZE, "budget ends with the code"},
                   {OPTION_VIEWPORT, "budget is of surfaces that face the camera"}};
     static const char leave[] = "leave it out, or take one of " DP_MAPPING_NAMES_PERSPECTIVE;

@@ -36,7 +36,7 @@ const verb verb_rows[] = {
     {"budget", VERB_BUDGET, "", 0, 0, NULL,
      "how much of the separation each cause takes",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
-     "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"
+     "  depthprec budget -F fp32 -m reversed --from-origin 5000 --linearize --at 10,100,1000\n"
      "  depthprec budget -F fp32 -m reversed --viewport 1920x1080 --raster spec-d3d\n", 0},
     {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
      "a depth image: depths, positions, normals, effects, errors",
@@ -100,9 +100,8 @@ const verb verb_rows[] = {
      "  depthprec probe --json -o gpu.json\n", 0},
     {"world", VERB_WORLD, "", 0, 0, NULL,
      "large worlds: safe gap and jitter so far from the origin",
-     "  depthprec world --distance 100km --gap 1cm --at 10m\n"
-     "  depthprec world --scheme camera-float,split --at 1m\n"
-     "  depthprec solve --for world --separation 1cm --at 10m\n", 0},
+     "  depthprec world --from-origin 100km --gap 1cm --at 10m\n"
+     "  depthprec world --scheme camera-float,split --at 1m\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"

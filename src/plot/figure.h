@@ -42,7 +42,7 @@ typedef struct figure_request {
 /** What a figure can make something of. */
 enum {
     FIGURE_AT = 1 << 0,        /**< one depth, given with --at */
-    FIGURE_TERMS = 1 << 1,     /**< --interpolation, --world, --linearize */
+    FIGURE_TERMS = 1 << 1,     /**< --interpolation, --from-origin, --linearize */
     FIGURE_FP32 = 1 << 2,      /**< set-ups of the model fp32, which have no cells */
     FIGURE_BINARY32 = 1 << 3,  /**< nothing but set-ups of the model fp32, whatever --model says */
     FIGURE_TOLERANCE = 1 << 4, /**< other ways to the interval than the exact cell */

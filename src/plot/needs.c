@@ -168,7 +168,7 @@ const char *needs_build(const figure_request *request, chart *out) {
     needs s = {.request = *request};
     for (size_t i = 0; i < request->file->camera_count; i++)
         if (request->file->cameras[i].world > 0.0)
-            return "plot needs: a camera with a world has no curve: check judges it";
+            return "plot needs: a camera with from_origin has no curve: check judges it";
     judge(&s, out);
     if (s.count == 0 && !chart_failed(out)) {
         snprintf(out->subtitle, sizeof out->subtitle, "plot needs: %s limits no separation and no error",

@@ -81,7 +81,7 @@ const view = (r) => [["--viewport", r.of(["1920x1080", "640x360", "7x5"])],
 const model = (r) => ["--model", r.of(["exact", "float", "staged", "auto"]),
     ...(r.chance(0.4) ? ["--arith", r.of(names.ariths)] : [])];
 const some = (r, share, words) => (r.chance(share) ? words() : []);
-const terms = (r) => [some(r, 0.3, () => ["--world", written(r, r.spread(1, 1e5))]),
+const terms = (r) => [some(r, 0.3, () => ["--from-origin", written(r, r.spread(1, 1e5))]),
     some(r, 0.3, () => ["--interpolation", written(r, r.spread(0.1, 10))]), some(r, 0.2, () => ["--linearize"])].flat();
 const form = (r) => r.of([[], ["--json"], ["--json"], ["--csv"], ["--csv"], ["--full"], ["-v"]]);
 const planned = (r) => [some(r, 0.05, () => ["--ortho"]), some(r, 0.08, () => ["--preset", r.of(names.presets)]),
