@@ -65,7 +65,7 @@ table --at 0.1:1000:log:2500 -F fp16,fp32,unorm16,unorm24,float5.10,unorm20 $eve
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding zero --ortho --csv
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding even --csv
 table -f inf --at 0.1:1e6:log:500 -F all -m all --model staged --csv
-each arithmetic table --at 0.1:1000:log:100 -F all $every --model fp32 --csv --arith
+each arithmetic table --at 0.1:1000:log:100 -F all $every --model float --csv --arith
 each transforms budget -n 0.3 -F all $every --at 17.25 --from-origin 1000 --csv --composition
 list encodings --json
 list methods --json

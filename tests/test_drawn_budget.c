@@ -198,7 +198,7 @@ static void check_legend(const drawn *d, const dp_budget_terms *terms, bool slan
 static void check_figure(const drawn_theme *look, const char *formats, const char *mappings, const char *arguments,
                          const dp_budget_terms *terms, bool slanted) {
     dp_spec spec = drawn_camera(0.1, 1000);
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     if (slanted)
         spec.triangles = dp_triangles_default();
     cameras c = cameras_of(spec, formats, mappings);

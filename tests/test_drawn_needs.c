@@ -39,7 +39,7 @@ static void write_needs(const char *path) {
         out,
         "unit = \"m\";\ncameras = {\n"
         "  street = { near = 0.1; far = 2000.0; mapping = \"d3d\"; format = \"unorm24\"; model = \"exact\"; };\n"
-        "  cockpit = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"fp32\"; "
+        "  cockpit = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"float\"; "
         "};\n  scope = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"exact\"; };\n"
         "};\nrequirements = {\n");
     for (size_t i = 0; i < NEEDS; i++) {
@@ -175,7 +175,7 @@ static void needs_of_a_file(void **state) {
     snprintf(path, sizeof path, "%s/street.need", drawn_folder());
     write_needs(path);
     dp_spec street = drawn_camera(0.1, 2000), cockpit = drawn_camera(0.05, INFINITY);
-    cockpit.model = DP_MODEL_FP32;
+    cockpit.model = DP_MODEL_FLOAT;
     dp_spec scope = cockpit;
     scope.model = DP_MODEL_EXACT;
     const cameras c[3] = {cameras_of(street, "unorm24", "d3d"), cameras_of(cockpit, "fp32", "reversed"),

@@ -26,7 +26,7 @@ static int make(dp_setup *setup, int camera, int mapping, int format, dp_arith a
     spec.format = f[0];
     spec.arith = arith;
     spec.ortho = ortho;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     return dp_setup_init(setup, &spec) == DP_OK;
 }
 

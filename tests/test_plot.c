@@ -222,7 +222,7 @@ static void test_map(void **state) {
 /* Of two cameras, one requirement is met, one missed and one about the error. */
 static const char needs[] =
     "cameras = { a = { near = 0.1; far = 1000.0; mapping = \"d3d\"; format = \"unorm24\"; };"
-    "            b = { near = 1.0; far = 100.0; mapping = \"reversed\"; format = \"fp32\"; model = \"fp32\"; }; };"
+    "            b = { near = 1.0; far = 100.0; mapping = \"reversed\"; format = \"fp32\"; model = \"float\"; }; };"
     "requirements = { x = { camera = \"a\"; range = [1.0, 500.0]; separation = 0.01; };"
     "                 y = { camera = \"a\"; at = 5.0; error = 0.01; };"
     "                 z = { camera = \"b\"; range = [2.0, 50.0]; separation = 0.01; }; };";
@@ -296,7 +296,7 @@ static void test_needs_of_two_formats(void **state) {
     need_error error;
     asked a;
     ask(&a, 1, 100);
-    a.setups[0].spec.model = DP_MODEL_FP32;
+    a.setups[0].spec.model = DP_MODEL_FLOAT;
     ask_add(&a, either[0], DP_MAPPING_D3D);
     ask_add(&a, either[1], DP_MAPPING_D3D);
     a.request.file = &file;

@@ -104,7 +104,7 @@ static asked draw(rng *r) {
     asked a;
     do {
         a.setup = promise_draw(r);
-        a.model = rng_below(r, 4) ? "fp32" : "auto";
+        a.model = rng_below(r, 4) ? "float" : "auto";
     } while (!draw_range(r, &a));
     return a;
 }

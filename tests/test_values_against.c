@@ -19,7 +19,7 @@ typedef struct against_case {
 } against_case;
 
 static const against_case cases[] = {
-    {{0.1, 1000, {"fp32", "unorm24"}, {"d3d", "reversed"}, .implied = true, .model = DP_MODEL_FP32},
+    {{0.1, 1000, {"fp32", "unorm24"}, {"d3d", "reversed"}, .implied = true, .model = DP_MODEL_FLOAT},
      NULL,
      "separate,fma",
      {"separate", "fma"},
@@ -29,7 +29,7 @@ static const against_case cases[] = {
      0,
      40000,
      5},
-    {{0.1, 1000, {"unorm16"}, {"gl-reversed"}, .implied = true, .model = DP_MODEL_FP32, .arith = "mesa", .unit = "cm"},
+    {{0.1, 1000, {"unorm16"}, {"gl-reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .arith = "mesa", .unit = "cm"},
      "fma-right",
      "ALL",
      {"once", "products", "separate", "right", "pairs", "fma", "fma-right", "fma-pairs", "separate-fma"},
@@ -39,7 +39,7 @@ static const against_case cases[] = {
      300,
      30000,
      0},
-    {{-5, 60, {"fp32"}, {"gl"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1},
+    {{-5, 60, {"fp32"}, {"gl"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1},
      "pairs",
      "right",
      {"right"},

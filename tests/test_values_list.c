@@ -61,12 +61,7 @@ static bool arith(size_t i, listed *l) {
 static bool model(size_t i, listed *l) {
     if (i > DP_MODEL_COUNT)
         return false;
-    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto",
-                  i == DP_MODEL_FP32 ? "float" : "",
-                  NULL,
-                  NULL,
-                  {0},
-                  0};
+    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto", "", NULL, NULL, {0}, 0};
     return true;
 }
 
@@ -329,9 +324,7 @@ static void check_forms(const json_t *items, const char *what, const char *bound
             const char *field = fields[k] != NULL ? fields[k] : "";
             want_text(&v, keys[k], field);
             used += (size_t)snprintf(words + used, sizeof words - used, "%s", *field != '\0' ? labels[k] : "");
-            /* The model fp32 is float in text, as a format has its name. */
-            const bool is_other = strcmp(what, "models") == 0 && *aliases != '\0' && (k == 0 || k == 4);
-            for (const char *at = is_other ? fields[4 - k] : field; *at != '\0'; at++)
+            for (const char *at = field; *at != '\0'; at++)
                 if (!isspace((unsigned char)*at))
                     words[used++] = *at;
         }

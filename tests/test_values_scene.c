@@ -42,7 +42,7 @@ static dp_setup setup_of(const char *format, dp_mapping mapping, bool slanted) {
     assert_int_equal(dp_format_parse(format, found), 1);
     spec.format = found[0];
     spec.mapping = mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     if (slanted)
         spec.triangles = dp_triangles_default();
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);

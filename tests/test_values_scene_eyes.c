@@ -77,7 +77,7 @@ static double bound_of(const char *format, double lo, double hi, double zfar, bo
     dp_separation_worst worst = {0};
     assert_int_equal(dp_format_parse(format, found), 1);
     spec.format = found[0];
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.zfar = zfar;
     spec.triangles = dp_triangles_default();
     spec.triangles.depth = facing ? 1 : 8;

@@ -267,7 +267,7 @@ static void bias(void **state) {
         const json_t *said = json_object_get(root, "bias");
         spec.znear = rows[i].znear;
         spec.zfar = 1000.0;
-        spec.model = DP_MODEL_FP32;
+        spec.model = DP_MODEL_FLOAT;
         assert_int_equal(dp_format_parse("d24", formats), 1);
         spec.format = formats[0];
         if (rows[i].drawn) {

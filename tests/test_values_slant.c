@@ -435,7 +435,7 @@ static void test_zfight(void **state) {
     spec.znear = c->znear;
     spec.zfar = c->zfar;
     spec.mapping = c->mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.triangles = c->triangles;
     assert_int_equal(dp_setup_init(&slanted, &spec), DP_OK);
     check_triangles(roots[0], &c->triangles, c->raster);
@@ -478,7 +478,7 @@ static void test_range(void **state) {
         spec.znear = c->znear;
         spec.zfar = c->zfar;
         spec.mapping = c->mapping;
-        spec.model = DP_MODEL_FP32;
+        spec.model = DP_MODEL_FLOAT;
         if (slanted)
             spec.triangles = c->triangles;
         assert_int_equal(dp_setup_init(&full, &spec), DP_OK);

@@ -42,7 +42,7 @@ static void test_world(void **state) {
         dp_format_parse("unorm24", formats);
         spec.format = formats[0];
         spec.mapping = DP_MAPPING_D3D;
-        spec.model = DP_MODEL_FP32;
+        spec.model = DP_MODEL_FLOAT;
         assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
         const double half = tan(25.0 * 3.14159265358979323846 / 180.0), z = 7.0, gap = gaps[run];
         const world_asked a = {.setup = &setup,
@@ -123,7 +123,7 @@ static void test_budget(void **state) {
     dp_format_parse("fp32", formats);
     spec.format = formats[0];
     spec.mapping = DP_MAPPING_REVERSED;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     const world_scheme s = {scheme_of(1).row, 65536.0};
     const world_asked a = {.setup = &setup, .z = 30.0, .lean = 2.0};

@@ -489,7 +489,7 @@ static buffer random_buffer(rng *r, double zfar) {
     spec.zfar = rng_below(r, 2) ? INFINITY : zfar;
     spec.format = formats[0];
     spec.mapping = (dp_mapping)rng_below(r, 4);
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&b.setup, &spec), DP_OK);
     assert_int_equal(dp_pipeline_init(&b.pipeline, &b.setup), DP_OK);
     return b;

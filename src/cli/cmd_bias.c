@@ -48,7 +48,7 @@ typedef struct biasing {
     bool chosen;  /* the factor is the least that is enough at any slant */
     slant_fields slant;
     const slant_fields *triangles; /* null: surfaces face the camera */
-    dp_setup facing, slanted;      /* in the model fp32 */
+    dp_setup facing, slanted;      /* in the model float */
     double units, gap;             /* as asked; NaN where the other one is */
     double factor;                 /* as asked; NaN where each set-up has its own */
     double range_lo, range_hi;
@@ -167,7 +167,7 @@ static void *next_setup(void *of, size_t i) {
     b->limited = false;
     take_measured(b);
     if (b->triangles != NULL) {
-        b->slanted = reach_in(b->walk.setup, DP_MODEL_FP32);
+        b->slanted = reach_in(b->walk.setup, DP_MODEL_FLOAT);
         b->facing = dp_setup_facing(&b->slanted);
     }
     if (b->chosen)

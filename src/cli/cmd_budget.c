@@ -375,7 +375,7 @@ static int take_scheme(budget *b, const options *o) {
 int cmd_budget(const options *o) {
     budget b = {.terms = o->terms, .log2 = dp_log2_get(o->terms.log2)->name, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
-    in_binary32.model = DP_MODEL_FP32;
+    in_binary32.model = DP_MODEL_FLOAT;
     in_binary32.budgeted = true;
     int status = EXIT_FINE;
     b.triangles = slant_fields_of(o, &b.slant);

@@ -189,7 +189,7 @@ static const column text_columns[] = {{LIST(NULL, depth_columns, next_depth), .h
 int cmd_disocclusion(const options *o) {
     disocclusion d = {0};
     options in_binary32 = *o;
-    in_binary32.model = DP_MODEL_FP32;
+    in_binary32.model = DP_MODEL_FLOAT;
     d.triangles = slant_fields_of(o, &d.slant);
     d.grid = grid_of(&d.slant.triangles);
     const bool text = o->form == FORM_TEXT;

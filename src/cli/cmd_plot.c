@@ -132,11 +132,11 @@ static int check_options(const options *o, const figure_row *row) {
                             number_full(o->znear).text);
     if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
         return option_error(OPTION_COMPOSITION, "needs --from-origin: eye depth is given");
-    if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
+    if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FLOAT)
         return option_error(OPTION_MODEL, "must be float in the figure %s, got '%s'", row->name,
                             option_word(OPTION_MODEL, o->model_auto ? DP_MODEL_COUNT : o->model));
     if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_SLANTED) != 0 && (row->takes & FIGURE_BINARY32) == 0 &&
-        o->model != DP_MODEL_FP32)
+        o->model != DP_MODEL_FLOAT)
         return option_error(OPTION_VIEWPORT, "needs --model float in the figure %s", row->name);
     if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
         return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
@@ -152,8 +152,8 @@ static int choose_models(plotting *p) {
     const depths at = {.kind = DEPTHS_LOG, .lo = lo, .hi = hi, .count = CHOICE_DEPTHS};
     for (size_t i = 0; i < p->all.count; i++)
         setup_choose(p->o, &at, &p->all.items[i]);
-    for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FP32) == 0; i++)
-        if (p->all.items[i].spec.model == DP_MODEL_FP32)
+    for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FLOAT) == 0; i++)
+        if (p->all.items[i].spec.model == DP_MODEL_FLOAT)
             return option_error(OPTION_MODEL,
                                 "float has no cells for the figure %s to show; interval and budget draw its separation",
                                 p->row->name);
@@ -252,7 +252,7 @@ static int resolve_setups(plotting *p) {
         status = resolve_drawn(p, &in_model);
     choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
-        in_model.model = DP_MODEL_FP32;
+        in_model.model = DP_MODEL_FLOAT;
     in_model.budgeted = (p->row->takes & FIGURE_TERMS) != 0;
     if (status == EXIT_FINE)
         status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model) : EXIT_FINE;

@@ -195,7 +195,7 @@ static int complete(world *w, const options *o) {
     options *c = &w->o;
     const bool camera = o->preset_count > 0, stored = camera || o->platform != NULL;
     *c = *o;
-    c->model = DP_MODEL_FP32;
+    c->model = DP_MODEL_FLOAT;
     if (!option_given(o, OPTION_FAR) && !camera)
         c->zfar = (double)INFINITY;
     if (!option_given(o, OPTION_FORMAT) && !stored)

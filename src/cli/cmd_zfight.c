@@ -281,7 +281,7 @@ static int check(zfight *z) {
     if (option_given(o, OPTION_SEED) && o->sample == 0)
         return option_error(OPTION_SEED, "needs --sample");
     options fp32 = *o;
-    fp32.model = DP_MODEL_FP32;
+    fp32.model = DP_MODEL_FLOAT;
     int status = setups_make(&fp32, &z->walk.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &z->lo, &z->hi);

@@ -45,21 +45,11 @@ bool list_model(size_t index, list_item *item) {
     static const char *const notes[] = {
         [DP_MODEL_EXACT] = "real arithmetic and one rounding into the format: the lattice of codes",
         [DP_MODEL_STAGED] = "NDC depth, then window depth, each rounded once to binary32, then the format",
-        [DP_MODEL_FP32] = "every operation in binary32, see 'depthprec list arithmetic'; not for linear and log",
+        [DP_MODEL_FLOAT] = "every operation in binary32, see 'depthprec list arithmetic'; not for linear and log",
         "the simplest of the three that is enough at the depths asked about, see --tolerance",
     };
-    const char *name = dp_model_name((dp_model)index);
     return index < sizeof notes / sizeof notes[0] &&
-           list_fill(item, (list_item){.name = name != NULL ? name : model_word(index),
-                                       .aliases = index == DP_MODEL_FP32 ? model_word(index) : NULL,
-                                       .note = notes[index]});
-}
-
-bool list_model_word(size_t index, list_item *item) {
-    const bool found = list_model(index, item);
-    if (found && item->aliases != NULL)
-        *item = (list_item){.name = item->aliases, .aliases = item->name, .note = item->note};
-    return found;
+           list_fill(item, (list_item){.name = model_word(index), .note = notes[index]});
 }
 
 bool list_rounding(size_t index, list_item *item) {
@@ -328,8 +318,7 @@ bool list_method(size_t index, list_item *item) {
 static const topic topics[] = {
     {"formats", "depth formats and the bounds of their rounding", list_format, .bound = "bound"},
     {"mappings", "how an eye depth becomes a window depth", list_mapping, .bound = "bound"},
-    {"models", "how much of the arithmetic before the buffer is modelled", list_model, .bound = "bound",
-     .in_text = list_model_word},
+    {"models", "how much of the arithmetic before the buffer is modelled", list_model, .bound = "bound"},
     {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, .bound = "bound"},
     {"transforms", "how world positions become clip coordinates", list_composition, .bound = "bound"},
     {"causes", "the parts of the separation, for budget", list_cause, .bound = "bound"},

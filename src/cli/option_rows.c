@@ -16,7 +16,7 @@ static const name_list presets = {.get = list_preset};
 static const name_list platforms = {.get = list_platform};
 static const name_list units = {.get = list_unit};
 static const name_list roundings = {.get = list_rounding};
-static const name_list models = {.get = list_model_word};
+static const name_list models = {.get = list_model};
 static const name_list ariths = {.get = list_arith};
 static const name_list log2_rules = {.get = list_log2};
 static const name_list compositions = {.get = list_composition};

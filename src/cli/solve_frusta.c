@@ -59,7 +59,7 @@ static dp_spec spec_of(const options *o) {
                      .triangles = o->triangles,
                      .model = chosen   ? o->model
                               : linear ? DP_MODEL_STAGED
-                                       : DP_MODEL_FP32};
+                                       : DP_MODEL_FLOAT};
 }
 
 /* ---- The report -------------------------------------------------------------------------------------------------- */

@@ -47,7 +47,7 @@ static int check(against *a) {
     const options *o = a->walk.o;
     vertex_request *r = &a->request;
     options fp32 = *o;
-    fp32.model = DP_MODEL_FP32;
+    fp32.model = DP_MODEL_FLOAT;
     if (o->gap > 0.0)
         return option_error(OPTION_GAP, "cannot be combined with --against");
     int status = setups_make(&fp32, &a->walk.all);

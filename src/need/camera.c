@@ -137,16 +137,9 @@ static bool read_ortho(reader *r, const config_setting_t *s, draft *d) {
     return true;
 }
 
-/* By the name of JSON too. */
-static int read_model(reader *r, const config_setting_t *s) {
-    const char *text = config_setting_get_string(s);
-    return text != NULL && strcmp(text, dp_model_name(DP_MODEL_FP32)) == 0 ? DP_MODEL_FP32
-                                                                           : word_among(r, s, model_word);
-}
-
 static bool read_words(reader *r, config_setting_t *const *found, draft *d, need_camera *out) {
     const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
-    const int model = rounding >= 0 && found[KEY_MODEL] != NULL ? read_model(r, found[KEY_MODEL]) : DP_MODEL_COUNT;
+    const int model = rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_word) : DP_MODEL_COUNT;
     const int arith =
         rounding >= 0 && model >= 0 && found[KEY_ARITH] != NULL ? read_arith(r, found[KEY_ARITH], out) : 0;
     if (rounding < 0 || model < 0 || arith < 0)
@@ -236,7 +229,7 @@ static bool read_world(reader *r, config_setting_t *const *found, const draft *d
     if (d->spec.ortho || dp_mapping_get(d->spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(r, origin,
                            "from_origin: needs a perspective and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE);
-    if (!d->automatic && d->spec.model != DP_MODEL_FP32)
+    if (!d->automatic && d->spec.model != DP_MODEL_FLOAT)
         return reader_fail(r, origin, "from_origin: needs the model auto or float");
     if (found[KEY_VIEW] != NULL)
         return reader_fail(r, origin, "from_origin: is of surfaces that face the camera, not with viewport");

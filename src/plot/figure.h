@@ -43,8 +43,8 @@ typedef struct figure_request {
 enum {
     FIGURE_AT = 1 << 0,        /**< one depth, given with --at */
     FIGURE_TERMS = 1 << 1,     /**< --interpolation, --from-origin, --linearize */
-    FIGURE_FP32 = 1 << 2,      /**< set-ups of the model fp32, which have no cells */
-    FIGURE_BINARY32 = 1 << 3,  /**< nothing but set-ups of the model fp32, whatever --model says */
+    FIGURE_FLOAT = 1 << 2,      /**< set-ups of the model float, which have no cells */
+    FIGURE_BINARY32 = 1 << 3,  /**< nothing but set-ups of the model float, whatever --model says */
     FIGURE_TOLERANCE = 1 << 4, /**< other ways to the interval than the exact cell */
     FIGURE_SIGNED = 1 << 6,    /**< depths of 0 and less: a camera with near <= 0 */
     FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */

@@ -58,7 +58,7 @@ static dp_setup curve_setup(const check_verdict *v) {
     const bool second = strcmp(camera->setups[0].spec.format.name, v->setup.spec.format.name) != 0;
     dp_setup setup = camera->setups[second];
     dp_spec spec = setup.spec;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     if (camera->automatic && dp_setup_init(&setup, &spec) != DP_OK)
         setup = camera->setups[second];
     return setup;
@@ -87,7 +87,7 @@ static void add_curve(const figure_request *r, chart *out, chart_panel *panel, c
     dp_setup staged;
     dp_spec spec = given->spec;
     spec.model = DP_MODEL_STAGED; /* an error is judged in this one where fp32, which has none, is the fullest */
-    const bool other = is_error && given->spec.model == DP_MODEL_FP32 && dp_setup_init(&staged, &spec) == DP_OK;
+    const bool other = is_error && given->spec.model == DP_MODEL_FLOAT && dp_setup_init(&staged, &spec) == DP_OK;
     const dp_setup *setup = other ? &staged : given;
     refine_request q = envelope_request(r, setup, out, panel, is_error ? error_of : envelope_separation, setup);
     q.lo = fmax(q.lo, setup->spec.znear);
