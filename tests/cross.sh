@@ -73,10 +73,10 @@ list presets --json
 stability linearize --csv
 stability encode --csv
 zfight -n 1 -f 1.2 -F unorm16 -m all --csv
-zfight -n 1 -f 1.5 -F fp16 --sample 2000 --gap 0.0001 --json
+zfight -n 1 -f 1.5 -F fp16 --sample 2000 --separation 0.0001 --json
 solve -f 1000 -F all $every --separation 0.01 --at 100 --json
 solve --for distance -n 0.1 -F unorm24 -m d3d --separation 0.01 --json
-bias --range 1:10 --gap 0.01 --csv
+bias --range 1:10 --separation 0.01 --csv
 check village.need --csv
 each synthetic texture -F unorm16 -m d3d --json $synthetic
 each synthetic texture -F fp32 -m reversed --json $synthetic

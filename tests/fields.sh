@@ -35,12 +35,12 @@ all_named plot budget -F unorm24
 all_named plot needs tests/needs/village.need
 for what in formats mappings presets platforms apis rasterizers programs schemes encodings packings effects synthetic positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
-all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
+all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --separation 0.01
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --triangles --sample 10
 all_named zfight --against fma --sample 100
-all_named scene tests/models/street.obj --gap 0.02 --from 0,2,10 --look 0,0,0
+all_named scene tests/models/street.obj --separation 0.02 --from 0,2,10 --look 0,0,0
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --viewport 640x480
-all_named scene tests/models/street.obj --gap 0.02 --viewport 640x480
+all_named scene tests/models/street.obj --separation 0.02 --viewport 640x480
 all_named budget --at 10
 all_named budget -m three-webgl --at 10
 all_named budget --at 10 --viewport 640x480
@@ -75,7 +75,7 @@ for profile in tests/profiles/*.json; do
     check "depthprec.5: ${profile##*/}" empty profile_fields "$profile"
 done
 all_named bias --at 10 --units 1
-all_named bias --range 1:10 --gap 0.01
+all_named bias --range 1:10 --separation 0.01
 all_named bias --at 10 --viewport 640x480
 all_named bias --api all --at 10 --viewport 640x480
 all_named bias --api all --at 10

@@ -128,7 +128,7 @@ check "requirement files" alike_needs
 # With a preset the bias is written as its users write it, by bias and scene alike, unless --api names another.
 writes() { # writes PRESET WORDS
     "$DEPTHPREC" bias --preset "$1" --at 10 >"$scratch/bias" && grep -F "$2" "$scratch/bias" || return
-    "$DEPTHPREC" scene tests/models/street.obj --preset "$1" --unit m -m d3d -n 1 -f 500 -F d24 --viewport 960x540 --gap 0.02 >"$scratch/scene"
+    "$DEPTHPREC" scene tests/models/street.obj --preset "$1" --unit m -m d3d -n 1 -f 500 -F d24 --viewport 960x540 --separation 0.02 >"$scratch/scene"
     tr '\n' ' ' <"$scratch/scene" | tr -s ' ' | grep -F "drawn second: $2" || return
     "$DEPTHPREC" bias --preset "$1" --at 10 --api d3d9 | grep -F D3DRS_DEPTHBIAS
 }

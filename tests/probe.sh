@@ -125,7 +125,7 @@ stored() { # stored COMMAND...: the formats of the set-ups with its profile
 }
 lacking='--format: must be fp32 or unorm16 with a profile of a GPU that stores no other depth, got unorm24'
 for command in "table -F d24" "table -F d16,d24" "table -F depth24plus" "table --preset three" "table --preset unity,three" \
-    "budget -F d24" "zfight -F d24 --gap 1" "bias -F d24 --viewport 9x9" "solve -F d24 --separation 1 --at 5" "plot budget -F d24" \
+    "budget -F d24" "zfight -F d24 --separation 1" "bias -F d24 --viewport 9x9" "solve -F d24 --separation 1 --at 5" "plot budget -F d24" \
     "scene tests/models/house.gltf -F d24" "shadow --light-box 40x40x100 -F d24 --api d3d11" \
     "world --from-origin 1e5 -F d24 --at 9"; do
     case $command in

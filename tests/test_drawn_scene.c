@@ -14,7 +14,7 @@
 #include "support.h"
 
 #define STREET "tests/models/street.obj"
-#define CAMERA "--gap 0.02 -F unorm16 -m d3d"
+#define CAMERA "--separation 0.02 -F unorm16 -m d3d"
 
 /* Rectangles in x, y, z; the fight of wall and sign is the nearer one. */
 typedef struct part {

@@ -220,7 +220,7 @@ static void annotated(void **state) {
     assert_non_null(file);
     assert_true(fputs(town, file) >= 0 && fclose(file) == 0);
     /* Steps of d24 at z are near z^2 / (n 2^24): 1 mm is lost before 60, and 5 cm between there and 1000. */
-    printed p = print_of("scene %s -F d24 -m d3d -n 0.1 -f 1000 --gap 0.1 --within 60 --annotate %s", from, to);
+    printed p = print_of("scene %s -F d24 -m d3d -n 0.1 -f 1000 --separation 0.1 --within 60 --annotate %s", from, to);
     assert_int_equal(p.status, 1);
     printed_free(&p);
     if (!model_read(to, &asked, &m, &error))

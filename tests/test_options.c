@@ -139,9 +139,9 @@ static void test_lengths(void **state) {
         const char *command;
         option_id id;
         size_t field;
-    } lengths[] = {{"solve", OPTION_SEPARATION, AT(wanted_separation)},
+    } lengths[] = {{"solve", OPTION_SEPARATION, AT(separation)},
                    {"solve", OPTION_ERROR, AT(wanted_error)},
-                   {"bias", OPTION_GAP, AT(gap)},
+                   {"bias", OPTION_SEPARATION, AT(separation)},
                    {"scene m.obj", OPTION_WITHIN, AT(within)},
                    {"texture", OPTION_OVERLAY, AT(overlay)}};
     tally t = {.name = "lengths"};
@@ -564,9 +564,9 @@ static void test_own(void **state) {
     assert_true(o.from[0] == 1 && o.from[1] == -2 && o.from[2] == 3e4 && o.look[0] == 0 && o.triangles.width == 1920);
     assert_int_equal(parse(&o, "scene m.obj", OPTION_LOOK, "-5m,60cm,7m", line), EXIT_FINE);
     assert_true(o.look[0] == -5 && o.look[1] == 0.6 && o.look[2] == 7 && o.from[0] == 0 && o.triangles.width == 0);
-    assert_int_equal(parse(&o, "scene m.obj", OPTION_GAP, "0", line), EXIT_FINE);
-    assert_true(o.gap == 0.0 && option_given(&o, OPTION_GAP));
-    assert_int_equal(parse(&o, "zfight", OPTION_GAP, "0", line), EXIT_USAGE);
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_SEPARATION, "0", line), EXIT_FINE);
+    assert_true(o.separation == 0.0 && option_given(&o, OPTION_SEPARATION));
+    assert_int_equal(parse(&o, "zfight", OPTION_SEPARATION, "0", line), EXIT_USAGE);
     assert_int_equal(parse(&o, "table", OPTION_TOLERANCE, "3%", line), EXIT_FINE);
     assert_true(near_to(o.tolerance, 0.03));
     assert_int_equal(parse(&o, "table", OPTION_AT, "3,1,2", line), EXIT_FINE);

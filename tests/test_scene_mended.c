@@ -138,7 +138,7 @@ static void lifts(void **state) {
         TALLY(&said_some, isfinite(before.lift), "%s: no distance is enough", options);
         const double by = before.lift * (1 + 1e-9);
         char again[640];
-        snprintf(again, sizeof again, "%s --gap %.17g --within %.17g", options, 4 * by + 4 * gap, before.within);
+        snprintf(again, sizeof again, "%s --separation %.17g --within %.17g", options, 4 * by + 4 * gap, before.within);
         write_two(&made, (const double[2]){0, by}, path);
         said after = ask(path, again);
         TALLY(&t, !after.fights || after.lift == 0, "%s, %g apart, lifted by %g: lacks %g", options, gap, by,

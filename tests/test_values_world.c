@@ -55,7 +55,7 @@ static void test_world(void **state) {
             const world_scheme s = scheme_of(k);
             assert_relative(world_off(&s, &a, 2e3), world_off(&s, &nearly, 2e3), 1e-9);
         }
-        printed p = print_of("world -n 0.25 -f 4000 -F d24 -m d3d --at 7 --gap %g --viewport 800x600 --fov 50 "
+        printed p = print_of("world -n 0.25 -f 4000 -F d24 -m d3d --at 7 --separation %g --viewport 800x600 --fov 50 "
                              "--from-origin 2000,3e5,5e7 --scheme camera-float,split:1024,two-sum --json%s",
                              gap, shared ? " --share" : "");
         assert_int_equal(p.status, 0);

@@ -184,7 +184,7 @@ static void test_zfight(void **state) {
         size_t used = (size_t)snprintf(arguments, sizeof arguments, "zfight %s --range %.17g:%.17g -q",
                                        camera_options(&c->camera, options), c->lo, c->hi);
         if (c->gap > 0)
-            used += (size_t)snprintf(arguments + used, sizeof arguments - used, " --gap %.17g", c->gap);
+            used += (size_t)snprintf(arguments + used, sizeof arguments - used, " --separation %.17g", c->gap);
         if (c->sample > 0)
             snprintf(arguments + used, sizeof arguments - used, " --sample %llu --seed %llu",
                      (unsigned long long)c->sample, (unsigned long long)c->seed);

@@ -371,8 +371,8 @@ static int check_states(const options *o, const bias_api *api) {
     const bool given = option_given(o, OPTION_UNITS);
     if (given && option_given(o, OPTION_VIEWPORT))
         return option_error(OPTION_VIEWPORT, "cannot be combined with --units: it says how many are enough");
-    if (given && option_given(o, OPTION_GAP))
-        return option_error(OPTION_UNITS, "cannot be combined with --gap, which solves for them");
+    if (given && option_given(o, OPTION_SEPARATION))
+        return option_error(OPTION_UNITS, "cannot be combined with --separation, which solves for them");
     if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30) &&
         (o->platform == NULL || !o->platform->cuts))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",
@@ -417,7 +417,7 @@ int cmd_bias(const options *given) {
     if (affine != EXIT_FINE || api == NULL)
         return affine != EXIT_FINE ? affine : bias_all_write(&o);
     biasing b = {.state = {api, o.units, o.factor, o.clamp},
-                 .goal = {.api = api, .slope = o.slope, .gap = o.gap},
+                 .goal = {.api = api, .slope = o.slope, .gap = o.separation},
                  .inverse = !option_given(&o, OPTION_UNITS),
                  .api = api->name,
                  .named = api,
@@ -427,7 +427,7 @@ int cmd_bias(const options *given) {
         b.state.units = trunc(o.units);
     b.units_sent = b.state.units;
     b.units = b.inverse ? (double)NAN : o.units;
-    b.gap = b.inverse ? o.gap : (double)NAN;
+    b.gap = b.inverse ? o.separation : (double)NAN;
     b.triangles = slant_fields_of(&o, &b.slant);
     b.chosen = bias_chooses_factor(&o);
     b.factor = b.chosen ? (double)NAN : o.factor;

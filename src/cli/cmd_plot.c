@@ -106,7 +106,7 @@ static const struct {
             {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},
             {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},
             {OPTION_ANGLE, FIGURE_SHADOW | FIGURE_MODEL, "scene and shadow"},
-            {OPTION_GAP, FIGURE_MODEL, "scene"},
+            {OPTION_SEPARATION, FIGURE_MODEL, "scene"},
             {OPTION_WITHIN, FIGURE_MODEL, "scene"},
             {OPTION_ALSO, FIGURE_MODEL, "scene"},
             {OPTION_TRANSFORMS, FIGURE_MODEL, "scene"},

@@ -47,7 +47,7 @@ static int check_target(const options *o, solve_report *r) {
     if (option_given(o, OPTION_SEPARATION) && option_given(o, OPTION_ERROR))
         return option_error(OPTION_ERROR, "cannot be combined with --separation");
     r->kind = option_given(o, OPTION_ERROR) ? MEASURE_ERROR : MEASURE_SEPARATION;
-    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted_error : o->wanted_separation;
+    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted_error : o->separation;
     r->target = o->target;
     if (r->target == SOLVE_FOR_ANY && !limited)
         r->target = SOLVE_FOR_SEPARATION;

@@ -209,7 +209,7 @@ static int complete(world *w, const options *o) {
     if (o->at.count > 1)
         return option_error(OPTION_AT, "must be one depth, got %zu", o->at.count);
     w->z = length_or(o->at.count > 0, o->at.lo, 10.0, o->unit);
-    w->wanted = length_or(option_given(o, OPTION_GAP), o->gap, 0.01, o->unit);
+    w->wanted = length_or(option_given(o, OPTION_SEPARATION), o->separation, 0.01, o->unit);
     w->distances = o->distances;
     if (w->distances.count > 0 && !(w->distances.lo >= 0.0 && w->distances.hi <= WORLD_FARTHEST))
         return option_error(OPTION_FROM_ORIGIN, "must be from 0 to 1e12 scene units, got %s",

@@ -82,11 +82,11 @@ int parse_length(options *o, const option_row *row, const char *value) {
 }
 
 /* Surfaces of a model may be in one place. */
-int parse_gap(options *o, const option_row *row, const char *value) {
-    double gap;
-    if ((o->verb->bit & (VERB_SCENE | VERB_PLOT)) == 0 || !number_parse(value, NUMBER_FINITE, &gap) || gap != 0.0)
+int parse_separation(options *o, const option_row *row, const char *value) {
+    double apart;
+    if ((o->verb->bit & (VERB_SCENE | VERB_PLOT)) == 0 || !number_parse(value, NUMBER_FINITE, &apart) || apart != 0.0)
         return parse_length(o, row, value);
-    o->gap = 0.0;
+    o->separation = 0.0;
     return EXIT_FINE;
 }
 

@@ -83,7 +83,6 @@ typedef enum option_id {
     OPTION_FACTOR,
     OPTION_CLAMP,
     OPTION_SLOPE,
-    OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
     OPTION_TRIANGLES,
@@ -206,8 +205,8 @@ typedef struct options {
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
     depths looked_up;          /**< window depths of --depth in [0, 1], or codes of --code; count is 0 without them */
 
-    solve_target target;                    /**< --for */
-    double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
+    solve_target target;             /**< --for */
+    double separation, wanted_error; /**< scene units; 0 when not given */
 
     dp_budget_terms
         terms;        /**< --interpolation, --from-origin, --composition, --linearize, --log2; zero when not given */
@@ -230,7 +229,6 @@ typedef struct options {
     double clamp;             /**< of a bias, window depth; 0 is none */
     double slope;             /**< scene units per pixel, not negative */
 
-    double gap;               /**< scene units; 0 when not given */
     double within;            /**< eye depth; 0 when not given */
     double from[3], look[3];  /**< places in a model: of an eye, and what it looks at */
     const char *path;         /**< file of such places; or null */

@@ -29,7 +29,7 @@ const verb verb_rows[] = {
     {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
      "where surfaces start to fight, by a census of every depth",
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
-     "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
+     "  depthprec zfight -F d24 -m gl --arith mesa --separation 0.01\n"
      "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n"
      "  depthprec zfight --triangles -F fp32 -m reversed --range 16:64\n"
      "  depthprec zfight --against separate,fma -F fp32 -m reversed\n", 0},
@@ -68,8 +68,8 @@ const verb verb_rows[] = {
     {"bias", VERB_BIAS, "", 0, 0, NULL,
      "what a depth bias does, how much is enough, per API",
      "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
-     "  depthprec bias --api all --gap 0.02 --at 300\n"
-     "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
+     "  depthprec bias --api all --separation 0.02 --at 300\n"
+     "  depthprec bias --api webgpu -F depth24plus -m d3d --separation 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0},
     {"shadow", VERB_SHADOW, "", 0, 0, NULL,
      "shadow maps: the bias without acne, and its gap",
@@ -82,7 +82,7 @@ const verb verb_rows[] = {
      "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
      "  depthprec scene house.glb --from 0,2,30 --look 0,2,0 --render seen.png\n"
-     "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1},
+     "  depthprec scene city.obj -F d24 -m d3d --separation 0.001 --json\n", 1},
     {"disocclusion", VERB_DISOCCLUSION, "", 0, 0, NULL,
      "how far apart two samples are surely of two surfaces",
      "  depthprec disocclusion -n 0.1 -f inf -m reversed --hfov 90\n"
@@ -100,7 +100,7 @@ const verb verb_rows[] = {
      "  depthprec probe --json -o gpu.json\n", 0},
     {"world", VERB_WORLD, "", 0, 0, NULL,
      "large worlds: safe gap and jitter so far from the origin",
-     "  depthprec world --from-origin 100km --gap 1cm --at 10m\n"
+     "  depthprec world --from-origin 100km --separation 1cm --at 10m\n"
      "  depthprec world --scheme camera-float,split --at 1m\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",

@@ -48,8 +48,8 @@ static int check(against *a) {
     vertex_request *r = &a->request;
     options fp32 = *o;
     fp32.model = DP_MODEL_FLOAT;
-    if (o->gap > 0.0)
-        return option_error(OPTION_GAP, "cannot be combined with --against");
+    if (o->separation > 0.0)
+        return option_error(OPTION_SEPARATION, "cannot be combined with --against");
     int status = setups_make(&fp32, &a->walk.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &r->lo, &r->hi);
