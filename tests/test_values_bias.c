@@ -272,9 +272,9 @@ static void check_text(const values *v, const bias_case *c, const char *argument
     if (c->inverse)
         check_text_numbers(v, p.out, "told apart  ", 9, none ? apart_where[reversed] : apart);
     if (c->inverse && c->gap > 0 && isnan(value_at(v, "setups[0].range.units_gap")->number)) {
-        check_text_numbers(v, p.out, "the gap  ", 9, gap_where[reversed]);
+        check_text_numbers(v, p.out, "separated  ", 9, gap_where[reversed]);
     } else if (c->inverse && c->gap > 0) {
-        check_text_numbers(v, p.out, "the gap  ", 9, gap);
+        check_text_numbers(v, p.out, "separated  ", 9, gap);
         check_text_numbers(v, p.out, "the same units bring", 6, nearer);
     }
     printed_free(&p);

@@ -227,7 +227,7 @@ static void say_range(page *p, const biasing *b) {
     say_needed(p, "told apart", r->apart, (const double[]){r->lo, r->hi}, r->apart_z,
                (const double[]){r->apart_from, r->apart_to});
     if (b->goal.gap > 0.0)
-        say_needed(p, "the gap", r->gap, (const double[]){r->gap_lo, r->hi}, r->gap_z,
+        say_needed(p, "separated", r->gap, (const double[]){r->gap_lo, r->hi}, r->gap_z,
                    (const double[]){r->gap_from, r->gap_to});
     const double units = b->goal.gap > 0.0 ? r->gap : r->apart;
     if (!isnan(units))
@@ -314,7 +314,7 @@ static const column row_columns[] = {
     {FIELD(row, one_unit, "one_unit", "scene"), SHOWN("one unit", 13, DIGITS), .when = INVERSE},
     {FIELD(row, apart, "units_apart", ""), SHOWN("told apart", 17, DIGITS_Z), .when = INVERSE},
     {FIELD(row, gap, "units_gap", ""), .only = AS_CSV, .when = INVERSE},
-    {FIELD(row, gap, "units_gap", ""), SHOWN("the gap", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
+    {FIELD(row, gap, "units_gap", ""), SHOWN("separated", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
      .when = INVERSE | WITH_GAP},
     {FIELD(row, facing, "guarantee_facing", "scene"), SHOWN("facing", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},

@@ -156,7 +156,7 @@ static const column line_columns[] = {
     {TEXT_FIELD(line, label, "scheme", -14, 0)},
     {FIELD(line, off, "view_z_error", "scene"), SHOWN("view z", 9, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
-    {FIELD(line, gap, "safe_gap", "scene"), SHOWN("safe gap", 10, DIGITS), .upward = true, .brief = true,
+    {FIELD(line, gap, "safe_gap", "scene"), SHOWN("apart", 10, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
     {FIELD(line, jitter, "jitter", "pixels"), SHOWN("jitter", 8, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},

@@ -99,7 +99,7 @@ const verb verb_rows[] = {
      "  depthprec probe --device gl\n"
      "  depthprec probe --json -o gpu.json\n", 0},
     {"world", VERB_WORLD, "", 0, 0, NULL,
-     "large worlds: safe gap and jitter so far from the origin",
+     "large worlds: safe separation, jitter far from the origin",
      "  depthprec world --from-origin 100km --separation 1cm --at 10m\n"
      "  depthprec world --scheme camera-float,split --at 1m\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
