@@ -139,7 +139,8 @@ static bool read_ortho(reader *r, const config_setting_t *s, draft *d) {
 
 static bool read_words(reader *r, config_setting_t *const *found, draft *d, need_camera *out) {
     const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
-    const int model = rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_word) : DP_MODEL_COUNT;
+    const int model =
+        rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_word) : DP_MODEL_COUNT;
     const int arith =
         rounding >= 0 && model >= 0 && found[KEY_ARITH] != NULL ? read_arith(r, found[KEY_ARITH], out) : 0;
     if (rounding < 0 || model < 0 || arith < 0)

@@ -122,7 +122,8 @@ static world_error of_cell(const world_scheme *s, const world_where *at) {
 
 /* clang-format off */
 static const world_row rows[WORLD_ROWS] = {
-    {"absolute", "vertices in the world through a view matrix; of a reversed infinite projection through one of both, too",
+    {"absolute",
+     "vertices in the world through a view matrix; of a reversed infinite projection through one of both, too",
      NULL, 0.0,
      false, false, "common", arithmetic_world, of_world},
     {"local", "vertices about an origin, whose matrix and the view's are multiplied in binary32", NULL, 0.0,
