@@ -36,7 +36,7 @@ typedef struct dp_spec {
     dp_model model;
     dp_arith arith;         /**< the arithmetic of DP_MODEL_FLOAT and of dp_pipeline_init() */
     double log_c;           /**< constant C of the logarithmic mappings, in [1e-12, 1e12]; not read for three-webgpu */
-    dp_triangles triangles; /**< surfaces slant as this says, under a perspective: what DP_MODEL_FLOAT guarantees then is
+    dp_triangles triangles; /**< surfaces slant as this says, under a perspective: what the float model guarantees is
                                in triangles.h, and z is the depth of the farther one. Width 0: they face the camera */
 } dp_spec;
 
@@ -74,7 +74,7 @@ DP_API dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec);
 DP_API dp_setup dp_setup_facing(const dp_setup *setup);
 
 /**
- * The same set-up as dp_separation() and dp_separation_over() know most of it: in float where a pipeline computes depth;
+ * The same set-up as dp_separation() and dp_separation_over() know most of it: float where a pipeline computes depth;
  * in staged for the others, and where a shader writes a logarithm these two functions, and only they, then give the
  * guarantee of dp_budget_at(), for every log2 that Vulkan, GLSL and WGSL allow, of surfaces that face the camera. Of
  * linear it is still a lattice.
