@@ -122,7 +122,7 @@ static void orthographic_depths_have_either_sign(void **state) {
 }
 
 #define SUN                                                                                                            \
-    "cameras = { a = { near = -1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"float\"; ortho = true; }; "  \
+    "cameras = { a = { near = -1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"float\"; ortho = true; }; " \
     "};\n"
 
 /* What is wrong, on which line, and a piece of what is said. */

@@ -208,8 +208,8 @@ static void test_world(void **state) {
         const dp_budget_terms terms = {.world = 20000, .composition = (dp_composition)i};
         const double z = 700;
         dp_budget of_slanted, of_facing, without;
-        printed p =
-            print_of("budget %s %s --at 700 --from-origin 20000 --composition %s --json", c->camera, c->options, names[i]);
+        printed p = print_of("budget %s %s --at 700 --from-origin 20000 --composition %s --json", c->camera, c->options,
+                             names[i]);
         json_t *root = json_of(p.out);
         const json_t *row = row_of(root, 0);
         const double part = at(json_object_get(row, "causes"), "composition");
