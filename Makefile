@@ -153,7 +153,7 @@ web:
 WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster draw vertex api world census shadow report need plot cli))
 WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/texture/decode.c
 WEB_NOT := report/output_file report/terminal need/camera need/reader need/requirement need/view need/check \
-    plot/canvas plot/fights plot/normals plot/pareto plot/stability plot/scene plot/pixels \
+    plot/canvas plot/scene plot/normals plot/pareto plot/stability plot/needs plot/pixels \
     cli/texture_% cli/cmd_texture cli/cmd_methods cli/cmd_check cli/check_report cli/cmd_shadow \
     cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_probe cli/link cli/completions cli/stop cli/junit cli/option_profile api/profile_file
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)

@@ -61,7 +61,7 @@ static dp_setup make(const char *format, dp_mapping mapping, double zfar) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     spec.mapping = mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.zfar = zfar;
     if (dp_format_parse(format, formats) > 0)
         spec.format = formats[0];

@@ -214,7 +214,7 @@ static void time_depth(const dp_setup *setup, const char *name) {
         printf("  %llu codes differ between the quick and the exact path\n", (unsigned long long)wrong);
 }
 
-/* A code of the model fp32 beside the arithmetic alone, whose pipeline is at hand. */
+/* A code of the model float beside the arithmetic alone, whose pipeline is at hand. */
 static void bench_pipeline_code(void) {
     dp_setup setup = make("fp32", DP_MAPPING_D3D);
     dp_spec spec = setup.spec;
@@ -223,7 +223,7 @@ static void bench_pipeline_code(void) {
     uint64_t state = 1;
     uint32_t differ = 0;
     timing whole = {0}, alone = {0};
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     if (dp_setup_init(&setup, &spec) != DP_OK || dp_pipeline_init(&pipeline, &setup) != DP_OK)
         exit(2);
     fill(&setup, z, &state);
@@ -239,7 +239,7 @@ static void bench_pipeline_code(void) {
     }
     if (differ != 0)
         exit(2);
-    measured("fp32 d3d: one depth in the model fp32", 1e9 * timing_least(&whole), "ns", timing_spread(&whole));
+    measured("fp32 d3d: one depth in the model float", 1e9 * timing_least(&whole), "ns", timing_spread(&whole));
     aimed("  as many times its arithmetic alone", timing_least(&whole) / timing_least(&alone), "x",
           timing_spread(&alone), AIM_PIPELINE_CODE, "");
 }

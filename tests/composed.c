@@ -39,7 +39,7 @@ bool composed_make(set_up *s, double n, double f, dp_mapping mapping, const char
     spec.format = formats[0];
     spec.arith = arith;
     spec.ortho = ortho;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     *s = (set_up){.arith = dp_arith_get(arith),
                   .reversed = mapping == DP_MAPPING_REVERSED || mapping == DP_MAPPING_GL_REVERSED,
                   .is_signed = mapping == DP_MAPPING_GL || mapping == DP_MAPPING_GL_REVERSED,

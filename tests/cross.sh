@@ -19,7 +19,7 @@ root=$PWD/$B/root
 
 # Those that an instruction, a byte order or a C library could break, and that an emulator ends within a minute.
 tests='batch elementary code depth format mapping setup model separation quotient published rasterizers estimate bias
-decode effect effects_pixels image image_damage image_depths image_raw normal position recognise scene number report requirement options'
+decode effect effects_pixels image image_damage image_depths image_raw normal position recognise synthetic number report requirement options'
 
 # ---- The other machine's libraries -------------------------------------------------------------------------------
 
@@ -59,35 +59,35 @@ make --no-print-directory --output-sync=target -j"${JOBS:-$(nproc)}" all || exit
 
 # One command a line. With `each KIND` before it, it is run with each name that `depthprec list KIND` has.
 every='-m d3d,gl,reversed,gl-reversed'
-scene='--size 96x54 --scene'
+synthetic='--size 96x54 --synthetic'
 commands="
 table --at 0.1:1000:log:2500 -F fp16,fp32,unorm16,unorm24,float5.10,unorm20 $every,linear,log --csv -v
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding zero --ortho --csv
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding even --csv
 table -f inf --at 0.1:1e6:log:500 -F all -m all --model staged --csv
-each arithmetic table --at 0.1:1000:log:100 -F all $every --model fp32 --csv --arith
-each transforms budget -n 0.3 -F all $every --at 17.25 --world 1000 --csv --composition
+each arithmetic table --at 0.1:1000:log:100 -F all $every --model float --csv --arith
+each transforms budget -n 0.3 -F all $every --at 17.25 --from-origin 1000 --csv --composition
 list encodings --json
 list methods --json
 list presets --json
 plot stability linearize --csv
 plot stability encode --csv
 zfight -n 1 -f 1.2 -F unorm16 -m all --csv
-zfight -n 1 -f 1.5 -F fp16 --sample 2000 --gap 0.0001 --json
+zfight -n 1 -f 1.5 -F fp16 --sample 2000 --separation 0.0001 --json
 solve -f 1000 -F all $every --separation 0.01 --at 100 --json
 solve --for distance -n 0.1 -F unorm24 -m d3d --separation 0.01 --json
-bias --range 1:10 --gap 0.01 --csv
+bias --range 1:10 --separation 0.01 --csv
 check village.need --csv
-each scenes texture -F unorm16 -m d3d --json $scene
-each scenes texture -F fp32 -m reversed --json $scene
-each positions texture -o product.npy $scene sphere --product position:
-each positions texture -o product.pfm $scene steps --error-map --product position:
-each normals texture -o product.pfm $scene sphere --product normal:
-each normals texture -o product.npy $scene sphere --error-map --product normal:
-each effects texture -o product.png $scene steps --product effect:
-each effects texture -o product.png $scene steps --parameter reference=10 --product effect:
-texture -o product.png $scene steps --product effect:motion-blur --last-eye 1,0.5,-1 --last-look 2,0.5,18
-texture -o depth.png -F unorm16 $scene decals
+each synthetic texture -F unorm16 -m d3d --json $synthetic
+each synthetic texture -F fp32 -m reversed --json $synthetic
+each positions texture -o product.npy $synthetic sphere --product position:
+each positions texture -o product.pfm $synthetic steps --error-map --product position:
+each normals texture -o product.pfm $synthetic sphere --product normal:
+each normals texture -o product.npy $synthetic sphere --error-map --product normal:
+each effects texture -o product.png $synthetic steps --product effect:
+each effects texture -o product.png $synthetic steps --parameter reference=10 --product effect:
+texture -o product.png $synthetic steps --product effect:motion-blur --last-eye 1,0.5,-1 --last-look 2,0.5,18
+texture -o depth.png -F unorm16 $synthetic decals
 texture depth.png --product normal:projective -o product.npy --error-map=product.pfm
 texture depth.png --product linear01 -o product.npy --error-map=product.pfm
 texture depth.png --product raw -o product.npy --error-map=product.pfm

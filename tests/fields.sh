@@ -26,21 +26,21 @@ all_named() { # all_named COMMAND ARGUMENTS...
 
 all_named table --at 10 -m d3d,log -F unorm24
 all_named table --at 10 --model auto
-all_named table --at 10 --model fp32
+all_named table --at 10 --model float
 all_named table --at 10 --tolerance 1%
 all_named list methods --tolerance 1%
 all_named plot interval
 all_named plot map -F unorm24
 all_named plot budget -F unorm24
-all_named plot scene tests/needs/village.need
-for what in formats mappings presets platforms apis rasterizers programs upscalers schemes encodings packings products effects scenes positions normals figures; do all_named list $what; done
+all_named plot needs tests/needs/village.need
+for what in formats mappings presets platforms apis rasterizers programs upscalers schemes encodings packings products effects synthetic positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
-all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
+all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --separation 0.01
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --rasterize --sample 10
 all_named prepass --against fma --sample 100
-all_named scene tests/models/street.obj --gap 0.02 --eye 0,2,10 --look 0,0,0
+all_named scene tests/models/street.obj --separation 0.02 --eye 0,2,10 --look 0,0,0
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --viewport 640x480
-all_named scene tests/models/street.obj --gap 0.02 --viewport 640x480
+all_named scene tests/models/street.obj --separation 0.02 --viewport 640x480
 all_named budget --at 10
 all_named budget -m three-webgl --at 10
 all_named budget --at 10 --viewport 640x480
@@ -62,8 +62,8 @@ all_named solve --for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0
 all_named table --at 10 --range 5:50
 all_named table --depth 0.5
 all_named world
-all_named world --distance 1km,1e6m
-all_named budget --at 10 --world 1e5 --scheme split
+all_named world --from-origin 1km,1e6m
+all_named budget --at 10 --from-origin 1e5 --scheme split
 section probe | sort -u >"$scratch/known_probe"
 profile_fields() { # what of a profile is not in the page, or that it is none
     jq -r '[.. | objects | keys[]] | unique[]' "$1" | sort -u >"$scratch/keys"
@@ -74,7 +74,7 @@ for profile in tests/profiles/*.json; do
     check "depthprec.5: ${profile##*/}" empty profile_fields "$profile"
 done
 all_named bias --at 10 --units 1
-all_named bias --range 1:10 --gap 0.01
+all_named bias --range 1:10 --separation 0.01
 all_named bias --at 10 --viewport 640x480
 all_named bias --api all --at 10 --viewport 640x480
 all_named bias --api all --at 10
@@ -84,18 +84,18 @@ all_named shadow --light-box 5x5x5 --range 1:4
 all_named plot shadow
 all_named methods worst --tolerance 0.1
 all_named methods
-all_named texture --scene decals --size 64x36
-all_named texture --scene decals --size 64x36 --pixel 1,2
+all_named texture --synthetic decals --size 64x36
+all_named texture --synthetic decals --size 64x36 --pixel 1,2
 all_named texture --product effect:intersection --at 10
 all_named texture --product effect:shadow --at 10
-all_named texture --scene plane --size 64x36 --product effect:fog --pixel 1,2
-"$DEPTHPREC" texture --scene plane --size 64x36 -F unorm16 -m d3d -o "$scratch/depth.npy"
+all_named texture --synthetic plane --size 64x36 --product effect:fog --pixel 1,2
+"$DEPTHPREC" texture --synthetic plane --size 64x36 -F unorm16 -m d3d -o "$scratch/depth.npy"
 all_named texture "$scratch/depth.npy"
-"$DEPTHPREC" texture --scene plane --size 64x36 -F fp32 -m reversed --product eye -o "$scratch/metres.npy"
+"$DEPTHPREC" texture --synthetic plane --size 64x36 -F fp32 -m reversed --product eye -o "$scratch/metres.npy"
 all_named texture "$scratch/metres.npy" --metric 1
-all_named texture --scene plane --product eye -o "$scratch/eye.png"
-all_named texture --scene plane --product eye -o "$scratch/eye.png" --error-map="$scratch/map.png"
-all_named texture --scene plane --size 64x36 --histogram "$scratch/histogram.svg"
-"$DEPTHPREC" texture --scene plane --size 64x36 --pack rg -o "$scratch/packed.png"
+all_named texture --synthetic plane --product eye -o "$scratch/eye.png"
+all_named texture --synthetic plane --product eye -o "$scratch/eye.png" --error-map="$scratch/map.png"
+all_named texture --synthetic plane --size 64x36 --histogram "$scratch/histogram.svg"
+"$DEPTHPREC" texture --synthetic plane --size 64x36 --pack rg -o "$scratch/packed.png"
 all_named texture "$scratch/packed.png"
 finish

@@ -18,7 +18,7 @@ echo 'cameras = { a = { near = 0.1; far = 1000; format = "fp32"; mapping = "reve
 requirements = { b = { camera = "a"; range = [1.0, 10.0]; separation = 1.0; }; };' >a.need
 cp gpu.json folder
 sed 's|gpu.json|folder/gpu.json|' a.need >b.need
-"$DEPTHPREC" texture --scene plane -F unorm16 -m d3d -n 0.1 -f 10 --size 8x8 --product raw -o depth.png 2>/dev/null
+"$DEPTHPREC" texture --synthetic plane -F unorm16 -m d3d -n 0.1 -f 10 --size 8x8 --product raw -o depth.png 2>/dev/null
 cp depth.png depth.img
 jq -r '.buffers[0].uri' house.gltf | sed 's/^[^,]*,//' | base64 -d >folder/house.bin
 jq -c '.buffers[0].uri = "house.bin"' house.gltf >folder/house.gltf
@@ -36,10 +36,10 @@ gpu.json | scene house.gltf --arith gpu.json --emit-need @
 gpu.json | check a.need -o @
 folder/gpu.json | check b.need -o @
 folder/gpu.json | check b.need --report junit -o @
-gpu.json | plot scene a.need --type svg -o @
+gpu.json | plot needs a.need --type svg -o @
 a.need | check a.need -o @
 a.need | check - -o @ <a.need
-a.need | plot scene a.need --type svg -o @
+a.need | plot needs a.need --type svg -o @
 m.npy | texture depth.png -F unorm16 --matrix m.npy --product eye -o @
 m.txt | texture depth.png -F unorm16 --matrix m.txt --json -o @
 m.npy | texture depth.png -F unorm16 --matrix m.npy --type svg --figure @
@@ -54,10 +54,10 @@ eyes.txt | scene house.gltf --path eyes.txt --emit-need @
 house.gltf | scene house.gltf -o @
 house.gltf | scene house.gltf --emit-need @
 house.gltf | scene house.gltf --report json -o @
-house.gltf | plot scene-fights house.gltf --type svg -o @
-house.gltf | plot scene-fights - --type svg -o @ <house.gltf
+house.gltf | plot scene house.gltf --type svg -o @
+house.gltf | plot scene - --type svg -o @ <house.gltf
 folder/house.bin | scene folder/house.gltf -o @
-folder/house.bin | plot scene-fights folder/house.gltf --type svg -o @
+folder/house.bin | plot scene folder/house.gltf --type svg -o @
 street.obj | scene street.obj --emit-need @
 folder/a.mtl | scene folder/a.obj -o @
 folder/a.mtl | scene folder/a.obj --emit-need @

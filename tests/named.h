@@ -15,7 +15,7 @@
 #include "texture/normal.h"
 #include "texture/pack.h"
 #include "texture/position.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 
 #define BY_NAME(type, find, get)                                                                                       \
     static inline const type *find(const char *name) {                                                                 \
@@ -35,6 +35,6 @@ BY_NAME(effect_row, effect_find, effect_get)
 BY_NAME(position_row, position_find, position_get)
 BY_NAME(normal_row, normal_find, normal_get)
 BY_NAME(pack_row, pack_find, pack_get)
-BY_NAME(scene_row, scene_find, scene_get)
+BY_NAME(synthetic_row, synthetic_find, synthetic_get)
 
 #endif

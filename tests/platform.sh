@@ -27,7 +27,7 @@ found() { # found FILE PLATFORM FORMAT: the format of the two that the image has
 while IFS='|' read -r platform options; do
     platform=$(echo $platform)
     check "scene: $platform" alike "$platform" $options -- $model
-    check "texture: $platform" alike "$platform" $(echo "$options" | sed 's/--arith.*//') -- texture --scene decals
+    check "texture: $platform" alike "$platform" $(echo "$options" | sed 's/--arith.*//') -- texture --synthetic decals
 done <<'END'
 safari      | -F fp32 -m d3d --arith ieee --raster spec-vulkan --api webgpu
 chrome-d3d  | -F fp32 -m d3d --arith ieee --raster spec-d3d --api webgpu
@@ -48,7 +48,7 @@ check "scene: a bias that the browser halves is doubled" halved
 
 either="stores unorm24 or fp32 on firefox-vulkan, as the device has it: -F says for which"
 check "scene: of two formats one is asked for" refuses "$either" $model --platform firefox-vulkan
-check "texture: so it is" refuses "$either" texture --scene decals --platform firefox-vulkan
+check "texture: so it is" refuses "$either" texture --synthetic decals --platform firefox-vulkan
 # The constant is that of the API below WebGPU, where one unit tells two depths apart by definition.
 named() {
     "$DEPTHPREC" $model --platform firefox-vulkan -F d24 | sed 's/depthBias:/depthBiasConstantFactor =/' >"$scratch/by_platform"
@@ -59,8 +59,8 @@ named() {
     diff "$scratch/line_platform" "$scratch/line_options"
 }
 check "scene: one of them" named
-"$DEPTHPREC" texture --scene decals -F fp32 -m reversed --product raw -o "$scratch/told.npy" >"$scratch/out" 2>&1
-"$DEPTHPREC" texture --scene decals -F unorm24 -m d3d --product raw -o "$scratch/open.npy" >"$scratch/out" 2>&1
+"$DEPTHPREC" texture --synthetic decals -F fp32 -m reversed --product raw -o "$scratch/told.npy" >"$scratch/out" 2>&1
+"$DEPTHPREC" texture --synthetic decals -F unorm24 -m d3d --product raw -o "$scratch/open.npy" >"$scratch/out" 2>&1
 check "texture: of two formats an image has one" found "$scratch/told.npy" firefox-vulkan fp32
 check "texture: where an image does not tell, one is asked for" refuses "$either" texture "$scratch/open.npy" --platform firefox-vulkan
 
@@ -126,7 +126,7 @@ check "requirement files" alike_needs
 # With a preset the bias is written as its users write it, by bias and scene alike, unless --api names another.
 writes() { # writes PRESET WORDS
     "$DEPTHPREC" bias --preset "$1" --at 10 >"$scratch/bias" && grep -F "$2" "$scratch/bias" || return
-    "$DEPTHPREC" scene tests/models/street.obj --preset "$1" --unit m -m d3d -n 1 -f 500 -F d24 --viewport 960x540 --gap 0.02 >"$scratch/scene"
+    "$DEPTHPREC" scene tests/models/street.obj --preset "$1" --unit m -m d3d -n 1 -f 500 -F d24 --viewport 960x540 --separation 0.02 >"$scratch/scene"
     tr '\n' ' ' <"$scratch/scene" | tr -s ' ' | grep -F "drawn second: $2" || return
     "$DEPTHPREC" bias --preset "$1" --at 10 --api d3d9 | grep -F D3DRS_DEPTHBIAS
 }

@@ -79,11 +79,11 @@ check "a range outside the planes" refuses 2 "--range: " error --range 1:2000 -o
 check "--at where it has no meaning" refuses 2 "--at: " error --at 3 -o "$scratch/x.svg"
 check "--at with two depths" refuses 2 "--at: must be one depth" map -F fp32 --at 3,4 -o "$scratch/x.svg"
 check "too many set-ups for maps" refuses 2 "at most 8 set-ups, got" map -m d3d,gl,reversed -o "$scratch/x.svg"
-check "error in the model fp32" refuses 2 "--model: float has no cells for the figure error" error --model fp32 -o "$scratch/x.svg"
+check "error in the model float" refuses 2 "--model: float has no cells for the figure error" error --model float -o "$scratch/x.svg"
 check "map where auto chooses fp32" refuses 2 "--model: float has no cells for the figure map" map --model auto -F unorm24 -m d3d -o "$scratch/x.svg"
 check "budget in another model" refuses 2 "--model: must be float in the figure budget, got 'staged'" budget --model staged -o "$scratch/x.svg"
 check "budget of linear" refuses 2 "--mapping: a budget needs one of" budget -m linear -o "$scratch/x.svg"
-check "--world where it has no meaning" refuses 2 "--world: does not apply to the figure share" share --world 3 -o "$scratch/x.svg"
+check "--from-origin where it has no meaning" refuses 2 "--from-origin: does not apply to the figure share" share --from-origin 3 -o "$scratch/x.svg"
 check "--tolerance without auto" refuses 2 "--tolerance: needs --model auto in the figure share" share --tolerance 1% -o "$scratch/x.svg"
 check "too many budgets" refuses 2 "at most 8 set-ups" budget -m d3d,gl,reversed -o "$scratch/x.svg"
 check "too many normals" refuses 2 "at most 4 set-ups, got 6" normals -F unorm16,unorm24,fp32 -m d3d,reversed -o "$scratch/x.svg"
@@ -113,7 +113,7 @@ check "an interval that a pixel cannot show need not be exact" [ "$(method_of -F
 check "--tolerance 0 keeps to the cells" [ "$(method_of -F unorm24 -m d3d --tolerance 0)" = none ]
 check "no method is claimed for other formats" [ "$(method_of -F unorm16,fp16 --tolerance 50%)" = none ]
 below_the_guarantee() { # every point of the census lies at or below the line that the guarantee is drawn as
-    "$DEPTHPREC" plot interval --model fp32 -n 1 -f 100 -F unorm24 -m d3d --csv >"$scratch/csv" || return
+    "$DEPTHPREC" plot interval --model float -n 1 -f 100 -F unorm24 -m d3d --csv >"$scratch/csv" || return
     tr -d '\r"' <"$scratch/csv" | awk -F , '
         NF == 4 { x[++m] = $3; s[m] = $4 }
         $3 == " census" { z[++n] = $4; y[n] = $5 }
@@ -125,7 +125,7 @@ below_the_guarantee() { # every point of the census lies at or below the line th
             exit !(n >= 6 && good >= n)
         }'
 }
-check "a census in the model fp32, no point of it above the guarantee" below_the_guarantee
+check "a census in the model float, no point of it above the guarantee" below_the_guarantee
 
 check "auto chooses the model of each curve" sh -c '
     "$1" plot interval --model auto -F unorm16,unorm24 -m d3d,log --csv >"$2" &&

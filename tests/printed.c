@@ -174,7 +174,7 @@ void want_setup(values *v, const dp_setup *setup) {
     want_text(v, "format", spec->format.name);
     want_text(v, "rounding", dp_rounding_name(spec->rounding));
     want_text(v, "model", dp_model_name(spec->model));
-    if (spec->model == DP_MODEL_FP32)
+    if (spec->model == DP_MODEL_FLOAT)
         want_text(v, "arith", dp_arith_get(spec->arith)->name);
     if (spec->mapping == DP_MAPPING_LOG || spec->mapping == DP_MAPPING_THREE_WEBGL ||
         spec->mapping == DP_MAPPING_CESIUM || spec->mapping == DP_MAPPING_OSGEARTH)
@@ -187,7 +187,7 @@ void want_choice(values *v, const char *under, const dp_setup *setup, const doub
     dp_choice c;
     char place[PATH_SIZE];
     assert_int_equal(dp_model_choose(setup, z, count, tolerance, &c), DP_OK);
-    const dp_model fullest = isnan(c.share[DP_MODEL_FP32]) ? DP_MODEL_STAGED : DP_MODEL_FP32;
+    const dp_model fullest = isnan(c.share[DP_MODEL_FLOAT]) ? DP_MODEL_STAGED : DP_MODEL_FLOAT;
     for (int m = -1; m < (int)fullest; m++) {
         const dp_model model = m < 0 ? c.model : (dp_model)m;
         snprintf(place, sizeof place, "%.60s%s%s%s", under, m < 0 ? "" : "neglected.",

@@ -93,8 +93,8 @@ END
 # What is promised with a profile is what is promised with its rows, and says of which GPU.
 promises() {
     camera="-n 0.1 -f 1000 -F d32f -m d3d --viewport 1920x1080"
-    "$DEPTHPREC" table $camera --model fp32 --arith "$1" --raster "$1" >"$scratch/by_profile" || return
-    "$DEPTHPREC" table $camera --model fp32 --arith "$(jq -r .arith "$1")" --raster "$(jq -r .raster "$1")" >"$scratch/by_name"
+    "$DEPTHPREC" table $camera --model float --arith "$1" --raster "$1" >"$scratch/by_profile" || return
+    "$DEPTHPREC" table $camera --model float --arith "$(jq -r .arith "$1")" --raster "$(jq -r .raster "$1")" >"$scratch/by_name"
     head -n "$(wc -l <"$scratch/by_name")" "$scratch/by_profile" | diff - "$scratch/by_name" || return
     tail -n +"$(($(wc -l <"$scratch/by_name") + 1))" "$scratch/by_profile" | tr '\n' ' ' | tr -s ' ' >"$scratch/told"
     grep -qF "Measured on $(jq -r .device.name "$1"), driver $(jq -r .device.driver "$1")." "$scratch/told" &&
@@ -125,9 +125,9 @@ stored() { # stored COMMAND...: the formats of the set-ups with its profile
 }
 lacking='--format: must be fp32 or unorm16 with a profile of a GPU that stores no other depth, got unorm24'
 for command in "table -F d24" "table -F d16,d24" "table -F depth24plus" "table --preset three" "table --preset unity,three" \
-    "budget -F d24" "zfight -F d24 --gap 1" "bias -F d24 --viewport 9x9" "solve -F d24 --separation 1 --at 5" "plot budget -F d24" \
+    "budget -F d24" "zfight -F d24 --separation 1" "bias -F d24 --viewport 9x9" "solve -F d24 --separation 1 --at 5" "plot budget -F d24" \
     "scene tests/models/house.gltf -F d24" "shadow --light-box 40x40x100 -F d24 --api d3d11" \
-    "world --distance 1e5 -F d24 --at 9"; do
+    "world --from-origin 1e5 -F d24 --at 9"; do
     case $command in
     bias* | shadow*) option=--raster ;;
     *) option=--arith ;;

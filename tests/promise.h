@@ -38,7 +38,7 @@ double promise_cell_hi(const promise_range *range, uint32_t rank);
 
 /* ---- Drawing ----------------------------------------------------------------------------------------------------- */
 
-/** A random set-up in the model fp32, near > 0. */
+/** A random set-up in the model float, near > 0. */
 dp_setup promise_draw(rng *r);
 
 /** The same of an orthographic camera with near <= 0; far may be 0 or less too. */

@@ -109,7 +109,7 @@ static void draw_rest(rng *r, dp_spec *spec) {
     spec->format = draw_format(r);
     spec->rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
     spec->arith = rng_below(r, dp_arith_count());
-    spec->model = DP_MODEL_FP32;
+    spec->model = DP_MODEL_FLOAT;
 }
 
 /* Near 0, far 0, planes as far on either side of the camera, both behind it, and any others. */

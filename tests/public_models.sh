@@ -21,7 +21,7 @@ searched() { # searched OPTION...: a line of each model: how many findings, the 
 }
 
 nothing_in_one_plane() {
-    searched --gap 0 >"$scratch/found"
+    searched --separation 0 >"$scratch/found"
     awk '$1 > 0 { print } { all++ } END { if (all != 82) print all, "of 82 models were read" }' "$scratch/found" |
         empty cat
 }

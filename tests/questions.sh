@@ -12,7 +12,7 @@ export TERM=dumb
 
 # ---- The files that the questions are about ----
 
-depthprec texture --scene plane --parameter tilt=60 -F unorm16 -m d3d -o "$scratch/work/depth.png" 2>/dev/null
+depthprec texture --synthetic plane --parameter tilt=60 -F unorm16 -m d3d -o "$scratch/work/depth.png" 2>/dev/null
 cat >"$scratch/work/game.need" <<'END'
 unit = "m";
 cameras = { game = { near = 0.1; far = 1000; mapping = "d3d"; format = "d24"; }; };
@@ -46,11 +46,11 @@ agrees() { # agrees PATTERN LEAST MOST: the number behind the pattern in the ans
 
 # Surfaces fight where one step is as wide as the gap, at the latest, and never where two fit into it.
 check "1. walls 1 cm apart in D24" answers 0 \
-    'depthprec zfight -n 0.1 -f 1000 -F d24 -m gl --gap 0.01' 'first fight at z = 100.347'
+    'depthprec zfight -n 0.1 -f 1000 -F d24 -m gl --separation 0.01' 'first fight at z = 100.347'
 check "1. within the lattice" agrees 'at z =' 'sqrt(0.01 / width(1, 0.1, 1000, 2 * d24))' 'sqrt(0.01 / width(1, 0.1, 1000, d24))'
 # Around z = 83,000 a step of n/z, which is about 2^-20 there, is 2^-43.
 check "2. the same in fp32, reversed, infinite" answers 0 \
-    'depthprec zfight -n 0.1 -f inf -F fp32 -m reversed --range 1:1e5 --gap 0.01' 'first fight at z = 82908.5'
+    'depthprec zfight -n 0.1 -f inf -F fp32 -m reversed --range 1:1e5 --separation 0.01' 'first fight at z = 82908.5'
 check "2. within the lattice" agrees 'at z =' 'sqrt(0.01 / width(1, 0.1, 0, 2 ^ -42))' 'sqrt(0.01 / width(1, 0.1, 0, 2 ^ -43))'
 check "3. the cheapest format for 5 mm at 2 km" answers 0 \
     'depthprec solve --for format -n 0.05 --separation 5mm --at 2km' 'fp32 reversed, near 0.05'
@@ -59,7 +59,7 @@ check "4. the near plane for 1 cm at 5 km" answers 0 \
     'depthprec solve --for near -F d24 -m d3d --separation 1cm --at 5km' '402.597 m'
 check "4. at least that of the lattice" agrees 'near' 'width(5000, 1, 0, d24) / 0.01' '3 * width(5000, 1, 0, d24) / 0.01'
 check "5. the bias for a decal, in every API" answers 0 \
-    'depthprec bias --api all -F d24 --gap 2cm --at 300m' 'glPolygonOffset'
+    'depthprec bias --api all -F d24 --separation 2cm --at 300m' 'glPolygonOffset'
 check "5. so many steps in d3d11" agrees 'd3d11' '-1 - 0.02 / width(300, 0.1, 1000, d24) - 1' '-0.02 / width(300, 0.1, 1000, d24)'
 check "6. the eye depth of a window depth" answers 0 'depthprec table -F d24 -m d3d --depth 0.9987' '71.435205'
 check "6. by the formula" agrees '16755405' 'eye(0.9987, 0.1, 1000) - 1e-6' 'eye(0.9987, 0.1, 1000) + 1e-6'

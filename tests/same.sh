@@ -12,14 +12,14 @@ everything() { # everything PROGRAM...: what commands print that use threads, es
     done <<END
 plot stability linearize --csv
 table --at 0.5,10 -m d3d,reversed,log --csv
-zfight -n 1 -f 1.5 -F unorm16 --sample 2000 --gap 0.0001
+zfight -n 1 -f 1.5 -F unorm16 --sample 2000 --separation 0.0001
 zfight -n 1 -f 1.5 -F unorm16 -m d3d --sample 60000 --json
 zfight --rasterize -F fp32 -m d3d,reversed --range 1:9 --sample 20 --json
 plot fight --csv
 budget -n 0.3 --at 17.25 --json
 solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
-bias --range 1:10 --gap 0.01
-texture --scene sphere --size 96x54 -F unorm16 -m d3d --json
+bias --range 1:10 --separation 0.01
+texture --synthetic sphere --size 96x54 -F unorm16 -m d3d --json
 plot map -F unorm24 --width 320 --height 240 -o $scratch/map.svg
 plot share -F unorm24 -m d3d,log -o $scratch/share.svg
 END

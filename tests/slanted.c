@@ -23,7 +23,7 @@ bool slanted_draw_camera(rng *r, slanted *s, const slanted_kind *kind, const cha
     spec.mapping = reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
     spec.znear = rng_log(r, 0.01, 10.0);
     spec.zfar = infinite ? INFINITY : spec.znear * rng_log(r, 10.0, 1e6);
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     if (dp_setup_init(&s->setup, &spec) != DP_OK)
         return false;
     const double n = spec.znear, f = spec.zfar;

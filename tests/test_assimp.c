@@ -209,7 +209,7 @@ static void units(void **state) {
                 {"e.fbx", fbx, "--unit cm", "1 surface, 500 cm across"},
                 {"e.stl", stl, "--unit cm", "surface, 5 cm across"}, /* which says nothing of its own */
                 {"e.gltf", NULL, "--unit mm", "surfaces, 99780 mm across"},
-                {"e.gltf", NULL, "--preset unreal --gap 1", "surfaces, 9978 cm across"}};
+                {"e.gltf", NULL, "--preset unreal --separation 1", "surfaces, 9978 cm across"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const char *path = rows[i].text != NULL ? written(rows[i].name, rows[i].text) : "tests/models/house.gltf";

@@ -68,7 +68,7 @@ static int draw(rng *r, cameras *c) {
         return 0;
     c->hi = rng_log(r, first, fmin(last, first * 1e6));
     c->lo = rng_below(r, 6) == 0 ? rng_log(r, first, c->hi) : c->hi;
-    if (make(c, c->from, DP_MODEL_FP32, &setup) != DP_OK ||
+    if (make(c, c->from, DP_MODEL_FLOAT, &setup) != DP_OK ||
         dp_separation_over(&setup, c->lo, c->hi, 0.0, &worst) != DP_OK)
         return 0;
     c->limit = worst.bound * rng_log(r, 0.7, 1.6);
@@ -93,18 +93,18 @@ static void test_all(void **state) {
     for (uint64_t i = 0; i < count;) {
         cameras c;
         dp_setup one, other;
-        if (!draw(&r, &c) || make(&c, c.from, DP_MODEL_FP32, &one) != DP_OK ||
-            make(&c, c.to, DP_MODEL_FP32, &other) != DP_OK)
+        if (!draw(&r, &c) || make(&c, c.from, DP_MODEL_FLOAT, &one) != DP_OK ||
+            make(&c, c.to, DP_MODEL_FLOAT, &other) != DP_OK)
             continue;
         i++;
         const int far_first = c.far_moves; /* the first of the two is that with less of the lattice */
         const int within =
             dp_separation_within(far_first ? &other : &one, far_first ? &one : &other, c.lo, c.hi, c.limit);
-        int good = passes(&c, c.from, DP_MODEL_FP32) && passes(&c, c.to, DP_MODEL_FP32);
+        int good = passes(&c, c.from, DP_MODEL_FLOAT) && passes(&c, c.to, DP_MODEL_FLOAT);
         double failed = c.from;
         for (int k = 0; k < (c.lo < c.hi ? 12 : 120) && good; k++) {
             failed = between(&r, &c);
-            good = passes(&c, failed, DP_MODEL_FP32);
+            good = passes(&c, failed, DP_MODEL_FLOAT);
         }
         if (within)
             TALLY(&all, good, "%s %s%s near %.17g far %.17g, the %s one to %.17g: %.17g fails at %.17g..%.17g by %.17g",
@@ -132,7 +132,7 @@ static void test_depths(void **state) {
     for (uint64_t i = 0; i < count;) {
         cameras c;
         dp_setup setup;
-        if (!draw(&r, &c) || make(&c, c.to, DP_MODEL_FP32, &setup) != DP_OK)
+        if (!draw(&r, &c) || make(&c, c.to, DP_MODEL_FLOAT, &setup) != DP_OK)
             continue;
         i++;
         const dp_guarantee g = dp_guarantee_make(&setup);
@@ -166,7 +166,7 @@ static void test_nothing(void **state) {
     spec.model = DP_MODEL_STAGED;
     assert_int_equal(dp_setup_init(&one, &spec), DP_OK);
     assert_int_equal(dp_separation_within(&one, &one, 10.0, 10.0, 5.0), 0);
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&one, &spec), DP_OK);
     assert_int_equal(dp_separation_within(&one, &one, 10.0, 10.0, 5.0), 1);
     spec.ortho = 1;

@@ -27,7 +27,7 @@ static dp_setup setup_of(const char *format, dp_mapping mapping) {
     assert_int_not_equal(dp_format_parse(format, formats), 0);
     spec.format = formats[0];
     spec.mapping = mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     return setup;
 }
@@ -85,7 +85,7 @@ static bool random_setup(rng *r, dp_setup *setup) {
     spec.format = formats[0];
     spec.mapping = mappings[rng_below(r, 4)];
     spec.rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.arith = rng_below(r, dp_arith_count());
     spec.znear = rng_log(r, 1e-3, 1e3);
     spec.zfar = spec.znear * (1.0 + rng_log(r, 1e-2, 1e7));

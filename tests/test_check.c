@@ -106,7 +106,7 @@ static void the_default_is_a_guarantee(void **state) {
     (void)state;
     static const char camera[] = "near = 0.1; far = \"10 km\"; mapping = \"d3d\"; format = \"unorm24\";";
     static const char what[] = "at = \"5 km\"; separation = 15;";
-    static const char *const words[] = {"", " model = \"auto\";", " model = \"fp32\";", " model = \"exact\";"};
+    static const char *const words[] = {"", " model = \"auto\";", " model = \"float\";", " model = \"exact\";"};
     for (int i = 0; i < 4; i++) {
         char with[256];
         snprintf(with, sizeof with, "%s%s", camera, words[i]);
@@ -114,7 +114,7 @@ static void the_default_is_a_guarantee(void **state) {
         dp_setup setup;
         dp_spec spec = j.verdicts[0].setup.spec;
         assert_int_equal(j.verdicts[0].passed, i == 3);
-        assert_int_equal(spec.model, i == 3 ? DP_MODEL_EXACT : DP_MODEL_FP32);
+        assert_int_equal(spec.model, i == 3 ? DP_MODEL_EXACT : DP_MODEL_FLOAT);
         assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
         assert_true(j.verdicts[0].value == dp_separation(&setup, 5000.0));
         done(&j);
@@ -163,7 +163,7 @@ static void of_a_shader(void **state) {
 
 static const char *const mappings[] = {"d3d", "gl", "reversed", "gl-reversed", "linear", "log"};
 static const char *const formats[] = {"fp32", "unorm24", "unorm16", "fp16"};
-static const char *const models[] = {"exact", "staged", "fp32", "auto"};
+static const char *const models[] = {"exact", "staged", "float", "auto"};
 
 /* Random cameras and ranges: a requirement that passes holds at every depth tried, one that fails fails at its z. */
 static void ranges_against_single_depths(void **state) {
@@ -175,7 +175,7 @@ static void ranges_against_single_depths(void **state) {
         char camera[256];
         char what[256];
         const char *model = models[rng_below(&r, 4)];
-        const char *mapping = mappings[rng_below(&r, strcmp(model, "fp32") == 0 ? 4 : 6)];
+        const char *mapping = mappings[rng_below(&r, strcmp(model, "float") == 0 ? 4 : 6)];
         const double znear = rng_log(&r, 0.01, 10.0);
         const double zfar = znear * rng_log(&r, 2.0, 1e6);
         const double lo = rng_log(&r, znear, zfar);
@@ -243,9 +243,9 @@ static void the_quick_model_first(void **state) {
     } cases[] = {
         {"exact", "at = 100; separation = 0.01;", CHECK_LATTICE, true},
         {"staged", "at = 100; separation = 0.01;", CHECK_STAGED, false},
-        {"fp32", "at = 100; separation = 0.001;", CHECK_LATTICE, false}, /* the lattice alone has 0.006 */
-        {"fp32", "at = 100; separation = 0.004;", CHECK_GUARANTEE, false},
-        {"fp32", "at = 100; separation = 0.1;", CHECK_GUARANTEE, true},
+        {"float", "at = 100; separation = 0.001;", CHECK_LATTICE, false}, /* the lattice alone has 0.006 */
+        {"float", "at = 100; separation = 0.004;", CHECK_GUARANTEE, false},
+        {"float", "at = 100; separation = 0.1;", CHECK_GUARANTEE, true},
         {"auto", "at = 100; separation = 0.004;", CHECK_LATTICE, false},
         {"auto", "at = 100; separation = 0.0062;", CHECK_GUARANTEE, false}, /* 0.0066 with the arithmetic */
         {"auto", "at = 100; separation = 0.1;", CHECK_GUARANTEE, true},
@@ -266,8 +266,8 @@ static void the_quick_model_first(void **state) {
 static void ties_are_counted_when_needed(void **state) {
     (void)state;
     static const char reversed[] =
-        "near = 0.1; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"fp32\";";
-    static const char d3d[] = "near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm24\"; model = \"fp32\";";
+        "near = 0.1; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"float\";";
+    static const char d3d[] = "near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm24\"; model = \"float\";";
     share_to_find = 0.25;
     judged j = judge_one(d3d, "range = [1, 2]; ties = 0.3;");
     assert_true(j.counted == 1 && j.failed == 0 && j.verdicts[0].method == CHECK_CENSUS && j.verdicts[0].value == 0.25);
@@ -279,7 +279,7 @@ static void ties_are_counted_when_needed(void **state) {
     assert_true(j.counted == 1 && j.verdicts[0].method == CHECK_SAMPLED);
     done(&j);
     static const char sun[] =
-        "near = -10; far = 50; ortho = true; mapping = \"d3d\"; format = \"unorm16\"; model = \"fp32\";";
+        "near = -10; far = 50; ortho = true; mapping = \"d3d\"; format = \"unorm16\"; model = \"float\";";
     j = judge_one(sun, "range = [-10, 50]; ties = 0.5;"); /* 0 is in the midst of all binary32 numbers */
     assert_true(j.counted == 1 && j.verdicts[0].method == CHECK_SAMPLED);
     done(&j);
@@ -302,7 +302,7 @@ static void thousands(void **state) {
     enum { COUNT = 10000 };
     const char *const heads[] = {"mapping = \"reversed\"; format = \"fp32\";",
                                  "mapping = \"gl\"; format = \"unorm24\"; model = \"staged\";",
-                                 "mapping = \"d3d\"; format = \"fp32\"; model = \"fp32\";"};
+                                 "mapping = \"d3d\"; format = \"fp32\"; model = \"float\";"};
     for (size_t h = 0; h < sizeof heads / sizeof heads[0]; h++) {
         char *text = malloc(COUNT * 128);
         assert_non_null(text);

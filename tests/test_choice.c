@@ -89,7 +89,7 @@ static void other_set_ups_keep_to_the_engine(void **state) {
         dp_setup setup = make(0, 0.1, 1000, false);
         dp_spec spec = setup.spec;
         spec.rounding = k == 0 ? DP_ROUND_ZERO : DP_ROUND_NEAREST;
-        spec.model = k == 0 ? DP_MODEL_EXACT : k == 1 ? DP_MODEL_STAGED : DP_MODEL_FP32;
+        spec.model = k == 0 ? DP_MODEL_EXACT : k == 1 ? DP_MODEL_STAGED : DP_MODEL_FLOAT;
         spec.arith = k == 3;
         assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
         const way w = way_choose(&setup, 0.5, false);
@@ -108,7 +108,7 @@ static void the_pipeline_has_methods_too(void **state) {
     for (int kind = 0; kind < 2; kind++) {
         dp_setup setup = make(kind, 0.1, 1000, false);
         dp_spec spec = setup.spec;
-        spec.model = DP_MODEL_FP32;
+        spec.model = DP_MODEL_FLOAT;
         assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
         const way w = way_choose(&setup, 0.01, false);
         assert_non_null(w.row);

@@ -31,7 +31,7 @@ static int draw(rng *r, dp_model model, measure_kind kind, question *q) {
     dp_format_parse(formats[rng_below(r, sizeof formats / sizeof formats[0])], found);
     spec.format = found[0];
     spec.model = model;
-    spec.mapping = (dp_mapping)rng_below(r, model == DP_MODEL_FP32 ? 4 : DP_MAPPING_COUNT);
+    spec.mapping = (dp_mapping)rng_below(r, model == DP_MODEL_FLOAT ? 4 : DP_MAPPING_COUNT);
     spec.ortho = dp_mapping_get(spec.mapping)->ortho && rng_below(r, 5) == 0;
     spec.rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
     spec.arith = (dp_arith)rng_below(r, dp_arith_count());
@@ -66,7 +66,7 @@ static double at(const question *q, double z) {
 }
 
 static double slack_of(const question *q) {
-    return q->setup.spec.model != DP_MODEL_FP32 ? 1.0 : q->setup.spec.znear > 0 ? 1.03 : 1.5;
+    return q->setup.spec.model != DP_MODEL_FLOAT ? 1.0 : q->setup.spec.znear > 0 ? 1.03 : 1.5;
 }
 
 /* By the C library, which rounds what it prints as it is told to. */
@@ -142,7 +142,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
             continue;
         }
         /* Next to it: the next binary32 depth, or a part in 2^40. */
-        const double next = model == DP_MODEL_FP32 ? (double)nextafterf((float)a.value, INFINITY) : a.value;
+        const double next = model == DP_MODEL_FLOAT ? (double)nextafterf((float)a.value, INFINITY) : a.value;
         dp_separation_over(&q.setup, a.value, a.fails, q.limit, &worst);
         dp_worst_over(&q.setup, q.lo, a.fails, &error);
         TALLY(&beyond,
@@ -163,7 +163,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
 
 static void test_fp32(void **state) {
     (void)state;
-    in_model(DP_MODEL_FP32, MEASURE_SEPARATION, test_cases(50, 500, 10000));
+    in_model(DP_MODEL_FLOAT, MEASURE_SEPARATION, test_cases(50, 500, 10000));
 }
 
 static void test_staged(void **state) {
@@ -226,7 +226,7 @@ static void check_spans(const question *q, const distance_answer *a, rng *r, tal
     distance_span span[SPANS];
     char text[320];
     const double after = a->possible ? a->value : q->lo, end = fmin(fmin(q->hi, 1e18), 64 * after);
-    const bool whole = q->setup.spec.model == DP_MODEL_FP32;
+    const bool whole = q->setup.spec.model == DP_MODEL_FLOAT;
     const size_t count = distance_again(&q->setup, after, q->hi, q->limit, span, SPANS);
     describe(q, text);
     for (size_t i = 0; i < count; i++) {
@@ -258,7 +258,7 @@ static void check_spans(const question *q, const distance_answer *a, rng *r, tal
 }
 
 static void test_again(void **state) {
-    static const dp_model models[] = {DP_MODEL_EXACT, DP_MODEL_STAGED, DP_MODEL_FP32};
+    static const dp_model models[] = {DP_MODEL_EXACT, DP_MODEL_STAGED, DP_MODEL_FLOAT};
     rng r = rng_make("distance again");
     tally inside = {.name = "spans hold, and end"}, outside = {.name = "elsewhere"};
     const uint64_t cases = test_cases(60, 600, 6000);
@@ -283,7 +283,7 @@ static void test_door(void **state) {
     distance_answer a;
     dp_setup setup;
     dp_spec spec = dp_spec_default();
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     assert_int_equal(distance_solve(MEASURE_SEPARATION, NULL, 1.0, 2.0, 0.1, &a), DP_ERROR_NULL);
     assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 2.0, 0.1, NULL), DP_ERROR_NULL);

@@ -46,7 +46,7 @@ static raster_status try_scene(scene *s, const char *raster, const char *format,
     assert_int_equal(dp_format_parse(format, found), 1);
     spec.format = found[0];
     spec.mapping = mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.zfar = 50.0;
     if (!raster_arith(row, dp_mapping_get(mapping)->ndc_signed, &spec.arith))
         return RASTER_MODEL;

@@ -26,7 +26,7 @@ static bool set_stage(stage *s, const char *raster, const char *format, dp_mappi
     assert_int_equal(dp_format_parse(format, found), 1);
     spec.format = found[0];
     spec.mapping = mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.zfar = zfar;
     spec.triangles = dp_triangles_default();
     raster_describe(row, &spec.triangles);

@@ -198,7 +198,7 @@ static void check_legend(const drawn *d, const dp_budget_terms *terms, bool slan
 static void check_figure(const drawn_theme *look, const char *formats, const char *mappings, const char *arguments,
                          const dp_budget_terms *terms, bool slanted) {
     dp_spec spec = drawn_camera(0.1, 1000);
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     if (slanted)
         spec.triangles = dp_triangles_default();
     cameras c = cameras_of(spec, formats, mappings);
@@ -235,8 +235,8 @@ static void bands_are_the_causes(void **state) {
     const dp_budget_terms read_back = {.interpolation = 2, .linearize = 1};
     check_figure(&drawn_light, "unorm24,fp32", "d3d,reversed", "", &none, false);
     check_figure(&drawn_dark, "unorm16", "gl", "--theme dark", &none, false);
-    check_figure(&drawn_light, "unorm24", "gl", "--world 10 --interpolation 2 --linearize", &all, false);
-    check_figure(&drawn_light, "unorm16", "gl", "--world 10", &world, false);
+    check_figure(&drawn_light, "unorm24", "gl", "--from-origin 10 --interpolation 2 --linearize", &all, false);
+    check_figure(&drawn_light, "unorm16", "gl", "--from-origin 10", &world, false);
     check_figure(&drawn_light, "unorm16", "gl", "--interpolation 2", &interpolation, false);
     check_figure(&drawn_light, "unorm16", "gl", "--linearize", &linearize, false);
     check_figure(&drawn_light, "fp32", "reversed", "--viewport 1920x1080", &none, true);

@@ -293,9 +293,9 @@ static void guarantee_over_lattice(void **state) {
         const char *format = k == 0 ? "unorm24" : "fp32", *mapping = k == 0 ? "gl" : "reversed";
         char census[48], shown[160];
         cameras exact = cameras_of(spec, format, mapping);
-        spec.model = DP_MODEL_FP32;
+        spec.model = DP_MODEL_FLOAT;
         cameras fp32 = cameras_of(spec, format, mapping);
-        drawn *d = drawn_run(&drawn_light, "plot interval --model fp32 --range 1:100 -F %s -m %s", format, mapping);
+        drawn *d = drawn_run(&drawn_light, "plot interval --model float --range 1:100 -F %s -m %s", format, mapping);
         const drawn_panel *p = &d->panels[0];
         snprintf(census, sizeof census, "%s, census", texts[k]);
         drawn_legend_is(d, 2, (const char *const[]){texts[k], census});
@@ -324,7 +324,7 @@ static void guarantee_over_lattice(void **state) {
 /* The census of one set-up hides that of another behind equal points; the legend says so. */
 static void hidden_points(void **state) {
     (void)state;
-    drawn *d = drawn_run(&drawn_light, "plot interval --model fp32 --range 1:1000 -F unorm24,fp32 -m d3d,reversed");
+    drawn *d = drawn_run(&drawn_light, "plot interval --model float --range 1:1000 -F unorm24,fp32 -m d3d,reversed");
     const drawn_panel *p = &d->panels[0];
     drawn_marker all[256];
     const size_t count = drawn_markers(d, p, all, 256);
@@ -348,7 +348,7 @@ static void hidden_points(void **state) {
 /* Each of many set-ups has two curves, one of them with markers. */
 static void guarantees_of_many(void **state) {
     (void)state;
-    drawn *d = drawn_run(&drawn_light, "plot interval --model fp32 --height 900 -F unorm16,unorm20,unorm24,fp16,fp32,"
+    drawn *d = drawn_run(&drawn_light, "plot interval --model float --height 900 -F unorm16,unorm20,unorm24,fp16,fp32,"
                                        "unorm12 -m d3d,gl,reversed");
     drawn_marker all[256];
     assert_int_equal(d->entry_count, 18 + 1); /* one says what an arrow means */

@@ -18,16 +18,17 @@ static const struct {
     int bits; /* of UNORM d3d or reversed; 0: no line of codes is checked */
     bool reversed, log;
 } cases[] = {
-    {"--scene decals -F unorm16 -m d3d --size 160x90", "nearest, exact", 0.1L, 1000, 16, false, true},
-    {"--scene plane --parameter turn=40 --parameter tilt=60 -F unorm24 -m reversed -n 0.5 -f 400 --size 150x80 --theme "
+    {"--synthetic decals -F unorm16 -m d3d --size 160x90", "nearest, exact", 0.1L, 1000, 16, false, true},
+    {"--synthetic plane --parameter turn=40 --parameter tilt=60 -F unorm24 -m reversed -n 0.5 -f 400 --size 150x80 "
+     "--theme "
      "dark",
      " pixels of sky or holes are left out", 0.5L, 400, 24, true, true},
-    {"--scene sphere -F unorm16 -m d3d --size 200x120", " pixels of sky or holes are left out", 0.1L, 1000, 16, false,
-     false},
-    {"--scene plane --parameter tilt=80 --parameter distance=50 -F unorm16 -m d3d --size 160x90",
+    {"--synthetic sphere -F unorm16 -m d3d --size 200x120", " pixels of sky or holes are left out", 0.1L, 1000, 16,
+     false, false},
+    {"--synthetic plane --parameter tilt=80 --parameter distance=50 -F unorm16 -m d3d --size 160x90",
      " pixels of sky or holes are left out", 0.1L, 1000, 16, false, false}, /* fewer codes than bins far away */
-    {"--scene steps --parameter count=3 -F fp32 -m reversed -f inf --size 96x8", "nearest, exact", 0.1L, INFINITY, 0,
-     true, true},
+    {"--synthetic steps --parameter count=3 -F fp32 -m reversed -f inf --size 96x8", "nearest, exact", 0.1L, INFINITY,
+     0, true, true},
 };
 
 static image depths_of(const char *arguments) {
@@ -164,7 +165,7 @@ static void metric_depth(void **state) {
     (void)state;
     char path[320];
     snprintf(path, sizeof path, "%s/metres.npy", drawn_folder());
-    free(drawn_output("texture --scene steps --parameter to=290 --size 96x8 -F fp32 -m reversed --product eye -q "
+    free(drawn_output("texture --synthetic steps --parameter to=290 --size 96x8 -F fp32 -m reversed --product eye -q "
                       "-o %s",
                       path));
     drawn *d = drawn_run(&drawn_light, "texture %s --metric 1 --unit m --title 'In metres' -q --histogram", path);
@@ -174,7 +175,7 @@ static void metric_depth(void **state) {
     drawn_legend_is(d, 1, (const char *const[]){"pixels"});
     drawn_close(d);
     snprintf(path, sizeof path, "%s/packed.png", drawn_folder());
-    free(drawn_output("texture --scene sphere --size 96x8 --pack rg -q -o %s", path));
+    free(drawn_output("texture --synthetic sphere --size 96x8 --pack rg -q -o %s", path));
     d = drawn_run(&drawn_light, "texture %s --packing rg -q --histogram", path);
     drawn_legend_is(d, 1, (const char *const[]){"pixels"});
     drawn_close(d);

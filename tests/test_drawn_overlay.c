@@ -17,15 +17,16 @@ static const struct {
     double above;                   /* in scene units */
     const char *title, *caption, *grey;
 } cases[] = {
-    {"--scene decals -F unorm16 -m d3d --size 160x90 --product eye", "5cm", 0.05,
+    {"--synthetic decals -F unorm16 -m d3d --size 160x90 --product eye", "5cm", 0.05,
      "Eye depth, in colour where eye depth is off by more than 0.05 m", "error of eye depth (m)", ", logarithmic"},
-    {"--scene sphere -F unorm24 -m d3d --size 60x40 --product radial", "1e-5", 1e-5,
+    {"--synthetic sphere -F unorm24 -m d3d --size 60x40 --product radial", "1e-5", 1e-5,
      "Distance from the camera, in colour where it is off by more than 1e-05 scene units",
      "error of the distance (scene units)", ""},
-    {"--scene plane --parameter turn=40 --parameter tilt=60 -F unorm16 -m d3d --size 150x80 --product raw --theme dark",
+    {"--synthetic plane --parameter turn=40 --parameter tilt=60 -F unorm16 -m d3d --size 150x80 --product raw --theme "
+     "dark",
      "0.1", 0.1, "Window depth, in colour where eye depth is off by more than 0.1 scene units",
      "error of eye depth (scene units)", ""},
-    {"--scene steps -F unorm16 -m reversed --size 80x64 --product linear01", "100", 100,
+    {"--synthetic steps -F unorm16 -m reversed --size 80x64 --product linear01", "100", 100,
      "Eye depth over far, in colour where eye depth is off by more than 100 scene units",
      "error of eye depth (scene units)", ", logarithmic"},
 };
@@ -123,7 +124,7 @@ static void a_file(void **state) {
     (void)state;
     char path[320];
     snprintf(path, sizeof path, "%s/depth.npy", drawn_folder());
-    free(drawn_output("texture --scene steps --size 80x64 -F unorm16 -m d3d -q -o %s", path));
+    free(drawn_output("texture --synthetic steps --size 80x64 -F unorm16 -m d3d -q -o %s", path));
     drawn *d = drawn_run(&drawn_light, "texture %s -F unorm16 -m d3d --overlay 0.5 --unit cm", path);
     assert_string_equal(d->title, "Eye depth, in colour where eye depth can be off by more than 0.5 cm");
     assert_string_equal(d->right_caption->text, "error of eye depth (cm)");
@@ -133,11 +134,12 @@ static void a_file(void **state) {
 /* Then no depth is grey, and none of no pixels are in colour. */
 static void nothing_but_sky(void **state) {
     (void)state;
-    drawn *d = drawn_run(&drawn_light, "texture --scene plane --parameter distance=2000 --size 8x8 --overlay 1");
+    drawn *d = drawn_run(&drawn_light, "texture --synthetic plane --parameter distance=2000 --size 8x8 --overlay 1");
     assert_null(strstr(d->subtitle, "grey"));
     assert_null(strstr(d->subtitle, "%"));
     drawn_close(d);
-    d = drawn_run(&drawn_light, "texture --scene plane --parameter distance=2000 --size 8x8 --product raw --overlay 1");
+    d = drawn_run(&drawn_light,
+                  "texture --synthetic plane --parameter distance=2000 --size 8x8 --product raw --overlay 1");
     assert_non_null(strstr(d->subtitle, "; grey from "));
     assert_null(strstr(d->subtitle, "%"));
     drawn_close(d);
@@ -151,7 +153,7 @@ static void more_pixels_than_points(void **state) {
         {"--size 1x3200 --overlay 1", "; a colour is the largest error of 4 pixels"},
         {"--size 1x3200 --error-map --product eye", "; a point is the largest of 4 pixels"}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        char *text = drawn_output("texture --scene plane %s -q --figure -", sizes[i][0]);
+        char *text = drawn_output("texture --synthetic plane %s -q --figure -", sizes[i][0]);
         if (strstr(text, sizes[i][1]) == NULL)
             fail_msg("%s: not said: %s", sizes[i][0], sizes[i][1]);
         free(text);

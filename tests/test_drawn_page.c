@@ -287,9 +287,9 @@ static void units_of_lengths(void **state) {
          "guaranteed separation (m)", "m"},
         {"plot map --preset unity -F unorm24", "near plane (m)", "far plane (m)", "worst z-fighting interval (m)", "m"},
         {"plot normals --unit in -F unorm24 -m d3d", "eye depth z (in)", "angular error (degrees)", NULL, "in"},
-        {"texture --scene steps -F unorm16 -m d3d --product eye --unit m", "column (px)", "row (px)", "eye depth (m)",
-         "m"},
-        {"texture --scene sphere -F unorm16 -m d3d --product position:rays --unit cm", "column (px)", "row (px)",
+        {"texture --synthetic steps -F unorm16 -m d3d --product eye --unit m", "column (px)", "row (px)",
+         "eye depth (m)", "m"},
+        {"texture --synthetic sphere -F unorm16 -m d3d --product position:rays --unit cm", "column (px)", "row (px)",
          "coordinate (cm)", "cm"},
     };
     (void)state;

@@ -55,27 +55,28 @@ typedef struct picture_case {
 } picture_case;
 
 static const picture_case cases[] = {
-    {"--scene steps -F unorm16 -m d3d --product eye",
+    {"--synthetic steps -F unorm16 -m d3d --product eye",
      "Eye depth",
-     "scene steps, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "synthetic steps, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "eye depth (scene units)",
      {""},
      true,
      false,
      false,
      1},
-    {"--scene decals -F unorm16 -m d3d --product eye --size 640x360 --error-map --theme dark",
+    {"--synthetic decals -F unorm16 -m d3d --product eye --size 640x360 --error-map --theme dark",
      "Eye depth, error",
-     "scene decals, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "synthetic decals, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "error (scene units)",
      {""},
      true,
      true,
      false,
      1},
-    {"--scene decals -F unorm16 -m d3d --product eye --size 1600x800 --error-map",
+    {"--synthetic decals -F unorm16 -m d3d --product eye --size 1600x800 --error-map",
      "Eye depth, error",
-     "scene decals, 1600 x 800; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; a point is the largest "
+     "synthetic decals, 1600 x 800; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; a point is the "
+     "largest "
      "of "
      "4 pixels",
      "error (scene units)",
@@ -84,58 +85,58 @@ static const picture_case cases[] = {
      true,
      false,
      2},
-    {"--scene plane --parameter turn=20 --parameter tilt=30 -F unorm16 -m d3d --product eye --size 2400x1200",
+    {"--synthetic plane --parameter turn=20 --parameter tilt=30 -F unorm16 -m d3d --product eye --size 2400x1200",
      "Eye depth",
-     "scene plane, 2400 x 1200; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; one of 9 pixels",
+     "synthetic plane, 2400 x 1200; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; one of 9 pixels",
      "eye depth (scene units)",
      {""},
      false,
      false,
      false,
      3},
-    {"--scene plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --product "
+    {"--synthetic plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --product "
      "effect:soft-particles "
      "--parameter reference=27 --parameter fade-distance=18",
      "Soft-particles, fade-distance 18",
-     "scene plane, 640 x 240; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "synthetic plane, 640 x 240; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "soft-particles",
      {""},
      false,
      false,
      false,
      1},
-    {"--scene plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --product "
+    {"--synthetic plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --product "
      "effect:force-field "
      "--parameter reference=20 --parameter power=2",
      "Force-field, power 2",
-     "scene plane, 640 x 240; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "synthetic plane, 640 x 240; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "force-field",
      {""},
      false,
      false,
      false,
      1},
-    {"--scene sphere --product position:matrix --eye 3,1,-2 --look 16836.119889,1,46246.616794",
+    {"--synthetic sphere --product position:matrix --eye 3,1,-2 --look 16836.119889,1,46246.616794",
      "Positions by matrix",
-     "scene sphere, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "synthetic sphere, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "coordinate (scene units)",
      {"x (world)", "y (world)", "z (world)"},
      false,
      false,
      true,
      1},
-    {"--scene sphere --parameter wall=20 -F unorm16 -m d3d --product normal:high",
+    {"--synthetic sphere --parameter wall=20 -F unorm16 -m d3d --product normal:high",
      "Normals by high",
-     "scene sphere, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "synthetic sphere, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      NULL,
      {""},
      false,
      false,
      false,
      1},
-    {"--scene sphere --parameter wall=20 -F unorm24 -m d3d --product eye --size 40x24",
+    {"--synthetic sphere --parameter wall=20 -F unorm24 -m d3d --product eye --size 40x24",
      "Eye depth",
-     "scene sphere, 40 x 24; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "synthetic sphere, 40 x 24; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "eye depth (scene units)",
      {""},
      false,
@@ -314,7 +315,8 @@ static void pictures_show_the_product(void **state) {
 static void decals_that_fight(void **state) {
     (void)state;
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d");
-    drawn *d = drawn_run(&drawn_light, "texture --scene decals -F unorm16 -m d3d --product eye --parameter count=6");
+    drawn *d =
+        drawn_run(&drawn_light, "texture --synthetic decals -F unorm16 -m d3d --product eye --parameter count=6");
     drawn_marker all[64];
     const drawn_panel *p = &d->panels[0];
     const size_t count = drawn_markers(d, p, all, 64);
@@ -332,7 +334,7 @@ static void decals_that_fight(void **state) {
     assert_int_equal(count, ties);
     assert_true(ties > 5 && ties < 31);
     drawn_close(d);
-    d = drawn_run(&drawn_light, "texture --scene decals -F fp32 -m reversed --product eye");
+    d = drawn_run(&drawn_light, "texture --synthetic decals -F fp32 -m reversed --product eye");
     assert_int_equal(d->entry_count, 0);
     drawn_close(d);
 }
@@ -341,7 +343,7 @@ static void decals_that_fight(void **state) {
 static void a_single_value(void **state) {
     (void)state;
     drawn *d =
-        drawn_run(&drawn_light, "texture --scene plane --parameter distance=16 -F fp32 -m reversed --product eye");
+        drawn_run(&drawn_light, "texture --synthetic plane --parameter distance=16 -F fp32 -m reversed --product eye");
     const svg_mark *image = drawn_map_image(d, &d->panels[0]);
     const double middle = svg_middle_y(d->bar->box);
     for (int i = 0; i < image->columns * image->rows; i += 997)
@@ -355,7 +357,7 @@ static void a_file(void **state) {
     (void)state;
     char path[320];
     snprintf(path, sizeof path, "%s/depth.png", drawn_folder());
-    free(drawn_output("texture --scene steps --size 160x90 -F unorm16 -m d3d -q -o %s", path));
+    free(drawn_output("texture --synthetic steps --size 160x90 -F unorm16 -m d3d -q -o %s", path));
     drawn *d = drawn_run(&drawn_light, "texture %s -F unorm16 -m d3d --product eye --title 'Of a file'", path);
     assert_string_equal(d->title, "Of a file");
     assert_string_equal(d->subtitle,
@@ -367,7 +369,7 @@ static void a_file(void **state) {
     }
     drawn_close(d);
     snprintf(path, sizeof path, "%s/depth.npy", drawn_folder());
-    free(drawn_output("texture --scene steps --size 160x90 -F unorm16 -m d3d --product eye -q -o %s", path));
+    free(drawn_output("texture --synthetic steps --size 160x90 -F unorm16 -m d3d --product eye -q -o %s", path));
     d = drawn_run(&drawn_light, "texture %s --metric 1 --unit m --product eye", path);
     assert_string_equal(d->subtitle, "depth.npy, 160 x 90; metric depth, 1 m a unit");
     assert_string_equal(d->right_caption->text, "eye depth (m)");

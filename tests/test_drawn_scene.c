@@ -1,404 +1,230 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Requirements and normals, as drawn: a requirement file of the test's own against the library, normals against error
- * maps of the same plane. */
+/*
+ * The fights of a model as drawn: both views of a street and of the same street turned by a quarter, place by place,
+ * against rectangles by hand; colours through the bar; the numbers beside their places; what CSV has of it.
+ */
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "drawn.h"
-#include "drawn_truth.h"
-#include "named.h"
-#include "plot/figure.h"
+#include "drawn_map.h"
 #include "support.h"
-#include "texture/normal_measure.h"
 
-/* ---- Requirements ------------------------------------------------------------------------------------------------ */
+#define STREET "tests/models/street.obj"
+#define CAMERA "--separation 0.02 -F unorm16 -m d3d"
 
-typedef struct need {
-    const char *name;
-    int camera;
-    bool is_error;
-    double lo, hi, limit;
-} need;
+/* Rectangles in x, y, z; the fight of wall and sign is the nearer one. */
+typedef struct part {
+    double lo[3], hi[3];
+    int fight; /* of the list that scene prints; -1: none, but there is something */
+} part;
 
-static const char *const camera_names[] = {"street", "cockpit", "scope"};
-static const char *const headings[] = {"street: unorm24 d3d, exact", "cockpit: fp32 reversed, float",
-                                       "scope: fp32 reversed, exact"};
-static const need needs[] = {
-    {"kerb", 0, false, 0.5, 20, 1e-3},  {"paint", 0, false, 5, 500, 2e-2},     {"haze", 0, true, 1, 900, 0.4},
-    {"fence", 0, true, 3, 300, 1e-3},   {"tower", 0, false, 1500, 1500, 5},    {"levers", 1, false, 0.1, 2, 1e-5},
-    {"knobs", 1, false, 0.3, 20, 1e-6}, {"reticle", 2, false, 0.2, 2.2, 1e-6}, /* worst where a binade ends */
+static const part parts[] = {
+    {{-1, 0, -4}, {1, 0, 4}, 1},           {{21, 1, 0}, {22, 3, 0}, 0},   {{-8, 0, -8}, {8, 0.0156, 8}, -1},
+    {{20, 0, -0.001}, {24, 4, 0.001}, -1}, {{-6, 3, -2}, {-4, 3, 2}, -1}, /* a table on the road, of the street that is
+                                                                             turned */
 };
-enum { NEEDS = sizeof needs / sizeof needs[0] };
 
-static void write_needs(const char *path) {
-    FILE *out = fopen(path, "w");
-    assert_non_null(out);
-    fprintf(
-        out,
-        "unit = \"m\";\ncameras = {\n"
-        "  street = { near = 0.1; far = 2000.0; mapping = \"d3d\"; format = \"unorm24\"; model = \"exact\"; };\n"
-        "  cockpit = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"fp32\"; "
-        "};\n  scope = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"exact\"; };\n"
-        "};\nrequirements = {\n");
-    for (size_t i = 0; i < NEEDS; i++) {
-        const need *n = &needs[i];
-        fprintf(out, "  %s = { camera = \"%s\"; ", n->name, camera_names[n->camera]);
-        if (n->lo == n->hi)
-            fprintf(out, "at = %#.15g; ", n->lo);
+enum { PARTS = sizeof parts / sizeof parts[0] };
+
+/* The same, by a quarter about y: x is -z, and z is x. */
+static const char *turned_street(void) {
+    static char path[320];
+    char line[128];
+    snprintf(path, sizeof path, "%s/turned.obj", drawn_folder());
+    FILE *in = fopen(STREET, "r"), *out = fopen(path, "w");
+    assert_true(in != NULL && out != NULL);
+    while (fgets(line, sizeof line, in) != NULL) {
+        double x, y, z;
+        if (sscanf(line, "v %lf %lf %lf", &x, &y, &z) == 3)
+            fprintf(out, "v %.17g %.17g %.17g\n", -z, y, x);
         else
-            fprintf(out, "range = [%#.15g, %#.15g]; ", n->lo, n->hi);
-        fprintf(out, "%s = %#.15g; };\n", n->is_error ? "error" : "separation", n->limit);
+            fputs(line, out);
     }
-    fprintf(out, "  shimmer = { camera = \"cockpit\"; range = [1.0, 2.0]; ties = 0.5; };\n};\n");
-    fclose(out);
-}
-
-/* What a set-up gives over a range, and where that is worst. */
-static double given(const dp_setup *s, const need *n, double *z) {
-    dp_worst w;
-    dp_separation_worst far;
-    if (n->is_error) {
-        assert_int_equal(dp_worst_over(s, n->lo, n->hi, &w), DP_OK);
-        *z = w.error_z;
-        return w.error;
-    }
-    assert_int_equal(dp_separation_over(s, n->lo, n->hi, n->limit, &far), DP_OK);
-    *z = far.z;
-    return far.bound;
-}
-
-/* Softened: a curve that runs along it can be seen on it. */
-static svg_mark level_pen(const drawn *d, uint32_t colour) {
-    svg_mark pen = {.stroke = {0, 0, 0, 1}, .width = 6 * d->scale};
-    double *parts[3] = {&pen.stroke.r, &pen.stroke.g, &pen.stroke.b};
-    for (int i = 0; i < 3; i++) {
-        const int shift = 16 - 8 * i;
-        const double own = (colour >> shift & 255) / 255.0, ground = (d->theme->background >> shift & 255) / 255.0;
-        *parts[i] = ground + 0.45 * (own - ground);
-    }
-    return pen;
-}
-
-/* The allowed level over the range, in the colour of the verdict, below all curves; one at a single depth reaches a
- * little to both sides. */
-static void check_level(const drawn *d, const drawn_panel *p, const need *n, bool passed) {
-    const svg_mark pen = level_pen(d, d->theme->palette[passed ? 2 : 1]);
-    const double y = drawn_px(&p->y, n->limit), from = drawn_px(&p->x, n->lo), to = drawn_px(&p->x, n->hi);
-    const double more = fmax(22 * d->scale - (to - from), 0) / 2;
-    const svg_mark *lines[32], *found = NULL;
-    const size_t count = drawn_strokes(d, p, &pen, lines, 32);
-    for (size_t i = 0; i < count; i++) {
-        const svg_point a = lines[i]->points[0], b = lines[i]->points[1];
-        if (fabs(a.y - y) < 1 && fabs(b.y - y) < 1 && fabs(a.x - (from - more)) < 1.5 && fabs(b.x - (to + more)) < 1.5)
-            found = lines[i];
-    }
-    if (found == NULL)
-        fail_msg("nothing shows what '%s' allows", n->name);
-    for (size_t i = 0; i < d->entry_count; i++)
-        if (d->entries[i].line != NULL && d->entries[i].line->width < 3 * d->scale) {
-            const svg_mark *curve[1];
-            if (drawn_strokes(d, p, d->entries[i].line, curve, 1) == 1)
-                assert_true(curve[0] > found);
-        }
-}
-
-/* No curve runs through the words, and no others stand there. */
-static void check_clear(const drawn *d, const drawn_panel *p, const svg_mark *words) {
-    for (size_t i = 0; i < d->entry_count; i++) {
-        const svg_mark *curve[1];
-        double top, bottom;
-        if (d->entries[i].line == NULL || d->entries[i].line->width > 3 * d->scale ||
-            drawn_strokes(d, p, d->entries[i].line, curve, 1) != 1)
-            continue;
-        const double middle = words->at.y - 0.36 * words->size;
-        for (double x = words->box.x0 + 2; x < words->box.x1 - 2; x++)
-            if (drawn_reach(curve[0], x, x + 1, &top, &bottom) && top < middle + 5 && bottom > middle - 5)
-                fail_msg("'%s' is crossed by a curve", words->text);
-    }
-    for (size_t i = 0; i < d->svg->count; i++) {
-        const svg_mark *m = &d->svg->marks[i];
-        if (m != words && m->kind == SVG_WORDS && m->box.x0 < words->box.x1 && words->box.x0 < m->box.x1 &&
-            m->box.y0 + 3 < words->box.y1 && words->box.y0 + 3 < m->box.y1)
-            fail_msg("'%s' and '%s' stand on each other", words->text, m->text);
-    }
-}
-
-/* What is allowed, and a mark with the name where it is worst. */
-static void check_need(const drawn *d, const drawn_panel *p, const dp_setup *setup, const need *n, size_t *met,
-                       size_t *inner) {
-    double z;
-    const bool passed = given(setup, n, &z) <= n->limit;
-    const drawn_entry *e = drawn_legend(d, passed ? "met, where it is worst" : "missed, where it is worst");
-    drawn_marker all[32];
-    char text[64];
-    const size_t count = drawn_markers(d, p, all, 32);
-    const double y = drawn_px(&p->y, n->limit);
-    bool marked = false;
-    *met += passed;
-    *inner += drawn_px(&p->x, z) < drawn_px(&p->x, n->hi) - 3;
-    check_level(d, p, n, passed);
-    snprintf(text, sizeof text, "%s%s", n->name, n->is_error ? " (error)" : "");
-    for (size_t i = 0; i < count && !marked; i++)
-        if (drawn_alike(&all[i], &e->marker) && fabs(all[i].y - y) < 1.2 && fabs(all[i].x - drawn_px(&p->x, z)) < 2) {
-            marked = true;
-            check_clear(d, p, drawn_label(d, p, (svg_point){all[i].x, all[i].y, false}, text));
-        }
-    if (!marked)
-        fail_msg("'%s' has no mark at %g", text, z);
-}
-
-static void check_scene_legend(const drawn *d) {
-    static const char *const texts[] = {"separation given",       "error given",     "allowed, met",
-                                        "met, where it is worst", "allowed, missed", "missed, where it is worst"};
-    drawn_legend_is(d, 6, texts);
-    drawn_style_is(d, &d->entries[0], 0, 0, DRAWN_NONE, false);
-    drawn_style_is(d, &d->entries[1], 3, 1, DRAWN_NONE, false);
-    const drawn_marker *met = &d->entries[3].marker, *missed = &d->entries[5].marker;
-    for (int i = 2; i < 6; i += 2) {
-        const svg_mark pen = level_pen(d, d->theme->palette[i == 2 ? 2 : 1]);
-        assert_int_equal(svg_rgb(d->entries[i].line->stroke), svg_rgb(pen.stroke));
-        assert_px(d->entries[i].line->width, pen.width, 1e-6);
-    }
-    assert_int_equal(met->shape, DRAWN_DISC);
-    assert_int_equal(met->inside, d->theme->palette[2]); /* green, and full */
-    assert_int_equal(missed->shape, DRAWN_TRIANGLE_DOWN);
-    assert_int_equal(missed->rim, d->theme->palette[1]);
-    assert_int_equal(missed->inside, d->theme->background);
-}
-
-static void scene_of_requirements(void **state) {
-    (void)state;
-    char path[320], subtitle[128];
-    size_t met = 0, marks[3] = {0, 0, 0}, inner = 0;
-    snprintf(path, sizeof path, "%s/street.need", drawn_folder());
-    write_needs(path);
-    dp_spec street = drawn_camera(0.1, 2000), cockpit = drawn_camera(0.05, INFINITY);
-    cockpit.model = DP_MODEL_FP32;
-    dp_spec scope = cockpit;
-    scope.model = DP_MODEL_EXACT;
-    const cameras c[3] = {cameras_of(street, "unorm24", "d3d"), cameras_of(cockpit, "fp32", "reversed"),
-                          cameras_of(scope, "fp32", "reversed")};
-    drawn *d = drawn_run(&drawn_light, "plot scene %s", path);
-    assert_string_equal(d->title, "What the scene needs and what the cameras give");
-    assert_string_equal(d->x_caption->text, "eye depth z (m)");
-    assert_string_equal(d->y_caption->text, "allowed and given (m)");
-    check_scene_legend(d);
-    assert_int_equal(d->panel_count, 3);
-    for (size_t i = 0; i < 3; i++) {
-        const drawn_panel *p = &d->panels[i];
-        drawn_marker all[32];
-        assert_string_equal(p->heading, headings[i]);
-        assert_true(p->x.log && p->y.log);
-        const double from = drawn_at(&p->x, p->frame.x0), to = drawn_at(&p->x, p->frame.x1);
-        assert_true(from > 0.02 && from < 0.09); /* a margin before the first depth asked about, 0.1, */
-        assert_true(to > 5e3 && to < 1e6);       /* and one that a name fits into behind the last, 1500 */
-        const svg_mark *curve = drawn_curve(d, p, &d->entries[0]);
-        drawn_follows(p, &p->y, curve, true_separation, &c[i].setups[0], 80, 1.7);
-        const svg_mark *error[1];
-        assert_int_equal(drawn_strokes(d, p, d->entries[1].line, error, 1), i == 0);
-        if (i == 0)
-            drawn_follows(p, &p->y, error[0], true_error, &c[i].setups[0], 80, 1.5);
-        for (size_t k = 0; k < NEEDS; k++)
-            if (needs[k].camera == (int)i) {
-                check_need(d, p, &c[i].setups[0], &needs[k], &met, &inner);
-                marks[i]++;
-            }
-        assert_int_equal(drawn_markers(d, p, all, 32), marks[i]);
-    }
-    assert_true(met > 0 && met < NEEDS && inner > 0);
-    snprintf(subtitle, sizeof subtitle, "street.need: %zu met, %zu missed; not shown: 1 of ties", met, NEEDS - met);
-    assert_string_equal(d->subtitle, subtitle);
-    drawn_description_is(d,
-                         " street: unorm24 d3d, exact. Shown: separation given; error given; allowed, met; met, where "
-                         "it is worst; allowed, missed; missed, where it is worst. cockpit: fp32 reversed, float. "
-                         "Shown: separation given; allowed, met; met, where it is worst; allowed, missed; missed, "
-                         "where it is worst. scope: fp32 reversed, exact. Shown: separation given; allowed, met; "
-                         "met, where it is worst.");
-    drawn_close(d);
-}
-
-/* Of part of the depths: what is asked about others is not there; what reaches beyond them is named at the end. */
-static void scene_in_part(void **state) {
-    (void)state;
-    char path[320];
-    snprintf(path, sizeof path, "%s/street.need", drawn_folder());
-    write_needs(path);
-    drawn *d = drawn_run(&drawn_light, "plot scene %s --range 0.4:100", path);
-    const svg_box page = {0, 0, d->svg->width, d->svg->height};
-    const drawn_panel *p = &d->panels[0];
-    assert_px(drawn_px(&p->x, 0.4), p->frame.x0, 1.5);
-    assert_px(drawn_px(&p->x, 100), p->frame.x1, 1.5);
-    drawn_label(d, p, (svg_point){drawn_px(&p->x, 20), drawn_px(&p->y, 1e-3), false}, "kerb");
-    drawn_label(d, p, (svg_point){p->frame.x1, drawn_px(&p->y, 2e-2), false}, "paint");
-    assert_null(drawn_words(d, page, "tower"));
-    for (size_t i = 0; i < NEEDS; i++) {
-        drawn_marker all[32];
-        const size_t count = drawn_markers(d, &d->panels[needs[i].camera], all, 32);
-        for (size_t k = 0; k < count; k++)
-            assert_true(all[k].x < d->panels[needs[i].camera].frame.x1 + 1);
-    }
-    svg_free(d->svg); /* the other names are looked at above */
-    free(d);
-}
-
-/* ---- Normals ----------------------------------------------------------------------------------------------------- */
-
-/* Told apart by more than their curves are thick: each surface, method and set-up has its own height and slope. */
-static double made_up(const dp_setup *setup, size_t surface, size_t method, double z) {
-    assert_true(surface == 0 || method < 4); /* the bound holds on surface 0 alone */
-    return pow(10, (double)method * 1.5 + (double)surface * 0.7 + (setup->reversed ? 0.35 : 0)) * pow(z, 0.3) * 1e-3;
-}
-
-typedef struct of_normals {
-    const dp_setup *setup;
-    size_t surface, method;
-} of_normals;
-
-static bool true_normal(const void *context, double from, double to, double *lo, double *hi) {
-    const of_normals *n = context;
-    *lo = made_up(n->setup, n->surface, n->method, from);
-    *hi = made_up(n->setup, n->surface, n->method, to);
-    return from > n->setup->spec.znear * 1.2 && to < n->setup->spec.zfar / 1.2; /* curves end within a slice of both */
-}
-
-static void normals_of_the_test(void **state) {
-    (void)state;
-    static const char *const texts[] = {"low", "medium", "high", "projective", "bound of projective"};
-    static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
-    cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d,reversed");
-    const char *names[] = {c.names[0], c.names[1]};
-    const figure_request request = {
-        .setups = c.setups, .count = 2, .names = names, .lo = NAN, .hi = NAN, .at = NAN, .columns = 800, .rows = 500};
-    chart *drawing = chart_new();
-    assert_non_null(drawing);
-    snprintf(drawing->title, sizeof drawing->title, "Of the test");
-    snprintf(drawing->subtitle, sizeof drawing->subtitle, "sub");
-    assert_null(normals_draw(&request, made_up, drawing));
-    drawn *d = drawn_chart(&drawn_light, drawing, 800, 500);
-    assert_string_equal(d->x_caption->text, "eye depth z (scene units)");
-    assert_string_equal(d->y_caption->text, "angular error (degrees)");
-    drawn_legend_is(d, 5, texts);
-    drawn_style_is(d, &d->entries[0], 0, 0, DRAWN_DISC, false);
-    drawn_style_is(d, &d->entries[1], 1, 1, DRAWN_SQUARE, false);
-    drawn_style_is(d, &d->entries[2], 2, 2, DRAWN_DIAMOND, false);
-    drawn_style_is(d, &d->entries[3], 3, 3, DRAWN_TRIANGLE, false);
-    drawn_style_is(d, &d->entries[4], -1, 1, DRAWN_NONE, true);
-    assert_int_equal(d->panel_count, 4);
-    for (size_t i = 0; i < 4; i++) {
-        char heading[80];
-        const drawn_panel *p = &d->panels[i];
-        snprintf(heading, sizeof heading, "%s: %s", c.names[i / 2], surfaces[i % 2]);
-        assert_string_equal(p->heading, heading);
-        assert_true(p->x.log && p->y.log);
-        for (size_t m = 0; m < (i % 2 == 0 ? 5 : 4); m++) {
-            const of_normals n = {&c.setups[i / 2], i % 2, m};
-            const svg_mark *curve = drawn_curve(d, p, &d->entries[m]);
-            drawn_follows(p, &p->y, curve, true_normal, &n, 60, 3);
-            if (m < 4)
-                drawn_markers_on(d, p, &d->entries[m], curve);
-        }
-        if (i % 2 == 1) {
-            const svg_mark *none[1];
-            assert_int_equal(drawn_strokes(d, p, d->entries[4].line, none, 1), 0);
-        }
-    }
-    drawn_close(d);
-}
-
-static int by_size(const void *a, const void *b) {
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
-/* 99 % of the pixels of an error map of a plane slanted by 60 degrees, in the middle of a large view. */
-static double mapped(const char *method, double z) {
-    enum { SIDE = 48 };
-    static float values[SIDE * SIDE];
-    char path[320], head[10];
-    const double fov = 2 * atan(tan(30 * 3.14159265358979323846 / 180) * SIDE / 1080) * 180 / 3.14159265358979323846;
-    size_t count = 0;
-    snprintf(path, sizeof path, "%s/normals.npy", drawn_folder());
-    free(drawn_output("texture --scene plane --parameter distance=%.17g --parameter tilt=33 --parameter turn=53.4 "
-                      "--size 48x48 --sky 0 --fov %.17g -F unorm16 -m d3d --product normal:%s --error-map -q -o %s",
-                      z, fov, method, path));
-    FILE *in = fopen(path, "rb");
-    assert_non_null(in);
-    assert_int_equal(fread(head, 1, sizeof head, in), sizeof head);
-    assert_int_equal(fseek(in, (unsigned char)head[8] + 256 * (unsigned char)head[9], SEEK_CUR), 0);
-    assert_int_equal(fread(values, sizeof values[0], SIDE * SIDE, in), SIDE * SIDE);
+    fputs("o table\nv 2 3 -6\nv 2 3 -4\nv -2 3 -4\nv -2 3 -6\nf -1 -2 -3 -4\n", out);
     fclose(in);
-    for (size_t i = 0; i < SIDE * SIDE; i++)
-        if (!isnan(values[i]))
-            values[count++] = values[i];
-    assert_true(count > SIDE);
-    qsort(values, count, sizeof values[0], by_size);
-    return (double)values[(size_t)(0.99 * (double)(count - 1))];
+    assert_int_equal(fclose(out), 0);
+    return path;
 }
 
-/* The mean over the outline of a sphere as large at every depth, a wall behind it as far as it is large. */
-static double outlined(const char *method, double z) {
-    enum { SIDE = 48, RADIUS = 16 };
-    cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d");
-    camera_spec spec = camera_spec_default();
-    texture_camera camera;
-    normal_measured m;
-    spec.width = spec.height = SIDE;
-    spec.fov_y = 2 * atan(tan(30 * 3.14159265358979323846 / 180) * SIDE / 1080) * 180 / 3.14159265358979323846;
-    assert_null(camera_init(&camera, &c.setups[0], &spec));
-    const double radius = z * RADIUS * 2 * tan(30 * 3.14159265358979323846 / 180) / 1080;
-    const double sphere[] = {z, radius, z + 2 * radius, 0};
-    assert_true(normal_measure(normal_find(method), &camera, scene_find("sphere"), sphere, 0, SIDE, &m));
-    return m.edges.mean * 180 / 3.14159265358979323846;
+static double depths_of(const char *file, double certain[2], double place[2][3]) {
+    static const char *const axes[] = {"x", "y", "z"};
+    char *text = drawn_output("scene %s %s --json", file, CAMERA);
+    json_t *root = json_loads(text, 0, NULL);
+    assert_non_null(root);
+    for (size_t i = 0; i < 2; i++) {
+        const json_t *f = json_array_get(json_object_get(root, "findings"), i);
+        certain[i] = json_number_value(json_object_get(f, "certain_to"));
+        for (int k = 0; k < 3; k++)
+            place[i][k] = json_number_value(json_object_get(json_object_get(f, "place"), axes[k]));
+    }
+    const double within = json_number_value(json_object_get(root, "within"));
+    json_decref(root);
+    free(text);
+    return within;
 }
 
-static void normals_of_the_program(void **state) {
-    (void)state;
-    static const char *const texts[] = {"low", "medium", "high", "projective", "bound of projective"};
-    drawn *d = drawn_run(&drawn_light, "plot normals -F unorm16 -m d3d");
-    assert_string_equal(d->title, "Normals from depth");
-    assert_string_equal(d->subtitle,
-                        "unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; 1080 lines, field of "
-                        "view 60\u00b0; plane: 99 % of the pixels, outline: mean");
-    drawn_legend_is(d, 5, texts);
+/* How far a place is within a rectangle of a view, negative outside; a flat one is as thick as a field. */
+static double within(const part *p, int across, int up, double x, double y, double thick) {
+    const double a = fmin(x - p->lo[across], p->hi[across] - x), b = fmin(y - p->lo[up], p->hi[up] - y);
+    return fmin(a, p->hi[up] - p->lo[up] > thick ? b : b + thick);
+}
+
+static bool is_grey(uint32_t pixel) {
+    return (pixel & 255) == (pixel >> 8 & 255) && (pixel & 255) == (pixel >> 16 & 255);
+}
+
+/* A panel whose axes are these of the street as the file has it; `mirrored`: what is across there is negative here. */
+typedef struct side {
+    int across, up;
+    double sign; /* of what is upwards */
+    const char *heading;
+    int count; /* of parts */
+} side;
+
+static void check_side(const drawn *d, const drawn_panel *p, const side *v, const double certain[2]) {
+    const double field = fabs(drawn_at(&p->x, p->frame.x0 + 1) - drawn_at(&p->x, p->frame.x0));
+    tally t = {.name = v->heading};
+    int seen[3] = {0};
+    assert_string_equal(p->heading, v->heading);
+    assert_px(fabs(p->x.b), fabs(p->y.b), 0.02 * fabs(p->x.b)); /* one scale */
+    for (double px = p->frame.x0 + 3; px < p->frame.x1 - 3; px += 2.7)
+        for (double py = p->frame.y0 + 3; py < p->frame.y1 - 3; py += 2.3) {
+            const double x = drawn_at(&p->x, px), y = v->sign * drawn_at(&p->y, py);
+            const uint32_t got = drawn_map_shown(d, p, (svg_point){px, py, false});
+            double best = -HUGE_VAL;
+            int fight = -2;
+            bool edge = false;
+            for (int i = 0; i < v->count; i++) {
+                const double in = within(&parts[i], v->across, v->up, x, y, 1.5 * field);
+                edge = edge || fabs(in) < 3.0 * field;
+                if (in > 0.0 && fight == -2)
+                    fight = parts[i].fight;
+                best = fmax(best, in);
+            }
+            if (edge)
+                continue;
+            seen[fight < 0 ? 2 + (fight == -1 ? 0 : -2) : 1]++;
+            if (fight == -2)
+                TALLY(&t, got == 0, "%g, %g: shows %08x, and there is nothing", x, y, got);
+            else if (fight == -1)
+                TALLY(&t, got != 0 && is_grey(got), "%g, %g: shows %08x, not grey", x, y, got);
+            else
+                TALLY(&t, fabs(log(drawn_at(&d->value, drawn_bar_px(d, got)) / certain[fight])) < 0.05,
+                      "%g, %g: shows %08x, %g and not %g", x, y, got, drawn_at(&d->value, drawn_bar_px(d, got)),
+                      certain[fight]);
+        }
+    assert_true(seen[0] > 100 && seen[1] > 20 && seen[2] > 20);
+    tally_end(&t);
+}
+
+/* The table is nearer to the one who looks down than the road, and lighter. */
+static void check_table(const drawn *d, const drawn_panel *p) {
+    const uint32_t table = drawn_map_shown(d, p, (svg_point){drawn_px(&p->x, -5), drawn_px(&p->y, 0), false});
+    const uint32_t road = drawn_map_shown(d, p, (svg_point){drawn_px(&p->x, -5), drawn_px(&p->y, 6), false});
+    assert_true(is_grey(table) && is_grey(road));
+    assert_in_range((table & 255) - (road & 255), 20, 100);
+}
+
+static void check(const char *file, const drawn_theme *look, const side sides[2], const char *x, const char *y) {
+    drawn *d = drawn_run(look, "plot scene %s %s --unit m%s", file, CAMERA, look == &drawn_dark ? " --theme dark" : "");
+    double certain[2], place[2][3];
+    char subtitle[256];
+    const double within = depths_of(file, certain, place);
+    assert_string_equal(d->title, "Which surfaces of the model fight, and from where on");
+    snprintf(subtitle, sizeof subtitle,
+             "%s: 2 pairs of surfaces can fight up to %.4g m; unorm16 d3d, near 0.1, far 1000, perspective, "
+             "nearest, float ieee, lengths in m",
+             strrchr(file, '/') + 1, within);
+    assert_string_equal(d->subtitle, subtitle);
+    drawn_legend_is(d, 1, (const char *const[]){"the nearest fights, as scene numbers them"});
     assert_int_equal(d->panel_count, 2);
-    assert_string_equal(d->panels[0].heading, "plane at 60\u00b0");
-    assert_string_equal(d->panels[1].heading, "outline of a sphere");
-    for (int m = 0; m < 8; m++) {
-        const drawn_panel *p = &d->panels[m / 4];
-        for (int slice = 8; slice < 50; slice += 20) { /* each point is the worst of four depths */
-            double worst = 0, top, bottom;
-            for (int i = 0; i < 4; i++)
-                worst = fmax(worst, (m < 4 ? mapped : outlined)(texts[m % 4], 0.1 * pow(1e4, (slice * 4 + i) / 199.0)));
-            const double x = p->frame.x0 + (p->frame.x1 - p->frame.x0) * (slice + 0.5) / 50;
-            assert_true(drawn_reach(drawn_curve(d, p, &d->entries[m % 4]), x - 0.5, x + 0.5, &top, &bottom));
-            assert_px((top + bottom) / 2, drawn_px(&p->y, worst), 2);
+    assert_string_equal(d->x_caption->text, x);
+    assert_string_equal(d->y_caption->text, y);
+    assert_string_equal(d->right_caption->text, "can fight from (m)");
+    drawn_bar_is_viridis(d);
+    assert_true(d->panels[0].x.b > 0 && d->panels[1].y.b < 0); /* px grow downwards */
+    assert_true((d->panels[0].y.b > 0) == (*x == 'x'));
+    for (int k = 0; k < 2; k++) {
+        const drawn_panel *p = &d->panels[k];
+        const bool turned = strcmp(x, "z (m)") == 0;
+        const int across = turned ? 2 : 0, up = k == 1 ? 1 : 2 - across;
+        drawn_marker markers[4];
+        check_side(d, p, &sides[k], certain);
+        if (turned && k == 0)
+            check_table(d, p);
+        assert_int_equal(drawn_markers(d, p, markers, 4), 2);
+        for (int i = 0; i < 2; i++) {
+            const svg_point at = {drawn_px(&p->x, place[i][across]), drawn_px(&p->y, place[i][up]), false};
+            drawn_label(d, p, at, i == 0 ? "1" : "2");
+            assert_true(hypot(markers[i].x - at.x, markers[i].y - at.y) < 1.0);
         }
     }
     drawn_close(d);
 }
 
-/* As many set-ups as it shows where none are named, and each panel says all of what it shows. */
-static void normals_by_default(void **state) {
+static void test_views(void **state) {
+    static const side along_x[2] = {{0, 2, 1, "From above: x to the right, z downwards", PARTS - 1},
+                                    {0, 1, 1, "From the front: x to the right, y upwards", PARTS - 1}};
+    static const side along_z[2] = {{0, 2, -1, "From above: z to the right, x upwards", PARTS},
+                                    {0, 1, 1, "From the side: z to the right, y upwards", PARTS}};
     (void)state;
-    static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
-    cameras c = cameras_of(drawn_camera(0.1, 1000), "fp32,unorm24", "d3d,reversed");
-    drawn *d = drawn_run(&drawn_light, "plot normals");
-    assert_int_equal(d->panel_count, 2 * c.count);
-    for (size_t i = 0; i < d->panel_count; i++) {
-        char heading[80];
-        snprintf(heading, sizeof heading, "%s: %s", c.names[i / 2], surfaces[i % 2]);
-        assert_string_equal(d->panels[i].heading, heading);
-    }
+    check(STREET, &drawn_light, along_x, "x (m)", "z, y (m)");
+    check(turned_street(), &drawn_dark, along_z, "z (m)", "x, y (m)");
+}
+
+/* What fights at every depth, a door in its wall, is darker than the nearest that is certain up to some depth, a
+ * path. */
+static void test_darkest(void **state) {
+    static const double path[] = {10, 8.5}, door[] = {-4.49, 0.7};
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "plot scene tests/models/house.gltf -F d24 -m d3d --unit m");
+    const drawn_panel *p = d->panels, *q = d->panels + 1;
+    const uint32_t near = drawn_map_shown(d, p, (svg_point){drawn_px(&p->x, path[0]), drawn_px(&p->y, path[1]), false});
+    const uint32_t always =
+        drawn_map_shown(d, q, (svg_point){drawn_px(&q->x, door[0]), drawn_px(&q->y, door[1]), false});
+    assert_non_null(strstr(d->subtitle, ", the darkest at every depth"));
+    assert_true(!is_grey(near) && !is_grey(always));
+    assert_true(drawn_at(&d->value, drawn_bar_px(d, always)) < 0.95 * drawn_at(&d->value, drawn_bar_px(d, near)));
+    for (int n = 0; n < 18; n++) /* the numbers of both views, which test_views judges */
+        assert_non_null(drawn_words(d, (svg_box){0, 0, 9999, 9999}, (char[]){(char)('1' + n / 2), '\0'}));
     drawn_close(d);
+}
+
+/* Fields that have a value, and they alone. */
+static void test_numbers(void **state) {
+    char *csv = drawn_output("plot scene %s %s --csv", STREET, CAMERA);
+    double certain[2], place[2][3], sums[2] = {0};
+    int lines = 0, points = 0;
+    (void)state;
+    depths_of(STREET, certain, place);
+    char *line = strtok(csv, "\r\n");
+    assert_string_equal(line, "panel,series,across [scene units],up [scene units],fights_from [scene units]");
+    for (line = strtok(NULL, "\r\n"); line != NULL; line = strtok(NULL, "\r\n")) {
+        const bool above = strstr(line, "From above") != NULL;
+        const char *rest = strstr(line, ",map,");
+        double x, y, value;
+        if (rest == NULL) {
+            points++;
+            continue;
+        }
+        assert_int_equal(sscanf(rest, ",map,%lf,%lf,%lf", &x, &y, &value), 3);
+        const part *p = &parts[x < 10 ? 0 : 1];
+        assert_true(value == certain[p->fight]);
+        assert_true(within(p, 0, above ? 2 : 1, x, y, 0.1) > -0.1);
+        sums[above] += 1;
+        lines++;
+    }
+    assert_int_equal(points, 4);
+    assert_true(lines > 1000 && sums[0] > 100 && sums[1] > 500);
+    free(csv);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scene_of_requirements), cmocka_unit_test(scene_in_part),
-        cmocka_unit_test(normals_of_the_test),   cmocka_unit_test(normals_of_the_program),
-        cmocka_unit_test(normals_by_default),
-    };
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_views), cmocka_unit_test(test_darkest),
+                                       cmocka_unit_test(test_numbers)};
     return run_tap(tests);
 }

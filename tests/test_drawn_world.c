@@ -54,7 +54,7 @@ static void check_figure(const char *options, const char *format, const char *ma
     spec.format = found[0];
     assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
     spec.zfar = zfar;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     const world_asked a = {
         .setup = &setup, .z = z, .lean = hypot(1.0, half * hypot(1.0, 1920.0 / 1080.0)), .pixels = 540.0 / half};

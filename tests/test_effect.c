@@ -713,7 +713,7 @@ static void test_limits(void **state) {
         assert_relative(effect_error(effect_find("force-field"), &behind, p, z), 255 * half, 1e-9);
     }
     /* No cells, no error. */
-    pipeline.spec.model = DP_MODEL_FP32;
+    pipeline.spec.model = DP_MODEL_FLOAT;
     const effect_view none = view_of(&pipeline);
     parameter_defaults(fog->parameters, p);
     assert_true(isnan(effect_error(fog, &none, p, 10)) && isnan(effect_usable(fog, &none, p, 10, 1)));

@@ -174,7 +174,7 @@ static void test_refracted_scene(void **state) {
     (void)state;
     stage_make(&s);
     s.frame.image = NULL;
-    s.frame.scene = scene_find("sphere");
+    s.frame.synthetic = synthetic_find("sphere");
     s.frame.parameters = parameters;
     for (int k = 0; k < PIXELS; k++) {
         double slope[2];

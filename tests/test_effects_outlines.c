@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene_stage.h"
 #include "stage.h"
+#include "synthetic_stage.h"
 #include "texture/frame_normals.h"
 
 /* ---- Outlines ---------------------------------------------------------------------------------------------------- */
@@ -24,7 +24,7 @@ static void test_outlines(void **state) {
     (void)state;
     stage_make(&s);
     s.frame.image = NULL;
-    s.frame.scene = scene_find("sphere");
+    s.frame.synthetic = synthetic_find("sphere");
     s.frame.parameters = parameters;
     for (int k = 0; k < PIXELS; k++) {
         double slope[2];
@@ -63,7 +63,7 @@ static void test_outlines(void **state) {
     /* An image of depths has no normals. */
     const frame_product p = {.kind = FRAME_EFFECT, .effect = effect_find("outline"), .effect_settings = at};
     s.frame.image = &s.image;
-    s.frame.scene = NULL;
+    s.frame.synthetic = NULL;
     assert_non_null(frame_refuses(&s.frame, &p));
 }
 

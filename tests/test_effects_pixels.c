@@ -435,7 +435,7 @@ static void test_scenes(void **state) {
         stage_any(&r, &s);
         const frame f = {.camera = &s.camera,
                          .last = &s.before,
-                         .scene = scene_find("plane"),
+                         .synthetic = synthetic_find("plane"),
                          .parameters = parameters,
                          .sky = 0,
                          .threads = 1};

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "named.h"
-#include "scene_stage.h"
 #include "support.h"
+#include "synthetic_stage.h"
 #include "texture/normal_measure.h"
 #include "texture/survey.h"
 
@@ -44,8 +44,8 @@ static size_t products(frame_product out[PRODUCTS]) {
 static void bits_do_not_depend_on_threads_or_direction(void **state) {
     (void)state;
     frame_product all[PRODUCTS];
-    scene_stage s;
-    scene_stage_set(&s, "sphere", "unorm24", "d3d", 1000, false, WIDTH, HEIGHT);
+    synthetic_stage s;
+    synthetic_stage_set(&s, "sphere", "unorm24", "d3d", 1000, false, WIDTH, HEIGHT);
     const size_t count = products(all);
     for (size_t i = 0; i < count; i++) {
         const size_t size = (size_t)PIXELS * (size_t)frame_channels(&all[i]) * sizeof(float);
@@ -82,8 +82,8 @@ static void products_of_one_pass_are_those_of_many(void **state) {
     (void)state;
     frame_product all[PRODUCTS];
     wholes w = {.count = products(all)};
-    scene_stage s;
-    scene_stage_set(&s, "sphere", "unorm24", "d3d", 1000, false, WIDTH, HEIGHT);
+    synthetic_stage s;
+    synthetic_stage_set(&s, "sphere", "unorm24", "d3d", 1000, false, WIDTH, HEIGHT);
     for (size_t i = 0; i < w.count; i++) {
         w.each[i].row_values = (size_t)WIDTH * (size_t)frame_channels(&all[i]);
         w.each[i].values = calloc(w.each[i].row_values * HEIGHT, sizeof(float));
@@ -123,7 +123,7 @@ static bool is_error(float error, float written, long double truth) {
 /* Long: every product of a pixel, and how each is made by hand. */
 static void frames_equal_plain_pixels(void **state) {
     static const struct {
-        const char *scene, *format, *mapping;
+        const char *synthetic, *format, *mapping;
         double znear, zfar;
         bool ortho;
     } cases[] = {{"plane", "unorm24", "d3d", 0.1, 1000, false},  {"sphere", "fp32", "reversed", 0.1, INFINITY, false},
@@ -134,9 +134,9 @@ static void frames_equal_plain_pixels(void **state) {
     (void)state;
     tally t = {.name = "plain"};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-        scene_stage s;
-        scene_stage_between(&s, cases[k].scene, cases[k].format, cases[k].mapping, cases[k].znear, cases[k].zfar,
-                            cases[k].ortho, 97, 61);
+        synthetic_stage s;
+        synthetic_stage_between(&s, cases[k].synthetic, cases[k].format, cases[k].mapping, cases[k].znear,
+                                cases[k].zfar, cases[k].ortho, 97, 61);
         if (k == 0)
             s.parameters[1] = 62;
         if (cases[k].znear < 0) { /* through depth 0, in the middle of the image */
@@ -163,8 +163,8 @@ static void frames_equal_plain_pixels(void **state) {
         for (uint32_t y = 0; y < 61; y++)
             for (uint32_t x = 0; x < 97; x++) {
                 const size_t i = (size_t)y * 97 + x;
-                scene_hit h;
-                s.frame.scene->hit(c, s.parameters, x, y, &h);
+                synthetic_hit h;
+                s.frame.synthetic->hit(c, s.parameters, x, y, &h);
                 const uint32_t code = dp_code(&c->setup, h.z);
                 if (is_sky(&c->setup, code)) {
                     TALLY(&t,
@@ -234,8 +234,8 @@ static void keep(void *context, const normal_rows *in, const float *const normal
 
 static void normals_do_not_know_of_strips(void **state) {
     (void)state;
-    scene_stage s;
-    scene_stage_set(&s, "sphere", "unorm16", "d3d", 1000, false, WIDTH, HEIGHT);
+    synthetic_stage s;
+    synthetic_stage_set(&s, "sphere", "unorm16", "d3d", 1000, false, WIDTH, HEIGHT);
     s.frame.threads = 2;
     const frame_product eyes = {.kind = FRAME_EYE};
     float *eye = frame_made(&s.frame, &eyes, false);
@@ -259,12 +259,12 @@ static void normals_do_not_know_of_strips(void **state) {
 static void an_image_gives_the_same_as_its_scene(void **state) {
     (void)state;
     frame_product all[PRODUCTS];
-    scene_stage s;
-    scene_stage_set(&s, "decals", "unorm24", "reversed", 1000, false, 320, 180);
-    image depths = scene_stage_image(&s);
+    synthetic_stage s;
+    synthetic_stage_set(&s, "decals", "unorm24", "reversed", 1000, false, 320, 180);
+    image depths = synthetic_stage_image(&s);
     frame seen = s.frame;
     seen.image = &depths;
-    seen.scene = NULL;
+    seen.synthetic = NULL;
     const size_t count = products(all);
     for (size_t i = 0; i < count; i++) {
         if (all[i].error)
@@ -308,15 +308,15 @@ static void an_edge_on_either_diagonal_is_one(void **state) {
     parameter_defaults(edge->parameters, at);
     at[0] = 0.03; /* of far, 1000: 30 */
     for (size_t k = 0; k < sizeof quads / sizeof quads[0]; k++) {
-        scene_stage s;
+        synthetic_stage s;
         uint32_t codes[4];
-        scene_stage_set(&s, "plane", "fp32", "reversed", 1000, false, 2, 2);
+        synthetic_stage_set(&s, "plane", "fp32", "reversed", 1000, false, 2, 2);
         for (int i = 0; i < 4; i++)
             codes[i] = dp_code(&s.camera.setup, quads[k].corner[i / 2][i % 2]);
         const image depths = {
             .width = 2, .height = 2, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes};
         s.frame.image = &depths;
-        s.frame.scene = NULL;
+        s.frame.synthetic = NULL;
         const frame_product p = {.kind = FRAME_EFFECT, .effect = edge, .effect_settings = at};
         float *got = frame_made(&s.frame, &p, false);
         assert_true(got[0] == quads[k].edge);
@@ -334,14 +334,14 @@ static void the_smallest_images_and_a_stop(void **state) {
     frame_product all[PRODUCTS];
     (void)state;
     const size_t count = products(all);
-    scene_stage s;
+    synthetic_stage s;
     for (size_t k = 0; k < 4; k++)
         for (size_t i = 0; i < count; i++) {
-            scene_stage_set(&s, "plane", "unorm24", "d3d", 1000, false, sizes[k][0], sizes[k][1]);
+            synthetic_stage_set(&s, "plane", "unorm24", "d3d", 1000, false, sizes[k][0], sizes[k][1]);
             free(frame_made(&s.frame, &all[i], true));
         }
     int strips = 0;
-    scene_stage_set(&s, "plane", "unorm24", "d3d", 1000, false, WIDTH, HEIGHT);
+    synthetic_stage_set(&s, "plane", "unorm24", "d3d", 1000, false, WIDTH, HEIGHT);
     assert_false(frame_run(&s.frame, &all[0], false, stop, &strips));
     assert_int_equal(strips, 2);
 }

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "named.h"
-#include "scene_stage.h"
 #include "support.h"
+#include "synthetic_stage.h"
 
 static void true_errors_are_within_the_predicted(void **state) {
     static const char *const formats[][2] = {
@@ -14,14 +14,14 @@ static void true_errors_are_within_the_predicted(void **state) {
     double nearest[3] = {0, 0, 0};
     for (size_t k = 0; k < sizeof formats / sizeof formats[0]; k++)
         for (int turn = 0; turn < 4; turn++) {
-            scene_stage s;
-            scene_stage_set(&s, "plane", formats[k][0], formats[k][1], 1000, turn == 3, 320, 180);
+            synthetic_stage s;
+            synthetic_stage_set(&s, "plane", formats[k][0], formats[k][1], 1000, turn == 3, 320, 180);
             s.parameters[1] = 20 * turn + 7;
             s.parameters[2] = 13 * turn - 20;
-            image depths = scene_stage_image(&s);
+            image depths = synthetic_stage_image(&s);
             frame seen = s.frame;
             seen.image = &depths;
-            seen.scene = NULL;
+            seen.synthetic = NULL;
             const frame_product wanted[] = {
                 {.kind = FRAME_EYE, .error = true},
                 {.kind = FRAME_POSITION, .position = position_find(turn == 3 ? "view" : "rays"), .error = true},
@@ -56,14 +56,14 @@ static void errors_of_images_equal_plain_pixels(void **state) {
     (void)state;
     tally t = {.name = "plain errors"};
     for (int k = 0; k < 4; k++) {
-        scene_stage s;
-        scene_stage_set(&s, "plane", "unorm16", k < 2 ? "d3d" : "reversed", 100, k % 2 == 1, ACROSS, DOWN);
+        synthetic_stage s;
+        synthetic_stage_set(&s, "plane", "unorm16", k < 2 ? "d3d" : "reversed", 100, k % 2 == 1, ACROSS, DOWN);
         s.parameters[1] = 20;
         const texture_camera *c = &s.camera;
-        image depths = scene_stage_image(&s);
+        image depths = synthetic_stage_image(&s);
         frame seen = s.frame;
         seen.image = &depths;
-        seen.scene = NULL;
+        seen.synthetic = NULL;
         float *made[THINGS], *error[THINGS];
         for (int i = 0; i < THINGS; i++) {
             frame_product p = {.kind = i == PLACE ? FRAME_POSITION : FRAME_EYE, .radial = i == RADIAL};
@@ -106,17 +106,17 @@ static void normals_of_coarse_images_are_within_the_predicted(void **state) {
     double nearest = 0;
     for (int k = 0; k < 24; k++) {
         enum { ACROSS = 96, DOWN = 54 };
-        scene_stage s;
-        scene_stage_set(&s, "plane", "unorm24", k % 2 ? "reversed" : "d3d", 12, k % 6 == 5, ACROSS, DOWN);
+        synthetic_stage s;
+        synthetic_stage_set(&s, "plane", "unorm24", k % 2 ? "reversed" : "d3d", 12, k % 6 == 5, ACROSS, DOWN);
         s.parameters[0] = rng_uniform(&r, 0.3, 3);
         s.parameters[1] = rng_uniform(&r, -60, 60);
         s.parameters[2] = rng_uniform(&r, -60, 60);
         const double steps = k % 3 ? 4095 : 255;
         static uint32_t codes[ACROSS * DOWN];
-        static scene_hit hits[ACROSS * DOWN];
+        static synthetic_hit hits[ACROSS * DOWN];
         const dp_setup *setup = &s.camera.setup;
         for (uint32_t i = 0; i < ACROSS * DOWN; i++) {
-            s.frame.scene->hit(&s.camera, s.parameters, i % ACROSS, i / ACROSS, &hits[i]);
+            s.frame.synthetic->hit(&s.camera, s.parameters, i % ACROSS, i / ACROSS, &hits[i]);
             const double v = dp_format_value(&setup->spec.format, dp_code(setup, hits[i].z));
             const double sample = floor(v * steps + (k % 4 < 2 ? 0.5 : 0));
             codes[i] = (uint32_t)floor(sample / steps * setup->spec.format.code_max + 0.5);
@@ -125,7 +125,7 @@ static void normals_of_coarse_images_are_within_the_predicted(void **state) {
         const grain g = {.kind = GRAIN_STEPS, .steps = steps, .buffer = true};
         frame seen = s.frame;
         seen.image = &depths;
-        seen.scene = NULL;
+        seen.synthetic = NULL;
         seen.grain = &g;
         const frame_product normal = {.kind = FRAME_NORMAL, .normal = normal_find("projective")};
         const frame_product error = {.kind = FRAME_NORMAL, .normal = normal.normal, .error = true};
@@ -151,11 +151,11 @@ static void normals_of_coarse_images_are_within_the_predicted(void **state) {
 static void the_bound_of_low_is_of_its_quad(void **state) {
     enum { SIDE = 6, COUNT = SIDE * SIDE };
     (void)state;
-    scene_stage s;
-    scene_stage_set(&s, "plane", "unorm16", "d3d", 1000, false, SIDE, SIDE);
+    synthetic_stage s;
+    synthetic_stage_set(&s, "plane", "unorm16", "d3d", 1000, false, SIDE, SIDE);
     const frame_product error = {.kind = FRAME_NORMAL, .normal = normal_find("low"), .error = true};
     float *bounds[3];
-    s.frame.scene = NULL;
+    s.frame.synthetic = NULL;
     for (int k = 0; k < 3; k++) {
         uint16_t codes[COUNT];
         const double rows[SIDE / 2] = {10, k == 0 ? 10 : 90, k == 2 ? 60 : 10};

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "named.h"
-#include "scene_stage.h"
 #include "support.h"
+#include "synthetic_stage.h"
 
 static int by_value(const void *a, const void *b) {
     const float x = *(const float *)a, y = *(const float *)b;
@@ -13,8 +13,8 @@ static int by_value(const void *a, const void *b) {
 
 static void summaries_are_those_of_sorted_numbers(void **state) {
     (void)state;
-    scene_stage s;
-    scene_stage_set(&s, "plane", "unorm16", "d3d", 1000, false, 700, 400);
+    synthetic_stage s;
+    synthetic_stage_set(&s, "plane", "unorm16", "d3d", 1000, false, 700, 400);
     s.parameters[1] = 60;
     const frame_product p = {.kind = FRAME_EYE, .error = true};
     frame_summary sum;
@@ -49,10 +49,10 @@ static void summaries_leave_out_sky_and_what_has_no_bound(void **state) {
     const grain g = {.kind = GRAIN_FLOATS, .bits = 11, .margin = 0x1p-24, .least = 0x1p-24};
     const frame_product error = {.kind = FRAME_EYE, .error = true};
     frame_summary sum;
-    scene_stage s;
+    synthetic_stage s;
     (void)state;
-    scene_stage_set(&s, "plane", "fp16", "reversed", INFINITY, false, 3, 1);
-    s.frame.scene = NULL;
+    synthetic_stage_set(&s, "plane", "fp16", "reversed", INFINITY, false, 3, 1);
+    s.frame.synthetic = NULL;
     s.frame.image = &depths;
     s.frame.grain = &g;
     s.frame.sky = 0;

@@ -64,7 +64,7 @@ static void test_plans(void **state) {
     check_plan("unorm8", 255, DP_MODEL_EXACT, 20, 0.25);
     check_plan("unorm12", 4095, DP_MODEL_EXACT, 1000, 1.5);
     check_plan("unorm16", 65535, DP_MODEL_EXACT, 1000, 0.05);
-    check_plan("unorm16", 65535, DP_MODEL_FP32, 1000, 0.05);
+    check_plan("unorm16", 65535, DP_MODEL_FLOAT, 1000, 0.05);
 }
 
 /* Of a depth that a shader writes every frustum keeps the separation whatever log2 is, at any depth of it. */
@@ -78,7 +78,7 @@ static void test_logarithmic(void **state) {
     assert_int_not_equal(dp_format_parse("unorm24", formats), 0);
     spec.format = formats[0];
     spec.mapping = DP_MAPPING_THREE_WEBGPU;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.zfar = 1000;
     assert_int_equal(frusta_solve(&spec, limit, &plan), DP_OK);
     assert_true(plan.possible && plan.count > 1);

@@ -26,7 +26,7 @@ static int make(dp_setup *setup, int camera, int mapping, int format, dp_arith a
     spec.format = f[0];
     spec.arith = arith;
     spec.ortho = ortho;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     return dp_setup_init(setup, &spec) == DP_OK;
 }
 
@@ -90,8 +90,8 @@ static void report(const char *what, const slack_report *slack) {
 }
 
 /*
- * Every pair of a census, for 12 cameras x 4 mappings x 4 formats, in every row of arithmetic; by default in `ieee`, and
- * of each mapping and format three cameras, each camera with a format of every mapping.
+ * Every pair of a census, for 12 cameras x 4 mappings x 4 formats, in every row of arithmetic; by default in `ieee`,
+ * and of each mapping and format three cameras, each camera with a format of every mapping.
  */
 static void never_violated_and_tight(void **state) {
     (void)state;

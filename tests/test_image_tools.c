@@ -580,7 +580,7 @@ static void by_the_program(void **state) {
     assert_int_equal(p.status, 2);
     assert_non_null(strstr(p.errors, "--channel names one of an EXR; those of PNG have no names"));
     printed_free(&p);
-    p = print_of("texture --scene plane --channel Z");
+    p = print_of("texture --synthetic plane --channel Z");
     assert_int_equal(p.status, 2);
     assert_non_null(strstr(p.errors, "--channel: needs FILE"));
     printed_free(&p);

@@ -69,11 +69,11 @@ static const struct {
     {"table|--preset|three|--at|50cm", AT(at.lo), 0.5, "m"},
     {"table|--preset|three", AT(znear), 0.1, NULL},
     {"table|--preset|mujoco|--unit|m|--at|50cm", AT(at.lo), 0.5, "m"},
-    {"solve|--separation|1mm", AT(wanted_separation), 0.001, "m"},
+    {"solve|--separation|1mm", AT(separation), 0.001, "m"},
     {"solve|--error|2 cm|--preset|unreal", AT(wanted_error), 2, "cm"},
-    {"bias|--gap|3mm|--unit|cm", AT(gap), 0.3, "cm"},
+    {"bias|--separation|3mm|--unit|cm", AT(separation), 0.3, "cm"},
     {"bias|--slope|5cm", AT(slope), 0.05, "m"},
-    {"budget|--world|2km", AT(terms.world), 2000, "m"},
+    {"budget|--from-origin|2km", AT(terms.world), 2000, "m"},
     {"texture|x|--half-height|10ft", AT(camera.half_height), 3.048, "m"},
     {"texture|x|--metric|1mm", AT(metric), 0.001, "m"},
     {"texture|x|--eye|-1m,0,20cm", AT(eye[0]), -1, "m"},
@@ -191,7 +191,7 @@ static void test_platforms(void **state) {
 static void test_twice(void **state) {
     static const char *const examples[OPTION_COUNT] = {
         [OPTION_NEAR] = "1",       [OPTION_FORMAT] = "d24",    [OPTION_AT] = "1",     [OPTION_PRESET] = "unity",
-        [OPTION_UNIT] = "cm",      [OPTION_OUTPUT] = "x",      [OPTION_SEED] = "1",   [OPTION_SCENE] = "steps",
+        [OPTION_UNIT] = "cm",      [OPTION_OUTPUT] = "x",      [OPTION_SEED] = "1",   [OPTION_SYNTHETIC] = "steps",
         [OPTION_MODEL] = "staged", [OPTION_SEPARATION] = "1m", [OPTION_FAR] = "1000", [OPTION_MAPPING] = "gl"};
     tally t = {.name = "twice"};
     (void)state;

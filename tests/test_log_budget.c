@@ -433,7 +433,7 @@ static void errors(void **state) {
                      lo = fmax(spec.znear, z / rng_log(&r, 1.0001, 100.0));
         dp_setup asked;
         dp_spec model = spec;
-        model.model = DP_MODEL_FP32;
+        model.model = DP_MODEL_FLOAT;
         assert_int_equal(judge_setup(&model, &asked), DP_OK);
         const judgement range = judge(MEASURE_ERROR, &asked, lo, z, NAN),
                         here = judge(MEASURE_ERROR, &asked, z, z, NAN);

@@ -12,7 +12,7 @@
 #include "truth.h"
 
 enum { SIZE_MAX_READ = 1 << 20 };
-static const char *const scene[] = {"--scene", "sphere", "--size", "97x61", "-F", "unorm24", "-m", "d3d", "-q"};
+static const char *const scene[] = {"--synthetic", "sphere", "--size", "97x61", "-F", "unorm24", "-m", "d3d", "-q"};
 
 static size_t contents(const char *name, char *out) {
     FILE *const file = fopen(truth_path(name), "rb");

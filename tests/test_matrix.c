@@ -498,7 +498,7 @@ static void same_camera(void **state) {
         assert_non_null(out);
         fputs(same[i].entries, out);
         fclose(out);
-        printed made = print_of("texture --scene plane --parameter distance=1.5 --parameter tilt=20 --size 16x8 "
+        printed made = print_of("texture --synthetic plane --parameter distance=1.5 --parameter tilt=20 --size 16x8 "
                                 "-F unorm24 -m %s %s -o '%s'",
                                 same[i].mapping, same[i].options, shot);
         TALLY(&t, made.status == 0, "%s", made.errors);

@@ -50,9 +50,9 @@ static const struct {
     /* the viewport of GL adds 0.5: its rounding covers those before it, once A z is exact */
     {"unorm24", DP_MAPPING_GL, 0.1, INFINITY, DP_MODEL_STAGED},
     /* A z + B cancels */
-    {"unorm24", DP_MAPPING_D3D, 0.1, 1000, DP_MODEL_FP32},
-    {"fp32", DP_MAPPING_D3D, 0.1, 1000, DP_MODEL_FP32},
-    {"unorm24", DP_MAPPING_GL_REVERSED, 0.1, 1000, DP_MODEL_FP32},
+    {"unorm24", DP_MAPPING_D3D, 0.1, 1000, DP_MODEL_FLOAT},
+    {"fp32", DP_MAPPING_D3D, 0.1, 1000, DP_MODEL_FLOAT},
+    {"unorm24", DP_MAPPING_GL_REVERSED, 0.1, 1000, DP_MODEL_FLOAT},
 };
 
 static void each_model_is_needed(void **state) {
@@ -96,7 +96,7 @@ static double share_at(const dp_setup *setup, int model, double z) {
     dp_setup part = *setup;
     dp_setup whole = *setup;
     dp_spec spec = setup->spec;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     if (dp_setup_init(&whole, &spec) != DP_OK) {
         spec.model = DP_MODEL_STAGED;
         assert_int_equal(dp_setup_init(&whole, &spec), DP_OK);
@@ -312,7 +312,7 @@ static void parts_go_on_where_nothing_bounds(void **state) {
     dp_format format[2];
     assert_int_equal(dp_format_parse("fp32", format), 1);
     spec.format = format[0];
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.mapping = DP_MAPPING_D3D;
     spec.znear = 0x1.c1e6c0e932ed4p+1;
     spec.zfar = 0x1.1e7b43acbf0dep+24;
@@ -353,8 +353,8 @@ static void no_terms_are_zero_terms(void **state) {
         assert_int_equal(dp_budget_at(&setup, z, NULL, &a), DP_OK);
         assert_int_equal(dp_budget_at(&setup, z, &zero, &b), DP_OK);
         assert_memory_equal(&a, &b, sizeof a);
-        /* and it is what the model fp32 calls the separation */
-        spec.model = DP_MODEL_FP32;
+        /* and it is what the model float calls the separation */
+        spec.model = DP_MODEL_FLOAT;
         assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
         assert_true(dp_separation(&setup, z) == a.separation);
     }

@@ -207,7 +207,7 @@ static void test_verdicts(void **state) {
     snprintf(ranged, sizeof ranged, "range = (5, 1000); separation = %.6f;", 3 * snapping);
     const check_verdict at = judge_one(plain, view, wanted), over = judge_one(plain, view, ranged);
     assert_true(at.passed && over.passed && at.value > snapping && over.value >= at.value);
-    assert_true(at.setup.spec.model == DP_MODEL_FP32 && at.method == CHECK_GUARANTEE);
+    assert_true(at.setup.spec.model == DP_MODEL_FLOAT && at.method == CHECK_GUARANTEE);
     assert_relative(over.value, at.value, 0x1p-10);
     assert_true(judge_one(plain, "viewport = [1920, 1080]; hfov = 90; subpixel = 4; slant = [0, 0];", wanted).value ==
                 judge_one(plain, "", wanted).value);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * How wrong normals are: the bound of depthprec(7) on planes, and what is measured on scenes, counted again here.
+ * How wrong normals are: the bound of depthprec(7) on planes, and what is measured on synthetic images,
+ * counted again here.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -234,32 +235,32 @@ static void the_hardest_planes_need_each_term(void **state) {
     tally_end(&t);
 }
 
-/* ---- What is stated about scenes -------------------------------------------------------------------------------- */
+/* ---- What is stated about synthetic images ----------------------------------------------------------------------- */
 
 /* A slanted wall, its lower half nearer by a step: edges that a method can pass on either side. */
-static void stepped(const texture_camera *c, const double *p, double column, double row, scene_hit *out) {
+static void stepped(const texture_camera *c, const double *p, double column, double row, synthetic_hit *out) {
     double n[3] = {p[1], p[2], -1};
     const bool near_one = row >= c->height / 2 + 1 && column >= c->width / 3 + 1;
     view_unit(n);
-    *out = (scene_hit){.z = view_plane(c, n, n[2] * (near_one ? p[0] * p[3] : p[0]), column, row),
-                       .normal = {n[0], n[1], n[2]},
-                       .surface = near_one ? 2 : 1};
+    *out = (synthetic_hit){.z = view_plane(c, n, n[2] * (near_one ? p[0] * p[3] : p[0]), column, row),
+                           .normal = {n[0], n[1], n[2]},
+                           .surface = near_one ? 2 : 1};
 }
 
 /* Measured in plain words: every pixel from run() and sides(). */
 static void measures_count_what_they_say(void **state) {
     (void)state;
-    const scene_row scene = {.name = "stepped", .hit = stepped};
+    const synthetic_row shown = {.name = "stepped", .hit = stepped};
     const double parameters[4] = {4, 1.0, 0.1, 0.9993};
     texture_camera c = view_camera("unorm24", DP_MAPPING_D3D, 0.3, 3000, false, 60, 40, 60);
     normal_measured by[NORMAL_METHODS];
     for (size_t m = 0; normal_get(m) != NULL; m++) {
         const normal_row *method = normal_get(m);
         normal_measured *got = &by[m];
-        assert_true(normal_measure(method, &c, &scene, parameters, 0, 40, got));
+        assert_true(normal_measure(method, &c, &shown, parameters, 0, 40, got));
         view_picture p = view_picture_of(&c);
         for (uint32_t i = 0; i < 60 * 40; i++) {
-            scene_hit hit;
+            synthetic_hit hit;
             stepped(&c, parameters, i % 60, i / 60, &hit);
             p.eye[i] = (float)dp_stored(&c.setup, dp_code(&c.setup, hit.z));
         }
@@ -267,7 +268,7 @@ static void measures_count_what_they_say(void **state) {
         uint64_t missing = 0, above[2] = {0, 0}, count[2] = {0, 0};
         double sum[2] = {0, 0}, most[2] = {0, 0};
         for (uint32_t i = 0; i < 60 * 40; i++) {
-            scene_hit hit, beside;
+            synthetic_hit hit, beside;
             double found[3];
             view_normal(&p, i % 60, i / 60, found);
             stepped(&c, parameters, i % 60, i / 60, &hit);
@@ -308,25 +309,25 @@ static void measures_count_what_they_say(void **state) {
 }
 
 /* A sphere before a wall, the sphere's own normals as reference. */
-static void ball(const texture_camera *c, const double *p, double column, double row, scene_hit *out) {
+static void ball(const texture_camera *c, const double *p, double column, double row, synthetic_hit *out) {
     double sx, sy;
     view_slopes(c, column, row, &sx, &sy);
     const double q = sx * sx + sy * sy + 1, e = p[0] * p[0] - p[1] * p[1], under = p[0] * p[0] - q * e;
-    *out = (scene_hit){.z = p[2], .normal = {0, 0, -1}, .surface = 2};
+    *out = (synthetic_hit){.z = p[2], .normal = {0, 0, -1}, .surface = 2};
     if (under < 0)
         return;
     const double z = e / (p[0] + sqrt(under));
-    *out = (scene_hit){.z = z, .normal = {sx * z / p[1], sy * z / p[1], (z - p[0]) / p[1]}, .surface = 1};
+    *out = (synthetic_hit){.z = z, .normal = {sx * z / p[1], sy * z / p[1], (z - p[0]) / p[1]}, .surface = 1};
 }
 
 static void spheres_and_their_outline(void **state) {
     (void)state;
-    const scene_row scene = {.name = "ball", .hit = ball};
+    const synthetic_row shown = {.name = "ball", .hit = ball};
     const double parameters[4] = {10, 3, 14};
     texture_camera c = view_camera("fp32", DP_MAPPING_REVERSED, 0.1, 1000, false, 256, 256, 45);
     normal_measured by[NORMAL_METHODS];
     for (size_t m = 0; normal_get(m) != NULL; m++)
-        assert_true(normal_measure(normal_get(m), &c, &scene, parameters, 0, 256, &by[m]));
+        assert_true(normal_measure(normal_get(m), &c, &shown, parameters, 0, 256, &by[m]));
     for (size_t m = 0; normal_get(m) != NULL; m++)
         assert_true(by[m].inside.mean < (m < NORMAL_LOW_HALF ? 0.05 : 0.3) && by[m].inside.count > 55000);
     assert_true(by[0].wrong > 300 && by[1].wrong > 300 && by[3].wrong * 20 < by[2].wrong);

@@ -54,7 +54,7 @@ static dp_setup make(dp_mapping mapping, dp_model model) {
 static void test_codes(void **state) {
     (void)state;
     matrices = 0;
-    const dp_setup setup = make(DP_MAPPING_D3D, DP_MODEL_FP32);
+    const dp_setup setup = make(DP_MAPPING_D3D, DP_MODEL_FLOAT);
     assert_int_equal(matrices, 1); /* this file sees the calls */
     for (int i = 0; i < 1000; i++)
         dp_code(&setup, 0.1 + i);
@@ -76,7 +76,7 @@ static void test_matrix(void **state) {
     (void)state;
     for (int i = 0; i < 3; i++)
         for (int limited = 0; limited < 2; limited++) {
-            const dp_setup setup = make(mappings[i], DP_MODEL_FP32);
+            const dp_setup setup = make(mappings[i], DP_MODEL_FLOAT);
             search(&setup, limited);
             assert_int_equal(chains, 1);
             assert_int_equal(matrices, 0);
@@ -86,7 +86,7 @@ static void test_matrix(void **state) {
 static dp_setup make_slanted(void) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.triangles = dp_triangles_default();
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     return setup;

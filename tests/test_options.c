@@ -64,7 +64,7 @@ static const struct {
     {"table", OPTION_LOG_C, AT(log_c), 1, 1e-12, 1e12, "1e-12", "1e12", "0", "2e12", "a number from 1e-12 to 1e12"},
     {"budget", OPTION_INTERPOLATION, AT(terms.interpolation), 0, 0, 16777216, "0", "16777216", "-1", "16777217",
      "a number from 0 to 16777216 units of 2^-24"},
-    {"budget", OPTION_WORLD, AT(terms.world), 0, 0, 1e18, "0", "1e18", "-1e-9", "1.1e18",
+    {"budget", OPTION_FROM_ORIGIN, AT(terms.world), 0, 0, 1e18, "0", "1e18", "-1e-9", "1.1e18",
      "a number from 0 to 1e18 scene units"},
     {"bias", OPTION_UNITS, AT(units), 0, -1e12, 1e12, "-1e12", "1e12", "-2e12", "2e12", "a number from -1e12 to 1e12"},
     {"bias", OPTION_FACTOR, AT(factor), 0, -1e12, 1e12, "-1e12", "1e12", "-2e12", "2e12",
@@ -129,9 +129,9 @@ static void test_lengths(void **state) {
         const char *command;
         option_id id;
         size_t field;
-    } lengths[] = {{"solve", OPTION_SEPARATION, AT(wanted_separation)},
+    } lengths[] = {{"solve", OPTION_SEPARATION, AT(separation)},
                    {"solve", OPTION_ERROR, AT(wanted_error)},
-                   {"bias", OPTION_GAP, AT(gap)},
+                   {"bias", OPTION_SEPARATION, AT(separation)},
                    {"scene m.obj", OPTION_WITHIN, AT(within)},
                    {"texture", OPTION_OVERLAY, AT(overlay)}};
     tally t = {.name = "lengths"};
@@ -219,11 +219,7 @@ static void test_words(void **state) {
          OPTION_MODEL,
          WORD_AT(model),
          "exact, staged, float or auto",
-         {{"exact", DP_MODEL_EXACT},
-          {"staged", DP_MODEL_STAGED},
-          {"float", DP_MODEL_FP32},
-          {"fp32", DP_MODEL_FP32},
-          {"auto", DP_MODEL_EXACT}}},
+         {{"exact", DP_MODEL_EXACT}, {"staged", DP_MODEL_STAGED}, {"float", DP_MODEL_FLOAT}, {"auto", DP_MODEL_EXACT}}},
         {"budget",
          OPTION_COMPOSITION,
          WORD_AT(terms.composition),
@@ -250,12 +246,11 @@ static void test_words(void **state) {
         {"solve",
          OPTION_FOR,
          WORD_AT(target),
-         "near, far, format, mapping, separation, distance, frusta or world",
+         "near, far, format, mapping, separation, distance or frusta",
          {{"near", SOLVE_FOR_NEAR},
           {"far", SOLVE_FOR_FAR},
           {"format", SOLVE_FOR_FORMAT},
           {"mapping", SOLVE_FOR_MAPPING},
-          {"world", SOLVE_FOR_WORLD},
           {"separation", SOLVE_FOR_SEPARATION},
           {"distance", SOLVE_FOR_DISTANCE},
           {"frusta", SOLVE_FOR_FRUSTA}}},
@@ -321,7 +316,8 @@ static void test_rows(void **state) {
         {"prepass", OPTION_PROGRAM, AT(program), "FMA", "fma", offsetof(vertex_program, name), "separatr", "separate"},
         {"table", OPTION_RASTER, AT(raster), "LLVMpipe", "llvmpipe", offsetof(raster_row, name), "lavapip", "lavapipe"},
         {"budget", OPTION_RASTER, AT(raster), "spec-gl", "spec-gl", offsetof(raster_row, name), "spec-d3", "spec-d3d"},
-        {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
+        {"texture", OPTION_SYNTHETIC, AT(synthetic), "steps", "steps", offsetof(synthetic_row, name), "decal",
+         "decals"},
         {"texture", OPTION_PRODUCT, AT(product), "Linear01", "linear01", offsetof(product_row, name), "radail",
          "radial"},
         {"texture", OPTION_PRODUCT, AT(position), "position:rays", "rays", offsetof(position_row, name),
@@ -527,7 +523,7 @@ static void test_worlds(void **state) {
     options o;
     char line[1024] = "";
     (void)state;
-    assert_int_equal(parse(&o, "world", OPTION_DISTANCE, "8km,200m", line), EXIT_FINE);
+    assert_int_equal(parse(&o, "world", OPTION_FROM_ORIGIN, "8km,200m", line), EXIT_FINE);
     assert_true(o.distances.count == 2 && o.distances.lo == 200 && o.distances.hi == 8000 && o.at.count == 0);
     options_release(&o);
     assert_int_equal(parse(&o, "world", OPTION_SCHEME, "Split:1024,two-sum,split:1024,tile", line), EXIT_FINE);
@@ -575,9 +571,9 @@ static void test_own(void **state) {
     assert_int_equal(o.filters_off, 1U << FINDER_THIN | 1U << FINDER_FACING);
     assert_int_equal(parse(&o, "scene m.obj", OPTION_ALSO, "all", line), EXIT_FINE);
     assert_int_equal(o.filters_off, (1U << FINDER_FILTERS) - 1);
-    assert_int_equal(parse(&o, "scene m.obj", OPTION_GAP, "0", line), EXIT_FINE);
-    assert_true(o.gap == 0.0 && option_given(&o, OPTION_GAP));
-    assert_int_equal(parse(&o, "zfight", OPTION_GAP, "0", line), EXIT_USAGE);
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_SEPARATION, "0", line), EXIT_FINE);
+    assert_true(o.separation == 0.0 && option_given(&o, OPTION_SEPARATION));
+    assert_int_equal(parse(&o, "zfight", OPTION_SEPARATION, "0", line), EXIT_USAGE);
     assert_int_equal(parse(&o, "table", OPTION_TOLERANCE, "3%", line), EXIT_FINE);
     assert_true(near_to(o.tolerance, 0.03));
     assert_int_equal(parse(&o, "table", OPTION_AT, "3,1,2", line), EXIT_FINE);

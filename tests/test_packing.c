@@ -599,7 +599,7 @@ static void normals_come_back(void **state) {
     float normals[3 * PIXELS];
     const char *png = truth_path("in.png"), *npy = truth_path("place.npy");
     assert_int_equal(
-        run((const char *const[]){"--scene", "plane", "--size", "24x10", "-n", "1", "-f", "20", "--fov", "40",
+        run((const char *const[]){"--synthetic", "plane", "--size", "24x10", "-n", "1", "-f", "20", "--fov", "40",
                                   "--parameter", "tilt=30", "--pack", "depth-normals", "-o", png, NULL}),
         0);
     assert_int_equal(run((const char *const[]){png, "--product", "packed-normal", "-o", npy, NULL}), 0);
@@ -692,15 +692,15 @@ static void refusals(void **state) {
         {{in, "--packing", "rg", "-F", "fp32"}, "--format: does not apply with --packing rg"},
         {{in, "--packing", "rg", "--metric", "1"}, "--metric: does not apply with --packing"},
         {{in, "--packing", "depth-normals"}, "the packing depth-normals takes 4 channels, got 3"},
-        {{"--scene", "plane", "--packing", "rg"}, "--packing: needs FILE"},
+        {{"--synthetic", "plane", "--packing", "rg"}, "--packing: needs FILE"},
         {{in, "--packing", "rgb24", "--pack", "rg"}, "--pack needs -o FILE"},
         {{in, "--pack", "rg", "-o", "x.pfm"}, "must end in .png or .npy for --pack, got 'x.pfm'"},
         {{in, "--pack", "rg", "--product", "eye", "-o", out}, "--product: does not apply with --pack"},
         {{in, "--pack", "rg", "--json", "-o", out}, "--json: does not apply with --pack"},
         {{in, "--pack", "rg", "--normals-by", "low", "-o", out}, "--normals-by: does not apply with --pack rg"},
         {{in, "--pack", "rg", "--product", "packed-normal", "-o", out}, "--product: does not apply with --pack"},
-        {{"--scene", "plane", "-f", "inf", "--pack", "rg", "-o", out}, "it needs a finite far plane"},
-        {{"--scene", "plane", "--ortho", "-n", "-5", "-f", "9", "--pack", "rg", "-o", out},
+        {{"--synthetic", "plane", "-f", "inf", "--pack", "rg", "-o", out}, "it needs a finite far plane"},
+        {{"--synthetic", "plane", "--ortho", "-n", "-5", "-f", "9", "--pack", "rg", "-o", out},
          "it needs near not less than 0"},
         {{in, "--metric", "1", "--pack", "rgb24", "-o", out}, "rgb24 holds window depth, which"},
     };

@@ -17,10 +17,10 @@ static const char *describe(const solve_problem *p, char text[320]) {
     return text;
 }
 
-/* In the model fp32 a logarithmic depth has the guarantee of its shader, and the codes of the model staged. */
+/* In the model float a logarithmic depth has the guarantee of its shader, and the codes of the model staged. */
 static dp_status set_up(const dp_spec *of, dp_setup *out) {
     dp_spec spec = *of;
-    const int shader = spec.model == DP_MODEL_FP32 && dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG;
+    const int shader = spec.model == DP_MODEL_FLOAT && dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG;
     if (shader)
         spec.model = DP_MODEL_STAGED;
     const dp_status status = dp_setup_init(out, &spec);
@@ -57,7 +57,7 @@ static int draw(rng *r, dp_model model, measure_kind kind, solve_problem *p) {
     p->spec.model = model;
     do
         p->spec.mapping = (dp_mapping)rng_below(r, DP_MAPPING_COUNT);
-    while (model == DP_MODEL_FP32 && dp_mapping_get(p->spec.mapping)->curve == DP_CURVE_LINEAR);
+    while (model == DP_MODEL_FLOAT && dp_mapping_get(p->spec.mapping)->curve == DP_CURVE_LINEAR);
     p->spec.ortho = dp_mapping_get(p->spec.mapping)->ortho && rng_below(r, 5) == 0;
     p->spec.rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
     p->spec.arith = (dp_arith)rng_below(r, dp_arith_count());
@@ -222,7 +222,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
 
 static void test_fp32(void **state) {
     (void)state;
-    in_model(DP_MODEL_FP32, MEASURE_SEPARATION, test_cases(100, 500, 20000));
+    in_model(DP_MODEL_FLOAT, MEASURE_SEPARATION, test_cases(100, 500, 20000));
 }
 
 static void test_staged(void **state) {
@@ -309,7 +309,7 @@ static void test_half_code(void **state) {
     assert_true(a.possible && a.certain);
     assert_relative(a.value, 1000.0 * 0.5 / 65535.0, 1e-12);                      /* n/z = half a step */
     assert_relative(lattice.value, 0.5 / 65535.0 / (1e-3 - 1.0 / 5000.0), 1e-12); /* however it is aligned */
-    p.spec.model = DP_MODEL_FP32;
+    p.spec.model = DP_MODEL_FLOAT;
     assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_ERROR_MODEL);
     assert_int_equal(plane_solve(NULL, PLANE_PROVE, &lattice, &a), DP_ERROR_NULL);
     p.kind = MEASURE_SEPARATION;
@@ -331,7 +331,7 @@ static void test_sweep(void **state) {
         p.spec.format = found[0];
         p.spec.mapping = mappings[k];
         p.spec.zfar = 1e4;
-        p.spec.model = DP_MODEL_FP32;
+        p.spec.model = DP_MODEL_FLOAT;
         assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
         assert_true(a.possible && a.certain && meets(&p, a.value) && a.value >= lattice.value);
         assert_true(a.proven && a.chosen >= a.value && a.until == 5000.0);
@@ -368,7 +368,7 @@ static void test_what_samples_miss(void **state) {
     plane_answer a;
     solve_problem p = camera(SOLVE_FAR, "unorm24", DP_MAPPING_D3D, 1.0);
     p.spec.ortho = 1;
-    p.spec.model = DP_MODEL_FP32;
+    p.spec.model = DP_MODEL_FLOAT;
     p.limit = 0.002;
     p.lo = p.hi = 5000.0;
     assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
@@ -387,9 +387,9 @@ static void test_far_from_the_lattice(void **state) {
         bool ortho;
         double plane, limit, z;
     } rows[] = {
-        {DP_MODEL_FP32, SOLVE_FAR, "unorm24", DP_MAPPING_D3D, false, 1.2, 4.2e-6, 7.5},
-        {DP_MODEL_FP32, SOLVE_FAR, "fp32", DP_MAPPING_GL_REVERSED, false, 28, 2e-5, 110},
-        {DP_MODEL_FP32, SOLVE_NEAR, "unorm24", DP_MAPPING_REVERSED, true, 540000, 0.048, 250000},
+        {DP_MODEL_FLOAT, SOLVE_FAR, "unorm24", DP_MAPPING_D3D, false, 1.2, 4.2e-6, 7.5},
+        {DP_MODEL_FLOAT, SOLVE_FAR, "fp32", DP_MAPPING_GL_REVERSED, false, 28, 2e-5, 110},
+        {DP_MODEL_FLOAT, SOLVE_NEAR, "unorm24", DP_MAPPING_REVERSED, true, 540000, 0.048, 250000},
         {DP_MODEL_STAGED, SOLVE_FAR, "fp32", DP_MAPPING_D3D, false, 27, 2.4e-5, 87},
         {DP_MODEL_STAGED, SOLVE_NEAR, "unorm24", DP_MAPPING_REVERSED, true, 0.19, 2.6e-8, 0.051},
     };
@@ -427,7 +427,7 @@ static void test_nearest_miss(void **state) {
     for (int unknown = SOLVE_NEAR; unknown <= SOLVE_FAR; unknown++) {
         solve_problem p = camera((solve_unknown)unknown, "unorm24", DP_MAPPING_D3D, other[unknown]);
         dp_setup setup;
-        p.spec.model = DP_MODEL_FP32;
+        p.spec.model = DP_MODEL_FLOAT;
         p.limit = 0.0004;
         p.lo = p.hi = 5000.0;
         assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
@@ -440,7 +440,7 @@ static void test_nearest_miss(void **state) {
     /* Near has no influence on log, so that none will do is certain; three-webgpu begins at it. */
     for (int i = 0; i < 2; i++) {
         solve_problem p = camera(SOLVE_NEAR, "unorm24", i == 0 ? DP_MAPPING_LOG : DP_MAPPING_THREE_WEBGPU, 1e4);
-        p.spec.model = DP_MODEL_FP32;
+        p.spec.model = DP_MODEL_FLOAT;
         p.limit = i == 0 ? 0.0008 : 0.0004;
         p.lo = p.hi = 1000.0;
         assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);

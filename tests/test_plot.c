@@ -9,9 +9,9 @@
 #include "named.h"
 #include "need/requirement.h"
 #include "plot/draw.h"
-#include "plot/fights.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
+#include "plot/scene.h"
 #include "plot/ticks.h"
 #include "plot/trace.h"
 #include "plot/words.h"
@@ -222,7 +222,7 @@ static void test_map(void **state) {
 /* Of two cameras, one requirement is met, one missed and one about the error. */
 static const char needs[] =
     "cameras = { a = { near = 0.1; far = 1000.0; mapping = \"d3d\"; format = \"unorm24\"; };"
-    "            b = { near = 1.0; far = 100.0; mapping = \"reversed\"; format = \"fp32\"; model = \"fp32\"; }; };"
+    "            b = { near = 1.0; far = 100.0; mapping = \"reversed\"; format = \"fp32\"; model = \"float\"; }; };"
     "requirements = { x = { camera = \"a\"; range = [1.0, 500.0]; separation = 0.01; };"
     "                 y = { camera = \"a\"; at = 5.0; error = 0.01; };"
     "                 z = { camera = \"b\"; range = [2.0, 50.0]; separation = 0.01; }; };";
@@ -286,7 +286,7 @@ static void test_every_figure_draws(void **state) {
 }
 
 /* Where the format may be either of two, each has its panel, drawn in the fullest model that the camera asks for. */
-static void test_scene_of_two_formats(void **state) {
+static void test_needs_of_two_formats(void **state) {
     (void)state;
     static const char text[] = "cameras = { a = { near = 1.0; far = 100.0; mapping = \"d3d\"; format = "
                                "\"depth24plus\"; model = \"auto\"; }; };"
@@ -296,12 +296,12 @@ static void test_scene_of_two_formats(void **state) {
     need_error error;
     asked a;
     ask(&a, 1, 100);
-    a.setups[0].spec.model = DP_MODEL_FP32;
+    a.setups[0].spec.model = DP_MODEL_FLOAT;
     ask_add(&a, either[0], DP_MAPPING_D3D);
     ask_add(&a, either[1], DP_MAPPING_D3D);
     a.request.file = &file;
     assert_true(need_parse("needs", text, sizeof text - 1, &file, &error));
-    chart *c = build(&a, "scene");
+    chart *c = build(&a, "needs");
     assert_int_equal(c->panel_count, 2);
     for (size_t i = 0; i < 2; i++) {
         char title[80];
@@ -513,7 +513,7 @@ int main(void) {
         cmocka_unit_test(test_share),
         cmocka_unit_test(test_map),
         cmocka_unit_test(test_every_figure_draws),
-        cmocka_unit_test(test_scene_of_two_formats),
+        cmocka_unit_test(test_needs_of_two_formats),
         cmocka_unit_test(test_digest),
         cmocka_unit_test(test_digest_under),
         cmocka_unit_test(test_ticks),

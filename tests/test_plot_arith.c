@@ -43,8 +43,8 @@ static const chart_series *find(const chart_panel *panel, const char *name) {
 
 static void budget_shows_the_library(void **state) {
     (void)state;
-    const dp_setup setups[] = {make("unorm24", DP_MAPPING_GL, DP_MODEL_FP32),
-                               make("fp16", DP_MAPPING_D3D, DP_MODEL_FP32)};
+    const dp_setup setups[] = {make("unorm24", DP_MAPPING_GL, DP_MODEL_FLOAT),
+                               make("fp16", DP_MAPPING_D3D, DP_MODEL_FLOAT)};
     const char *names[] = {"one", "two"};
     const figure_request request = {.setups = setups,
                                     .count = 2,
@@ -85,7 +85,7 @@ static void budget_shows_the_library(void **state) {
 
 static void interval_shows_both(void **state) {
     (void)state;
-    const dp_setup setups[] = {make("unorm24", DP_MAPPING_D3D, DP_MODEL_FP32),
+    const dp_setup setups[] = {make("unorm24", DP_MAPPING_D3D, DP_MODEL_FLOAT),
                                make("unorm24", DP_MAPPING_LOG, DP_MODEL_STAGED)};
     const dp_setup exact[] = {make("unorm24", DP_MAPPING_D3D, DP_MODEL_EXACT), setups[1]};
     const char *names[] = {"a", "b"};
@@ -124,7 +124,7 @@ static void interval_shows_both(void **state) {
 /* Both axes fit their own series alone. */
 static void axes_are_fitted_apart(void **state) {
     (void)state;
-    const dp_setup setup = make("unorm24", DP_MAPPING_D3D, DP_MODEL_FP32);
+    const dp_setup setup = make("unorm24", DP_MAPPING_D3D, DP_MODEL_FLOAT);
     const char *name = "a";
     const figure_request request = {
         .setups = &setup, .count = 1, .names = &name, .lo = 1, .hi = 100, .at = NAN, .columns = COLUMNS};

@@ -10,7 +10,7 @@
 
 /* A sphere that stands before the sky, turned away from the axes. */
 #define SCENE                                                                                                          \
-    "texture --scene sphere --size 48x30 -n 0.5 -f 90 -F fp32 -m d3d --fov 50 "                                        \
+    "texture --synthetic sphere --size 48x30 -n 0.5 -f 90 -F fp32 -m d3d --fov 50 "                                    \
     "--look 710.09566913054,-267.39748443426,5052.5932241276"
 
 /* Reads both files; as many samples as there are. */

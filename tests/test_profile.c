@@ -267,7 +267,7 @@ static void test_bias_measured(void **state) {
             const bool known = found_of[i].codes > 0 && strncmp(found_of[i].device, drawn, strlen(drawn)) == 0;
             write_bias("bias.json", i, "");
             for (int is_float = 0; is_float < 2; is_float++) {
-                const char *const format = is_float ? "-F fp32 --gap 0.01" : "-F unorm16 --gap 0.01";
+                const char *const format = is_float ? "-F fp32 --separation 0.01" : "-F unorm16 --separation 0.01";
                 json_t *open = bias_json(NULL, name, format, by_api), *root = bias_json(path, name, format, r);
                 assert_string_equal(json_string_value(json_object_get(root, "measured")), "B, driver D");
                 /* depth 0.01 = 1.28 x 2^-7 */

@@ -271,7 +271,7 @@ static dp_setup setup_of(const trap *t) {
     assert_int_equal(dp_arith_parse(t->arith, &spec.arith), DP_OK);
     spec.ortho = t->ortho;
     spec.rounding = t->rounding;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     return setup;
 }

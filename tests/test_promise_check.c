@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What check passes, zfight --gap must find in order: random requirements on a separation, as short as check lets them
- * be; then each binary32 depth of the range and the surface that far behind it.
+ * What check passes, zfight --separation must find in order: random requirements on a separation, as short as check
+ * lets them be; then each binary32 depth of the range and the surface that far behind it.
  */
 #include <math.h>
 #include <stdio.h>
@@ -81,7 +81,7 @@ static double shortest(const asked *a) {
 static void describe(const asked *a, double gap, char *text, size_t size) {
     const dp_spec *s = &a->setup.spec;
     snprintf(text, size,
-             "depthprec zfight -n %.17g -f %.17g -F %s -m %s%s --arith %s --rounding %s --gap %.17g --range "
+             "depthprec zfight -n %.17g -f %.17g -F %s -m %s%s --arith %s --rounding %s --separation %.17g --range "
              "%.17g:%.17g (model %s)",
              s->znear, s->zfar, s->format.name, dp_mapping_get(s->mapping)->name, s->ortho ? " --ortho" : "",
              dp_arith_get(s->arith)->name, roundings[s->rounding], gap, a->lo, a->hi, a->model);
@@ -104,7 +104,7 @@ static asked draw(rng *r) {
     asked a;
     do {
         a.setup = promise_draw(r);
-        a.model = rng_below(r, 4) ? "fp32" : "auto";
+        a.model = rng_below(r, 4) ? "float" : "auto";
     } while (!draw_range(r, &a));
     return a;
 }

@@ -70,7 +70,7 @@ static void begin_target(target *t, const vector_row *row) {
 static double reach_of(const target *t, float z) {
     dp_spec spec = t->setup.spec;
     double greatest = 0.0;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     for (spec.arith = 0; spec.arith < dp_arith_count(); spec.arith++) {
         dp_setup setup;
         assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);

@@ -196,7 +196,7 @@ static void scenes_are_off_by_what_they_are(void **state) {
             const real d = window_of(b, fminl((real)z, b->f));
             char source[512];
             image raw, raw_map, share, share_map;
-            snprintf(source, sizeof source, "--scene plane --size 2x1 --parameter distance=%.17g ", z);
+            snprintf(source, sizeof source, "--synthetic plane --size 2x1 --parameter distance=%.17g ", z);
             options_of(b, source + strlen(source));
             const real stored = (real)product_of(source, "--product raw", &raw)[0];
             const real off = (real)product_of(source, "--product raw --error-map", &raw_map)[0];

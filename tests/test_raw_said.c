@@ -32,11 +32,11 @@ static void what_is_said(void **state) {
     assert_non_null(strstr(p.errors, "those of raw have no names"));
     printed_free(&p);
     snprintf(path, sizeof path, "%s", scratch_file("own.npy"));
-    p = print_of("texture --scene plane --size 8x8 -o %s", path);
+    p = print_of("texture --synthetic plane --size 8x8 -o %s", path);
     printed_free(&p);
     p = print_of("texture %s --size 8x8", path);
     assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--size: is for --scene and raw files"));
+    assert_non_null(strstr(p.errors, "--size: is for --synthetic and raw files"));
     printed_free(&p);
 }
 

@@ -28,7 +28,7 @@ static void random_request(rng *r, asked *a, dp_model model) {
     spec.format = format[0];
     spec.znear = rng_log(r, 1e-3, 10);
     spec.zfar = infinite ? (double)INFINITY : spec.znear * rng_log(r, 2, 1e7);
-    spec.mapping = (dp_mapping)rng_below(r, infinite || model == DP_MODEL_FP32 ? 4 : DP_MAPPING_COUNT);
+    spec.mapping = (dp_mapping)rng_below(r, infinite || model == DP_MODEL_FLOAT ? 4 : DP_MAPPING_COUNT);
     spec.ortho = !infinite && spec.mapping < DP_MAPPING_LINEAR && rng_below(r, 4) == 0;
     spec.model = model;
     assert_int_equal(dp_setup_init(&a->setup, &spec), DP_OK);
@@ -199,7 +199,7 @@ static void points_are_drawn_to_half_a_pixel(void **state) {
         asked a;
         random_request(&r, &a, DP_MODEL_EXACT);
         check_points(&t, &a, "share", 0, share_of);
-        random_request(&r, &a, DP_MODEL_FP32);
+        random_request(&r, &a, DP_MODEL_FLOAT);
         for (int k = 0; k <= BANDS; k++)
             check_points(&t, &a, "budget", k, rim_of);
     }
@@ -241,7 +241,7 @@ static void separations_are_drawn_to_half_a_pixel(void **state) {
     tally t = {.name = "separations"};
     for (uint64_t n = test_cases(20, 100, 2000); n > 0; n--) {
         asked a;
-        random_request(&r, &a, DP_MODEL_FP32);
+        random_request(&r, &a, DP_MODEL_FLOAT);
         chart *c = build(&a, "interval");
         const chart_panel *panel = &c->panels[0];
         double lo, hi;

@@ -97,7 +97,7 @@ static dp_setup any_setup(rng *r) {
         spec.arith = rng_below(r, dp_arith_count());
         dp_format_parse(formats[rng_below(r, 5)], format);
         spec.format = format[0];
-        spec.model = dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG ? DP_MODEL_EXACT : DP_MODEL_FP32;
+        spec.model = dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG ? DP_MODEL_EXACT : DP_MODEL_FLOAT;
     } while (dp_setup_init(&setup, &spec) != DP_OK);
     return setup;
 }

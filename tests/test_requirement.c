@@ -23,7 +23,7 @@ static void example_is_read(void **state) {
     need_release(&f);
     assert_true(parse(
         "cameras = { a = { preset = \"unity\"; model = \"float\"; }; };\n" NEEDS("separation = 1; at = 5;"), &f, &e));
-    assert_int_equal(f.cameras[0].setups[0].spec.model, DP_MODEL_FP32);
+    assert_int_equal(f.cameras[0].setups[0].spec.model, DP_MODEL_FLOAT);
     need_release(&f);
     assert_true(need_read("tests/needs/engine.need", &f, &e));
     assert_string_equal(f.unit, "m");
@@ -33,7 +33,7 @@ static void example_is_read(void **state) {
     assert_int_equal(f.cameras[1].count, 2); /* depth24plus */
     assert_true(f.cameras[1].setups[0].spec.znear == 0.5 && f.cameras[1].setups[0].spec.zfar == 2000.0);
     assert_true(isinf(f.cameras[0].setups[0].spec.zfar));
-    assert_int_equal(f.cameras[0].setups[0].spec.model, DP_MODEL_FP32);
+    assert_int_equal(f.cameras[0].setups[0].spec.model, DP_MODEL_FLOAT);
     assert_true(f.cameras[2].setups[0].spec.znear == 0.2 && f.cameras[2].setups[0].spec.zfar == 4000.0);
     assert_true(f.cameras[3].setups[0].spec.ortho);
     assert_string_equal(f.needs[0].name, "decals");
@@ -122,7 +122,7 @@ static void orthographic_depths_have_either_sign(void **state) {
 }
 
 #define SUN                                                                                                            \
-    "cameras = { a = { near = -1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"fp32\"; ortho = true; }; "  \
+    "cameras = { a = { near = -1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"float\"; ortho = true; }; " \
     "};\n"
 
 /* What is wrong, on which line, and a piece of what is said. */
@@ -151,7 +151,7 @@ static const struct {
      "mapping: must be"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp31\"; }; };" NEEDS(""), 1,
      "format: must be"},
-    {"cameras = { a = { near = 1; far = 2; mapping = \"linear\"; format = \"fp32\"; model = \"fp32\"; }; };" NEEDS(""),
+    {"cameras = { a = { near = 1; far = 2; mapping = \"linear\"; format = \"fp32\"; model = \"float\"; }; };" NEEDS(""),
      1, "model: must be exact, staged or auto with the mapping linear, got float"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; log_c = 1.0; }; };" NEEDS(""), 1,
      "log_c: is for the mappings with a constant C"},
@@ -189,13 +189,13 @@ static const struct {
     {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"exact\"; }; };\n" NEEDS(
          "at = 1; ties = 0.1;"),
      2, "ties: needs the model float or auto"},
-    {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"fp32\"; }; };\n" NEEDS(
+    {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"float\"; }; };\n" NEEDS(
          "at = 1; error = 0.1;"),
      2, "error: needs the model exact, staged or auto"},
-    {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"fp32\"; }; };\n" NEEDS(
+    {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"float\"; }; };\n" NEEDS(
          "at = 1; ties = 0.1;"),
      2, "ties: needs a range"},
-    {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"fp32\"; }; };\n" NEEDS(
+    {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"float\"; }; };\n" NEEDS(
          "range = [1, 2]; ties = 1.5;"),
      2, "must be a share from 0 to 1"},
     {CAMERA "requirements = { r = { camera = \"b\"; at = 1; error = 1; }; };", 2, "camera: must be one of those"},

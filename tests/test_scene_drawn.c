@@ -135,7 +135,7 @@ static bool set_camera(rng *r, stage *s, const char *raster, const char *format)
     if (!raster_draws(s->row, found) || !raster_bounded(s->row, found))
         return false;
     spec.format = found[0];
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.znear = rng_log(r, 0.05, 1);
     spec.zfar = rng_below(r, 2) == 0 ? INFINITY : spec.znear * rng_log(r, 1e3, 1e5);
     spec.triangles = dp_triangles_default();

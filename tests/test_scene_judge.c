@@ -76,7 +76,7 @@ static void certain(void **state) {
     for (uint64_t run = 0; run < test_cases(30, 200, 5000); run++) {
         static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
         dp_setup setup =
-            setup_of(formats[run % 3], run % 2 == 0 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, 0.1, 1000, DP_MODEL_FP32);
+            setup_of(formats[run % 3], run % 2 == 0 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, 0.1, 1000, DP_MODEL_FLOAT);
         dp_spec spec = setup.spec;
         if (run % 5 == 0) {
             spec.triangles = dp_triangles_default();
@@ -102,7 +102,7 @@ static void certain(void **state) {
 }
 
 static void nothing_between(void **state) {
-    const dp_setup setup = setup_of("fp32", DP_MAPPING_REVERSED, 0.1, 1000, DP_MODEL_FP32);
+    const dp_setup setup = setup_of("fp32", DP_MAPPING_REVERSED, 0.1, 1000, DP_MODEL_FLOAT);
     const scene_verdict v = scene_judge(&setup, 0, 0, 100);
     (void)state;
     assert_true(isnan(v.certain_to) && v.ties_from == 0.1 && v.lift > 0);

@@ -154,7 +154,7 @@ static void lifts(void **state) {
         TALLY(&said_some, isfinite(before.lift), "%s: no distance is enough", options);
         const double by = before.lift * (1 + 1e-9);
         char again[640];
-        snprintf(again, sizeof again, "%s --gap %.17g --within %.17g", options, 4 * by + 4 * gap, before.within);
+        snprintf(again, sizeof again, "%s --separation %.17g --within %.17g", options, 4 * by + 4 * gap, before.within);
         const double ways[4][2] = {{0, by}, {-by, 0}, {0, -by}, {by, 0}};
         for (int way = 0; way < (before.touches ? 4 : 2); way++) { /* touching, also the other way */
             write_two(&made, ways[way], path);

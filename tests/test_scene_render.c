@@ -34,7 +34,7 @@ static stage stage_of(const char *raster, const char *format, dp_mapping mapping
     spec.triangles.height = HEIGHT;
     spec.format = found[0];
     spec.mapping = mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.znear = znear;
     spec.zfar = zfar;
     assert_true(raster_arith(row, false, &spec.arith));

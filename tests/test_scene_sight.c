@@ -32,7 +32,7 @@ static dp_setup setup_of(const char *raster, const char *format, dp_mapping mapp
     spec.triangles.height = HEIGHT;
     spec.format = found[0];
     spec.mapping = mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.zfar = zfar;
     assert_true(raster_arith(row, false, &spec.arith));
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);

@@ -123,8 +123,8 @@ static void staged(void **state) {
 
 static void binary32(void **state) {
     (void)state;
-    sweep(POSITIVE, DP_MODEL_FP32, "separation fp32", 1.0 + 0x1p-9);
-    sweep(EITHER_SIGN, DP_MODEL_FP32, "separation fp32, either sign", 1.0 + 0x1p-9);
+    sweep(POSITIVE, DP_MODEL_FLOAT, "separation fp32", 1.0 + 0x1p-9);
+    sweep(EITHER_SIGN, DP_MODEL_FLOAT, "separation fp32, either sign", 1.0 + 0x1p-9);
 }
 
 /* A limit just above or below the worst is decided, whichever side it is on. */
@@ -169,7 +169,7 @@ static void census_keeps_the_bound(void **state) {
     for (uint64_t i = 0; i < test_cases(2, 60, 600); i++) {
         dp_setup s;
         dp_separation_worst w;
-        if (!random_setup(&r, POSITIVE, DP_MODEL_FP32, &s))
+        if (!random_setup(&r, POSITIVE, DP_MODEL_FLOAT, &s))
             continue;
         const double lo = rng_log(&r, s.spec.znear, fmin(s.spec.zfar, s.spec.znear * 1e4));
         const double hi = fmin(s.spec.zfar, lo * (1.0 + rng_log(&r, 1e-4, 2e-2)));
@@ -197,7 +197,7 @@ static void the_worst_inside(void **state) {
     spec.mapping = DP_MAPPING_D3D;
     spec.ortho = 1;
     spec.rounding = DP_ROUND_ZERO;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_arith_parse("reciprocal", &spec.arith), DP_OK);
     assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
     const double lo = 127.0;

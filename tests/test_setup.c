@@ -167,8 +167,8 @@ static void bad_rows(void **state) {
     REFUSE(DP_ERROR_MODEL, spec.model = (dp_model)-1);
     REFUSE(DP_ERROR_ARITH, spec.arith = (dp_arith)-1);
     REFUSE(DP_ERROR_ARITH, spec.arith = (dp_arith)1000000);
-    REFUSE(DP_ERROR_MODEL, spec.model = DP_MODEL_FP32; spec.mapping = DP_MAPPING_LINEAR);
-    REFUSE(DP_ERROR_MODEL, spec.model = DP_MODEL_FP32; spec.mapping = DP_MAPPING_LOG);
+    REFUSE(DP_ERROR_MODEL, spec.model = DP_MODEL_FLOAT; spec.mapping = DP_MAPPING_LINEAR);
+    REFUSE(DP_ERROR_MODEL, spec.model = DP_MODEL_FLOAT; spec.mapping = DP_MAPPING_LOG);
     REFUSE(DP_ERROR_FORMAT, memset(&spec.format, 0, sizeof spec.format));
     REFUSE(DP_ERROR_FORMAT, memset(&spec.format, 0xFF, sizeof spec.format));
     REFUSE(DP_ERROR_FORMAT, spec.format.kind = (dp_format_kind)2);

@@ -282,7 +282,7 @@ static void test_door(void **state) {
     p.lo = 60.0;
     assert_int_equal(solve(&p, &s), DP_ERROR_RANGE);
     p = good;
-    p.spec.model = DP_MODEL_FP32;
+    p.spec.model = DP_MODEL_FLOAT;
     assert_int_equal(solve(&p, &s), DP_ERROR_MODEL);
     p = good;
     p.spec.mapping = DP_MAPPING_LINEAR;

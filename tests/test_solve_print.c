@@ -35,7 +35,7 @@ static dp_setup setup_of(const asked *a, double plane) {
 static asked draw(rng *r) {
     static const char *const formats[] = {"fp32", "unorm16", "unorm24", "unorm24", "fp16"};
     static const char *const mappings[] = {"d3d", "gl", "reversed", "gl-reversed"};
-    static const char *const models[] = {"exact", "staged", "fp32", "fp32", "fp32"};
+    static const char *const models[] = {"exact", "staged", "float", "float", "float"};
     asked a = {.format = formats[rng_below(r, 5)],
                .mapping = mappings[rng_below(r, 4)],
                .model = models[rng_below(r, 5)],
@@ -175,7 +175,7 @@ static void test_all_beyond(void **state) {
                    5000,      0.01}; /* the examples of README.md */
         if (i > 1)
             a = draw(&r);
-        a.model = "fp32";
+        a.model = "float";
         if (a.target == 2 || isinf(a.separation) || ask(&a, path, line) != EXIT_FINE || strncmp(line, "Any ", 4) == 0)
             continue;
         const double value = printed(line);

@@ -8,15 +8,15 @@
 
 #include "named.h"
 #include "oracle.h"
-#include "scene_stage.h"
 #include "support.h"
+#include "synthetic_stage.h"
 #include "texture/survey.h"
 
 enum { WIDTH = 640, HEIGHT = 360, PIXELS = WIDTH * HEIGHT };
 
-static void stage_set(scene_stage *s, const char *scene, const char *format, const char *mapping, double znear,
+static void stage_set(synthetic_stage *s, const char *synthetic, const char *format, const char *mapping, double znear,
                       double zfar) {
-    scene_stage_between(s, scene, format, mapping, znear, zfar, znear <= 0, WIDTH, HEIGHT);
+    synthetic_stage_between(s, synthetic, format, mapping, znear, zfar, znear <= 0, WIDTH, HEIGHT);
     s->frame.threads = 2;
 }
 
@@ -41,7 +41,7 @@ static void sky_begins_where_the_threshold_is(void **state) {
     (void)state;
     for (size_t k = 0; k < SETUPS; k++)
         for (size_t i = 0; i < 6; i++) {
-            scene_stage s;
+            synthetic_stage s;
             stage_set(&s, "plane", setups[k].format, setups[k].mapping, setups[k].znear, setups[k].zfar);
             s.frame.sky = limits[i];
             const dp_setup *setup = &s.camera.setup;
@@ -83,7 +83,7 @@ static double gap_of(oracle *o, const dp_setup *setup, uint32_t near, uint32_t f
 }
 
 /* The codes that a band can have, one by one; of a format with too many, those that were counted. */
-static uint64_t there(const scene_stage *s, const survey_band *band) {
+static uint64_t there(const synthetic_stage *s, const survey_band *band) {
     const dp_setup *setup = &s->camera.setup;
     const bool first = band->lo == setup->spec.znear; /* with what is stored nearer than the near plane */
     uint64_t codes = 0;
@@ -96,7 +96,7 @@ static uint64_t there(const scene_stage *s, const survey_band *band) {
     return codes;
 }
 
-static void check_bands(const scene_stage *s, const survey *v, const uint32_t *ranks, size_t count) {
+static void check_bands(const synthetic_stage *s, const survey *v, const uint32_t *ranks, size_t count) {
     const dp_setup *setup = &s->camera.setup;
     oracle o;
     uint64_t pixels = 0, codes = 0;
@@ -146,7 +146,7 @@ static void counts_are_those_of_sorted_codes(void **state) {
     assert_non_null(codes);
     for (size_t k = 0; k < SETUPS; k++)
         for (size_t c = 0; c < 3; c++) {
-            scene_stage s;
+            synthetic_stage s;
             survey v, alone;
             size_t count = 0, true_sky = 0;
             stage_set(&s, scenes[c], setups[k].format, setups[k].mapping, setups[k].znear, setups[k].zfar);
@@ -155,8 +155,8 @@ static void counts_are_those_of_sorted_codes(void **state) {
             const uint32_t sky = frame_sky_rank(&s.frame);
             for (uint32_t y = 0; y < HEIGHT; y++)
                 for (uint32_t x = 0; x < WIDTH; x++) {
-                    scene_hit h;
-                    s.frame.scene->hit(&s.camera, s.parameters, x, y, &h);
+                    synthetic_hit h;
+                    s.frame.synthetic->hit(&s.camera, s.parameters, x, y, &h);
                     const uint32_t rank = frame_rank(&s.camera.setup, dp_code(&s.camera.setup, h.z));
                     true_sky += h.surface == 0;
                     if (rank < sky)
@@ -193,7 +193,7 @@ static void decals_fight_as_the_oracle_says(void **state) {
     uint64_t fought = 0, stood = 0;
     for (size_t k = 0; k < SETUPS; k++)
         for (size_t g = 0; g < 5; g++) {
-            scene_stage s;
+            synthetic_stage s;
             survey_pairs found;
             uint64_t ties = 0, seen = 0, tiles = 0;
             double first = NAN;
@@ -207,10 +207,10 @@ static void decals_fight_as_the_oracle_says(void **state) {
             for (int tile = 0; tile < 64; tile++) {
                 /* The depths as the image has them: the middle of the tile, and its corner. */
                 const uint32_t x = (uint32_t)(tile % 8) * 80, y = (uint32_t)(tile / 8) * 45;
-                scene_hit front, back;
+                synthetic_hit front, back;
                 uint32_t row[WIDTH], corner[WIDTH];
-                s.frame.scene->hit(&s.camera, s.parameters, x + 40, y + 22, &front);
-                s.frame.scene->hit(&s.camera, s.parameters, x, y, &back);
+                s.frame.synthetic->hit(&s.camera, s.parameters, x + 40, y + 22, &front);
+                s.frame.synthetic->hit(&s.camera, s.parameters, x, y, &back);
                 frame_codes(&s.frame, y + 22, row);
                 frame_codes(&s.frame, y, corner);
                 const bool tie = oracle_code(&o, front.z) == oracle_code(&o, back.z);
@@ -240,7 +240,7 @@ static void decals_fight_as_the_oracle_says(void **state) {
 
 static void scenes_without_pairs_say_so(void **state) {
     (void)state;
-    scene_stage s;
+    synthetic_stage s;
     survey_pairs found;
     stage_set(&s, "sphere", "fp32", "d3d", 0.1, 1000);
     assert_false(survey_pairs_make(&s.frame, &found));

@@ -52,11 +52,12 @@ static void test_names(void **state) {
     tally t = {.name = "names"};
     (void)state;
     snprintf(image, sizeof image, "%s", scratch_file("image.npy"));
-    printed p = print_of("texture --scene sphere --size 24x16 -F unorm16 -m d3d -o %s", image);
+    printed p = print_of("texture --synthetic sphere --size 24x16 -F unorm16 -m d3d -o %s", image);
     assert_int_equal(p.status, 0);
     printed_free(&p);
     for (size_t i = 0; i < sizeof products / sizeof products[0]; i++) {
-        check_title(&t, "--scene sphere --size 24x16", products[i].options, products[i].of_scene, products[i].panels);
+        check_title(&t, "--synthetic sphere --size 24x16", products[i].options, products[i].of_scene,
+                    products[i].panels);
         check_title(&t, image, products[i].options, products[i].of_image, products[i].panels);
     }
     tally_end(&t);

@@ -38,10 +38,10 @@ static void what_the_sky_hides_is_counted(void **state) {
     for (int i = 0; i < PIXELS; i++)
         hidden += meets(i % WIDTH, i / WIDTH, 900, 300);
     assert_true(hidden > 4 && hidden < PIXELS / 2);
-    snprintf(
-        words, sizeof words,
-        "--scene sphere --parameter distance=900 --parameter radius=300 --size %dx%d -F unorm24 -m d3d --json -o %s",
-        WIDTH, HEIGHT, truth_path("said.json"));
+    snprintf(words, sizeof words,
+             "--synthetic sphere --parameter distance=900 --parameter radius=300 --size %dx%d -F unorm24 -m d3d --json "
+             "-o %s",
+             WIDTH, HEIGHT, truth_path("said.json"));
     run(words);
     json_t *root = json_load_file(truth_path("said.json"), JSON_REJECT_DUPLICATES, NULL);
     assert_non_null(root);
@@ -61,10 +61,11 @@ static double stored16(double z) {
 static void gaps_are_those_of_two_depths(void **state) {
     (void)state;
     char words[256], line[512];
-    snprintf(words, sizeof words,
-             "--scene steps --parameter from=21 --parameter to=34 --parameter count=2 --size %dx%d -F unorm16 -m d3d "
-             "--csv -o %s",
-             WIDTH, HEIGHT, truth_path("said.csv"));
+    snprintf(
+        words, sizeof words,
+        "--synthetic steps --parameter from=21 --parameter to=34 --parameter count=2 --size %dx%d -F unorm16 -m d3d "
+        "--csv -o %s",
+        WIDTH, HEIGHT, truth_path("said.csv"));
     run(words);
     FILE *csv = fopen(truth_path("said.csv"), "r");
     double n[9] = {0};
@@ -103,13 +104,13 @@ static void error_maps_are_called_what_they_are(void **state) {
     (void)state;
     char words[256];
     snprintf(words, sizeof words,
-             "--scene sphere --size %dx%d -F unorm24 -m d3d --product normal:projective --error-map "
+             "--synthetic sphere --size %dx%d -F unorm24 -m d3d --product normal:projective --error-map "
              "--figure %s",
-             WIDTH, HEIGHT, truth_path("scene.svg"));
+             WIDTH, HEIGHT, truth_path("synthetic.svg"));
     run(words);
-    assert_true(holds("scene.svg", "Normals by projective, error"));
-    assert_false(holds("scene.svg", "bound of the error"));
-    snprintf(words, sizeof words, "--scene sphere --size %dx%d -F unorm24 -m d3d -o %s", WIDTH, HEIGHT,
+    assert_true(holds("synthetic.svg", "Normals by projective, error"));
+    assert_false(holds("synthetic.svg", "bound of the error"));
+    snprintf(words, sizeof words, "--synthetic sphere --size %dx%d -F unorm24 -m d3d -o %s", WIDTH, HEIGHT,
              truth_path("in.npy"));
     run(words);
     snprintf(words, sizeof words, "%s -F unorm24 -m d3d --product normal:projective --error-map --figure %s",

@@ -16,7 +16,7 @@ static dp_budget reversed_at(double znear, const dp_triangles *t, double z) {
                               .zfar = INFINITY,
                               .mapping = DP_MAPPING_REVERSED,
                               .format = dp_spec_default().format,
-                              .model = DP_MODEL_FP32,
+                              .model = DP_MODEL_FLOAT,
                               .triangles = *t};
     dp_setup setup;
     dp_budget b;
@@ -205,7 +205,7 @@ static dp_setup random_setup(rng *r) {
     spec.zfar = rng_below(r, 3) == 0 ? INFINITY : spec.znear * rng_log(r, 10.0, 1e6);
     spec.format = dp_format_get(rng_below(r, dp_format_count()))->format;
     spec.arith = rng_below(r, dp_arith_count());
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     return setup;
 }

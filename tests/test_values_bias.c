@@ -118,7 +118,7 @@ static void arguments_of(const bias_case *c, char out[1024]) {
                 {"factor", c->factor, c->factor != 0},
                 {"clamp", c->clamp, c->clamp != 0},
                 {"slope", c->slope, c->slope != 0},
-                {"gap", c->gap, c->gap != 0}};
+                {"separation", c->gap, c->gap != 0}};
     for (size_t i = 0; i < sizeof rest / sizeof rest[0]; i++)
         if (rest[i].given)
             used += (size_t)snprintf(out + used, 1024 - used, " --%s=%.17g", rest[i].name, rest[i].number);
@@ -272,9 +272,9 @@ static void check_text(const values *v, const bias_case *c, const char *argument
     if (c->inverse)
         check_text_numbers(v, p.out, "told apart  ", 9, none ? apart_where[reversed] : apart);
     if (c->inverse && c->gap > 0 && isnan(value_at(v, "setups[0].range.units_gap")->number)) {
-        check_text_numbers(v, p.out, "the gap  ", 9, gap_where[reversed]);
+        check_text_numbers(v, p.out, "separated  ", 9, gap_where[reversed]);
     } else if (c->inverse && c->gap > 0) {
-        check_text_numbers(v, p.out, "the gap  ", 9, gap);
+        check_text_numbers(v, p.out, "separated  ", 9, gap);
         check_text_numbers(v, p.out, "the same units bring", 6, nearer);
     }
     printed_free(&p);
@@ -341,8 +341,8 @@ static void one_answer(void **state) {
     (void)state;
     for (double z = 0.5; z < 1000; z *= 1.7)
         for (double gap = 1e-3; gap < z / 4; gap *= 7) {
-            printed json = print_of("bias --api gl -F d24 -m gl --gap %.17g --at %.17g --json", gap, z);
-            printed text = print_of("bias --api gl -F d24 -m gl --gap %.17g --at %.17g", gap, z);
+            printed json = print_of("bias --api gl -F d24 -m gl --separation %.17g --at %.17g --json", gap, z);
+            printed text = print_of("bias --api gl -F d24 -m gl --separation %.17g --at %.17g", gap, z);
             json_t *root = json_of(json.out);
             json_t *setup = json_array_get(json_object_get(root, "setups"), 0);
             json_t *row = json_array_get(json_object_get(setup, "rows"), 0), *range = json_object_get(setup, "range");

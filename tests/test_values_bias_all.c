@@ -51,7 +51,7 @@ static void arguments_of(const all_case *c, char out[1024]) {
         used += (size_t)snprintf(out + used, 1024 - used, " --range %.17g:%.17g", c->lo, c->hi);
     used += (size_t)snprintf(out + used, 1024 - used, " --factor=%.17g --slope %.17g", c->factor, c->slope);
     if (c->gap > 0)
-        snprintf(out + used, 1024 - used, " --gap %.17g", c->gap);
+        snprintf(out + used, 1024 - used, " --separation %.17g", c->gap);
 }
 
 /* The units as a program writes them: whole, or nine digits of a float. */
@@ -177,7 +177,7 @@ static void test_all(void **state) {
 /* Set-ups beside each other: the units of each, whole ones in full, others rounded away from 0 in four digits. */
 static void test_beside(void **state) {
     const camera_case camera = {0.1, 1000, {"fp32", "unorm24"}, {"d3d", "reversed"}, .ortho = 0};
-    printed p = print_of("bias --api all -F fp32,unorm24 -m d3d,reversed --gap 0.02 --at 300");
+    printed p = print_of("bias --api all -F fp32,unorm24 -m d3d,reversed --separation 0.02 --at 300");
     dp_setup setups[CAMERA_SETUPS];
     const size_t n = camera_setups(&camera, setups);
     (void)state;

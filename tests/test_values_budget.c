@@ -18,29 +18,35 @@ typedef struct budget_case {
 } budget_case;
 
 static const budget_case budgets[] = {
-    {{0.3, 1000, {"unorm24", "fp16"}, {"d3d", "gl-reversed"}, .implied = true, .model = DP_MODEL_FP32, .unit = "in"},
+    {{0.3, 1000, {"unorm24", "fp16"}, {"d3d", "gl-reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .unit = "in"},
      {0.3, 1.7, 55, 321.5, 900, 990},
      {.world = 0},
      .options = ""},
-    {{0.1, INFINITY, {"fp32", "unorm16"}, {"reversed", "gl"}, .implied = true, .model = DP_MODEL_FP32, .arith = "mesa"},
+    {{0.1,
+      INFINITY,
+      {"fp32", "unorm16"},
+      {"reversed", "gl"},
+      .implied = true,
+      .model = DP_MODEL_FLOAT,
+      .arith = "mesa"},
      {0.1, 3, 4e2, 1e4, 1e6, 3e9},
      {.interpolation = 1.5, .world = 700, .linearize = 1},
-     .options = " --interpolation 1.5 --world 700 --linearize"},
-    {{0.5, 400, {"fp32", "unorm24"}, {"reversed"}, .implied = true, .model = DP_MODEL_FP32},
+     .options = " --interpolation 1.5 --from-origin 700 --linearize"},
+    {{0.5, 400, {"fp32", "unorm24"}, {"reversed"}, .implied = true, .model = DP_MODEL_FLOAT},
      {0.5, 2, 9, 33, 150, 390},
      {.interpolation = 2, .world = 30, .composition = DP_COMPOSITION_RELATIVE},
-     .options = " --interpolation 2 --world 30 --composition relative"},
-    {{0.5, 400, {"unorm24"}, {"gl-reversed", "d3d"}, .implied = true, .model = DP_MODEL_FP32},
+     .options = " --interpolation 2 --from-origin 30 --composition relative"},
+    {{0.5, 400, {"unorm24"}, {"gl-reversed", "d3d"}, .implied = true, .model = DP_MODEL_FLOAT},
      {0.6, 2, 9, 33, 150, 390},
      {.world = 5000, .composition = DP_COMPOSITION_PRODUCTS},
-     .options = " --world 5000 --composition products"},
+     .options = " --from-origin 5000 --composition products"},
     {{2,
       90,
       {"unorm24"},
       {"reversed", "gl"},
       .implied = true,
       .ortho = 1,
-      .model = DP_MODEL_FP32,
+      .model = DP_MODEL_FLOAT,
       .rounding = DP_ROUND_ZERO},
      {2, 3, 5, 7, 60, 90},
      {.interpolation = 0.25, .linearize = 1},
@@ -137,7 +143,7 @@ static void want_budget(values *v, const budget_case *c, const dp_setup *setup, 
     char inner[32], under[PATH_SIZE];
     values_under(v, "setups[%zu].", i);
     dp_setup in_binary32 = *setup; /* as it is said of logarithmic mappings, too */
-    in_binary32.spec.model = DP_MODEL_FP32;
+    in_binary32.spec.model = DP_MODEL_FLOAT;
     want_setup(v, &in_binary32);
     for (int k = 0; k < DEPTHS; k++) {
         dp_budget b;
@@ -337,7 +343,7 @@ static void test_budget(void **state) {
             used += (size_t)snprintf(arguments + used, 1024 - used, "%s%.17g", k > 0 ? "," : "", c->z[k]);
         values_under(&v, "terms.");
         want_number(&v, "interpolation", c->terms.interpolation);
-        want_number(&v, "world", c->terms.world);
+        want_number(&v, "from_origin", c->terms.world);
         want_bool(&v, "linearize", c->terms.linearize);
         want_text(&v, "composition", composition_of(c));
         if (c->shader)

@@ -17,12 +17,12 @@ static const char *const needs =
     "unit = \"m\";\n"
     "cameras = {\n"
     "  plain = { near = 0.1; far = \"2 km\"; mapping = \"d3d\"; format = \"unorm24\"; rounding = \"zero\"; };\n"
-    "  shader = { near = 0.1; far = 1000; mapping = \"gl-reversed\"; format = \"fp32\"; model = \"fp32\"; };\n"
+    "  shader = { near = 0.1; far = 1000; mapping = \"gl-reversed\"; format = \"fp32\"; model = \"float\"; };\n"
     "  both = { near = 0.5; far = 900; mapping = \"reversed\"; format = \"depth24plus\"; model = \"auto\"; };\n"
     "  flat = { near = 1; far = 200; mapping = \"gl\"; format = \"unorm16\"; ortho = true; model = \"staged\"; };\n"
     "  view = { near = 0.25; far = 900; mapping = \"d3d\"; format = \"fp32\"; viewport = [640, 360]; hfov = 75.5; "
     "raster = \"spec-vulkan\"; subpixel = 7; slant = [5, 65]; triangle = { depth = 1.5; pixels = 99; slim = 6; }; };\n"
-    "  sun = { near = -8; far = 9; mapping = \"d3d\"; format = \"unorm24\"; ortho = true; model = \"fp32\"; };\n"
+    "  sun = { near = -8; far = 9; mapping = \"d3d\"; format = \"unorm24\"; ortho = true; model = \"float\"; };\n"
     "};\n"
     "requirements = (\n"
     "  { name = \"%s\"; camera = \"plain\"; range = (0.5, 321.5); separation = \"50 mm\"; },\n"
@@ -168,11 +168,6 @@ static void label_of(const dp_setup *setup, char out[64]) {
 }
 
 /* "FAIL  FILE:LINE: NAME: camera CAMERA, SET-UP (MODEL): separation 0.1 m at 5 m (code 1), facing, allowed 0.05 m" */
-/* The model fp32 is called float where a reader could take it for the format. */
-static const char *model_in_text(const check_verdict *d) {
-    return d->setup.spec.model == DP_MODEL_FP32 ? "float" : dp_model_name(d->setup.spec.model);
-}
-
 static void check_text(const values *v, const char *text, const need_file *file, const check_verdict *verdicts,
                        long failed) {
     char label[1024], setup[64];
@@ -183,7 +178,8 @@ static void check_text(const values *v, const char *text, const need_file *file,
         label_of(&d->setup, setup);
         const need_kind_row *kind = need_kind_get(d->asked->kind);
         snprintf(label, sizeof label, "%s  %s:%d: %s: camera %s, %s (%s): %s ", d->passed ? "pass" : "FAIL", file->path,
-                 d->asked->line, d->asked->name, d->camera->name, setup, model_in_text(d), kind->phrase);
+                 d->asked->line, d->asked->name, d->camera->name, setup, dp_model_name(d->setup.spec.model),
+                 kind->phrase);
         /* A share is of a range, anything else of a depth, if there is one. */
         const char *const of_depth[] = {"value", "z", "code", "limit"};
         const char *const of_range[] = {"value", "lo", "hi", "limit"};
@@ -228,7 +224,7 @@ static void check_junit(const char *path, const char *text, const need_file *fil
         const check_verdict *d = &verdicts[i];
         label_of(&d->setup, setup);
         snprintf(line, sizeof line, "%s:%d: %s: camera %s, %s (%s): ", path, d->asked->line, d->asked->name,
-                 d->camera->name, setup, model_in_text(d));
+                 d->camera->name, setup, dp_model_name(d->setup.spec.model));
         const char *sentence = strstr(text, line);
         assert_non_null(sentence);
         snprintf(line, sizeof line, "%.*s", (int)strcspn(sentence + strlen(line), "\n"), sentence + strlen(line));

@@ -129,7 +129,7 @@ static void check_row(tally *t, const camera *c, const words *w, double before) 
     TALLY(t, first == 2, "%s %s: %d words", w->word[0], w->word[1], w->count);
     if (first != 2)
         return;
-    const bool none = c->triangles != NULL && setup.spec.model != DP_MODEL_FP32;
+    const bool none = c->triangles != NULL && setup.spec.model != DP_MODEL_FLOAT;
     for (int i = 0; i < c->depths + LIMITS && none; i++)
         TALLY(t, strcmp(w->word[first + i], "-") == 0, "%s log: %s at a slant", w->word[0], w->word[first + i]);
     for (int i = 0; i < c->depths && !none; i++)

@@ -248,9 +248,10 @@ static void test_pixels(void **state) {
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
         const char *name = shown[i].name;
-        printed p = print_of("texture --scene plane --parameter distance=30 --parameter tilt=40 --size 64x36 --fov 50 "
-                             "-n 0.3 -f 900 -F unorm16 -m d3d --product effect:%s %s --pixel '20,3;20,17;20,30' --json",
-                             name, shown[i].parameters);
+        printed p =
+            print_of("texture --synthetic plane --parameter distance=30 --parameter tilt=40 --size 64x36 --fov 50 "
+                     "-n 0.3 -f 900 -F unorm16 -m d3d --product effect:%s %s --pixel '20,3;20,17;20,30' --json",
+                     name, shown[i].parameters);
         json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
         assert_string_equal(json_string_value(json_object_get(root, "effect")), name);
         assert_int_equal(json_array_size(pixels), 3);
@@ -272,7 +273,7 @@ static void test_pixels(void **state) {
     assert_true(inside >= 6);
     /* A silhouette: the corners of this pixel lie on either side of it. */
     printed p = print_of(
-        "texture --scene sphere --size 64x36 -F unorm16 -m d3d --product effect:edge --pixel '36,18;41,18;60,3' "
+        "texture --synthetic sphere --size 64x36 -F unorm16 -m d3d --product effect:edge --pixel '36,18;41,18;60,3' "
         "--json");
     json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
     int edges = 0;

@@ -17,7 +17,7 @@ typedef struct fight_case {
 } fight_case;
 
 static const fight_case cases[] = {
-    {{0.25, 900, {"fp32", "unorm16"}, {"d3d", "reversed"}, .implied = true, .model = DP_MODEL_FP32},
+    {{0.25, 900, {"fp32", "unorm16"}, {"d3d", "reversed"}, .implied = true, .model = DP_MODEL_FLOAT},
      "--raster swiftshader --viewport 640x360 --fov 75 --slant 20:70.5 --triangle-class slim=6,pixels=100,depth=1.5 "
      "--sample 21 --seed 8589934597",
      "swiftshader",
@@ -28,7 +28,7 @@ static const fight_case cases[] = {
      5,
      25, /* five bands */
      UINT64_C(8589934597)},
-    {{0.1, INFINITY, {"unorm24"}, {"gl-reversed"}, .implied = true, .model = DP_MODEL_FP32, .unit = "cm"},
+    {{0.1, INFINITY, {"unorm24"}, {"gl-reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .unit = "cm"},
      "--plane 35,-120",
      "llvmpipe",
      "mesa-remap",
@@ -39,7 +39,7 @@ static const fight_case cases[] = {
      500,
      0},
     /* Nothing is certain. */
-    {{0.001, 1e9, {"unorm16"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32},
+    {{0.001, 1e9, {"unorm16"}, {"d3d"}, .implied = true, .model = DP_MODEL_FLOAT},
      "--raster lavapipe --sample 9 --seed 4",
      "lavapipe",
      "mesa",

@@ -179,7 +179,7 @@ static void mended(void **state) {
     assert_int_equal(json_array_size(json_object_get(root, "findings")), 0);
     assert_true(json_is_true(json_object_get(root, "passed")));
     json_decref(root);
-    root = judged(LIFTED, "--gap 0.06", 0);
+    root = judged(LIFTED, "--separation 0.06", 0);
     for (size_t i = 0; i < FIGHTS; i++) {
         const json_t *f = finding_of(root, fights[i].below, fights[i].above);
         if (fights[i].lifted == NULL)

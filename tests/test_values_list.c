@@ -17,7 +17,7 @@
 #include "texture/pack.h"
 #include "texture/packing.h"
 #include "texture/position.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 
 enum { NUMBERS = 32 };
 
@@ -61,12 +61,7 @@ static bool arith(size_t i, listed *l) {
 static bool model(size_t i, listed *l) {
     if (i > DP_MODEL_COUNT)
         return false;
-    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto",
-                  i == DP_MODEL_FP32 ? "float" : "",
-                  NULL,
-                  NULL,
-                  {0},
-                  0};
+    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto", "", NULL, NULL, {0}, 0};
     return true;
 }
 
@@ -149,8 +144,8 @@ static bool figure(size_t i, listed *l) {
     return r != NULL;
 }
 
-static bool scene(size_t i, listed *l) {
-    const scene_row *r = scene_get(i);
+static bool synthetic(size_t i, listed *l) {
+    const synthetic_row *r = synthetic_get(i);
     if (r == NULL)
         return false;
     *l = (listed){r->name, "", r->note, NULL, {0}, 0};
@@ -229,7 +224,7 @@ static const struct {
               {"products", "methods", product},
               {"effects", "parameters", effect},
               {"figures", "bound", figure},
-              {"scenes", "bound", scene},
+              {"synthetic", "bound", synthetic},
               {"positions", "bound", position},
               {"normals", "bound", normal},
               {"methods", "bound", method}};
@@ -331,7 +326,7 @@ static void check_forms(const json_t *items, const char *what, const char *bound
                      json_string_value(name));
         const char *fields[] = {text_in(o, "name"), text_in(o, "note"), text_in(o, bound), text_in(o, "source"),
                                 aliases};
-        const char *shown = strcmp(what, "scenes") == 0 ? "parameters" : bound;
+        const char *shown = strcmp(what, "synthetic") == 0 ? "parameters" : bound;
         const char *labels[] = {"", "", shown, "source", "also"};
         const char *const keys[] = {"name", "note", "bound", "source", "aliases"};
         values_under(&v, "%zu.", i);
@@ -339,9 +334,7 @@ static void check_forms(const json_t *items, const char *what, const char *bound
             const char *field = fields[k] != NULL ? fields[k] : "";
             want_text(&v, keys[k], field);
             used += (size_t)snprintf(words + used, sizeof words - used, "%s", *field != '\0' ? labels[k] : "");
-            /* The model fp32 is float in text, as a format has its name. */
-            const bool is_other = strcmp(what, "models") == 0 && *aliases != '\0' && (k == 0 || k == 4);
-            for (const char *at = is_other ? fields[4 - k] : field; *at != '\0'; at++)
+            for (const char *at = field; *at != '\0'; at++)
                 if (!isspace((unsigned char)*at))
                     words[used++] = *at;
         }

@@ -13,8 +13,8 @@ enum { WIDTH = 40, HEIGHT = 24, PIXELS = 4 };
 
 typedef struct pixel_case {
     camera_case camera;
-    const char *scene, *options; /* null: an image */
-    const char *direction_from;  /* null: given as all else; else the mapping is assumed, and --fov not given */
+    const char *synthetic, *options; /* null: an image */
+    const char *direction_from;      /* null: given as all else; else the mapping is assumed, and --fov not given */
     double fov, half_height, yaw, pitch, origin[3], sky;
     uint32_t at[PIXELS][2];
 } pixel_case;
@@ -140,12 +140,12 @@ static void want_place(values *v, const pixel_case *c, const frame *f, const uin
         assert_relative(z * along, sqrt(view[0] * view[0] + view[1] * view[1] + z * z), 1e-12);
     uint32_t code;
     eye_at(f, (int)at[0], (int)at[1], &code);
-    scene_hit hit = {.z = NAN};
-    if (f->scene != NULL)
-        f->scene->hit(f->camera, f->parameters, at[0], at[1], &hit);
-    const double off = !seen              ? NAN
-                       : f->scene != NULL ? fabs(dp_error(&f->camera->setup, code, hit.z))
-                                          : grain_range_of(&f->camera->setup, f->grain, code).reach;
+    synthetic_hit hit = {.z = NAN};
+    if (f->synthetic != NULL)
+        f->synthetic->hit(f->camera, f->parameters, at[0], at[1], &hit);
+    const double off = !seen                  ? NAN
+                       : f->synthetic != NULL ? fabs(dp_error(&f->camera->setup, code, hit.z))
+                                              : grain_range_of(&f->camera->setup, f->grain, code).reach;
     values_under(v, "pixels[%zu].", i);
     want_number(v, "distance", seen ? z * along : NAN);
     want_number(v, "position_error", off * along);
@@ -172,9 +172,9 @@ static void want_pixel(values *v, const pixel_case *c, const frame *f, size_t i)
     want_number(v, "hi", r.hi);
     want_number(v, "interval", r.hi - r.lo);
     want_number(v, "linear01", z / setup->spec.zfar);
-    if (f->scene != NULL) {
-        scene_hit hit;
-        f->scene->hit(f->camera, f->parameters, at[0], at[1], &hit);
+    if (f->synthetic != NULL) {
+        synthetic_hit hit;
+        f->synthetic->hit(f->camera, f->parameters, at[0], at[1], &hit);
         assert_int_equal(code, dp_code(setup, fmin(hit.z, setup->spec.zfar)));
         want_number(v, "depth", dp_format_value(&setup->spec.format, code));
         want_number(v, "truth", isinf(hit.z) ? NAN : hit.z);
@@ -233,11 +233,11 @@ static size_t prepare(const pixel_case *c, frame *f, image *shot, double *parame
     const char *const path = scratch_file("pixel.npy");
     char options[512];
     size_t used;
-    if (c->scene != NULL) {
-        f->scene = scene_find(c->scene);
-        parameter_defaults(f->scene->parameters, parameters);
+    if (c->synthetic != NULL) {
+        f->synthetic = synthetic_find(c->synthetic);
+        parameter_defaults(f->synthetic->parameters, parameters);
         f->parameters = parameters;
-        used = (size_t)snprintf(arguments, 2048, "texture --scene %s --size %dx%d", c->scene, WIDTH, HEIGHT);
+        used = (size_t)snprintf(arguments, 2048, "texture --synthetic %s --size %dx%d", c->synthetic, WIDTH, HEIGHT);
     } else {
         write_image(path, shot);
         f->image = shot;
@@ -250,8 +250,8 @@ static size_t prepare(const pixel_case *c, frame *f, image *shot, double *parame
 
 static void want_all(values *v, const pixel_case *c, const frame *f, char *arguments, size_t used, line_places *lines) {
     const bool given = c->direction_from == NULL;
-    want_text(v, "file", c->scene != NULL ? NULL : scratch_file("pixel.npy"));
-    want_text(v, "scene", c->scene);
+    want_text(v, "file", c->synthetic != NULL ? NULL : scratch_file("pixel.npy"));
+    want_text(v, "synthetic", c->synthetic);
     want_setup(v, &f->camera->setup);
     want_text(v, "format_from", "given");
     want_text(v, "mapping_from", given ? "given" : "assumed");
@@ -296,7 +296,7 @@ static void check_columns(const values *v, const pixel_case *c, const char *argu
     size_t count = 0;
     for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
         const bool truth = k == 17 || k == 18, place = k >= 23;
-        if ((!truth || c->scene != NULL) && (!place || c->direction_from == NULL))
+        if ((!truth || c->synthetic != NULL) && (!place || c->direction_from == NULL))
             present[count++] = columns[k];
     }
     check_csv(v, 0, arguments, present, count, lines);
@@ -357,7 +357,7 @@ static void test_distance(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
         /* 10 sqrt(1 + 2 (7/8 tan 30)^2) = 12.289901, and a code that is off by 1.57e-7 */
-        printed p = print_of("texture --scene plane --size 8x8 -F fp32 -m reversed %s --pixel 0,0", rows[i][0]);
+        printed p = print_of("texture --synthetic plane --size 8x8 -F fp32 -m reversed %s --pixel 0,0", rows[i][0]);
         if (strstr(p.out, rows[i][1]) == NULL)
             fail_msg("not said: %s\n%s", rows[i][1], p.out);
         printed_free(&p);

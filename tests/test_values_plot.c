@@ -110,13 +110,13 @@ static void test_both_forms(void **state) {
                                           "share -F unorm16,fp32",
                                           "error -F unorm16 -m d3d,reversed -f inf",
                                           "interval -F unorm24,fp32 -m reversed --tolerance 1%",
-                                          "interval -F fp32 -n 1 -f 1.25 --model fp32",
+                                          "interval -F fp32 -n 1 -f 1.25 --model float",
                                           "budget -F unorm16,fp32 -m d3d",
                                           "map -F unorm16 -m d3d --at 7"};
     (void)state;
     for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++)
         check_both(figures[i], INFINITY);
-    check_both("scene tests/needs/village.need", NAN);
+    check_both("needs tests/needs/village.need", NAN);
 }
 
 /* ---- Values ------------------------------------------------------------------------------------------------------ */
@@ -231,10 +231,10 @@ static void check_budget(const char *options, const dp_setup *setup, const dp_bu
 }
 
 static void test_budget(void **state) {
-    dp_setup setup = setup_of(0.5, 300, "fp32", DP_MAPPING_D3D, DP_MODEL_FP32);
+    dp_setup setup = setup_of(0.5, 300, "fp32", DP_MAPPING_D3D, DP_MODEL_FLOAT);
     const dp_budget_terms terms = {.interpolation = 2, .world = 50, .linearize = 1};
     (void)state;
-    check_budget("d3d --interpolation 2 --world 50 --linearize", &setup, &terms, 7);
+    check_budget("d3d --interpolation 2 --from-origin 50 --linearize", &setup, &terms, 7);
     setup.spec.triangles = (dp_triangles){640, 480, 50, 0, {3, 10, 2, 4}, 20, 90, 2, 100, 16};
     assert_int_equal(dp_arith_parse("mesa", &setup.spec.arith), DP_OK); /* the rasterizer brings it */
     check_budget("d3d --viewport 640x480 --fov 50 --raster llvmpipe --slant 20:90 --triangle-class pixels=100", &setup,
@@ -305,9 +305,9 @@ static void test_method(void **state) {
 /* The points of a census: the longest interval of each band, at its nearer depth. */
 static void test_census(void **state) {
     static census_result r;
-    const dp_setup setup = setup_of(1.95, 2.05, "unorm16", DP_MAPPING_D3D, DP_MODEL_FP32);
+    const dp_setup setup = setup_of(1.95, 2.05, "unorm16", DP_MAPPING_D3D, DP_MODEL_FLOAT);
     const census_request q = {.setup = &setup, .lo = 1.95, .hi = 2.05};
-    json_t *root = plot("interval -F unorm16 -m d3d -n 1.95 -f 2.05 --model fp32");
+    json_t *root = plot("interval -F unorm16 -m d3d -n 1.95 -f 2.05 --model float");
     const json_t *series = at(at(root, "panels", 0), "series", 2);
     (void)state;
     assert_string_equal(text_in(series, "name"), "unorm16 d3d, census");

@@ -19,7 +19,7 @@ typedef struct against_case {
 } against_case;
 
 static const against_case cases[] = {
-    {{0.1, 1000, {"fp32", "unorm24"}, {"d3d", "reversed"}, .implied = true, .model = DP_MODEL_FP32},
+    {{0.1, 1000, {"fp32", "unorm24"}, {"d3d", "reversed"}, .implied = true, .model = DP_MODEL_FLOAT},
      NULL,
      "separate,fma",
      {"separate", "fma"},
@@ -29,7 +29,7 @@ static const against_case cases[] = {
      0,
      40000,
      5},
-    {{0.1, 1000, {"unorm16"}, {"gl-reversed"}, .implied = true, .model = DP_MODEL_FP32, .arith = "mesa", .unit = "cm"},
+    {{0.1, 1000, {"unorm16"}, {"gl-reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .arith = "mesa", .unit = "cm"},
      "fma-right",
      "ALL",
      {"once", "products", "separate", "right", "pairs", "fma", "fma-right", "fma-pairs", "separate-fma"},
@@ -39,7 +39,7 @@ static const against_case cases[] = {
      300,
      30000,
      0},
-    {{-5, 60, {"fp32"}, {"gl"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1},
+    {{-5, 60, {"fp32"}, {"gl"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1},
      "pairs",
      "right",
      {"right"},
@@ -114,7 +114,7 @@ static void want_comparison(values *v, const against_case *c, const dp_setup *se
     want_text(v, "distribution", vertex_spread_name(r.spread));
     want_number(v, "lo", r.lo);
     want_number(v, "hi", r.hi);
-    want_number(v, "world", r.world);
+    want_number(v, "from_origin", r.world);
     want_count(v, "drawn", r.count);
     want_count(v, "seed", r.seed);
 }
@@ -154,7 +154,7 @@ static void test_against(void **state) {
                                          {"distribution", "^distribution"},
                                          {"lo [scene]", "^lo"},
                                          {"hi [scene]", "^hi"},
-                                         {"world [scene]", "^world"},
+                                         {"from_origin [scene]", "^from_origin"},
                                          {"drawn", "^drawn"},
                                          {"seed", "^seed"},
                                          {"against", "against"},
@@ -181,7 +181,7 @@ static void test_against(void **state) {
         if (c->vertices != NULL)
             used += (size_t)snprintf(arguments + used, sizeof arguments - used, " --vertices %s", c->vertices);
         if (c->world > 0)
-            snprintf(arguments + used, sizeof arguments - used, " --world %g", c->world);
+            snprintf(arguments + used, sizeof arguments - used, " --from-origin %g", c->world);
         const size_t n = camera_setups(&c->camera, setups);
         for (size_t k = 0; k < n; k++)
             want_comparison(&v, c, &setups[k], k, &lines);

@@ -42,7 +42,7 @@ static dp_setup setup_of(const char *format, dp_mapping mapping, bool slanted) {
     assert_int_equal(dp_format_parse(format, found), 1);
     spec.format = found[0];
     spec.mapping = mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     if (slanted)
         spec.triangles = dp_triangles_default();
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
@@ -88,9 +88,9 @@ static void findings(void **state) {
         bool slanted;
         double within;
     } rows[] = {
-        {"--gap 0.02", "fp32", DP_MAPPING_REVERSED, false, 0},
-        {"--gap 0.02 -F d24 -m d3d --within 50", "unorm24", DP_MAPPING_D3D, false, 50},
-        {"--gap 0.02 --viewport 1920x1080 --within 200", "fp32", DP_MAPPING_REVERSED, true, 200},
+        {"--separation 0.02", "fp32", DP_MAPPING_REVERSED, false, 0},
+        {"--separation 0.02 -F d24 -m d3d --within 50", "unorm24", DP_MAPPING_D3D, false, 50},
+        {"--separation 0.02 --viewport 1920x1080 --within 200", "fp32", DP_MAPPING_REVERSED, true, 200},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -130,12 +130,12 @@ static void what_is_asked(void **state) {
         const char *options;
         size_t findings;
         double facing;
-    } rows[] = {{"--gap 0.001", 1, -1},
-                {"--gap 0", 0, 0},
-                {"--gap 0.02 --also facing", 4, 0},
-                {"--gap 0.02 --also all", 4, 0},
-                {"--gap 0.02 --also thin,facing --angle 0", 4, 0},
-                {"--gap 0.02 --transforms binary32 --threads 1", 2, -1}};
+    } rows[] = {{"--separation 0.001", 1, -1},
+                {"--separation 0", 0, 0},
+                {"--separation 0.02 --also facing", 4, 0},
+                {"--separation 0.02 --also all", 4, 0},
+                {"--separation 0.02 --also thin,facing --angle 0", 4, 0},
+                {"--separation 0.02 --transforms binary32 --threads 1", 2, -1}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         json_t *root = object_of(rows[i].options, 0);
@@ -198,10 +198,10 @@ static void default_gap(void **state) {
  */
 static void facing_bias(void **state) {
     (void)state;
-    printed p = print_of("scene %s --gap 0.02 -F d24 -m d3d", STREET);
+    printed p = print_of("scene %s --separation 0.02 -F d24 -m d3d", STREET);
     assert_non_null(strstr(p.out, "where they face"));
     printed_free(&p);
-    p = print_of("scene %s --gap 0.02 -F d24 -m d3d --viewport 1920x1080", STREET);
+    p = print_of("scene %s --separation 0.02 -F d24 -m d3d --viewport 1920x1080", STREET);
     assert_non_null(strstr(p.out, "in triangles as above"));
     assert_null(strstr(p.out, "where they face"));
     printed_free(&p);
@@ -209,11 +209,11 @@ static void facing_bias(void **state) {
 
 /* The text has the same numbers, rounded to the safe side; CSV those of JSON. */
 static void other_forms(void **state) {
-    json_t *root = object_of("--gap 0.02 -F d24 -m d3d --within 50 --unit m", 1);
+    json_t *root = object_of("--separation 0.02 -F d24 -m d3d --within 50 --unit m", 1);
     const json_t *f = json_array_get(json_object_get(root, "findings"), 0);
     char want[256];
     (void)state;
-    printed p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m", STREET);
+    printed p = print_of("scene %s --separation 0.02 -F d24 -m d3d --within 50 --unit m", STREET);
     assert_int_equal(p.status, 1);
     assert_non_null(strstr(p.out, "10 triangles, 5 surfaces, 36 m across"));
     assert_non_null(strstr(p.out, "2 pairs of surfaces lie within 0.02 m of each other: 1 can fight"));
@@ -225,13 +225,13 @@ static void other_forms(void **state) {
         fail_msg("'%s' is not in %s", want, p.out);
     assert_non_null(strstr(p.out, "area 2, near "));
     printed_free(&p);
-    p = print_of("scene %s --gap 0.02 --within 20", STREET);
+    p = print_of("scene %s --separation 0.02 --within 20", STREET);
     assert_int_equal(p.status, 0);
     assert_non_null(strstr(p.out, "of each other: none can fight up to 20."));
     assert_non_null(strstr(p.out, "pass  none fights nearer than 20."));
     assert_null(strstr(p.out, "'wall'"));
     printed_free(&p);
-    p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m --csv", STREET);
+    p = print_of("scene %s --separation 0.02 -F d24 -m d3d --within 50 --unit m --csv", STREET);
     char *line = strtok(p.out, "\r\n");
     assert_non_null(strstr(line, "a_node,a_mesh,a_material,b_node,b_mesh,b_material,gap_min [scene],gap_max [scene]"));
     line = strtok(NULL, "\r\n");
@@ -280,9 +280,9 @@ static void refused(void **state) {
         {"scene none.obj", 3, "none.obj: No such file or directory"},
         {"scene /dev/null", 2, "/dev/null: is neither glTF 2.0 (.glb, .gltf) nor, by its name, OBJ"},
         {"scene %s -F d24,fp32", 2, "--format: and --mapping must name one camera here, got 2"},
-        {"scene %s --gap -1", 2, "--gap: must be"},
+        {"scene %s --separation -1", 2, "--separation: must be"},
         {"scene %s --within 2000", 2, "--within: must lie between near and far, got '2000'"},
-        {"scene %s --gap 1e51", 2, "--gap: must be at most 1e+50 here, got '1e+51'"},
+        {"scene %s --separation 1e51", 2, "--separation: must be at most 1e+50 here, got '1e+51'"},
         {"scene %s --angle 89.5", 2, "--angle: must be at most 89 degrees here, got '89.5'"},
         {"scene %s --also fcing", 2, "--also: must be"},
         {"scene %s --ortho", 2, "--ortho: is not an option of scene"},

@@ -10,7 +10,7 @@
 #include "printed.h"
 #include "support.h"
 
-#define STREET "tests/models/street.obj --gap 0.02"
+#define STREET "tests/models/street.obj --separation 0.02"
 
 static double number(const json_t *object, const char *key) {
     const json_t *value = json_object_get(object, key);
@@ -77,7 +77,7 @@ static double bound_of(const char *format, double lo, double hi, double zfar, bo
     dp_separation_worst worst = {0};
     assert_int_equal(dp_format_parse(format, found), 1);
     spec.format = found[0];
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.zfar = zfar;
     spec.triangles = dp_triangles_default();
     spec.triangles.depth = facing ? 1 : 8;
@@ -151,7 +151,7 @@ static void one_eye(void **state) {
 /* What only a cut road would tell apart comes before what is told apart, however close that is; and is counted. */
 static void what_comes_first(void **state) {
     const char *path = scratch_file("order.obj");
-    const char *eye = "--gap 0.02 --eye 0,1.7,2 --look 0,0,-10";
+    const char *eye = "--separation 0.02 --eye 0,1.7,2 --look 0,0,-10";
     char line[256];
     (void)state;
     write_file(path, "o road\nv -8 0 -8\nv 8 0 -8\nv 8 0 8\nv -8 0 8\nf 4 3 2 1\n" /* also behind the eye */
@@ -188,7 +188,7 @@ static void lift_of_parts(void **state) {
                  "v -2 -3 -9.0625\nv 2 -3 -9.0625\nv 0 1 -9.0625\nf -3 -2 -1\no near\n%s%s",
                  parts[first], parts[1 - first]);
         write_file(path, text);
-        snprintf(line, sizeof line, "scene %s --gap 0.1 -F d16 -m d3d --eye 0,0,0 --look 0,0,-1", path);
+        snprintf(line, sizeof line, "scene %s --separation 0.1 -F d16 -m d3d --eye 0,0,0 --look 0,0,-1", path);
         json_t *root = object_of(0, line);
         const json_t *f = json_array_get(json_object_get(root, "findings"), 0);
         assert_int_equal(json_array_size(json_object_get(root, "findings")), 1);

@@ -159,10 +159,10 @@ static void needs(void **state) {
         CAMERA " --within 60",
         CAMERA " --within 12 --raster swiftshader --slant 10:80 --triangle-class depth=1.5,pixels=100,slim=8",
         "-n 0.05 -F d24 -m d3d --within 60",
-        "-n 1 -f inf -F fp32 -m reversed --gap 0.01 --within 90 --unit m",
+        "-n 1 -f inf -F fp32 -m reversed --separation 0.01 --within 90 --unit m",
         "-F fp16 -m d3d --within 30 --rounding zero",
-        "-m log -F d24 --log-c 0.5 --within 90 --gap 0.01",
-        "-m log -F d24 -f 1e9 --within 300 --gap 0.02 --viewport 640x480", /* nothing within the lattice's alone */
+        "-m log -F d24 --log-c 0.5 --within 90 --separation 0.01",
+        "-m log -F d24 -f 1e9 --within 300 --separation 0.02 --viewport 640x480", /* nothing within the lattice's alone */
         "-m linear -F d16 --within 90 --viewport 640x480"};
     (void)state;
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
@@ -269,7 +269,7 @@ static void bias(void **state) {
         const json_t *said = json_object_get(root, "bias");
         spec.znear = rows[i].znear;
         spec.zfar = 1000.0;
-        spec.model = DP_MODEL_FP32;
+        spec.model = DP_MODEL_FLOAT;
         assert_int_equal(dp_format_parse("d24", formats), 1);
         spec.format = formats[0];
         if (rows[i].drawn) {
@@ -329,7 +329,7 @@ static void refused(void **state) {
         {"--report junit", 2, "--report: junit needs --within: what fights nearer fails"},
         {"--report junit --within 5 --csv", 2, "--report: cannot be combined with --json or --csv"},
         {"--emit-need none/x.need", 3, "cannot write 'none/x.need': No such file or directory"},
-        {"--emit-need x.need --gap 0", 2, "--emit-need: needs a --gap above 0"},
+        {"--emit-need x.need --separation 0", 2, "--emit-need: needs a --separation above 0"},
         {"--emit-need " HOUSE, 2, "--emit-need: must not be a file that is read"},
         {"--api all", 2, "--api: must name one here, got 'all'"},
     };

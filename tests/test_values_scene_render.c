@@ -11,7 +11,7 @@
 #include "support.h"
 
 #define STREET "tests/models/street.obj"
-#define DRAWN  " --gap 0.02 -F unorm16 -m d3d -f 100"
+#define DRAWN  " --separation 0.02 -F unorm16 -m d3d -f 100"
 
 typedef struct picture {
     png_image head;

@@ -53,7 +53,7 @@ static const shadow_case given[] = {
      .casters = 40,
      .cascades = 3},
     {.options = "--light-box 30mx20mx50m --size 512x256 -F d16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
-                "--triangle-class pixels=64,slim=8 --kernel 3 --angle 60 --world 1km --curvature 2m --facet 5cm",
+                "--triangle-class pixels=64,slim=8 --kernel 3 --angle 60 --from-origin 1km --curvature 2m --facet 5cm",
      .formats = {"unorm16"},
      .mappings = {DP_MAPPING_GL},
      .api = "gl",
@@ -338,7 +338,7 @@ static void want_head(values *v, const shadow_case *c) {
     want_number(v, "subpixel", c->subpixel);
     want_number(v, "pixels", c->pixels);
     want_number(v, "slim", c->slim);
-    want_number(v, "world", c->world);
+    want_number(v, "from_origin", c->world);
     want_number(v, "curvature", c->curvature > 0 ? c->curvature : NAN);
     want_number(v, "facet", c->facet);
     if (c->box[2] > 0) {

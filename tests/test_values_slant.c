@@ -208,8 +208,8 @@ static void test_world(void **state) {
         const dp_budget_terms terms = {.world = 20000, .composition = (dp_composition)i};
         const double z = 700;
         dp_budget of_slanted, of_facing, without;
-        printed p =
-            print_of("budget %s %s --at 700 --world 20000 --composition %s --json", c->camera, c->options, names[i]);
+        printed p = print_of("budget %s %s --at 700 --from-origin 20000 --composition %s --json", c->camera, c->options,
+                             names[i]);
         json_t *root = json_of(p.out);
         const json_t *row = row_of(root, 0);
         const double part = at(json_object_get(row, "causes"), "composition");
@@ -435,7 +435,7 @@ static void test_zfight(void **state) {
     spec.znear = c->znear;
     spec.zfar = c->zfar;
     spec.mapping = c->mapping;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.triangles = c->triangles;
     assert_int_equal(dp_setup_init(&slanted, &spec), DP_OK);
     check_triangles(roots[0], &c->triangles, c->raster);
@@ -478,7 +478,7 @@ static void test_range(void **state) {
         spec.znear = c->znear;
         spec.zfar = c->zfar;
         spec.mapping = c->mapping;
-        spec.model = DP_MODEL_FP32;
+        spec.model = DP_MODEL_FLOAT;
         if (slanted)
             spec.triangles = c->triangles;
         assert_int_equal(dp_setup_init(&full, &spec), DP_OK);

@@ -40,29 +40,29 @@ static const solve_case cases[] = {
     {"-n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed --rounding zero --range 3:50", "separation", MEASURE_SEPARATION,
      NAN, 3, 50, true, 0.1, 1000, "exact"},
     {"-F unorm24,fp32 -m d3d,reversed -f 10000 --separation 0.013 --range 20:4000", "near", MEASURE_SEPARATION, 0.013,
-     20, 4000, true, NAN, 10000, "fp32"},
+     20, 4000, true, NAN, 10000, "float"},
     {"-F unorm24 -m reversed -f 10000 --separation 0.013 --at 4000", "near", MEASURE_SEPARATION, 0.013, 4000, 4000,
-     true, NAN, 10000, "fp32"},
+     true, NAN, 10000, "float"},
     {"-F fp32 -m d3d -f 10000 --separation 0.013 --at 4000", "near", MEASURE_SEPARATION, 0.013, 4000, 4000, true, NAN,
-     10000, "fp32"},
+     10000, "float"},
     {"--for far -n 0.25 -F unorm24 -m gl --separation 0.5 --at 700", "far", MEASURE_SEPARATION, 0.5, 700, 700, true,
-     0.25, NAN, "fp32"},
+     0.25, NAN, "float"},
     {"-F unorm24 -m d3d -f 2000 --error 0.01 --range 1:300", "near", MEASURE_ERROR, 0.01, 1, 300, true, NAN, 2000,
      "staged"},
     {"--for distance -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,gl --separation 0.01", "distance", MEASURE_SEPARATION, 0.01,
-     0.1, 1000, true, 0.1, 1000, "fp32"},
+     0.1, 1000, true, 0.1, 1000, "float"},
     {"--for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01 --range 0.2:121.4", "distance",
-     MEASURE_SEPARATION, 0.01, 0.2, 121.4, true, 0.1, 1000, "fp32"},
+     MEASURE_SEPARATION, 0.01, 0.2, 121.4, true, 0.1, 1000, "float"},
     {"--for distance -n 0.1 -f 2e5 -F fp32 -m reversed --separation 0.01", "distance", MEASURE_SEPARATION, 0.01, 0.1,
-     2e5, true, 0.1, 2e5, "fp32"},
+     2e5, true, 0.1, 2e5, "float"},
     {"--for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01", "distance", MEASURE_SEPARATION, 0.01, 0.1,
      1000, true, 0.1, 1000, "exact"},
     {"--for distance -n 0.1 -f 1000 -F fp32 -m reversed --separation 0.01 --range 0.5:1000", "distance",
      MEASURE_SEPARATION, 0.01, 0.5, 1000, true, 0.1, 1000, "exact"},
     {"--for distance -n 0.1 -f 1000 -F unorm24 -m log --separation 0.001", "distance", MEASURE_SEPARATION, 0.001, 0.1,
-     1000, true, 0.1, 1000, "fp32"},
+     1000, true, 0.1, 1000, "float"},
     {"--for near -f 1e7 -F unorm24 -m three-webgpu --separation 1 --at 1e5", "near", MEASURE_SEPARATION, 1, 1e5, 1e5,
-     true, NAN, 1e7, "fp32"},
+     true, NAN, 1e7, "float"},
     {"--for distance -n 0.1 -f 1000 -F fp16 -m d3d --error 0.02 --range 0.2:900", "distance", MEASURE_ERROR, 0.02, 0.2,
      900, true, 0.1, 1000, "exact"},
 };
@@ -106,7 +106,7 @@ static dp_setup setup_in(const json_t *o) {
 static dp_spec spec_of(const dp_setup *setup) {
     dp_spec spec = setup->spec;
     if (setup->shader)
-        spec.model = DP_MODEL_FP32;
+        spec.model = DP_MODEL_FLOAT;
     return spec;
 }
 
@@ -260,7 +260,7 @@ static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
     double first = NAN, end = NAN;
     assert_int_equal(distance_solve(c->kind, setup, c->lo, c->hi, c->limit, &d), DP_OK);
     const double from = d.possible ? d.value : c->lo;
-    if (setup->spec.model == DP_MODEL_FP32 && from < c->hi) {
+    if (setup->spec.model == DP_MODEL_FLOAT && from < c->hi) {
         first = first_fight(setup, from, c->hi - c->limit, c->limit);
         end = from;
         for (uint32_t depths = 1 << 14; end < c->hi && !(end >= first); depths *= 2)
@@ -327,7 +327,7 @@ static void want_candidate(values *v, const solve_case *c, const json_t *o, cons
     }
     want_number(v, measure_of(c), worst.value);
     want_number(v, "z", worst.z);
-    want_number(v, "separation_fp32", in_binary32(c, &setup, worst.z));
+    want_number(v, "guaranteed", in_binary32(c, &setup, worst.z));
     if (c->kind == MEASURE_SEPARATION && setup.spec.model == DP_MODEL_EXACT && !is_distance(c)) {
         const double whole = measure_over(c->kind, &setup, c->lo, c->hi).value; /* both to within 1e-12 */
         assert_true(worst.value == whole || fabs(worst.value / whole - 1) <= 2e-12);
@@ -497,7 +497,7 @@ static void check_text_alternative(values *v, const solve_case *c, const char *t
     snprintf(at[2], PATH_SIZE, "%.60smodel", under);
     const char *model = value_at(v, at[2])->text;
     snprintf(label, sizeof label, "%-9.40s %-12.40s %-6.20s ", value_at(v, at[0])->text, value_at(v, at[1])->text,
-             strcmp(model, "fp32") == 0 ? "float" : model);
+             model);
     snprintf(at[3], PATH_SIZE, "%.60slattice.possible", under);
     const bool ideal = value_at(v, at[3])->number != 0 || by_value || reached;
     values_under(v, "%s", under);
@@ -571,8 +571,8 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
     const char *const worst[] = {"answer.value", "answer.z", isnan(c->limit) ? NULL : "limit", NULL};
     static const char *const plane[] = {"answer.plane", NULL};
     static const char *const fails[] = {"answer.fails_to", NULL}, *const ideal[] = {"answer.lattice.plane", NULL};
-    static const char *const certain[] = {"answer.separation_fp32", NULL};
-    const bool in_fp32 = strcmp(value_at(v, "answer.model")->text, "fp32") == 0;
+    static const char *const certain[] = {"answer.guaranteed", NULL};
+    const bool in_float = strcmp(value_at(v, "answer.model")->text, "float") == 0;
     char label[128];
     printed p = print_of("%s --full", arguments);
     assert_int_equal(p.status, !c->possible);
@@ -580,7 +580,7 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
     check_text_numbers(v, p.out, label, 6, worst);
     if (is_distance(c))
         check_text_distance(v, c, p.out);
-    if (isfinite(value_at(v, "answer.separation_fp32")->number) && !in_fp32 && !is_distance(c))
+    if (isfinite(value_at(v, "answer.guaranteed")->number) && !in_float && !is_distance(c))
         check_text_numbers(v, p.out, "guaranteed", 6, certain);
     if (isnan(c->znear) || isnan(c->zfar)) {
         snprintf(label, sizeof label, "%-14s ", c->target);
@@ -590,7 +590,7 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
             if (isfinite(value_at(v, "answer.fails_to")->number))
                 check_text_numbers(v, p.out, "fails ", 6, fails);
         }
-        if (in_fp32)
+        if (in_float)
             check_text_numbers(v, p.out, "in the lattice", 6, ideal);
     }
     for (size_t i = 0; i < lines->count; i++)
@@ -607,7 +607,7 @@ static void test_solve(void **state) {
         line_places lines = {0};
         values v = values_of("solve");
         v.unit = i % 2 == 0 ? "ft" : NULL;
-        const bool fullest = strcmp(c->model, "fp32") == 0; /* which is that of an answer unless asked otherwise */
+        const bool fullest = strcmp(c->model, "float") == 0; /* which is that of an answer unless asked otherwise */
         snprintf(arguments, sizeof arguments, "solve %s%s %s%s", fullest ? "" : "--model ", fullest ? "" : c->model,
                  c->arguments, i % 2 == 0 ? " --unit ft" : "");
         printed p = print_of("%s --json", arguments);

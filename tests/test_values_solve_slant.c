@@ -49,9 +49,9 @@ static dp_setup setup_of(const json_t *o, bool slanted, const char *unknown, dou
         *(strcmp(unknown, "far") == 0 ? &spec.zfar : &spec.znear) = plane;
     assert_int_equal(dp_format_parse(json_string_value(json_object_get(o, "format")), format), 1);
     assert_int_equal(dp_mapping_parse(json_string_value(json_object_get(o, "mapping")), &spec.mapping), DP_OK);
-    assert_string_equal(json_string_value(json_object_get(o, "model")), "fp32");
+    assert_string_equal(json_string_value(json_object_get(o, "model")), "float");
     spec.format = format[0];
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     if (slanted) {
         spec.triangles = view;
         spec.triangles.plane = dp_anchor_get(DP_ANCHOR_VERTEX)->plane;
@@ -96,7 +96,7 @@ static void check_candidate(const solve_case *c, const json_t *o) {
     const double z = at(o, "z"), worst = at(o, "separation");
     assert_true(at(o, "guarantee_slanted") == dp_separation(&slanted, z));
     assert_true(at(o, "guarantee_facing") == dp_separation(&facing, z));
-    assert_true(at(o, "separation_fp32") == at(o, "guarantee_facing"));
+    assert_true(at(o, "guaranteed") == at(o, "guarantee_facing"));
     assert_true(worst >= at(o, "guarantee_slanted"));
     if (!distance && !isnan(c->limit))
         assert_true(possible == (worst <= c->limit));

@@ -15,7 +15,7 @@ enum { WIDTH = 40, HEIGHT = 24 };
 
 typedef struct texture_case {
     camera_case camera;
-    const char *scene, *options, *format_from, *mapping_from, *direction_from;
+    const char *synthetic, *options, *format_from, *mapping_from, *direction_from;
     double fov, half_height, yaw, pitch, origin[3], sky;
     struct {
         const char *name;
@@ -155,12 +155,12 @@ static size_t want_all_errors(values *v, const frame *f) {
     for (size_t i = 0; decode_get(i) != NULL; i++)
         n = want_decoding(v, f, n, decode_get(i));
     p.kind = FRAME_POSITION;
-    for (size_t i = 0; f->scene != NULL && (p.position = position_get(i)) != NULL; i++) {
+    for (size_t i = 0; f->synthetic != NULL && (p.position = position_get(i)) != NULL; i++) {
         snprintf(name, sizeof name, "position %s", p.position->name);
         n = want_product(v, f, n, name, "scene units", &p);
     }
     p.kind = FRAME_NORMAL;
-    for (size_t i = 0; f->scene != NULL && (p.normal = normal_get(i)) != NULL; i++) {
+    for (size_t i = 0; f->synthetic != NULL && (p.normal = normal_get(i)) != NULL; i++) {
         snprintf(name, sizeof name, "normal %s", p.normal->name);
         n = want_product(v, f, n, name, "degrees", &p);
     }
@@ -174,8 +174,8 @@ static uint64_t hidden_by_sky(const frame *f) {
     for (uint32_t y = 0; y < f->camera->height; y++) {
         frame_codes(f, y, codes);
         for (uint32_t x = 0; x < f->camera->width; x++) {
-            scene_hit hit;
-            f->scene->hit(f->camera, f->parameters, x, y, &hit);
+            synthetic_hit hit;
+            f->synthetic->hit(f->camera, f->parameters, x, y, &hit);
             count += hit.surface != 0 && frame_rank(&f->camera->setup, codes[x]) >= frame_sky_rank(f);
         }
     }
@@ -196,7 +196,7 @@ static void want_survey(values *v, const frame *f, uint64_t invalid, line_places
     want_count(v, "pixels", s.sky);
     want_number(v, "limit", f->sky);
     want_number(v, "from", s.sky_from);
-    if (f->scene != NULL)
+    if (f->synthetic != NULL)
         want_count(v, "hidden", hidden_by_sky(f));
     for (size_t i = 0; i < s.band_count; i++) {
         const survey_band *b = &s.bands[i];
@@ -218,7 +218,7 @@ static void want_survey(values *v, const frame *f, uint64_t invalid, line_places
 static void want_pairs(values *v, const frame *f) {
     survey_pairs p;
     values_under(v, "%s", "");
-    if (f->scene == NULL || !survey_pairs_make(f, &p)) {
+    if (f->synthetic == NULL || !survey_pairs_make(f, &p)) {
         want_text(v, "pairs", NULL);
         return;
     }
@@ -260,7 +260,7 @@ static void want_camera(values *v, const texture_case *c, const frame *f) {
     want_number(v, "fov", c->fov);
     want_number(v, "half_height", c->half_height);
     want_number(v, "condition", position_condition(f->camera));
-    want_text(v, "truth", f->scene != NULL ? "scene" : NULL);
+    want_text(v, "truth", f->synthetic != NULL ? "synthetic" : NULL);
 }
 
 static const csv_column band_columns[] = {
@@ -330,12 +330,12 @@ static void check_forms(values *v, const char *arguments, size_t errors, line_pl
 }
 
 /* The scene's own, but for those of the case; their options behind the others. */
-static void want_parameters(values *v, const texture_case *c, const scene_row *scene, double *parameters,
+static void want_parameters(values *v, const texture_case *c, const synthetic_row *synthetic, double *parameters,
                             char options[256]) {
-    parameter_defaults(scene->parameters, parameters);
+    parameter_defaults(synthetic->parameters, parameters);
     options[0] = '\0';
-    for (size_t i = 0; i < TEXTURE_PARAMETERS && scene->parameters[i].name != NULL; i++) {
-        const char *name = scene->parameters[i].name;
+    for (size_t i = 0; i < TEXTURE_PARAMETERS && synthetic->parameters[i].name != NULL; i++) {
+        const char *name = synthetic->parameters[i].name;
         for (size_t k = 0; k < 3 && c->parameters[k].name != NULL; k++)
             if (strcmp(c->parameters[k].name, name) == 0) {
                 parameters[i] = c->parameters[k].number;
@@ -348,7 +348,7 @@ static void want_parameters(values *v, const texture_case *c, const scene_row *s
     }
 }
 
-static void test_scenes(void **state) {
+static void test_synthetic(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         const texture_case *c = &scenes[i];
@@ -359,16 +359,17 @@ static void test_scenes(void **state) {
         values v = values_of("texture");
         v.unit = c->camera.unit;
         camera = view_placed(&c->camera, WIDTH, HEIGHT, c->fov, c->half_height, c->yaw, c->pitch, c->origin);
-        want_parameters(&v, c, scene_find(c->scene), parameters, more);
-        const frame f = {.camera = &camera, .scene = scene_find(c->scene), .parameters = parameters, .sky = c->sky};
+        want_parameters(&v, c, synthetic_find(c->synthetic), parameters, more);
+        const frame f = {
+            .camera = &camera, .synthetic = synthetic_find(c->synthetic), .parameters = parameters, .sky = c->sky};
         values_under(&v, "%s", "");
         want_text(&v, "file", NULL);
-        want_text(&v, "scene", c->scene);
+        want_text(&v, "synthetic", c->synthetic);
         want_camera(&v, c, &f);
         want_survey(&v, &f, 0, &lines);
         want_pairs(&v, &f);
-        snprintf(arguments, sizeof arguments, "texture --scene %s --size %dx%d %s %s%s", c->scene, WIDTH, HEIGHT,
-                 camera_options(&c->camera, options), c->options, more);
+        snprintf(arguments, sizeof arguments, "texture --synthetic %s --size %dx%d %s %s%s", c->synthetic, WIDTH,
+                 HEIGHT, camera_options(&c->camera, options), c->options, more);
         check_forms(&v, arguments, want_all_errors(&v, &f), &lines);
         values_free(&v);
         places_free(&lines);
@@ -417,7 +418,7 @@ static uint64_t write_image(const char *path, bool floats, bool damaged, uint32_
 static void want_image(values *v, const char *path, const image *shot, const recognised *found) {
     values_under(v, "%s", "");
     want_text(v, "file", path);
-    want_text(v, "scene", NULL);
+    want_text(v, "synthetic", NULL);
     want_text(v, "type", image_type_name(shot->type));
     want_count(v, "channels", 1);
     want_text(v, "packing", NULL); /* test_packing has it otherwise */
@@ -641,7 +642,7 @@ static void test_images(void **state) {
 /* Then nothing is off, by no number and at no pixel. */
 static void test_nothing_but_sky(void **state) {
     (void)state;
-    printed p = print_of("texture --scene plane --parameter distance=2000 --size 8x8 -q");
+    printed p = print_of("texture --synthetic plane --parameter distance=2000 --size 8x8 -q");
     assert_int_equal(p.status, 0);
     assert_null(strstr(p.out, "inf"));
     assert_null(strstr(p.out, "0,0"));
@@ -673,7 +674,7 @@ static void test_shifted_up(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing_but_sky), cmocka_unit_test(test_scenes), cmocka_unit_test(test_images),
+        cmocka_unit_test(test_nothing_but_sky), cmocka_unit_test(test_synthetic), cmocka_unit_test(test_images),
         cmocka_unit_test(test_shifted_up),      cmocka_unit_test(check_apart),
     };
     return run_tap(tests);

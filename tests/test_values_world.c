@@ -42,7 +42,7 @@ static void test_world(void **state) {
         dp_format_parse("unorm24", formats);
         spec.format = formats[0];
         spec.mapping = DP_MAPPING_D3D;
-        spec.model = DP_MODEL_FP32;
+        spec.model = DP_MODEL_FLOAT;
         assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
         const double half = tan(25.0 * 3.14159265358979323846 / 180.0), z = 7.0, gap = gaps[run];
         const world_asked a = {.setup = &setup,
@@ -55,8 +55,8 @@ static void test_world(void **state) {
             const world_scheme s = scheme_of(k);
             assert_relative(world_off(&s, &a, 2e3), world_off(&s, &nearly, 2e3), 1e-9);
         }
-        printed p = print_of("world -n 0.25 -f 4000 -F d24 -m d3d --at 7 --gap %g --viewport 800x600 --fov 50 "
-                             "--distance 2000,3e5,5e7 --scheme camera-float,split:1024,two-sum --json%s",
+        printed p = print_of("world -n 0.25 -f 4000 -F d24 -m d3d --at 7 --separation %g --viewport 800x600 --fov 50 "
+                             "--from-origin 2000,3e5,5e7 --scheme camera-float,split:1024,two-sum --json%s",
                              gap, shared ? " --share" : "");
         assert_int_equal(p.status, 0);
         json_error_t error;
@@ -110,7 +110,7 @@ static void test_world(void **state) {
     }
 }
 
-/* budget --scheme: the room's own budget at a corner of the box; world is what --world means without. */
+/* budget --scheme: the room's own budget at a corner of the box; absolute is what --from-origin means without. */
 static void test_budget(void **state) {
     (void)state;
     dp_spec spec = dp_spec_default();
@@ -123,12 +123,12 @@ static void test_budget(void **state) {
     dp_format_parse("fp32", formats);
     spec.format = formats[0];
     spec.mapping = DP_MAPPING_REVERSED;
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     const world_scheme s = {scheme_of(1).row, 65536.0};
     const world_asked a = {.setup = &setup, .z = 30.0, .lean = 2.0};
     assert_int_equal(world_budget(&s, &a, sqrt(3.0) * 1e5, &terms, &b), DP_OK);
-    printed p = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --world 1e5 --scheme split --at 30 --json");
+    printed p = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --from-origin 1e5 --scheme split --at 30 --json");
     json_error_t error;
     json_t *root = json_loads(p.out, JSON_REJECT_DUPLICATES, &error);
     json_t *row = json_array_get(json_object_get(json_array_get(json_object_get(root, "setups"), 0), "rows"), 0);
@@ -138,8 +138,8 @@ static void test_budget(void **state) {
     assert_null(json_object_get(causes, "composition"));
     json_decref(root);
     printed_free(&p);
-    printed plain = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --world 1e5 --at 30");
-    printed named = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --world 1e5 --at 30 --scheme world");
+    printed plain = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --from-origin 1e5 --at 30");
+    printed named = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --from-origin 1e5 --at 30 --scheme absolute");
     assert_string_equal(plain.out, named.out);
     printed_free(&plain);
     printed_free(&named);
@@ -148,22 +148,23 @@ static void test_budget(void **state) {
 /* check: the same of a camera in a file. */
 static void test_check(void **state) {
     (void)state;
-    static const char *const wrong[] = {"world = 5.0;",
+    static const char *const wrong[] = {"from_origin = 5.0;",
                                         "scheme = \"split\";",
-                                        "world = 5.0; scheme = \"splt\";",
-                                        "world = 5.0; scheme = \"split:3\";",
-                                        "world = -5.0; scheme = \"split\";",
-                                        "world = 5.0; scheme = \"tile\"; model = \"exact\";"};
+                                        "from_origin = 5.0; scheme = \"splt\";",
+                                        "from_origin = 5.0; scheme = \"split:3\";",
+                                        "from_origin = -5.0; scheme = \"split\";",
+                                        "from_origin = 5.0; scheme = \"tile\"; model = \"exact\";"};
     static const char head[] = "unit = \"m\"; cameras = { a = { near = 0.1; far = \"inf\"; mapping = \"reversed\"; "
                                "format = \"fp32\"; ";
     static const char tail[] =
         "}; }; requirements = { r = { camera = \"a\"; at = \"30 m\"; separation = \"1 cm\"; }; };";
     char path[512];
     snprintf(path, sizeof path, "%s", scratch_file("world.need"));
-    printed shown = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --world 1e5 --scheme split --at 30 --json");
+    printed shown =
+        print_of("budget -n 0.1 -f inf -F fp32 -m reversed --from-origin 1e5 --scheme split --at 30 --json");
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    fprintf(file, "%sworld = \"100 km\"; scheme = \"split\"; %s", head, tail);
+    fprintf(file, "%sfrom_origin = \"100 km\"; scheme = \"split\"; %s", head, tail);
     fclose(file);
     printed p = print_of("check --report json %s", path);
     assert_int_equal(p.status, 1); /* 1.4 cm, not 1 */
@@ -198,7 +199,7 @@ static void test_wide(void **state) {
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     const world_asked a = {.setup = &setup, .z = 10.0, .lean = hypot(1.0, half * hypot(1.0, 1920.0 / 1080.0))};
     const world_scheme s = scheme_of(2);
-    printed p = print_of("world --fov 175 --at 10 --distance 1e3 --scheme two-sum --json");
+    printed p = print_of("world --fov 175 --at 10 --from-origin 1e3 --scheme two-sum --json");
     json_error_t error;
     json_t *root = json_loads(p.out, 0, &error);
     json_t *distance =
@@ -235,7 +236,7 @@ static void test_sizes(void **state) {
         assert_non_null(file);
         fprintf(file,
                 "unit = \"cm\"; cameras = { a = { near = 10.0; far = \"inf\"; mapping = \"reversed\"; format = "
-                "\"fp32\"; world = \"100 km\"; scheme = \"tile%s\"; }; }; requirements = { r = { camera = \"a\"; "
+                "\"fp32\"; from_origin = \"100 km\"; scheme = \"tile%s\"; }; }; requirements = { r = { camera = \"a\"; "
                 "at = \"30 m\"; separation = \"1 cm\"; }; };",
                 written[i]);
         fclose(file);

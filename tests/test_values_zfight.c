@@ -21,7 +21,7 @@ static const zfight_case cases[] = {
       {"unorm24", "fp16"},
       {"d3d", "gl-reversed"},
       .implied = true,
-      .model = DP_MODEL_FP32,
+      .model = DP_MODEL_FLOAT,
       .arith = "mesa-remap"},
      15.99,
      16.1,
@@ -29,24 +29,24 @@ static const zfight_case cases[] = {
      0,
      0},
     /* Far is drawn, the depth before it is not: a hole. */
-    {{1, 10, {"fp32"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .unit = "in"}, 9.99, 10, 0, 0, 0},
-    {{0.3, 900, {"unorm16"}, {"gl", "reversed"}, .implied = true, .model = DP_MODEL_FP32, .rounding = DP_ROUND_ZERO},
+    {{1, 10, {"fp32"}, {"d3d"}, .implied = true, .model = DP_MODEL_FLOAT, .unit = "in"}, 9.99, 10, 0, 0, 0},
+    {{0.3, 900, {"unorm16"}, {"gl", "reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .rounding = DP_ROUND_ZERO},
      7.98,
      8.03,
      2.5e-3,
      0,
      0},
-    {{0.3, 900, {"fp32"}, {"reversed"}, .implied = true, .model = DP_MODEL_FP32, .rounding = DP_ROUND_EVEN},
+    {{0.3, 900, {"fp32"}, {"reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .rounding = DP_ROUND_EVEN},
      5,
      300,
      0,
      5000,
      UINT64_C(8589934597)},
-    {{2, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1}, 3, 50, 4e-6, 3000, 7},
+    {{2, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1}, 3, 50, 4e-6, 3000, 7},
     /* Behind the camera. */
-    {{-100, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1}, -8.01, -7.99, 0, 0, 0},
-    {{-100, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1}, -8.01, -7.99, 8e-6, 0, 0},
-    {{-100, 60, {"unorm16"}, {"reversed"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1},
+    {{-100, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1}, -8.01, -7.99, 0, 0, 0},
+    {{-100, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1}, -8.01, -7.99, 8e-6, 0, 0},
+    {{-100, 60, {"unorm16"}, {"reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1},
      -100,
      60,
      1e-3,
@@ -184,7 +184,7 @@ static void test_zfight(void **state) {
         size_t used = (size_t)snprintf(arguments, sizeof arguments, "zfight %s --range %.17g:%.17g -q",
                                        camera_options(&c->camera, options), c->lo, c->hi);
         if (c->gap > 0)
-            used += (size_t)snprintf(arguments + used, sizeof arguments - used, " --gap %.17g", c->gap);
+            used += (size_t)snprintf(arguments + used, sizeof arguments - used, " --separation %.17g", c->gap);
         if (c->sample > 0)
             snprintf(arguments + used, sizeof arguments - used, " --sample %llu --seed %llu",
                      (unsigned long long)c->sample, (unsigned long long)c->seed);

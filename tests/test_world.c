@@ -368,7 +368,7 @@ static const struct {
         double wrong, off;
     } at[5];
 } simulated[] = {
-    {"world", {{0, 1.2e-3}, {0, 2.7e-3}, {3.3, 0.016}, {76, 0.13}, {96, 1}}},
+    {"absolute", {{0, 1.2e-3}, {0, 2.7e-3}, {3.3, 0.016}, {76, 0.13}, {96, 1}}},
     {"camera-float", {{0, 6e-4}, {0, 1.3e-3}, {0, 8.5e-3}, {46, 0.072}, {86, 0.54}}},
     {"split", {{0, 6e-4}, {0, 1.2e-3}, {0, 4.4e-3}, {0, 5.2e-3}, {0, 5e-3}}},
     {"tile", {{0, 6.4e-4}, {0, 1.2e-3}, {0, 1.1e-3}, {0, 1.2e-3}, {0, 1.2e-3}}},
@@ -441,7 +441,7 @@ static void as_derived_at(double d) {
         const char *scheme;
         double part[3], seen; /* how often what mesh and camera are off by counts in v */
     } want[] = {
-        {"world", {x + x + 2.0 * (x + r) + r, 0, k * x + d}, 0},
+        {"absolute", {x + x + 2.0 * (x + r) + r, 0, k * x + d}, 0},
         {"local", {l + l + 2.0 * (l + r) + r, o + o + 2.0 * (o + 2.0 * l) + 2.0 * l, k * x + d}, 3},
         {"camera-float", {d + 2.0 * l + sum, 0, d + k * l}, 0},
         {"split", {sqrt(3.0) * s + half * x + f / u * x + 3.0 * l + sum, 0, sqrt(3.0) * s / 2.0 + half * d + k * l}, 0},
@@ -489,7 +489,7 @@ static buffer random_buffer(rng *r, double zfar) {
     spec.zfar = rng_below(r, 2) ? INFINITY : zfar;
     spec.format = formats[0];
     spec.mapping = (dp_mapping)rng_below(r, 4);
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&b.setup, &spec), DP_OK);
     assert_int_equal(dp_pipeline_init(&b.pipeline, &b.setup), DP_OK);
     return b;

@@ -153,9 +153,9 @@ int truth_folder(void **state) {
 }
 
 int truth_folder_end(void **state) {
-    static const char *const names[] = {"in.png",   "in.npy",    "eye.npy",   "map.npy",   "eye.png",
-                                        "map.png",  "said",      "said.json", "place.npy", "effect.npy",
-                                        "said.csv", "scene.svg", "image.svg"};
+    static const char *const names[] = {"in.png",   "in.npy",        "eye.npy",   "map.npy",   "eye.png",
+                                        "map.png",  "said",          "said.json", "place.npy", "effect.npy",
+                                        "said.csv", "synthetic.svg", "image.svg"};
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         unlink(truth_path(names[i]));

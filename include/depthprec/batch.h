@@ -70,7 +70,7 @@ typedef struct dp_batch {
 /**
  * Prepares a task. ENCODE and DECODE read only the set-up's format and rounding.
  *
- * CODE and WIDTH in the models `staged` and `fp32`, and CODE, WIDTH and EYE of the logarithmic mapping, have no vector
+ * CODE and WIDTH in the models `staged` and `float`, and CODE, WIDTH and EYE of the logarithmic mapping, have no vector
  * kernel, nor has EYE of orthographic planes with depth 0 between them: each element then costs what the scalar
  * function does.
  *

@@ -40,7 +40,7 @@ typedef struct dp_worst {
  * @return DP_OK, or DP_ERROR_RANGE, DP_ERROR_NULL; *out is then left as it was
  *
  * In the model `staged` the cells of a piece hold varying numbers of binary32 steps: error and interval are then at
- * most one step of window depth and one of NDC depth above what is reached at the depths named. In `fp32` there are no
+ * most one step of window depth and one of NDC depth above what is reached at the depths named. In `float` there are no
  * cells: all values are NaN.
  *
  * Cost: O(pieces): one for UNORM, at most 128 for fp32, most of them dismissed by a bound.
@@ -69,7 +69,7 @@ typedef struct dp_separation_worst {
  * @return DP_OK, DP_ERROR_RANGE, DP_ERROR_NULL; *out is then left as it was
  *
  * Bound: `bound` is never below the truth; `exact`: at most 1e-12 relative above it, else as above unless 2^16
- * evaluations are not enough. In `fp32` it is a guarantee of its own, found with the error analysis of dp_budget_at()
+ * evaluations are not enough. In `float` it is a guarantee of its own, found with the error analysis of dp_budget_at()
  * over parts of the range, and never below that of a depth in it.
  */
 DP_API dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double limit,

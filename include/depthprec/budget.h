@@ -64,7 +64,7 @@ typedef struct dp_displaced {
     double turn;   /**< below 1 */
 } dp_displaced;
 
-/** What may be added to the pipeline. All zero: what the separation of DP_MODEL_FP32 counts. */
+/** What may be added to the pipeline. All zero: what the separation of DP_MODEL_FLOAT counts. */
 typedef struct dp_budget_terms {
     double interpolation; /**< error of an interpolated window depth, in units of 2^-24 of d; at least 0 */
     double world;         /**< largest |coordinate| of world positions and camera, scene units; 0: eye depth is given */

@@ -63,7 +63,7 @@ DP_API double dp_eye(const dp_setup *setup, double d, double q);
  * (floating-point expansions) whenever the quick estimate lies within its own error of a rounding boundary, about one
  * input in 2^25 for 24-bit formats. The logarithmic mapping is decided with a logarithm of about 100 bits: it is the
  * correctly rounded code unless log(Cz+1)/log(Cf+1) lies within 2^-90 (relative) of a boundary.
- * In the model `staged` it is that of the staged roundings, decided with the same care; in `fp32` that of the pipeline
+ * In the model `staged` it is that of the staged roundings, decided with the same care; in `float` that of the pipeline
  * at z rounded to binary32. Outside [near, far] z is clamped, as a depth clamp does.
  */
 DP_API uint32_t dp_code(const dp_setup *setup, double z);
@@ -80,7 +80,7 @@ DP_API double dp_error(const dp_setup *setup, uint32_t code, double z);
 /**
  * The cell of a code. A code that no depth in [near, far] is stored as (below the near plane of the linear and log
  * mappings) has lo = hi = the plane it lies beyond, and width 0; so has, between its neighbours, a code that the stages
- * of `staged` skip. In the model `fp32` the depths of a code need not be an interval: lo, hi and width are NaN.
+ * of `staged` skip. In the model `float` the depths of a code need not be an interval: lo, hi and width are NaN.
  */
 DP_API dp_cell dp_cell_of(const dp_setup *setup, uint32_t code);
 
@@ -101,7 +101,7 @@ DP_API double dp_separation(const dp_setup *setup, double z);
 
 /**
  * Everything above for one depth.
- * @return DP_OK or DP_ERROR_DEPTH (outside [near, far] or NaN), DP_ERROR_NULL, DP_ERROR_BINARY32 (in `fp32`, above
+ * @return DP_OK or DP_ERROR_DEPTH (outside [near, far] or NaN), DP_ERROR_NULL, DP_ERROR_BINARY32 (in `float`, above
  *         3.4028235e+38)
  */
 DP_API dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out);

@@ -19,7 +19,7 @@ DP_BEGIN
 typedef enum dp_model {
     DP_MODEL_EXACT = 0, /**< real arithmetic and one rounding into the format: the lattice of codes */
     DP_MODEL_STAGED,    /**< NDC depth, then window depth, each rounded once to binary32, then the format */
-    DP_MODEL_FP32,      /**< every operation in binary32: see pipeline.h; perspective and orthographic mappings only */
+    DP_MODEL_FLOAT,      /**< every operation in binary32: see pipeline.h; perspective and orthographic mappings only */
     DP_MODEL_COUNT
 } dp_model;
 
@@ -34,9 +34,9 @@ typedef struct dp_spec {
     dp_format format;
     dp_rounding rounding;
     dp_model model;
-    dp_arith arith;         /**< the arithmetic of DP_MODEL_FP32 and of dp_pipeline_init() */
+    dp_arith arith;         /**< the arithmetic of DP_MODEL_FLOAT and of dp_pipeline_init() */
     double log_c;           /**< constant C of the logarithmic mappings, in [1e-12, 1e12]; not read for three-webgpu */
-    dp_triangles triangles; /**< surfaces slant as this says, under a perspective: what DP_MODEL_FP32 guarantees then is
+    dp_triangles triangles; /**< surfaces slant as this says, under a perspective: what the float model guarantees is
                                in triangles.h, and z is the depth of the farther one. Width 0: they face the camera */
 } dp_spec;
 
@@ -74,7 +74,7 @@ DP_API dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec);
 DP_API dp_setup dp_setup_facing(const dp_setup *setup);
 
 /**
- * The same set-up as dp_separation() and dp_separation_over() know most of it: in fp32 where a pipeline computes depth;
+ * The same set-up as dp_separation() and dp_separation_over() know most of it: float where a pipeline computes depth;
  * in staged for the others, and where a shader writes a logarithm these two functions, and only they, then give the
  * guarantee of dp_budget_at(), for every log2 that Vulkan, GLSL and WGSL allow, of surfaces that face the camera. Of
  * linear it is still a lattice.

@@ -36,7 +36,7 @@ typedef enum dp_status {
     DP_ERROR_ARITH,      /**< not an arithmetic */
     DP_ERROR_DEPTH,      /**< an eye depth outside [near, far], or not a number */
     DP_ERROR_RANGE,      /**< a range that is empty, reversed, or leaves [near, far] */
-    DP_ERROR_BINARY32,   /**< an eye depth that binary32 rounds to infinity, in the model fp32 */
+    DP_ERROR_BINARY32,   /**< an eye depth that binary32 rounds to infinity, in the model float */
     DP_ERROR_BATCH,      /**< not a task, element type or path, or a path that is not available */
     DP_ERROR_ORTHO_NEAR, /**< near of an orthographic projection is neither 0 nor from 1e-12 to 1e12 in magnitude */
     DP_ERROR_ORTHO_FAR,  /**< its far is not greater than near, or neither 0 nor from 1e-12 to 1e18 in magnitude */

@@ -4,7 +4,7 @@
  *
  * A rasterizer moves the vertices of a triangle to a subpixel grid, sets up a plane of window depth in binary32 and
  * evaluates it at each pixel. A surface that faces the camera pays nothing for that, a slanted one does. With these in
- * its specification the guarantee of a set-up, DP_MODEL_FP32, is one of parallel planes at any slant of a range.
+ * its specification the guarantee of a set-up, DP_MODEL_FLOAT, is one of parallel planes at any slant of a range.
  * depthprec(7), "Slanted triangles", derives it.
  *
  * What is promised: two parallel planes, drawn as any triangles of the class below, their normal n (|n| = 1) at an

@@ -101,12 +101,12 @@ typedef struct all {
 
 static bias_goal goal_of(const options *o, const bias_api *api, const dp_setup *setup) {
     const double factor = bias_chooses_factor(o) ? bias_factor_least(setup) : o->factor * bias_sign(setup);
-    return (bias_goal){.api = api, .factor = factor, .slope = o->slope, .gap = o->gap};
+    return (bias_goal){.api = api, .factor = factor, .slope = o->slope, .gap = o->separation};
 }
 
 /* Where the gap leads to the near plane, at least. */
 static double range_from(const all *a) {
-    return fmin(fmax(a->lo, a->walk.here.znear + a->walk.here.gap), a->hi);
+    return fmin(fmax(a->lo, a->walk.here.znear + a->walk.here.separation), a->hi);
 }
 
 /* The call, or where in the range there is one. */
@@ -201,8 +201,8 @@ static void say_goal(page *p, const all *a) {
     const options *o = &a->walk.here;
     const char *unit = options_unit(o);
     char goal[64] = "To be told apart", place[128] = "", slope[64] = "";
-    if (o->gap > 0.0)
-        snprintf(goal, sizeof goal, "To come nearer by %s", number_in(number_full(o->gap), unit).text);
+    if (o->separation > 0.0)
+        snprintf(goal, sizeof goal, "To come nearer by %s", number_in(number_full(o->separation), unit).text);
     if (o->slope > 0.0)
         snprintf(slope, sizeof slope, ", slope %s per pixel", number_in(number_full(o->slope), unit).text);
     if (a->by_range)
@@ -352,7 +352,7 @@ static int write_beside(all *a, int status) {
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 int bias_all_write(const options *o) {
-    all a = {.by_range = !option_given(o, OPTION_AT), .apis = "all", .slope = o->slope, .gap = o->gap};
+    all a = {.by_range = !option_given(o, OPTION_AT), .apis = "all", .slope = o->slope, .gap = o->separation};
     a.triangles = slant_fields_of(o, &a.slant);
     a.factor = bias_chooses_factor(o) ? (double)NAN : o->factor;
     if (option_given(o, OPTION_UNITS) || option_given(o, OPTION_CLAMP))

@@ -9,7 +9,7 @@
 
 /* The fullest model that the set-up has: what the others are measured by. */
 static int fullest(const dp_choice *choice) {
-    return isnan(choice->share[DP_MODEL_FP32]) ? DP_MODEL_STAGED : DP_MODEL_FP32;
+    return isnan(choice->share[DP_MODEL_FLOAT]) ? DP_MODEL_STAGED : DP_MODEL_FLOAT;
 }
 
 /* The first that neglects no more than is allowed. */
@@ -102,7 +102,7 @@ choice_words choice_sentence(const choosing *c, const char *unit) {
     if (c->full.shader)
         return shader_sentence(c, unit);
     const dp_choice *choice = &c->choice;
-    const bool arithmetic = fullest(choice) == DP_MODEL_FP32;
+    const bool arithmetic = fullest(choice) == DP_MODEL_FLOAT;
     const double share = choice->share[DP_MODEL_EXACT];
     char subject[64] = "rounding to binary32";
     char what[sizeof(choice_words) / 2];

@@ -48,7 +48,7 @@ typedef struct biasing {
     bool chosen;  /* the factor is the least that is enough at any slant */
     slant_fields slant;
     const slant_fields *triangles; /* null: surfaces face the camera */
-    dp_setup facing, slanted;      /* in the model fp32 */
+    dp_setup facing, slanted;      /* in the model float */
     double units, gap;             /* as asked; NaN where the other one is */
     double factor;                 /* as asked; NaN where each set-up has its own */
     double range_lo, range_hi;
@@ -167,7 +167,7 @@ static void *next_setup(void *of, size_t i) {
     b->limited = false;
     take_measured(b);
     if (b->triangles != NULL) {
-        b->slanted = reach_in(b->walk.setup, DP_MODEL_FP32);
+        b->slanted = reach_in(b->walk.setup, DP_MODEL_FLOAT);
         b->facing = dp_setup_facing(&b->slanted);
     }
     if (b->chosen)
@@ -227,7 +227,7 @@ static void say_range(page *p, const biasing *b) {
     say_needed(p, "told apart", r->apart, (const double[]){r->lo, r->hi}, r->apart_z,
                (const double[]){r->apart_from, r->apart_to});
     if (b->goal.gap > 0.0)
-        say_needed(p, "the gap", r->gap, (const double[]){r->gap_lo, r->hi}, r->gap_z,
+        say_needed(p, "separated", r->gap, (const double[]){r->gap_lo, r->hi}, r->gap_z,
                    (const double[]){r->gap_from, r->gap_to});
     const double units = b->goal.gap > 0.0 ? r->gap : r->apart;
     if (!isnan(units))
@@ -314,7 +314,7 @@ static const column row_columns[] = {
     {FIELD(row, one_unit, "one_unit", "scene"), SHOWN("one unit", 13, DIGITS), .when = INVERSE},
     {FIELD(row, apart, "units_apart", ""), SHOWN("told apart", 17, DIGITS_Z), .when = INVERSE},
     {FIELD(row, gap, "units_gap", ""), .only = AS_CSV, .when = INVERSE},
-    {FIELD(row, gap, "units_gap", ""), SHOWN("the gap", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
+    {FIELD(row, gap, "units_gap", ""), SHOWN("separated", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
      .when = INVERSE | WITH_GAP},
     {FIELD(row, facing, "guarantee_facing", "scene"), SHOWN("facing", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},
@@ -371,8 +371,8 @@ static int check_states(const options *o, const bias_api *api) {
     const bool given = option_given(o, OPTION_UNITS);
     if (given && option_given(o, OPTION_VIEWPORT))
         return option_error(OPTION_VIEWPORT, "cannot be combined with --units: it says how many are enough");
-    if (given && option_given(o, OPTION_GAP))
-        return option_error(OPTION_UNITS, "cannot be combined with --gap, which solves for them");
+    if (given && option_given(o, OPTION_SEPARATION))
+        return option_error(OPTION_UNITS, "cannot be combined with --separation, which solves for them");
     if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30) &&
         (o->platform == NULL || !o->platform->cuts))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",
@@ -417,7 +417,7 @@ int cmd_bias(const options *given) {
     if (affine != EXIT_FINE || api == NULL)
         return affine != EXIT_FINE ? affine : bias_all_write(&o);
     biasing b = {.state = {api, o.units, o.factor, o.clamp},
-                 .goal = {.api = api, .slope = o.slope, .gap = o.gap},
+                 .goal = {.api = api, .slope = o.slope, .gap = o.separation},
                  .inverse = !option_given(&o, OPTION_UNITS),
                  .api = api->name,
                  .named = api,
@@ -427,7 +427,7 @@ int cmd_bias(const options *given) {
         b.state.units = trunc(o.units);
     b.units_sent = b.state.units;
     b.units = b.inverse ? (double)NAN : o.units;
-    b.gap = b.inverse ? o.gap : (double)NAN;
+    b.gap = b.inverse ? o.separation : (double)NAN;
     b.triangles = slant_fields_of(&o, &b.slant);
     b.chosen = bias_chooses_factor(&o);
     b.factor = b.chosen ? (double)NAN : o.factor;

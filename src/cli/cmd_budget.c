@@ -230,11 +230,12 @@ static void say_setup(page *p, void *item) {
     const budget *b = item;
     walk_title(p, item);
     if (b->scheme != NULL)
-        page_title(p, "world %s, scheme %s%s%s", number_in(number_full(b->terms.world), p->unit).text, b->scheme_name,
-                   b->scheme->row->size != NULL ? ":" : "",
+        page_title(p, "from origin %s, scheme %s%s%s", number_in(number_full(b->terms.world), p->unit).text,
+                   b->scheme_name, b->scheme->row->size != NULL ? ":" : "",
                    b->scheme->row->size != NULL ? number_full(b->scheme->size).text : "");
     else if (b->composition != NULL)
-        page_title(p, "world %s, composition %s", number_in(number_full(b->terms.world), p->unit).text, b->composition);
+        page_title(p, "from origin %s, composition %s", number_in(number_full(b->terms.world), p->unit).text,
+                   b->composition);
     if (b->shader)
         page_title(p, "log2 %s: %s", dp_log2_get(b->terms.log2)->name, dp_log2_get(b->terms.log2)->note);
     slant_say(p, page_title, b->walk.o, b->walk.setup);
@@ -341,7 +342,7 @@ static const column setup_report[] = {{PART(budget, walk.fields, NULL, setup_col
                                       {.kind = COLUMN_END}};
 
 static const column term_columns[] = {{FIELD(budget, terms.interpolation, "interpolation", "")},
-                                      {FIELD(budget, terms.world, "world", "scene")},
+                                      {FIELD(budget, terms.world, "from_origin", "scene")},
                                       {FIELD(budget, composition, "composition", "")},
                                       {FIELD(budget, scheme_name, "scheme", ""), .when = WITH_SCHEME},
                                       {FIELD(budget, linearize, "linearize", "")},
@@ -354,10 +355,10 @@ static const column columns[] = {
     {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
     {.kind = COLUMN_END}};
 
-/* One scheme; `world` is what --world means without. */
+/* One scheme; `absolute` is what --from-origin means without. */
 static int take_scheme(budget *b, const options *o) {
     if (!(o->terms.world > 0.0))
-        return option_error(OPTION_SCHEME, "needs --world: eye depth is given");
+        return option_error(OPTION_SCHEME, "needs --from-origin: eye depth is given");
     if (o->scheme_count != 1)
         return option_error(OPTION_SCHEME, "must be one scheme for budget, got %zu", o->scheme_count);
     if (o->schemes[0].row == world_get(0))
@@ -374,7 +375,7 @@ static int take_scheme(budget *b, const options *o) {
 int cmd_budget(const options *o) {
     budget b = {.terms = o->terms, .log2 = dp_log2_get(o->terms.log2)->name, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
-    in_binary32.model = DP_MODEL_FP32;
+    in_binary32.model = DP_MODEL_FLOAT;
     in_binary32.budgeted = true;
     int status = EXIT_FINE;
     b.triangles = slant_fields_of(o, &b.slant);
@@ -385,7 +386,7 @@ int cmd_budget(const options *o) {
     if (o->terms.world > 0.0 && b.scheme == NULL)
         b.composition = dp_composition_get(o->terms.composition)->name;
     else if (option_given(o, OPTION_COMPOSITION) && b.scheme == NULL)
-        return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
+        return option_error(OPTION_COMPOSITION, "needs --from-origin: eye depth is given");
     status = walk_start(&b.walk, &in_binary32);
     if (status == EXIT_FINE)
         status = depths_in_binary32(&b.walk.at);

@@ -17,8 +17,7 @@ typedef struct listing {
 static void *next_item(void *of, size_t i) {
     listing *l = of;
     list_item *item = &l->item;
-    const bool in_text = l->o->form == FORM_TEXT && l->topic->in_text != NULL;
-    if (!(in_text ? l->topic->in_text : l->topic->get)(i, item))
+    if (!l->topic->get(i, item))
         return NULL;
     if (item->source != NULL && *item->source == '\0')
         item->source = NULL;

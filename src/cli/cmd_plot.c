@@ -81,7 +81,7 @@ static int check_file_given(const options *o, const figure_row *row) {
 
 #define SLANTED        (FIGURE_SLANTED | FIGURE_MODEL)
 #define VIEWED         (SLANTED | FIGURE_DRAWN | FIGURE_SHADOW)
-#define VIEWED_FIGURES "budget, fight, interval, scene-fights and shadow"
+#define VIEWED_FIGURES "budget, fight, interval, scene and shadow"
 
 /* Options of some figures alone. */
 static const struct {
@@ -89,7 +89,7 @@ static const struct {
     unsigned takes;
     const char *figure;
 } only[] = {{OPTION_INTERPOLATION, FIGURE_TERMS, "budget"},
-            {OPTION_WORLD, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
+            {OPTION_FROM_ORIGIN, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
             {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},
             {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
             {OPTION_LOG2, FIGURE_TERMS, "budget"},
@@ -98,23 +98,23 @@ static const struct {
             {OPTION_VIEWPORT, VIEWED, VIEWED_FIGURES},
             {OPTION_RASTER, VIEWED, VIEWED_FIGURES},
             {OPTION_TRIANGLE_CLASS, VIEWED, VIEWED_FIGURES},
-            {OPTION_SUBPIXEL, SLANTED | FIGURE_SHADOW, "budget, interval, scene-fights and shadow"},
-            {OPTION_SLANT, SLANTED, "budget, interval and scene-fights"},
+            {OPTION_SUBPIXEL, SLANTED | FIGURE_SHADOW, "budget, interval, scene and shadow"},
+            {OPTION_SLANT, SLANTED, "budget, interval and scene"},
             {OPTION_PLANE, FIGURE_DRAWN, "fight"},
             {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},
             {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
             {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},
             {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},
-            {OPTION_ANGLE, FIGURE_SHADOW | FIGURE_MODEL, "scene-fights and shadow"},
-            {OPTION_GAP, FIGURE_MODEL, "scene-fights"},
-            {OPTION_WITHIN, FIGURE_MODEL, "scene-fights"},
-            {OPTION_ALSO, FIGURE_MODEL, "scene-fights"},
-            {OPTION_TRANSFORMS, FIGURE_MODEL, "scene-fights"},
-            {OPTION_EYE, FIGURE_MODEL, "scene-fights"},
-            {OPTION_LOOK, FIGURE_MODEL, "scene-fights"},
-            {OPTION_PATH, FIGURE_MODEL, "scene-fights"},
-            {OPTION_CAMERA, FIGURE_MODEL, "scene-fights"},
-            {OPTION_THREADS, FIGURE_MODEL, "scene-fights"},
+            {OPTION_ANGLE, FIGURE_SHADOW | FIGURE_MODEL, "scene and shadow"},
+            {OPTION_SEPARATION, FIGURE_MODEL, "scene"},
+            {OPTION_WITHIN, FIGURE_MODEL, "scene"},
+            {OPTION_ALSO, FIGURE_MODEL, "scene"},
+            {OPTION_TRANSFORMS, FIGURE_MODEL, "scene"},
+            {OPTION_EYE, FIGURE_MODEL, "scene"},
+            {OPTION_LOOK, FIGURE_MODEL, "scene"},
+            {OPTION_PATH, FIGURE_MODEL, "scene"},
+            {OPTION_CAMERA, FIGURE_MODEL, "scene"},
+            {OPTION_THREADS, FIGURE_MODEL, "scene"},
             {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
 
 static int check_only(const options *o, const figure_row *row) {
@@ -131,12 +131,12 @@ static int check_options(const options *o, const figure_row *row) {
         return option_error(OPTION_NEAR, "must be greater than 0 in the figure %s, got '%s'", row->name,
                             number_full(o->znear).text);
     if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
-        return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
-    if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
+        return option_error(OPTION_COMPOSITION, "needs --from-origin: eye depth is given");
+    if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FLOAT)
         return option_error(OPTION_MODEL, "must be float in the figure %s, got '%s'", row->name,
                             option_word(OPTION_MODEL, o->model_auto ? DP_MODEL_COUNT : o->model));
     if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_SLANTED) != 0 && (row->takes & FIGURE_BINARY32) == 0 &&
-        o->model != DP_MODEL_FP32)
+        o->model != DP_MODEL_FLOAT)
         return option_error(OPTION_VIEWPORT, "needs --model float in the figure %s", row->name);
     if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
         return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
@@ -152,8 +152,8 @@ static int choose_models(plotting *p) {
     const depths at = {.kind = DEPTHS_LOG, .lo = lo, .hi = hi, .count = CHOICE_DEPTHS};
     for (size_t i = 0; i < p->all.count; i++)
         setup_choose(p->o, &at, &p->all.items[i]);
-    for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FP32) == 0; i++)
-        if (p->all.items[i].spec.model == DP_MODEL_FP32)
+    for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FLOAT) == 0; i++)
+        if (p->all.items[i].spec.model == DP_MODEL_FLOAT)
             return option_error(OPTION_MODEL,
                                 "float has no cells for the figure %s to show; interval and budget draw its separation",
                                 p->row->name);
@@ -252,7 +252,7 @@ static int resolve_setups(plotting *p) {
         status = resolve_drawn(p, &in_model);
     choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
-        in_model.model = DP_MODEL_FP32;
+        in_model.model = DP_MODEL_FLOAT;
     in_model.budgeted = (p->row->takes & FIGURE_TERMS) != 0;
     if (status == EXIT_FINE)
         status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model) : EXIT_FINE;

@@ -45,7 +45,7 @@ static int check(prepass *a) {
     const options *o = a->walk.o;
     vertex_request *r = &a->request;
     options fp32 = *o;
-    fp32.model = DP_MODEL_FP32;
+    fp32.model = DP_MODEL_FLOAT;
     int status = setups_make(&fp32, &a->walk.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &r->lo, &r->hi);
@@ -195,10 +195,12 @@ static const column program_columns[] = {
     {LIST("bias_units", api_columns, next_api), .only = AS_JSON},
     {.kind = COLUMN_END}};
 
-static const column drawn_columns[] = {
-    {FIELD(vertex_request, lo, "lo", "scene")},       {FIELD(vertex_request, hi, "hi", "scene")},
-    {FIELD(vertex_request, world, "world", "scene")}, {FIELD(vertex_request, count, "drawn", "")},
-    {FIELD(vertex_request, seed, "seed", "")},        {.kind = COLUMN_END}};
+static const column drawn_columns[] = {{FIELD(vertex_request, lo, "lo", "scene")},
+                                       {FIELD(vertex_request, hi, "hi", "scene")},
+                                       {FIELD(vertex_request, world, "from_origin", "scene")},
+                                       {FIELD(vertex_request, count, "drawn", "")},
+                                       {FIELD(vertex_request, seed, "seed", "")},
+                                       {.kind = COLUMN_END}};
 
 static const column setup_report[] = {{PART(prepass, walk.fields, NULL, setup_columns)},
                                       {FIELD(prepass, walk.fields.arith, "arith", ""), .only = AS_CSV},
@@ -215,7 +217,7 @@ int cmd_prepass(const options *o) {
                  .program = o->program->name,
                  .vertices = vertex_spread_name((vertex_spread)o->vertices),
                  .request = {.spread = (vertex_spread)o->vertices,
-                             .world = option_given(o, OPTION_WORLD) ? o->terms.world : world_by_default,
+                             .world = option_given(o, OPTION_FROM_ORIGIN) ? o->terms.world : world_by_default,
                              .count = o->sample > 0 ? o->sample : drawn_by_default,
                              .seed = o->seed,
                              .threads = o->threads,

@@ -57,9 +57,9 @@ static int check_files(const scene *s) {
 /* One camera: its fullest model. */
 static int take_setup(scene *s) {
     setups all;
-    if (option_given(&s->o, OPTION_GAP) && s->o.gap > FINDER_COORDINATE_MAX)
-        return option_error(OPTION_GAP, "must be at most %g here, got '%s'", FINDER_COORDINATE_MAX,
-                            number_full(s->o.gap).text);
+    if (option_given(&s->o, OPTION_SEPARATION) && s->o.separation > FINDER_COORDINATE_MAX)
+        return option_error(OPTION_SEPARATION, "must be at most %g here, got '%s'", FINDER_COORDINATE_MAX,
+                            number_full(s->o.separation).text);
     if (s->o.angle > FINDER_ANGLE_MAX)
         return option_error(OPTION_ANGLE, "must be at most %g degrees here, got '%s'", FINDER_ANGLE_MAX,
                             number_full(s->o.angle).text);
@@ -121,8 +121,8 @@ static int take_limits(scene *s) {
     if (!(s->within >= znear && s->within <= zfar))
         return option_error(OPTION_WITHIN, "must lie between near and far, got '%s'", number_full(s->within).text);
     dp_separation_over(&s->setup, znear, s->within, 0.0, &worst);
-    s->gap = option_given(&s->o, OPTION_GAP) ? s->o.gap : worst.bound;
-    if (!option_given(&s->o, OPTION_GAP) && !option_given(&s->o, OPTION_WITHIN) && s->eyes.count == 0)
+    s->gap = option_given(&s->o, OPTION_SEPARATION) ? s->o.separation : worst.bound;
+    if (!option_given(&s->o, OPTION_SEPARATION) && !option_given(&s->o, OPTION_WITHIN) && s->eyes.count == 0)
         shorten(s, COARSEST * s->extent);
     return EXIT_FINE;
 }
@@ -290,8 +290,8 @@ static int check_asked(const scene *s) {
         return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
     if (o->report == REPORT_JUNIT && !option_given(o, OPTION_WITHIN))
         return option_error(OPTION_REPORT, "junit needs --within: what fights nearer fails");
-    if (o->emit_need != NULL && option_given(o, OPTION_GAP) && o->gap == 0.0)
-        return option_error(OPTION_EMIT_NEED, "needs a --gap above 0: no camera tells one plane apart");
+    if (o->emit_need != NULL && option_given(o, OPTION_SEPARATION) && o->separation == 0.0)
+        return option_error(OPTION_EMIT_NEED, "needs a --separation above 0: no camera tells one plane apart");
     if (o->api == NULL)
         return option_error(OPTION_API, "must name one here, got 'all'");
     const int status = setup_decided(o);

@@ -317,7 +317,7 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
                                  {FIELD(shadow, o.triangles.pixels, "pixels", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.triangles.slim, "slim", ""), .only = AS_JSON},
                                  {FIELD(shadow, arith, "arith", ""), .only = AS_JSON},
-                                 {FIELD(shadow, o.terms.world, "world", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.terms.world, "from_origin", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, o.curvature, "curvature", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, o.facet, "facet", "scene"), .only = AS_JSON},
                                  {PART(shadow, view, "view", view_columns), .only = AS_JSON, .pointed = true},

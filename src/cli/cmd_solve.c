@@ -29,7 +29,7 @@ static bool is_known(const options *o, option_id id) {
 static int check_slanted(const options *o, const solve_report *r) {
     if (r->kind == MEASURE_ERROR)
         return option_error(OPTION_ERROR, "is that of a depth at a point, and cannot be combined with --viewport");
-    if (option_given(o, OPTION_MODEL) && !o->model_auto && o->model != DP_MODEL_FP32)
+    if (option_given(o, OPTION_MODEL) && !o->model_auto && o->model != DP_MODEL_FLOAT)
         return option_error(OPTION_MODEL, "must be float or auto with --viewport, got '%s', which knows no slant",
                             option_word(OPTION_MODEL, o->model));
     for (size_t m = 0; m < o->mapping_count; m++)
@@ -47,7 +47,7 @@ static int check_target(const options *o, solve_report *r) {
     if (option_given(o, OPTION_SEPARATION) && option_given(o, OPTION_ERROR))
         return option_error(OPTION_ERROR, "cannot be combined with --separation");
     r->kind = option_given(o, OPTION_ERROR) ? MEASURE_ERROR : MEASURE_SEPARATION;
-    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted_error : o->wanted_separation;
+    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted_error : o->separation;
     r->target = o->target;
     if (r->target == SOLVE_FOR_ANY && !limited)
         r->target = SOLVE_FOR_SEPARATION;
@@ -69,7 +69,7 @@ static int check_target(const options *o, solve_report *r) {
         return option_error(OPTION_FOR, "solves for %s: leave out --%s", option_word(OPTION_FOR, r->target),
                             option_word(OPTION_FOR, r->target));
     for (size_t m = 0; m < o->mapping_count; m++)
-        if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FP32 &&
+        if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FLOAT &&
             !is_logarithm(o->mappings[m]))
             return option_error(OPTION_MODEL,
                                 "must be exact or staged for an error of %s, got 'float', which has no cells",
@@ -117,9 +117,9 @@ static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) 
     const options *o = r->o;
     const bool given = option_given(o, OPTION_MODEL) && !o->model_auto;
     const bool has_fp32 = is_logarithm(mapping) || (r->kind == MEASURE_SEPARATION && has_pipeline(mapping));
-    if (given && (asked || o->model != DP_MODEL_FP32))
+    if (given && (asked || o->model != DP_MODEL_FLOAT))
         return o->model;
-    return has_fp32 ? DP_MODEL_FP32 : DP_MODEL_STAGED;
+    return has_fp32 ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
 }
 
 static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_unknown unknown, plane_effort effort,
@@ -351,8 +351,6 @@ int cmd_solve(const options *o) {
     solve_report r = {.o = o, .items = items};
     if (o->target == SOLVE_FOR_FRUSTA)
         return solve_frusta(o);
-    if (o->target == SOLVE_FOR_WORLD)
-        return solve_world(o);
     int status = setup_decided(o);
     if (status == EXIT_FINE)
         status = check_target(o, &r);

@@ -32,7 +32,6 @@ enum {
 /* A depth, and in text as many digits of it as tell it from its neighbours. */
 typedef struct row {
     dp_sample sample;
-    double binary32;            /* the guaranteed separation; NaN where there is no such pipeline */
     double slanted;             /* the guaranteed one at any slant that is asked for */
     per_vertex written;         /* what depth written per vertex is off by in such triangles */
     double lattice, guaranteed; /* the separation in the model exact, and in the fullest that there is */
@@ -91,7 +90,7 @@ static double separation_in(const dp_setup *other, const dp_setup *setup, const 
 
 /* NaN where there is no pipeline, or no slant is asked for. */
 static double slanted_at(const table *t, double z) {
-    return t->triangles != NULL && t->full.spec.model == DP_MODEL_FP32 ? dp_separation(&t->slanted, z) : (double)NAN;
+    return t->triangles != NULL && t->full.spec.model == DP_MODEL_FLOAT ? dp_separation(&t->slanted, z) : (double)NAN;
 }
 
 static void set_digits(row *r) {
@@ -114,7 +113,6 @@ static void *next_row(void *of, size_t i) {
     dp_sample_at(&t->setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
     r->lattice = separation_in(&t->exact, &t->setup, &r->sample);
     r->guaranteed = separation_in(&t->full, &t->setup, &r->sample);
-    r->binary32 = dp_is_computed(&t->full) ? r->guaranteed : (double)NAN;
     r->slanted = slanted_at(t, z);
     r->written = per_vertex_at(&t->setup, z, t->slant.triangles.depth, r->guaranteed); /* no depth of 0 is one */
     per_vertex_add(&t->written, &r->written, z);
@@ -156,10 +154,10 @@ static void *next_setup(void *of, size_t i) {
     dp_worst_over(setup, t->lo, t->hi, &t->worst_case);
     t->worst = isnan(t->worst_case.error) ? NULL : &t->worst_case;
     t->guarantee = guarantee_over(t, &t->full, &t->over_range);
-    const bool has_slanted = t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FP32;
+    const bool has_slanted = t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FLOAT;
     t->guarantee_slanted = has_slanted ? guarantee_over(t, &t->slanted, &t->slanted_over_range) : NULL;
     t->planes = clipping_of(setup);
-    t->drawn = setup->spec.model == DP_MODEL_FP32 ? &t->planes : NULL;
+    t->drawn = setup->spec.model == DP_MODEL_FLOAT ? &t->planes : NULL;
     return t;
 }
 
@@ -191,7 +189,7 @@ static void say_reach(page *p, void *item) {
     if (t->walk.all.count > 1)
         return;
     say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");
-    if (t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FP32)
+    if (t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FLOAT)
         say_reach_of(p, &t->slanted, unit, ", at any slant");
 }
 
@@ -281,11 +279,9 @@ static const column row_columns[] = {
     {FIELD(row, sample.hi, "cell_hi", "scene")},
     {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 11, DIGITS_SHORT), .spare = 1},
     {FIELD(row, sample.separation, "separation", "scene")},
-    {FIELD(row, binary32, "separation_fp32", "scene")},
     {FIELD(row, lattice, "lattice", "scene"), SHOWN("lattice", 11, DIGITS_SHORT), .upward = true,
      .only = AS_TEXT | AS_JSON},
-    {FIELD(row, guaranteed, "guaranteed", "scene"), SHOWN("guaranteed", 11, DIGITS_SHORT), .upward = true,
-     .only = AS_TEXT | AS_JSON},
+    {FIELD(row, guaranteed, "guaranteed", "scene"), SHOWN("guaranteed", 11, DIGITS_SHORT), .upward = true},
     {FIELD(row, guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
     {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},
@@ -350,7 +346,7 @@ static unsigned conditions(const table *t) {
                     (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
                     (t->triangles != NULL ? WITH_TRIANGLES : 0);
     for (size_t i = 0; i < t->walk.all.count; i++) {
-        when |= t->walk.all.items[i].spec.model == DP_MODEL_FP32 ? WITH_ARITH : 0;
+        when |= t->walk.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
         when |= per_vertex_matters(&t->walk.all.items[i]) ? PER_VERTEX : 0;
     }
     return when;
@@ -364,7 +360,7 @@ int cmd_table(const options *o) {
     int status = walk_start(&t.walk, o);
     for (size_t i = 0; status == EXIT_FINE && walk_setup(&t.walk, i); i++) {
         status = range_resolve(&t.walk.here, &t.lo, &t.hi);
-        if (status == EXIT_FINE && (o->model == DP_MODEL_FP32 || o->model_auto))
+        if (status == EXIT_FINE && (o->model == DP_MODEL_FLOAT || o->model_auto))
             status = depths_in_binary32(&t.walk.at);
         if (status == EXIT_FINE)
             setup_choose(o, &t.walk.at, &t.walk.all.items[i]);

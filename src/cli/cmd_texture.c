@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* texture: a depth image, or a synthetic scene in its place. */
+/* texture: a depth image, or a synthetic image in its place. */
 #include <stdio.h>
 #include <string.h>
 
@@ -47,11 +47,11 @@ static int check_table(const options *o) {
                                         OPTION_LOOK, OPTION_SIZE, OPTION_PIXEL};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
         if (option_given(o, images[i]))
-            return option_error(images[i], "does not apply to an effect alone, only with FILE or --scene");
+            return option_error(images[i], "does not apply to an effect alone, only with FILE or --synthetic");
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0] && (o->effect->needs & EFFECT_POSITION) == 0; i++)
         if (option_given(o, cameras[i]))
             return option_error(cameras[i],
-                                "does not apply to %s alone, which needs no position, only with FILE or --scene",
+                                "does not apply to %s alone, which needs no position, only with FILE or --synthetic",
                                 o->effect->name);
     return EXIT_FINE;
 }
@@ -74,7 +74,7 @@ int cmd_texture(const options *given) {
     const bool beside = o->product != NULL && o->product->packed, packed = o->pack != NULL || beside;
     const bool described = option_given(o, OPTION_PIXEL) && o->effect != NULL;
     const bool made = !packed && texture_product_wanted(o);
-    if (o->effect != NULL && o->operand_count == 0 && o->scene == NULL) {
+    if (o->effect != NULL && o->operand_count == 0 && o->synthetic == NULL) {
         const int status = check_table(o);
         return status == EXIT_FINE ? texture_effect_table(o) : status;
     }
@@ -98,7 +98,7 @@ int cmd_texture(const options *given) {
         status = texture_pixel_write(o, &source, described ? &product.made : NULL);
     else if (status == EXIT_FINE && o->histogram != NULL)
         status = texture_histogram_draw(o, &source);
-    else if (status == EXIT_FINE && o->scene != NULL && o->output != NULL && o->form == FORM_TEXT)
+    else if (status == EXIT_FINE && o->synthetic != NULL && o->output != NULL && o->form == FORM_TEXT)
         status = texture_depth_write(o, &source);
     else if (status == EXIT_FINE)
         status = texture_report_write(o, &source);

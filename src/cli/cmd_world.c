@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * world: how far from the origin a world may reach: what each scheme costs in view z, in the gap that is safe and in
- * pixels of jitter, and which is enough. solve --for world asks how far each reaches.
+ * pixels of jitter, how far that suffices, and which is enough.
  */
 #include <math.h>
 #include <stdio.h>
@@ -156,7 +156,7 @@ static const column line_columns[] = {
     {TEXT_FIELD(line, label, "scheme", -14, 0)},
     {FIELD(line, off, "view_z_error", "scene"), SHOWN("view z", 9, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
-    {FIELD(line, gap, "safe_gap", "scene"), SHOWN("safe gap", 10, DIGITS), .upward = true, .brief = true,
+    {FIELD(line, gap, "safe_gap", "scene"), SHOWN("apart", 10, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
     {FIELD(line, jitter, "jitter", "pixels"), SHOWN("jitter", 8, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
@@ -191,11 +191,11 @@ static double length_or(bool given, double value, double metres, const unit_row 
 }
 
 /* What was left open: a reversed infinite binary32 buffer is what a large world has. */
-static int complete(world *w, const options *o, bool solving) {
+static int complete(world *w, const options *o) {
     options *c = &w->o;
     const bool camera = o->preset_count > 0, stored = camera || o->platform != NULL;
     *c = *o;
-    c->model = DP_MODEL_FP32;
+    c->model = DP_MODEL_FLOAT;
     if (!option_given(o, OPTION_FAR) && !camera)
         c->zfar = (double)INFINITY;
     if (!option_given(o, OPTION_FORMAT) && !stored)
@@ -209,16 +209,13 @@ static int complete(world *w, const options *o, bool solving) {
     if (o->at.count > 1)
         return option_error(OPTION_AT, "must be one depth, got %zu", o->at.count);
     w->z = length_or(o->at.count > 0, o->at.lo, 10.0, o->unit);
-    w->wanted = solving ? length_or(o->wanted_separation > 0.0, o->wanted_separation, 0.01, o->unit)
-                        : length_or(option_given(o, OPTION_GAP), o->gap, 0.01, o->unit);
+    w->wanted = length_or(option_given(o, OPTION_SEPARATION), o->separation, 0.01, o->unit);
     w->distances = o->distances;
-    if (solving)
-        w->distances.count = 0;
     if (w->distances.count > 0 && !(w->distances.lo >= 0.0 && w->distances.hi <= WORLD_FARTHEST))
-        return option_error(OPTION_DISTANCE, "must be from 0 to 1e12 scene units, got %s",
+        return option_error(OPTION_FROM_ORIGIN, "must be from 0 to 1e12 scene units, got %s",
                             number_full(w->distances.lo < 0.0 ? w->distances.lo : w->distances.hi).text);
     if (w->distances.kind == DEPTHS_LOG && w->distances.count > 0 && !(w->distances.lo > 0.0))
-        return option_error(OPTION_DISTANCE, "log spacing needs LO greater than 0, got %s: lin has equal steps",
+        return option_error(OPTION_FROM_ORIGIN, "log spacing needs LO greater than 0, got %s: lin has equal steps",
                             number_full(w->distances.lo).text);
     return EXIT_FINE;
 }
@@ -249,10 +246,10 @@ static int refuse_depth(const world *w) {
                         lo.text, hi.text);
 }
 
-static int report_worlds(const options *o, bool solving) {
+int cmd_world(const options *o) {
     output out;
     world w = {.distance = (double)NAN};
-    int status = complete(&w, o, solving);
+    int status = complete(&w, o);
     if (status != EXIT_FINE)
         return status;
     take_view(&w);
@@ -268,12 +265,4 @@ static int report_worlds(const options *o, bool solving) {
     }
     setups_release(&w.all);
     return status;
-}
-
-int cmd_world(const options *o) {
-    return report_worlds(o, false);
-}
-
-int solve_world(const options *o) {
-    return report_worlds(o, true);
 }

@@ -53,11 +53,11 @@ static census_status work(zfight *z, const dp_setup *setup, census_result *resul
     census_sample_request q = {.common = census_of_guarantee(setup, z->lo, z->hi),
                                .count = z->walk.o->sample,
                                .seed = z->walk.o->seed,
-                               .gap = z->walk.o->gap};
+                               .gap = z->walk.o->separation};
     q.common.threads = z->walk.o->threads;
     q.common.progress = tick;
     q.common.context = z;
-    if (z->walk.o->sample > 0 || z->walk.o->gap > 0.0)
+    if (z->walk.o->sample > 0 || z->walk.o->separation > 0.0)
         return census_sample(&q, result);
     return census_run(&q.common, result);
 }
@@ -103,9 +103,9 @@ static band band_of(const zfight *z, const census_band *b) {
                 .used = b->slack,
                 .clipped = (double)b->clipped,
                 .slanted = slanted_over(z, b->lo, b->hi)};
-    if (z->walk.o->gap > 0.0)
+    if (z->walk.o->separation > 0.0)
         out.longest = out.used = (double)NAN;
-    if (z->walk.o->gap > 0.0 || z->walk.o->sample > 0) /* a sample would only count those that it drew */
+    if (z->walk.o->separation > 0.0 || z->walk.o->sample > 0) /* a sample would only count those that it drew */
         out.clipped = (double)NAN;
     return out;
 }
@@ -163,7 +163,7 @@ static void say_gap(page *p, const zfight *z) {
 
 static void say_neighbours(page *p, const zfight *z) {
     const census_band *all = &z->result->all;
-    page_text(p, "Neighbouring binary32 depths%s: %s %% tie, %s %% swap. --gap asks about surfaces.",
+    page_text(p, "Neighbouring binary32 depths%s: %s %% tie, %s %% swap. --separation asks about surfaces.",
               z->walk.o->sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
               number_of(z->whole.swaps, 3).text);
     if (all->longest > 0.0)
@@ -196,8 +196,8 @@ static void say_planes(page *p, void *item) {
 enum { WITH_INTERVALS = 1, WITH_CLIPPED = 2, WITH_SAMPLE = 4, WITH_GAP = 8, WITH_TRIANGLES = 16 };
 
 static unsigned conditions(const options *o) {
-    return (o->gap > 0.0 ? WITH_GAP : WITH_INTERVALS) | (o->sample > 0 ? WITH_SAMPLE : 0) |
-           (o->sample == 0 && o->gap <= 0.0 ? WITH_CLIPPED : 0) | (o->triangles.width > 0 ? WITH_TRIANGLES : 0);
+    return (o->separation > 0.0 ? WITH_GAP : WITH_INTERVALS) | (o->sample > 0 ? WITH_SAMPLE : 0) |
+           (o->sample == 0 && o->separation <= 0.0 ? WITH_CLIPPED : 0) | (o->triangles.width > 0 ? WITH_TRIANGLES : 0);
 }
 
 static const column count_columns[] = {
@@ -280,7 +280,7 @@ static int check(zfight *z) {
     if (option_given(o, OPTION_SEED) && o->sample == 0)
         return option_error(OPTION_SEED, "needs --sample");
     options fp32 = *o;
-    fp32.model = DP_MODEL_FP32;
+    fp32.model = DP_MODEL_FLOAT;
     int status = setups_make(&fp32, &z->walk.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &z->lo, &z->hi);
@@ -291,8 +291,8 @@ static int check(zfight *z) {
                               number_full(z->hi).text);
     if (status == EXIT_FINE && census_count(z->lo, z->hi) < 2)
         status = option_error(OPTION_RANGE, "must hold at least two binary32 depths");
-    if (status == EXIT_FINE && o->gap >= z->hi - z->lo)
-        status = option_error(OPTION_GAP, "must be less than the range is wide");
+    if (status == EXIT_FINE && o->separation >= z->hi - z->lo)
+        status = option_error(OPTION_SEPARATION, "must be less than the range is wide");
     return status;
 }
 
@@ -316,7 +316,7 @@ int cmd_zfight(const options *o) {
         return zfight_triangles(o);
     if (option_given(o, OPTION_PLANE))
         return option_error(OPTION_PLANE, "needs --rasterize");
-    zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
+    zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->separation};
     z.triangles = slant_fields_of(o, &z.slant);
     int status = check(&z);
     if (status == EXIT_FINE) {

@@ -16,7 +16,7 @@ static int check(const options *o) {
 
 int drawn_setups(const options *o, setups *out) {
     options fp32 = *o;
-    fp32.model = DP_MODEL_FP32;
+    fp32.model = DP_MODEL_FLOAT;
     int status = check(o);
     if (status == EXIT_FINE)
         status = setups_make(&fp32, out);

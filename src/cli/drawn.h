@@ -5,7 +5,7 @@
 
 #include "cli/setups.h"
 
-/** As setups_make(), of the model fp32 in the rasterizer's own arithmetic; view and rasterizer are complete. */
+/** As setups_make(), of the model float in the rasterizer's own arithmetic; view and rasterizer are complete. */
 int drawn_setups(const options *o, setups *out);
 
 #endif

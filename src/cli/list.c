@@ -18,7 +18,7 @@
 #include "scene/find.h"
 #include "texture/pack.h"
 #include "texture/packing.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 #include "vertex/compare.h"
 #include "world/world.h"
 
@@ -44,21 +44,11 @@ bool list_model(size_t index, list_item *item) {
     static const char *const notes[] = {
         [DP_MODEL_EXACT] = "real arithmetic and one rounding into the format: the lattice of codes",
         [DP_MODEL_STAGED] = "NDC depth, then window depth, each rounded once to binary32, then the format",
-        [DP_MODEL_FP32] = "every operation in binary32, see 'depthprec list arithmetic'; not for linear and log",
+        [DP_MODEL_FLOAT] = "every operation in binary32, see 'depthprec list arithmetic'; not for linear and log",
         "the simplest of the three that is enough at the depths asked about, see --tolerance",
     };
-    const char *name = dp_model_name((dp_model)index);
     return index < sizeof notes / sizeof notes[0] &&
-           list_fill(item, (list_item){.name = name != NULL ? name : model_word(index),
-                                       .aliases = index == DP_MODEL_FP32 ? model_word(index) : NULL,
-                                       .note = notes[index]});
-}
-
-bool list_model_word(size_t index, list_item *item) {
-    const bool found = list_model(index, item);
-    if (found && item->aliases != NULL)
-        *item = (list_item){.name = item->aliases, .aliases = item->name, .note = item->note};
-    return found;
+           list_fill(item, (list_item){.name = model_word(index), .note = notes[index]});
 }
 
 bool list_rounding(size_t index, list_item *item) {
@@ -86,7 +76,7 @@ bool list_composition(size_t index, list_item *item) {
 static bool list_cause(size_t index, list_item *item) {
     static const char *const notes[DP_CAUSE_COUNT] = {
         [DP_CAUSE_EYE] = "rounding the eye depth itself to binary32: surfaces lie anywhere",
-        [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --world and --composition",
+        [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --from-origin and --composition",
         [DP_CAUSE_PROJECTION] = "A z + B in binary32, and the remap if there is one",
         [DP_CAUSE_ARGUMENT] = "what a shader takes the logarithm of, 1 + C w, of logarithmic mappings",
         [DP_CAUSE_LOG2] = "of them: log2, as wrong as the language allows, see --log2",
@@ -258,8 +248,8 @@ bool list_figure(size_t index, list_item *item) {
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
 }
 
-bool list_scene(size_t index, list_item *item) {
-    const scene_row *row = scene_get(index);
+bool list_synthetic(size_t index, list_item *item) {
+    const synthetic_row *row = synthetic_get(index);
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .row = row};
@@ -301,8 +291,7 @@ bool list_method(size_t index, list_item *item) {
 static const topic topics[] = {
     {"formats", "depth formats and the bounds of their rounding", list_format, .bound = "bound"},
     {"mappings", "how an eye depth becomes a window depth", list_mapping, .bound = "bound"},
-    {"models", "how much of the arithmetic before the buffer is modelled", list_model, .bound = "bound",
-     .in_text = list_model_word},
+    {"models", "how much of the arithmetic before the buffer is modelled", list_model, .bound = "bound"},
     {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, .bound = "bound"},
     {"transforms", "how world positions become clip coordinates", list_composition, .bound = "bound"},
     {"causes", "the parts of the separation, for budget", list_cause, .bound = "bound"},
@@ -321,7 +310,8 @@ static const topic topics[] = {
     {"products", "what texture makes of the depths, for --product", list_product, .bound = "methods"},
     {"effects", "effects for texture --product effect: formulas and parameters", list_effect, .bound = "parameters"},
     {"figures", "figures, for plot", list_figure, .bound = "bound"},
-    {"scenes", "synthetic depth images, for texture --scene", list_scene, .bound = "bound", .shown = "parameters"},
+    {"synthetic", "synthetic depth images, for texture --synthetic", list_synthetic, .bound = "bound",
+     .shown = "parameters"},
     {"positions", "positions from window depth, for texture --product position", list_position, .bound = "bound"},
     {"normals", "normals from depth, for texture --product normal", list_normal, .bound = "bound"},
     {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method,

@@ -36,7 +36,6 @@ bool list_rounding(size_t index, list_item *item); /**< of name alone */
 bool list_verb(size_t index, list_item *item);
 bool list_family(size_t index, list_item *item);
 bool list_model(size_t index, list_item *item);
-bool list_model_word(size_t index, list_item *item); /**< the same, fp32 as text and options call it: float */
 bool list_arith(size_t index, list_item *item);
 bool list_log2(size_t index, list_item *item);
 bool list_composition(size_t index, list_item *item);
@@ -53,7 +52,7 @@ bool list_product(size_t index, list_item *item);
 bool list_effect(size_t index, list_item *item);
 bool list_topic(size_t index, list_item *item);
 bool list_figure(size_t index, list_item *item);
-bool list_scene(size_t index, list_item *item);
+bool list_synthetic(size_t index, list_item *item);
 bool list_position(size_t index, list_item *item);
 bool list_normal(size_t index, list_item *item);
 bool list_packing(size_t index, list_item *item);
@@ -65,7 +64,6 @@ typedef struct topic {
     list_get get;
     const char *bound; /**< what a thing's bound is called in JSON and CSV */
     const char *shown; /**< and in text, where that says more; else null */
-    list_get in_text;  /**< where text has other names for the things; else null */
 } topic;
 
 #endif

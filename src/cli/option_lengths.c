@@ -82,11 +82,11 @@ int parse_length(options *o, const option_row *row, const char *value) {
 }
 
 /* Surfaces of a model may be in one place. */
-int parse_gap(options *o, const option_row *row, const char *value) {
-    double gap;
-    if ((o->verb->bit & (VERB_SCENE | VERB_PLOT)) == 0 || !number_parse(value, NUMBER_FINITE, &gap) || gap != 0.0)
+int parse_separation(options *o, const option_row *row, const char *value) {
+    double apart;
+    if ((o->verb->bit & (VERB_SCENE | VERB_PLOT)) == 0 || !number_parse(value, NUMBER_FINITE, &apart) || apart != 0.0)
         return parse_length(o, row, value);
-    o->gap = 0.0;
+    o->separation = 0.0;
     return EXIT_FINE;
 }
 
@@ -215,13 +215,25 @@ int parse_pixels(options *o, const option_row *row, const char *value) {
     return parse_list(o, row, value);
 }
 
-int parse_at(options *o, const option_row *row, const char *value) {
-    depths *out = option_field(o, row);
+static int read_depths(options *o, const option_row *row, const char *value, depths *out) {
     lengths seen = {.o = o};
     const int status = strchr(value, ':') != NULL
                            ? parse_spaced(&seen, row, value, out)
                            : parse_listed(&seen, row, value, "Z[,Z...] or LO:HI:log|lin:COUNT", out);
     return status == EXIT_FINE ? check_mixed(&seen, row, value) : status;
+}
+
+int parse_at(options *o, const option_row *row, const char *value) {
+    return read_depths(o, row, value, option_field(o, row));
+}
+
+/* The command world asks where the camera is, at several places, the others for a bound of coordinates. */
+int parse_from_origin(options *o, const option_row *row, const char *value) {
+    option_row bound = *row;
+    bound.most = 1e18;
+    bound.unit = "scene units";
+    return o->verb != NULL && o->verb->bit == VERB_WORLD ? read_depths(o, row, value, &o->distances)
+                                                         : parse_length(o, &bound, value);
 }
 
 int parse_range(options *o, const option_row *row, const char *value) {

@@ -16,7 +16,7 @@ static const name_list presets = {.get = list_preset};
 static const name_list platforms = {.get = list_platform};
 static const name_list units = {.get = list_unit};
 static const name_list roundings = {.get = list_rounding};
-static const name_list models = {.get = list_model_word};
+static const name_list models = {.get = list_model};
 static const name_list ariths = {.get = list_arith};
 static const name_list log2_rules = {.get = list_log2};
 static const name_list compositions = {.get = list_composition};
@@ -28,14 +28,14 @@ static const name_list spreads = {.get = list_vertices};
 static const name_list rasters = {.get = list_rasterizer};
 static const name_list filters_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_filter};
 static const name_list transforms = {.words = (const char *const[]){"exact", "binary32", NULL}};
-static const name_list scenes = {.get = list_scene};
+static const name_list synthetics = {.get = list_synthetic};
 static const name_list products = {.get = list_product};
 static const name_list normals = {.get = list_normal};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
 static const name_list packings = {.get = list_packing};
 /* In the order of their enumerators. */
-static const name_list targets = {.words = (const char *const[]){"near", "far", "format", "mapping", "separation",
-                                                                 "distance", "frusta", "world", NULL}};
+static const name_list targets = {
+    .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", "frusta", NULL}};
 static const name_list themes = {.words = (const char *const[]){"light", "dark", "print", NULL}};
 static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
 static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
@@ -108,7 +108,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | MAPPED,
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
-        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --scene; all with an effect alone", NULL),
+        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --synthetic; all with an effect alone",
+                       NULL),
                    BUT(VERB_METHODS, NULL, "that of the family's first case", NULL),
                    BUT(VERB_BIAS, "fp32,unorm16,unorm24", "the depth buffers", NULL),
                    BUT(VERB_SHADOW | VERB_SCENE | VERB_WORLD, "fp32", NULL, NULL),
@@ -116,7 +117,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | MAPPED,
         "mappings: @; all means d3d and reversed",
         parse_mappings, .names = &mappings, .standard = "all",
-        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --scene; all with an effect alone", NULL),
+        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --synthetic; all with an effect alone", NULL),
                    BUT(VERB_METHODS, NULL, "that of the family's first case", NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL),
                    BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
@@ -200,40 +201,43 @@ const option_row option_rows[OPTION_COUNT] = {
         "what to solve for; distance is the depth up to which --separation or --error holds, frusta the "
         "least number of frusta that keep --separation from near to far", WORD(target, targets),
         .without = "the first of near, far, format and mapping that is not given", .group = "What is wanted"},
-    [OPTION_SEPARATION] = {"separation", 0, "S", VERB_SOLVE,
-        "surfaces S scene units apart must be told apart, whatever their alignment", POSITIVE(wanted_separation)},
+    [OPTION_SEPARATION] = {"separation", 0, "S", VERB_SOLVE | VERB_ZFIGHT | VERB_BIAS | SEARCHED | VERB_WORLD,
+        "surfaces S scene units apart must be told apart, whatever their alignment",
+        .parse = parse_separation, FIELD(double, separation),
+        .except = {BUT(VERB_ZFIGHT, NULL, "neighbouring binary32 depths",
+                       "where surfaces S scene units apart tie and swap"),
+                   BUT(SEARCHED, NULL, "what is not told apart as far as is judged",
+                       "surfaces at most S scene units apart; 0: exactly in one plane"),
+                   BUT(VERB_WORLD, NULL, "1 cm, or 0.01", "how far apart along the view surfaces are"),
+                   BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")}},
     [OPTION_ERROR] = {"error", 0, "E", VERB_SOLVE,
         "instead: the decoded depth may be at most E scene units off: at --at as the codes lie there, or at "
         "every depth of --range", POSITIVE(wanted_error)},
     [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
         "error of a window depth interpolated across a triangle",
         NUMBER(terms.interpolation, 0, 0x1p24, "units of 2^-24"), .standard = "0", .group = "The budget"},
-    [OPTION_WORLD] = {"world", 0, "R", BUDGETED | VERB_SHADOW | VERB_PREPASS,
-        "start from world positions; no coordinate of theirs or of the camera exceeds R",
-        LENGTH(terms.world, 0, 1e18, "scene units"), .standard = "0", .without = "eye depth is given",
+    [OPTION_FROM_ORIGIN] = {"from-origin", 0, "R", BUDGETED | VERB_SHADOW | VERB_PREPASS | VERB_WORLD,
+        "start from world positions; no coordinate of theirs or of the camera exceeds R, at most 1e18 scene units",
+        .parse = parse_from_origin, FIELD(double, terms.world), .standard = "0", .without = "eye depth is given",
         .except = {BUT(VERB_SHADOW, "0", "positions about the middle of the light's box",
-                       "no coordinate of positions exceeds R"),
-                   BUT(VERB_PREPASS, "100", NULL, "no coordinate of a camera exceeds R")}},
+                       "no coordinate of positions exceeds R, at most 1e18 scene units"),
+                   BUT(VERB_PREPASS, "100", NULL, "no coordinate of a camera exceeds R, at most 1e18 "
+                       "scene units"),
+                   BUT(VERB_WORLD, NULL, "how far each scheme reaches", "how far the camera is from the world's "
+                       "origin, at most 1e12 scene units; several: R,R or LO:HI:log|lin:COUNT")}},
     [OPTION_COMPOSITION] = {"composition", 0, NULL, BUDGETED,
         "how they become clip coordinates: by one binary32 matrix of view and projection, multiplied in double and "
         "rounded, or in binary32; or after the camera's position is subtracted in double",
         WORD(terms.composition, compositions), .standard = "once"},
-    [OPTION_DISTANCE] = {"distance", 0, "D[,D...]|LO:HI:log|lin:COUNT", VERB_WORLD,
-        "how far the camera is from the world's origin, at most 1e12 scene units", parse_at,
-        FIELD(depths, distances), .without = "how far each scheme reaches"},
-    [OPTION_SCHEME] = {"scheme", 0, "NAME[:SIZE][,NAME...]|all", VERB_WORLD | VERB_SOLVE | VERB_BUDGET,
+    [OPTION_SCHEME] = {"scheme", 0, "NAME[:SIZE][,NAME...]|all", VERB_WORLD | VERB_BUDGET,
         "how vertices come before the camera: @; the size of a split, tile or cell in scene units; see 'depthprec "
         "list schemes'", parse_schemes, .names = &schemes_or_all, .standard = "all",
-        .except = {BUT(VERB_BUDGET, NULL, "world: as --composition says", "with --world: how vertices come before the "
-                       "camera, one scheme, see 'depthprec list schemes'"),
-                   BUT(VERB_SOLVE, "all", NULL, "with --for world: how vertices come before the camera, see "
-                       "'depthprec list schemes'")}},
-    [OPTION_SHARE] = {"share", 0, NULL, VERB_WORLD | VERB_SOLVE | VERB_BUDGET,
+        .except = {BUT(VERB_BUDGET, NULL, "absolute: as --composition says", "with --from-origin: how vertices come "
+                       "before the camera, one scheme, see 'depthprec list schemes'")}},
+    [OPTION_SHARE] = {"share", 0, NULL, VERB_WORLD | VERB_BUDGET,
         "both surfaces are of meshes about one origin, whose rounding they share", FLAG(shared_origin),
         .without = "each has its own",
         .except = {BUT(VERB_BUDGET, NULL, "each has its own", "with --scheme: both surfaces are of meshes about one "
-                       "origin"),
-                   BUT(VERB_SOLVE, NULL, "each has its own", "with --for world: both surfaces are of meshes about one "
                        "origin")}},
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "also count the loss of reading eye depth back in a binary32 shader", FLAG(terms.linearize)},
@@ -335,18 +339,10 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SLOPE] = {"slope", 0, "S", VERB_BIAS,
         "eye depth changes by S from one pixel to the next", LENGTH(slope, 0, 1e12, "scene units per pixel"),
         .standard = "0", .without = "facing the camera"},
-    [OPTION_GAP] = {"gap", 0, "G", VERB_ZFIGHT | VERB_BIAS | SEARCHED | VERB_WORLD,
-        "where surfaces G scene units apart tie and swap", .parse = parse_gap, FIELD(double, gap),
-        .without = "neighbouring binary32 depths",
-        .except = {BUT(SEARCHED, NULL, "what is not told apart as far as is judged",
-                       "surfaces at most G scene units apart; 0: exactly in one plane"),
-                   BUT(VERB_WORLD, NULL, "1 cm, or 0.01", "how far apart along the view surfaces are"),
-                   BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")},
-        .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL),
         .without = "visit every depth; about 500 pairs of planes with --rasterize",
-        .except = {BUT(VERB_PREPASS, "1000000", NULL, "draw N vertices at random")}},
+        .except = {BUT(VERB_PREPASS, "1000000", NULL, "draw N vertices at random")}, .group = "Pairs of surfaces"},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED | VERB_PROBE, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0",
         .except = {BUT(VERB_PROBE, "0", NULL, "seed of the random scene that is predicted"),
@@ -361,7 +357,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "the vertex program of the depth prepass", ROW(program, programs), .standard = "once"},
     [OPTION_VERTICES] = {"vertices", 0, NULL, VERB_PREPASS,
         "how vertices are drawn: eye depth log-uniform over --range, in a round view of 90 degrees; or uniform in the "
-        "box of --world", WORD(vertices, spreads), .standard = "eye-log"},
+        "box of --from-origin", WORD(vertices, spreads), .standard = "eye-log"},
     [OPTION_WITHIN] = {"within", 0, "Z", SEARCHED,
         "exit 1 where surfaces can fight nearer than this depth; and the distance that mends it", POSITIVE(within),
         .without = "10 times the model's extent, or as far as the camera tells 1 % of it apart; from eyes, as far as "
@@ -393,15 +389,16 @@ const option_row option_rows[OPTION_COUNT] = {
         "last frame's --eye, for motion blur", ORIGIN(last_eye), .without = "that of this frame"},
     [OPTION_LAST_LOOK] = {"last-look", 0, "X,Y,Z", VERB_TEXTURE,
         "last frame's --look", ORIGIN(last_look), .without = "in the direction of this frame"},
-    [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
-        "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
+    [OPTION_SYNTHETIC] = {"synthetic", 0, "NAME", VERB_TEXTURE,
+        "a synthetic image in place of FILE: @; 'depthprec list synthetic' has their parameters",
+        ROW(synthetic, synthetics)},
     [OPTION_SIZE] = {"size", 0, "WxH|N", VERB_TEXTURE | SHADOWED,
-        "the image's pixels: with --scene, with a raw FILE, and with an effect alone if that needs the position",
+        "the image's pixels: with --synthetic, with a raw FILE, and with an effect alone if that needs the position",
         parse_size,
         .standard = "640x360", .except = {BUT(SHADOWED, "2048x2048", NULL, "texels of each shadow map; N is NxN")},
         .instead = "; a figure's size is --width and --height"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
-        "a parameter of the scene or the effect; may be repeated", .parse = parse_parameter},
+        "a parameter of the synthetic image or the effect; may be repeated", .parse = parse_parameter},
     [OPTION_SKY] = {"sky", 0, "T", VERB_TEXTURE,
         "window depths within T of the far plane's are sky; with 0 only the plane's own",
         NUMBER(sky, 0, 0.5, NULL), .standard = "0.0001",
@@ -433,8 +430,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "write the error of the product instead; with =FILE, beside the product in the same pass",
         .parse = parse_error_map, SIZED(error_map), .optional = "FILE"},
     [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
-        "draw the product: SVG, PDF or PNG; up to 256 surfaces of a scene that share a code with what is behind are "
-        "marked", FILE_WRITTEN(figure)},
+        "draw the product: SVG, PDF or PNG; up to 256 surfaces of a synthetic image that share a code with what is "
+        "behind are marked", FILE_WRITTEN(figure)},
     [OPTION_OVERLAY] = {"overlay", 0, "E", VERB_TEXTURE,
         "with --figure: depth in grey, and in colour where eye depth is, or can be, off by more than E scene units",
         POSITIVE(overlay)},

@@ -102,8 +102,9 @@ option_parser parse_pixels;  /**< the same, pairs of them with a semicolon in be
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
 option_parser parse_unit, parse_presets, parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance,
-    parse_at, parse_schemes, parse_range, parse_origin, parse_error_map;
-option_parser parse_product, parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_gap, parse_also;
+    parse_at, parse_schemes, parse_range, parse_origin, parse_from_origin, parse_error_map;
+option_parser parse_product, parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_separation,
+    parse_also;
 option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
 option_parser parse_viewport, parse_slant, parse_plane, parse_triangle, parse_light_box;
 

@@ -30,7 +30,7 @@
 #include "texture/normal.h"
 #include "texture/packing.h"
 #include "texture/position.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 #include "vertex/compare.h"
 #include "world/world.h"
 
@@ -57,9 +57,8 @@ typedef enum option_id {
     OPTION_SEPARATION,
     OPTION_ERROR,
     OPTION_INTERPOLATION,
-    OPTION_WORLD,
+    OPTION_FROM_ORIGIN,
     OPTION_COMPOSITION,
-    OPTION_DISTANCE,
     OPTION_SCHEME,
     OPTION_SHARE,
     OPTION_LINEARIZE,
@@ -89,7 +88,6 @@ typedef enum option_id {
     OPTION_FACTOR,
     OPTION_CLAMP,
     OPTION_SLOPE,
-    OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
     OPTION_RASTERIZE,
@@ -107,7 +105,7 @@ typedef enum option_id {
     OPTION_MATRIX,
     OPTION_LAST_EYE,
     OPTION_LAST_LOOK,
-    OPTION_SCENE,
+    OPTION_SYNTHETIC,
     OPTION_SIZE,
     OPTION_PARAMETER,
     OPTION_SKY,
@@ -152,7 +150,6 @@ typedef enum solve_target {
     SOLVE_FOR_SEPARATION,
     SOLVE_FOR_DISTANCE,
     SOLVE_FOR_FRUSTA,
-    SOLVE_FOR_WORLD,
     SOLVE_FOR_ANY
 } solve_target;
 
@@ -197,11 +194,12 @@ typedef struct options {
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
     depths looked_up;          /**< window depths of --depth in [0, 1], or codes of --code; count is 0 without them */
 
-    solve_target target;                    /**< --for */
-    double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
+    solve_target target;             /**< --for */
+    double separation, wanted_error; /**< scene units; 0 when not given */
 
-    dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize, --log2; zero when not given */
-    depths distances;      /**< of the camera from the world's origin; count is 0 when not given */
+    dp_budget_terms
+        terms;        /**< --interpolation, --from-origin, --composition, --linearize, --log2; zero when not given */
+    depths distances; /**< of the camera from the world's origin; count is 0 when not given */
     world_scheme schemes[OPTIONS_SCHEMES_MAX]; /**< in the order given, each once */
     size_t scheme_count;
     bool shared_origin;       /**< both surfaces are of meshes with one origin */
@@ -220,7 +218,6 @@ typedef struct options {
     double clamp;             /**< of a bias, window depth; 0 is none */
     double slope;             /**< scene units per pixel, not negative */
 
-    double gap;               /**< scene units; 0 when not given */
     double within;            /**< eye depth; 0 when not given */
     double eye[3], look[3];   /**< places: of an eye, and what it looks at */
     const char *path;         /**< file of such places; or null */
@@ -233,10 +230,10 @@ typedef struct options {
     uint64_t seed;
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
     size_t against_count;
-    const vertex_program *program;                /**< what they are compared with */
-    unsigned vertices;                            /**< how they are drawn: a vertex_spread */
-    bool drawn;                                   /**< --rasterize: the surfaces are drawn */
-    int threads;                                  /**< 0 when not given: as many as there are cores */
+    const vertex_program *program; /**< what they are compared with */
+    unsigned vertices;             /**< how they are drawn: a vertex_spread */
+    bool drawn;                    /**< --rasterize: the surfaces are drawn */
+    int threads;                   /**< 0 when not given: as many as there are cores */
 
     const char *device; /**< of probe; null when not given */
     const char *keep;   /**< file of raw codes; null when not given */
@@ -253,7 +250,7 @@ typedef struct options {
     camera_spec camera; /**< --size, --fov, --half-height; see texture_camera_place() */
     const char *matrix; /**< file of a projection matrix, which then says the planes and the field of view */
     double last_eye[3], last_look[3]; /**< of last frame's camera */
-    const scene_row *scene;           /**< null when not given, as all rows and names here */
+    const synthetic_row *synthetic;   /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
     double sky;    /**< window depth */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* plot scene-fights: the figure of what scene finds. */
+/* plot scene: the figure of what scene finds. */
 #include "cli/scene_figure.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ int scene_figure_begin(scene *s, const options *o) {
     options view = *o;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (option_given(o, others[i]))
-            return option_error(others[i], "does not apply to the figure scene-fights");
+            return option_error(others[i], "does not apply to the figure scene");
     const int status = slant_view(&view);
     return status == EXIT_FINE ? scene_begin(s, &view, o->operands[1]) : status;
 }

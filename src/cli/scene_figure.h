@@ -5,7 +5,7 @@
 
 #include "cli/scene.h"
 #include "plot/chart.h"
-#include "plot/fights.h"
+#include "plot/scene.h"
 
 /** As scene_begin(), of the figure's options. */
 int scene_figure_begin(scene *s, const options *o);

@@ -67,7 +67,7 @@ static void say_eyes(page *p, const scene *s) {
 
 /* Of what is not covered; a mapping that is not affine on the screen has no guarantee of slanted triangles. */
 static const char *condition_of(const scene *s) {
-    return s->setup.spec.model == DP_MODEL_FP32 ? "if cut into the triangles above" : "facing the camera";
+    return s->setup.spec.model == DP_MODEL_FLOAT ? "if cut into the triangles above" : "facing the camera";
 }
 
 static void say_seen(page *p, const scene *s) {

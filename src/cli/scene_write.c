@@ -68,7 +68,7 @@ static void put_pair(output *out, const char *key, double lo, double hi) {
 
 /* The view, and how triangles are drawn; of a mapping that is not affine on the screen, none is judged. */
 static void put_view(output *out, const scene *s, const dp_triangles *t) {
-    if (t->width == 0 || s->setup.spec.model != DP_MODEL_FP32)
+    if (t->width == 0 || s->setup.spec.model != DP_MODEL_FLOAT)
         return;
     output_format(out, "\n            viewport = [%d, %d];", t->width, t->height);
     put_number(out, "fov", t->fov_y);
@@ -93,7 +93,7 @@ static void put_camera(output *out, const scene *s, const dp_triangles *t) {
     put_word(out, "mapping", dp_mapping_get(spec->mapping)->name);
     put_word(out, "format", spec->format.name);
     output_text(out, "\n           ");
-    put_word(out, "model", option_word(OPTION_MODEL, s->setup.shader ? DP_MODEL_FP32 : spec->model));
+    put_word(out, "model", option_word(OPTION_MODEL, s->setup.shader ? DP_MODEL_FLOAT : spec->model));
     put_word(out, "arith", dp_arith_get(spec->arith)->name);
     put_word(out, "rounding", dp_rounding_name(spec->rounding));
     if (s->setup.curve == DP_CURVE_LOG && s->setup.log_by > 0)

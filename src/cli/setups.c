@@ -53,7 +53,7 @@ static int check_budget(const options *o, const dp_spec *spec) {
     static const struct {
         option_id id;
         const char *why;
-    } others[] = {{OPTION_WORLD, "budget begins with eye depth"},
+    } others[] = {{OPTION_FROM_ORIGIN, "budget begins with eye depth"},
                   {OPTION_LINEARIZE, "budget ends with the code"},
                   {OPTION_VIEWPORT, "budget is of surfaces that face the camera"}};
     static const char leave[] = "leave it out, or take one of " DP_MAPPING_NAMES_PERSPECTIVE;
@@ -149,11 +149,11 @@ const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
                                 {.kind = COLUMN_END}};
 
 dp_model setup_model(const dp_setup *setup) {
-    return dp_is_computed(setup) ? DP_MODEL_FP32 : setup->spec.model;
+    return dp_is_computed(setup) ? DP_MODEL_FLOAT : setup->spec.model;
 }
 
 void setup_fields_budget(const dp_setup *setup, setup_fields *fields) {
-    fields->model = dp_model_name(DP_MODEL_FP32);
+    fields->model = dp_model_name(DP_MODEL_FLOAT);
     fields->arith = dp_arith_get(setup->spec.arith)->name;
 }
 
@@ -169,7 +169,7 @@ setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
                       .rounding = dp_rounding_name(spec->rounding),
                       .model = dp_model_name(spec->model),
                       .unit = unit};
-    if (setup_model(setup) == DP_MODEL_FP32)
+    if (setup_model(setup) == DP_MODEL_FLOAT)
         setup_fields_budget(setup, &f);
     return f;
 }
@@ -179,7 +179,7 @@ const char *setup_label_as(const dp_setup *setup, const setup_fields *f, char ou
     snprintf(out, SETUP_LABEL_SIZE, "%s %s%s%s, near %s, far %s, %s, %s, %s%s%s", f->format, f->mapping,
              has_log_c ? " C " : "", has_log_c ? number_full(f->log_c).text : "", number_full(f->znear).text,
              number_full(f->zfar).text, f->projection, f->rounding,
-             option_word(OPTION_MODEL, has_arith ? DP_MODEL_FP32 : setup->spec.model), has_arith ? " " : "",
+             option_word(OPTION_MODEL, has_arith ? DP_MODEL_FLOAT : setup->spec.model), has_arith ? " " : "",
              has_arith ? f->arith : "");
     return out;
 }
@@ -204,7 +204,7 @@ clipping clipping_of(const dp_setup *setup) {
     dp_pipeline p;
     float znear;
     float zfar;
-    if (setup->spec.model != DP_MODEL_FP32 || dp_pipeline_init(&p, setup) != DP_OK)
+    if (setup->spec.model != DP_MODEL_FLOAT || dp_pipeline_init(&p, setup) != DP_OK)
         return (clipping){(double)NAN, (double)NAN, false};
     dp_pipeline_planes(&p, &znear, &zfar);
     return (clipping){(double)znear, (double)zfar, !(znear == p.znear && zfar == p.zfar)};

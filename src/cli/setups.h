@@ -86,7 +86,7 @@ typedef struct clipping {
     bool loses;         /**< depths that binary32 has between the planes are not drawn */
 } clipping;
 
-/** Of a set-up of the model fp32; NaN and false for the others. */
+/** Of a set-up of the model float; NaN and false for the others. */
 clipping clipping_of(const dp_setup *setup);
 
 /** A line on stderr: what clipping keeps, these planes and `rest` behind them, or nothing where znear is NaN. */

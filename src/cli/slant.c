@@ -27,7 +27,7 @@ void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setu
     char view[64] = "";
     if (t->width == 0)
         return;
-    if (setup != NULL && setup->spec.model != DP_MODEL_FP32) {
+    if (setup != NULL && setup->spec.model != DP_MODEL_FLOAT) {
         line(p, "%s is not affine on the screen: no guarantee at a slant", dp_mapping_get(setup->spec.mapping)->name);
         return;
     }

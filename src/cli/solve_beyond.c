@@ -41,7 +41,7 @@ void solve_look_beyond(solve_report *r) {
     if (r->target != SOLVE_FOR_DISTANCE || judge_setup(&c->spec, &setup) != DP_OK)
         return;
     const double from = c->possible ? c->distance.value : r->lo;
-    if (setup.spec.model == DP_MODEL_FP32 && setup.spec.triangles.width == 0) /* the census knows depths at a point */
+    if (setup.spec.model == DP_MODEL_FLOAT && setup.spec.triangles.width == 0) /* the census knows depths at a point */
         r->fight = find_fight(&setup, from, r->hi, r->limit);
     if (!c->distance.throughout && r->kind == MEASURE_SEPARATION)
         r->again_count = distance_again(&setup, from, r->hi, r->limit, r->again, SOLVE_AGAIN_MAX);

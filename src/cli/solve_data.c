@@ -12,7 +12,7 @@ typedef struct candidate {
     solve_candidate found;
     setup_fields setup;
     const char *model; /* as text calls it: a format is called fp32, too */
-    double separation_fp32, slanted;
+    double guaranteed, slanted;
     const plane_answer *plane;                /* where one was found */
     const double *lattice_near, *lattice_far; /* where it was solved for */
     double distance, lattice_distance;        /* NaN where it does not hold at all */
@@ -34,7 +34,7 @@ static void take_candidate(solving *s, const solve_candidate *c) {
     candidate *x = &s->candidate;
     const bool solved = c->solved && c->possible;
     *x = (candidate){.found = *c,
-                     .separation_fp32 = solve_in_binary32(&s->report, c, false),
+                     .guaranteed = solve_in_binary32(&s->report, c, false),
                      .slanted = solve_in_binary32(&s->report, c, true),
                      .distance = c->possible ? c->distance.value : (double)NAN,
                      .lattice_distance = c->lattice.possible ? c->lattice.value : (double)NAN,
@@ -168,7 +168,7 @@ static const column line_columns[] = {
     {FIELD(solving, candidate.first, "first", "scene")},
     {FIELD(solving, candidate.found.lattice.value, "lattice", "scene")},
     {FIELD(solving, candidate.found.lattice.reached.value, "lattice value", "scene")},
-    {FIELD(solving, candidate.separation_fp32, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
+    {FIELD(solving, candidate.guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
     {FIELD(solving, candidate.slanted, "guarantee_slanted", "scene"), .when = WITH_TRIANGLES},
     {.kind = COLUMN_END}};
 
@@ -199,8 +199,8 @@ void solve_report_write(const solve_report *r, output *out) {
                             {FIELD(candidate, found.possible, "possible", "")},
                             {FIELD(candidate, found.reached.value, s.measure, "scene")},
                             {FIELD(candidate, found.reached.z, "z", "scene")},
-                            {FIELD(candidate, separation_fp32, "separation_fp32", "scene")},
-                            {FIELD(candidate, separation_fp32, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
+                            {FIELD(candidate, guaranteed, "guaranteed", "scene")},
+                            {FIELD(candidate, guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
                             {FIELD(candidate, slanted, "guarantee_slanted", "scene"), .when = WITH_TRIANGLES},
                             {PART(candidate, plane, NULL, plane_columns), .pointed = true},
                             {FIELD(candidate, distance, "distance", "scene"), .when = OF_DISTANCE},

@@ -59,7 +59,7 @@ static dp_spec spec_of(const options *o) {
                      .triangles = o->triangles,
                      .model = chosen   ? o->model
                               : linear ? DP_MODEL_STAGED
-                                       : DP_MODEL_FP32};
+                                       : DP_MODEL_FLOAT};
 }
 
 /* ---- The report -------------------------------------------------------------------------------------------------- */
@@ -137,11 +137,8 @@ static void write_plan(planning *x, output *out) {
 
 int solve_frusta(const options *o) {
     output out;
-    planning x = {.o = o,
-                  .limit = o->wanted_separation,
-                  .ratio = fixed_ratio,
-                  .fixed_value = (double)NAN,
-                  .fixed_z = (double)NAN};
+    planning x = {
+        .o = o, .limit = o->separation, .ratio = fixed_ratio, .fixed_value = (double)NAN, .fixed_z = (double)NAN};
     int status = check_frusta(o);
     if (status != EXIT_FINE)
         return status;

@@ -143,7 +143,7 @@ static void sentence_of_distance(const solve_report *r, const solve_candidate *c
     static const char *const manners[DP_MODEL_COUNT][2] = {
         [DP_MODEL_EXACT] = {"does not hold in the lattice", "holds in the lattice"},
         [DP_MODEL_STAGED] = {"does not hold in the model staged", "holds in the model staged"},
-        [DP_MODEL_FP32] = {"is not guaranteed", "is guaranteed"},
+        [DP_MODEL_FLOAT] = {"is not guaranteed", "is guaranteed"},
     };
     const distance_answer *d = &c->distance;
     output_format(out, "%s%s: %s %s%s %s", c->possible ? "" : "Impossible: ", given_phrase(r, c).text,
@@ -290,16 +290,16 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
     static const char *const words[DP_MODEL_COUNT] = {
         [DP_MODEL_EXACT] = "exact: real arithmetic, the lattice alone",
         [DP_MODEL_STAGED] = "staged: NDC and window depth each rounded to binary32",
-        [DP_MODEL_FP32] = "float: guaranteed in binary32 arithmetic, ",
+        [DP_MODEL_FLOAT] = "float: guaranteed in binary32 arithmetic, ",
     };
     const bool chosen = r->o->model_auto || !option_given(r->o, OPTION_MODEL);
     const char *more = "";
-    if (c->spec.model == DP_MODEL_FP32)
+    if (c->spec.model == DP_MODEL_FLOAT)
         more = dp_arith_get(c->spec.arith)->name;
     else if (c->spec.model == DP_MODEL_STAGED && chosen)
         more = r->kind == MEASURE_ERROR ? "; model float has no cells, so no error"
                                         : "; model float does not cover this mapping";
-    const bool shader = c->spec.model == DP_MODEL_FP32 && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
+    const bool shader = c->spec.model == DP_MODEL_FLOAT && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
     page_note(p, "model", "%s%s%s", words[c->spec.model], more,
               shader          ? ", for every log2 that the shader may have"
               : is_slanted(r) ? ", at any slant"
@@ -321,7 +321,7 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
         else
             page_note(p, "in the lattice", "no %s would do there either", target_name(r));
     }
-    if (c->spec.model == DP_MODEL_FP32 || isinf(c->reached.value))
+    if (c->spec.model == DP_MODEL_FLOAT || isinf(c->reached.value))
         return;
     if (isinf(binary32))
         page_note(p, "guaranteed", "nothing there: 'depthprec budget' says why");

@@ -9,7 +9,7 @@
 #include "texture/metric.h"
 #include "texture/recognise.h"
 
-/* ---- The image or scene, its format and mapping, the camera ------------------------------------------------------ */
+/* ---- The image, its format and mapping, the camera --------------------------------------------------------------- */
 
 /** How a name came about. */
 typedef enum texture_origin { ORIGIN_GIVEN = 0, ORIGIN_FOUND, ORIGIN_ASSUMED } texture_origin;
@@ -33,7 +33,7 @@ typedef struct texture_matrix {
 } texture_matrix;
 
 typedef struct texture_source {
-    const char *path; /**< null for a scene */
+    const char *path; /**< null for a synthetic image */
     image picture;
     recognised found;
     texture_origin format_from, mapping_from, direction_from;
@@ -52,7 +52,7 @@ typedef struct texture_source {
     double fov_y; /**< degrees; read where there is no matrix, and no orthographic camera */
     dp_setup setup;
     texture_camera camera, last; /**< last frame's: where an effect needs it */
-    frame_normals normals;       /**< where an effect needs them that no scene has */
+    frame_normals normals;       /**< where an effect needs them that no synthetic image has */
     frame frame;                 /**< points into this struct, which must stay where it is */
 } texture_source;
 
@@ -60,8 +60,8 @@ typedef struct texture_source {
 const char *texture_origin_name(texture_origin origin);
 
 /**
- * Reads the image, or prepares the scene; texture_source_close() frees it. What a file of ours says of itself and was
- * not given is filled into the options. @return an exit status, after one line on stderr
+ * Reads the image, or prepares a synthetic one; texture_source_close() frees it. What a file of ours says of itself and
+ * was not given is filled into the options. @return an exit status, after one line on stderr
  */
 int texture_source_open(options *o, texture_source *out);
 void texture_source_close(texture_source *s);
@@ -85,7 +85,7 @@ bool texture_coarser(const texture_source *s);
 const char *texture_readings_of(const texture_source *s, const char *what, char out[READINGS_SIZE]);
 
 /**
- * Sets one --parameter of a scene or an effect, called `whose`.
+ * Sets one --parameter of a synthetic image or an effect, called `whose`.
  * @param unused  parameters of this use count as none: PARAMETER_ALWAYS for none of them
  * @param more    another name that would be taken, for the list of those that are; or null
  * @return EXIT_FINE, or EXIT_USAGE after one line that names those it has
@@ -111,7 +111,7 @@ int texture_matrix_open(const options *o, texture_source *s, options *with);
 void texture_matrix_say(const texture_matrix *t, page *p);
 extern const column texture_matrix_columns[];
 
-/** Does the scene of --scene have a parameter of this name? Then parameters not taken are the effect's. */
+/** Does the synthetic image have a parameter of this name? Then parameters not taken are the effect's. */
 bool texture_scene_takes(const options *o, const char *name);
 
 /* ---- What --product makes: an image of numbers, or a figure ------------------------ */
@@ -154,7 +154,7 @@ int texture_pack_write(const options *o, const texture_source *s);
 /** Writes the normals that the image holds beside its depths. */
 int texture_packed_normal_write(const options *o, const texture_source *s);
 
-/** The depth image of a scene, to the file of -o: integers or floats as the format has them. */
+/** The depth image of a synthetic image, to the file of -o: integers or floats as the format has them. */
 int texture_depth_write(const options *o, const texture_source *s);
 
 /** Draws the file of --figure. */

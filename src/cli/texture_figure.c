@@ -78,8 +78,8 @@ static void words_of(const options *o, const texture_source *s, const char *titl
         snprintf(label, sizeof label, "metric depth, %g %s a unit", o->metric, unit != NULL ? unit : "scene units");
     else if (unit != NULL)
         append(label, sizeof label, ", lengths in %s", unit);
-    snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s", s->path != NULL ? "" : "scene ",
-             s->path == NULL ? s->frame.scene->name
+    snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s", s->path != NULL ? "" : "synthetic ",
+             s->path == NULL ? s->frame.synthetic->name
              : slash != NULL ? slash + 1
                              : s->path,
              s->camera.width, s->camera.height, label, more);
@@ -114,7 +114,7 @@ static void describe(const options *o, const texture_source *s, const texture_pr
     words_of(o, s, title, more, c);
 }
 
-/* Surfaces of a scene that fight; more than can be told apart are not marked. */
+/* Surfaces of a synthetic image that fight; more than can be told apart are not marked. */
 static void mark_ties(const frame *f, chart *c) {
     enum { MOST = 256 };
     double at[MOST][2];

@@ -115,9 +115,9 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
                             : p->reversed   ? "reversed"
                                             : "d3d",
                             p->reversed ? "falls" : "grows", o->matrix, row->name);
-    if (p->oblique && o->scene != NULL)
-        return option_error(OPTION_MATRIX, "%s: has planes that differ from pixel to pixel, which --scene cannot draw",
-                            o->matrix);
+    if (p->oblique && o->synthetic != NULL)
+        return option_error(OPTION_MATRIX,
+                            "%s: has planes that differ from pixel to pixel, which --synthetic cannot draw", o->matrix);
     s->matrix.path = o->matrix;
     name_edges(&s->matrix);
     s->mapping_from = given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;

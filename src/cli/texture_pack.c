@@ -17,7 +17,7 @@ int texture_pack_check(const options *o) {
     const char *name = o->pack != NULL ? "pack" : "product packed-normal";
     image_file file;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->scene == NULL) &&
+        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->synthetic == NULL) &&
             (others[i] != OPTION_PRODUCT || o->pack != NULL))
             return option_error(others[i], "does not apply with --%s", name);
     if (o->normals_by != NULL && (o->pack == NULL || !o->pack->normals))

@@ -23,14 +23,14 @@ typedef struct pixel {
     double interval;
     double linear01;           /* z over far */
     double distance;           /* from the camera, orthographic: from its plane */
-    double truth, error;       /* of a scene */
+    double truth, error;       /* of a synthetic image */
     double beside[NEIGHBOURS]; /* eye depths to the left, right, above, below */
     double position[3];        /* world, of what is stored */
     double position_off;       /* what that is off by, along the ray; of an image at most */
     double normal[3];          /* view space, by the method projective */
     double output, lost;       /* of an effect: in binary32, and what that adds to the exact one, for what is stored */
     double exact, levels;      /* output less lost; what the output is off by, or can be */
-    double normal_off;         /* what that is off by at most, degrees; of a scene truly */
+    double normal_off;         /* what that is off by at most, degrees; of a synthetic image truly */
 } pixel;
 
 typedef struct pixels {
@@ -39,7 +39,7 @@ typedef struct pixels {
     const frame_product *effect; /* null: none */
     const char *effect_name;
     setup_fields setup;
-    const char *source_path, *scene, *format_from, *mapping_from, *direction_from;
+    const char *source_path, *synthetic, *format_from, *mapping_from, *direction_from;
     pixel *items, at; /* all, and the one at hand */
     size_t count;
 } pixels;
@@ -71,15 +71,15 @@ static void look(const options *o, const texture_source *s, pixel *p, uint32_t *
     const uint32_t code = code_at(f, codes, p->column, p->row);
     const bool hole = code == UINT32_MAX, sky = !hole && frame_rank(setup, code) >= frame_sky_rank(f);
     double view[3], relative[3];
-    scene_hit hit = {.z = (double)INFINITY};
+    synthetic_hit hit = {.z = (double)INFINITY};
     p->state = hole ? "hole" : sky ? "sky" : "depth";
     p->depth = depth_at(f, p, code);
     p->code = hole ? none : (double)code;
     p->z = hole ? none : pixel_stored(&s->camera, p->column, p->row, code);
     p->range = hole ? (grain_range){none, none, none} : pixel_range_of(&s->camera, f->grain, p->column, p->row, code);
     p->interval = p->range.hi - p->range.lo;
-    if (f->scene != NULL)
-        f->scene->hit(&s->camera, f->parameters, p->column, p->row, &hit);
+    if (f->synthetic != NULL)
+        f->synthetic->hit(&s->camera, f->parameters, p->column, p->row, &hit);
     const frame_product share = {.kind = FRAME_LINEAR01};
     const bool has_share = texture_far_known(o) && frame_refuses(f, &share) == NULL;
     const double along = camera_radial(&s->camera, p->column, p->row);
@@ -87,7 +87,7 @@ static void look(const options *o, const texture_source *s, pixel *p, uint32_t *
     p->distance = sky ? none : p->z * along;
     p->truth = isinf(hit.z) ? none : hit.z;
     p->error = isinf(hit.z) || hole ? none : dp_error(setup, code, hit.z);
-    p->position_off = sky ? none : along * (f->scene != NULL ? fabs(p->error) : p->range.reach);
+    p->position_off = sky ? none : along * (f->synthetic != NULL ? fabs(p->error) : p->range.reach);
     camera_view(&s->camera, p->column, p->row, p->z, view);
     camera_turn(&s->camera, view, relative);
     for (int k = 0; k < 3; k++)
@@ -169,11 +169,11 @@ static bool has_camera(const pixels *all) {
            option_given(all->o, OPTION_HFOV) || option_given(all->o, OPTION_HALF_HEIGHT);
 }
 
-/* Of a scene how much it is, of an image at most. */
+/* Of a synthetic image how much it is, of an image at most. */
 static void say_off(page *p, const pixels *all, double by, const char *unit) {
     if (isnan(by))
         return;
-    if (all->scene != NULL)
+    if (all->synthetic != NULL)
         page_note(p, "", "off by %s %s", number_of(by, DIGITS).text, unit);
     else
         page_note(p, "", "off by at most %s %s", number_up(by, DIGITS).text, unit);
@@ -183,7 +183,7 @@ static void say_normal(page *p, const pixels *all) {
     const pixel *x = &all->at;
     page_note(p, "normal", "%s, %s, %s in view space", number_of(x->normal[0], DIGITS).text,
               number_of(x->normal[1], DIGITS).text, number_of(x->normal[2], DIGITS).text);
-    say_off(p, all, x->normal_off, all->scene != NULL ? "degrees" : "degrees where the surface is flat");
+    say_off(p, all, x->normal_off, all->synthetic != NULL ? "degrees" : "degrees where the surface is flat");
 }
 
 static void say_effect(page *p, const pixels *all) {
@@ -226,8 +226,8 @@ static void say_pixel(page *p, void *item) {
               number_in(number_of(x->position[2], DIGITS_Z), p->unit).text);
     page_note(p, "distance", "%s from the camera%s, off by%s %s along the ray",
               number_in(number_of(x->distance, DIGITS_Z), p->unit).text, all->source->camera.ortho ? "'s plane" : "",
-              all->scene != NULL ? "" : " at most",
-              number_in((all->scene != NULL ? number_of : number_up)(x->position_off, DIGITS), p->unit).text);
+              all->synthetic != NULL ? "" : " at most",
+              number_in((all->synthetic != NULL ? number_of : number_up)(x->position_off, DIGITS), p->unit).text);
     if (!isnan(x->normal[0]))
         say_normal(p, all);
 }
@@ -237,8 +237,8 @@ static void say_head(page *p, void *item) {
     const texture_source *s = all->source;
     char label[SETUP_LABEL_SIZE];
     p->unit = options_unit(all->o);
-    page_text(p, "%s: %u x %u pixels, %s", all->scene != NULL ? all->scene : s->path, s->camera.width, s->camera.height,
-              all->o->metric > 0 ? "metric depth" : setup_label(&s->setup, true, label));
+    page_text(p, "%s: %u x %u pixels, %s", all->synthetic != NULL ? all->synthetic : s->path, s->camera.width,
+              s->camera.height, all->o->metric > 0 ? "metric depth" : setup_label(&s->setup, true, label));
     if (all->o->metric == 0)
         page_text(p, "format %s, mapping %s%s", all->format_from, all->mapping_from,
                   has_camera(all)   ? ""
@@ -249,7 +249,7 @@ static void say_head(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { OF_SCENE = 1, WITH_CAMERA = 2, WITH_EFFECT = 4 };
+enum { OF_SYNTHETIC = 1, WITH_CAMERA = 2, WITH_EFFECT = 4 };
 
 static void *next_pixel(void *of, size_t i) {
     pixels *all = of;
@@ -279,8 +279,8 @@ static const column pixel_columns[] = {
     {FIELD(pixels, at.range.hi, "hi", "scene")},
     {FIELD(pixels, at.interval, "interval", "scene")},
     {FIELD(pixels, at.linear01, "linear01", "")},
-    {FIELD(pixels, at.truth, "truth", "scene"), .when = OF_SCENE},
-    {FIELD(pixels, at.error, "error", "scene"), .when = OF_SCENE},
+    {FIELD(pixels, at.truth, "truth", "scene"), .when = OF_SYNTHETIC},
+    {FIELD(pixels, at.error, "error", "scene"), .when = OF_SYNTHETIC},
     {FIELD(pixels, at.beside[0], "left", "scene")},
     {FIELD(pixels, at.beside[1], "right", "scene")},
     {FIELD(pixels, at.beside[2], "above", "scene")},
@@ -304,7 +304,7 @@ static const column pixel_columns[] = {
     {.kind = COLUMN_END}};
 
 static const column columns[] = {{FIELD(pixels, source_path, "file", ""), .only = AS_JSON},
-                                 {FIELD(pixels, scene, "scene", ""), .only = AS_JSON},
+                                 {FIELD(pixels, synthetic, "synthetic", ""), .only = AS_JSON},
                                  {PART(pixels, setup, NULL, setup_columns)},
                                  {FIELD(pixels, format_from, "format_from", ""), .only = AS_JSON},
                                  {FIELD(pixels, mapping_from, "mapping_from", ""), .only = AS_JSON},
@@ -333,7 +333,7 @@ int texture_pixel_write(const options *o, const texture_source *source, const fr
                   .effect_name = effect != NULL ? effect->effect->name : NULL,
                   .setup = setup_fields_of(&source->setup, options_unit(o)),
                   .source_path = source->path,
-                  .scene = source->frame.scene != NULL ? source->frame.scene->name : NULL,
+                  .synthetic = source->frame.synthetic != NULL ? source->frame.synthetic->name : NULL,
                   .format_from = texture_origin_name(source->format_from),
                   .mapping_from = texture_origin_name(source->mapping_from),
                   .direction_from = texture_origin_name(source->direction_from),
@@ -348,7 +348,7 @@ int texture_pixel_write(const options *o, const texture_source *source, const fr
         return status;
     all.items = calloc(all.count, sizeof *all.items);
     if (all.items != NULL && find(&all)) {
-        const unsigned when = (all.scene != NULL ? OF_SCENE : 0) | (has_camera(&all) ? WITH_CAMERA : 0) |
+        const unsigned when = (all.synthetic != NULL ? OF_SYNTHETIC : 0) | (has_camera(&all) ? WITH_CAMERA : 0) |
                               (effect != NULL ? WITH_EFFECT : 0);
         report_write(&(report_spec){"texture", columns, &all, .when = when, .label = 14, .head = say_head}, &out,
                      o->form);

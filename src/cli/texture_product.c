@@ -25,7 +25,7 @@ int texture_effect_normals(const options *o, texture_source *s) {
     return EXIT_FINE;
 }
 
-/* The parameters that are not the scene's are the effect's, but for the depth that it compares with. */
+/* The parameters that are not the synthetic image's are the effect's, but for the depth that it compares with. */
 int texture_product_effect(const options *o, texture_product *p) {
     options rest = *o;
     bool compared = false;

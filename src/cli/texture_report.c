@@ -40,10 +40,12 @@ static void *next_error(void *of, size_t i) {
 }
 
 /* Window depth is what an image holds without --metric. */
-enum { OF_SCENE = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8 };
+enum { OF_SYNTHETIC = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8 };
 
 static unsigned conditions(const statistics *r) {
-    const unsigned source = !statistics_of_image(r) ? OF_SCENE : r->o->metric == 0 ? OF_IMAGE | OF_WINDOW : OF_IMAGE;
+    const unsigned source = !statistics_of_image(r) ? OF_SYNTHETIC
+                            : r->o->metric == 0     ? OF_IMAGE | OF_WINDOW
+                                                    : OF_IMAGE;
     return source | (r->source.matrix.path != NULL ? OF_MATRIX : 0);
 }
 
@@ -66,7 +68,7 @@ static const column recognised_columns[] = {{FIELD(statistics, named.format, "fo
                                             {.kind = COLUMN_END}};
 
 static const column source_columns[] = {{FIELD(statistics, source.path, "file", "")},
-                                        {FIELD(statistics, named.scene, "scene", "")},
+                                        {FIELD(statistics, named.synthetic, "synthetic", "")},
                                         {LIST("parameters", parameter_columns, statistics_next_parameter)},
                                         {FIELD(statistics, source.camera.width, "width", "")},
                                         {FIELD(statistics, source.camera.height, "height", "")},
@@ -93,7 +95,7 @@ static const column reading_columns[] = {
 static const column sky_columns[] = {{FIELD(statistics, survey.sky, "pixels", "")},
                                      {FIELD(statistics, source.frame.sky, "limit", "")},
                                      {FIELD(statistics, survey.sky_from, "from", "scene")},
-                                     {FIELD(statistics, named.hidden, "hidden", ""), .when = OF_SCENE},
+                                     {FIELD(statistics, named.hidden, "hidden", ""), .when = OF_SYNTHETIC},
                                      {.kind = COLUMN_END}};
 
 static const column found_columns[] = {
@@ -138,7 +140,7 @@ static const column pair_columns[] = {{FIELD(survey_pairs, pairs, "count", "")},
 
 static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
                                        {TEXT_FIELD(error_line, name, "can be off by", -22, 0), .when = OF_IMAGE},
-                                       {TEXT_FIELD(error_line, name, "is off by", -22, 0), .when = OF_SCENE},
+                                       {TEXT_FIELD(error_line, name, "is off by", -22, 0), .when = OF_SYNTHETIC},
                                        {FIELD(error_line, unit, "unit", "")},
                                        {FIELD(error_line, sum.count, "pixels", "")},
                                        {FIELD(error_line, sum.infinite, "unbounded", "")},
@@ -178,8 +180,8 @@ static void name_all(statistics *r) {
     const bool is_metric = r->o->metric > 0, has_steps = g->kind == GRAIN_STEPS;
     const double none = (double)NAN;
     r->setup = setup_fields_of(&s->setup, options_unit(r->o));
-    r->named.scene = statistics_of_image(r) ? NULL : s->frame.scene->name;
-    r->named.truth = statistics_of_image(r) ? NULL : "scene";
+    r->named.synthetic = statistics_of_image(r) ? NULL : s->frame.synthetic->name;
+    r->named.truth = statistics_of_image(r) ? NULL : "synthetic";
     r->named.packing = r->o->packing != NULL ? r->o->packing->name : NULL;
     r->named.type = image_type_name(s->type);
     r->named.rounded = g->kind == GRAIN_CODES ? NULL : grain_rounding_name(g->rounding);
@@ -227,7 +229,7 @@ static bool add_decoding(statistics *r, const decode_row *row) {
     return frame_summarise_decoding(&r->source.frame, row, &e->sum);
 }
 
-/* Of an image what is certain without looking any further; a scene tells the truth about everything. */
+/* Of an image what is certain without looking any further; a synthetic image tells the truth about everything. */
 static size_t products_of(const statistics *r, frame_product out[ERRORS_MAX]) {
     size_t count = 0;
     out[count++] = (frame_product){.kind = FRAME_EYE, .error = true};

@@ -20,7 +20,7 @@ const char *texture_origin_name(texture_origin origin) {
 }
 
 bool texture_scene_takes(const options *o, const char *name) {
-    return o->scene != NULL && parameter_find(o->scene->parameters, name) >= 0;
+    return o->synthetic != NULL && parameter_find(o->synthetic->parameters, name) >= 0;
 }
 
 int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
@@ -46,14 +46,14 @@ int texture_parameter_set(const char *whose, const texture_parameter *list, cons
     return EXIT_FINE;
 }
 
-/* What is not the scene's may be the effect's. */
-static int scene_parameters(const options *o, const scene_row *scene, double *out) {
+/* What is not the synthetic image's may be the effect's. */
+static int synthetic_parameters(const options *o, const synthetic_row *synthetic, double *out) {
     int status = EXIT_FINE;
-    parameter_defaults(scene->parameters, out);
+    parameter_defaults(synthetic->parameters, out);
     for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
         if (o->effect == NULL || texture_scene_takes(o, o->parameters[i].name))
-            status =
-                texture_parameter_set(scene->name, scene->parameters, &o->parameters[i], PARAMETER_ALWAYS, NULL, out);
+            status = texture_parameter_set(synthetic->name, synthetic->parameters, &o->parameters[i], PARAMETER_ALWAYS,
+                                           NULL, out);
     return status;
 }
 
@@ -81,12 +81,12 @@ static int check_window(const options *o) {
 /* Options that need another one, or have no meaning beside it. */
 static int check_together(const options *o) {
     const bool file = o->operand_count > 0;
-    if (file && o->scene != NULL)
-        return option_error(OPTION_SCENE, "stands in place of FILE, got '%s' too", o->operands[0]);
-    if (!file && o->scene == NULL)
-        return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF or raw image, or --scene NAME");
+    if (file && o->synthetic != NULL)
+        return option_error(OPTION_SYNTHETIC, "stands in place of FILE, got '%s' too", o->operands[0]);
+    if (!file && o->synthetic == NULL)
+        return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF or raw image, or --synthetic NAME");
     if (file && o->effect == NULL && o->parameter_count > 0)
-        return option_error(OPTION_PARAMETER, "needs --scene or --product effect");
+        return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
     if (o->metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
     if (o->channel != NULL && !file)
@@ -207,7 +207,7 @@ static int read_image(options *o, texture_source *s) {
         return error.unreadable ? EXIT_IO : EXIT_USAGE;
     }
     if (asked.width > 0 && s->picture.file != IMAGE_RAW)
-        return option_error(OPTION_SIZE, "is for --scene and raw files: %s has its own", s->path);
+        return option_error(OPTION_SIZE, "is for --synthetic and raw files: %s has its own", s->path);
     if (s->picture.size_assumed && !o->quiet)
         fprintf(stderr, "depthprec: %s: %u x %u pixels are assumed, by its length; --size sets them\n", s->path,
                 s->picture.width, s->picture.height);
@@ -334,8 +334,8 @@ static int make_camera(const options *o, texture_source *s) {
 
 int texture_source_open(options *o, texture_source *s) {
     int status = check_together(o);
-    if (status == EXIT_FINE && o->scene != NULL)
-        status = scene_parameters(o, o->scene, s->parameters);
+    if (status == EXIT_FINE && o->synthetic != NULL)
+        status = synthetic_parameters(o, o->synthetic, s->parameters);
     else if (status == EXIT_FINE)
         status = read_image(o, s);
     if (status == EXIT_FINE)
@@ -345,7 +345,7 @@ int texture_source_open(options *o, texture_source *s) {
     s->frame = (frame){.camera = &s->camera,
                        .last = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0 ? &s->last : NULL,
                        .image = s->path != NULL ? &s->picture : NULL,
-                       .scene = o->scene,
+                       .synthetic = o->synthetic,
                        .parameters = s->parameters,
                        .grain = s->path != NULL ? &s->grain : NULL,
                        .metric = o->metric > 0,

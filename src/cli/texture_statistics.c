@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What text says of an image or a scene. */
+/* What text says of an image. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,10 +12,10 @@ enum { DIGITS_32 = 9 }; /* that tell binary32 numbers apart */
 
 void *statistics_next_parameter(void *of, size_t i) {
     statistics *r = of;
-    const scene_row *scene = r->source.frame.scene;
-    if (statistics_of_image(r) || scene->parameters[i].name == NULL)
+    const synthetic_row *synthetic = r->source.frame.synthetic;
+    if (statistics_of_image(r) || synthetic->parameters[i].name == NULL)
         return NULL;
-    r->parameter = scene->parameters[i].name;
+    r->parameter = synthetic->parameters[i].name;
     r->parameter_value = r->source.parameters[i];
     return r;
 }
@@ -95,7 +95,8 @@ static void say_source(statistics *r, page *p) {
         page_text(p, "%s: %u x %u pixels, %s of %s, %u channel%s%s", s->path, s->camera.width, s->camera.height,
                   image_file_name(s->picture.file), r->named.type, s->channels, s->channels == 1 ? "" : "s", packed);
     else
-        page_text(p, "scene %s: %u x %u pixels%s", r->named.scene, s->camera.width, s->camera.height, parameters);
+        page_text(p, "synthetic %s: %u x %u pixels%s", r->named.synthetic, s->camera.width, s->camera.height,
+                  parameters);
     if (r->o->metric > 0) {
         say_metric(r, p);
     } else {
@@ -126,7 +127,7 @@ void statistics_say_head(page *p, void *item) {
                   (unsigned long long)v->sky, share(v->sky, v->pixels).text,
                   number_in(number_of(v->sky_from, 6), p->unit).text, number_of(r->o->sky, 3).text);
     if (!statistics_of_image(r) && r->named.hidden > 0)
-        page_note(p, "hidden", "%llu pixels of the scene count as sky", (unsigned long long)r->named.hidden);
+        page_note(p, "hidden", "%llu pixels of the synthetic image count as sky", (unsigned long long)r->named.hidden);
     if (v->invalid > 0)
         page_note(p, "holes", "%llu pixels, %s %%, hold no depth", (unsigned long long)v->invalid,
                   share(v->invalid, v->pixels).text);

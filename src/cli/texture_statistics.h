@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file texture_statistics.h  The statistics of an image or a scene: what is measured, and what text says of them. */
+/** @file texture_statistics.h  The statistics of an image: what is measured, and what text says of them. */
 #ifndef CLI_TEXTURE_STATISTICS_H
 #define CLI_TEXTURE_STATISTICS_H
 
@@ -35,7 +35,7 @@ typedef struct statistics {
     error_line errors[ERRORS_MAX];
     setup_fields setup;
     struct {
-        const char *scene, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
+        const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
         double metric, step, steps, steps_or, bits, fov, half_height;
         bool coarser;
         const bool *reversed;
@@ -54,7 +54,7 @@ static inline bool statistics_of_image(const statistics *r) {
     return r->source.path != NULL;
 }
 
-/** The parameters of the scene, an item after the other. */
+/** The parameters of the synthetic image, an item after the other. */
 void *statistics_next_parameter(void *of, size_t i);
 
 /** Above the bands, and below them. */

@@ -346,7 +346,7 @@ int texture_depth_write(const options *o, const texture_source *s) {
     writing w = {0};
     if (!image_file_of(o->output, &w.file))
         return option_error(OPTION_OUTPUT,
-                            "must end in .png, .pfm or .npy for the scene's depths, got '%s'; --json or --csv writes "
+                            "must end in .png, .pfm or .npy for the depths, got '%s'; --json or --csv writes "
                             "statistics",
                             o->output);
     if (!depth_type(&s->setup.spec.format, w.file, &type))

@@ -22,7 +22,7 @@ const verb verb_rows[] = {
     {"budget", VERB_BUDGET, "", 0, 0, NULL,
      "how much of the separation each cause takes",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
-     "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"
+     "  depthprec budget -F fp32 -m reversed --from-origin 5000 --linearize --at 10,100,1000\n"
      "  depthprec budget -F fp32 -m reversed --viewport 1920x1080 --raster spec-d3d\n", 0, NULL},
     {"solve", VERB_SOLVE, "", 0, 0, NULL,
      "near, far, format, mapping or distance for a separation",
@@ -38,7 +38,7 @@ const verb verb_rows[] = {
     {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
      "where surfaces start to fight, by a census of every depth",
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
-     "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
+     "  depthprec zfight -F d24 -m gl --arith mesa --separation 0.01\n"
      "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n"
      "  depthprec zfight --rasterize -F fp32 -m reversed --range 16:64\n", 0, NULL},
     {"prepass", VERB_PREPASS, "", 0, 0, NULL,
@@ -49,27 +49,26 @@ const verb verb_rows[] = {
     {"bias", VERB_BIAS, "", 0, 0, NULL,
      "what a depth bias does, how much is enough, per API",
      "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
-     "  depthprec bias --api all --gap 0.02 --at 300\n"
-     "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
+     "  depthprec bias --api all --separation 0.02 --at 300\n"
+     "  depthprec bias --api webgpu -F depth24plus -m d3d --separation 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0, NULL},
     {"world", VERB_WORLD, "", 0, 0, NULL,
-     "large worlds: safe gap and jitter so far from the origin",
-     "  depthprec world --distance 100km --gap 1cm --at 10m\n"
-     "  depthprec world --scheme camera-float,split --at 1m\n"
-     "  depthprec solve --for world --separation 1cm --at 10m\n", 0, NULL},
+     "large worlds: safe separation, jitter far from the origin",
+     "  depthprec world --from-origin 100km --separation 1cm --at 10m\n"
+     "  depthprec world --scheme camera-float,split --at 1m\n", 0, NULL},
     {"scene", VERB_SCENE, "MODEL", 1, 1, NULL,
      "a model: which surfaces fight, from where on",
      "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
      "  depthprec scene house.glb --eye 0,2,30 --look 0,2,0 --render seen.png\n"
-     "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1, "A model, an image, a shadow map"},
+     "  depthprec scene city.obj -F d24 -m d3d --separation 0.001 --json\n", 1, "A model, an image, a shadow map"},
     {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
      "a depth image: depths, positions, normals, effects, errors",
      "  depthprec texture depth.png -n 0.3 -f 1000\n"
      "  capture | depthprec texture - -n 0.3 -f 1000\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
      "  depthprec texture depth.png -f 1000 --product normal:high -o normals.npy\n"
-     "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1, NULL},
+     "  depthprec texture --synthetic decals --parameter gap=0.01 -F d24 -m reversed\n", 1, NULL},
     {"shadow", VERB_SHADOW, "", 0, 0, NULL,
      "shadow maps: the bias without acne, and its gap",
      "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
@@ -95,8 +94,8 @@ const verb verb_rows[] = {
      "  depthprec plot error -F fp32 -m d3d,reversed -o - --type png >error.png\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
      "  depthprec plot fight -F fp32 -m reversed --at 500 -o fight.svg\n"
-     "  depthprec plot scene engine.need -o scene.svg\n"
-     "  depthprec plot scene-fights house.glb -F d24 -m d3d -o fights.svg\n", 2, "Figures, lists and help"},
+     "  depthprec plot needs engine.need -o needs.svg\n"
+     "  depthprec plot scene house.glb -F d24 -m d3d -o house.svg\n", 2, "Figures, lists and help"},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"

@@ -64,7 +64,6 @@ int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
 int cmd_texture(const struct options *o);
 int cmd_world(const struct options *o);
-int solve_world(const struct options *o); /**< of cmd_world.c: solve --for world */
 int cmd_help(const struct options *o);
 int cmd_completions(const struct options *o);
 

@@ -147,8 +147,8 @@ static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns)
 
 static int check(drawn *d) {
     const options *o = d->walk.o;
-    if (option_given(o, OPTION_GAP))
-        return option_error(OPTION_GAP, "does not apply with --rasterize, which looks for the gap");
+    if (option_given(o, OPTION_SEPARATION))
+        return option_error(OPTION_SEPARATION, "does not apply with --rasterize, which looks for the separation");
     int status = drawn_setups(o, &d->walk.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &d->lo, &d->hi);

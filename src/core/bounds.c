@@ -212,7 +212,7 @@ dp_status dp_worst_over(const dp_setup *setup, double lo, double hi, dp_worst *o
     if (!(lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || isinf(lo))
         return DP_ERROR_RANGE;
     const double none = (double)NAN;
-    if (setup->spec.model == DP_MODEL_FP32) {
+    if (setup->spec.model == DP_MODEL_FLOAT) {
         *out = (dp_worst){lo, hi, none, none, 0, none, none, none, 0, none};
         return DP_OK;
     }

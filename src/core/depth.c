@@ -92,7 +92,7 @@ static uint32_t pipeline_code(const dp_setup *setup, double z) {
 }
 
 uint32_t dp_code(const dp_setup *setup, double z) {
-    if (setup->spec.model == DP_MODEL_FP32)
+    if (setup->spec.model == DP_MODEL_FLOAT)
         return pipeline_code(setup, z);
     if (!(z > setup->spec.znear))
         return setup->code_near;
@@ -117,7 +117,7 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
     const dp_spec *spec = &setup->spec;
     const int reversed = setup->reversed;
     dp_cell cell = {.code = code, .stored = dp_stored(setup, code)};
-    if (spec->model == DP_MODEL_FP32) {
+    if (spec->model == DP_MODEL_FLOAT) {
         cell.lo = cell.hi = cell.width = (double)NAN;
         return cell;
     }

@@ -31,7 +31,7 @@ uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start);
 
 /* Is the separation that of depths computed in binary32, by dp_budget_at(), and not one of a lattice. */
 static inline int dp_is_computed(const dp_setup *setup) {
-    return setup->spec.model == DP_MODEL_FP32 || setup->shader;
+    return setup->spec.model == DP_MODEL_FLOAT || setup->shader;
 }
 
 /* dp_separation() of the models exact and staged, at a finite depth. */

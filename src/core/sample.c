@@ -16,7 +16,7 @@ dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out) {
         return DP_ERROR_NULL;
     if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
         return DP_ERROR_DEPTH;
-    if (setup->spec.model == DP_MODEL_FP32 && isinf((float)z) && !isinf(z))
+    if (setup->spec.model == DP_MODEL_FLOAT && isinf((float)z) && !isinf(z))
         return DP_ERROR_BINARY32;
     const uint32_t code = dp_code(setup, z);
     const dp_cell cell = dp_cell_of(setup, code);

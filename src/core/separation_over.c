@@ -191,7 +191,7 @@ int dp_separation_within(const dp_setup *one, const dp_setup *other, double lo, 
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
     search s = {.setup = one, .lattice = *one, .worst = &worst};
     s.lattice.spec.model = DP_MODEL_EXACT;
-    if (one->spec.model != DP_MODEL_FP32 || !dp_guarantee_between(one, other, &s.guarantee))
+    if (one->spec.model != DP_MODEL_FLOAT || !dp_guarantee_between(one, other, &s.guarantee))
         return 0;
     look(&s, hi);
     look(&s, lo);

@@ -8,7 +8,7 @@
 static const char *const model_names[DP_MODEL_COUNT] = {
     [DP_MODEL_EXACT] = "exact",
     [DP_MODEL_STAGED] = "staged",
-    [DP_MODEL_FP32] = "fp32",
+    [DP_MODEL_FLOAT] = "float",
 };
 
 const char *dp_model_name(dp_model model) {
@@ -62,7 +62,7 @@ static dp_status check(const dp_spec *spec) {
         {spec->znear == 0.0 || (spec->zfar - spec->znear) / fabs(spec->znear) >= 1e-6, DP_ERROR_PLANES},
         {!spec->ortho || row->ortho, DP_ERROR_ORTHO},
         {!isinf(spec->zfar) || (row->far_infinite && !spec->ortho), DP_ERROR_INFINITE},
-        {spec->model != DP_MODEL_FP32 || row->curve == DP_CURVE_PERSPECTIVE, DP_ERROR_MODEL},
+        {spec->model != DP_MODEL_FLOAT || row->curve == DP_CURVE_PERSPECTIVE, DP_ERROR_MODEL},
         {row->curve != DP_CURVE_LOG || row->log_over_near || within(spec->log_c, 1e-12, 1e12), DP_ERROR_LOG_C},
         {spec->triangles.width == 0 || (!spec->ortho && dp_triangles_check(&spec->triangles) == DP_OK),
          DP_ERROR_TRIANGLES},
@@ -82,7 +82,7 @@ dp_setup dp_setup_facing(const dp_setup *setup) {
 dp_setup dp_setup_guaranteed(const dp_setup *setup) {
     dp_setup out = *setup;
     dp_spec spec = setup->spec;
-    spec.model = dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FP32 : DP_MODEL_STAGED;
+    spec.model = dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
     if (spec.model != setup->spec.model)
         dp_setup_init(&out, &spec); /* cannot fail: the set-up was made, and the model is one that its mapping has */
     out.shader = out.curve == DP_CURVE_LOG;
@@ -132,7 +132,7 @@ dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
         setup->code_near = dp_code_exact(setup, n, dp_code_quick(setup, n, &certain));
     }
     setup->code_far = code_max - near_end;
-    if (spec->model == DP_MODEL_FP32) {
+    if (spec->model == DP_MODEL_FLOAT) {
         setup->code_near = dp_code(setup, n);
         setup->code_far = dp_code(setup, f);
     }

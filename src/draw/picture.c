@@ -162,7 +162,7 @@ static const char *set_up(draw_picture *p, const dp_spec *asked, const raster_ro
         return raster_status_text(RASTER_MODEL);
     if (!raster_draws(row, &spec.format))
         return raster_status_text(RASTER_FORMAT);
-    spec.model = DP_MODEL_FP32;
+    spec.model = DP_MODEL_FLOAT;
     spec.triangles = dp_triangles_default();
     spec.triangles.width = DRAW_PICTURE_WIDTH;
     spec.triangles.height = DRAW_PICTURE_HEIGHT;

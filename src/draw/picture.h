@@ -29,7 +29,7 @@ enum { DRAW_PICTURE_WIDTH = 640, DRAW_PICTURE_HEIGHT = 360, DRAW_PICTURE_FRAMES 
 #define DRAW_PICTURE_MARK 0.75 /**< where on the slider the guarantee is */
 
 typedef struct draw_picture {
-    dp_setup setup; /**< as it is drawn: model fp32, the rasterizer's arithmetic, any slant */
+    dp_setup setup; /**< as it is drawn: model float, the rasterizer's arithmetic, any slant */
     draw_camera camera;
     draw_buffer buffer;
     double z;          /**< depth of the scene, scene units: things lie from 0.54 to 1.61 of it */

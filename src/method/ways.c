@@ -10,7 +10,7 @@
 static size_t case_of(const method_family_row *family, const dp_spec *spec) {
     size_t which = 0;
     if (spec->rounding != DP_ROUND_NEAREST || spec->model == DP_MODEL_STAGED ||
-        (spec->model == DP_MODEL_FP32 && (spec->arith != 0 || spec->ortho)))
+        (spec->model == DP_MODEL_FLOAT && (spec->arith != 0 || spec->ortho)))
         return family->case_count;
     while (which < family->case_count && (strcmp(spec->format.name, family->cases[which].format) != 0 ||
                                           spec->mapping != family->cases[which].mapping))
@@ -23,7 +23,7 @@ way way_choose(const dp_setup *setup, double tolerance, bool cut_cells) {
     const method_family_row *family = method_family_get(METHOD_INTERVAL);
     const size_t which = case_of(family, spec);
     const double ratio = spec->zfar / spec->znear;
-    const bool pipeline = spec->model == DP_MODEL_FP32;
+    const bool pipeline = spec->model == DP_MODEL_FLOAT;
     const method_wish wish = {.tolerance = tolerance,
                               .ratio_lo = fmin(ratio, METHOD_RATIO_HI),
                               .ratio_hi = ratio,

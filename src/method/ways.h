@@ -10,7 +10,7 @@
 
 typedef struct way {
     const method_row *row; /**< null: no method is claimed to be good enough, and the engine's own answer stands: the
-                                exact cell, or in the model fp32 none */
+                                exact cell, or in the model float none */
     const char *name;      /**< of the method; "cell" or null without */
     double claim;          /**< worst relative error; 0 for the exact cell without a row */
 } way;

@@ -21,14 +21,15 @@ enum {
     KEY_MODEL,
     KEY_ARITH,
     KEY_LOG_C,
-    KEY_WORLD,
+    KEY_FROM_ORIGIN,
     KEY_SCHEME,
     KEY_VIEW,
     KEY_COUNT = KEY_VIEW + VIEW_COUNT
 };
 
-static const char *const keys[KEY_COUNT + 1] = {"preset", "near",  "far",   "mapping", "format", "ortho",   "rounding",
-                                                "model",  "arith", "log_c", "world",   "scheme", VIEW_KEYS, NULL};
+static const char *const keys[KEY_COUNT + 1] = {"preset",      "near",     "far",     "mapping", "format",
+                                                "ortho",       "rounding", "model",   "arith",   "log_c",
+                                                "from_origin", "scheme",   VIEW_KEYS, NULL};
 
 typedef struct draft {
     dp_spec spec;
@@ -136,16 +137,10 @@ static bool read_ortho(reader *r, const config_setting_t *s, draft *d) {
     return true;
 }
 
-/* By the name of JSON too. */
-static int read_model(reader *r, const config_setting_t *s) {
-    const char *text = config_setting_get_string(s);
-    return text != NULL && strcmp(text, dp_model_name(DP_MODEL_FP32)) == 0 ? DP_MODEL_FP32
-                                                                           : word_among(r, s, model_word);
-}
-
 static bool read_words(reader *r, config_setting_t *const *found, draft *d, need_camera *out) {
     const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
-    const int model = rounding >= 0 && found[KEY_MODEL] != NULL ? read_model(r, found[KEY_MODEL]) : DP_MODEL_COUNT;
+    const int model =
+        rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_word) : DP_MODEL_COUNT;
     const int arith =
         rounding >= 0 && model >= 0 && found[KEY_ARITH] != NULL ? read_arith(r, found[KEY_ARITH], out) : 0;
     if (rounding < 0 || model < 0 || arith < 0)
@@ -213,16 +208,16 @@ static bool make_setups(reader *r, const config_setting_t *group, const draft *d
     return true;
 }
 
-/* Places of a world: both keys, and a pipeline of depths at a point. */
+/* Places far from the origin: both keys, and a pipeline of depths at a point. */
 static bool read_world(reader *r, config_setting_t *const *found, const draft *d, need_camera *out) {
-    config_setting_t *const world = found[KEY_WORLD], *const scheme = found[KEY_SCHEME];
+    config_setting_t *const origin = found[KEY_FROM_ORIGIN], *const scheme = found[KEY_SCHEME];
     const char *text;
-    if (world == NULL && scheme == NULL)
+    if (origin == NULL && scheme == NULL)
         return true;
-    if (world == NULL || scheme == NULL)
-        return reader_fail(r, world != NULL ? world : scheme, "camera '%s': world and scheme need each other",
+    if (origin == NULL || scheme == NULL)
+        return reader_fail(r, origin != NULL ? origin : scheme, "camera '%s': from_origin and scheme need each other",
                            out->name);
-    if (!reader_length(r, world, "world", READER_POSITIVE, &out->world) || !reader_string(r, scheme, &text))
+    if (!reader_length(r, origin, "from_origin", READER_POSITIVE, &out->world) || !reader_string(r, scheme, &text))
         return false;
     if (!world_parse(text, &out->scheme)) {
         for (size_t i = 0; i < WORLD_ROWS; i++)
@@ -233,12 +228,12 @@ static bool read_world(reader *r, config_setting_t *const *found, const draft *d
     if (out->scheme.row->metres && strchr(text, ':') == NULL)
         out->scheme.size = unit_convert(out->scheme.size, unit_find("m"), r->unit);
     if (d->spec.ortho || dp_mapping_get(d->spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
-        return reader_fail(r, world,
-                           "world: needs a perspective and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE);
-    if (!d->automatic && d->spec.model != DP_MODEL_FP32)
-        return reader_fail(r, world, "world: needs the model auto or float");
+        return reader_fail(r, origin,
+                           "from_origin: needs a perspective and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE);
+    if (!d->automatic && d->spec.model != DP_MODEL_FLOAT)
+        return reader_fail(r, origin, "from_origin: needs the model auto or float");
     if (found[KEY_VIEW] != NULL)
-        return reader_fail(r, world, "world: is of surfaces that face the camera, not with viewport");
+        return reader_fail(r, origin, "from_origin: is of surfaces that face the camera, not with viewport");
     return true;
 }
 

@@ -32,7 +32,7 @@ static bool with_model(const dp_setup *setup, dp_model model, dp_setup *out) {
 /* The verdict that a set-up gives in its own model. */
 static void judge_in(const need *n, const dp_setup *setup, check_verdict *v) {
     static const check_method methods[DP_MODEL_COUNT] = {
-        [DP_MODEL_EXACT] = CHECK_LATTICE, [DP_MODEL_STAGED] = CHECK_STAGED, [DP_MODEL_FP32] = CHECK_GUARANTEE};
+        [DP_MODEL_EXACT] = CHECK_LATTICE, [DP_MODEL_STAGED] = CHECK_STAGED, [DP_MODEL_FLOAT] = CHECK_GUARANTEE};
     const measure_kind kind = n->kind == NEED_ERROR ? MEASURE_ERROR : MEASURE_SEPARATION;
     const judgement j = judge(kind, setup, n->lo, n->hi, n->limit);
     v->setup = *setup;
@@ -46,7 +46,7 @@ static void judge_in(const need *n, const dp_setup *setup, check_verdict *v) {
 /* From a world of places: no farther from its origin than a corner of its box, seen within 60 degrees of the axis. */
 static void judge_world(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
     static const double root3 = 1.7320508075688774;
-    with_model(asked, DP_MODEL_FP32, &v->setup); /* need_read() has refused mappings that have none */
+    with_model(asked, DP_MODEL_FLOAT, &v->setup); /* need_read() has refused mappings that have none */
     const world_asked a = {.setup = &v->setup, .z = n->hi, .lean = 2.0};
     const double distance = root3 * camera->world;
     v->method = CHECK_GUARANTEE;
@@ -101,7 +101,7 @@ static bool never_ties(const dp_setup *setup, double lo, double hi) {
 }
 
 static bool judge_ties(const check_request *request, const need *n, const dp_setup *asked, check_verdict *v) {
-    if (!with_model(asked, DP_MODEL_FP32, &v->setup))
+    if (!with_model(asked, DP_MODEL_FLOAT, &v->setup))
         return false;                      /* need_read() has refused it */
     v->setup = dp_setup_facing(&v->setup); /* of depths at a point */
     v->method = CHECK_GUARANTEE;

@@ -130,7 +130,7 @@ dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, do
                          distance_answer *out) {
     if (setup == NULL || out == NULL)
         return DP_ERROR_NULL;
-    if (kind == MEASURE_ERROR && setup->spec.model == DP_MODEL_FP32)
+    if (kind == MEASURE_ERROR && setup->spec.model == DP_MODEL_FLOAT)
         return DP_ERROR_MODEL;
     if (!(limit > 0.0 && lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || lo > farthest)
         return DP_ERROR_RANGE;

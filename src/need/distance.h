@@ -21,7 +21,7 @@ typedef struct distance_answer {
  * other models, unless the search for a certain bound was given up.
  *
  * @param lo, hi  near <= lo <= hi <= far; hi may be INFINITY
- * @return DP_OK, DP_ERROR_NULL, DP_ERROR_RANGE (depths, limit), DP_ERROR_MODEL (an error in fp32)
+ * @return DP_OK, DP_ERROR_NULL, DP_ERROR_RANGE (depths, limit), DP_ERROR_MODEL (an error in float)
  */
 dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit,
                          distance_answer *out);

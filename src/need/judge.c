@@ -42,7 +42,7 @@ static judgement of_error(const dp_setup *setup, double lo, double hi, double li
 
 dp_status judge_setup(const dp_spec *spec, dp_setup *out) {
     dp_spec own = *spec;
-    const bool shader = spec->model == DP_MODEL_FP32 && dp_mapping_get(spec->mapping)->curve == DP_CURVE_LOG;
+    const bool shader = spec->model == DP_MODEL_FLOAT && dp_mapping_get(spec->mapping)->curve == DP_CURVE_LOG;
     if (shader)
         own.model = DP_MODEL_STAGED;
     const dp_status status = dp_setup_init(out, &own);

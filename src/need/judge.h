@@ -17,7 +17,7 @@ typedef struct judgement {
 } judgement;
 
 /**
- * The set-up in which a spec is judged. That is dp_setup_init()'s, but in the model fp32, which knows only the
+ * The set-up in which a spec is judged. That is dp_setup_init()'s, but in the model float, which knows only the
  * pipeline, a logarithmic depth is what its shader computes: dp_setup_guaranteed().
  *
  * @return what dp_setup_init() has against it

@@ -2,5 +2,5 @@
 #include "need/model.h"
 
 const char *model_word(size_t model) {
-    return model == DP_MODEL_COUNT ? "auto" : model == DP_MODEL_FP32 ? "float" : dp_model_name((dp_model)model);
+    return model == DP_MODEL_COUNT ? "auto" : dp_model_name((dp_model)model);
 }

@@ -6,8 +6,8 @@
 #include "depthprec/depthprec.h"
 
 /**
- * The word of text for a model: dp_model_name(), but "float" where that is also a format's name, and "auto" for
- * DP_MODEL_COUNT, the simplest that is enough. @return NULL beyond
+ * The word for a model: dp_model_name(), and "auto" for DP_MODEL_COUNT, the simplest that is enough.
+ * @return NULL beyond
  */
 const char *model_word(size_t model);
 

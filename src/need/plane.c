@@ -330,7 +330,7 @@ static void nearest_miss(const solve_problem *p, const solve_result *lattice, pl
 dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_result *lattice, plane_answer *out) {
     if (problem == NULL || lattice == NULL || out == NULL)
         return DP_ERROR_NULL;
-    if (problem->kind == MEASURE_ERROR && problem->spec.model == DP_MODEL_FP32 &&
+    if (problem->kind == MEASURE_ERROR && problem->spec.model == DP_MODEL_FLOAT &&
         dp_mapping_get(problem->spec.mapping)->curve != DP_CURVE_LOG)
         return DP_ERROR_MODEL;
     solve_problem exact = *problem;

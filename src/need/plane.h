@@ -37,7 +37,7 @@ typedef struct plane_answer {
  * @param lattice  receives the answer of the lattice, model exact, whatever the model asked about; its islands hold in
  *                 that model, and for an error however the depths are aligned
  * @return DP_OK (also when impossible), or what solve() and dp_setup_init() have against it; DP_ERROR_MODEL for an
- *         error in fp32, which has no stored depth
+ *         error in float, which has no stored depth
  */
 dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_result *lattice, plane_answer *out);
 

@@ -71,7 +71,7 @@ static bool in_planes(reader *r, const config_setting_t *s, const need *n) {
 static bool suits(reader *r, const config_setting_t *s, const need *n) {
     const need_camera *camera = &r->file->cameras[n->camera];
     const dp_spec *spec = &camera->setups[0].spec;
-    if (n->kind == NEED_ERROR && spec->model == DP_MODEL_FP32)
+    if (n->kind == NEED_ERROR && spec->model == DP_MODEL_FLOAT)
         return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has %s",
                            camera->name, model_word(spec->model));
     if (n->kind != NEED_TIES)
@@ -80,7 +80,7 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
         return reader_fail(
             r, s, "ties: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", and the camera '%s' has %s",
             camera->name, dp_mapping_get(spec->mapping)->name);
-    if (spec->model != DP_MODEL_FP32 && !camera->automatic)
+    if (spec->model != DP_MODEL_FLOAT && !camera->automatic)
         return reader_fail(r, s, "ties: needs the model float or auto, and the camera '%s' has %s", camera->name,
                            model_word(spec->model));
     if (!(n->lo < n->hi) || isinf(n->hi))

@@ -3,7 +3,7 @@
  * @file requirement.h  Requirement files: what a project's cameras must be able to tell apart. See depthprec(5).
  *
  *     unit = "m";
- *     cameras = { player = { near = "10 cm"; far = "inf"; mapping = "reversed"; format = "fp32"; model = "fp32"; }; };
+ *     cameras = { player = { near = "10 cm"; far = "inf"; mapping = "reversed"; format = "fp32"; model = "float"; }; };
  *     requirements = { decals = { camera = "player"; range = ["0.5 m", "50 m"]; separation = "1 mm"; }; };
  *
  * Nothing has a silent default that the verdict hangs on: a camera names its planes, mapping and format (itself or by

@@ -121,7 +121,7 @@ static bool suits(reader *r, const config_setting_t *s, const need_camera *camer
     if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(r, s, "viewport: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
                            dp_mapping_get(spec->mapping)->name);
-    if (spec->model != DP_MODEL_FP32 && !camera->automatic)
+    if (spec->model != DP_MODEL_FLOAT && !camera->automatic)
         return reader_fail(r, s, "viewport: needs the model float or auto, got %s", dp_model_name(spec->model));
     return true;
 }

@@ -115,7 +115,7 @@ static size_t find_knots(const dp_setup *setup, double hi, double at[REFINE_KNOT
         add_binades(&k, setup, rounded ? 150 : spec->format.bias + 1);
     if (rounded && dp_mapping_get(spec->mapping)->ndc_signed)
         add_signed_binades(&k, setup);
-    if (spec->model == DP_MODEL_FP32)
+    if (spec->model == DP_MODEL_FLOAT)
         add_clip_binades(&k, setup, hi);
     return k.count;
 }
@@ -143,7 +143,7 @@ double envelope_error(const dp_worst *worst) {
 }
 
 bool envelope_way(const dp_setup *setup, double tolerance, way *out) {
-    if (!(tolerance > 0) || setup->spec.model == DP_MODEL_FP32)
+    if (!(tolerance > 0) || setup->spec.model == DP_MODEL_FLOAT)
         return false;
     *out = way_choose(setup, tolerance, false);
     return out->row != NULL && strcmp(out->name, "cell") != 0;

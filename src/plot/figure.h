@@ -32,7 +32,7 @@ typedef struct figure_request {
     const raster_row *raster;          /**< for the figures that draw */
     double slant, azimuth;             /**< the normal of what they draw, see draw/fight.h; degrees */
     const struct need_file *file;      /**< for the figures that take a file, else null */
-    const struct fights_asked *fights; /**< for the figures of a model, else null: see fights.h */
+    const struct fights_asked *fights; /**< for the figures of a model, else null: see scene.h */
     const method_family_row *family;   /**< for the figures that show methods, else null */
     size_t which;                      /**< its case, where times are measured, */
     const char *where;                 /**< and in words at which planes, on which machine */
@@ -42,9 +42,9 @@ typedef struct figure_request {
 /** What a figure can make something of. */
 enum {
     FIGURE_AT = 1 << 0,        /**< one depth, given with --at */
-    FIGURE_TERMS = 1 << 1,     /**< --interpolation, --world, --linearize */
-    FIGURE_FP32 = 1 << 2,      /**< set-ups of the model fp32, which have no cells */
-    FIGURE_BINARY32 = 1 << 3,  /**< nothing but set-ups of the model fp32, whatever --model says */
+    FIGURE_TERMS = 1 << 1,     /**< --interpolation, --from-origin, --linearize */
+    FIGURE_FLOAT = 1 << 2,      /**< set-ups of the model float, which have no cells */
+    FIGURE_BINARY32 = 1 << 3,  /**< nothing but set-ups of the model float, whatever --model says */
     FIGURE_TOLERANCE = 1 << 4, /**< other ways to the interval than the exact cell */
     FIGURE_SIGNED = 1 << 6,    /**< depths of 0 and less: a camera with near <= 0 */
     FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */
@@ -86,8 +86,8 @@ void figure_range(const figure_request *request, double *lo, double *hi);
  *  of 0 or less. */
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
-figure_build distribution_build, share_build, error_build, interval_build, budget_build, scene_build, map_build,
-    pareto_build, stability_build, normals_build, shadow_build, world_build, fight_build, fights_build;
+figure_build distribution_build, share_build, error_build, interval_build, budget_build, needs_build, map_build,
+    pareto_build, stability_build, normals_build, shadow_build, world_build, fight_build, scene_build;
 
 /** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);

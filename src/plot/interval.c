@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The z-fighting interval; of set-ups of the model fp32, which have no cells, the guaranteed separation, with the
+ * The z-fighting interval; of set-ups of the model float, which have no cells, the guaranteed separation, with the
  * interval of the lattice behind it for comparison.
  */
 #include <math.h>
@@ -16,7 +16,7 @@ static double widest_cell(const dp_worst *worst) {
 }
 
 static bool is_fp32(const figure_request *request, size_t i) {
-    return request->setups[i].spec.model == DP_MODEL_FP32;
+    return request->setups[i].spec.model == DP_MODEL_FLOAT;
 }
 
 /* The same set-ups, each with cells. Returns how many had none. */
@@ -61,7 +61,7 @@ static bool count_one(const dp_setup *setup, const chart_axis *x, census_result 
     return true;
 }
 
-/* A census of every set-up of the model fp32, when its depths are few enough; null: none of them has one. */
+/* A census of every set-up of the model float, when its depths are few enough; null: none of them has one. */
 static found *count_all(const figure_request *request, const chart_axis *x, chart *out) {
     enum { SETUPS_MAX = 10 }; /* more points than that hide each other */
     const uint64_t visited = census_count(x->lo, x->hi);

@@ -33,10 +33,10 @@ static bool middle(const dp_setup *setup, texture_camera *camera) {
 /* The largest over the image; it changes slowly, so some pixels stand for all. */
 static double bound_of(const texture_camera *camera, const double *parameters) {
     enum { APART = 8 };
-    const scene_row *scene = &scene_rows[SCENE_PLANE];
-    scene_hit hit;
+    const synthetic_row *wall = &synthetic_rows[SYNTHETIC_PLANE];
+    synthetic_hit hit;
     double worst = 0;
-    scene->hit(camera, parameters, SIDE / 2, SIDE / 2, &hit);
+    wall->hit(camera, parameters, SIDE / 2, SIDE / 2, &hit);
     if (hit.surface == 0)
         return NAN;
     const normal_plane plane = normal_plane_at(camera, SIDE / 2, SIDE / 2, hit.z, hit.normal);
@@ -61,8 +61,8 @@ static double measure(const dp_setup *setup, size_t surface, size_t method, doub
     if (method == BOUND)
         return bound_of(&camera, plane);
     if (!normal_measure(&normal_methods[methods[method]], &camera,
-                        &scene_rows[surface == PLANE ? SCENE_PLANE : SCENE_SPHERE], surface == PLANE ? plane : sphere,
-                        0, SIDE, &m))
+                        &synthetic_rows[surface == PLANE ? SYNTHETIC_PLANE : SYNTHETIC_SPHERE],
+                        surface == PLANE ? plane : sphere, 0, SIDE, &m))
         return NAN;
     const bool whole = z - radius >= setup->spec.znear && m.sky == 0; /* neither sphere nor wall leaves the view */
     return (surface == PLANE ? m.inside.p99 : whole ? m.edges.mean : (double)NAN) * 180 / M_PI;

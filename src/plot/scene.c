@@ -1,191 +1,268 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A requirement file: a panel for each set-up, in it what the set-up gives as curves, and each requirement as a level
- * line over its range, marked where it is worst. A requirement is met where the curve runs below its line, or on it.
+ * The surfaces of a model that fight, from above and from the side: the model in grey, the darker the farther from the
+ * one who looks, and on it where surfaces overlap, in the colour of the depth from which on they can fight. What lies
+ * behind other parts of the model is shown, too.
  */
+#include "plot/scene.h"
+
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
-#include "core/append.h"
 #include "core/elementary.h"
-#include "need/check.h"
-#include "need/model.h"
-#include "plot/envelope.h"
-#include "plot/notes.h"
+#include "plot/figure.h"
 
-enum { COLOUR_SEPARATION = 0, COLOUR_MISSED = 1, COLOUR_MET = 2, COLOUR_ERROR = 3 };
-enum { MARKER_MET = 0, MARKER_MISSED = 4 };
+enum { NUMBERED = 9, EYES_MOST = 256, FIELDS_LEAST = 64, FIELDS_MOST = 2048 };
 
-/* The verdicts to show. */
-typedef struct scene {
-    figure_request request; /* its range is what is shown, its set-up that of a panel */
-    size_t count, passed, ties;
-    check_verdict *verdicts;
-} scene;
+/* Of the width, around the model; and what shape a panel has at most, width over height. */
+static const double margin = 0.04, widest = 8.0, narrowest = 0.6;
 
-/* Shares of ties have no place on an axis of lengths: they are not judged, and the subtitle says so. */
-static bool no_ties(void *context, const dp_setup *setup, double lo, double hi, bool sample, double *share, double *z) {
-    (void)context, (void)setup, (void)hi, (void)sample;
-    *share = 0.0;
-    *z = lo;
-    return true;
-}
+/* Which coordinates lie across and upwards, and along which one looks: up or down it. */
+typedef struct view {
+    const char *title;
+    int across, up, along;
+    bool down, upward; /* `up` grows downwards; one looks the way in which `along` grows */
+} view;
 
-static void judge(scene *s, chart *out) {
-    const need_file *file = s->request.file;
-    const size_t all = check_count(file);
-    s->verdicts = chart_memory(out, all, sizeof *s->verdicts);
-    if (s->verdicts == NULL)
+static const view views[2][2] = {
+    {{"From above: x to the right, z downwards", 0, 2, 1, true, false},
+     {"From the front: x to the right, y upwards", 0, 1, 2, false, false}},
+    {{"From above: z to the right, x upwards", 2, 0, 1, false, false},
+     {"From the side: z to the right, y upwards", 2, 1, 0, false, true}},
+};
+
+typedef struct box {
+    double lo[3], hi[3];
+} box;
+
+/* ---- Fields ------------------------------------------------------------------------------------------------------ */
+
+/* A place in fields from the lower left corner of a map, and a value there. */
+typedef struct spot {
+    double x, y, value;
+} spot;
+
+typedef struct sheet {
+    const chart_panel *panel;
+    double *field; /* the least value that was put there; NaN: none */
+} sheet;
+
+static void put(const sheet *s, double x, double y, double value) {
+    const chart_map *m = &s->panel->map;
+    if (!(x >= 0.0 && x < m->columns && y >= 0.0 && y < m->rows))
         return;
-    check_all(&(check_request){.file = file, .count = no_ties}, s->verdicts);
-    for (size_t i = 0; i < all; i++)
-        if (s->verdicts[i].asked->kind == NEED_TIES) {
-            s->ties++;
-        } else {
-            s->passed += s->verdicts[i].passed;
-            s->verdicts[s->count++] = s->verdicts[i];
-        }
+    double *field = &s->field[(size_t)y * (size_t)m->columns + (size_t)x];
+    *field = isnan(*field) || value < *field ? value : *field;
 }
 
-static bool same_setup(const check_verdict *a, const check_verdict *b) {
-    return a->camera == b->camera && strcmp(a->setup.spec.format.name, b->setup.spec.format.name) == 0;
-}
-
-/* The set-up that the curves are drawn of: the fullest model that the camera asks for. */
-static dp_setup curve_setup(const check_verdict *v) {
-    const need_camera *camera = v->camera;
-    const bool second = strcmp(camera->setups[0].spec.format.name, v->setup.spec.format.name) != 0;
-    dp_setup setup = camera->setups[second];
-    dp_spec spec = setup.spec;
-    spec.model = DP_MODEL_FP32;
-    if (camera->automatic && dp_setup_init(&setup, &spec) != DP_OK)
-        setup = camera->setups[second];
-    return setup;
-}
-
-/* The depths to show: those that are asked about, with a margin, behind them one that a name fits into. */
-static void find_range(scene *s) {
-    double lo = INFINITY, hi = 0;
-    if (!isnan(s->request.lo))
-        return;
-    for (size_t i = 0; i < s->count; i++) {
-        const need *n = s->verdicts[i].asked;
-        lo = fmin(lo, n->lo);
-        hi = fmax(hi, isinf(n->hi) ? 100 * n->lo : n->hi);
+/* The fields that a line runs through, so that what is thin or seen from its edge is seen at all. */
+static void put_line(const sheet *s, const spot *a, const spot *b) {
+    const int steps = (int)ceil(fmax(fabs(b->x - a->x), fabs(b->y - a->y)));
+    for (int i = 0; i <= steps; i++) {
+        const double t = steps > 0 ? (double)i / steps : 0.0;
+        put(s, a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), a->value + t * (b->value - a->value));
     }
-    const double margin = dp_pow(hi / lo, 0.05) * 1.2;
-    s->request.lo = lo / margin;
-    s->request.hi = hi * dp_pow(margin, 5);
 }
 
-static void error_of(const void *context, double from, double to, refine_sample *out) {
-    envelope_slice(context, from, to, envelope_error, out);
+/* Where the edges of a triangle cross the middle of a row: the leftmost and the rightmost place. */
+static bool crossings(const spot corner[3], double y, spot *left, spot *right) {
+    *left = (spot){.x = HUGE_VAL};
+    *right = (spot){.x = -HUGE_VAL};
+    for (int i = 0; i < 3; i++) {
+        const spot *a = &corner[i], *b = &corner[(i + 1) % 3];
+        if ((a->y < y) == (b->y < y))
+            continue;
+        const double t = (y - a->y) / (b->y - a->y);
+        const spot at = {a->x + t * (b->x - a->x), y, a->value + t * (b->value - a->value)};
+        *left = at.x < left->x ? at : *left;
+        *right = at.x > right->x ? at : *right;
+    }
+    return left->x <= right->x;
 }
 
-static void add_curve(const figure_request *r, chart *out, chart_panel *panel, const dp_setup *given, bool is_error) {
-    dp_setup staged;
-    dp_spec spec = given->spec;
-    spec.model = DP_MODEL_STAGED; /* an error is judged in this one where fp32, which has none, is the fullest */
-    const bool other = is_error && given->spec.model == DP_MODEL_FP32 && dp_setup_init(&staged, &spec) == DP_OK;
-    const dp_setup *setup = other ? &staged : given;
-    refine_request q = envelope_request(r, setup, out, panel, is_error ? error_of : envelope_separation, setup);
-    q.lo = fmax(q.lo, setup->spec.znear);
-    q.hi = fmin(q.hi, setup->spec.zfar);
-    q.slices = true;
-    chart_series *s = q.lo < q.hi ? envelope_curve(out, panel, &q) : NULL;
+static void put_triangle(const sheet *s, const spot corner[3]) {
+    const double lo = fmin(fmin(corner[0].y, corner[1].y), corner[2].y);
+    const double hi = fmax(fmax(corner[0].y, corner[1].y), corner[2].y);
+    for (int i = 0; i < 3; i++)
+        put_line(s, &corner[i], &corner[(i + 1) % 3]);
+    for (double y = floor(lo) + 0.5; y < hi; y++) {
+        spot left, right;
+        if (!crossings(corner, y, &left, &right))
+            continue;
+        const double steep = right.x > left.x ? (right.value - left.value) / (right.x - left.x) : 0.0;
+        for (double x = ceil(left.x - 0.5) + 0.5; x < right.x; x++)
+            put(s, x, y, left.value + steep * (x - left.x));
+    }
+}
+
+/* ---- A view ------------------------------------------------------------------------------------------------------ */
+
+static spot spot_of(const chart_panel *p, const view *v, const double place[3], double value) {
+    return (spot){chart_axis_share(&p->x, place[v->across]) * p->map.columns,
+                  chart_axis_share(&p->y, place[v->up]) * p->map.rows, value};
+}
+
+/* The model, by its distance from the one who looks: 0 where it is nearest, 1 at its far side. */
+static void draw_model(const fights_asked *a, const view *v, const box *all, const sheet *s) {
+    const double deep = all->hi[v->along] - all->lo[v->along];
+    for (size_t t = 0; t < a->m->triangles; t++) {
+        spot corner[3];
+        for (int i = 0; i < 3; i++) {
+            const double *p = a->m->position[a->m->triangle[t][i]];
+            const double off = v->upward ? p[v->along] - all->lo[v->along] : all->hi[v->along] - p[v->along];
+            corner[i] = spot_of(s->panel, v, p, deep > 0.0 ? off / deep : 0.0);
+        }
+        put_triangle(s, corner);
+    }
+}
+
+/* What fights at every depth has the lower end of the scale. */
+static void draw_overlaps(const fights_asked *a, const view *v, const sheet *s, double lowest) {
+    for (size_t i = 0; i < a->count; i++) {
+        const finder_finding *f = a->item[i].finding;
+        const double from = isnan(a->item[i].from) ? lowest : a->item[i].from;
+        for (size_t k = f->first; k < f->first + f->pairs; k++) {
+            double corner[FINDER_CORNERS][3];
+            const int corners = finder_corners(a->m, a->found->pair[k].triangle, a->gap, corner);
+            for (int c = 2; c < corners; c++) {
+                const spot fan[3] = {spot_of(s->panel, v, corner[0], from), spot_of(s->panel, v, corner[c - 1], from),
+                                     spot_of(s->panel, v, corner[c], from)};
+                put_triangle(s, fan);
+            }
+        }
+    }
+}
+
+/* Numbered as text does. */
+static void add_numbers(const fights_asked *a, const view *v, chart *out, chart_panel *panel) {
+    const size_t count = a->count < NUMBERED ? a->count : NUMBERED;
+    chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_POINTS, count) : NULL;
     if (s == NULL)
         return;
-    s->style = (chart_style){is_error ? COLOUR_ERROR : COLOUR_SEPARATION, is_error ? 1 : 0, -1, false};
-    snprintf(s->name, sizeof s->name, "%s", is_error ? "error given" : "separation given");
-}
-
-/* What each requirement allows over its depths; then where it is worst, with the names. */
-static void add_needs(const scene *s, chart *out, chart_panel *panel, const check_verdict *first, bool passed) {
-    size_t count = 0, k = 0;
-    for (size_t i = 0; i < s->count; i++)
-        count += same_setup(first, &s->verdicts[i]) && s->verdicts[i].passed == passed;
-    if (count == 0)
-        return;
-    chart_series *levels = chart_add_series(out, panel, CHART_LEVELS, 2 * count);
-    chart_series *points = chart_add_series(out, panel, CHART_POINTS, count);
-    if (levels == NULL || points == NULL)
-        return;
-    points->labels = chart_memory(out, count, sizeof *points->labels);
-    if (points->labels == NULL)
-        return;
-    levels->style = (chart_style){passed ? COLOUR_MET : COLOUR_MISSED, 0, -1, false};
-    points->style =
-        (chart_style){passed ? COLOUR_MET : COLOUR_MISSED, passed ? 0 : 1, passed ? MARKER_MET : MARKER_MISSED, false};
-    snprintf(levels->name, sizeof levels->name, "allowed, %s", passed ? "met" : "missed");
-    snprintf(points->name, sizeof points->name, "%s, where it is worst", passed ? "met" : "missed");
-    for (size_t i = 0; i < s->count; i++) {
-        const check_verdict *v = &s->verdicts[i];
-        const need *n = v->asked;
-        if (!same_setup(first, v) || v->passed != passed)
-            continue;
-        const double hi = fmax(fmin(n->hi, panel->x.hi), n->lo); /* behind the panel's end where all of it is */
-        memcpy(&levels->x[2 * k], (double[]){n->lo, hi}, 2 * sizeof hi);
-        memcpy(&levels->y[2 * k], (double[]){n->limit, n->limit}, 2 * sizeof hi);
-        points->x[k] = fmin(isfinite(v->z) ? v->z : hi, hi);
-        points->y[k] = n->limit;
-        snprintf(points->labels[k++], sizeof *points->labels, "%s%s", n->name, n->kind == NEED_ERROR ? " (error)" : "");
+    s->style = (chart_style){.colour = -1, .stroke = 1, .thin = true};
+    snprintf(s->name, sizeof s->name, "%s", count > 1 ? "the nearest fights, as scene numbers them" : "the fight");
+    s->labels = chart_memory(out, count, sizeof *s->labels);
+    for (size_t i = 0; i < count && s->labels != NULL; i++) {
+        s->x[i] = a->item[i].finding->place[v->across];
+        s->y[i] = a->item[i].finding->place[v->up];
+        snprintf(s->labels[i], sizeof s->labels[i], "%zu", i + 1);
     }
 }
 
-static void add_panel(scene *s, chart *out, const check_verdict *first) {
-    const chart_axis y = {.scale = CHART_LOG, .label = "allowed and given", .key = "length", .unit = "scene units"};
-    const dp_setup setup = curve_setup(first);
-    const dp_spec *spec = &setup.spec;
-    bool wanted[NEED_KIND_COUNT] = {false};
-    s->request.setups = &setup;
-    chart_panel *panel = figure_panel(&s->request, out, y);
-    snprintf(panel->title, sizeof panel->title, "%s: %s %s, %s%s", first->camera->name, spec->format.name,
-             dp_mapping_get(spec->mapping)->name, model_word(spec->model),
-             spec->triangles.width > 0 ? ", any slant" : "");
-    for (size_t i = 0; i < s->count; i++)
-        wanted[s->verdicts[i].asked->kind] |= same_setup(first, &s->verdicts[i]);
-    for (int is_error = 0; is_error < 2; is_error++)
-        if (wanted[is_error ? NEED_ERROR : NEED_SEPARATION])
-            add_curve(&s->request, out, panel, &setup, is_error);
-    add_needs(s, out, panel, first, true);
-    add_needs(s, out, panel, first, false);
+static void add_eyes(const fights_asked *a, const view *v, chart *out, chart_panel *panel) {
+    chart_series *s = a->eyes > 0 && a->eyes <= EYES_MOST ? chart_add_series(out, panel, CHART_POINTS, a->eyes) : NULL;
+    if (s == NULL)
+        return;
+    s->style = (chart_style){.colour = 1, .marker = 3};
+    snprintf(s->name, sizeof s->name, "%s", a->eyes > 1 ? "the eyes" : "the eye");
+    for (size_t i = 0; i < a->eyes; i++) {
+        s->x[i] = a->eye[i].place[v->across];
+        s->y[i] = a->eye[i].place[v->up];
+    }
 }
 
-static void write_subtitle(const scene *s, chart *out) {
-    const need_file *file = s->request.file;
-    const char *slash = strrchr(file->path, '/');
-    char text[sizeof out->subtitle];
-    snprintf(text, sizeof text, "%.100s: %zu met, %zu missed", slash != NULL ? slash + 1 : file->path, s->passed,
-             s->count - s->passed);
-    out->unit = file->unit[0] != '\0' ? file->unit : NULL;
-    if (s->ties > 0)
-        append(text, sizeof text, "; not shown: %zu of ties", s->ties);
-    notes_clean(out->subtitle, sizeof out->subtitle, text);
+static double *empty_fields(chart *out, const chart_map *m) {
+    const size_t count = (size_t)m->columns * (size_t)m->rows;
+    double *field = chart_memory(out, count, sizeof *field);
+    for (size_t i = 0; field != NULL && i < count; i++)
+        field[i] = (double)NAN;
+    return field;
+}
+
+static chart_axis axis_about(const box *all, int k, double length, const char *key) {
+    const double middle = all->lo[k] / 2.0 + all->hi[k] / 2.0;
+    return (chart_axis){.lo = middle - length / 2.0, .hi = middle + length / 2.0, .key = key, .unit = "scene units"};
+}
+
+static void add_view(const figure_request *r, const view *v, const box *all, double width, double height, chart *out) {
+    static const char *const names[] = {"x", "y", "z"};
+    const fights_asked *a = r->fights;
+    const int columns = (int)fmin(fmax(r->columns, FIELDS_LEAST), FIELDS_MOST);
+    chart_panel *panel = chart_add_panel(out);
+    panel->x = axis_about(all, v->across, width, "across");
+    panel->x.label = names[v->across];
+    panel->y = axis_about(all, v->up, height, "up");
+    panel->y.label = v->across == 0 ? "z, y" : "x, y";
+    panel->y.scale = v->down ? CHART_DOWN : CHART_LINEAR;
+    snprintf(panel->title, sizeof panel->title, "%s", v->title);
+    if (!chart_add_map(out, panel, columns, (int)fmax(columns * height / width, 1.0)))
+        return;
+    panel->map.value = empty_fields(out, &panel->map);
+    panel->map.under = empty_fields(out, &panel->map);
+    if (panel->map.value == NULL || panel->map.under == NULL)
+        return;
+    draw_model(a, v, all, &(sheet){panel, panel->map.under});
+    draw_overlaps(a, v, &(sheet){panel, panel->map.value}, out->value.lo);
+    add_numbers(a, v, out, panel);
+    add_eyes(a, v, out, panel);
+}
+
+/* ---- The chart --------------------------------------------------------------------------------------------------- */
+
+static void reach(box *b, const double place[3]) {
+    for (int k = 0; k < 3; k++) {
+        b->lo[k] = fmin(b->lo[k], place[k]);
+        b->hi[k] = fmax(b->hi[k], place[k]);
+    }
+}
+
+/* Of the model and the eyes. */
+static box box_of(const fights_asked *a) {
+    box b = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    for (size_t i = 0; i < 3 * a->m->triangles; i++)
+        reach(&b, a->m->position[a->m->triangle[i / 3][i % 3]]);
+    for (size_t i = 0; i < a->eyes && a->eyes <= EYES_MOST; i++)
+        reach(&b, a->eye[i].place);
+    return b;
+}
+
+/* From the nearest fight to the farthest, without the bright end, which is hard to tell from the model. */
+static chart_axis depths_of(const fights_asked *a) {
+    chart_axis axis = {.label = "can fight from", .key = "fights_from", .unit = "scene units", .scale = CHART_LOG};
+    axis.lo = (double)INFINITY;
+    bool always = false;
+    for (size_t i = 0; i < a->count; i++) {
+        always = always || isnan(a->item[i].from);
+        axis.lo = fmin(axis.lo, a->item[i].from); /* without NaN */
+        axis.hi = fmax(axis.hi, a->item[i].from);
+    }
+    if (!(axis.lo <= axis.hi)) /* nothing to show, or nothing that is ever certain */
+        axis.lo = axis.hi = 1.0;
+    axis.hi = fmax(axis.hi, 2.0 * axis.lo);
+    const double beyond = dp_pow(axis.hi / axis.lo, 0.2);
+    axis.hi *= beyond;
+    axis.lo /= always ? beyond : 1.0; /* the darkest is then of nothing that is certain up to some depth */
+    return axis;
+}
+
+/* What a direction without extent has: enough for an axis. */
+static double least_of(const box *all, double extent) {
+    double least = 1e-6 * extent;
+    for (int k = 0; k < 3; k++)
+        least = fmax(least, 1e-9 * fmax(fabs(all->lo[k]), fabs(all->hi[k])));
+    return least > 0.0 ? least : 1.0;
 }
 
 const char *scene_build(const figure_request *request, chart *out) {
-    scene s = {.request = *request};
-    for (size_t i = 0; i < request->file->camera_count; i++)
-        if (request->file->cameras[i].world > 0.0)
-            return "plot scene: a camera with a world has no curve: check judges it";
-    judge(&s, out);
-    if (s.count == 0 && !chart_failed(out)) {
-        snprintf(out->subtitle, sizeof out->subtitle, "plot scene: %s limits no separation and no error",
-                 request->file->path);
-        return out->subtitle;
-    }
-    write_subtitle(&s, out);
-    find_range(&s);
-    for (size_t i = 0; i < s.count; i++) {
-        size_t before = 0;
-        while (!same_setup(&s.verdicts[before], &s.verdicts[i]))
-            before++;
-        if (before == i && out->panel_count == CHART_PANELS)
-            return "plot scene: shows at most 8 cameras with requirements";
-        if (before == i)
-            add_panel(&s, out, &s.verdicts[i]);
-    }
-    chart_fit(out);
+    const fights_asked *a = request->fights;
+    const box all = box_of(a);
+    double size[3], height[2];
+    if (a->m->triangles == 0)
+        return "plot scene: the model has no triangles";
+    const double least = least_of(&all, a->found->extent);
+    for (int k = 0; k < 3; k++)
+        size[k] = fmax(all.hi[k] - all.lo[k], least);
+    const view *both = views[size[2] > size[0]];
+    const double width = fmax(size[both[0].across], narrowest * fmax(size[both[0].up], size[both[1].up]));
+    const double around = 2.0 * margin * width;
+    for (int i = 0; i < 2; i++)
+        height[i] = fmax(size[both[i].up], width / widest) + around;
+    out->shape = (width + around) / (height[0] + height[1]);
+    out->stacked = true;
+    out->bare = true;
+    out->value = depths_of(a);
+    out->ground = (chart_axis){.lo = -0.15, .hi = 2.2}; /* neither white nor as dark as what is marked */
+    for (int i = 0; i < 2; i++)
+        add_view(request, &both[i], &all, width + around, height[i], out);
     return NULL;
 }

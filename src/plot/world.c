@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Large worlds: the gap that is safe and the jitter of a picture, against the distance from the world's origin, a curve
- * for each scheme. One panel each.
+ * Large worlds: the separation that is safe and the jitter of a picture, against the distance from the world's
+ * origin, a curve for each scheme. One panel each.
  */
 #include <math.h>
 #include <stdio.h>

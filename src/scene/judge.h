@@ -18,8 +18,8 @@ typedef struct scene_verdict {
 /**
  * Judges a distance of surfaces.
  *
- * certain_to: by dp_separation() of the set-up, in the model fp32 the guaranteed one, at any slant where the set-up has
- * triangles. The distance is along the normal; surfaces that face the camera are meant where it has none.
+ * certain_to: by dp_separation() of the set-up, in the model float the guaranteed one, at any slant where the set-up
+ * has triangles. The distance is along the normal; surfaces that face the camera are meant where it has none.
  * ties_from: of the lattice. Where a cell is wider than the distance, the nearer surface may lie in its nearer part and
  * the other one in the same cell.
  * Both hold for parallel surfaces: `least` is for the first, `most`, as a distance nowhere is more, for the second.

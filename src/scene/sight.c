@@ -202,7 +202,7 @@ static bool setup_of(const pair *p, const dp_setup *setup, const scene_eye *eye,
     t->slant_hi = 0.0;
     t->depth = t->pixels = 1.0;
     t->slim = 2.0;
-    return spec.model == DP_MODEL_FP32 && include(p, 0, setup, eye, seen, t) && include(p, 1, setup, eye, seen, t) &&
+    return spec.model == DP_MODEL_FLOAT && include(p, 0, setup, eye, seen, t) && include(p, 1, setup, eye, seen, t) &&
            dp_setup_init(out, &spec) == DP_OK;
 }
 

@@ -205,7 +205,7 @@ static double ramp_area(double x) {
 /* Of depths u in the cell and places t in [-1/2, 1/2] of the texel those with u + slope t > bias. */
 double effect_share(const effect_row *row, const effect_view *view, const double *parameters, double z) {
     const int index = parameter_find(row->parameters, "slope");
-    if (row->kind != EFFECT_STEP || !row->alone || view->setup->spec.model == DP_MODEL_FP32)
+    if (row->kind != EFFECT_STEP || !row->alone || view->setup->spec.model == DP_MODEL_FLOAT)
         return (double)NAN;
     const dp_cell cell = dp_cell_of(view->setup, dp_code(view->setup, z));
     const double width = cell.hi - cell.lo, slope = index >= 0 ? parameters[index] : 0;
@@ -251,7 +251,7 @@ static cell_case case_at(const effect_row *row, const effect_view *view, double 
 }
 
 static bool has_error(const cell_case *at) {
-    return effect_applies(at->row, at->view->setup) && at->view->setup->spec.model != DP_MODEL_FP32;
+    return effect_applies(at->row, at->view->setup) && at->view->setup->spec.model != DP_MODEL_FLOAT;
 }
 
 static double error_in(const cell_case *at, const double *parameters) {

@@ -34,7 +34,7 @@ enum {
     EFFECT_POSITION = 1,     /**< the world position of the pixel, so the camera */
     EFFECT_LAST_FRAME = 2,   /**< last frame's view-projection */
     EFFECT_SECOND_DEPTH = 4, /**< another depth: of a surface that is drawn, or of other pixels */
-    EFFECT_NORMALS = 8       /**< normals: of a scene, or packed, or made of the depths */
+    EFFECT_NORMALS = 8       /**< normals: of a synthetic image, or packed, or made of the depths */
 };
 
 /** Which pixels an effect looks at besides its own: corners of a square, `sample-distance` away on both axes. */
@@ -131,7 +131,7 @@ bool effect_applies(const effect_row *row, const dp_setup *setup);
  *
  * @param parameters  TEXTURE_PARAMETERS numbers, in the order of the row, within their ranges
  * @param z           in [near, far]
- * @return from 0 to 255; NaN where the effect cannot be had, and in the model fp32, which has no cells
+ * @return from 0 to 255; NaN where the effect cannot be had, and in the model float, which has no cells
  */
 double effect_error(const effect_row *row, const effect_view *view, const double *parameters, double z);
 
@@ -158,7 +158,7 @@ double effect_usable(const effect_row *row, const effect_view *view, const doubl
 
 /** The largest value of the parameter `ceiling` with which no place of a plane, at a depth of z's cell, gets another
  *  answer than it should, the others being what they are: every smaller one has none either. NaN for other rows, in the
- *  model fp32, and where there is none. */
+ *  model float, and where there is none. */
 double effect_ceiling(const effect_row *row, const effect_view *view, const double *parameters, double z);
 
 /** EFFECT_STEP that is `alone`: the share of the places of a plane, all over z's cell and all over a texel, that get

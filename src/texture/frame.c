@@ -41,8 +41,8 @@ uint32_t frame_sky_rank(const frame *f) {
 }
 
 void frame_codes(const frame *f, uint32_t row, uint32_t *codes) {
-    if (f->scene != NULL)
-        scene_codes(f->scene, f->camera, f->parameters, row, codes);
+    if (f->synthetic != NULL)
+        synthetic_codes(f->synthetic, f->camera, f->parameters, row, codes);
     else
         image_codes(f->image, &f->camera->setup.spec.format, row, 0, f->camera->width, codes);
 }
@@ -81,8 +81,8 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
     if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, frame_planes(f)))
         return "this effect needs a finite far plane";
     const bool normals = product->kind == FRAME_EFFECT && (product->effect->needs & EFFECT_NORMALS) != 0;
-    if (normals && f->scene == NULL && f->normals == NULL)
-        return "this effect needs normals, which an image of depths does not have, but a scene";
+    if (normals && f->synthetic == NULL && f->normals == NULL)
+        return "this effect needs normals, which an image of depths does not have, but a synthetic image";
     return NULL;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file frame.h  A whole depth image, or a scene in its place, through decoding, positions, normals and effects.
+ * @file frame.h  A whole depth image, or a synthetic one, through decoding, positions, normals and effects.
  *
  * Work goes over strips of rows on all cores, as strips.h has it, and the bits do not depend on the number of threads.
  * Besides the image no more than a few strips are in memory: of a product and its error up to 8192 pixels wide 40 MiB
@@ -16,7 +16,7 @@
 #include "texture/image.h"
 #include "texture/normal.h"
 #include "texture/position.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 
 /** Window depths this close to the far plane's are sky: nothing was drawn there. Unity's shaders use it. */
 #define FRAME_SKY 1e-4
@@ -36,13 +36,13 @@ typedef struct frame_normals {
 typedef struct frame {
     const texture_camera *camera; /**< its set-up in the model exact */
     const texture_camera *last;   /**< last frame's; null: none is known */
-    const image *image;           /**< null for a scene */
-    const scene_row *scene;
-    const double *parameters; /**< of the scene */
+    const image *image;           /**< null for a synthetic image */
+    const synthetic_row *synthetic;
+    const double *parameters; /**< of the synthetic image */
     const grain *grain;       /**< of an image: how it was rounded; null: its samples are codes */
     bool metric;              /**< the samples are eye depths, none of them sky; the camera's set-up is their lattice */
     const dp_setup *planes;   /**< metric: the planes that effects use; else null: the camera's */
-    const frame_normals *normals; /**< for effects; null: those of the scene, or none */
+    const frame_normals *normals; /**< for effects; null: those of the synthetic image, or none */
     double sky;                   /**< window depths this close to the far plane's are sky, [0, 0.5] */
     int threads;                  /**< 0: as many as there are cores */
 } frame;
@@ -85,7 +85,7 @@ typedef enum frame_kind {
 typedef struct frame_product {
     frame_kind kind;
     /**
-     * The error in place of the product, one number a pixel. For a scene what is off from the truth, with the
+     * The error in place of the product, one number a pixel. For a synthetic image what is off from the truth, with the
      * rounding to binary32; for an image, whose truth is not known, what it can be off:
      *
      *     eye       |product - z|; image: |product - stored|, and from there to the farther end of its range

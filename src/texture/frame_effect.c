@@ -122,11 +122,11 @@ static bool taps_of(const work *w, uint32_t x, tap out[TAPS]) {
 }
 
 /* Sky is as far as the far plane, which the buffer was cleared to, and faces the camera. */
-static scene_hit hit_of(const work *w, const tap *at) {
-    scene_hit hit;
-    w->in->frame->scene->hit(w->camera, w->in->frame->parameters, at->column, at->row, &hit);
+static synthetic_hit hit_of(const work *w, const tap *at) {
+    synthetic_hit hit;
+    w->in->frame->synthetic->hit(w->camera, w->in->frame->parameters, at->column, at->row, &hit);
     if (isinf(hit.z))
-        hit = (scene_hit){.z = w->planes->spec.zfar, .normal = {0, 0, -1}};
+        hit = (synthetic_hit){.z = w->planes->spec.zfar, .normal = {0, 0, -1}};
     return hit;
 }
 
@@ -141,7 +141,7 @@ static void packed_normal(const work *w, const tap *at, double out[3]) {
     if (w->in->frame->normals != NULL) {
         packed = w->in->frame->normals->texels + 2 * pixel_of(w, at);
     } else {
-        const scene_hit hit = hit_of(w, at);
+        const synthetic_hit hit = hit_of(w, at);
         packing_normal_texel((const double[]){hit.normal[0], hit.normal[1], fmax(-hit.normal[2], 0)}, texel);
     }
     packing_normal(packed, out);
@@ -239,18 +239,18 @@ static void outputs_between(const work *w, const tap *a, const tap *b, double ou
 }
 
 static void outputs_of(const work *w, const tap *a, const tap *b, double out[2]) {
-    if (w->in->frame->scene == NULL) {
+    if (w->in->frame->synthetic == NULL) {
         outputs_between(w, a, b, out);
         return;
     }
-    const scene_hit hits[2] = {hit_of(w, a), hit_of(w, b)};
+    const synthetic_hit hits[2] = {hit_of(w, a), hit_of(w, b)};
     effect_view view = {.setup = w->planes};
     for (int i = 0; i < 2; i++)
         memcpy(view.normals[i], hits[i].normal, sizeof view.normals[i]);
     out[0] = out[1] = w->row->output(&view, w->parameters, hits[0].z, hits[1].z);
 }
 
-/* Of a scene what is wrong; of an image what could be. */
+/* Of a synthetic image what is wrong; of an image what could be. */
 static double corners_error(const work *w, uint32_t x) {
     tap at[TAPS];
     const bool around = w->row->taps == EFFECT_AROUND;
@@ -345,7 +345,7 @@ static double exact_at(const work *w, const effect_view *view, uint32_t x) {
                           w->reference);
 }
 
-/* In a scene the truth decides where the effect should have looked. */
+/* In a synthetic image the truth decides where the effect should have looked. */
 static double true_output(const work *w, const effect_view *view, uint32_t x) {
     const uint32_t at = aside_of(w, x);
     const double own = frame_truth(w->in, x).z, beside = at == x ? own : frame_truth(w->in, at).z;
@@ -389,14 +389,14 @@ static double error_at(const work *w, frame_ranges *last, uint32_t x) {
     const effect_view view = view_at(w, x);
     const uint32_t beside = aside_of(w, x);
     const bool anywhere = w->row->given && isnan(w->reference);
-    if (beside != x && !isnan(w->in->eyes[NORMAL_REACH][beside]) && (anywhere || w->in->frame->scene == NULL))
+    if (beside != x && !isnan(w->in->eyes[NORMAL_REACH][beside]) && (anywhere || w->in->frame->synthetic == NULL))
         return through_error(w, &view, x, beside);
     if (anywhere) {
         const effect_pixel pixel = pixel_at(w, x);
         return worst_error(w, &view, &pixel, frame_range_of(w->in, last, x));
     }
     const double seen = (double)output_at(w, x);
-    if (w->in->frame->scene != NULL)
+    if (w->in->frame->synthetic != NULL)
         return isnan(frame_truth(w->in, x).z) ? (double)NAN : LEVELS * fabs(seen - true_output(w, &view, x));
     const double stored = dp_stored(&w->camera->setup, w->in->codes[x]);
     return LEVELS * fabs(seen - exact_at(w, &view, x)) + range_error(w, &view, stored, frame_range_of(w->in, last, x));
@@ -420,7 +420,7 @@ void frame_effect(const frame_row *in) {
 
 void frame_effect_error(const frame_row *in) {
     const work w = work_of(in);
-    const bool alike = in->frame->scene == NULL && (w.row->needs & EFFECT_POSITION) == 0; /* as far as codes are */
+    const bool alike = in->frame->synthetic == NULL && (w.row->needs & EFFECT_POSITION) == 0; /* as far as codes are */
     frame_ranges last = frame_no_range();
     places(&w);
     for (uint32_t x = 0; x < w.camera->width; x++) {

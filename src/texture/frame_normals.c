@@ -29,7 +29,7 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *const
 }
 
 bool frame_normals_make(const frame *f, const normal_row *method, bool error, frame_normals *out) {
-    const bool bounded = error && f->scene == NULL;
+    const bool bounded = error && f->synthetic == NULL;
     const size_t pixels = (size_t)f->camera->width * f->camera->height;
     const frame_product products[] = {{.kind = FRAME_EYE},
                                       {.kind = FRAME_NORMAL, .normal = method},

@@ -103,7 +103,7 @@ TEXTURE_CLONES static void linear01_errors(const float *restrict eyes, const gra
     }
 }
 
-/* Of a scene, whose depths are known: how far the row of the product is off from them, times a factor. */
+/* Of a synthetic image, whose depths are known: how far the row of the product is off from them, times a factor. */
 static void replace_by_errors(const frame_row *in, double factor) {
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double along = in->product->radial ? stretch(in, x) : factor, truth = frame_truth(in, x).z * along;
@@ -113,7 +113,7 @@ static void replace_by_errors(const frame_row *in, double factor) {
 
 /* What the product has lost in binary32, and how far what is stored is off. */
 static void make_eye_error(const frame_row *in) {
-    if (in->frame->scene != NULL) {
+    if (in->frame->synthetic != NULL) {
         make_eye(in);
         replace_by_errors(in, 1);
         return;
@@ -123,7 +123,7 @@ static void make_eye_error(const frame_row *in) {
 }
 
 static void make_linear01_error(const frame_row *in) {
-    if (in->frame->scene != NULL) {
+    if (in->frame->synthetic != NULL) {
         make_linear01(in);
         replace_by_errors(in, 1 / far_of(in));
         return;
@@ -132,11 +132,11 @@ static void make_linear01_error(const frame_row *in) {
     linear01_errors(eyes_of(in), &ranges, far_of(in), in->out, camera_of(in)->width);
 }
 
-/* The window depth of what a scene shows; depths are clamped, as in the buffer. */
+/* The window depth of what a synthetic image shows; depths are clamped, as in the buffer. */
 static double true_window(const frame_row *in, uint32_t x) {
     const dp_setup *setup = &camera_of(in)->setup;
-    scene_hit hit;
-    in->frame->scene->hit(camera_of(in), in->frame->parameters, x, in->row, &hit);
+    synthetic_hit hit;
+    in->frame->synthetic->hit(camera_of(in), in->frame->parameters, x, in->row, &hit);
     if (!(hit.z < setup->spec.zfar))
         return setup->reversed ? 0 : 1;
     return dp_window(setup, fmax(hit.z, setup->spec.znear));
@@ -148,7 +148,7 @@ static void make_raw_error(const frame_row *in) {
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const uint32_t code = in->codes[x];
         double error = NAN;
-        if (code != UINT32_MAX && in->frame->scene != NULL) {
+        if (code != UINT32_MAX && in->frame->synthetic != NULL) {
             const double d = true_window(in, x), slack = d < 1 ? d * 0x1p-50 : 0;
             error = fabs((double)in->depth[x] - d) + slack;
         } else if (code != UINT32_MAX) {
@@ -228,7 +228,7 @@ TEXTURE_CLONES static void round_up(const float *restrict found, const double *r
 
 static void make_position_error(const frame_row *in) {
     places(in);
-    if (in->frame->scene == NULL) {
+    if (in->frame->synthetic == NULL) {
         const grain_rows ranges = ranges_in(in);
         double *const errors = in->numbers + 4 * (size_t)camera_of(in)->width;
         (camera_of(in)->ortho ? position_ortho : position_perspective)(camera_of(in), in->row, in->planes, &ranges,
@@ -313,13 +313,13 @@ static void normal_bounds(const frame_row *in) {
 
 static void make_normal_error(const frame_row *in) {
     normals(in);
-    if (in->frame->scene == NULL) {
+    if (in->frame->synthetic == NULL) {
         (in->product->normal == normal_get(NORMAL_PROJECTIVE) ? normal_bounds : corner_bounds)(in);
         return;
     }
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double found[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
-        const scene_hit hit = frame_truth(in, x);
+        const synthetic_hit hit = frame_truth(in, x);
         const bool known = !isnan(found[0]) && !isnan(hit.z);
         in->out[x] = frame_upwards(known ? normal_angle(found, hit.normal) * TO_DEGREES : (double)NAN);
     }

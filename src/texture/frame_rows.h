@@ -30,10 +30,10 @@ typedef struct frame_row {
 
 typedef void frame_make(const frame_row *in);
 
-/** What the pixel of a scene truly sees; z is NaN where it is sky, or counts as such. */
-static inline scene_hit frame_truth(const frame_row *in, uint32_t x) {
-    scene_hit hit;
-    in->frame->scene->hit(in->frame->camera, in->frame->parameters, x, in->row, &hit);
+/** What the pixel of a synthetic image truly sees; z is NaN where it is sky, or counts as such. */
+static inline synthetic_hit frame_truth(const frame_row *in, uint32_t x) {
+    synthetic_hit hit;
+    in->frame->synthetic->hit(in->frame->camera, in->frame->parameters, x, in->row, &hit);
     if (isinf(hit.z) || isnan(in->eyes[NORMAL_REACH][x]))
         hit.z = NAN;
     return hit;

@@ -62,15 +62,15 @@ bool normal_run(const normal_row *method, const texture_camera *camera, uint32_t
     return true;
 }
 
-/* ---- A scene's own normals --------------------------------------------------------------------------------------- */
+/* ---- A synthetic image's own normals ----------------------------------------------------------------------------- */
 
 typedef struct measuring {
     const normal_row *method;
     const texture_camera *camera;
-    const scene_row *scene;
+    const synthetic_row *synthetic;
     const double *parameters;
     size_t width;
-    scene_hit *hits; /* rows in a ring, as normal_run() keeps the depths */
+    synthetic_hit *hits; /* rows in a ring, as normal_run() keeps the depths */
     uint8_t *sides;
     float *angles; /* inside from the front, edges from the back */
     size_t room;
@@ -79,10 +79,10 @@ typedef struct measuring {
 
 static void store(void *context, uint32_t row, float *eye) {
     measuring *m = context;
-    scene_hit *hits = m->hits + row % RING * m->width;
+    synthetic_hit *hits = m->hits + row % RING * m->width;
     const dp_setup *setup = &m->camera->setup;
     for (uint32_t i = 0; i < m->width; i++) {
-        m->scene->hit(m->camera, m->parameters, i, row, &hits[i]);
+        m->synthetic->hit(m->camera, m->parameters, i, row, &hits[i]);
         eye[i] = hits[i].surface == 0 ? NAN : (float)dp_stored(setup, dp_code(setup, hits[i].z));
     }
 }
@@ -126,7 +126,7 @@ static void compare(void *context, const normal_rows *in, const float *const nor
     measuring *m = context;
     m->method->sides(in, m->sides);
     for (uint32_t i = 0; i < m->width; i++) {
-        const scene_hit *hit = &m->hits[in->row % RING * m->width + i];
+        const synthetic_hit *hit = &m->hits[in->row % RING * m->width + i];
         const double found[3] = {(double)normal[0][i], (double)normal[1][i], (double)normal[2][i]};
         if (hit->surface == 0) {
             m->out->sky++;
@@ -156,12 +156,12 @@ static void finish(normal_spread *s, float *angles) {
     s->p99 = fmin((double)angles[(s->count * 99 + 99) / 100 - 1], s->max);
 }
 
-bool normal_measure(const normal_row *method, const texture_camera *camera, const scene_row *scene,
+bool normal_measure(const normal_row *method, const texture_camera *camera, const synthetic_row *synthetic,
                     const double *parameters, uint32_t first, uint32_t count, normal_measured *out) {
     *out = (normal_measured){0};
     measuring m = {.method = method,
                    .camera = camera,
-                   .scene = scene,
+                   .synthetic = synthetic,
                    .parameters = parameters,
                    .width = camera->width,
                    .room = (size_t)camera->width * count,

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file normal_measure.h  Normals of a whole image, and how far those of a scene, stored, are from the scene's own. */
+/** @file normal_measure.h  Normals of a whole image, and how far those of a synthetic one are from its own. */
 #ifndef TEXTURE_NORMAL_MEASURE_H
 #define TEXTURE_NORMAL_MEASURE_H
 
 #include "texture/normal.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 
 /** Writes the eye depths of a row, camera->width of them; NaN for sky. */
 typedef void (*normal_source)(void *context, uint32_t row, float *eye);
@@ -39,11 +39,12 @@ typedef struct normal_measured {
 } normal_measured;
 
 /**
- * Stores `count` rows of a scene from `first` on in the format of the camera's set-up, reads them back into binary32,
- * rounded once, and compares. Surfaces that are flat give noise alone, curved ones what the method makes of them too.
+ * Stores `count` rows of a synthetic image from `first` on in the format of the camera's set-up, reads them back into
+ * binary32, rounded once, and compares. Surfaces that are flat give noise alone, curved ones what the method makes of
+ * them too.
  * @return false when out of memory
  */
-bool normal_measure(const normal_row *method, const texture_camera *camera, const scene_row *scene,
+bool normal_measure(const normal_row *method, const texture_camera *camera, const synthetic_row *synthetic,
                     const double *parameters, uint32_t first, uint32_t count, normal_measured *out);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file parameter.h  The numbers that a scene or an effect takes: a list that a null name ends. */
+/** @file parameter.h  The numbers that a synthetic image or an effect takes: a list that a null name ends. */
 #ifndef TEXTURE_PARAMETER_H
 #define TEXTURE_PARAMETER_H
 

@@ -122,9 +122,9 @@ static void visit_row(surveying *s, uint32_t row, uint32_t *codes, surveying *mi
         }
         mine->pixels[band]++;
     }
-    for (uint32_t x = 0; x < width && s->f->scene != NULL; x++) {
-        scene_hit hit;
-        s->f->scene->hit(s->f->camera, s->f->parameters, x, row, &hit);
+    for (uint32_t x = 0; x < width && s->f->synthetic != NULL; x++) {
+        synthetic_hit hit;
+        s->f->synthetic->hit(s->f->camera, s->f->parameters, x, row, &hit);
         mine->true_sky += hit.surface == 0;
     }
 }
@@ -304,22 +304,22 @@ bool survey_make(const frame *f, survey *out) {
 }
 
 /* Does the camera see the pair as a whole? */
-static bool is_seen(const dp_setup *setup, const scene_pair *pair) {
+static bool is_seen(const dp_setup *setup, const synthetic_pair *pair) {
     return pair->front >= setup->spec.znear && pair->back <= setup->spec.zfar;
 }
 
-static bool is_tie(const dp_setup *setup, const scene_pair *pair) {
+static bool is_tie(const dp_setup *setup, const synthetic_pair *pair) {
     return dp_code(setup, pair->front) == dp_code(setup, pair->back);
 }
 
 bool survey_pairs_make(const frame *f, survey_pairs *out) {
     const dp_setup *setup = &f->camera->setup;
-    scene_pair pair;
+    synthetic_pair pair;
     *out = (survey_pairs){.first_tie = NAN, .certain_to = NAN};
     double first_possible = INFINITY, certain = NAN;
-    if (f->scene == NULL || f->scene->pair == NULL)
+    if (f->synthetic == NULL || f->synthetic->pair == NULL)
         return false;
-    for (size_t i = 0; f->scene->pair(f->parameters, i, &pair); i++) {
+    for (size_t i = 0; f->synthetic->pair(f->parameters, i, &pair); i++) {
         if (!is_seen(setup, &pair))
             continue;
         const bool tie = is_tie(setup, &pair);
@@ -333,7 +333,7 @@ bool survey_pairs_make(const frame *f, survey_pairs *out) {
         if (possible)
             first_possible = fmin(first_possible, pair.front);
     }
-    for (size_t i = 0; f->scene->pair(f->parameters, i, &pair); i++)
+    for (size_t i = 0; f->synthetic->pair(f->parameters, i, &pair); i++)
         if (is_seen(setup, &pair) && pair.front < first_possible && !(pair.front < certain))
             certain = pair.front;
     out->certain_to = certain;
@@ -341,9 +341,10 @@ bool survey_pairs_make(const frame *f, survey_pairs *out) {
 }
 
 size_t survey_ties(const frame *f, size_t most, double (*at)[2]) {
-    scene_pair pair;
+    synthetic_pair pair;
     size_t count = 0;
-    for (size_t i = 0; f->scene != NULL && f->scene->pair != NULL && f->scene->pair(f->parameters, i, &pair); i++)
+    for (size_t i = 0;
+         f->synthetic != NULL && f->synthetic->pair != NULL && f->synthetic->pair(f->parameters, i, &pair); i++)
         if (is_seen(&f->camera->setup, &pair) && is_tie(&f->camera->setup, &pair) && count++ < most) {
             at[count - 1][0] = pair.at[0] * f->camera->width;
             at[count - 1][1] = pair.at[1] * f->camera->height;

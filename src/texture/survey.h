@@ -20,12 +20,12 @@ typedef struct survey_band {
 } survey_band;
 
 typedef struct survey {
-    uint64_t pixels, sky, invalid; /**< all; counting as sky; with no depth. In a scene nothing is invalid */
-    uint64_t true_sky;             /**< scenes: where nothing is hit; the rest of `sky` is geometry that it hides */
-    double sky_from;               /**< depths from here on count as sky */
-    uint64_t codes;                /**< different ones, without sky */
-    double lo, hi;                 /**< nearest and farthest depth, without sky; NaN when there is none */
-    size_t band_count;             /**< bands from the one that holds lo to the one that holds hi */
+    uint64_t pixels, sky, invalid; /**< all; counting as sky; with no depth. In a synthetic image nothing is invalid */
+    uint64_t true_sky; /**< where nothing is hit in a synthetic image; the rest of `sky` is hidden geometry */
+    double sky_from;   /**< depths from here on count as sky */
+    uint64_t codes;    /**< different ones, without sky */
+    double lo, hi;     /**< nearest and farthest depth, without sky; NaN when there is none */
+    size_t band_count; /**< bands from the one that holds lo to the one that holds hi */
     survey_band bands[SURVEY_BANDS];
 } survey;
 
@@ -39,7 +39,7 @@ typedef struct survey {
  */
 bool survey_make(const frame *f, survey *out);
 
-/** Pairs of surfaces of a scene that ought to be told apart. */
+/** Pairs of surfaces of a synthetic image that ought to be told apart. */
 typedef struct survey_pairs {
     uint64_t pairs;    /**< those that lie in [near, far] as a whole */
     uint64_t ties;     /**< stored as one code: they fight */
@@ -48,7 +48,7 @@ typedef struct survey_pairs {
     double certain_to; /**< the farthest front surface up to which no pair is `possible`; NaN when there is none */
 } survey_pairs;
 
-/** @return false when the scene has no pairs */
+/** @return false when the synthetic image has no pairs */
 bool survey_pairs_make(const frame *f, survey_pairs *out);
 
 /** Where the first `most` ties lie in the image, px from its left and upper edge. @return how many ties there are */

@@ -40,10 +40,10 @@ ABSENT(link_write)
         return "plot: this figure is not in the page: the program has it";                                             \
     }
 
-ABSENT_FIGURE(fights_build)
+ABSENT_FIGURE(scene_build)
 ABSENT_FIGURE(normals_build)
 ABSENT_FIGURE(pareto_build)
-ABSENT_FIGURE(scene_build)
+ABSENT_FIGURE(needs_build)
 ABSENT_FIGURE(stability_build)
 
 /* ---- Rows that options of those commands name ---------------------------------------------------------------------
@@ -61,7 +61,7 @@ ABSENT_ROWS(normal_row, normal_get)
 ABSENT_ROWS(pack_row, pack_get)
 ABSENT_ROWS(packing, packing_get)
 ABSENT_ROWS(position_row, position_get)
-ABSENT_ROWS(scene_row, scene_get)
+ABSENT_ROWS(synthetic_row, synthetic_get)
 
 /* Families of methods but interval, which figures are drawn by. */
 static const size_t none;

@@ -23,8 +23,8 @@ const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
 // Options of the panels, and of a picture, are not those of a set-up.
 const ASKED = {
     solve: ["for", "separation", "error", "at", "range"],
-    bias: ["gap", "at", "range", "api", "units", "factor", "clamp", "slope"],
-    zfight: ["gap", "sample", "seed", "rasterize", "plane"],
+    bias: ["separation", "at", "range", "api", "units", "factor", "clamp", "slope"],
+    zfight: ["separation", "sample", "seed", "rasterize", "plane"],
     prepass: ["against", "program", "vertices", "sample", "seed"],
     table: [], plot: [], budget: [],
 };
@@ -615,7 +615,7 @@ async function begin() {
     for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
     state.asked = {
         solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]),
-        bias: new Map([["gap", "2cm"], ["at", "100m"], ["api", "all"]]),
+        bias: new Map([["separation", "2cm"], ["at", "100m"], ["api", "all"]]),
         zfight: new Map(),
         prepass: new Map([["sample", "100000"]]),
     };

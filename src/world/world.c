@@ -122,7 +122,8 @@ static world_error of_cell(const world_scheme *s, const world_where *at) {
 
 /* clang-format off */
 static const world_row rows[WORLD_ROWS] = {
-    {"world", "vertices in the world through a view matrix; of a reversed infinite projection through one of both, too",
+    {"absolute",
+     "vertices in the world through a view matrix; of a reversed infinite projection through one of both, too",
      NULL, 0.0,
      false, false, "common", arithmetic_world, of_world},
     {"local", "vertices about an origin, whose matrix and the view's are multiplied in binary32", NULL, 0.0,
@@ -134,7 +135,7 @@ static const world_row rows[WORLD_ROWS] = {
     {"tile", "tile and offset of each mesh's origin, subtracted part by part", "the edge of a tile",
      20971.52, false, true, "Unreal Engine 5.0 manual, Large World Coordinates: 2097152 units of 1 cm",
      arithmetic_tile, of_tile},
-    {"cell", "cell and offset of each mesh's origin, about the camera's cell; there as world", "the edge of a cell",
+    {"cell", "cell and offset of each mesh's origin, about the camera's cell; there as absolute", "the edge of a cell",
      2000.0, false, false, "big_space, src/grid/cell.rs: edge 2000, threshold 100", arithmetic_cell, of_cell},
     {"two-sum", "origins of meshes and camera as two binary32 numbers each, added without loss", NULL, 0.0,
      false, false, "Godot with double precision, scene_forward_clustered.glsl, PR 66178",

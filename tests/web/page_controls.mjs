@@ -76,13 +76,13 @@ async function setUp(page, which, [selector, value, changes, before = []]) {
 }
 
 const solve = (more) => ["solve", ...changed([...changed(A, { "-n": null }), "--separation", "1cm", "--at", "500m", "--for", "near"], more)];
-const bias = (more) => ["bias", ...changed([...A, "--gap", "2cm", "--at", "100m", "--api", "all"], more)];
+const bias = (more) => ["bias", ...changed([...A, "--separation", "2cm", "--at", "100m", "--api", "all"], more)];
 const QUESTIONS = [
     ["solve", "separation", "3cm", solve({ "--separation": "3cm" })],
     ["solve", "at", "70m", solve({ "--at": "70m" })],
     ["solve", "for", "far", ["solve", ...changed(A, { "-f": null }), "--separation", "1cm", "--at", "500m", "--for", "far"]],
     ["solve", "for", "distance", ["solve", ...A, "--separation", "1cm", "--for", "distance"]],
-    ["bias", "gap", "5cm", bias({ "--gap": "5cm" })],
+    ["bias", "separation", "5cm", bias({ "--separation": "5cm" })],
     ["bias", "at", "30m", bias({ "--at": "30m" })],
     ["bias", "api", "gl", bias({ "--api": "gl" })],
 ];

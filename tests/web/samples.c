@@ -48,7 +48,7 @@ static dp_spec camera(uint64_t *draws, uint64_t block, size_t *arith) {
         spec.format = found[0];
     block /= FORMATS;
     *arith = block % (dp_arith_count() + 2); /* exact, staged, and each arithmetic of fp32 */
-    spec.model = *arith < 2 ? (dp_model)*arith : DP_MODEL_FP32;
+    spec.model = *arith < 2 ? (dp_model)*arith : DP_MODEL_FLOAT;
     spec.arith = *arith < 2 ? 0 : *arith - 2;
     spec.rounding = (dp_rounding)((int)(unit(draws) * DP_ROUNDING_COUNT));
     spec.znear = scale(draws, -10.0, 3.0);

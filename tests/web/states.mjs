@@ -81,7 +81,7 @@ const view = (r) => [["--viewport", r.of(["1920x1080", "640x360", "7x5"])],
 const model = (r) => ["--model", r.of(["exact", "float", "staged", "auto"]),
     ...(r.chance(0.4) ? ["--arith", r.of(names.ariths)] : [])];
 const some = (r, share, words) => (r.chance(share) ? words() : []);
-const terms = (r) => [some(r, 0.3, () => ["--world", written(r, r.spread(1, 1e5))]),
+const terms = (r) => [some(r, 0.3, () => ["--from-origin", written(r, r.spread(1, 1e5))]),
     some(r, 0.3, () => ["--interpolation", written(r, r.spread(0.1, 10))]), some(r, 0.2, () => ["--linearize"])].flat();
 const form = (r) => r.of([[], ["--json"], ["--json"], ["--csv"], ["--csv"], ["--full"], ["-v"]]);
 const planned = (r) => [some(r, 0.05, () => ["--ortho"]), some(r, 0.08, () => ["--preset", r.of(names.presets)]),
@@ -97,7 +97,7 @@ const commands = {
     zfight: (r, c) => {
         const from = depth(r, c);
         return [...c.words, "--range", `${from}:${from * (1 + r.spread(1e-6, 1e-4))}`,
-            ...some(r, 0.3, () => ["--arith", r.of(names.ariths)]), ...some(r, 0.5, () => ["--gap", written(r, r.spread(1e-6, 0.1), true)]),
+            ...some(r, 0.3, () => ["--arith", r.of(names.ariths)]), ...some(r, 0.5, () => ["--separation", written(r, r.spread(1e-6, 0.1), true)]),
             ...some(r, 0.3, () => ["--sample", String(1 + r.below(300)), "--seed", String(r.below(1000))]), ...some(r, 0.2, () => view(r))];
     },
     prepass: (r, c) => [...c.words, "--against", r.of(["fma", "separate,right", "all"]), ...some(r, 0.3, () => ["--program", r.of(["fma", "pairs"])]),
@@ -115,7 +115,7 @@ const commands = {
     bias: (r, c) => [...c.words, ...planned(r), "--api", r.of(names.apis), ...some(r, 0.6, () => ["--at", depths(r, c)]),
         ...some(r, 0.4, () => ["--units", written(r, r.between(-20, 20))]), ...some(r, 0.3, () => ["--factor", written(r, r.between(-4, 4))]),
         ...some(r, 0.3, () => ["--slope", written(r, r.spread(1e-4, 1))]), ...some(r, 0.2, () => ["--clamp", written(r, r.between(-0.1, 0.1))]),
-        ...some(r, 0.5, () => ["--gap", written(r, r.spread(1e-5, 1), true)]), ...some(r, 0.2, () => view(r))],
+        ...some(r, 0.5, () => ["--separation", written(r, r.spread(1e-5, 1), true)]), ...some(r, 0.2, () => view(r))],
     plot: (r, c) => {
         const figure = r.of(FIGURES);
         return [figure, ...c.words, ...some(r, 0.4, () => model(r)), ...some(r, 0.2, () => ["--at", depths(r, c)]),

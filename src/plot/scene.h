@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file fights.h  What the figure of a model's fights is made of. */
-#ifndef PLOT_FIGHTS_H
-#define PLOT_FIGHTS_H
+/** @file scene.h  What the figure of a model's fights is made of. */
+#ifndef PLOT_SCENE_H
+#define PLOT_SCENE_H
 
 #include "scene/eye.h"
 #include "scene/find.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Synthetic scenes: what a pixel sees satisfies the surfaces' equations, written here in long double, and what is
+ * Synthetic images: what a pixel sees satisfies the surfaces' equations, written here in long double, and what is
  * stored of it is what the rational oracle stores.
  */
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "named.h"
 #include "oracle.h"
 #include "support.h"
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 
 static texture_camera camera_of(const char *format, const char *mapping, bool ortho, uint32_t width, uint32_t height) {
     dp_format formats[2];
@@ -31,10 +31,10 @@ static texture_camera camera_of(const char *format, const char *mapping, bool or
 static void every_row_is_whole(void **state) {
     (void)state;
     size_t count = 0;
-    for (; scene_get(count) != NULL; count++) {
-        const scene_row *row = scene_get(count);
+    for (; synthetic_get(count) != NULL; count++) {
+        const synthetic_row *row = synthetic_get(count);
         double p[TEXTURE_PARAMETERS];
-        assert_ptr_equal(scene_find(row->name), row);
+        assert_ptr_equal(synthetic_find(row->name), row);
         parameter_defaults(row->parameters, p);
         for (size_t i = 0; i < TEXTURE_PARAMETERS && row->parameters[i].name != NULL; i++) {
             assert_true(p[i] == row->parameters[i].value);
@@ -43,7 +43,7 @@ static void every_row_is_whole(void **state) {
         }
     }
     assert_int_equal(count, 4);
-    assert_null(scene_find("teapot"));
+    assert_null(synthetic_find("teapot"));
 }
 
 /* The place of a hit in long double. */
@@ -55,7 +55,7 @@ static void place(const texture_camera *c, double column, double row, double z, 
 }
 
 /* Unit, and on the camera's side of the surface. */
-static bool faces(const texture_camera *c, const scene_hit *h, const long double p[3]) {
+static bool faces(const texture_camera *c, const synthetic_hit *h, const long double p[3]) {
     const long double n[3] = {h->normal[0], h->normal[1], h->normal[2]};
     const long double length = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     const long double towards = c->ortho ? n[2] : n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
@@ -72,8 +72,8 @@ static void planes_lie_in_their_plane(void **state) {
         const double p[TEXTURE_PARAMETERS] = {rng_log(&r, 0.2, 500), rng_uniform(&r, -89, 89),
                                               rng_uniform(&r, -89, 89)};
         const double column = rng_uniform(&r, 0, 639), row = rng_uniform(&r, 0, 359);
-        scene_hit h;
-        scene_find("plane")->hit(&c, p, column, row, &h);
+        synthetic_hit h;
+        synthetic_find("plane")->hit(&c, p, column, row, &h);
         if (isinf(h.z)) {
             TALLY(&t, h.surface == 0, "sky with a surface");
             continue;
@@ -103,9 +103,9 @@ static void spheres_are_round_and_before_their_wall(void **state) {
         const double radius = rng_log(&r, 0.5, 3), wall = rng_below(&r, 2) ? rng_uniform(&r, 5, 12) : 0;
         const double p[TEXTURE_PARAMETERS] = {radius + rng_uniform(&r, 0.2, 8), radius, wall};
         const double column = rng_uniform(&r, 0, 359), row = rng_uniform(&r, 0, 359);
-        scene_hit h;
+        synthetic_hit h;
         long double at[3], ray[3];
-        scene_find("sphere")->hit(&c, p, column, row, &h);
+        synthetic_find("sphere")->hit(&c, p, column, row, &h);
         place(&c, column, row, 1, ray);
         /* Is the sphere on the pixel's ray at all? */
         const long double across = ray[0] * ray[0] + ray[1] * ray[1], d = p[0];
@@ -138,8 +138,8 @@ static void stairs_have_their_depths(void **state) {
     (void)state;
     const texture_camera c = camera_of("fp32", "reversed", false, 700, 20);
     const double p[TEXTURE_PARAMETERS] = {0.7, 400, 7};
-    const scene_row *steps = scene_find("steps");
-    scene_hit h;
+    const synthetic_row *steps = synthetic_find("steps");
+    synthetic_hit h;
     for (uint32_t x = 0; x < 700; x++) {
         steps->hit(&c, p, x, 3, &h);
         assert_int_equal(h.surface, 1 + x / 100);
@@ -150,7 +150,7 @@ static void stairs_have_their_depths(void **state) {
     assert_true(h.z == 0.7);
     steps->hit(&c, p, 699, 19, &h);
     assert_true(h.z == 400);
-    scene_pair pair;
+    synthetic_pair pair;
     for (size_t i = 0; i < 6; i++) { /* they meet where the columns of one end */
         assert_true(steps->pair(p, i, &pair));
         assert_relative(pair.front, (double)ratio(0.7, 400, (int)i, 7), 1e-15);
@@ -164,14 +164,14 @@ static void decals_stand_before_their_tiles(void **state) {
     (void)state;
     const texture_camera c = camera_of("fp32", "reversed", false, 300, 240);
     const double p[TEXTURE_PARAMETERS] = {0.125, 1, 300, 3};
-    const scene_row *decals = scene_find("decals");
+    const synthetic_row *decals = synthetic_find("decals");
     uint64_t before = 0;
     for (uint32_t y = 0; y < 240; y++)
         for (uint32_t x = 0; x < 300; x++) {
-            scene_hit h;
+            synthetic_hit h;
             const int tile = (int)(y / 80 * 3 + x / 100);
             const bool decal = x % 100 >= 25 && x % 100 < 75 && y % 80 >= 20 && y % 80 < 60;
-            scene_pair pair;
+            synthetic_pair pair;
             decals->hit(&c, p, x, y, &h);
             assert_true(decals->pair(p, (size_t)tile, &pair));
             assert_relative(pair.back, (double)ratio(1, 300, tile, 9), 1e-15);
@@ -183,23 +183,23 @@ static void decals_stand_before_their_tiles(void **state) {
             before += decal;
         }
     assert_int_equal(before, 9 * 50 * 40);
-    assert_false(decals->pair(p, 9, &(scene_pair){0}));
+    assert_false(decals->pair(p, 9, &(synthetic_pair){0}));
 }
 
 static void nothing_is_drawn_outside_the_planes(void **state) {
     (void)state;
     const texture_camera c = camera_of("fp32", "reversed", false, 64, 64);
-    const scene_row *steps = scene_find("steps");
-    scene_hit h;
+    const synthetic_row *steps = synthetic_find("steps");
+    synthetic_hit h;
     steps->hit(&c, (double[]){0.09, 1001, 2}, 0, 0, &h);
     assert_true(isinf(h.z) && h.surface == 0);
     steps->hit(&c, (double[]){0.09, 1001, 2}, 63, 0, &h);
     assert_true(isinf(h.z));
     /* A decal before the near plane leaves the wall. */
-    scene_find("decals")->hit(&c, (double[]){1, 1.05, 10, 2}, 16, 16, &h);
+    synthetic_find("decals")->hit(&c, (double[]){1, 1.05, 10, 2}, 16, 16, &h);
     assert_true(h.z == 1.05 && h.surface == 1);
     /* A sphere whose front is cut by the near plane is not drawn at all; the wall is. */
-    scene_find("sphere")->hit(&c, (double[]){3.05, 3, 20}, 31.5, 31.5, &h);
+    synthetic_find("sphere")->hit(&c, (double[]){3.05, 3, 20}, 31.5, 31.5, &h);
     assert_true(h.z == 20);
 }
 
@@ -211,23 +211,23 @@ static void what_is_stored_is_what_the_oracle_stores(void **state) {
     rng r = rng_make("scene codes");
     for (size_t f = 0; f < 4; f++)
         for (size_t m = 0; m < 5; m++)
-            for (size_t s = 0; scene_get(s) != NULL; s++) {
+            for (size_t s = 0; synthetic_get(s) != NULL; s++) {
                 const texture_camera c = camera_of(formats[f], mappings[m], false, 1100, 40);
                 double p[TEXTURE_PARAMETERS];
                 uint32_t codes[1100];
                 oracle o;
                 oracle_init(&o, &c.setup.spec);
-                parameter_defaults(scene_get(s)->parameters, p);
+                parameter_defaults(synthetic_get(s)->parameters, p);
                 if (s == 0)
                     p[1] = 70;
                 for (int k = 0; k < 3; k++) {
                     const uint32_t row = (uint32_t)rng_below(&r, 40);
-                    scene_codes(scene_get(s), &c, p, row, codes);
+                    synthetic_codes(synthetic_get(s), &c, p, row, codes);
                     for (uint32_t x = 0; x < 1100; x += 1 + (uint32_t)rng_below(&r, m == 4 ? 200 : 20)) {
-                        scene_hit h;
-                        scene_get(s)->hit(&c, p, x, row, &h);
+                        synthetic_hit h;
+                        synthetic_get(s)->hit(&c, p, x, row, &h);
                         const uint32_t want = oracle_code(&o, isinf(h.z) ? 1000 : h.z);
-                        TALLY(&t, codes[x] == want, "%s %s %s at %u, %u: z %.17g is %u, not %u", scene_get(s)->name,
+                        TALLY(&t, codes[x] == want, "%s %s %s at %u, %u: z %.17g is %u, not %u", synthetic_get(s)->name,
                               formats[f], mappings[m], x, row, h.z, codes[x], want);
                     }
                 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "texture/scene.h"
+#include "texture/synthetic.h"
 
 #include <math.h>
 
@@ -8,16 +8,16 @@
 #define LENGTH "scene units", 1e-9, 1e15
 
 static const double DEGREE = M_PI / 180;
-static const scene_hit SKY = {.z = INFINITY};
+static const synthetic_hit SKY = {.z = INFINITY};
 
 static bool drawn(const texture_camera *c, double z) {
     return z >= c->setup.spec.znear && z <= c->setup.spec.zfar; /* false for NaN */
 }
 
 /* A surface that faces the camera, where it is drawn and nearer than what is there. */
-static void face(const texture_camera *camera, double z, int surface, scene_hit *out) {
+static void face(const texture_camera *camera, double z, int surface, synthetic_hit *out) {
     if (drawn(camera, z) && z < out->z)
-        *out = (scene_hit){z, {0, 0, -1}, surface};
+        *out = (synthetic_hit){z, {0, 0, -1}, surface};
 }
 
 /* Depth `index` of `count` from lo to hi, both exact, in equal ratios. */
@@ -35,19 +35,19 @@ static double part(double place, uint32_t length, double count, double *within) 
 enum { PLANE_DISTANCE, PLANE_TILT, PLANE_TURN };
 
 /* The plane goes through (0, 0, distance): n . p = n_z distance. */
-static void plane_hit(const texture_camera *c, const double *p, double column, double row, scene_hit *out) {
+static void plane_hit(const texture_camera *c, const double *p, double column, double row, synthetic_hit *out) {
     const double tilt = p[PLANE_TILT] * DEGREE, turn = p[PLANE_TURN] * DEGREE;
     const double n[3] = {dp_cos(tilt) * dp_sin(turn), dp_sin(tilt), -dp_cos(tilt) * dp_cos(turn)};
     const double side = n[0] * camera_slope_x(c, column) + n[1] * camera_slope_y(c, row);
     const double z = c->ortho ? p[PLANE_DISTANCE] - side / n[2] : n[2] * p[PLANE_DISTANCE] / (side + n[2]);
     *out = SKY;
     if ((c->ortho || side + n[2] < 0) && drawn(c, z))
-        *out = (scene_hit){z, {n[0], n[1], n[2]}, 1};
+        *out = (synthetic_hit){z, {n[0], n[1], n[2]}, 1};
 }
 
 enum { SPHERE_DISTANCE, SPHERE_RADIUS, SPHERE_WALL };
 
-static void sphere_hit(const texture_camera *c, const double *p, double column, double row, scene_hit *out) {
+static void sphere_hit(const texture_camera *c, const double *p, double column, double row, synthetic_hit *out) {
     const double x = camera_slope_x(c, column), y = camera_slope_y(c, row), across = x * x + y * y;
     const double d = p[SPHERE_DISTANCE], r = p[SPHERE_RADIUS];
     /* Perspective: |z (x, y, 1) - (0, 0, d)| = r, the nearer root written so that nothing cancels. */
@@ -58,7 +58,7 @@ static void sphere_hit(const texture_camera *c, const double *p, double column, 
     if (drawn(c, z) && d > r) {
         double view[3];
         camera_view(c, column, row, z, view);
-        *out = (scene_hit){z, {view[0] / r, view[1] / r, (view[2] - d) / r}, 1};
+        *out = (synthetic_hit){z, {view[0] / r, view[1] / r, (view[2] - d) / r}, 1};
     }
     if (p[SPHERE_WALL] > 0)
         face(c, p[SPHERE_WALL], 2, out);
@@ -70,7 +70,7 @@ static double step_depth(const double *p, double index) {
     return spaced(p[STEPS_FROM], p[STEPS_TO], index, p[STEPS_COUNT]);
 }
 
-static void steps_hit(const texture_camera *c, const double *p, double column, double row, scene_hit *out) {
+static void steps_hit(const texture_camera *c, const double *p, double column, double row, synthetic_hit *out) {
     double within;
     const double step = part(column, c->width, p[STEPS_COUNT], &within);
     (void)row;
@@ -78,9 +78,9 @@ static void steps_hit(const texture_camera *c, const double *p, double column, d
     face(c, step_depth(p, step), 1 + (int)step, out);
 }
 
-static bool steps_pair(const double *p, size_t index, scene_pair *out) {
+static bool steps_pair(const double *p, size_t index, synthetic_pair *out) {
     const double a = step_depth(p, (double)index), b = step_depth(p, (double)index + 1);
-    *out = (scene_pair){fmin(a, b), fmax(a, b), {((double)index + 1) / p[STEPS_COUNT], 0.5}};
+    *out = (synthetic_pair){fmin(a, b), fmax(a, b), {((double)index + 1) / p[STEPS_COUNT], 0.5}};
     return (double)index + 1 < p[STEPS_COUNT];
 }
 
@@ -91,7 +91,7 @@ static double wall_depth(const double *p, double index) {
 }
 
 /* Tiles of wall, row by row ever farther, and a decal in the middle half of each. */
-static void decals_hit(const texture_camera *c, const double *p, double column, double row, scene_hit *out) {
+static void decals_hit(const texture_camera *c, const double *p, double column, double row, synthetic_hit *out) {
     double x, y;
     const double i = part(column, c->width, p[DECALS_COUNT], &x), j = part(row, c->height, p[DECALS_COUNT], &y);
     const double index = j * p[DECALS_COUNT] + i, wall = wall_depth(p, index);
@@ -101,28 +101,29 @@ static void decals_hit(const texture_camera *c, const double *p, double column, 
         face(c, wall - p[DECALS_GAP], 2 + 2 * (int)index, out);
 }
 
-static bool decals_pair(const double *p, size_t index, scene_pair *out) {
+static bool decals_pair(const double *p, size_t index, synthetic_pair *out) {
     const double wall = wall_depth(p, (double)index), n = p[DECALS_COUNT];
-    *out = (scene_pair){
+    *out = (synthetic_pair){
         wall - p[DECALS_GAP], wall, {(fmod((double)index, n) + 0.5) / n, (floor((double)index / n) + 0.5) / n}};
     return (double)index < n * n;
 }
 
 /* clang-format off */
-const scene_row scene_rows[] = {
-    [SCENE_PLANE] = {"plane", "a plane, seen head-on or slanted", plane_hit, NULL, {
+const synthetic_row synthetic_rows[] = {
+    [SYNTHETIC_PLANE] = {"plane", "a plane, seen head-on or slanted", plane_hit, NULL, {
         {"distance", "eye depth in the middle of the image", LENGTH, 10, .whole = false},
         {"tilt", "the upper side leans back; 90 would be a floor", "degrees", -89.9, 89.9, 0, .whole = false},
         {"turn", "the right side leans back", "degrees", -89.9, 89.9, 0, .whole = false}}},
-    [SCENE_SPHERE] = {"sphere", "a sphere on the view axis, before a wall or the sky", sphere_hit, NULL, {
+    [SYNTHETIC_SPHERE] = {"sphere", "a sphere on the view axis, before a wall or the sky", sphere_hit, NULL, {
         {"distance", "eye depth of the centre, more than the radius", LENGTH, 10, .whole = false},
         {"radius", "of the sphere", LENGTH, 3, .whole = false},
         {"wall", "eye depth of the wall; 0: sky", "scene units", 0, 1e15, 0, .whole = false}}},
-    [SCENE_STEPS] = {"steps", "upright stairs that face the camera, in equal ratios of depth", steps_hit, steps_pair, {
+    [SYNTHETIC_STEPS] = {"steps", "upright stairs that face the camera, in equal ratios of depth", steps_hit,
+                         steps_pair, {
         {"from", "eye depth of the leftmost", LENGTH, 1, .whole = false},
         {"to", "eye depth of the rightmost", LENGTH, 300, .whole = false},
         {"count", "how many", "steps", 2, 65536, 16, .whole = true}}},
-    [SCENE_DECALS] = {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth",
+    [SYNTHETIC_DECALS] = {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth",
         decals_hit, decals_pair, {
         {"gap", "from a decal to the wall behind it", LENGTH, 0.01, .whole = false},
         {"from", "eye depth of the first tile, top left", LENGTH, 1, .whole = false},
@@ -131,12 +132,12 @@ const scene_row scene_rows[] = {
 };
 /* clang-format on */
 
-const scene_row *scene_get(size_t index) {
-    return index < SCENE_ROWS ? &scene_rows[index] : NULL;
+const synthetic_row *synthetic_get(size_t index) {
+    return index < SYNTHETIC_ROWS ? &synthetic_rows[index] : NULL;
 }
 
-void scene_codes(const scene_row *scene, const texture_camera *camera, const double *parameters, uint32_t row,
-                 uint32_t *codes) {
+void synthetic_codes(const synthetic_row *synthetic, const texture_camera *camera, const double *parameters,
+                     uint32_t row, uint32_t *codes) {
     enum { SOME = 512 };
     double z[SOME];
     dp_batch batch;
@@ -145,8 +146,8 @@ void scene_codes(const scene_row *scene, const texture_camera *camera, const dou
     for (uint32_t first = 0; first < camera->width && good; first += SOME) {
         const uint32_t count = camera->width - first < SOME ? camera->width - first : SOME;
         for (uint32_t i = 0; i < count; i++) {
-            scene_hit hit;
-            scene->hit(camera, parameters, first + i, row, &hit);
+            synthetic_hit hit;
+            synthetic->hit(camera, parameters, first + i, row, &hit);
             z[i] = hit.z;
         }
         dp_batch_run(&batch, z, codes + first, count);

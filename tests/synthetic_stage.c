@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene_stage.h"
+#include "synthetic_stage.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "named.h"
 #include "support.h"
 
-void scene_stage_between(scene_stage *s, const char *scene, const char *format, const char *mapping, double znear,
-                         double zfar, bool ortho, uint32_t width, uint32_t height) {
+void synthetic_stage_between(synthetic_stage *s, const char *synthetic, const char *format, const char *mapping,
+                             double znear, double zfar, bool ortho, uint32_t width, uint32_t height) {
     dp_format formats[2];
     dp_spec spec = dp_spec_default();
     dp_setup setup;
@@ -27,14 +27,17 @@ void scene_stage_between(scene_stage *s, const char *scene, const char *format, 
     view.origin[0] = 100;
     view.origin[2] = -7;
     assert_null(camera_init(&s->camera, &setup, &view));
-    parameter_defaults(scene_find(scene)->parameters, s->parameters);
-    s->frame = (frame){
-        .camera = &s->camera, .scene = scene_find(scene), .parameters = s->parameters, .sky = FRAME_SKY, .threads = 1};
+    parameter_defaults(synthetic_find(synthetic)->parameters, s->parameters);
+    s->frame = (frame){.camera = &s->camera,
+                       .synthetic = synthetic_find(synthetic),
+                       .parameters = s->parameters,
+                       .sky = FRAME_SKY,
+                       .threads = 1};
 }
 
-void scene_stage_set(scene_stage *s, const char *scene, const char *format, const char *mapping, double zfar,
-                     bool ortho, uint32_t width, uint32_t height) {
-    scene_stage_between(s, scene, format, mapping, 0.1, zfar, ortho, width, height);
+void synthetic_stage_set(synthetic_stage *s, const char *synthetic, const char *format, const char *mapping,
+                         double zfar, bool ortho, uint32_t width, uint32_t height) {
+    synthetic_stage_between(s, synthetic, format, mapping, 0.1, zfar, ortho, width, height);
 }
 
 bool whole_take(void *context, uint32_t row, uint32_t count, const float *values) {
@@ -57,7 +60,7 @@ float *frame_made(const frame *f, const frame_product *p, bool bottom_up) {
     return w.values;
 }
 
-image scene_stage_image(const scene_stage *s) {
+image synthetic_stage_image(const synthetic_stage *s) {
     const texture_camera *c = &s->camera;
     image out = {.width = c->width, .height = c->height, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY};
     out.data = malloc((size_t)c->width * c->height * sizeof(uint32_t));
