@@ -162,7 +162,7 @@ static void needs(void **state) {
         "-n 1 -f inf -F fp32 -m reversed --separation 0.01 --within 90 --unit m",
         "-F fp16 -m d3d --within 30 --rounding zero",
         "-m log -F d24 --log-c 0.5 --within 90 --separation 0.01",
-        "-m log -F d24 -f 1e9 --within 300 --separation 0.02 --viewport 640x480", /* nothing within the lattice's alone */
+        "-m log -F d24 -f 1e9 --within 300 --separation 0.02 --viewport 640x480", /* none in the lattice */
         "-m linear -F d16 --within 90 --viewport 640x480"};
     (void)state;
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
