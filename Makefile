@@ -28,7 +28,7 @@ PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 HEADERS := $(wildcard include/depthprec/*.h)
 CORE := $(wildcard src/core/*.c)
 PAGE := $(wildcard src/web/*.c)
-ROOMS := $(filter-out $(CORE) $(PAGE),$(wildcard src/*/*.c))
+ROOMS := $(filter-out $(CORE) $(PAGE),$(wildcard src/*/*.c src/*/*/*.c))
 TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
@@ -38,7 +38,7 @@ MAN := $(wildcard man/*.[1-9])
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
 ALL_C := $(CORE) $(ROOMS) $(PAGE) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
-ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
+ALL_H := $(HEADERS) $(wildcard src/*/*.h src/*/*/*.h tests/*.h tests/*/*.h)
 
 objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
 CORE_O := $(call objects,$(CORE))
@@ -150,12 +150,12 @@ web:
 	@sh src/packages.sh web
 	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
-WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster draw vertex api world census shadow report need plot cli))
-WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/texture/decode.c
-WEB_NOT := report/output_file report/terminal need/camera need/reader need/requirement need/view need/check \
+WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster api world census shadow report requirement plot cli cli/option cli/shadow cli/solve))
+WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/shader/decode.c
+WEB_NOT := report/output_file report/terminal requirement/camera requirement/reader requirement/requirement requirement/view requirement/check \
     plot/canvas plot/scene plot/normals plot/pareto plot/stability plot/needs plot/pixels \
-    cli/texture_% cli/cmd_texture cli/cmd_methods cli/cmd_check cli/check_report cli/cmd_shadow \
-    cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_probe cli/link cli/completions cli/stop cli/junit cli/option_profile api/profile_file
+    cli/cmd_methods cli/cmd_check cli/check_report cli/shadow/cmd_shadow \
+    cli/shadow/rows cli/cmd_probe cli/link cli/completions cli/stop cli/junit cli/option/profile api/profile_file
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
@@ -165,10 +165,10 @@ WEB_LINK = $(WEB_CC) -mexec-model=reactor -Wl,--gc-sections,--stack-first,-z,sta
 web_objects = $(patsubst %.c,$(B)/web/obj/%.o,$(1))
 WEB_CORE_O := $(call web_objects,$(CORE))
 WEB_O := $(call web_objects,$(WEB_SOURCES))
-WEB_DRAW_O := $(call web_objects,$(wildcard src/raster/*.c) src/draw/draw.c src/draw/picture.c)
+WEB_DRAW_O := $(call web_objects,$(filter-out %/fight.c %/mesh.c %/vertex_compare.c %/vertex_program.c,$(wildcard src/raster/*.c)))
 SAMPLES_O := $(foreach p,samples frames,$(B)/web/obj/tests/web/$p.o $(B)/obj/tests/web/$p.o)
 # Fast where numbers are made, small elsewhere.
-$(B)/web/obj/src/core/%.o $(B)/web/obj/src/raster/%.o $(B)/web/obj/src/draw/%.o: WEB_OPTIMIZE := -O2
+$(B)/web/obj/src/core/%.o $(B)/web/obj/src/raster/%.o: WEB_OPTIMIZE := -O2
 $(B)/web/obj/%.o: WEB_OPTIMIZE ?= -Oz
 $(B)/web/obj/%.o: %.c Makefile
 	@mkdir -p $(@D)
@@ -204,7 +204,7 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 .PHONY: check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves and what clang makes for the web no sanitizer has a say.
-ONCE := $(patsubst %,tests/%.sh,layers headers install teeth mutants aims web)
+ONCE := $(patsubst %,tests/%.sh,layers headers install can_fail mutants aims web)
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 
 check:

@@ -13,7 +13,7 @@
 
 #include "depthprec/depthprec.h"
 #include "parallel.h"
-#include "texture/clones.h"
+#include "shader/clones.h"
 #include "timing.h"
 
 enum { RUNS = 7, WAYS = 4 };
@@ -36,7 +36,7 @@ static const row rows[] = {
 };
 
 #define MOVE(NAME, IN, OUT)                                                                                            \
-    TEXTURE_CLONES static void NAME(const void *in, void *out, size_t first, size_t last) {                            \
+    CLONES static void NAME(const void *in, void *out, size_t first, size_t last) {                                    \
         const IN *from = in;                                                                                           \
         OUT *to = out;                                                                                                 \
         for (size_t i = first; i < last; i++)                                                                          \

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "aims.h"
-#include "texture/image.h"
+#include "image/image.h"
 #include "timing.h"
 
 enum { WIDTH = 3840, HEIGHT = 2160, RUNS = 5, BLOCK = 1 << 16, WORDS = 32 };

@@ -10,7 +10,7 @@
 
 #include "aims.h"
 #include "raster/raster.h"
-#include "texture/clones.h"
+#include "shader/clones.h"
 #include "timing.h"
 
 enum { SIZE = 512, TRIANGLES = 400, RUNS = 31 };
@@ -66,7 +66,7 @@ static double draw(const raster_target *target, bool note) {
     return (double)pixels;
 }
 
-TEXTURE_CLONES static void fill(float depth) {
+CLONES static void fill(float depth) {
     for (size_t i = 0; i < span_count; i++) {
         float *row = image[spans[i].y];
         for (int x = spans[i].from; x < spans[i].to; x++)

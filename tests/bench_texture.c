@@ -16,9 +16,9 @@
 #endif
 
 #include "aims.h"
+#include "frame/frame.h"
 #include "named.h"
-#include "texture/clones.h"
-#include "texture/frame.h"
+#include "shader/clones.h"
 #include "timing.h"
 
 enum { WIDTH = 3840, HEIGHT = 2160, STRIDE = WIDTH + 16, RUNS = 9, WAYS_MAX = 24 };
@@ -39,7 +39,7 @@ static const float *eye_row(int64_t row) {
 
 /* ---- Floors ------------------------------------------------------------------------------------------------------ */
 
-TEXTURE_CLONES static void copy_row(const float *restrict from, float *restrict to) {
+CLONES static void copy_row(const float *restrict from, float *restrict to) {
     for (size_t i = 0; i < WIDTH; i++)
         to[i] = -from[i];
 }

@@ -7,9 +7,9 @@
 
 #if __has_include(<openexr.h>)
 
-#include "opened/library.h"
-#include "texture/image_exr.h"
-#include "texture/image_kind.h"
+#include "image/exr.h"
+#include "image/kind.h"
+#include "system/dynload.h"
 
 #define FUNCTIONS(X)                                                                                                   \
     X(exr_start_write)                                                                                                 \
@@ -27,7 +27,7 @@
     X(exr_encoding_run)                                                                                                \
     X(exr_encoding_destroy)                                                                                            \
     X(exr_get_default_error_message)
-LIBRARY_FUNCTIONS(FUNCTIONS)
+DYNLOAD_FUNCTIONS(FUNCTIONS)
 
 static const library openexr = {"EXR", {IMAGE_EXR_FILE, NULL}, IMAGE_EXR_PACKAGE, symbols};
 

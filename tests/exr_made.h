@@ -3,7 +3,7 @@
 #ifndef TESTS_EXR_MADE_H
 #define TESTS_EXR_MADE_H
 
-#include "texture/image.h"
+#include "image/image.h"
 
 /** A channel of a compression by its number in the file: 0 none, 1 RLE, 2 ZIPS, 3 ZIP, 4 PIZ, 5 PXR24, 6 B44, 7 B44A,
  *  8 DWAA, 9 DWAB. */

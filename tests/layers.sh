@@ -8,24 +8,24 @@
 layers='
 include/depthprec | depthprec
 src/core          | depthprec core
-src/api           | depthprec core opened api
+src/api           | depthprec core system api
 src/world         | depthprec core world
 src/census        | depthprec core census
 src/raster        | depthprec core raster
-src/vertex        | depthprec core vertex
-src/draw          | depthprec core raster draw
 src/shadow        | depthprec core api shadow
-src/opened        | opened
-src/probe         | depthprec core opened raster probe
-src/texture       | depthprec core opened texture
-src/method        | depthprec core texture census method
-src/need          | depthprec core opened api raster world need
-src/model         | core opened model
-src/scene         | depthprec core raster world model draw need scene
-src/report        | depthprec core opened report
-src/plot          | depthprec core api world census raster draw shadow texture method need model scene plot
-src/cli           | depthprec core opened api world census raster vertex draw shadow texture method need model scene probe report plot cli
-src/web           | depthprec core opened draw texture method need scene report plot cli web
+src/system       | system
+src/probe         | depthprec core system raster probe
+src/image         | depthprec core system image
+src/shader        | depthprec core image shader
+src/frame         | depthprec core image shader frame
+src/method        | depthprec core shader census method
+src/requirement   | depthprec core system api raster world requirement
+src/model         | core system model
+src/scene         | depthprec core raster world model requirement scene
+src/report        | depthprec core system report
+src/plot          | depthprec core api world census raster shadow image shader frame method requirement model scene plot
+src/cli           | depthprec core system api world census raster shadow image shader frame method requirement model scene probe report plot cli
+src/web           | depthprec core system raster image shader frame method requirement scene report plot cli web
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none
@@ -33,7 +33,7 @@ strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name 
     shift
     find "$folder" -name '*.[ch]' -exec grep -Hn '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' {} + >"$scratch/includes"
     [ -s "$scratch/includes" ] || return
-    lines -vE "\"($(echo "$*" | tr ' ' '|'))/[a-z0-9_]+\.h\"" "$scratch/includes"
+    lines -vE "\"($(echo "$*" | tr ' ' '|'))/[a-z0-9_/]+\.h\"" "$scratch/includes"
 }
 
 includes() { # includes WHAT FOLDER...: prints the includes of <WHAT...>
@@ -50,8 +50,8 @@ cairo_elsewhere() {
 # What is opened to be read is remembered there, so that no output is written over it. Of the system's own files none is.
 read_elsewhere() {
     lines -rnE '\<(fopen|fopen64|freopen|json_load_file|config_read_file|gzopen)\(' src >"$scratch/read"
-    grep -q '^src/opened/input\.c:' "$scratch/read" || return
-    lines -vE '^src/opened/input\.c:|"/proc/' "$scratch/read"
+    grep -q '^src/system/input\.c:' "$scratch/read" || return
+    lines -vE '^src/system/input\.c:|"/proc/' "$scratch/read"
 }
 
 core_inside() {
@@ -60,7 +60,7 @@ core_inside() {
 }
 
 objects() { # those of the program: the page's stand-ins (src/web) have the names of what they stand in for
-    for source in src/*/*.c; do echo "$B/obj/${source%.c}.o"; done | grep -v /obj/src/web/
+    for source in src/*/*.c src/*/*/*.c; do echo "$B/obj/${source%.c}.o"; done | grep -v /obj/src/web/
 }
 
 echo "$layers" >"$scratch/layers"
@@ -78,7 +78,7 @@ web_elsewhere() {
     lines -v '^src/web/page\.h:' "$scratch/web"
 }
 check "what is otherwise in WebAssembly stands in src/web/page.h alone" empty web_elsewhere
-check "files are opened to be read in src/opened/input.c alone" empty read_elsewhere
+check "files are opened to be read in src/system/input.c alone" empty read_elsewhere
 check "GSL is not in the library" empty includes gsl/ include src/core
 
 # Of libm, what has one answer; for the others there is core/elementary.h.

@@ -8,14 +8,14 @@
 #include "api/bias.h"
 #include "api/platform.h"
 #include "api/presets.h"
+#include "frame/synthetic.h"
 #include "method/method.h"
 #include "plot/figure.h"
-#include "texture/decode.h"
-#include "texture/effect.h"
-#include "texture/normal.h"
-#include "texture/pack.h"
-#include "texture/position.h"
-#include "texture/synthetic.h"
+#include "shader/decode.h"
+#include "shader/effect.h"
+#include "shader/normal.h"
+#include "shader/pack.h"
+#include "shader/position.h"
 
 #define BY_NAME(type, find, get)                                                                                       \
     static inline const type *find(const char *name) {                                                                 \

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/bits.h"
-#include "texture/pack_rg.h"
+#include "shader/pack_rg.h"
 
 typedef struct sums {
     double sum, bias, weight, max, at;

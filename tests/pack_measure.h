@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file pack_measure.h  What the claims of packings speak of, measured: see texture/pack.h. */
+/** @file pack_measure.h  What the claims of packings speak of, measured: see shader/pack.h. */
 #ifndef PACK_MEASURE_H
 #define PACK_MEASURE_H
 
-#include "texture/pack.h"
+#include "shader/pack.h"
 
 /** The error over the whole domain. */
 typedef struct pack_error {

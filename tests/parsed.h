@@ -3,7 +3,7 @@
 #ifndef TESTS_PARSED_H
 #define TESTS_PARSED_H
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 
 /** options_parse(); `line` becomes the first line that it says on stderr, "" for none. */
 int parsed(options *o, int argc, char **argv, char line[1024]);

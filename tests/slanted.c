@@ -220,7 +220,7 @@ bool slanted_budget(const slanted *s, const dp_triangles *class, dp_budget *out)
     if (s->world.scheme != NULL && dp_setup_init(&setup, &spec) == DP_OK) {
         const world_asked a = {.setup = &setup,
                                .z = s->z - s->world.shift[2],
-                               .lean = s->world.lean,
+                               .ray_ratio = s->world.ray_ratio,
                                .shared_origin = s->world.shared_origin};
         dp_budget_terms terms = {0};
         return world_budget(s->world.scheme, &a, s->world.distance, &terms, out) == DP_OK;
@@ -357,7 +357,7 @@ bool slanted_draw_scheme(rng *r, slanted *s, const world_scheme *scheme) {
     for (int k = 0; k < 3; k++)
         w->shift[k] = (double)((long double)got[k] - want[k]);
     const double z = s->z - w->shift[2], tangent = tan(s->class.fov_y * pi / 360.0) / s->camera.height;
-    w->lean = fmax(2.0, hypot(1.0, tangent * hypot(s->camera.width + 800.0, s->camera.height + 800.0)));
+    w->ray_ratio = fmax(2.0, hypot(1.0, tangent * hypot(s->camera.width + 800.0, s->camera.height + 800.0)));
     return z > s->setup.spec.znear && z < s->setup.spec.zfar;
 }
 
@@ -428,7 +428,7 @@ bool slanted_clip(const slanted *s, int which, double c, raster_vertex clip[3]) 
         if (s->world.scheme != NULL) {
             const world_place in_world = place_seen_at(s, which, (const double[3]){ray[0] * z, ray[1] * z, z});
             const double *shift = s->world.shift, real = z - shift[2];
-            if (!(hypot(hypot(ray[0] * z - shift[0], ray[1] * z - shift[1]), real) <= s->world.lean * real))
+            if (!(hypot(hypot(ray[0] * z - shift[0], ray[1] * z - shift[1]), real) <= s->world.ray_ratio * real))
                 return false;
             world_view(s->world.scheme, &s->world.seen_by, &in_world, place);
             if (!(place[2] > 0.0F))

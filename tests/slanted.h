@@ -38,8 +38,8 @@ typedef struct slanted_world {
     double distance;     /* of the camera from the origin, at most */
     double origin[2][3]; /* of the meshes that the triangles are of */
     bool shared_origin;
-    double shift[3]; /* where the pixel's place of the farther plane is seen, less where it is */
-    double lean;     /* no vertex is farther away than this times its depth */
+    double shift[3];  /* where the pixel's place of the farther plane is seen, less where it is */
+    double ray_ratio; /* no vertex is farther away than this times its depth */
 } slanted_world;
 
 typedef struct slanted {

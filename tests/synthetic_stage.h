@@ -4,11 +4,11 @@
 #ifndef TESTS_SYNTHETIC_STAGE_H
 #define TESTS_SYNTHETIC_STAGE_H
 
-#include "texture/frame.h"
+#include "frame/frame.h"
 
 typedef struct synthetic_stage {
     texture_camera camera;
-    double parameters[TEXTURE_PARAMETERS];
+    double parameters[PARAMETERS_MAX];
     frame frame;
 } synthetic_stage;
 

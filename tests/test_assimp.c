@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "model/model.h"
-#include "opened/library.h"
 #include "printed.h"
 #include "support.h"
+#include "system/dynload.h"
 
 static const char stl[] = "solid wall\n"
                           "facet normal 0 0 1\nouter loop\nvertex 0 0 0.1\nvertex 4 0 0.1\nvertex 4 3 0.1\nendloop\n"

@@ -9,7 +9,7 @@
 
 #include "api/bias.h"
 #include "cli/bias_all.h"
-#include "cli/names.h"
+#include "cli/option/names.h"
 #include "support.h"
 
 /* The row that --api takes for a name or another spelling. */

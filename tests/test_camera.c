@@ -2,8 +2,8 @@
 /* The camera behind a depth image: what it refuses, where pixels look, and that its axes are what they should be. */
 #include <string.h>
 
+#include "shader/camera.h"
 #include "support.h"
-#include "texture/camera.h"
 
 static dp_setup setup_of(int ortho) {
     dp_spec spec = dp_spec_default();

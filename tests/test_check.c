@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "need/check.h"
+#include "requirement/check.h"
 #include "support.h"
 
 typedef struct judged {

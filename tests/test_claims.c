@@ -7,8 +7,8 @@
 
 #include "method/bench.h"
 #include "named.h"
+#include "shader/position.h"
 #include "support.h"
-#include "texture/position.h"
 
 /* ---- Roundings --------------------------------------------------------------------------------------------------- */
 

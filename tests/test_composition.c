@@ -206,7 +206,7 @@ static void each_cause(void **state) {
         composed_make(&s, n, 1000.0, DP_MAPPING_D3D, "fp32", 0, false,
                       (dp_budget_terms){.world = world, .composition = (dp_composition)k});
         const dp_composing in = {.composition = (dp_composition)k,
-                                 .lean = 2.0,
+                                 .ray_ratio = 2.0,
                                  .world = world,
                                  .a = (double)(float)s.a,
                                  .b = (double)(float)s.b,

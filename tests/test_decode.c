@@ -7,8 +7,8 @@
 #include "core/elementary.h"
 #include "named.h"
 #include "oracle.h"
+#include "shader/decode.h"
 #include "support.h"
-#include "texture/decode.h"
 
 /* Every curve and direction, both projections, finite and infinite far planes. */
 static dp_spec random_spec(rng *r) {

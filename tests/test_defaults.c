@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/option_rows.h"
+#include "cli/option/rows.h"
 #include "printed.h"
 
 /* A line of each command that has defaults, small where the work depends on it. */
@@ -11,20 +11,20 @@ static const struct {
     unsigned verb;
     const char *line;
 } lines[] = {
-    {VERB_TABLE, "table"},
-    {VERB_PLOT, "plot error --csv"},
-    {VERB_ZFIGHT, "zfight --range 1:1.01"},
-    {VERB_PREPASS, "prepass --sample 1000"},
-    {VERB_BUDGET, "budget"},
-    {VERB_TEXTURE, "texture --synthetic steps --size 64x36"},
-    {VERB_METHODS, "methods interval --json"},
-    {VERB_CHECK, "check tests/needs/village.need"},
-    {VERB_SOLVE, "solve -F d24 -m d3d --separation 0.01 --at 50"},
-    {VERB_BIAS, "bias --units -1"},
-    {VERB_SHADOW, "shadow"},
-    {VERB_WORLD, "world --from-origin 1e5"},
-    {VERB_SCENE, "scene tests/models/street.obj --separation 0.02"},
-    {VERB_LIST, "list synthetic"},
+    {CMD_TABLE, "table"},
+    {CMD_PLOT, "plot error --csv"},
+    {CMD_ZFIGHT, "zfight --range 1:1.01"},
+    {CMD_PREPASS, "prepass --sample 1000"},
+    {CMD_BUDGET, "budget"},
+    {CMD_TEXTURE, "texture --synthetic steps --size 64x36"},
+    {CMD_METHODS, "methods interval --json"},
+    {CMD_CHECK, "check tests/needs/village.need"},
+    {CMD_SOLVE, "solve -F d24 -m d3d --separation 0.01 --at 50"},
+    {CMD_BIAS, "bias --units -1"},
+    {CMD_SHADOW, "shadow"},
+    {CMD_WORLD, "world --from-origin 1e5"},
+    {CMD_SCENE, "scene tests/models/street.obj --separation 0.02"},
+    {CMD_LIST, "list synthetic"},
 };
 
 #define ALL (~0U)
@@ -40,36 +40,36 @@ static const struct {
     const char *line; /* in place of the command's; null: that */
     const char *more;
 } besides[] = {
-    {VERB_PLOT, IDS(OPTION_PLANE), "plot fight --csv", ""},
-    {VERB_PLOT, IDS(OPTION_INTERPOLATION, OPTION_FROM_ORIGIN), "plot budget -F d24 -m d3d --csv", ""},
-    {VERB_PLOT, IDS(OPTION_COMPOSITION), "plot budget -F d24 -m d3d --csv", "--from-origin 100"},
-    {VERB_PLOT, IDS(OPTION_LOG2), "plot budget -F d24 -m log --csv", ""},
-    {VERB_BUDGET, IDS(OPTION_LOG2), "budget -F d24 -m log", ""},
-    {VERB_PLOT, IDS(OPTION_SLANT), "plot budget -F d24 -m d3d --csv", "--viewport 640x480"},
-    {VERB_PLOT,
+    {CMD_PLOT, IDS(OPTION_PLANE), "plot fight --csv", ""},
+    {CMD_PLOT, IDS(OPTION_INTERPOLATION, OPTION_FROM_ORIGIN), "plot budget -F d24 -m d3d --csv", ""},
+    {CMD_PLOT, IDS(OPTION_COMPOSITION), "plot budget -F d24 -m d3d --csv", "--from-origin 100"},
+    {CMD_PLOT, IDS(OPTION_LOG2), "plot budget -F d24 -m log --csv", ""},
+    {CMD_BUDGET, IDS(OPTION_LOG2), "budget -F d24 -m log", ""},
+    {CMD_PLOT, IDS(OPTION_SLANT), "plot budget -F d24 -m d3d --csv", "--viewport 640x480"},
+    {CMD_PLOT,
      IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_TRIANGLE_CLASS, OPTION_CASCADES, OPTION_LAMBDA, OPTION_CASTERS,
          OPTION_KERNEL, OPTION_ANGLE, OPTION_SIZE),
      "plot shadow --csv", ""},
-    {VERB_PLOT, IDS(OPTION_TRANSFORMS), "plot scene tests/models/street.obj --separation 0.02 --csv", ""},
-    {VERB_PLOT, IDS(OPTION_ARITH), "plot interval -F d24 -m d3d --csv", "--model float"},
-    {VERB_BUDGET, IDS(OPTION_COMPOSITION), NULL, "--from-origin 100"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE,
+    {CMD_PLOT, IDS(OPTION_TRANSFORMS), "plot scene tests/models/street.obj --separation 0.02 --csv", ""},
+    {CMD_PLOT, IDS(OPTION_ARITH), "plot interval -F d24 -m d3d --csv", "--model float"},
+    {CMD_BUDGET, IDS(OPTION_COMPOSITION), NULL, "--from-origin 100"},
+    {CMD_TABLE | CMD_BUDGET | CMD_SOLVE | CMD_ZFIGHT | CMD_SCENE,
      IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE_CLASS), NULL, "--viewport 640x480"},
-    {VERB_ZFIGHT, IDS(OPTION_FOV, OPTION_RASTER, OPTION_SLANT, OPTION_TRIANGLE_CLASS),
+    {CMD_ZFIGHT, IDS(OPTION_FOV, OPTION_RASTER, OPTION_SLANT, OPTION_TRIANGLE_CLASS),
      "zfight -F fp32 -m d3d --rasterize --sample 20", ""},
-    {VERB_ZFIGHT, IDS(OPTION_SEED), NULL, "--sample 1000"},
-    {VERB_PREPASS, IDS(OPTION_SAMPLE), "prepass -F d24 -m d3d --against fma", ""},
-    {VERB_BIAS, IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE_CLASS), "bias --at 10",
+    {CMD_ZFIGHT, IDS(OPTION_SEED), NULL, "--sample 1000"},
+    {CMD_PREPASS, IDS(OPTION_SAMPLE), "prepass -F d24 -m d3d --against fma", ""},
+    {CMD_BIAS, IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE_CLASS), "bias --at 10",
      "--viewport 640x480"},
-    {VERB_BIAS, IDS(OPTION_CLAMP), NULL, "--api vulkan"},
-    {VERB_BIAS, IDS(OPTION_API), "bias -F fp32", ""},
-    {VERB_SHADOW, IDS(OPTION_FACET), NULL, "--curvature 5"},
-    {VERB_TEXTURE, IDS(OPTION_HALF_HEIGHT), NULL, "--ortho"},
-    {VERB_TEXTURE, IDS(OPTION_SIZE), "texture --synthetic plane", ""},
-    {VERB_TABLE, IDS(OPTION_MODEL), "table -F d24 -m d3d", ""},
-    {VERB_TABLE, IDS(OPTION_ARITH), NULL, "--model float"},
-    {VERB_TABLE | VERB_PLOT | VERB_TEXTURE | VERB_BIAS | VERB_SCENE, IDS(OPTION_LOG_C), NULL, "-m log"},
-    {VERB_SOLVE, IDS(OPTION_LOG_C), "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
+    {CMD_BIAS, IDS(OPTION_CLAMP), NULL, "--api vulkan"},
+    {CMD_BIAS, IDS(OPTION_API), "bias -F fp32", ""},
+    {CMD_SHADOW, IDS(OPTION_FACET), NULL, "--curvature 5"},
+    {CMD_TEXTURE, IDS(OPTION_HALF_HEIGHT), NULL, "--ortho"},
+    {CMD_TEXTURE, IDS(OPTION_SIZE), "texture --synthetic plane", ""},
+    {CMD_TABLE, IDS(OPTION_MODEL), "table -F d24 -m d3d", ""},
+    {CMD_TABLE, IDS(OPTION_ARITH), NULL, "--model float"},
+    {CMD_TABLE | CMD_PLOT | CMD_TEXTURE | CMD_BIAS | CMD_SCENE, IDS(OPTION_LOG_C), NULL, "-m log"},
+    {CMD_SOLVE, IDS(OPTION_LOG_C), "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
 };
 
 /* Defaults that help tells in words: the value that they mean, in a line where it holds; null where no value means the
@@ -79,60 +79,60 @@ static const struct {
     const option_id *ids;
     const char *value, *line, *more; /* line null: the command's */
 } meant[] = {
-    {ALL & ~(unsigned)VERB_TEXTURE, IDS(OPTION_OUTPUT), "-", NULL, ""},
-    {VERB_TEXTURE, IDS(OPTION_OUTPUT), "-", NULL, "--csv"},
-    {ALL & ~(unsigned)VERB_PLOT, IDS(OPTION_THREADS), "1", NULL, ""},
-    {VERB_PLOT, IDS(OPTION_THREADS), "1", "plot scene tests/models/street.obj --separation 0.02 --csv", ""},
-    {VERB_TABLE, IDS(OPTION_AT), "0.1:1000:log:9", "table -F d24 -m d3d", ""},
-    {VERB_TABLE, IDS(OPTION_AT), "0.1:1e5:log:9", "table -F d24 -m d3d -f inf", ""},
-    {VERB_TABLE, IDS(OPTION_AT), "-3:7:lin:9", "table -F d24 -m d3d --ortho -n -3 -f 7", ""},
-    {VERB_TABLE, IDS(OPTION_AT), "0.1,1,10,100,1000", NULL, ""},
-    {VERB_TABLE, IDS(OPTION_AT), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
-    {VERB_BUDGET | VERB_BIAS, IDS(OPTION_AT), "0.1:1000:log:9", NULL, ""},
-    {VERB_TEXTURE, IDS(OPTION_AT), "0.1:1000:log:9", "texture --product effect:fog -F d16 -m d3d", ""},
-    {VERB_WORLD, IDS(OPTION_AT), "10", NULL, ""},
-    {VERB_WORLD, IDS(OPTION_AT), "10m", NULL, "--unit cm"},
-    {VERB_WORLD, IDS(OPTION_SEPARATION), "0.01", NULL, ""},
-    {VERB_WORLD, IDS(OPTION_SEPARATION), "1cm", NULL, "--unit m"},
-    {VERB_SOLVE, IDS(OPTION_FAR), "inf", NULL, "--csv"},
-    {VERB_SOLVE, IDS(OPTION_FOR), "near", NULL, ""},
-    {VERB_SOLVE, IDS(OPTION_FOR), "far", "solve -n 0.1 --separation 0.01 --at 50 -F d24 -m d3d", ""},
-    {VERB_SOLVE, IDS(OPTION_FOR), "format", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -m d3d", ""},
-    {VERB_SOLVE, IDS(OPTION_FOR), "mapping", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -F d24", ""},
-    {VERB_SOLVE, IDS(OPTION_NEAR), "0.1", "solve --for far -F d24 -m d3d --separation 0.01 --at 50 --csv", ""},
-    {VERB_SOLVE, IDS(OPTION_FORMAT), "all", "solve -m d3d --separation 0.01 --at 50", ""},
-    {VERB_SOLVE, IDS(OPTION_MAPPING), "all", "solve -F d24 --separation 0.01 --at 50", ""},
-    {VERB_SOLVE, IDS(OPTION_RANGE), "0.1:1000", "solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01",
+    {ALL & ~(unsigned)CMD_TEXTURE, IDS(OPTION_OUTPUT), "-", NULL, ""},
+    {CMD_TEXTURE, IDS(OPTION_OUTPUT), "-", NULL, "--csv"},
+    {ALL & ~(unsigned)CMD_PLOT, IDS(OPTION_THREADS), "1", NULL, ""},
+    {CMD_PLOT, IDS(OPTION_THREADS), "1", "plot scene tests/models/street.obj --separation 0.02 --csv", ""},
+    {CMD_TABLE, IDS(OPTION_AT), "0.1:1000:log:9", "table -F d24 -m d3d", ""},
+    {CMD_TABLE, IDS(OPTION_AT), "0.1:1e5:log:9", "table -F d24 -m d3d -f inf", ""},
+    {CMD_TABLE, IDS(OPTION_AT), "-3:7:lin:9", "table -F d24 -m d3d --ortho -n -3 -f 7", ""},
+    {CMD_TABLE, IDS(OPTION_AT), "0.1,1,10,100,1000", NULL, ""},
+    {CMD_TABLE, IDS(OPTION_AT), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
+    {CMD_BUDGET | CMD_BIAS, IDS(OPTION_AT), "0.1:1000:log:9", NULL, ""},
+    {CMD_TEXTURE, IDS(OPTION_AT), "0.1:1000:log:9", "texture --product effect:fog -F d16 -m d3d", ""},
+    {CMD_WORLD, IDS(OPTION_AT), "10", NULL, ""},
+    {CMD_WORLD, IDS(OPTION_AT), "10m", NULL, "--unit cm"},
+    {CMD_WORLD, IDS(OPTION_SEPARATION), "0.01", NULL, ""},
+    {CMD_WORLD, IDS(OPTION_SEPARATION), "1cm", NULL, "--unit m"},
+    {CMD_SOLVE, IDS(OPTION_FAR), "inf", NULL, "--csv"},
+    {CMD_SOLVE, IDS(OPTION_FOR), "near", NULL, ""},
+    {CMD_SOLVE, IDS(OPTION_FOR), "far", "solve -n 0.1 --separation 0.01 --at 50 -F d24 -m d3d", ""},
+    {CMD_SOLVE, IDS(OPTION_FOR), "format", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -m d3d", ""},
+    {CMD_SOLVE, IDS(OPTION_FOR), "mapping", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -F d24", ""},
+    {CMD_SOLVE, IDS(OPTION_NEAR), "0.1", "solve --for far -F d24 -m d3d --separation 0.01 --at 50 --csv", ""},
+    {CMD_SOLVE, IDS(OPTION_FORMAT), "all", "solve -m d3d --separation 0.01 --at 50", ""},
+    {CMD_SOLVE, IDS(OPTION_MAPPING), "all", "solve -F d24 --separation 0.01 --at 50", ""},
+    {CMD_SOLVE, IDS(OPTION_RANGE), "0.1:1000", "solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01",
      ""},
-    {VERB_METHODS, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
-    {VERB_METHODS, IDS(OPTION_MAPPING), "d3d", NULL, ""},
-    {VERB_TEXTURE, IDS(OPTION_FORMAT), "unorm24", NULL, "--pixel 9,9 --csv"},
-    {VERB_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --product effect:fog", ""},
-    {VERB_TEXTURE, IDS(OPTION_MAPPING), "d3d", NULL, "--pixel 9,9 --csv"},
-    {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
-    {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
-    {VERB_PREPASS, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
-    {VERB_ZFIGHT, IDS(OPTION_RANGE), "1:1.0078125", "zfight -n 1 -f 1.0078125 -F d24 -m d3d --csv", ""},
-    {VERB_BUDGET, IDS(OPTION_SCHEME), "absolute", NULL, "--from-origin 100"},
-    {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
-    {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot shadow --csv", ""},
-    {VERB_SCENE, IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --eye 0,2,30 --look 0,2,0", ""},
-    {VERB_ZFIGHT, IDS(OPTION_VIEWPORT), "1920x1080", "zfight -F fp32 -m d3d --rasterize --sample 20", ""},
-    {ALL & ~(unsigned)VERB_SOLVE, IDS(OPTION_UNIT), "m", NULL, "-n 10cm"},
-    {VERB_SOLVE, IDS(OPTION_UNIT), "m", "solve --for far -n 10cm -F d24 -m d3d --separation 0.01 --at 50", ""},
-    {VERB_WORLD | VERB_TABLE | VERB_BUDGET, IDS(OPTION_UNIT), "cm", NULL, "--preset unreal"},
+    {CMD_METHODS, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
+    {CMD_METHODS, IDS(OPTION_MAPPING), "d3d", NULL, ""},
+    {CMD_TEXTURE, IDS(OPTION_FORMAT), "unorm24", NULL, "--pixel 9,9 --csv"},
+    {CMD_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --product effect:fog", ""},
+    {CMD_TEXTURE, IDS(OPTION_MAPPING), "d3d", NULL, "--pixel 9,9 --csv"},
+    {CMD_PLOT, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
+    {CMD_PLOT, IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
+    {CMD_PREPASS, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
+    {CMD_ZFIGHT, IDS(OPTION_RANGE), "1:1.0078125", "zfight -n 1 -f 1.0078125 -F d24 -m d3d --csv", ""},
+    {CMD_BUDGET, IDS(OPTION_SCHEME), "absolute", NULL, "--from-origin 100"},
+    {CMD_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
+    {CMD_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot shadow --csv", ""},
+    {CMD_SCENE, IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --eye 0,2,30 --look 0,2,0", ""},
+    {CMD_ZFIGHT, IDS(OPTION_VIEWPORT), "1920x1080", "zfight -F fp32 -m d3d --rasterize --sample 20", ""},
+    {ALL & ~(unsigned)CMD_SOLVE, IDS(OPTION_UNIT), "m", NULL, "-n 10cm"},
+    {CMD_SOLVE, IDS(OPTION_UNIT), "m", "solve --for far -n 10cm -F d24 -m d3d --separation 0.01 --at 50", ""},
+    {CMD_WORLD | CMD_TABLE | CMD_BUDGET, IDS(OPTION_UNIT), "cm", NULL, "--preset unreal"},
     /* what no value means */
     {ALL, IDS(OPTION_ORTHO, OPTION_SHARE, OPTION_HFOV, OPTION_MATRIX, OPTION_LIGHT_BOX, OPTION_CURVATURE), NULL, NULL,
      ""},
     {ALL, IDS(OPTION_WIDTH, OPTION_HEIGHT, OPTION_RASTER, OPTION_CHANNEL, OPTION_DEVICE), NULL, NULL, ""},
     {ALL, IDS(OPTION_EYE, OPTION_LOOK, OPTION_LAST_EYE, OPTION_LAST_LOOK, OPTION_SAMPLE), NULL, NULL, ""},
     {ALL, IDS(OPTION_TOLERANCE, OPTION_WITHIN, OPTION_UNITS), NULL, NULL, ""},
-    {VERB_ZFIGHT | VERB_BIAS | VERB_PLOT | VERB_SCENE, IDS(OPTION_SEPARATION), NULL, NULL, ""},
-    {VERB_TABLE | VERB_BIAS | VERB_SHADOW, IDS(OPTION_RANGE), NULL, NULL, ""}, /* given, more is said of it */
-    {VERB_TABLE | VERB_BUDGET | VERB_BIAS | VERB_SOLVE, IDS(OPTION_VIEWPORT), NULL, NULL, ""},
-    {VERB_ZFIGHT, IDS(OPTION_PLANE), NULL, NULL, ""},
-    {VERB_TEXTURE, IDS(OPTION_NORMALS_BY), NULL, NULL, ""},
-    {VERB_WORLD, IDS(OPTION_FROM_ORIGIN), NULL, NULL, ""},
+    {CMD_ZFIGHT | CMD_BIAS | CMD_PLOT | CMD_SCENE, IDS(OPTION_SEPARATION), NULL, NULL, ""},
+    {CMD_TABLE | CMD_BIAS | CMD_SHADOW, IDS(OPTION_RANGE), NULL, NULL, ""}, /* given, more is said of it */
+    {CMD_TABLE | CMD_BUDGET | CMD_BIAS | CMD_SOLVE, IDS(OPTION_VIEWPORT), NULL, NULL, ""},
+    {CMD_ZFIGHT, IDS(OPTION_PLANE), NULL, NULL, ""},
+    {CMD_TEXTURE, IDS(OPTION_NORMALS_BY), NULL, NULL, ""},
+    {CMD_WORLD, IDS(OPTION_FROM_ORIGIN), NULL, NULL, ""},
 };
 
 /* What a command takes where nothing was said and help spells it out; of two rows the first holds. */
@@ -142,22 +142,22 @@ static const struct {
     const char *value;
 } spelled[] = {
     {OPTION_NEAR, ALL, "0.1"},
-    {OPTION_FAR, VERB_WORLD, "inf"},
+    {OPTION_FAR, CMD_WORLD, "inf"},
     {OPTION_FAR, ALL, "1000"},
-    {OPTION_FORMAT, VERB_BIAS, "fp32,unorm16,unorm24"},
-    {OPTION_FORMAT, VERB_WORLD | VERB_SCENE | VERB_SHADOW, "fp32"},
+    {OPTION_FORMAT, CMD_BIAS, "fp32,unorm16,unorm24"},
+    {OPTION_FORMAT, CMD_WORLD | CMD_SCENE | CMD_SHADOW, "fp32"},
     {OPTION_FORMAT, ALL, "all"},
-    {OPTION_MAPPING, VERB_SHADOW, "d3d"},
-    {OPTION_MAPPING, VERB_WORLD | VERB_SCENE, "reversed"},
+    {OPTION_MAPPING, CMD_SHADOW, "d3d"},
+    {OPTION_MAPPING, CMD_WORLD | CMD_SCENE, "reversed"},
     {OPTION_MAPPING, ALL, "all"},
     {OPTION_LOG_C, ALL, "1"},
     {OPTION_ROUNDING, ALL, "nearest"},
-    {OPTION_MODEL, VERB_SOLVE, "float"},
+    {OPTION_MODEL, CMD_SOLVE, "float"},
     {OPTION_MODEL, ALL, "exact"},
     {OPTION_ARITH, ALL, "ieee"},
     {OPTION_TOLERANCE, ALL, "5%"},
     {OPTION_INTERPOLATION, ALL, "0"},
-    {OPTION_FROM_ORIGIN, VERB_PREPASS, "100"},
+    {OPTION_FROM_ORIGIN, CMD_PREPASS, "100"},
     {OPTION_FROM_ORIGIN, ALL, "0"},
     {OPTION_COMPOSITION, ALL, "once"},
     {OPTION_SCHEME, ALL, "all"},
@@ -173,7 +173,7 @@ static const struct {
     {OPTION_LAMBDA, ALL, "0.5"},
     {OPTION_CASTERS, ALL, "100"},
     {OPTION_KERNEL, ALL, "3"},
-    {OPTION_ANGLE, VERB_SCENE, "1"},
+    {OPTION_ANGLE, CMD_SCENE, "1"},
     {OPTION_ANGLE, ALL, "75"},
     {OPTION_FACET, ALL, "0"},
     {OPTION_API, ALL, "d3d11"},
@@ -188,14 +188,14 @@ static const struct {
     {OPTION_TRANSFORMS, ALL, "exact"},
     {OPTION_HALF_HEIGHT, ALL, "5"},
     {OPTION_EYE, ALL, "0,0,0"},
-    {OPTION_SIZE, VERB_TEXTURE, "640x360"},
+    {OPTION_SIZE, CMD_TEXTURE, "640x360"},
     {OPTION_SIZE, ALL, "2048x2048"},
     {OPTION_SKY, ALL, "0.0001"},
     {OPTION_REPORT, ALL, "text"},
     {OPTION_COLOR, ALL, "auto"},
 };
 
-static const char *spelled_of(option_id id, const verb *v) {
+static const char *spelled_of(option_id id, const command_row *v) {
     for (size_t i = 0; i < sizeof spelled / sizeof spelled[0]; i++)
         if (spelled[i].id == id && (spelled[i].verbs & v->bit) != 0)
             return spelled[i].value;
@@ -209,7 +209,7 @@ static bool among(const option_id *ids, option_id id) {
     return *ids == id;
 }
 
-static const char *line_of_verb(const verb *v) {
+static const char *line_of_verb(const command_row *v) {
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         if (lines[i].verb == v->bit)
             return lines[i].line;
@@ -217,7 +217,7 @@ static const char *line_of_verb(const verb *v) {
     return NULL;
 }
 
-static void line_of(const verb *v, option_id id, char out[256]) {
+static void line_of(const command_row *v, option_id id, char out[256]) {
     const char *line = line_of_verb(v), *more = "";
     for (size_t i = 0; i < sizeof besides / sizeof besides[0]; i++)
         if ((besides[i].verbs & v->bit) != 0 && among(besides[i].ids, id)) {
@@ -242,9 +242,9 @@ static void keep_setup(char *text) {
     json_decref(root);
 }
 
-static void same_with(tally *t, const verb *v, const char *line, const option_row *row, const char *value) {
+static void same_with(tally *t, const command_row *v, const char *line, const option_row *row, const char *value) {
     printed without = print_of("%s", line), with = print_of("%s --%s %s", line, row->name, value);
-    if (v->bit == VERB_METHODS) {
+    if (v->bit == CMD_METHODS) {
         keep_setup(without.out);
         keep_setup(with.out);
     }
@@ -259,14 +259,14 @@ static void test_spelled_out(void **state) {
     tally t = {.name = "defaults"};
     int tried = 0;
     (void)state;
-    for (size_t i = 0; i < verb_count; i++)
+    for (size_t i = 0; i < command_count; i++)
         for (int id = 0; id < OPTION_COUNT; id++) {
-            const verb *v = &verb_rows[i];
+            const command_row *v = &command_rows[i];
             const option_row *row = &option_rows[id];
             const struct option_exception *e = option_exception_of(row, v);
             const char *standard = e != NULL ? e->standard : row->standard;
             if ((row->commands & v->bit) == 0 || standard == NULL || id == OPTION_THEME || id == OPTION_TYPE ||
-                id == OPTION_NORMAL_FORMAT || v->bit == VERB_PROBE)
+                id == OPTION_NORMAL_FORMAT || v->bit == CMD_PROBE)
                 /* test_png_out, cli/web.txt and probe.sh have these */
                 continue;
             char line[256];
@@ -285,9 +285,9 @@ static void test_spelled_out(void **state) {
 static void test_in_words(void **state) {
     tally t = {.name = "defaults in words"};
     (void)state;
-    for (size_t i = 0; i < verb_count; i++)
+    for (size_t i = 0; i < command_count; i++)
         for (int id = 0; id < OPTION_COUNT; id++) {
-            const verb *v = &verb_rows[i];
+            const command_row *v = &command_rows[i];
             const option_row *row = &option_rows[id];
             const struct option_exception *e = option_exception_of(row, v);
             const bool told =
@@ -298,7 +298,7 @@ static void test_in_words(void **state) {
                 if ((meant[k].verbs & v->bit) == 0 || !among(meant[k].ids, (option_id)id))
                     continue;
                 found++;
-                if (meant[k].value == NULL || v->bit == VERB_PROBE)
+                if (meant[k].value == NULL || v->bit == CMD_PROBE)
                     continue;
                 snprintf(line, sizeof line, "%s %s", meant[k].line != NULL ? meant[k].line : line_of_verb(v),
                          meant[k].more);

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "need/distance.h"
+#include "requirement/distance.h"
 #include "support.h"
 
 typedef struct question {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/mesh.h"
+#include "raster/mesh.h"
 #include "raster_named.h"
 
 static const double pi = 3.14159265358979323846;

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "draw/fight.h"
+#include "raster/fight.h"
 #include "support.h"
 
 static const double pi = 3.14159265358979323846;

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "drawn.h"
+#include "image/image.h"
 #include "support.h"
-#include "texture/image.h"
 
 enum { BINS = 96 };
 

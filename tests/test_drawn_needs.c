@@ -8,10 +8,10 @@
 
 #include "drawn.h"
 #include "drawn_truth.h"
+#include "frame/normal_errors.h"
 #include "named.h"
 #include "plot/figure.h"
 #include "support.h"
-#include "texture/normal_measure.h"
 
 /* ---- Requirements ------------------------------------------------------------------------------------------------ */
 

@@ -7,8 +7,8 @@
 
 #include "drawn.h"
 #include "drawn_map.h"
+#include "image/image.h"
 #include "support.h"
-#include "texture/image.h"
 
 enum { FEW = 4096 }; /* below so many fields each is a rectangle */
 

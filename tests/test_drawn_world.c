@@ -57,7 +57,7 @@ static void check_figure(const char *options, const char *format, const char *ma
     spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     const world_asked a = {
-        .setup = &setup, .z = z, .lean = hypot(1.0, half * hypot(1.0, 1920.0 / 1080.0)), .pixels = 540.0 / half};
+        .setup = &setup, .z = z, .ray_ratio = hypot(1.0, half * hypot(1.0, 1920.0 / 1080.0)), .pixels = 540.0 / half};
     drawn *d = drawn_run(&drawn_light, "plot world %s", options);
     assert_int_equal(d->panel_count, 2);
     char said[256];

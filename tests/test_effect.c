@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "named.h"
+#include "shader/effect.h"
 #include "support.h"
-#include "texture/effect.h"
 
 static size_t count(void) {
     size_t rows = 0;
@@ -297,7 +297,7 @@ static void test_by_hand(void **state) {
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
         const effect_row *row = effect_find(h->name);
         const texture_parameter *wanted = &row->parameters[row->wanted];
-        double p[TEXTURE_PARAMETERS];
+        double p[PARAMETERS_MAX];
         parameters_of(row, p);
         const double levels = rng_log(&r, 0.01, 100);
         const long double usable = h->usable(&at.c, at.k, (long double)levels / 255);
@@ -333,7 +333,7 @@ static void test_sharp(void **state) {
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
         const effect_row *row = effect_find(h->name);
         const texture_parameter *wanted = &row->parameters[row->wanted];
-        double p[TEXTURE_PARAMETERS];
+        double p[PARAMETERS_MAX];
         parameters_of(row, p);
         const double levels = rng_log(&r, 0.01, 100);
         const double usable = effect_usable(row, &at.view, p, at.z, levels);
@@ -384,7 +384,7 @@ static void test_outputs(void **state) {
         for (size_t i = 0; i < count(); i++) {
             const effect_row *row = effect_get(i);
             const cell k = cell_of(&c, code);
-            double p[TEXTURE_PARAMETERS], worst = 0;
+            double p[PARAMETERS_MAX], worst = 0;
             if (row->kind == EFFECT_STEP)
                 continue;
             parameters_of(row, p);
@@ -427,7 +427,7 @@ static void test_edge(void **state) {
         place at;
         any_place(&r, 1.5, &at);
         const double slope = rng_below(&r, 8) == 0 ? 0 : (double)(at.k.hi - at.k.lo) * rng_log(&r, 0.05, 20);
-        double p[TEXTURE_PARAMETERS] = {0, slope};
+        double p[PARAMETERS_MAX] = {0, slope};
         if (at.k.hi + (long double)slope > at.c.f) {
             t.skipped++;
             continue;
@@ -512,7 +512,7 @@ static void test_steps(void **state) {
         const effect_row *row = effect_find(s->name);
         const double slope = (double)(at.k.hi - at.k.lo) * rng_log(&r, 0.05, 20);
         long double other[1] = {(long double)(slope * rng_log(&r, 0.01, 0.2))};
-        double p[TEXTURE_PARAMETERS];
+        double p[PARAMETERS_MAX];
         if (at.k.hi + (long double)slope > at.c.f) {
             t.skipped++;
             continue;
@@ -564,7 +564,7 @@ static void test_range_check(void **state) {
     const dp_setup setup = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     const effect_view view = view_of(&setup);
     const effect_row *row = effect_find("ambient-occlusion");
-    double p[TEXTURE_PARAMETERS];
+    double p[PARAMETERS_MAX];
     (void)state;
     parameter_defaults(row->parameters, p);
     const int radius = parameter_find(row->parameters, "radius"), slope = parameter_find(row->parameters, "slope");
@@ -590,7 +590,7 @@ static void test_shadow(void **state) {
         place at;
         any_place(&r, 1, &at);
         const double slope = rng_below(&r, 6) == 0 ? 0 : (double)(at.k.hi - at.k.lo) * rng_log(&r, 0.1, 10);
-        double p[TEXTURE_PARAMETERS];
+        double p[PARAMETERS_MAX];
         parameter_defaults(row->parameters, p);
         p[parameter_find(row->parameters, "slope")] = slope;
         const long double want = at.k.hi - at.k.stored + (long double)slope / 2;
@@ -643,12 +643,12 @@ static void test_rows(void **state) {
             assert_true(p->lo <= p->value && p->value <= p->hi && p->unit[0] != '\0' && p->note[0] != '\0');
             assert_int_equal(parameter_find(row->parameters, p->name), parameters);
         }
-        assert_true(parameters >= 1 && parameters <= TEXTURE_PARAMETERS && row->wanted < parameters);
+        assert_true(parameters >= 1 && parameters <= PARAMETERS_MAX && row->wanted < parameters);
         assert_true(effect_find(names[i])->parameters[effect_find(names[i])->wanted].value == wanted[i]);
         /* What needs z/far says so. */
         const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_REVERSED, "fp32");
         const effect_view view = view_of(&infinite);
-        double p[TEXTURE_PARAMETERS];
+        double p[PARAMETERS_MAX];
         parameter_defaults(row->parameters, p);
         assert_true(effect_applies(row, &infinite) != row->eye01);
         assert_true((isnan(effect_error(row, &view, p, 10)) != 0) == row->eye01);
@@ -664,7 +664,7 @@ static void test_limits(void **state) {
     const dp_setup finite = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     dp_setup pipeline = finite;
     effect_view at = view_of(&infinite), near = view_of(&finite), level = view_of(&finite);
-    double p[TEXTURE_PARAMETERS];
+    double p[PARAMETERS_MAX];
     (void)state;
     /* The last cell of an infinite far plane has no end: no distance is enough, but 1/z stays where it is. */
     parameter_defaults(effect_find("intersection")->parameters, p);
@@ -723,7 +723,7 @@ static void test_step_limits(void **state) {
     const dp_setup finite = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     const effect_view near = view_of(&finite);
     const effect_row *edge = effect_find("edge"), *shadow = effect_find("shadow");
-    double p[TEXTURE_PARAMETERS];
+    double p[PARAMETERS_MAX];
     (void)state;
     /* A plane whose second pixel lies beyond the far plane is not seen there. */
     parameter_defaults(edge->parameters, p);

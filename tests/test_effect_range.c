@@ -81,7 +81,7 @@ static bool check_ceiling(tally *t, const effect_row *row, const effect_view *vi
                           double ceiling) {
     const int bias = parameter_find(row->parameters, "bias"), radius = parameter_find(row->parameters, "radius");
     const bool all = ceiling == row->parameters[radius].hi;
-    double p[TEXTURE_PARAMETERS];
+    double p[PARAMETERS_MAX];
     memcpy(p, given, sizeof p);
     p[radius] = ceiling;
     TALLY(t, effect_error(row, view, p, z) == 0, "z %a bias %a: not up to %a", z, p[bias], ceiling);
@@ -108,7 +108,7 @@ static void test_range(void **state) {
         const long double width = eye_of(&c, steps + 0.5L) - eye_of(&c, steps - 0.5L);
         const double slope = rng_below(&r, 6) == 0 ? 0 : (double)width * rng_log(&r, 0.05, 30);
         const double z = (double)eye_of(&c, steps);
-        double p[TEXTURE_PARAMETERS];
+        double p[PARAMETERS_MAX];
         const int count = differences_of(&c, steps, (long double)slope, apart);
         if (count == 0 || eye_of(&c, steps - 0.5L) < c.n) {
             t.skipped++;
@@ -158,7 +158,7 @@ static void test_without(void **state) {
     dp_setup setup;
     const effect_row *row = effect_find("ambient-occlusion");
     const effect_view view = {.setup = &setup};
-    double p[TEXTURE_PARAMETERS];
+    double p[PARAMETERS_MAX];
     (void)state;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     parameter_defaults(effect_find("edge")->parameters, p);

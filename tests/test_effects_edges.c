@@ -25,7 +25,7 @@ static void test_edges(void **state) {
     (void)state;
     for (uint64_t i = 0; i < test_cases(40, 100, 10000); i++) {
         stage s;
-        double at[TEXTURE_PARAMETERS];
+        double at[PARAMETERS_MAX];
         const int away = 1 + (int)rng_below(&r, 4);
         const double threshold = rng_below(&r, 2) == 0 ? 0.2 : rng_uniform(&r, 0.0005, 0.003);
         stage_make(&s);
@@ -69,7 +69,7 @@ static void test_edges(void **state) {
 static void test_sky(void **state) {
     static float got[PIXELS], off[PIXELS];
     stage s;
-    double at[TEXTURE_PARAMETERS];
+    double at[PARAMETERS_MAX];
     (void)state;
     stage_make(&s);
     parameter_defaults(effect_find("edge")->parameters, at);
@@ -94,7 +94,7 @@ static void test_occlusion(void **state) {
     (void)state;
     for (uint64_t i = 0; i < test_cases(40, 100, 10000); i++) {
         stage s;
-        double at[TEXTURE_PARAMETERS];
+        double at[PARAMETERS_MAX];
         const int away = 1 + (int)rng_below(&r, 4);
         stage_make(&s);
         stage_draw(&r, &s);
@@ -137,7 +137,7 @@ static void test_refraction(void **state) {
     static float got[PIXELS], off[PIXELS];
     const double surface = 20, density = 0.05;
     stage s;
-    double at[TEXTURE_PARAMETERS];
+    double at[PARAMETERS_MAX];
     int shifted = 0;
     (void)state;
     stage_make(&s);
@@ -167,8 +167,8 @@ static void test_refraction(void **state) {
 static void test_refracted_scene(void **state) {
     static float got[PIXELS], off[PIXELS];
     const double surface = 4.2, density = 0.3, distance = 8, radius = 4;
-    const double parameters[TEXTURE_PARAMETERS] = {distance, radius, 0};
-    double at[TEXTURE_PARAMETERS], z[PIXELS], ray[PIXELS];
+    const double parameters[PARAMETERS_MAX] = {distance, radius, 0};
+    double at[PARAMETERS_MAX], z[PIXELS], ray[PIXELS];
     stage s;
     int shifted = 0;
     (void)state;
@@ -226,7 +226,7 @@ static void test_refraction_unsure(void **state) {
     static float off[PIXELS];
     rng r = rng_make("refraction unsure");
     tally t = {.name = "where it may look at either"};
-    double at[TEXTURE_PARAMETERS], largest = 0;
+    double at[PARAMETERS_MAX], largest = 0;
     stage s;
     (void)state;
     stage_make(&s);

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame/normals.h"
 #include "stage.h"
 #include "synthetic_stage.h"
-#include "texture/frame_normals.h"
 
 /* ---- Outlines ---------------------------------------------------------------------------------------------------- */
 
@@ -17,9 +17,9 @@
 static void test_outlines(void **state) {
     static float got[PIXELS], off[PIXELS];
     const double distance = 8, radius = 4, depth_sensitivity = 2, normal_sensitivity = 0.25;
-    const double parameters[TEXTURE_PARAMETERS] = {distance, radius, 0};
+    const double parameters[PARAMETERS_MAX] = {distance, radius, 0};
     stage s;
-    double at[TEXTURE_PARAMETERS], normal[PIXELS][2], z[PIXELS];
+    double at[PARAMETERS_MAX], normal[PIXELS][2], z[PIXELS];
     int edges = 0, by_normals = 0;
     (void)state;
     stage_make(&s);
@@ -138,7 +138,7 @@ static void test_outlines_of_images(void **state) {
     for (uint64_t i = 0; i < test_cases(40, 200, 4000); i++) {
         const frame_normals normals = {.texels = texels, .truncated = rng_below(&r, 3) == 0};
         stage s;
-        double at[TEXTURE_PARAMETERS];
+        double at[PARAMETERS_MAX];
         stage_make(&s);
         stage_draw(&r, &s);
         s.frame.normals = &normals;
@@ -189,7 +189,7 @@ static void test_outlines_of_images(void **state) {
 static void test_outlines_by_depth(void **state) {
     static float got[PIXELS], off[PIXELS];
     const double lean = 0.6;
-    double at[TEXTURE_PARAMETERS];
+    double at[PARAMETERS_MAX];
     frame_normals normals;
     stage s;
     (void)state;
@@ -235,7 +235,7 @@ static void test_outlines_of_doubtful_normals(void **state) {
     static uint16_t degrees[PIXELS];
     static uint8_t texels[2 * PIXELS];
     const frame_normals normals = {.texels = texels, .off = degrees};
-    double at[TEXTURE_PARAMETERS];
+    double at[PARAMETERS_MAX];
     stage s;
     (void)state;
     stage_make(&s);

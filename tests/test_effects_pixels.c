@@ -5,9 +5,9 @@
  */
 #include <string.h>
 
+#include "frame/frame.h"
 #include "named.h"
 #include "support.h"
-#include "texture/frame.h"
 
 enum { ACROSS = 7, DOWN = 9, PIXELS = ACROSS * DOWN, CODE_MAX = 65535 };
 
@@ -203,7 +203,7 @@ static const struct {
 };
 enum { EFFECTS = sizeof effects / sizeof effects[0] };
 
-static void settings_of(const effect_row *row, const char *text, double out[TEXTURE_PARAMETERS]) {
+static void settings_of(const effect_row *row, const char *text, double out[PARAMETERS_MAX]) {
     char name[32];
     double value;
     int used;
@@ -275,7 +275,7 @@ static bool keep(void *context, uint32_t row, uint32_t count, const float *value
 
 static void make(const stage *s, const frame *f, size_t effect, bool error, float out[PIXELS]) {
     const effect_row *row = effect_find(effects[effect].name);
-    double at[TEXTURE_PARAMETERS];
+    double at[PARAMETERS_MAX];
     settings_of(row, effects[effect].parameters, at);
     assert_true(row->given == effects[effect].compares);
     const frame_product p = {.kind = FRAME_EFFECT,
@@ -313,7 +313,7 @@ static void test_deepest(void **state) {
     rng r = rng_make("inside decals");
     tally t = {.name = "inside decals"};
     uint64_t within = 0;
-    double p[TEXTURE_PARAMETERS];
+    double p[PARAMETERS_MAX];
     (void)state;
     for (size_t e = 0; e < EFFECTS; e++)
         if (effects[e].of == decal)
@@ -430,7 +430,7 @@ static void test_scenes(void **state) {
     (void)state;
     for (uint64_t i = 0; i < test_cases(200, 1000, 30000); i++) {
         const size_t e = (size_t)(i % EFFECTS);
-        const double parameters[TEXTURE_PARAMETERS] = {distance, tilt, 0};
+        const double parameters[PARAMETERS_MAX] = {distance, tilt, 0};
         stage s;
         stage_any(&r, &s);
         const frame f = {.camera = &s.camera,
@@ -481,7 +481,7 @@ static void test_velocity(void **state) {
         assert_null(camera_init(&last, &setup, &view));
         const effect_view seen = effect_view_of(&now, &last, 17, 30);
         const effect_row *row = effect_find("motion-blur");
-        const double strength[TEXTURE_PARAMETERS] = {1};
+        const double strength[PARAMETERS_MAX] = {1};
         assert_relative(row->output(&seen, strength, 10, 0), pictures[i].velocity, 1e-12);
     }
 }
@@ -490,7 +490,7 @@ static void test_velocity(void **state) {
 static void test_camera_height(void **state) {
     const effect_row *row = effect_find("height-fog");
     const double heights[] = {0, 50, 200};
-    double p[TEXTURE_PARAMETERS], seen[3];
+    double p[PARAMETERS_MAX], seen[3];
     (void)state;
     settings_of(row, "density=1 start=100 end=-100", p);
     for (size_t i = 0; i < 3; i++) {

@@ -9,8 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "image/image.h"
 #include "printed.h"
-#include "texture/image.h"
 
 enum { WIDTH = 2400, HEIGHT = 1350 };
 

@@ -5,18 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame/normal_errors.h"
+#include "frame/survey.h"
 #include "named.h"
 #include "support.h"
 #include "synthetic_stage.h"
-#include "texture/normal_measure.h"
-#include "texture/survey.h"
 
 /* Three strips, the last one shorter. */
 enum { WIDTH = 2100, HEIGHT = 260, PIXELS = WIDTH * HEIGHT };
 
 /* One of each. */
 enum { PRODUCTS = 14 };
-static double settings[TEXTURE_PARAMETERS];
+static double settings[PARAMETERS_MAX];
 
 static size_t products(frame_product out[PRODUCTS]) {
     const effect_row *effect = effect_find("intersection");
@@ -304,7 +304,7 @@ static void an_edge_on_either_diagonal_is_one(void **state) {
                  {{{10, 10}, {60, 10}}, 1}, {{{60, 10}, {10, 10}}, 1}, {{{10, 10}, {60, 60}}, 1}};
     (void)state;
     const effect_row *edge = effect_find("edge");
-    double at[TEXTURE_PARAMETERS];
+    double at[PARAMETERS_MAX];
     parameter_defaults(edge->parameters, at);
     at[0] = 0.03; /* of far, 1000: 30 */
     for (size_t k = 0; k < sizeof quads / sizeof quads[0]; k++) {

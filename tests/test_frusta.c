@@ -5,7 +5,7 @@
  */
 #include <math.h>
 
-#include "need/frusta.h"
+#include "requirement/frusta.h"
 #include "support.h"
 
 enum { GRID = 600 };

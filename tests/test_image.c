@@ -6,10 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "frame/recognise.h"
 #include "handmade.h"
+#include "image/image.h"
 #include "support.h"
-#include "texture/image.h"
-#include "texture/recognise.h"
 
 static bool parse(const handmade *h, image *out, image_error *error) {
     memset(error, 0x55, sizeof *error);

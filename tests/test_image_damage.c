@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "handmade.h"
+#include "image/image.h"
 #include "support.h"
-#include "texture/image.h"
 
 static bool parse(const unsigned char *bytes, size_t size, image *out, image_error *error) {
     memset(error, 0x55, sizeof *error);

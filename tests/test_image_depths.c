@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame/image_depths.h"
 #include "oracle.h"
 #include "support.h"
-#include "texture/image_depths.h"
 
 enum { WIDTH = 3001, HEIGHT = 3, SAMPLES = WIDTH * HEIGHT };
 

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/image.h"
 #include "printed.h"
 #include "support.h"
-#include "texture/image.h"
 
 /* `words` of each pixel, the lowest byte first. */
 static const char *write_raw(const char *name, uint32_t pixels, uint32_t bytes, uint64_t (*pixel)(uint32_t)) {

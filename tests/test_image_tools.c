@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "handmade.h"
-#include "opened/library.h"
+#include "image/image.h"
 #include "printed.h"
-#include "texture/image.h"
+#include "system/dynload.h"
 
 enum { ACROSS = 23, DOWN = 11, ALL = ACROSS * DOWN };
 
@@ -390,12 +390,12 @@ static void missing_libraries(void **state) {
     static const char *const symbols[] = {"exit", "no_such_function_of_it", NULL};
     const library absent = {"EXR", {"libnothing-of-that-name.so.7", NULL}, "libnothing7", symbols};
     const library present = {"EXR", {"libnothing-of-that-name.so.7", "libc.so.6", NULL}, "libc6", symbols};
-    char error[LIBRARY_ERROR_SIZE];
-    library_function *found[2];
-    assert_false(library_open(&absent, found, error));
+    char error[DYNLOAD_ERROR_SIZE];
+    dynload_function *found[2];
+    assert_false(dynload_open(&absent, found, error));
     assert_string_equal(error, "EXR is read by a library that is not there, libnothing-of-that-name.so.7: Debian's "
                                "package libnothing7 has it");
-    assert_false(library_open(&present, found, error));
+    assert_false(dynload_open(&present, found, error));
     assert_string_equal(error, "EXR: libnothing-of-that-name.so.7 has no no_such_function_of_it");
 }
 

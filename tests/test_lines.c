@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/option_rows.h"
+#include "cli/option/rows.h"
 #include "parsed.h"
 #include "support.h"
 
@@ -196,13 +196,13 @@ static void test_twice(void **state) {
     tally t = {.name = "twice"};
     (void)state;
     for (int id = 0; id < OPTION_COUNT; id++)
-        for (size_t v = 0; v < verb_count && examples[id] != NULL; v++) {
+        for (size_t v = 0; v < command_count && examples[id] != NULL; v++) {
             char words[256], line[1024], expected[128];
             options o;
-            if ((option_rows[id].commands & verb_rows[v].bit) == 0)
+            if ((option_rows[id].commands & command_rows[v].bit) == 0)
                 continue;
             const char *name = option_rows[id].name, *value = examples[id];
-            snprintf(words, sizeof words, "%s|--%s|%s|--%s=%s", verb_rows[v].name, name, value, name, value);
+            snprintf(words, sizeof words, "%s|--%s|%s|--%s=%s", command_rows[v].name, name, value, name, value);
             snprintf(expected, sizeof expected, "depthprec: --%s: must not be given twice, got '%s' too", name, value);
             TALLY(&t, parse_line(&o, words, line) == EXIT_USAGE && strcmp(line, expected) == 0, "%s: %s", words, line);
             options_release(&o);
@@ -239,8 +239,8 @@ static void test_order(void **state) {
         options o;
         const int status = parse_line(&o, rows[i].words, line);
         TALLY(&t, (status == EXIT_FINE) == (rows[i].command != NULL), "%s: %d, %s", rows[i].words, status, line);
-        TALLY(&t, rows[i].command == NULL || strcmp(o.verb->name, rows[i].command) == 0, "%s: %s", rows[i].words,
-              o.verb->name);
+        TALLY(&t, rows[i].command == NULL || strcmp(o.command->name, rows[i].command) == 0, "%s: %s", rows[i].words,
+              o.command->name);
         TALLY(&t,
               rows[i].operand == NULL ? status != EXIT_FINE || o.operand_count == 0
                                       : o.operand_count == 1 && strcmp(o.operands[0], rows[i].operand) == 0,

@@ -12,7 +12,7 @@
 #include <mpfr.h>
 
 #include "depthprec/depthprec.h"
-#include "need/judge.h"
+#include "requirement/judge.h"
 #include "support.h"
 
 enum { BITS = 256, RULES = 3 };

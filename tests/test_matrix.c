@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/image.h"
 #include "oracle.h"
 #include "printed.h"
-#include "texture/image.h"
 
 enum { ACROSS = 7, DOWN = 5, ALL = ACROSS * DOWN };
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "need/check.h"
+#include "requirement/check.h"
 #include "support.h"
 
 static const char *const plain = "near = 0.5; far = 3000; mapping = \"reversed\"; format = \"fp32\";";

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame/normal_errors.h"
 #include "named.h"
-#include "texture/normal_measure.h"
 #include "views.h"
 
 static const double PI = 3.14159265358979323846;

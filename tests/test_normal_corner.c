@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "named.h"
-#include "texture/normal_corner.h"
+#include "shader/normal_corner.h"
 #include "views.h"
 
 enum { SIDE = 9, MIDDLE = 4 };

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/option_rows.h"
+#include "cli/option/rows.h"
 #include "parsed.h"
 #include "scene/find.h"
 #include "support.h"
@@ -598,7 +598,8 @@ static void test_own(void **state) {
     assert_int_equal(parse(&o, "table", OPTION_CSV, NULL, line), EXIT_FINE);
     assert_true(o.form == FORM_CSV);
     assert_int_equal(parse(&o, "plot", OPTION_HELP, NULL, line), EXIT_FINE);
-    assert_true(strcmp(o.verb->name, "help") == 0 && strcmp(((const verb *)o.operand_row)->name, "plot") == 0);
+    assert_true(strcmp(o.command->name, "help") == 0 &&
+                strcmp(((const command_row *)o.operand_row)->name, "plot") == 0);
 }
 
 /* View, grid and class, and the vertical angle that follows. */

@@ -8,10 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "frame/image_depths.h"
 #include "handmade.h"
+#include "shader/packing.h"
 #include "support.h"
-#include "texture/image_depths.h"
-#include "texture/packing.h"
 #include "truth.h"
 
 static const packing *row_of(const char *name) {

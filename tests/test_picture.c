@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "draw/picture.h"
+#include "raster/picture.h"
 #include "support.h"
 
 enum { W = DRAW_PICTURE_WIDTH, H = DRAW_PICTURE_HEIGHT, SURFACES = 6, TRIANGLES = 64 };

@@ -5,7 +5,7 @@
  */
 #include <stdio.h>
 
-#include "need/plane.h"
+#include "requirement/plane.h"
 #include "support.h"
 
 static const char *describe(const solve_problem *p, char text[320]) {

@@ -7,7 +7,6 @@
 
 #include "depthprec/depthprec.h"
 #include "named.h"
-#include "need/requirement.h"
 #include "plot/draw.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
@@ -15,6 +14,7 @@
 #include "plot/ticks.h"
 #include "plot/trace.h"
 #include "plot/words.h"
+#include "requirement/requirement.h"
 #include "scene_made.h"
 #include "shadow/shadow.h"
 #include "support.h"

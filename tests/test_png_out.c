@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/image.h"
 #include "printed.h"
-#include "texture/image.h"
 
 /* A sphere that stands before the sky, turned away from the axes. */
 #define SCENE                                                                                                          \

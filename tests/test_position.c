@@ -7,8 +7,8 @@
 #include <gmp.h>
 
 #include "named.h"
+#include "shader/position.h"
 #include "support.h"
-#include "texture/position.h"
 
 static texture_camera camera_of(const dp_spec *spec, const camera_spec *where) {
     dp_setup setup;

@@ -8,8 +8,8 @@
 #include <gmp.h>
 
 #include "named.h"
+#include "shader/position.h"
 #include "support.h"
-#include "texture/position.h"
 
 static const dp_mapping mappings[] = {DP_MAPPING_D3D,         DP_MAPPING_GL,     DP_MAPPING_REVERSED,
                                       DP_MAPPING_GL_REVERSED, DP_MAPPING_LINEAR, DP_MAPPING_LOG};

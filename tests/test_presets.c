@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "api/presets.h"
-#include "cli/names.h"
+#include "cli/option/names.h"
 #include "named.h"
 #include "raster/raster.h"
 #include "support.h"

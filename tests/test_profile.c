@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "named.h"
-#include "need/check.h"
 #include "printed.h"
+#include "requirement/check.h"
 
 #define GPU(name, arith, raster, findings)                                                                             \
     "{\"command\": \"probe\", \"device\": {\"name\": \"" name "\", \"driver\": \"D 1\"}, \"arith\": " arith            \

@@ -67,7 +67,7 @@ static void begin_target(target *t, const vector_row *row) {
 }
 
 /* The guaranteed separation of any arithmetic at all: the greatest. */
-static double reach_of(const target *t, float z) {
+static double resolved_up_to(const target *t, float z) {
     dp_spec spec = t->setup.spec;
     double greatest = 0.0;
     spec.model = DP_MODEL_FLOAT;
@@ -137,7 +137,7 @@ static void visit(const vector_row *row, void *context) {
     t->z[n] = z;
     /* The guarantee is about [near, far]; rounding draws some points just outside it. */
     const int inside = (double)z >= t->setup.spec.znear && (double)z <= t->setup.spec.zfar;
-    t->reach[n] = inside ? reach_of(t, z) : HUGE_VAL;
+    t->reach[n] = inside ? resolved_up_to(t, z) : HUGE_VAL;
     uint32_t lowest = 0;
     uint32_t highest = 0;
     if (inside)

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/image.h"
 #include "printed.h"
-#include "texture/image.h"
 
 typedef long double real;
 

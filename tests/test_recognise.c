@@ -7,10 +7,10 @@
 
 #include <gmp.h>
 
+#include "frame/recognise.h"
+#include "frame/recognise_lattice.h"
 #include "oracle.h"
 #include "support.h"
-#include "texture/recognise.h"
-#include "texture/recognise_lattice.h"
 
 enum { SIDE = 64, SAMPLES = SIDE * SIDE };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "need/requirement.h"
+#include "requirement/requirement.h"
 #include "support.h"
 
 #define CAMERA   "cameras = { a = { near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm24\"; }; };\n"

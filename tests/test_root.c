@@ -3,7 +3,7 @@
  */
 #include <math.h>
 
-#include "need/root.h"
+#include "requirement/root.h"
 #include "support.h"
 
 enum { MOST = 202 }; /* both ends and 200 steps */

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "depthprec/depthprec.h"
-#include "draw/draw.h"
+#include "raster/draw.h"
 #include "scene/eye.h"
 #include "scene/find.h"
 #include "scene/judge.h"

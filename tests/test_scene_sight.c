@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "depthprec/depthprec.h"
-#include "draw/draw.h"
+#include "raster/draw.h"
 #include "scene/render.h"
 #include "scene/sight.h"
 #include "scene_made.h"

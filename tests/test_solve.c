@@ -9,7 +9,7 @@
 
 #include "api/cost.h"
 #include "depthprec/depthprec.h"
-#include "need/solve.h"
+#include "requirement/solve.h"
 #include "support.h"
 
 static dp_format format_of(const char *name) {

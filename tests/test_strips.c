@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "frame/strips.h"
 #include "support.h"
-#include "texture/strips.h"
 
 enum { COUNT = 400, SLOTS = 7, THREADS = 4 };
 

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame/survey.h"
 #include "named.h"
 #include "oracle.h"
 #include "support.h"
 #include "synthetic_stage.h"
-#include "texture/survey.h"
 
 enum { WIDTH = 640, HEIGHT = 360, PIXELS = WIDTH * HEIGHT };
 

@@ -5,10 +5,10 @@
  */
 #include <string.h>
 
+#include "frame/synthetic.h"
 #include "named.h"
 #include "oracle.h"
 #include "support.h"
-#include "texture/synthetic.h"
 
 static texture_camera camera_of(const char *format, const char *mapping, bool ortho, uint32_t width, uint32_t height) {
     dp_format formats[2];
@@ -33,10 +33,10 @@ static void every_row_is_whole(void **state) {
     size_t count = 0;
     for (; synthetic_get(count) != NULL; count++) {
         const synthetic_row *row = synthetic_get(count);
-        double p[TEXTURE_PARAMETERS];
+        double p[PARAMETERS_MAX];
         assert_ptr_equal(synthetic_find(row->name), row);
         parameter_defaults(row->parameters, p);
-        for (size_t i = 0; i < TEXTURE_PARAMETERS && row->parameters[i].name != NULL; i++) {
+        for (size_t i = 0; i < PARAMETERS_MAX && row->parameters[i].name != NULL; i++) {
             assert_true(p[i] == row->parameters[i].value);
             assert_true(p[i] >= row->parameters[i].lo && p[i] <= row->parameters[i].hi);
             assert_true(row->parameters[i].note != NULL && row->parameters[i].unit != NULL);
@@ -69,8 +69,7 @@ static void planes_lie_in_their_plane(void **state) {
     uint64_t seen = 0;
     for (uint64_t i = test_cases(2000, 40000, 400000); i > 0; i--) {
         const texture_camera c = camera_of("fp32", "reversed", rng_below(&r, 2), 640, 360);
-        const double p[TEXTURE_PARAMETERS] = {rng_log(&r, 0.2, 500), rng_uniform(&r, -89, 89),
-                                              rng_uniform(&r, -89, 89)};
+        const double p[PARAMETERS_MAX] = {rng_log(&r, 0.2, 500), rng_uniform(&r, -89, 89), rng_uniform(&r, -89, 89)};
         const double column = rng_uniform(&r, 0, 639), row = rng_uniform(&r, 0, 359);
         synthetic_hit h;
         synthetic_find("plane")->hit(&c, p, column, row, &h);
@@ -101,7 +100,7 @@ static void spheres_are_round_and_before_their_wall(void **state) {
     for (uint64_t i = test_cases(2000, 40000, 400000); i > 0; i--) {
         const texture_camera c = camera_of("fp32", "reversed", rng_below(&r, 2), 360, 360);
         const double radius = rng_log(&r, 0.5, 3), wall = rng_below(&r, 2) ? rng_uniform(&r, 5, 12) : 0;
-        const double p[TEXTURE_PARAMETERS] = {radius + rng_uniform(&r, 0.2, 8), radius, wall};
+        const double p[PARAMETERS_MAX] = {radius + rng_uniform(&r, 0.2, 8), radius, wall};
         const double column = rng_uniform(&r, 0, 359), row = rng_uniform(&r, 0, 359);
         synthetic_hit h;
         long double at[3], ray[3];
@@ -137,7 +136,7 @@ static long double ratio(double lo, double hi, int i, int n) {
 static void stairs_have_their_depths(void **state) {
     (void)state;
     const texture_camera c = camera_of("fp32", "reversed", false, 700, 20);
-    const double p[TEXTURE_PARAMETERS] = {0.7, 400, 7};
+    const double p[PARAMETERS_MAX] = {0.7, 400, 7};
     const synthetic_row *steps = synthetic_find("steps");
     synthetic_hit h;
     for (uint32_t x = 0; x < 700; x++) {
@@ -163,7 +162,7 @@ static void stairs_have_their_depths(void **state) {
 static void decals_stand_before_their_tiles(void **state) {
     (void)state;
     const texture_camera c = camera_of("fp32", "reversed", false, 300, 240);
-    const double p[TEXTURE_PARAMETERS] = {0.125, 1, 300, 3};
+    const double p[PARAMETERS_MAX] = {0.125, 1, 300, 3};
     const synthetic_row *decals = synthetic_find("decals");
     uint64_t before = 0;
     for (uint32_t y = 0; y < 240; y++)
@@ -213,7 +212,7 @@ static void what_is_stored_is_what_the_oracle_stores(void **state) {
         for (size_t m = 0; m < 5; m++)
             for (size_t s = 0; synthetic_get(s) != NULL; s++) {
                 const texture_camera c = camera_of(formats[f], mappings[m], false, 1100, 40);
-                double p[TEXTURE_PARAMETERS];
+                double p[PARAMETERS_MAX];
                 uint32_t codes[1100];
                 oracle o;
                 oracle_init(&o, &c.setup.spec);

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "census/census.h"
-#include "need/check.h"
 #include "printed.h"
+#include "requirement/check.h"
 
 /* A name with a quote and a backslash, in the file as libconfig wants it. */
 static const char *const name_in_file = "a\\\"quoted\\\"na\\\\me,<more>&less";

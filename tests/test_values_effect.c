@@ -6,7 +6,7 @@
 
 #include "named.h"
 #include "printed.h"
-#include "texture/effect.h"
+#include "shader/effect.h"
 
 enum { DEPTHS = 5 };
 
@@ -169,7 +169,7 @@ static void test_effects(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof effects / sizeof effects[0]; i++) {
         const effect_row *row = effect_find(effects[i].effect);
-        double parameters[TEXTURE_PARAMETERS];
+        double parameters[PARAMETERS_MAX];
         char options[512], arguments[1024];
         dp_setup setups[CAMERA_SETUPS];
         line_places lines = {0};

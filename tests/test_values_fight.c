@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/fight.h"
 #include "printed.h"
+#include "raster/fight.h"
 
 typedef struct fight_case {
     camera_case camera; /* its arithmetic is that of the rasterizer */

@@ -8,16 +8,16 @@
 #include "api/bias.h"
 #include "api/platform.h"
 #include "api/presets.h"
+#include "frame/synthetic.h"
 #include "method/choose.h"
 #include "plot/figure.h"
 #include "printed.h"
 #include "raster/raster.h"
-#include "texture/effect.h"
-#include "texture/normal.h"
-#include "texture/pack.h"
-#include "texture/packing.h"
-#include "texture/position.h"
-#include "texture/synthetic.h"
+#include "shader/effect.h"
+#include "shader/normal.h"
+#include "shader/pack.h"
+#include "shader/packing.h"
+#include "shader/position.h"
 
 enum { NUMBERS = 32 };
 
@@ -149,7 +149,7 @@ static bool synthetic(size_t i, listed *l) {
     if (r == NULL)
         return false;
     *l = (listed){r->name, "", r->note, NULL, {0}, 0};
-    for (size_t k = 0; k < TEXTURE_PARAMETERS && r->parameters[k].name != NULL; k++)
+    for (size_t k = 0; k < PARAMETERS_MAX && r->parameters[k].name != NULL; k++)
         add_number(l, r->parameters[k].value);
     return true;
 }

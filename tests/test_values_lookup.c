@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "printed.h"
-#include "texture/decode.h"
+#include "shader/decode.h"
 
 enum { ASKED = 5 };
 

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame/frame.h"
+#include "frame/image_depths.h"
 #include "named.h"
-#include "texture/frame.h"
-#include "texture/image_depths.h"
 #include "views.h"
 
 enum { WIDTH = 40, HEIGHT = 24, PIXELS = 4 };
@@ -308,7 +308,7 @@ static void test_pixels(void **state) {
         const pixel_case *c = &cases[i];
         texture_camera camera;
         image shot = {0};
-        double parameters[TEXTURE_PARAMETERS];
+        double parameters[PARAMETERS_MAX];
         frame f = {.camera = &camera, .sky = c->sky};
         char arguments[2048];
         line_places lines = {0};

@@ -6,7 +6,7 @@
 #include "cli/bias_all.h"
 #include "named.h"
 #include "printed.h"
-#include "vertex/compare.h"
+#include "raster/vertex_compare.h"
 
 typedef struct against_case {
     camera_case camera;

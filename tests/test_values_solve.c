@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "api/cost.h"
-#include "need/distance.h"
-#include "need/plane.h"
 #include "printed.h"
+#include "requirement/distance.h"
+#include "requirement/plane.h"
 
 typedef struct solve_case {
     const char *arguments, *target;

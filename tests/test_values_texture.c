@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame/frame.h"
+#include "frame/recognise.h"
+#include "frame/survey.h"
 #include "named.h"
-#include "texture/decode.h"
-#include "texture/frame.h"
-#include "texture/recognise.h"
-#include "texture/survey.h"
+#include "shader/decode.h"
 #include "views.h"
 
 enum { WIDTH = 40, HEIGHT = 24 };
@@ -334,7 +334,7 @@ static void want_parameters(values *v, const texture_case *c, const synthetic_ro
                             char options[256]) {
     parameter_defaults(synthetic->parameters, parameters);
     options[0] = '\0';
-    for (size_t i = 0; i < TEXTURE_PARAMETERS && synthetic->parameters[i].name != NULL; i++) {
+    for (size_t i = 0; i < PARAMETERS_MAX && synthetic->parameters[i].name != NULL; i++) {
         const char *name = synthetic->parameters[i].name;
         for (size_t k = 0; k < 3 && c->parameters[k].name != NULL; k++)
             if (strcmp(c->parameters[k].name, name) == 0) {
@@ -353,7 +353,7 @@ static void test_synthetic(void **state) {
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         const texture_case *c = &scenes[i];
         texture_camera camera;
-        double parameters[TEXTURE_PARAMETERS];
+        double parameters[PARAMETERS_MAX];
         char options[512], more[256], arguments[1024];
         line_places lines = {0};
         values v = values_of("texture");

@@ -47,10 +47,11 @@ static void test_world(void **state) {
         const double half = tan(25.0 * 3.14159265358979323846 / 180.0), z = 7.0, gap = gaps[run];
         const world_asked a = {.setup = &setup,
                                .z = z,
-                               .lean = hypot(1.0, half * hypot(1.0, 800.0 / 600.0)),
+                               .ray_ratio = hypot(1.0, half * hypot(1.0, 800.0 / 600.0)),
                                .pixels = 300.0 / half,
                                .shared_origin = shared};
-        const world_asked nearly = {.setup = &setup, .z = z, .lean = a.lean * (1.0 + 1e-12), .pixels = a.pixels};
+        const world_asked nearly = {
+            .setup = &setup, .z = z, .ray_ratio = a.ray_ratio * (1.0 + 1e-12), .pixels = a.pixels};
         for (size_t k = 0; k < 3; k++) { /* view and depth reach the numbers */
             const world_scheme s = scheme_of(k);
             assert_relative(world_off(&s, &a, 2e3), world_off(&s, &nearly, 2e3), 1e-9);
@@ -126,7 +127,7 @@ static void test_budget(void **state) {
     spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     const world_scheme s = {scheme_of(1).row, 65536.0};
-    const world_asked a = {.setup = &setup, .z = 30.0, .lean = 2.0};
+    const world_asked a = {.setup = &setup, .z = 30.0, .ray_ratio = 2.0};
     assert_int_equal(world_budget(&s, &a, sqrt(3.0) * 1e5, &terms, &b), DP_OK);
     printed p = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --from-origin 1e5 --scheme split --at 30 --json");
     json_error_t error;
@@ -197,7 +198,7 @@ static void test_wide(void **state) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    const world_asked a = {.setup = &setup, .z = 10.0, .lean = hypot(1.0, half * hypot(1.0, 1920.0 / 1080.0))};
+    const world_asked a = {.setup = &setup, .z = 10.0, .ray_ratio = hypot(1.0, half * hypot(1.0, 1920.0 / 1080.0))};
     const world_scheme s = scheme_of(2);
     printed p = print_of("world --fov 175 --at 10 --from-origin 1e3 --scheme two-sum --json");
     json_error_t error;

@@ -7,8 +7,8 @@
 #include <mpfr.h>
 
 #include "named.h"
+#include "raster/vertex_compare.h"
 #include "support.h"
-#include "vertex/compare.h"
 
 static dp_setup setup_of(dp_mapping mapping, const char *format, double n, double f, int ortho) {
     dp_spec spec = dp_spec_default();

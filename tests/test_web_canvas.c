@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 #include "plot/canvas.h"
 #include "support.h"
 #include "web/page.h"

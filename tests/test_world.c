@@ -522,7 +522,8 @@ static void codes_are_in_order(void **state) {
             const world_scheme s = standard(i);
             const double distance = rng_log(&r, 10.0, 1e7), z = rng_log(&r, 0.3, 500.0);
             const bool shared = rng_below(&r, 2);
-            const world_asked a = {.setup = &b.setup, .z = z, .lean = lean, .pixels = 1.0, .shared_origin = shared};
+            const world_asked a = {
+                .setup = &b.setup, .z = z, .ray_ratio = lean, .pixels = 1.0, .shared_origin = shared};
             const double gap = world_separation(&s, &a, distance);
             world_camera c;
             const pose p = draw(&r, &s, distance, z);
@@ -553,7 +554,7 @@ static void over_a_range(void **state) {
         const buffer b = random_buffer(&r, 5000.0);
         const world_scheme s = standard(rng_below(&r, WORLD_ROWS));
         const double lo = rng_log(&r, 1.0, 100.0), hi = lo * rng_log(&r, 1.01, 10.0), d = rng_log(&r, 10.0, 1e6);
-        world_asked a = {.setup = &b.setup, .lean = lean, .shared_origin = rng_below(&r, 2)};
+        world_asked a = {.setup = &b.setup, .ray_ratio = lean, .shared_origin = rng_below(&r, 2)};
         const double bound = world_separation_over(&s, &a, d, lo, hi);
         double most = 0.0;
         for (int i = 0; i <= 50; i++) {

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 #include "support.h"
 
 int cmd_texture(const options *o);

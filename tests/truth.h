@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "texture/image.h"
+#include "image/image.h"
 
 /* The size of every image. */
 enum { WIDTH = 24, HEIGHT = 10, PIXELS = WIDTH * HEIGHT, ARGUMENTS = 24 };

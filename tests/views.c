@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "texture/normal_measure.h"
+#include "frame/normal_errors.h"
 
 texture_camera view_camera(const char *format, dp_mapping mapping, double znear, double zfar, bool ortho,
                            uint32_t width, uint32_t height, double extent) {

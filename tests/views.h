@@ -4,7 +4,7 @@
 #define TESTS_VIEWS_H
 
 #include "printed.h"
-#include "texture/normal.h"
+#include "shader/normal.h"
 
 /** A checked camera; `extent` is the field of view in degrees or half the height. */
 texture_camera view_camera(const char *format, dp_mapping mapping, double znear, double zfar, bool ortho,

@@ -19,7 +19,7 @@ DP_BEGIN
 typedef enum dp_model {
     DP_MODEL_EXACT = 0, /**< real arithmetic and one rounding into the format: the lattice of codes */
     DP_MODEL_STAGED,    /**< NDC depth, then window depth, each rounded once to binary32, then the format */
-    DP_MODEL_FLOAT,      /**< every operation in binary32: see pipeline.h; perspective and orthographic mappings only */
+    DP_MODEL_FLOAT,     /**< every operation in binary32: see pipeline.h; perspective and orthographic mappings only */
     DP_MODEL_COUNT
 } dp_model;
 
@@ -48,15 +48,15 @@ typedef struct dp_setup {
     dp_spec spec;
     dp_curve curve; /**< the curve in force: an orthographic projection turns PERSPECTIVE into LINEAR */
     int reversed;
-    int shader;    /**< LOG: the separation is that of the shader, see dp_setup_guaranteed() */
-    double anchor; /**< the depth that a LINEAR or LOG curve sends to its near end: near or 0 */
-    double log_c;  /**< LOG: C, or 1/n, rounded, where the logarithm is that of z/n */
-    double log_by; /**< LOG: C, or 0 where the logarithm is that of z/n */
-    int astride;   /**< depth 0 lies between the planes: eye depths are differences, and take the exact way */
-    double kappa;  /**< PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: the logarithm at far */
-    double scale;  /**< d is this times (z - n)/z, (f - z)/z, z - n, f - z, z or the logarithm */
-    double den;    /**< lattice points and rounding boundaries are num/den: UNORM 2 (2^N - 1); FLOAT 1 */
-    double log_hi; /**< LOG: the logarithm at far as an unevaluated sum of two doubles */
+    int shader;     /**< LOG: the separation is that of the shader, see dp_setup_guaranteed() */
+    double anchor;  /**< the depth that a LINEAR or LOG curve sends to its near end: near or 0 */
+    double log_c;   /**< LOG: C, or 1/n, rounded, where the logarithm is that of z/n */
+    double log_by;  /**< LOG: C, or 0 where the logarithm is that of z/n */
+    int spans_zero; /**< depth 0 lies between the planes: eye depths are differences, and take the exact way */
+    double kappa;   /**< PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: the logarithm at far */
+    double scale;   /**< d is this times (z - n)/z, (f - z)/z, z - n, f - z, z or the logarithm */
+    double den;     /**< lattice points and rounding boundaries are num/den: UNORM 2 (2^N - 1); FLOAT 1 */
+    double log_hi;  /**< LOG: the logarithm at far as an unevaluated sum of two doubles */
     double log_lo;
     uint32_t code_near; /**< the codes of the two planes */
     uint32_t code_far;

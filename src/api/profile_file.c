@@ -7,7 +7,7 @@
 
 #include "api/profile.h"
 #include "core/append.h"
-#include "opened/input.h"
+#include "system/input.h"
 
 bool profile_is_file(const char *text) {
     return strpbrk(text, "./") != NULL;
@@ -122,8 +122,8 @@ static void add_api(profile *to, const json_t *root) {
         to->api = NULL;
 }
 
-static bool add(profile *to, const char *path, const json_t *root, const char *key, char name[PROFILE_NAME_SIZE],
-                char error[PROFILE_ERROR_SIZE]) {
+static bool add_row(profile *to, const char *path, const json_t *root, const char *key, char name[PROFILE_NAME_SIZE],
+                    char error[PROFILE_ERROR_SIZE]) {
     const char *command = word(root, "command"), *row = word(root, key);
     if (command == NULL || strcmp(command, "probe") != 0) {
         snprintf(error, PROFILE_ERROR_SIZE, "must be a profile that 'depthprec probe --json' wrote, got '%s'", path);
@@ -152,7 +152,7 @@ bool profile_add(profile *to, const char *path, const char *key, char name[PROFI
         snprintf(error, PROFILE_ERROR_SIZE, "'%s' cannot be read: %s", path, reason);
         return false;
     }
-    const bool good = add(to, path, root, key, name, error);
+    const bool good = add_row(to, path, root, key, name, error);
     json_decref(root);
     return good;
 }

@@ -205,7 +205,7 @@ KERNEL void block_keys(const census_plan *plan, uint32_t first, uint32_t last, i
     look(key, sight);
 }
 
-KERNEL void reach_of(const int32_t *restrict key, const int32_t *restrict beyond, int32_t *restrict reach) {
+KERNEL void resolved_up_to(const int32_t *restrict key, const int32_t *restrict beyond, int32_t *restrict reach) {
     int32_t least[CENSUS_RUNS];
     memcpy(least, beyond, sizeof least);
     for (size_t row = 0; row < CENSUS_RUN; row++)
@@ -254,7 +254,7 @@ KERNEL uint32_t disorder(const int32_t *restrict key, const int32_t *restrict re
 
 #define SCANS(NAME, TARGET)                                                                                            \
     TARGET static void reach_##NAME(const int32_t *key, const int32_t *beyond, int32_t *reach) {                       \
-        reach_of(key, beyond, reach);                                                                                  \
+        resolved_up_to(key, beyond, reach);                                                                            \
     }                                                                                                                  \
     TARGET static uint32_t disorder_##NAME(const int32_t *key, const int32_t *reach, const int32_t *before,            \
                                            unsigned delay) {                                                           \

@@ -65,7 +65,7 @@ static void walk(const sample *s, uint32_t rank, int32_t key, census_band *band)
         census_note(&s->request->common, band, dp_ranked32(rank), dp_ranked32(rank + (uint32_t)wrong));
 }
 
-static void judge(const sample *s, uint64_t from, size_t count, census_band *bands) {
+static void count_pairs(const sample *s, uint64_t from, size_t count, census_band *bands) {
     uint32_t rank[BATCH];
     float near_z[BATCH], far_z[BATCH];
     int32_t near_key[BATCH], far_key[BATCH];
@@ -112,7 +112,7 @@ static int judge_all(const sample *s, uint64_t total, census_result *result) {
             if (stopped)
                 continue;
             const size_t count = total - from < BATCH ? (size_t)(total - from) : (size_t)BATCH;
-            judge(s, from, count, mine);
+            count_pairs(s, from, count, mine);
             if (r->progress == NULL)
                 continue;
 #pragma omp critical(sample_progress)

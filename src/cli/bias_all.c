@@ -10,9 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/reach.h"
+#include "cli/each_setup.h"
+#include "cli/resolved.h"
 #include "cli/slant.h"
-#include "cli/walk.h"
 #include "core/append.h"
 #include "report/number.h"
 
@@ -85,7 +85,7 @@ typedef struct row {
 } row;
 
 typedef struct all {
-    walk walk;
+    each_setup each;
     double lo, hi; /* the range, where no depths are given */
     bool by_range;
     row row;
@@ -106,7 +106,7 @@ static bias_goal goal_of(const options *o, const bias_api *api, const dp_setup *
 
 /* Where the gap leads to the near plane, at least. */
 static double range_from(const all *a) {
-    return fmin(fmax(a->lo, a->walk.here.znear + a->walk.here.separation), a->hi);
+    return fmin(fmax(a->lo, a->each.here.znear + a->each.here.separation), a->hi);
 }
 
 /* The call, or where in the range there is one. */
@@ -130,8 +130,8 @@ static void write_short(double units, char out[NUMBER_SIZE]) {
     append(out, NUMBER_SIZE, "%s%s", units < 0.0 ? "-" : "", text.text);
 }
 
-static void measure(const all *a, const bias_api *named, const dp_setup *setup, double z, row *r) {
-    const options *o = &a->walk.here;
+static void fill_row(const all *a, const bias_api *named, const dp_setup *setup, double z, row *r) {
+    const options *o = &a->each.here;
     const bias_api here = profile_bias(&o->gpu, o->platform, named, &setup->spec.format), *api = &here;
     const bias_goal goal = goal_of(o, api, setup);
     *r = (row){.api = api->name, .label = api->name, .z = z, .lo = (double)NAN, .hi = (double)NAN, .units_z = z};
@@ -168,9 +168,9 @@ static void *next_row(void *of, size_t i) {
     all *a = of;
     const size_t apis = api_count();
     const bias_api *api = bias_api_get(i % apis);
-    if (i / apis == (a->by_range ? 1 : a->walk.at.count) || output_failed(&a->walk.out))
+    if (i / apis == (a->by_range ? 1 : a->each.at.count) || output_failed(&a->each.out))
         return NULL;
-    measure(a, api, a->walk.setup, a->by_range ? (double)NAN : depths_get(&a->walk.at, i / apis), &a->row);
+    fill_row(a, api, a->each.setup, a->by_range ? (double)NAN : depths_get(&a->each.at, i / apis), &a->row);
     return &a->row;
 }
 
@@ -181,8 +181,8 @@ static void *next_beside(void *of, size_t i) {
     row r;
     if (api == NULL)
         return NULL;
-    for (size_t k = 0; k < a->walk.all.count; k++) {
-        measure(a, api, &a->walk.all.items[k], a->by_range ? (double)NAN : depths_get(&a->walk.at, 0), &r);
+    for (size_t k = 0; k < a->each.all.count; k++) {
+        fill_row(a, api, &a->each.all.items[k], a->by_range ? (double)NAN : depths_get(&a->each.at, 0), &r);
         write_short(r.units, a->row.beside[k]);
         a->fails = a->fails || isnan(r.units);
     }
@@ -192,13 +192,13 @@ static void *next_beside(void *of, size_t i) {
 
 static void *next_setup(void *of, size_t i) {
     all *a = of;
-    return walk_setup(&a->walk, i) ? a : NULL;
+    return each_setup_go(&a->each, i) ? a : NULL;
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 static void say_goal(page *p, const all *a) {
-    const options *o = &a->walk.here;
+    const options *o = &a->each.here;
     const char *unit = options_unit(o);
     char goal[64] = "To be told apart", place[128] = "", slope[64] = "";
     if (o->separation > 0.0)
@@ -208,16 +208,16 @@ static void say_goal(page *p, const all *a) {
     if (a->by_range)
         snprintf(place, sizeof place, " from z = %s to %s", number_in(number_of(range_from(a), DIGITS_Z), unit).text,
                  number_in(number_of(a->hi, DIGITS_Z), unit).text);
-    else if (a->walk.at.count == 1)
-        snprintf(place, sizeof place, " at z = %s", number_in(number_of(a->walk.at.lo, DIGITS_Z), unit).text);
+    else if (a->each.at.count == 1)
+        snprintf(place, sizeof place, " at z = %s", number_in(number_of(a->each.at.lo, DIGITS_Z), unit).text);
     page_text(p, "%s%s%s:", goal, place, slope);
 }
 
 static void say_setup(page *p, void *item) {
     const all *a = item;
-    const dp_setup full = dp_setup_guaranteed(a->walk.setup);
-    walk_title(p, item);
-    slant_say(p, page_title, &a->walk.here, &full);
+    const dp_setup full = dp_setup_guaranteed(a->each.setup);
+    each_setup_title(p, item);
+    slant_say(p, page_title, &a->each.here, &full);
     say_goal(p, a);
 }
 
@@ -252,27 +252,27 @@ static void say_choice(page *p, const options *o, const dp_format *format) {
 
 static void say_notes(page *p, void *item) {
     const all *a = item;
-    if (bias_chooses_factor(&a->walk.here) && isinf(a->row.factor))
+    if (bias_chooses_factor(&a->each.here) && isinf(a->row.factor))
         page_line(p, "%s", BIAS_NO_FACTOR);
-    else if (bias_chooses_factor(&a->walk.here))
+    else if (bias_chooses_factor(&a->each.here))
         page_line(p, "F, the factor of the slope, is %s", number_full(a->row.factor).text);
     if (a->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);
-    if (bias_is_missed(a->walk.setup))
+    if (bias_is_missed(a->each.setup))
         page_line(p, "%s", BIAS_MISSED);
-    say_choice(p, &a->walk.here, &a->walk.setup->spec.format);
+    say_choice(p, &a->each.here, &a->each.setup->spec.format);
 }
 
 /* Formats above mappings, and below what is written in place of U. */
 static void say_beside(page *p, void *item) {
     const all *a = item;
-    const options *o = &a->walk.here;
+    const options *o = &a->each.here;
     page_title(p, "near %s, far %s, %s", number_full(o->znear).text, number_full(o->zfar).text,
                o->ortho ? "orthographic" : "perspective");
     say_goal(p, a);
     output_format(p->out, "%s%-13s", p->soft, "");
-    for (size_t k = 0; k < a->walk.all.count; k++)
-        output_format(p->out, "%*s", WIDTH_UNITS, a->walk.all.items[k].spec.format.name);
+    for (size_t k = 0; k < a->each.all.count; k++)
+        output_format(p->out, "%*s", WIDTH_UNITS, a->each.all.items[k].spec.format.name);
     output_format(p->out, "%s\n", p->plain);
 }
 
@@ -282,9 +282,9 @@ static bool is_integer(const dp_setup *setup) {
 
 static bool is_any(const all *a, bool (*is)(const dp_setup *setup)) {
     size_t k = 0;
-    while (k < a->walk.all.count && !is(&a->walk.all.items[k]))
+    while (k < a->each.all.count && !is(&a->each.all.items[k]))
         k++;
-    return k < a->walk.all.count;
+    return k < a->each.all.count;
 }
 
 static void say_calls(page *p, void *item) {
@@ -298,7 +298,7 @@ static void say_calls(page *p, void *item) {
     output_char(p->out, '\n');
     for (size_t i = 0; bias_api_get(i) != NULL; i++)
         page_note(p, bias_api_get(i)->name, "%s",
-                  call_of(bias_api_get(i), "U", number_full(a->walk.o->factor).text).text);
+                  call_of(bias_api_get(i), "U", number_full(a->each.o->factor).text).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -322,7 +322,7 @@ static const column row_columns[] = {{FIELD(row, api, "api", ""), .only = AS_JSO
                                      {TEXT_FIELD(row, said, "to write", -1, 0)},
                                      {.kind = COLUMN_END}};
 
-static const column setup_report[] = {{PART(all, walk.fields, NULL, setup_columns)},
+static const column setup_report[] = {{PART(all, each.fields, NULL, setup_columns)},
                                       {LIST("rows", row_columns, next_row), .notes = say_notes},
                                       {.kind = COLUMN_END}};
 
@@ -337,16 +337,16 @@ static const column columns[] = {
 
 static int write_beside(all *a, int status) {
     column rows[BESIDE + 2] = {{TEXT_FIELD(row, api, "", -13, 0)}};
-    for (size_t k = 0; k < a->walk.all.count; k++) {
-        const char *mapping = dp_mapping_get(a->walk.all.items[k].spec.mapping)->name;
+    for (size_t k = 0; k < a->each.all.count; k++) {
+        const char *mapping = dp_mapping_get(a->each.all.items[k].spec.mapping)->name;
         rows[k + 1] = (column){TEXT_FIELD(row, beside[0], mapping, WIDTH_UNITS, 0)};
         rows[k + 1].offset = offsetof(row, beside[k]);
     }
-    rows[a->walk.all.count + 1] = (column){.kind = COLUMN_END};
+    rows[a->each.all.count + 1] = (column){.kind = COLUMN_END};
     const column list[] = {{LIST(NULL, rows, next_beside), .head = say_beside, .notes = say_calls},
                            {.kind = COLUMN_END}};
     const report_spec spec = {"bias", list, a, .label = 14};
-    return walk_write(&a->walk, &spec, status);
+    return each_setup_write(&a->each, &spec, status);
 }
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
@@ -360,15 +360,15 @@ int bias_all_write(const options *o) {
                             option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP));
     if (option_given(o, OPTION_AT) && option_given(o, OPTION_RANGE))
         return option_error(OPTION_RANGE, "cannot be combined with --at for all APIs");
-    int status = walk_start(&a.walk, o);
+    int status = each_setup_start(&a.each, o);
     if (status == EXIT_FINE)
         status = range_resolve(o, &a.lo, &a.hi);
-    const bool beside = o->form == FORM_TEXT && !o->full && a.walk.all.count > 1 && a.walk.all.count <= BESIDE &&
-                        (a.by_range || a.walk.at.count == 1) && a.triangles == NULL &&
+    const bool beside = o->form == FORM_TEXT && !o->full && a.each.all.count > 1 && a.each.all.count <= BESIDE &&
+                        (a.by_range || a.each.at.count == 1) && a.triangles == NULL &&
                         o->gpu.measured[0] == '\0'; /* what was measured is told of each format */
-    const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.walk.at.count > 1 ? OF_SEVERAL : 0) |
+    const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.each.at.count > 1 ? OF_SEVERAL : 0) |
                           (a.triangles != NULL ? WITH_TRIANGLES : 0);
     if (beside)
         return write_beside(&a, status);
-    return walk_write(&a.walk, &(report_spec){"bias", columns, &a, .when = when, .label = 14}, status);
+    return each_setup_write(&a.each, &(report_spec){"bias", columns, &a, .when = when, .label = 14}, status);
 }

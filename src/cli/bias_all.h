@@ -3,7 +3,7 @@
 #ifndef CLI_BIAS_ALL_H
 #define CLI_BIAS_ALL_H
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 
 enum { BIAS_CALL_SIZE = 128 };
 

@@ -3,8 +3,8 @@
 #ifndef CLI_CHECK_REPORT_H
 #define CLI_CHECK_REPORT_H
 
-#include "cli/options.h"
-#include "need/check.h"
+#include "cli/option/options.h"
+#include "requirement/check.h"
 
 typedef struct check_file {
     need_file file;

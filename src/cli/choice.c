@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/reach.h"
+#include "cli/resolved.h"
 #include "report/number.h"
 
 /* The fullest model that the set-up has: what the others are measured by. */
@@ -23,7 +23,7 @@ static dp_model simplest(const dp_choice *choice, double tolerance) {
 choosing choosing_start(const dp_setup *setup, double tolerance) {
     return (choosing){.setup = setup,
                       .tolerance = tolerance,
-                      .exact = reach_in(setup, DP_MODEL_EXACT),
+                      .exact = resolved_in(setup, DP_MODEL_EXACT),
                       .full = dp_setup_guaranteed(setup)};
 }
 

@@ -8,9 +8,9 @@
 
 #include "api/bias.h"
 #include "cli/bias_all.h"
-#include "cli/reach.h"
+#include "cli/each_setup.h"
+#include "cli/resolved.h"
 #include "cli/slant.h"
-#include "cli/walk.h"
 #include "report/number.h"
 
 enum { DIGITS = 6, DIGITS_Z = 9, DIGITS_SHORT = 4 };
@@ -36,7 +36,7 @@ typedef struct needs {
 
 /* What is asked; below `range_lo`, what belongs to the set-up at hand. */
 typedef struct biasing {
-    walk walk;
+    each_setup each;
     const char *api;
     const bias_api *named;
     double units_sent; /* as the platform sends them */
@@ -62,7 +62,7 @@ typedef struct biasing {
 /* What is asked of this set-up: the factor is written with the sign that the API takes, the goal counts nearer as +. */
 static bias_goal goal_of(const biasing *b, double gap) {
     bias_goal goal = b->goal;
-    goal.factor = b->state.factor * bias_sign(b->walk.setup);
+    goal.factor = b->state.factor * bias_sign(b->each.setup);
     goal.gap = gap;
     return goal;
 }
@@ -72,9 +72,9 @@ static void *next_row(void *of, size_t i) {
     row *r = &b->row;
     bias_state state = b->state;
     double z;
-    if (!walk_depth(&b->walk, i, &z))
+    if (!each_setup_depth(&b->each, i, &z))
         return NULL;
-    const dp_setup *setup = b->walk.setup;
+    const dp_setup *setup = b->each.setup;
     if (b->inverse) {
         const bias_goal apart = goal_of(b, 0.0);
         const bias_goal gap = goal_of(b, b->goal.gap);
@@ -97,7 +97,7 @@ static void *next_row(void *of, size_t i) {
 static double shift_with(const biasing *b, double units, double z) {
     bias_state state = b->state;
     state.units = units;
-    return isnan(units) || isinf(z) ? (double)NAN : bias_at(b->walk.setup, &state, b->goal.slope, z).shift;
+    return isnan(units) || isinf(z) ? (double)NAN : bias_at(b->each.setup, &state, b->goal.slope, z).shift;
 }
 
 /* bias_needed_over() and bias_enough_over(), at a depth where the range is one. */
@@ -117,7 +117,7 @@ static void enough(const dp_setup *setup, const bias_goal *goal, double lo, doub
 
 /* The same where drivers take the greater of two exponents that the specification leaves open. */
 static void next_over_range(const biasing *b, needs *n) {
-    const dp_setup *setup = b->walk.setup;
+    const dp_setup *setup = b->each.setup;
     const bias_api next = bias_next(b->state.api);
     bias_goal apart = goal_of(b, 0.0), gap = goal_of(b, b->goal.gap);
     double z;
@@ -131,7 +131,7 @@ static void next_over_range(const biasing *b, needs *n) {
 }
 
 static needs over_range(const biasing *b) {
-    const dp_setup *setup = b->walk.setup;
+    const dp_setup *setup = b->each.setup;
     const double lo = b->range_lo, hi = b->range_hi;
     needs n = {.lo = lo, .hi = hi, .gap_lo = fmax(lo, setup->spec.znear + b->goal.gap)};
     const bias_goal apart = goal_of(b, 0.0);
@@ -152,8 +152,8 @@ static needs over_range(const biasing *b) {
 
 /* The API as the platform and the GPU have it in the format of this set-up. */
 static void take_measured(biasing *b) {
-    const options *o = b->walk.o;
-    const dp_format *format = &b->walk.setup->spec.format;
+    const options *o = b->each.o;
+    const dp_format *format = &b->each.setup->spec.format;
     const profile_format *found = profile_biased(&o->gpu, o->platform, b->named, format);
     b->row_here = profile_bias(&o->gpu, o->platform, b->named, format);
     b->cuts = found != NULL && found->cuts;
@@ -162,17 +162,17 @@ static void take_measured(biasing *b) {
 
 static void *next_setup(void *of, size_t i) {
     biasing *b = of;
-    if (!walk_setup(&b->walk, i))
+    if (!each_setup_go(&b->each, i))
         return NULL;
     b->limited = false;
     take_measured(b);
     if (b->triangles != NULL) {
-        b->slanted = reach_in(b->walk.setup, DP_MODEL_FLOAT);
+        b->slanted = resolved_in(b->each.setup, DP_MODEL_FLOAT);
         b->facing = dp_setup_facing(&b->slanted);
     }
     if (b->chosen)
-        b->state.factor = bias_sign(b->walk.setup) * bias_factor_least(b->walk.setup);
-    if (b->inverse && b->walk.o->form != FORM_CSV)
+        b->state.factor = bias_sign(b->each.setup) * bias_factor_least(b->each.setup);
+    if (b->inverse && b->each.o->form != FORM_CSV)
         b->needs = over_range(b);
     return b;
 }
@@ -182,8 +182,8 @@ static void *next_setup(void *of, size_t i) {
 static void say_states(page *p, void *item) {
     const biasing *b = item;
     const bias_state *s = &b->state;
-    walk_title(p, item);
-    slant_say(p, page_title, b->walk.o, &b->slanted);
+    each_setup_title(p, item);
+    slant_say(p, page_title, b->each.o, &b->slanted);
     output_text(p->out, s->api->name);
     if (!b->inverse)
         output_format(p->out, ", units %s", number_full(s->units).text);
@@ -246,11 +246,11 @@ static void say_range(page *p, const biasing *b) {
 
 /* What of r was measured. @return whether there is nothing more to say of it */
 static bool say_measured(page *p, const biasing *b) {
-    const options *o = b->walk.o;
+    const options *o = b->each.o;
     char text[BIAS_CALL_SIZE];
     if (o->gpu.measured[0] == '\0')
         return false;
-    bias_of_gpu(o, b->named, &b->walk.setup->spec.format, text);
+    bias_of_gpu(o, b->named, &b->each.setup->spec.format, text);
     if (text[0] == '\0')
         page_line(p, "of this GPU r was not measured for %s", b->named->name);
     else
@@ -260,10 +260,10 @@ static bool say_measured(page *p, const biasing *b) {
 
 /* What the API leaves open. */
 static void say_open(page *p, const biasing *b) {
-    const bias_unit unit = bias_unit_at(b->state.api, &b->walk.setup->spec.format, 1.0);
+    const bias_unit unit = bias_unit_at(b->state.api, &b->each.setup->spec.format, 1.0);
     if (isinf(unit.most))
         page_line(p, "r is the implementation's choice: the value shown is assumed");
-    else if (bias_is_open(b->state.api, &b->walk.setup->spec.format))
+    else if (bias_is_open(b->state.api, &b->each.setup->spec.format))
         page_line(p, "drivers take the exponent of a depth in [2^n, 2^(n+1)) as n or n+1: r is up to %s times this",
                   number_of(unit.most / unit.least, DIGITS_SHORT).text);
     else if (unit.most > unit.least)
@@ -275,23 +275,23 @@ static void say_notes(page *p, void *item) {
     if (b->inverse)
         say_range(p, b);
     else
-        page_line(p, "a %s bias brings a layer nearer", bias_sign(b->walk.setup) < 0 ? "negative" : "positive");
-    if (bias_is_missed(b->walk.setup))
+        page_line(p, "a %s bias brings a layer nearer", bias_sign(b->each.setup) < 0 ? "negative" : "positive");
+    if (bias_is_missed(b->each.setup))
         page_line(p, "%s", BIAS_MISSED);
     if (b->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);
-    const double least = bias_factor_least(b->walk.setup); /* 0 without triangles */
+    const double least = bias_factor_least(b->each.setup); /* 0 without triangles */
     if (b->inverse && b->goal.slope == 0.0 && isinf(least))
         page_line(p, "%s", BIAS_NO_FACTOR);
-    else if (b->inverse && b->goal.slope == 0.0 && b->state.factor * bias_sign(b->walk.setup) < least)
+    else if (b->inverse && b->goal.slope == 0.0 && b->state.factor * bias_sign(b->each.setup) < least)
         page_line(p, "at any slant no units are enough with a factor below %s; --slope says how steep they are",
                   number_full(least).text);
     if (b->limited && !b->inverse)
         page_line(p, "a biased depth that leaves [0, 1] is held at the plane");
     if (!say_measured(p, b))
         say_open(p, b);
-    if (b->walk.o->platform != NULL && b->walk.o->platform->bias[0] != '\0')
-        page_line(p, "%s %s", b->walk.o->platform->name, b->walk.o->platform->bias);
+    if (b->each.o->platform != NULL && b->each.o->platform->bias[0] != '\0')
+        page_line(p, "%s %s", b->each.o->platform->name, b->each.o->platform->bias);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -301,7 +301,7 @@ enum { EFFECT = 1, INVERSE = 2, WITH_GAP = 4, WITH_SLOPE = 8, VERBOSE = 16, WITH
 
 static unsigned conditions(const biasing *b) {
     return (b->inverse ? INVERSE : EFFECT) | (b->goal.gap > 0.0 ? WITH_GAP : 0) |
-           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->walk.o->verbose ? VERBOSE : 0) |
+           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->each.o->verbose ? VERBOSE : 0) |
            (b->triangles != NULL ? WITH_TRIANGLES : 0);
 }
 
@@ -347,7 +347,7 @@ static const column needs_columns[] = {{FIELD(needs, lo, "lo", "scene")},
                                        {FIELD(needs, shift_hi, "shift_hi", "scene")},
                                        {.kind = COLUMN_END}};
 
-static const column setup_report[] = {{PART(biasing, walk.fields, NULL, setup_columns)},
+static const column setup_report[] = {{PART(biasing, each.fields, NULL, setup_columns)},
                                       {FIELD(biasing, api, "api", ""), .only = AS_CSV},
                                       {FIELD(biasing, state.factor, "factor", ""), .when = WITH_TRIANGLES},
                                       {LIST("rows", row_columns, next_row)},
@@ -396,7 +396,7 @@ static void drop_fp16(options *o) {
 
 /* The range that is asked for, else that of the depths that are. */
 static int resolve(biasing *b, const options *o) {
-    const depths *at = &b->walk.at;
+    const depths *at = &b->each.at;
     const int status = range_resolve(o, &b->range_lo, &b->range_hi);
     if (status != EXIT_FINE || option_given(o, OPTION_RANGE) || !option_given(o, OPTION_AT))
         return status;
@@ -434,9 +434,9 @@ int cmd_bias(const options *given) {
     int status = check_states(&o, &b.row_here);
     if (status != EXIT_FINE)
         return status;
-    status = walk_start(&b.walk, &o);
+    status = each_setup_start(&b.each, &o);
     if (status == EXIT_FINE)
         status = resolve(&b, &o);
     const report_spec spec = {"bias", columns, &b, .when = conditions(&b), .label = 12};
-    return walk_write(&b.walk, &spec, status);
+    return each_setup_write(&b.each, &spec, status);
 }

@@ -7,9 +7,9 @@
 #include <stdio.h>
 
 #include "cli/choice.h"
+#include "cli/each_setup.h"
 #include "cli/remedy.h"
 #include "cli/slant.h"
-#include "cli/walk.h"
 #include "core/elementary.h"
 #include "report/number.h"
 #include "world/reach.h"
@@ -35,7 +35,7 @@ typedef struct worst {
 
 /* What a budget is made of; below `linearize`, what belongs to the set-up at hand. */
 typedef struct budget {
-    walk walk;
+    each_setup each;
     dp_budget_terms terms;
     slant_fields slant;
     const slant_fields *triangles; /* null: surfaces face the camera */
@@ -83,14 +83,14 @@ static unsigned conditions_of_setups(const setups *all) {
 static unsigned conditions(const budget *b) {
     return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->scheme != NULL ? WITH_SCHEME : COMPOSED) |
            (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) | (b->linearize ? WITH_LINEARIZE : 0) |
-           (b->triangles != NULL ? WITH_TRIANGLES : 0) | conditions_of_setups(&b->walk.all);
+           (b->triangles != NULL ? WITH_TRIANGLES : 0) | conditions_of_setups(&b->each.all);
 }
 
 /* ---- Schemes ----------------------------------------------------------------------------------------------------- */
 
 /* No place is farther from the camera than this times its eye depth: within 60 degrees of the axis, and all vertices of
  * triangles that the picture shows some of. */
-static double lean_of(const dp_triangles *t) {
+static double ray_ratio_of(const dp_triangles *t) {
     static const double degree = 0.017453292519943295;
     const double pixel = t->width > 0 ? 2.0 * dp_tan(0.5 * degree * t->fov_y) / t->height : 0.0;
     return fmax(2.0, dp_hypot(1.0, pixel * dp_hypot(0.5 * t->width + t->pixels, 0.5 * t->height + t->pixels)));
@@ -100,8 +100,10 @@ static double lean_of(const dp_triangles *t) {
 static void budget_by(const budget *b, const world_scheme *scheme, const dp_setup *setup, double z,
                       dp_budget_terms *terms, dp_budget *out) {
     static const double root3 = 1.7320508075688774;
-    const world_asked a = {
-        .setup = setup, .z = z, .lean = lean_of(&setup->spec.triangles), .shared_origin = b->walk.o->shared_origin};
+    const world_asked a = {.setup = setup,
+                           .z = z,
+                           .ray_ratio = ray_ratio_of(&setup->spec.triangles),
+                           .shared_origin = b->each.o->shared_origin};
     *terms = b->terms;
     if (scheme != NULL)
         world_budget(scheme, &a, root3 * b->terms.world, terms, out);
@@ -115,7 +117,7 @@ static remedy_result remedy_by_scheme(const budget *b, double z, const remedy_re
     const world_scheme best = {world_get(WORLD_ROWS - 1), 0.0};
     dp_budget_terms terms;
     dp_budget out;
-    budget_by(b, &best, b->walk.setup, z, &terms, &out);
+    budget_by(b, &best, b->each.setup, z, &terms, &out);
     return out.separation < about_as_well * other->separation ? (remedy_result){"camera-double", out.separation}
                                                               : *other;
 }
@@ -128,7 +130,7 @@ static double share_of(const row *r, int cause) {
 
 /* How much more the shader needs than the model staged says, which leaves it out. */
 static void note_staged(budget *b, const row *r) {
-    dp_spec spec = b->walk.setup->spec;
+    dp_spec spec = b->each.setup->spec;
     dp_setup staged;
     spec.model = DP_MODEL_STAGED;
     if (dp_setup_init(&staged, &spec) != DP_OK)
@@ -162,8 +164,8 @@ static const worst *find_worst(budget *b) {
     const bool position = b->scheme != NULL && cause == DP_CAUSE_COMPOSITION;
     dp_budget_terms terms;
     dp_budget again;
-    budget_by(b, b->scheme, b->walk.setup, r->z, &terms, &again);
-    remedy_result remedy = remedy_find(b->walk.setup, &terms, r->z, (dp_cause)cause);
+    budget_by(b, b->scheme, b->each.setup, r->z, &terms, &again);
+    remedy_result remedy = remedy_find(b->each.setup, &terms, r->z, (dp_cause)cause);
     if (position)
         remedy = remedy_by_scheme(b, r->z, &remedy);
     b->found = (worst){.z = r->z,
@@ -188,7 +190,7 @@ static void write_cause(row *r, int i) {
 static void *next_row(void *of, size_t index) {
     budget *b = of;
     row *r = &b->row;
-    if (!walk_depth(&b->walk, index, &r->z)) {
+    if (!each_setup_depth(&b->each, index, &r->z)) {
         if (!b->shader) {
             choosing_finish(&b->choice);
             choice_fields_of(&b->choice, &b->chosen_fields);
@@ -197,14 +199,14 @@ static void *next_row(void *of, size_t index) {
         return NULL;
     }
     dp_budget_terms terms;
-    budget_by(b, b->scheme, b->walk.setup, r->z, &terms, &r->parts);
+    budget_by(b, b->scheme, b->each.setup, r->z, &terms, &r->parts);
     r->facing = r->parts.separation;
     if (b->triangles != NULL) {
         dp_budget facing = {0};
         budget_by(b, b->scheme, &b->facing, r->z, &terms, &facing);
         r->facing = facing.separation;
     }
-    for (int i = 0; i < DP_CAUSE_COUNT && b->walk.o->form == FORM_TEXT; i++)
+    for (int i = 0; i < DP_CAUSE_COUNT && b->each.o->form == FORM_TEXT; i++)
         write_cause(r, i);
     note(b, r);
     return r;
@@ -212,14 +214,14 @@ static void *next_row(void *of, size_t index) {
 
 static void *next_setup(void *of, size_t i) {
     budget *b = of;
-    if (!walk_setup(&b->walk, i))
+    if (!each_setup_go(&b->each, i))
         return NULL;
-    setup_fields_budget(b->walk.setup, &b->walk.fields);
-    b->shader = b->walk.setup->curve == DP_CURVE_LOG;
+    setup_fields_budget(b->each.setup, &b->each.fields);
+    b->shader = b->each.setup->curve == DP_CURVE_LOG;
     b->chosen = b->shader ? NULL : &b->chosen_fields;
     b->staged_share = (double)NAN;
-    b->facing = dp_setup_facing(b->walk.setup);
-    b->choice = choosing_start(&b->facing, b->walk.o->tolerance);
+    b->facing = dp_setup_facing(b->each.setup);
+    b->choice = choosing_start(&b->facing, b->each.o->tolerance);
     b->hopeless = b->largest.z = b->largest.parts.separation = (double)NAN;
     return b;
 }
@@ -228,7 +230,7 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_setup(page *p, void *item) {
     const budget *b = item;
-    walk_title(p, item);
+    each_setup_title(p, item);
     if (b->scheme != NULL)
         page_title(p, "from origin %s, scheme %s%s%s", number_in(number_full(b->terms.world), p->unit).text,
                    b->scheme_name, b->scheme->row->size != NULL ? ":" : "",
@@ -238,7 +240,7 @@ static void say_setup(page *p, void *item) {
                    b->composition);
     if (b->shader)
         page_title(p, "log2 %s: %s", dp_log2_get(b->terms.log2)->name, dp_log2_get(b->terms.log2)->note);
-    slant_say(p, page_title, b->walk.o, b->walk.setup);
+    slant_say(p, page_title, b->each.o, b->each.setup);
 }
 
 static void say_worst(page *p, const worst *w) {
@@ -331,8 +333,8 @@ static const column worst_columns[] = {{FIELD(worst, z, "z", "scene")},
                                        {FIELD(worst, remedy_separation, "remedy_separation", "scene")},
                                        {.kind = COLUMN_END}};
 
-static const column setup_report[] = {{PART(budget, walk.fields, NULL, setup_columns)},
-                                      {FIELD(budget, walk.fields.arith, "arith", ""), .only = AS_CSV},
+static const column setup_report[] = {{PART(budget, each.fields, NULL, setup_columns)},
+                                      {FIELD(budget, each.fields.arith, "arith", ""), .only = AS_CSV},
                                       {LIST("rows", row_columns, next_row)},
                                       {FIELD(budget, composition, "composition", ""), .only = AS_CSV},
                                       {FIELD(budget, scheme_name, "scheme", ""), .only = AS_CSV, .when = WITH_SCHEME},
@@ -387,9 +389,9 @@ int cmd_budget(const options *o) {
         b.composition = dp_composition_get(o->terms.composition)->name;
     else if (option_given(o, OPTION_COMPOSITION) && b.scheme == NULL)
         return option_error(OPTION_COMPOSITION, "needs --from-origin: eye depth is given");
-    status = walk_start(&b.walk, &in_binary32);
+    status = each_setup_start(&b.each, &in_binary32);
     if (status == EXIT_FINE)
-        status = depths_in_binary32(&b.walk.at);
+        status = depths_in_binary32(&b.each.at);
     const report_spec spec = {"budget", columns, &b, .when = conditions(&b)};
-    return walk_write(&b.walk, &spec, status);
+    return each_setup_write(&b.each, &spec, status);
 }

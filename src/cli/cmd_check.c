@@ -6,7 +6,7 @@
 
 #include "census/census.h"
 #include "cli/check_report.h"
-#include "cli/names.h"
+#include "cli/option/names.h"
 #include "cli/progress.h"
 
 int check_read(const char *path, need_file *file) {
@@ -58,7 +58,7 @@ static bool count_ties(void *context, const dp_setup *setup, double lo, double h
     return status == CENSUS_DONE || status == CENSUS_RANGE; /* a range of one depth has no pair to tie */
 }
 
-static int judge(const options *o, check_file *f) {
+static int check_cameras(const options *o, check_file *f) {
     const check_request request = {.file = &f->file, .count = count_ties, .context = (void *)(uintptr_t)o};
     f->count = check_count(&f->file);
     f->verdicts = calloc(f->count, sizeof *f->verdicts);
@@ -75,7 +75,7 @@ static int judge_all(const options *o, check_file *files, size_t count, long *fa
     for (size_t i = 0; i < count && status == EXIT_FINE; i++) /* a mistake in the last file is told at once */
         status = check_read(o->operands[i], &files[i].file);
     for (size_t i = 0; i < count && status == EXIT_FINE; i++) {
-        status = judge(o, &files[i]);
+        status = check_cameras(o, &files[i]);
         *failed += files[i].failed;
     }
     return status;

@@ -247,7 +247,7 @@ static int check_family(const options *o) {
     char text[NAMES_SIZE];
     for (size_t i = 0; i < sizeof of_family / sizeof of_family[0] && o->operand_row == NULL; i++)
         if (option_given(o, of_family[i]))
-            return option_error(of_family[i], "needs FAMILY: %s", names_join(o->verb->names, ", ", " or ", text));
+            return option_error(of_family[i], "needs FAMILY: %s", names_join(o->command->names, ", ", " or ", text));
     return EXIT_FINE;
 }
 

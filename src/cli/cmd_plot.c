@@ -6,13 +6,13 @@
 
 #include "cli/check_report.h"
 #include "cli/choice.h"
-#include "cli/drawn.h"
 #include "cli/figure_data.h"
 #include "cli/figure_file.h"
 #include "cli/list.h"
 #include "cli/methods.h"
-#include "cli/scene_figure.h"
-#include "cli/shadow_maps.h"
+#include "cli/raster_setups.h"
+#include "cli/scene/figure.h"
+#include "cli/shadow/maps.h"
 #include "core/append.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
@@ -203,7 +203,7 @@ static int resolve_methods(plotting *p) {
     const char *family = o->operand_count > 1 ? o->operands[1] : p->row->family;
     const name_list families = {.get = list_family};
     list_item item;
-    int status = check_operand(o->verb, "FAMILY", &families, family, &item);
+    int status = check_operand(o->command, "FAMILY", &families, family, &item);
     if (status == EXIT_FINE)
         status = methods_resolve(o, item.row, &p->asked);
     snprintf(p->where, sizeof p->where, "near %s, far %s; %s", number_in(number_full(o->znear), options_unit(o)).text,
@@ -257,7 +257,7 @@ static int resolve_setups(plotting *p) {
     if (status == EXIT_FINE)
         status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model) : EXIT_FINE;
     if (status == EXIT_FINE)
-        status = (drawn ? drawn_setups : setups_make)(&in_model, &p->all);
+        status = (drawn ? raster_setups : setups_make)(&in_model, &p->all);
     if (status == EXIT_FINE)
         status = resolve_depths(p);
     if (status == EXIT_FINE && p->all.count > p->row->setups_max)

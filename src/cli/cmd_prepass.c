@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "cli/bias_all.h"
-#include "cli/walk.h"
+#include "cli/each_setup.h"
 #include "report/number.h"
 
 enum { DIGITS = 6 };
@@ -30,7 +30,7 @@ typedef struct line {
 
 /* Below `line`, what belongs to the set-up at hand. */
 typedef struct prepass {
-    walk walk;
+    each_setup each;
     vertex_request request;
     vertex_difference (*results)[VERTEX_OTHERS]; /* one of each set-up */
     const char *program, *vertices;
@@ -42,11 +42,11 @@ typedef struct prepass {
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
 static int check(prepass *a) {
-    const options *o = a->walk.o;
+    const options *o = a->each.o;
     vertex_request *r = &a->request;
     options fp32 = *o;
     fp32.model = DP_MODEL_FLOAT;
-    int status = setups_make(&fp32, &a->walk.all);
+    int status = setups_make(&fp32, &a->each.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &r->lo, &r->hi);
     if (status == EXIT_FINE && isinf(r->hi))
@@ -62,19 +62,19 @@ static int check(prepass *a) {
 
 static void tick(void *context, uint64_t done) {
     prepass *a = context;
-    progress_step(&a->walk.progress, a->before + done);
+    progress_step(&a->each.progress, a->before + done);
 }
 
 static int work(prepass *a) {
     bool fine = true;
-    a->results = calloc(a->walk.all.count, sizeof *a->results);
-    a->walk.progress = progress_start("vertices", a->walk.all.count * a->request.count, a->walk.o->quiet);
-    for (size_t i = 0; i < a->walk.all.count && fine; i++) {
-        a->request.setup = &a->walk.all.items[i];
+    a->results = calloc(a->each.all.count, sizeof *a->results);
+    a->each.progress = progress_start("vertices", a->each.all.count * a->request.count, a->each.o->quiet);
+    for (size_t i = 0; i < a->each.all.count && fine; i++) {
+        a->request.setup = &a->each.all.items[i];
         fine = a->results != NULL && vertex_compare(&a->request, a->results[i]);
         a->before += a->request.count;
     }
-    progress_end(&a->walk.progress);
+    progress_end(&a->each.progress);
     return fine ? EXIT_FINE : usage_error("no memory to compare the programs");
 }
 
@@ -93,7 +93,7 @@ static void *next_api(void *of, size_t i) {
     const bias_api *api = bias_api_get(i);
     if (api == NULL)
         return NULL;
-    a->line.api = bias_for(a->walk.setup, api, a->line.found);
+    a->line.api = bias_for(a->each.setup, api, a->line.found);
     return &a->line.api;
 }
 
@@ -113,7 +113,7 @@ static void *next_program(void *of, size_t i) {
 static void *next_setup(void *of, size_t i) {
     prepass *a = of;
     a->setup = i;
-    return walk_setup(&a->walk, i) ? a : NULL;
+    return each_setup_go(&a->each, i) ? a : NULL;
 }
 
 /* The greatest of all programs, as if it were one. */
@@ -132,7 +132,7 @@ static void say_answer(page *p, void *item) {
     const prepass *a = item;
     const vertex_request *r = &a->request;
     const vertex_difference worst = worst_of(a);
-    walk_title(p, item);
+    each_setup_title(p, item);
     page_title(p, "%llu vert%s from z = %s to %s: %s; camera within +-%s; seed %llu",
                (unsigned long long)worst.vertices, worst.vertices == 1 ? "ex" : "ices",
                number_in(number_full(r->lo), p->unit).text, number_in(number_full(r->hi), p->unit).text,
@@ -155,18 +155,18 @@ static void say_apis(page *p, void *item) {
     page_line(p,
               "%s is safe on these vertices where the main pass is moved towards the camera by %s of window depth, %u "
               "code%s, whichever of the programs it runs:",
-              a->walk.setup->reversed ? "GEQUAL" : "LEQUAL", number_up(worst.widest.bias, 3).text, worst.most,
+              a->each.setup->reversed ? "GEQUAL" : "LEQUAL", number_up(worst.widest.bias, 3).text, worst.most,
               worst.most == 1 ? "" : "s");
     for (size_t i = 0; bias_api_get(i) != NULL; i++) {
         double units = 0.0;
         for (size_t k = 0; k < a->request.others; k++) {
-            const double one = bias_for(a->walk.setup, bias_api_get(i), &a->results[a->setup][k]).units;
+            const double one = bias_for(a->each.setup, bias_api_get(i), &a->results[a->setup][k]).units;
             units = isnan(one) || fabs(one) > fabs(units) ? one : units;
         }
         page_note(p, bias_api_get(i)->name, "%s",
                   isnan(units) ? "no bias is enough" : bias_call(bias_api_get(i), units, 0.0).text);
     }
-    if (a->walk.setup->spec.format.kind == DP_FORMAT_FLOAT)
+    if (a->each.setup->spec.format.kind == DP_FORMAT_FLOAT)
         page_line(p,
                   "In a float format units shrink with the window depth: vertices next to d = 0 ask for most of them; "
                   "--range leaves them out.");
@@ -202,8 +202,8 @@ static const column drawn_columns[] = {{FIELD(vertex_request, lo, "lo", "scene")
                                        {FIELD(vertex_request, seed, "seed", "")},
                                        {.kind = COLUMN_END}};
 
-static const column setup_report[] = {{PART(prepass, walk.fields, NULL, setup_columns)},
-                                      {FIELD(prepass, walk.fields.arith, "arith", ""), .only = AS_CSV},
+static const column setup_report[] = {{PART(prepass, each.fields, NULL, setup_columns)},
+                                      {FIELD(prepass, each.fields.arith, "arith", ""), .only = AS_CSV},
                                       {FIELD(prepass, program, "program", "")},
                                       {FIELD(prepass, vertices, "distribution", "")},
                                       {PART(prepass, request, NULL, drawn_columns)},
@@ -213,7 +213,7 @@ static const column setup_report[] = {{PART(prepass, walk.fields, NULL, setup_co
 static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer}, {.kind = COLUMN_END}};
 
 int cmd_prepass(const options *o) {
-    prepass a = {.walk.o = o,
+    prepass a = {.each.o = o,
                  .program = o->program->name,
                  .vertices = vertex_spread_name((vertex_spread)o->vertices),
                  .request = {.spread = (vertex_spread)o->vertices,
@@ -231,12 +231,12 @@ int cmd_prepass(const options *o) {
     if (status == EXIT_FINE)
         status = work(&a);
     if (status == EXIT_FINE)
-        status = options_open(o, &a.walk.out);
+        status = options_open(o, &a.each.out);
     if (status == EXIT_FINE) {
-        report_write(&(report_spec){"prepass", columns, &a, .label = 14}, &a.walk.out, o->form);
-        status = output_close(&a.walk.out);
+        report_write(&(report_spec){"prepass", columns, &a, .label = 14}, &a.each.out, o->form);
+        status = output_close(&a.each.out);
     }
     free(a.results);
-    setups_release(&a.walk.all);
+    setups_release(&a.each.all);
     return status;
 }

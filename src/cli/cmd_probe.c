@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 #include "core/append.h"
 #include "probe/probe.h"
 #include "report/number.h"

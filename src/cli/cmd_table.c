@@ -8,11 +8,11 @@
 
 #include "cli/choice.h"
 #include "cli/compare.h"
+#include "cli/each_setup.h"
 #include "cli/lookup.h"
 #include "cli/per_vertex.h"
-#include "cli/reach.h"
+#include "cli/resolved.h"
 #include "cli/slant.h"
-#include "cli/walk.h"
 #include "core/append.h"
 #include "core/engine.h"
 #include "method/ways.h"
@@ -46,7 +46,7 @@ typedef struct guarantee {
 
 /* What a table is made of; below the range, what belongs to the set-up at hand. */
 typedef struct table {
-    walk walk;
+    each_setup each;
     double lo, hi;
     way interval;                /* without a row, the exact cell */
     dp_setup setup, exact, full; /* of surfaces that face the camera: as asked for, and in two models */
@@ -68,8 +68,8 @@ typedef struct table {
 /* Are there depths among those asked about whose cell a plane cuts? */
 static bool has_cut_cells(const table *t, const dp_setup *setup) {
     const uint32_t first = dp_code(setup, setup->spec.znear), last = dp_code(setup, setup->spec.zfar);
-    for (size_t i = 0; i < t->walk.at.count; i++) {
-        const uint32_t code = dp_code(setup, depths_get(&t->walk.at, i));
+    for (size_t i = 0; i < t->each.at.count; i++) {
+        const uint32_t code = dp_code(setup, depths_get(&t->each.at, i));
         if (code == first || code == last)
             return true;
     }
@@ -105,7 +105,7 @@ static void *next_row(void *of, size_t i) {
     table *t = of;
     row *r = &t->row;
     double z;
-    if (!walk_depth(&t->walk, i, &z)) {
+    if (!each_setup_depth(&t->each, i, &z)) {
         choosing_finish(&t->choice);
         choice_fields_of(&t->choice, &t->chosen);
         return NULL;
@@ -118,31 +118,31 @@ static void *next_row(void *of, size_t i) {
     per_vertex_add(&t->written, &r->written, z);
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, &t->setup, z);
-    if (t->walk.o->form == FORM_TEXT)
+    if (t->each.o->form == FORM_TEXT)
         set_digits(r);
-    if (t->walk.o->form != FORM_CSV)
+    if (t->each.o->form != FORM_CSV)
         choosing_add(&t->choice, z);
     return r;
 }
 
 static const guarantee *guarantee_over(const table *t, const dp_setup *full, guarantee *g) {
     g->model = dp_model_name(setup_model(full));
-    return option_given(t->walk.o, OPTION_RANGE) && dp_separation_over(full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
+    return option_given(t->each.o, OPTION_RANGE) && dp_separation_over(full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
                ? g
                : NULL;
 }
 
 static void *next_setup(void *of, size_t i) {
     table *t = of;
-    if (!walk_setup(&t->walk, i))
+    if (!each_setup_go(&t->each, i))
         return NULL;
     const dp_setup *setup = &t->setup;
-    const options *o = t->walk.o;
-    t->triangles = slant_fields_of(&t->walk.here, &t->slant);
-    t->setup = dp_setup_facing(t->walk.setup);
-    t->slanted = dp_setup_guaranteed(t->walk.setup);
-    range_resolve(&t->walk.here, &t->lo, &t->hi);
-    t->exact = reach_in(setup, DP_MODEL_EXACT);
+    const options *o = t->each.o;
+    t->triangles = slant_fields_of(&t->each.here, &t->slant);
+    t->setup = dp_setup_facing(t->each.setup);
+    t->slanted = dp_setup_guaranteed(t->each.setup);
+    range_resolve(&t->each.here, &t->lo, &t->hi);
+    t->exact = resolved_in(setup, DP_MODEL_EXACT);
     t->full = dp_setup_guaranteed(setup);
     t->written = per_vertex_none();
     t->choice = choosing_start(setup, o->tolerance);
@@ -165,28 +165,28 @@ static void *next_setup(void *of, size_t i) {
 
 /* The answer first: how far one can trust the set-up. */
 static void say_reach_of(page *p, const dp_setup *full, const unit_row *unit, const char *which) {
-    char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
-    double up_to[REACH_LIMITS];
-    reach_of(full, unit, up_to);
+    char text[RESOLVED_TEXT_SIZE], sentence[RESOLVED_TEXT_SIZE] = "";
+    double up_to[RESOLVED_LIMITS];
+    resolved_up_to(full, unit, up_to);
     /* What is wider than a separation that holds everywhere goes without saying. */
-    for (size_t i = 0; i < REACH_LIMITS && (i == 0 || !(up_to[i - 1] >= full->spec.zfar)); i++)
+    for (size_t i = 0; i < RESOLVED_LIMITS && (i == 0 || !(up_to[i - 1] >= full->spec.zfar)); i++)
         if (!isnan(up_to[i]))
             append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
-                   reach_limit_text(i, unit).text, up_to[i] < full->spec.zfar ? "z = " : "",
-                   reach_text(full->spec.zfar, up_to[i], unit, text));
+                   resolved_limit_text(i, unit).text, up_to[i] < full->spec.zfar ? "z = " : "",
+                   resolved_text(full->spec.zfar, up_to[i], unit, text));
     if (*sentence != '\0')
         page_text(p, "Guaranteed to be told apart%s: surfaces%s.", which, sentence);
     else
         page_text(p, "Surfaces %s apart are not guaranteed to be told apart%s, even at the near plane.",
-                  reach_limit_text(REACH_LIMITS - 1, unit).text, which);
+                  resolved_limit_text(RESOLVED_LIMITS - 1, unit).text, which);
 }
 
 static void say_reach(page *p, void *item) {
     const table *t = item;
-    const unit_row *unit = t->walk.here.unit;
-    walk_title(p, item);
-    slant_say(p, page_title, &t->walk.here, &t->full);
-    if (t->walk.all.count > 1)
+    const unit_row *unit = t->each.here.unit;
+    each_setup_title(p, item);
+    slant_say(p, page_title, &t->each.here, &t->full);
+    if (t->each.all.count > 1)
         return;
     say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");
     if (t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FLOAT)
@@ -251,8 +251,8 @@ static void say_notes(page *p, void *item) {
     say_drawn(p, &t->planes);
     per_vertex_say(p, &t->written, t->slant.triangles.depth);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
-    if (option_given(t->walk.o, OPTION_TOLERANCE))
-        say_way(p, &t->interval, t->walk.o->tolerance);
+    if (option_given(t->each.o, OPTION_TOLERANCE))
+        say_way(p, &t->interval, t->each.o->tolerance);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -317,16 +317,16 @@ static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective",
                                        {.kind = COLUMN_END}};
 
 static const column setup_report[] = {
-    {PART(table, walk.fields, NULL, setup_columns)},
+    {PART(table, each.fields, NULL, setup_columns)},
     {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true,
      .when = WITH_PRESETS},
-    {FIELD(table, walk.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
+    {FIELD(table, each.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {FIELD(table, interval.claim, "claim", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {LIST("rows", row_columns, next_row)},
     {FIELD(table, interval.name, "method", ""), .only = AS_CSV, .when = WITH_TOLERANCE},
-    {FIELD(table, walk.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
-    {FIELD(table, walk.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
+    {FIELD(table, each.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
+    {FIELD(table, each.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
     {PART(table, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
     {PART(table, guarantee, "worst_separation", guarantee_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {PART(table, guarantee_slanted, "worst_separation_slanted", guarantee_columns), .only = AS_JSON, .pointed = true,
@@ -342,12 +342,12 @@ static const column columns[] = {{PART(table, triangles, "triangles", slant_colu
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
-    unsigned when = (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
-                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
+    unsigned when = (option_given(t->each.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
+                    (t->each.o->verbose ? VERBOSE : 0) | (t->each.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
                     (t->triangles != NULL ? WITH_TRIANGLES : 0);
-    for (size_t i = 0; i < t->walk.all.count; i++) {
-        when |= t->walk.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
-        when |= per_vertex_matters(&t->walk.all.items[i]) ? PER_VERTEX : 0;
+    for (size_t i = 0; i < t->each.all.count; i++) {
+        when |= t->each.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
+        when |= per_vertex_matters(&t->each.all.items[i]) ? PER_VERTEX : 0;
     }
     return when;
 }
@@ -357,16 +357,16 @@ int cmd_table(const options *o) {
         return lookup_write(o);
     table t = {0};
     t.triangles = slant_fields_of(o, &t.slant);
-    int status = walk_start(&t.walk, o);
-    for (size_t i = 0; status == EXIT_FINE && walk_setup(&t.walk, i); i++) {
-        status = range_resolve(&t.walk.here, &t.lo, &t.hi);
+    int status = each_setup_start(&t.each, o);
+    for (size_t i = 0; status == EXIT_FINE && each_setup_go(&t.each, i); i++) {
+        status = range_resolve(&t.each.here, &t.lo, &t.hi);
         if (status == EXIT_FINE && (o->model == DP_MODEL_FLOAT || o->model_auto))
-            status = depths_in_binary32(&t.walk.at);
+            status = depths_in_binary32(&t.each.at);
         if (status == EXIT_FINE)
-            setup_choose(o, &t.walk.at, &t.walk.all.items[i]);
+            setup_choose(o, &t.each.at, &t.each.all.items[i]);
     }
-    if (status == EXIT_FINE && compare_suits(&t.walk))
-        return compare_write(&t.walk);
+    if (status == EXIT_FINE && compare_suits(&t.each))
+        return compare_write(&t.each);
     const report_spec spec = {"table", columns, &t, .when = conditions(&t), .label = 16};
-    return walk_write(&t.walk, &spec, status);
+    return each_setup_write(&t.each, &spec, status);
 }

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/option_rows.h"
+#include "cli/option/rows.h"
 #include "cli/setups.h"
 #include "core/append.h"
 #include "core/elementary.h"
@@ -63,7 +63,7 @@ static double reach_or_inf(world_loss *loss, const world_scheme *s, const world_
     return to >= WORLD_FARTHEST ? (double)INFINITY : to;
 }
 
-static void measure(world *w, const world_scheme *s) {
+static void fill_line(world *w, const world_scheme *s) {
     static const char *const verdicts[2][2] = {{"fights, jitters", "fights"}, {"jitters", "holds"}};
     line *l = &w->line;
     *l = (line){.name = s->row->name, .size = s->row->size != NULL ? s->size : (double)NAN};
@@ -109,7 +109,7 @@ static void *next_line(void *of, size_t i) {
     world *w = of;
     if (i == w->o.scheme_count)
         return NULL;
-    measure(w, &w->o.schemes[i]);
+    fill_line(w, &w->o.schemes[i]);
     return &w->line;
 }
 
@@ -230,7 +230,7 @@ static void take_view(world *w) {
     *t = (dp_triangles){0};
     const double half = dp_tan(0.5 * degree * w->fov);
     w->asked = (world_asked){.z = w->z,
-                             .lean = dp_hypot(1.0, half * dp_hypot(1.0, (double)w->width / w->height)),
+                             .ray_ratio = dp_hypot(1.0, half * dp_hypot(1.0, (double)w->width / w->height)),
                              .pixels = 0.5 * w->height / half,
                              .shared_origin = w->o.shared_origin};
 }

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 
 #include "census/census.h"
+#include "cli/each_setup.h"
 #include "cli/slant.h"
 #include "cli/stop.h"
-#include "cli/walk.h"
 #include "cli/zfight_triangles.h"
 #include "report/number.h"
 
@@ -22,7 +22,7 @@ typedef struct band {
 
 /* A census, which walks over set-ups alone; below `before`, what belongs to the one at hand. */
 typedef struct zfight {
-    walk walk;
+    each_setup each;
     census_result *results; /* one a set-up */
     const char *method;
     uint64_t seed;
@@ -41,30 +41,30 @@ typedef struct zfight {
 
 static int tick(void *context, uint64_t done) {
     zfight *z = context;
-    progress_step(&z->walk.progress, z->before + done);
+    progress_step(&z->each.progress, z->before + done);
     return stop_asked();
 }
 
 static uint64_t visits(const zfight *z) {
-    return z->walk.o->sample > 0 ? z->walk.o->sample : census_count(z->lo, z->hi);
+    return z->each.o->sample > 0 ? z->each.o->sample : census_count(z->lo, z->hi);
 }
 
 static census_status work(zfight *z, const dp_setup *setup, census_result *result) {
     census_sample_request q = {.common = census_of_guarantee(setup, z->lo, z->hi),
-                               .count = z->walk.o->sample,
-                               .seed = z->walk.o->seed,
-                               .gap = z->walk.o->separation};
-    q.common.threads = z->walk.o->threads;
+                               .count = z->each.o->sample,
+                               .seed = z->each.o->seed,
+                               .gap = z->each.o->separation};
+    q.common.threads = z->each.o->threads;
     q.common.progress = tick;
     q.common.context = z;
-    if (z->walk.o->sample > 0 || z->walk.o->separation > 0.0)
+    if (z->each.o->sample > 0 || z->each.o->separation > 0.0)
         return census_sample(&q, result);
     return census_run(&q.common, result);
 }
 
 static int work_all(zfight *z) {
-    for (size_t i = 0; i < z->walk.all.count; i++) {
-        z->facing = dp_setup_facing(&z->walk.all.items[i]);
+    for (size_t i = 0; i < z->each.all.count; i++) {
+        z->facing = dp_setup_facing(&z->each.all.items[i]);
         const census_status status = work(z, &z->facing, &z->results[i]);
         if (status == CENSUS_NO_MEMORY)
             return usage_error("no memory for the census");
@@ -91,7 +91,7 @@ static bool is_empty(const census_band *b) {
 static double slanted_over(const zfight *z, double lo, double hi) {
     dp_separation_worst worst = {.bound = (double)NAN};
     if (z->triangles != NULL)
-        dp_separation_over(z->walk.setup, fmax(lo, z->lo), fmin(hi, z->hi), 0.0, &worst);
+        dp_separation_over(z->each.setup, fmax(lo, z->lo), fmin(hi, z->hi), 0.0, &worst);
     return worst.bound;
 }
 
@@ -103,9 +103,9 @@ static band band_of(const zfight *z, const census_band *b) {
                 .used = b->slack,
                 .clipped = (double)b->clipped,
                 .slanted = slanted_over(z, b->lo, b->hi)};
-    if (z->walk.o->separation > 0.0)
+    if (z->each.o->separation > 0.0)
         out.longest = out.used = (double)NAN;
-    if (z->walk.o->separation > 0.0 || z->walk.o->sample > 0) /* a sample would only count those that it drew */
+    if (z->each.o->separation > 0.0 || z->each.o->sample > 0) /* a sample would only count those that it drew */
         out.clipped = (double)NAN;
     return out;
 }
@@ -118,7 +118,7 @@ static void *next_band(void *of, size_t index) {
     while (z->band_index < z->result->band_count && is_empty(&z->result->bands[z->band_index]))
         z->band_index++;
     const int at = z->band_index++;
-    if (at > z->result->band_count || (at == z->result->band_count && z->walk.o->form != FORM_TEXT))
+    if (at > z->result->band_count || (at == z->result->band_count && z->each.o->form != FORM_TEXT))
         return NULL;
     z->band = band_of(z, at < z->result->band_count ? &z->result->bands[at] : &z->result->all);
     snprintf(z->band.from, sizeof z->band.from, "%s",
@@ -135,9 +135,9 @@ static double always_from(const zfight *z) {
 
 static void *next_setup(void *of, size_t i) {
     zfight *z = of;
-    if (!walk_setup(&z->walk, i))
+    if (!each_setup_go(&z->each, i))
         return NULL;
-    z->facing = dp_setup_facing(z->walk.setup);
+    z->facing = dp_setup_facing(z->each.setup);
     z->result = &z->results[i];
     z->whole = band_of(z, &z->result->all);
     z->always = always_from(z);
@@ -149,7 +149,7 @@ static void say_gap(page *p, const zfight *z) {
     const number_text gap = number_in(number_full(z->gap), p->unit);
     const number_text first = number_in(number_down(all->first, DIGITS), p->unit);
     const number_text always = number_in(number_up(z->always, DIGITS), p->unit);
-    const char *drawn = z->walk.o->sample > 0 ? "Of the pairs drawn, surfaces" : "Surfaces";
+    const char *drawn = z->each.o->sample > 0 ? "Of the pairs drawn, surfaces" : "Surfaces";
     if (isnan(all->first))
         page_text(p, "%s %s apart never fight from %s to %s.", drawn, gap.text,
                   number_in(number_full(z->lo), p->unit).text, number_in(number_full(z->hi), p->unit).text);
@@ -164,7 +164,7 @@ static void say_gap(page *p, const zfight *z) {
 static void say_neighbours(page *p, const zfight *z) {
     const census_band *all = &z->result->all;
     page_text(p, "Neighbouring binary32 depths%s: %s %% tie, %s %% swap. --separation asks about surfaces.",
-              z->walk.o->sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
+              z->each.o->sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
               number_of(z->whole.swaps, 3).text);
     if (all->longest > 0.0)
         page_line(p, "longest interval %s at z = %s, guaranteed there %s",
@@ -175,8 +175,8 @@ static void say_neighbours(page *p, const zfight *z) {
 
 static void say_answer(page *p, void *item) {
     const zfight *z = item;
-    walk_title(p, item);
-    slant_say(p, page_title, z->walk.o, z->walk.setup);
+    each_setup_title(p, item);
+    slant_say(p, page_title, z->each.o, z->each.setup);
     (z->gap > 0.0 ? say_gap : say_neighbours)(p, z);
 }
 
@@ -188,7 +188,7 @@ static void say_planes(page *p, void *item) {
     if (isnan(r->near_effective))
         page_line(p, "clipping loses everything");
     else
-        page_line(p, "effective clip range%s: %s to %s", option_given(z->walk.o, OPTION_RANGE) ? " within --range" : "",
+        page_line(p, "effective clip range%s: %s to %s", option_given(z->each.o, OPTION_RANGE) ? " within --range" : "",
                   number_in(number_of(r->near_effective, PLANE_DIGITS), p->unit).text,
                   number_in(number_of(r->far_effective, PLANE_DIGITS), p->unit).text);
 }
@@ -235,8 +235,8 @@ static const column clipped_columns[] = {{FIELD(census_result, all.clipped, "cli
 
 /* CSV has a line a band. */
 static const column setup_report[] = {
-    {PART(zfight, walk.fields, NULL, setup_columns)},
-    {FIELD(zfight, walk.fields.arith, "arith", ""), .only = AS_CSV},
+    {PART(zfight, each.fields, NULL, setup_columns)},
+    {FIELD(zfight, each.fields.arith, "arith", ""), .only = AS_CSV},
     {FIELD(zfight, method, "method", "")},
     {FIELD(zfight, seed, "seed", ""), .only = AS_CSV},
     {FIELD(zfight, gap, "gap", "scene"), .only = AS_CSV},
@@ -262,26 +262,26 @@ static const column columns[] = {
 
 /* Geometry that the user asked about and the hardware would not draw: worth a line, whatever the form of the data. */
 static void warn(const zfight *z) {
-    for (size_t i = 0; i < z->walk.all.count && !z->walk.o->quiet; i++) {
+    for (size_t i = 0; i < z->each.all.count && !z->each.o->quiet; i++) {
         const census_result *r = &z->results[i];
         const double from = r->near_effective, to = r->far_effective;
         char label[SETUP_LABEL_SIZE];
         if (isnan(from) || census_count(from, to) < census_count(z->lo, z->hi))
-            clipping_say(&z->walk.all.items[i], from, to, r->holes > 0 ? ", with holes" : "");
+            clipping_say(&z->each.all.items[i], from, to, r->holes > 0 ? ", with holes" : "");
         else if (r->holes > 0)
             fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s\n",
-                    setup_label(&z->walk.all.items[i], false, label), (unsigned long long)r->holes,
+                    setup_label(&z->each.all.items[i], false, label), (unsigned long long)r->holes,
                     number_of(from, PLANE_DIGITS).text, number_of(to, PLANE_DIGITS).text);
     }
 }
 
 static int check(zfight *z) {
-    const options *o = z->walk.o;
+    const options *o = z->each.o;
     if (option_given(o, OPTION_SEED) && o->sample == 0)
         return option_error(OPTION_SEED, "needs --sample");
     options fp32 = *o;
     fp32.model = DP_MODEL_FLOAT;
-    int status = setups_make(&fp32, &z->walk.all);
+    int status = setups_make(&fp32, &z->each.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &z->lo, &z->hi);
     if (status == EXIT_FINE && isinf(z->hi))
@@ -298,17 +298,17 @@ static int check(zfight *z) {
 
 static int run(zfight *z) {
     stop_watch();
-    z->walk.progress = progress_start("depths", z->walk.all.count * visits(z), z->walk.o->quiet);
+    z->each.progress = progress_start("depths", z->each.all.count * visits(z), z->each.o->quiet);
     int status = work_all(z);
-    progress_end(&z->walk.progress);
-    stop_end(&z->walk.out);
+    progress_end(&z->each.progress);
+    stop_end(&z->each.out);
     if (status != EXIT_FINE) {
-        output_abandon(&z->walk.out);
+        output_abandon(&z->each.out);
         return status;
     }
-    report_write(&(report_spec){"zfight", columns, z, .when = conditions(z->walk.o)}, &z->walk.out, z->walk.o->form);
+    report_write(&(report_spec){"zfight", columns, z, .when = conditions(z->each.o)}, &z->each.out, z->each.o->form);
     warn(z);
-    return output_close(&z->walk.out);
+    return output_close(&z->each.out);
 }
 
 int cmd_zfight(const options *o) {
@@ -316,19 +316,19 @@ int cmd_zfight(const options *o) {
         return zfight_triangles(o);
     if (option_given(o, OPTION_PLANE))
         return option_error(OPTION_PLANE, "needs --rasterize");
-    zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->separation};
+    zfight z = {.each.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->separation};
     z.triangles = slant_fields_of(o, &z.slant);
     int status = check(&z);
     if (status == EXIT_FINE) {
-        z.results = calloc(z.walk.all.count, sizeof *z.results);
+        z.results = calloc(z.each.all.count, sizeof *z.results);
         if (z.results == NULL)
-            status = usage_error("no memory for %zu set-ups", z.walk.all.count);
+            status = usage_error("no memory for %zu set-ups", z.each.all.count);
     }
     if (status == EXIT_FINE)
-        status = options_open(o, &z.walk.out);
+        status = options_open(o, &z.each.out);
     if (status == EXIT_FINE)
         status = run(&z);
     free(z.results);
-    setups_release(&z.walk.all);
+    setups_release(&z.each.all);
     return status;
 }

@@ -11,9 +11,9 @@
 #include <string.h>
 
 #include "api/cost.h"
-#include "cli/reach.h"
+#include "cli/depth24plus.h"
+#include "cli/resolved.h"
 #include "cli/slant.h"
-#include "cli/stored.h"
 #include "core/append.h"
 #include "core/elementary.h"
 #include "report/number.h"
@@ -21,8 +21,8 @@
 enum {
     DEPTHS = 5,
     DEPTHS_OF_PRESETS = 3,
-    LIMITS = REACH_LIMITS,
-    MIDDLE = REACH_MIDDLE,
+    LIMITS = RESOLVED_LIMITS,
+    MIDDLE = RESOLVED_MIDDLE,
     NAMED = 3,
     DIGITS_BOUND = 2,
     DIGITS_Z = 6,
@@ -46,7 +46,7 @@ typedef struct compared {
 } compared;
 
 typedef struct comparison {
-    walk *walk;
+    each_setup *each;
     compared *rows;
     double depths[DEPTHS];
     size_t depth_count;
@@ -56,8 +56,8 @@ typedef struct comparison {
 
 /* ---- What is measured -------------------------------------------------------------------------------------------- */
 
-static void measure(const comparison *c, compared *r) {
-    const unit_row *unit = c->walk->o->unit;
+static void compute_row(const comparison *c, compared *r) {
+    const unit_row *unit = c->each->o->unit;
     const dp_setup full = dp_setup_guaranteed(r->setup);
     for (size_t i = 0; i < c->depth_count; i++) {
         const double z = unit_convert(c->depths[i], unit, r->unit);
@@ -65,7 +65,7 @@ static void measure(const comparison *c, compared *r) {
                                ? unit_convert(dp_separation(&full, z), r->unit, unit)
                                : (double)NAN;
     }
-    reach_of(&full, r->unit, r->up_to);
+    resolved_up_to(&full, r->unit, r->up_to);
     for (size_t i = 0; i < LIMITS; i++)
         r->up_to[i] = r->unbounded ? (double)NAN : unit_convert(r->up_to[i], r->unit, unit);
 }
@@ -99,9 +99,9 @@ static void choose_multiples(comparison *c, double near, double far, double most
 
 /* At most five of the depths asked about, else powers of ten: those that a reader looks for. */
 static void choose_depths(comparison *c) {
-    const options *o = c->walk->o;
+    const options *o = c->each->o;
     double near = INFINITY, far = -INFINITY;
-    for (size_t i = 0; i < c->walk->all.count; i++) {
+    for (size_t i = 0; i < c->each->all.count; i++) {
         near = fmin(near, c->rows[i].znear);
         far = fmax(far, isinf(c->rows[i].zfar) ? 1e6 * c->rows[i].znear : c->rows[i].zfar);
     }
@@ -130,15 +130,15 @@ static bool to_the_end(const compared *r) {
 }
 
 static const char *at_a_slant(const comparison *c) {
-    return c->walk->o->triangles.width > 0 ? " at any slant" : "";
+    return c->each->o->triangles.width > 0 ? " at any slant" : "";
 }
 
 static void say_farthest(page *p, const comparison *c, const char *limit) {
     const compared *best = c->rows;
     const char *const slant = at_a_slant(c);
-    char names[256] = "", text[REACH_TEXT_SIZE];
+    char names[256] = "", text[RESOLVED_TEXT_SIZE];
     size_t all = 0;
-    while (all < c->walk->all.count && to_the_end(&c->rows[all]))
+    while (all < c->each->all.count && to_the_end(&c->rows[all]))
         all++;
     for (size_t i = 0; i < all && i < NAMED; i++)
         append(names, sizeof names, "%s%s", i == 0 ? "" : i + 1 == all ? " and " : ", ", c->rows[i].name);
@@ -148,7 +148,7 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
         page_text(p, "None of these is guaranteed to tell surfaces %s apart%s, even at the near plane.", limit, slant);
     else if (all == 0)
         page_text(p, "%s goes farthest: it tells surfaces %s apart%s up to z = %s.", best->name, limit, slant,
-                  reach_text(best->zfar, best->up_to[MIDDLE], c->walk->o->unit, text));
+                  resolved_text(best->zfar, best->up_to[MIDDLE], c->each->o->unit, text));
     else
         page_text(p, "%s tell%s surfaces %s apart%s all the way to the far plane.", names, all == 1 ? "s" : "", limit,
                   slant);
@@ -157,7 +157,7 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
 /* The row of the same format, reversed with the same range of NDC depth; null where there is none. */
 static const compared *reversed_of(const comparison *c, const compared *r) {
     const dp_mapping_row *here = dp_mapping_get(r->setup->spec.mapping);
-    for (size_t i = 0; i < c->walk->all.count; i++) {
+    for (size_t i = 0; i < c->each->all.count; i++) {
         const dp_spec *other = &c->rows[i].setup->spec;
         const dp_mapping_row *there = dp_mapping_get(other->mapping);
         if (c->rows[i].camera == r->camera && !here->reversed && there->reversed &&
@@ -169,13 +169,13 @@ static const compared *reversed_of(const comparison *c, const compared *r) {
 }
 
 static void say_reversing(page *p, const comparison *c, const char *limit) {
-    char gains[512] = "", before[REACH_TEXT_SIZE], after[REACH_TEXT_SIZE];
-    for (size_t i = 0; i < c->walk->all.count; i++) {
+    char gains[512] = "", before[RESOLVED_TEXT_SIZE], after[RESOLVED_TEXT_SIZE];
+    for (size_t i = 0; i < c->each->all.count; i++) {
         const compared *r = &c->rows[i], *other = reversed_of(c, r);
         if (other == NULL || r->cost.buffer == 0 || isnan(r->up_to[MIDDLE]))
             continue;
-        reach_text(r->zfar, r->up_to[MIDDLE], c->walk->o->unit, before);
-        reach_text(other->zfar, other->up_to[MIDDLE], c->walk->o->unit, after);
+        resolved_text(r->zfar, r->up_to[MIDDLE], c->each->o->unit, before);
+        resolved_text(other->zfar, other->up_to[MIDDLE], c->each->o->unit, after);
         append(gains, sizeof gains, "%s %s", *gains != '\0' ? "," : "", r->name);
         append(gains, sizeof gains, strcmp(before, after) == 0 ? " not at all" : " from %s to %s", before, after);
     }
@@ -185,13 +185,13 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
 
 static void say_notes(page *p, void *item) {
     const comparison *c = item;
-    const number_text limit = reach_limit_text(MIDDLE, c->walk->o->unit);
-    const bool slanted = c->walk->o->triangles.width > 0;
+    const number_text limit = resolved_limit_text(MIDDLE, c->each->o->unit);
+    const bool slanted = c->each->o->triangles.width > 0;
     bool bent = false, linear = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
     say_reversing(p, c, limit.text);
-    for (size_t i = 0; i < c->walk->all.count; i++) {
+    for (size_t i = 0; i < c->each->all.count; i++) {
         const dp_curve curve = dp_mapping_get(c->rows[i].setup->spec.mapping)->curve;
         bent = bent || curve != DP_CURVE_PERSPECTIVE;
         linear = linear || curve == DP_CURVE_LINEAR;
@@ -200,18 +200,18 @@ static void say_notes(page *p, void *item) {
         page_text(p, "linear and log are not affine on the screen: no guarantee at a slant.");
     else if (linear)
         page_text(p, "linear is judged without the arithmetic of its shader (model staged).");
-    for (size_t i = 0; i < c->walk->all.count; i++)
+    for (size_t i = 0; i < c->each->all.count; i++)
         if (c->rows[i].cost.buffer == 0) {
             page_text(p, "No API has %s as a depth buffer.", c->rows[i].setup->spec.format.name);
             break;
         }
-    stored_say(p, c->walk->o);
+    depth24plus_say(p, c->each->o);
     page_text(p, "--full prints the tables: codes, errors, intervals, worst cases.");
 }
 
 /* What the cameras have in common, and where there are several the planes of each. */
 static void say_cameras(page *p, const comparison *c) {
-    const options *o = c->walk->o;
+    const options *o = c->each->o;
     char planes[1024] = "", unit[32] = "";
     if (p->unit != NULL)
         snprintf(unit, sizeof unit, ", lengths in %s", p->unit);
@@ -224,7 +224,7 @@ static void say_cameras(page *p, const comparison *c) {
     page_title(p, "%zu presets, %s%s", o->preset_count, o->ortho ? "orthographic" : "perspective", unit);
     slant_say(p, page_title, o, NULL);
     for (size_t k = 0; k < o->preset_count; k++)
-        for (size_t i = 0; i < c->walk->all.count; i++)
+        for (size_t i = 0; i < c->each->all.count; i++)
             if (c->rows[i].camera == k) {
                 append(planes, sizeof planes, "%s%s near %s, far %s", k > 0 ? "; " : "", o->presets[k]->name,
                        number_full(c->rows[i].znear).text, number_full(c->rows[i].zfar).text);
@@ -242,9 +242,9 @@ static void say_head(page *p, void *item) {
                                                    {"guaranteed at any slant, z", "any slant, at z", "any slant"}};
     const comparison *c = item;
     const int width = COLUMN_WIDTH * (int)c->depth_count, limits = c->limit_end - c->limit_begin;
-    p->unit = options_unit(c->walk->o);
+    p->unit = options_unit(c->each->o);
     say_cameras(p, c);
-    const char *const *words = above_depths[c->walk->o->triangles.width > 0];
+    const char *const *words = above_depths[c->each->o->triangles.width > 0];
     output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : words[2], width,
                   width > 27   ? words[0]
                   : width > 20 ? words[1]
@@ -254,14 +254,14 @@ static void say_head(page *p, void *item) {
 
 static void *next_row(void *of, size_t i) {
     comparison *c = of;
-    return i < c->walk->all.count ? &c->rows[i] : NULL;
+    return i < c->each->all.count ? &c->rows[i] : NULL;
 }
 
 /* Names of presets take room: of the limits, those beside the middle one go first. */
 static void fit(comparison *c) {
-    for (size_t i = 0; i < c->walk->all.count; i++)
+    for (size_t i = 0; i < c->each->all.count; i++)
         c->name_width = (int)fmax(c->name_width, (double)strlen(c->rows[i].name) + 1);
-    const int room = page_start(&c->walk->out, 0).width - c->name_width - COLUMN_WIDTH * (int)c->depth_count;
+    const int room = page_start(&c->each->out, 0).width - c->name_width - COLUMN_WIDTH * (int)c->depth_count;
     const bool all = room >= COLUMN_WIDTH * LIMITS + BYTES_WIDTH;
     c->limit_begin = all ? 0 : MIDDLE;
     c->limit_end = all ? LIMITS : MIDDLE + (room >= COLUMN_WIDTH * 2 ? 2 : 1);
@@ -278,8 +278,8 @@ static void write(comparison *c) {
     }
     for (int i = c->limit_begin; i < c->limit_end; i++) {
         char *title = c->titles[DEPTHS + i];
-        snprintf(title, NUMBER_SIZE, "%s", reach_limit_text((size_t)i, c->walk->o->unit).text);
-        rows[n++] = (column){TEXT_FIELD(compared, up_to[0], title, COLUMN_WIDTH, REACH_DIGITS), .downward = true,
+        snprintf(title, NUMBER_SIZE, "%s", resolved_limit_text((size_t)i, c->each->o->unit).text);
+        rows[n++] = (column){TEXT_FIELD(compared, up_to[0], title, COLUMN_WIDTH, RESOLVED_DIGITS), .downward = true,
                              .brief = true};
         rows[n - 1].offset = offsetof(compared, up_to[i]);
     }
@@ -287,54 +287,54 @@ static void write(comparison *c) {
         rows[n++] = (column){TEXT_FIELD(compared, bytes, "B", BYTES_WIDTH, 0)};
     rows[n] = (column){.kind = COLUMN_END};
     const column columns[] = {{LIST(NULL, rows, next_row), .head = say_head, .notes = say_notes}, {.kind = COLUMN_END}};
-    report_write(&(report_spec){"table", columns, c, .label = 16}, &c->walk->out, FORM_TEXT);
+    report_write(&(report_spec){"table", columns, c, .label = 16}, &c->each->out, FORM_TEXT);
 }
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-bool compare_suits(const walk *w) {
+bool compare_suits(const each_setup *w) {
     const options *o = w->o;
     return o->form == FORM_TEXT && w->all.count > 1 && !o->full && !o->verbose && !option_given(o, OPTION_MODEL) &&
            !option_given(o, OPTION_RANGE) && !option_given(o, OPTION_TOLERANCE) &&
            (!option_given(o, OPTION_AT) || w->at.count <= DEPTHS);
 }
 
-static void add(comparison *c, size_t i) {
+static void compare_setup(comparison *c, size_t i) {
     compared *r = &c->rows[i];
-    const options *o = c->walk->o;
+    const options *o = c->each->o;
     const bool slanted = o->triangles.width > 0;
-    walk_setup(c->walk, i);
-    const dp_mapping mapping = c->walk->setup->spec.mapping;
-    const char *engine = c->walk->fields.preset;
-    *r = (compared){.setup = c->walk->setup,
-                    .camera = c->walk->all.cameras[i],
-                    .unit = c->walk->here.unit,
-                    .znear = unit_convert(c->walk->setup->spec.znear, c->walk->here.unit, o->unit),
-                    .zfar = unit_convert(c->walk->setup->spec.zfar, c->walk->here.unit, o->unit),
-                    .fov_y = c->walk->here.triangles.fov_y,
+    each_setup_go(c->each, i);
+    const dp_mapping mapping = c->each->setup->spec.mapping;
+    const char *engine = c->each->fields.preset;
+    *r = (compared){.setup = c->each->setup,
+                    .camera = c->each->all.cameras[i],
+                    .unit = c->each->here.unit,
+                    .znear = unit_convert(c->each->setup->spec.znear, c->each->here.unit, o->unit),
+                    .zfar = unit_convert(c->each->setup->spec.zfar, c->each->here.unit, o->unit),
+                    .fov_y = c->each->here.triangles.fov_y,
                     .unbounded = slanted && dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE,
-                    .cost = cost_of(&c->walk->setup->spec.format, mapping)};
+                    .cost = cost_of(&c->each->setup->spec.format, mapping)};
     char label[SETUP_LABEL_SIZE];
-    const raster_row *raster = c->walk->here.raster;
+    const raster_row *raster = c->each->here.raster;
     if (raster != NULL)
         snprintf(r->raster, sizeof r->raster, "%s", raster->name);
     else
-        snprintf(r->raster, sizeof r->raster, "%d subpixel bits", c->walk->here.triangles.subpixel);
+        snprintf(r->raster, sizeof r->raster, "%d subpixel bits", c->each->here.triangles.subpixel);
     snprintf(r->name, sizeof r->name, "%s%s%s", engine != NULL ? engine : "", engine != NULL ? " " : "",
              setup_label(r->setup, false, label));
     r->bytes = (uint64_t)r->cost.bytes;
 }
 
-int compare_write(walk *w) {
-    comparison c = {.walk = w, .rows = calloc(w->all.count, sizeof(compared)), .name_width = NAME_WIDTH};
+int compare_write(each_setup *w) {
+    comparison c = {.each = w, .rows = calloc(w->all.count, sizeof(compared)), .name_width = NAME_WIDTH};
     int status = c.rows != NULL ? options_open(w->o, &w->out) : usage_error("table: no memory");
     if (status == EXIT_FINE) {
         for (size_t i = 0; i < w->all.count; i++)
-            add(&c, i);
+            compare_setup(&c, i);
         choose_depths(&c);
         fit(&c);
         for (size_t i = 0; i < w->all.count; i++)
-            measure(&c, &c.rows[i]);
+            compute_row(&c, &c.rows[i]);
         qsort(c.rows, w->all.count, sizeof *c.rows, better);
         write(&c);
         status = output_close(&w->out);

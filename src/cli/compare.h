@@ -3,12 +3,12 @@
 #ifndef CLI_COMPARE_H
 #define CLI_COMPARE_H
 
-#include "cli/walk.h"
+#include "cli/each_setup.h"
 
 /** Whether that is what was asked for: text, more than one set-up, and nothing that only the tables show. */
-bool compare_suits(const walk *w);
+bool compare_suits(const each_setup *w);
 
-/** Writes the screen in place of the tables of a walk that was started; frees what walk_start() made. */
-int compare_write(walk *w);
+/** Writes the screen in place of the tables of a walk that was started; frees what each_setup_start() made. */
+int compare_write(each_setup *w);
 
 #endif

@@ -2,9 +2,9 @@
 /* completions: a script for a shell, by which it completes a command line, from the same rows as help. */
 #include <string.h>
 
-#include "cli/option_rows.h"
+#include "cli/option/rows.h"
 
-static bool takes(const verb *v, const option_row *row) {
+static bool takes(const command_row *v, const option_row *row) {
     return (row->commands & v->bit) != 0;
 }
 
@@ -14,7 +14,7 @@ static const char *words_of(const name_list *n, char out[NAMES_SIZE]) {
 }
 
 /* The words of an option behind it, else those of the operand and the options of the command; files where none fits. */
-static void write_cases(output *out, const char *previous, const char *command) {
+static void write_cases(output *out, const char *previous, const char *word) {
     char text[NAMES_SIZE];
     output_format(out, "    case %s in\n", previous);
     for (int id = 0; id < OPTION_COUNT; id++) {
@@ -24,9 +24,9 @@ static void write_cases(output *out, const char *previous, const char *command) 
             output_format(out, "    --%s%s) offered='%s' ;;\n", row->name, row->letter != 0 ? letter : "",
                           words_of(row->names, text));
     }
-    output_format(out, "    *)\n        case %s in\n", command);
-    for (size_t i = 0; i < verb_count; i++) {
-        const verb *v = &verb_rows[i];
+    output_format(out, "    *)\n        case %s in\n", word);
+    for (size_t i = 0; i < command_count; i++) {
+        const command_row *v = &command_rows[i];
         output_format(out, "        %s) offered='%s", v->name, words_of(v->names, text));
         for (int id = 0; id < OPTION_COUNT; id++)
             if (takes(v, &option_rows[id]))
@@ -34,7 +34,7 @@ static void write_cases(output *out, const char *previous, const char *command) 
         output_text(out, "' ;;\n");
     }
     output_format(out, "        *) offered='%s' ;;\n        esac ;;\n    esac\n",
-                  words_of(&(name_list){.get = list_verb}, text));
+                  words_of(&(name_list){.get = list_command}, text));
 }
 
 static void write_bash(output *out) {
@@ -53,8 +53,8 @@ static void write_zsh(output *out) {
 
 static void write_fish(output *out) {
     char text[NAMES_SIZE];
-    for (size_t i = 0; i < verb_count; i++) {
-        const verb *v = &verb_rows[i];
+    for (size_t i = 0; i < command_count; i++) {
+        const command_row *v = &command_rows[i];
         output_format(out, "complete -c depthprec -n __fish_use_subcommand -a %s\n", v->name);
         if (v->names != NULL)
             output_format(out, "complete -c depthprec -n '__fish_seen_subcommand_from %s' -a '%s'\n", v->name,
@@ -64,9 +64,9 @@ static void write_fish(output *out) {
         const option_row *row = &option_rows[id];
         const bool argument = *option_argument(row, text) != '\0';
         output_text(out, "complete -c depthprec -n '__fish_seen_subcommand_from");
-        for (size_t i = 0; i < verb_count; i++)
-            if (takes(&verb_rows[i], row))
-                output_format(out, " %s", verb_rows[i].name);
+        for (size_t i = 0; i < command_count; i++)
+            if (takes(&command_rows[i], row))
+                output_format(out, " %s", command_rows[i].name);
         output_format(out, "' -l %s", row->name);
         if (row->letter != 0)
             output_format(out, " -s %c", row->letter);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 #include "core/elementary.h"
 #include "report/number.h"
 

@@ -14,7 +14,7 @@ enum { COMMAND_LINE_SIZE = 4096 };
  */
 static void command_line(const options *o, const char *written, char out[COMMAND_LINE_SIZE]) {
     const char *first = o->operand_count > 0 ? o->operands[0] : NULL;
-    snprintf(out, COMMAND_LINE_SIZE, "depthprec %s", o->verb->name);
+    snprintf(out, COMMAND_LINE_SIZE, "depthprec %s", o->command->name);
     if (first != NULL)
         append_shell_word(out, COMMAND_LINE_SIZE, first);
     for (char **word = o->argv + 2; *word != NULL; word++) {
@@ -45,12 +45,12 @@ bool figure_file_wanted(const options *o) {
 }
 
 bool figure_file_write(const options *o, const char *path, const chart *c, int width, int height, output *out) {
-    char command[COMMAND_LINE_SIZE];
+    char line[COMMAND_LINE_SIZE];
     canvas_bytes bytes;
     canvas_format type;
-    command_line(o, path, command);
+    command_line(o, path, line);
     if (figure_file_type(o, OPTION_OUTPUT, path, &type) != EXIT_FINE ||
-        !draw_chart(c, theme_get(o->theme), type, width, height, command, &bytes))
+        !draw_chart(c, theme_get(o->theme), type, width, height, line, &bytes))
         return false;
     output_bytes(out, bytes.at, bytes.size);
     free(bytes.at);

@@ -3,7 +3,7 @@
 #ifndef CLI_FIGURE_FILE_H
 #define CLI_FIGURE_FILE_H
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 #include "plot/draw.h"
 
 /** The format that the name of a file says, or --type where it does not. @return EXIT_FINE, or EXIT_USAGE after one

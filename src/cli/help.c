@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* help: made from the verb table and the option table; and the version. */
+/* help: made from the command table and the option table; and the version. */
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/option_rows.h"
+#include "cli/option/rows.h"
 #include "core/append.h"
 #include "report/page.h"
 
@@ -23,13 +23,13 @@ static void list_commands(output *out) {
                      "  depthprec -n 10cm -f 1km -F d24,fp32 -m gl,reversed   how far each keeps 1 cm\n"
                      "  depthprec --preset unity,unreal --at 100m             two engines side by side\n\n"
                      "Commands: depthprec [COMMAND] [options]\n");
-    for (size_t i = 0; i < verb_count; i++) {
+    for (size_t i = 0; i < command_count; i++) {
         char label[64] = "";
-        if (verb_rows[i].group != NULL)
-            page_title(&p, "%s", verb_rows[i].group);
-        append(label, sizeof label, "%s%s%.*s", verb_rows[i].name, *verb_rows[i].operand != '\0' ? " " : "",
-               (int)strcspn(verb_rows[i].operand, " "), verb_rows[i].operand);
-        page_note(&p, label, "%s%s", verb_rows[i].summary, i == 0 ? " (default)" : "");
+        if (command_rows[i].group != NULL)
+            page_title(&p, "%s", command_rows[i].group);
+        append(label, sizeof label, "%s%s%.*s", command_rows[i].name, *command_rows[i].operand != '\0' ? " " : "",
+               (int)strcspn(command_rows[i].operand, " "), command_rows[i].operand);
+        page_note(&p, label, "%s%s", command_rows[i].summary, i == 0 ? " (default)" : "");
     }
     output_text(out, "\n'depthprec help COMMAND' lists its options. Lengths may have a unit: 10cm.\n"
                      "Exit: 0 success, 1 a check failed, 2 bad usage or input, 3 cannot read or write.\n");
@@ -62,7 +62,7 @@ static void add_exception(const struct option_exception *e, char out[DESCRIPTION
 
 /* "what it does (LEAST to MOST UNIT; default D: what that means)" for a command, in its own words; for all of them,
  * those with another default at the end. */
-static const char *describe(const verb *v, const option_row *row, char out[DESCRIPTION_SIZE]) {
+static const char *describe(const command_row *v, const option_row *row, char out[DESCRIPTION_SIZE]) {
     char text[OPTION_TEXT_SIZE];
     const struct option_exception *other = v != NULL ? option_exception_of(row, v) : NULL;
     const char *help = other != NULL && other->help != NULL ? other->help : row->help;
@@ -92,7 +92,7 @@ static const char *describe(const verb *v, const option_row *row, char out[DESCR
 }
 
 /* Those of a command; without one, all, and which commands take them. */
-static void list_options(page *p, const verb *v) {
+static void list_options(page *p, const command_row *v) {
     const char *group = NULL, *shown = NULL;
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];
@@ -117,7 +117,7 @@ static void list_options(page *p, const verb *v) {
 }
 
 int cmd_help(const options *o) {
-    const verb *v = o->operand_row;
+    const command_row *v = o->operand_row;
     output out;
     output_open(&out, NULL);
     page p = page_start(&out, 28);

@@ -30,7 +30,7 @@ static bool is_link(const options *o, const char *word) {
 /* The command first, then the figure, then the options in their order; a blank before each. */
 static void command_words(const options *o, char text[TEXT_SIZE]) {
     const bool named = o->argv[1][0] != '-';
-    append_shell_word(text, TEXT_SIZE, o->verb->name);
+    append_shell_word(text, TEXT_SIZE, o->command->name);
     for (int i = 0; i < o->operand_count; i++)
         append_shell_word(text, TEXT_SIZE, o->operands[i]);
     for (char **word = o->argv + 1 + named; *word != NULL && word != o->operands; word++)
@@ -57,7 +57,7 @@ int link_write(const options *o) {
     char text[TEXT_SIZE] = "", fragment[TEXT_SIZE];
     list_item found;
     output out;
-    if (o->verb->bit == VERB_PLOT && !names_find(&figures, o->operands[0], NULL, &found))
+    if (o->command->bit == CMD_PLOT && !names_find(&figures, o->operands[0], NULL, &found))
         return option_error(OPTION_LINK, "must be of a figure that the page has, %s, got '%s'",
                             names_join(&figures, ", ", " or ", text), o->operands[0]);
     command_words(o, text);

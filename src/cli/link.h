@@ -3,7 +3,7 @@
 #ifndef CLI_LINK_H
 #define CLI_LINK_H
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 
 /** Prints the link of a command that has been read. @return an exit status, after one line on stderr if not fine */
 int link_write(const options *o);

@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-#include "cli/walk.h"
+#include "cli/each_setup.h"
 #include "report/number.h"
-#include "texture/decode.h"
+#include "shader/decode.h"
 
 enum { DIGITS_DEPTH = 7, DEPTH_MOST = 10, DIGITS_Z = 8, DIGITS_CELL = 9, DIGITS_MOST = 15, DIGITS_INTERVAL = 3 };
 
@@ -17,7 +17,7 @@ typedef struct found {
 } found;
 
 typedef struct lookup {
-    walk walk;
+    each_setup each;
     bool by_code;
     found row;
     bool empty; /* some code is that of no depth in the range */
@@ -26,10 +26,10 @@ typedef struct lookup {
 static void *next_row(void *of, size_t i) {
     lookup *l = of;
     found *r = &l->row;
-    const dp_setup *setup = l->walk.setup;
+    const dp_setup *setup = l->each.setup;
     const dp_format *format = &setup->spec.format;
     double asked;
-    if (!walk_depth(&l->walk, i, &asked))
+    if (!each_setup_depth(&l->each, i, &asked))
         return NULL;
     const uint32_t code = l->by_code ? (uint32_t)asked : dp_format_encode(format, setup->spec.rounding, asked);
     r->depth = l->by_code ? dp_format_value(format, code) : asked;
@@ -44,9 +44,9 @@ static void *next_row(void *of, size_t i) {
 static void *next_setup(void *of, size_t i) {
     lookup *l = of;
     l->empty = false;
-    if (!walk_setup(&l->walk, i))
+    if (!each_setup_go(&l->each, i))
         return NULL;
-    l->walk.at = l->walk.o->looked_up;
+    l->each.at = l->each.o->looked_up;
     return l;
 }
 
@@ -69,10 +69,10 @@ static const column row_columns[] = {
     {.kind = COLUMN_END}};
 
 static const column setup_report[] = {
-    {PART(lookup, walk.fields, NULL, setup_columns)}, {LIST("rows", row_columns, next_row)}, {.kind = COLUMN_END}};
+    {PART(lookup, each.fields, NULL, setup_columns)}, {LIST("rows", row_columns, next_row)}, {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = walk_title, .notes = say_notes},
-                                 {.kind = COLUMN_END}};
+static const column columns[] = {
+    {LIST("setups", setup_report, next_setup), .head = each_setup_title, .notes = say_notes}, {.kind = COLUMN_END}};
 
 bool lookup_wanted(const options *o) {
     return o->looked_up.count > 0;
@@ -98,9 +98,9 @@ static int check(const options *o, const setups *all) {
 
 int lookup_write(const options *o) {
     lookup l = {.by_code = option_given(o, OPTION_CODE)};
-    int status = walk_start(&l.walk, o);
+    int status = each_setup_start(&l.each, o);
     if (status == EXIT_FINE)
-        status = check(o, &l.walk.all);
+        status = check(o, &l.each.all);
     const report_spec spec = {"table", columns, &l, .label = 16};
-    return walk_write(&l.walk, &spec, status);
+    return each_setup_write(&l.each, &spec, status);
 }

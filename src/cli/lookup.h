@@ -3,7 +3,7 @@
 #ifndef CLI_LOOKUP_H
 #define CLI_LOOKUP_H
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 
 /** Whether --depth or --code asks for it. */
 bool lookup_wanted(const options *o);

@@ -4,43 +4,44 @@
 
 #include "cli/link.h"
 #include "method/method.h"
-#include "opened/input.h"
+#include "system/input.h"
 
 static const struct {
     unsigned bit;
     int (*run)(const options *);
 } commands[] = {
-    {VERB_TABLE, cmd_table},
-    {VERB_PLOT, cmd_plot},
-    {VERB_ZFIGHT, cmd_zfight},
-    {VERB_PREPASS, cmd_prepass},
-    {VERB_BUDGET, cmd_budget},
-    {VERB_TEXTURE, cmd_texture},
-    {VERB_METHODS, cmd_methods},
-    {VERB_CHECK, cmd_check},
-    {VERB_SOLVE, cmd_solve},
-    {VERB_BIAS, cmd_bias},
-    {VERB_SHADOW, cmd_shadow},
-    {VERB_SCENE, cmd_scene},
-    {VERB_PROBE, cmd_probe},
-    {VERB_WORLD, cmd_world},
-    {VERB_LIST, cmd_list},
-    {VERB_HELP, cmd_help},
-    {VERB_COMPLETIONS, cmd_completions},
+    {CMD_TABLE, cmd_table},
+    {CMD_PLOT, cmd_plot},
+    {CMD_ZFIGHT, cmd_zfight},
+    {CMD_PREPASS, cmd_prepass},
+    {CMD_BUDGET, cmd_budget},
+    {CMD_TEXTURE, cmd_texture},
+    {CMD_METHODS, cmd_methods},
+    {CMD_CHECK, cmd_check},
+    {CMD_SOLVE, cmd_solve},
+    {CMD_BIAS, cmd_bias},
+    {CMD_SHADOW, cmd_shadow},
+    {CMD_SCENE, cmd_scene},
+    {CMD_PROBE, cmd_probe},
+    {CMD_WORLD, cmd_world},
+    {CMD_LIST, cmd_list},
+    {CMD_HELP, cmd_help},
+    {CMD_COMPLETIONS, cmd_completions},
 };
 
 static int run(const options *o) {
     if (option_given(o, OPTION_LINK))
         return link_write(o);
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
-        if (commands[i].bit == o->verb->bit)
+        if (commands[i].bit == o->command->bit)
             return commands[i].run(o);
-    return usage_error("nothing runs '%s'", o->verb->name); /* a row of verbs.c without one here: tests/cli/help.txt */
+    return usage_error("nothing runs '%s'",
+                       o->command->name); /* a row of commands.c without one here: tests/cli/help.txt */
 }
 
 /* An option's file is written: it may be no other option's and none that the command reads. "-" is no file. */
 static int refuse_overwriting(const options *o) {
-    for (int k = o->verb->files_from; k > 0 && k <= o->operand_count; k++)
+    for (int k = o->command->files_from; k > 0 && k <= o->operand_count; k++)
         input_expect(o->operands[k - 1]);
     for (int id = 0; id < OPTION_COUNT; id++) {
         const char *path = option_written(o, (option_id)id);

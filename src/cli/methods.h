@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 #include "method/bench.h"
 #include "method/stability.h"
 

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 #include "core/append.h"
 
 /* ---- Methods ---------------------------------------------------------------------------------------------------- */

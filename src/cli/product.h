@@ -4,8 +4,8 @@
 #define CLI_PRODUCT_H
 
 #include "cli/list.h"
-#include "cli/names.h"
-#include "texture/frame.h"
+#include "cli/option/names.h"
+#include "frame/frame.h"
 
 typedef struct product_row {
     const char *name, *note;

@@ -3,7 +3,7 @@
 #ifndef CLI_SLANT_H
 #define CLI_SLANT_H
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 #include "report/report.h"
 
 /** What JSON says of them. */

@@ -5,18 +5,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cli/drawn.h"
+#include "cli/each_setup.h"
+#include "cli/raster_setups.h"
 #include "cli/slant.h"
 #include "cli/stop.h"
-#include "cli/walk.h"
-#include "draw/fight.h"
+#include "raster/fight.h"
 #include "report/number.h"
 
 enum { DIGITS = 4, SHARE_DIGITS = 3, PAIRS = 500 };
 
 /* Walks over set-ups alone; below `before`, what belongs to the one at hand. */
 typedef struct drawn {
-    walk walk;
+    each_setup each;
     draw_fight_result *results; /* one a set-up */
     const char *method;
     uint64_t pairs, seed; /* pairs: of a set-up */
@@ -32,12 +32,12 @@ typedef struct drawn {
 
 static int tick(void *context, uint64_t done) {
     drawn *d = context;
-    progress_step(&d->walk.progress, d->before + done);
+    progress_step(&d->each.progress, d->before + done);
     return stop_asked();
 }
 
 static draw_fight_request request_of(drawn *d, const dp_setup *setup, const draw_camera *camera) {
-    const options *o = d->walk.o;
+    const options *o = d->each.o;
     return (draw_fight_request){.camera = camera,
                                 .setup = setup,
                                 .azimuth = o->azimuth,
@@ -51,10 +51,10 @@ static draw_fight_request request_of(drawn *d, const dp_setup *setup, const draw
 }
 
 static int work(drawn *d) {
-    for (size_t i = 0; i < d->walk.all.count; i++) {
-        const dp_setup *setup = &d->walk.all.items[i];
+    for (size_t i = 0; i < d->each.all.count; i++) {
+        const dp_setup *setup = &d->each.all.items[i];
         draw_camera camera;
-        const raster_status status = draw_camera_init(&camera, d->walk.o->raster, setup);
+        const raster_status status = draw_camera_init(&camera, d->each.o->raster, setup);
         if (status != RASTER_OK)
             return option_error(OPTION_VIEWPORT, "%s", raster_status_text(status));
         const draw_fight_request request = request_of(d, setup, &camera);
@@ -83,7 +83,7 @@ static void *next_band(void *of, size_t index) {
 
 static void *next_setup(void *of, size_t i) {
     drawn *d = of;
-    if (!walk_setup(&d->walk, i))
+    if (!each_setup_go(&d->each, i))
         return NULL;
     d->result = &d->results[i];
     d->whole = draw_fight_worst(d->result);
@@ -93,8 +93,8 @@ static void *next_setup(void *of, size_t i) {
 static void say_answer(page *p, void *item) {
     const drawn *d = item;
     const draw_fight_band *w = &d->whole;
-    walk_title(p, item);
-    slant_say(p, page_title, d->walk.o, d->walk.setup);
+    each_setup_title(p, item);
+    slant_say(p, page_title, d->each.o, d->each.setup);
     if (w->pixels == 0)
         page_text(p, "Nothing was drawn: no separation is certain in this range, or no triangle fits.");
     else if (isnan(w->used))
@@ -126,8 +126,8 @@ static const column band_columns[] = {{FIELD(draw_fight_band, lo, "lo", "scene")
                                       {.kind = COLUMN_END}};
 
 /* CSV has a line a band. */
-static const column setup_report[] = {{PART(drawn, walk.fields, NULL, setup_columns)},
-                                      {FIELD(drawn, walk.fields.arith, "arith", ""), .only = AS_CSV},
+static const column setup_report[] = {{PART(drawn, each.fields, NULL, setup_columns)},
+                                      {FIELD(drawn, each.fields.arith, "arith", ""), .only = AS_CSV},
                                       {FIELD(drawn, method, "method", "")},
                                       {FIELD(drawn, slant.raster, "raster", ""), .only = AS_CSV},
                                       {FIELD(drawn, seed, "seed", "")},
@@ -146,10 +146,10 @@ static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns)
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 static int check(drawn *d) {
-    const options *o = d->walk.o;
+    const options *o = d->each.o;
     if (option_given(o, OPTION_SEPARATION))
         return option_error(OPTION_SEPARATION, "does not apply with --rasterize, which looks for the separation");
-    int status = drawn_setups(o, &d->walk.all);
+    int status = raster_setups(o, &d->each.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &d->lo, &d->hi);
     if (status == EXIT_FINE && isinf(d->hi))
@@ -164,32 +164,32 @@ static int run(drawn *d) {
     const draw_fight_request request = request_of(d, NULL, NULL);
     d->pairs = draw_fight_count(&request);
     stop_watch();
-    d->walk.progress = progress_start("pairs", d->walk.all.count * d->pairs, d->walk.o->quiet);
+    d->each.progress = progress_start("pairs", d->each.all.count * d->pairs, d->each.o->quiet);
     const int status = work(d);
-    progress_end(&d->walk.progress);
-    stop_end(&d->walk.out);
+    progress_end(&d->each.progress);
+    stop_end(&d->each.out);
     if (status != EXIT_FINE) {
-        output_abandon(&d->walk.out);
+        output_abandon(&d->each.out);
         return status;
     }
-    report_write(&(report_spec){"zfight", columns, d, .when = 0}, &d->walk.out, d->walk.o->form);
-    return output_close(&d->walk.out);
+    report_write(&(report_spec){"zfight", columns, d, .when = 0}, &d->each.out, d->each.o->form);
+    return output_close(&d->each.out);
 }
 
 int zfight_triangles(const options *o) {
-    drawn d = {.walk.o = o, .method = "triangles", .seed = o->seed, .azimuth = o->azimuth};
+    drawn d = {.each.o = o, .method = "triangles", .seed = o->seed, .azimuth = o->azimuth};
     int status = check(&d);
     slant_fields_of(o, &d.slant);
     if (status == EXIT_FINE) {
-        d.results = calloc(d.walk.all.count, sizeof *d.results);
+        d.results = calloc(d.each.all.count, sizeof *d.results);
         if (d.results == NULL)
-            status = usage_error("no memory for %zu set-ups", d.walk.all.count);
+            status = usage_error("no memory for %zu set-ups", d.each.all.count);
     }
     if (status == EXIT_FINE)
-        status = options_open(o, &d.walk.out);
+        status = options_open(o, &d.each.out);
     if (status == EXIT_FINE)
         status = run(&d);
     free(d.results);
-    setups_release(&d.walk.all);
+    setups_release(&d.each.all);
     return status;
 }

@@ -3,7 +3,7 @@
 #ifndef CLI_ZFIGHT_TRIANGLES_H
 #define CLI_ZFIGHT_TRIANGLES_H
 
-#include "cli/options.h"
+#include "cli/option/options.h"
 
 /** @return an exit status, after one line on stderr where it is not fine */
 int zfight_triangles(const options *o);

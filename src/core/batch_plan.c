@@ -285,7 +285,7 @@ static int general_kernel(const dp_batch *b) {
     const int by_format = b->task == DP_TASK_ENCODE || b->task == DP_TASK_DECODE;
     if (!by_format && s->curve == DP_CURVE_LOG)
         return DP_KERNEL_NONE;
-    if (b->task == DP_TASK_EYE && s->astride)
+    if (b->task == DP_TASK_EYE && s->spans_zero)
         return DP_KERNEL_NONE;
     if ((b->task == DP_TASK_CODE || b->task == DP_TASK_WIDTH) && s->spec.model != DP_MODEL_EXACT)
         return DP_KERNEL_NONE;

@@ -58,7 +58,7 @@ static double last_within(double z, double longest) {
 }
 
 /* The binary32 depth of a surface; and 0, where hardware may make that of it. */
-static dp_span entered(double z) {
+static dp_span flushed_span(double z) {
     return fabs(z) < 0x1p-126 ? (dp_span){smaller(z, 0.0), larger(z, 0.0)} : (dp_span){z, z};
 }
 
@@ -96,7 +96,7 @@ static dp_composing composing_of(const dp_setup *setup, const dp_chain *c, const
                           .b = c->b,
                           .zfar = setup->spec.zfar,
                           .reach = larger(fabs(setup->spec.znear), fabs(setup->spec.zfar)),
-                          .lean = 2.0,
+                          .ray_ratio = 2.0,
                           .ortho = p->ortho,
                           .any_sign = setup->spec.znear <= 0.0,
                           .fused = p->arith->fused,
@@ -111,7 +111,7 @@ static dp_composed_vertex composed_vertex(const dp_guarantee *g, double z, doubl
     const dp_triangles *t = &setup->spec.triangles;
     const dp_composed_view view = dp_triangles_view(t, &g->slant);
     dp_composing in = composing_of(setup, c, terms);
-    in.lean = larger(in.lean, dp_hypot(1.0, dp_hypot(view.ray[0], view.ray[1])));
+    in.ray_ratio = larger(in.ray_ratio, dp_hypot(1.0, dp_hypot(view.ray[0], view.ray[1])));
     const double farthest = dp_triangles_depths(c, (dp_span){z, z}, t, NULL).hi + shared;
     const dp_composed_vertex v = dp_composition_vertex(&in, &view, farthest);
     return dp_composition_vertex(&in, &view, farthest + 2.0 * (v.position + v.along)); /* as it is when moved */
@@ -233,7 +233,7 @@ static void matrix_budget(const dp_guarantee *g, double z, const dp_budget_terms
     }
     const double extra = part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
     dp_demand d;
-    const double longest = dp_demand_longest(c, entered(z1), extra, &d);
+    const double longest = dp_demand_longest(c, flushed_span(z1), extra, &d);
     part[DP_CAUSE_PROJECTION] = d.projection;
     part[DP_CAUSE_FORMAT] = d.format;
     part[DP_CAUSE_NDC] = d.window - extra - d.projection - d.format; /* with what clamping takes */
@@ -355,7 +355,7 @@ double dp_guarantee_bound(const dp_guarantee *g, float nearest, float farthest) 
         dp_log_demand d;
         return apart_over(run, dp_log_longest(&g->shader, run, 0.0, &d));
     }
-    const dp_span run = {entered((double)nearest).lo, entered((double)farthest).hi};
+    const dp_span run = {flushed_span((double)nearest).lo, flushed_span((double)farthest).hi};
     dp_demand d;
     static const double asked[DP_CAUSE_COUNT] = {0};
     dp_budget b = {.separation = apart_over(run, dp_demand_longest(&g->chain, run, 0.0, &d))};

@@ -52,7 +52,7 @@ static double excess_above(const dp_chain *c, double z) {
     return past > 0.0 ? c->half * past / w * (1.0 + 0x1p-50) : 0.0;
 }
 
-static double reach_of(double zfar) {
+static double resolved_up_to(double zfar) {
     return isinf(zfar) ? (double)FLT_MAX : (double)(float)zfar;
 }
 
@@ -68,7 +68,7 @@ dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *p) {
     c.a_exact = c.a == 0.0 || c.a_granule == fabs(c.a);
     c.fused = p->arith->fused && !c.a_exact;
     c.reach.lo = (double)(float)setup->spec.znear;
-    c.reach.hi = reach_of(setup->spec.zfar);
+    c.reach.hi = resolved_up_to(setup->spec.zfar);
     c.below = larger(excess_below(&c, c.reach.lo), excess_below(&c, c.reach.hi));
     c.above = larger(excess_above(&c, c.reach.lo), excess_above(&c, c.reach.hi));
     return c;
@@ -107,7 +107,7 @@ dp_chain dp_chain_between(const dp_setup *one, const dp_setup *other, const dp_p
     c.fused = p->arith->fused && !c.a_exact;
     c.a_granule = c.a_exact ? c.a_granule : 2.0 * dp_half_ulp(fabs(c.a));
     c.b_granule = 2.0 * dp_half_ulp(fabs(c.b));
-    const double hi = reach_of(other->spec.zfar);
+    const double hi = resolved_up_to(other->spec.zfar);
     const double nearest_far = smaller(c.reach.hi, hi);
     c.reach.lo = smaller(c.reach.lo, (double)(float)other->spec.znear);
     c.reach.hi = larger(c.reach.hi, hi);

@@ -74,13 +74,13 @@ static dp_row_off world_row(const dp_composing *in, double scale, double b, doub
     last_sum(&r, in, scale, b, z, until);
     r.entries = smaller(root3 * DP_UNIT * scale, 3.0 * half_ulp(scale)) * w;
     r.constant = half_ulp(root3 * most + b);
-    r.turn = DP_UNIT * scale * in->lean;
+    r.turn = DP_UNIT * scale * in->ray_ratio;
     return r;
 }
 
 /* How far from the camera surfaces are up to the eye depth `at`. */
 static double length_of(const dp_composing *in, double at) {
-    return in->ortho ? smaller(root2 * in->reach, 2.0 * root3 * in->world) : in->lean * at;
+    return in->ortho ? smaller(root2 * in->reach, 2.0 * root3 * in->world) : in->ray_ratio * at;
 }
 
 /*
@@ -89,7 +89,7 @@ static double length_of(const dp_composing *in, double at) {
  */
 static dp_row_off relative_row(const dp_composing *in, double scale, double b, double z, double until, double length) {
     const double at = isinf(until) ? z : until;
-    const double per_z = in->ortho ? 0.0 : in->lean;
+    const double per_z = in->ortho ? 0.0 : in->ray_ratio;
     const double in_double = 0x1p-53 * (root3 * in->world + length);
     const int sums = b > 0.0 ? 2 : 1;
     const double part = 0.5 * scale * (length + at) + b;
@@ -98,7 +98,7 @@ static dp_row_off relative_row(const dp_composing *in, double scale, double b, d
     r.grow = isinf(until) ? DP_UNIT * scale * (2.0 * per_z + sums * 0.5 * (per_z + 1.0)) : 0.0;
     last_sum(&r, in, scale, b, z, until);
     r.entries = DP_UNIT * scale * length;
-    r.turn = DP_UNIT * scale * in->lean;
+    r.turn = DP_UNIT * scale * in->ray_ratio;
     return r;
 }
 
@@ -132,8 +132,8 @@ static dp_row_off w_row(const dp_composing *in, double z, double until) {
     const int relative = in->composition == DP_COMPOSITION_RELATIVE;
     const double length = length_of(in, isinf(until) ? z : until);
     dp_row_off r = relative ? relative_row(in, 1.0, 0.0, z, until, length) : world_row(in, 1.0, 0.0, z, until);
-    r.entries = relative ? 0.5 * root3 * DP_UNIT * in->lean * z : 1.5 * DP_UNIT * in->world;
-    r.turn = 0.5 * root3 * DP_UNIT * in->lean;
+    r.entries = relative ? 0.5 * root3 * DP_UNIT * in->ray_ratio * z : 1.5 * DP_UNIT * in->world;
+    r.turn = 0.5 * root3 * DP_UNIT * in->ray_ratio;
     return r;
 }
 

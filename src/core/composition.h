@@ -15,15 +15,15 @@
 /* What is composed. */
 typedef struct dp_composing {
     dp_composition composition;
-    double world; /* largest |coordinate| of positions and camera; positive */
-    double a, b;  /* the projection's entries in binary32: clip z = a z + b */
-    double zfar;  /* may be INFINITY */
-    double reach; /* the larger of |near| and |far| */
-    double lean;  /* no surface is farther from the camera than this times its eye depth, at least 2: 60 degrees */
-    int ortho;    /* clip w is 1 */
-    int any_sign; /* there are depths of 0 or less: a z and b may have one sign */
-    int fused;    /* products but the first are fused into the sums */
-    int remap;    /* (clip z + w)/2 in the shader */
+    double world;     /* largest |coordinate| of positions and camera; positive */
+    double a, b;      /* the projection's entries in binary32: clip z = a z + b */
+    double zfar;      /* may be INFINITY */
+    double reach;     /* the larger of |near| and |far| */
+    double ray_ratio; /* no surface is farther from the camera than this times its eye depth, at least 2: 60 degrees */
+    int ortho;        /* clip w is 1 */
+    int any_sign;     /* there are depths of 0 or less: a z and b may have one sign */
+    int fused;        /* products but the first are fused into the sums */
+    int remap;        /* (clip z + w)/2 in the shader */
 } dp_composing;
 
 /* What one row of the matrix is off by at most at an eye depth, in units of its value. */

@@ -25,7 +25,7 @@ double dp_curve_eye(const dp_setup *setup, dp_point p) {
     const double f = setup->spec.zfar;
     if (setup->curve == DP_CURVE_PERSPECTIVE)
         return (isinf(f) ? n : n * f) * p.den / divisor(setup, p);
-    if (setup->astride)
+    if (setup->spans_zero)
         return dp_curve_gap(setup, p, 0.0); /* the two terms cancel about depth 0, and comp may be rounded */
     if (setup->curve == DP_CURVE_LINEAR) {
         const double to_near = setup->reversed ? p.num : p.comp;

@@ -25,7 +25,7 @@ double dp_window(const dp_setup *setup, double z) {
 }
 
 double dp_eye(const dp_setup *setup, double d, double q) {
-    if (setup->astride) /* both are taken as they are given: next to 0 neither stands for the other */
+    if (setup->spans_zero) /* both are taken as they are given: next to 0 neither stands for the other */
         return dp_exact_residual(1.0, setup->reversed ? d : q, setup->spec.znear, 0.0, 1.0, setup->reversed ? q : d,
                                  setup->spec.zfar, 0.0);
     return dp_curve_eye(setup, (dp_point){d, q, 1.0});

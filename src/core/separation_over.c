@@ -32,7 +32,7 @@ typedef struct search {
 } search;
 
 /* In binary32 the depth nearest to an end of the range may lie just outside, and is meant by that end. */
-static void look(const search *s, double depth) {
+static void note_separation(const search *s, double depth) {
     dp_separation_worst *worst = s->worst;
     const double z = smaller(larger(depth, worst->lo), worst->hi);
     const double separation = dp_guarantee_at(&s->guarantee, z);
@@ -77,8 +77,8 @@ static void raise_bound(dp_separation_worst *worst, double bound) {
 
 /* A part is of no interest when it cannot be worse than what is known; then its bound is the range's, too. */
 static void offer(search *s, double lo, double hi) {
-    look(s, lo);
-    look(s, hi);
+    note_separation(s, lo);
+    note_separation(s, hi);
     part p = {lo, hi, 0.0};
     if (is_single(s->setup, &p)) {
         raise_bound(s->worst, s->worst->separation);
@@ -181,7 +181,7 @@ static void over_binades(const search *s) {
             continue;
         const double z = smaller(end * (1.0 + 0x1p-46), out->hi);
         raise_bound(out, with_eye(setup, z, z, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z)));
-        look(s, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
+        note_separation(s, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
         if (end * (1.0 - 0x1p-46) > out->hi)
             break;
     }
@@ -193,8 +193,8 @@ int dp_separation_within(const dp_setup *one, const dp_setup *other, double lo, 
     s.lattice.spec.model = DP_MODEL_EXACT;
     if (one->spec.model != DP_MODEL_FLOAT || !dp_guarantee_between(one, other, &s.guarantee))
         return 0;
-    look(&s, hi);
-    look(&s, lo);
+    note_separation(&s, hi);
+    note_separation(&s, lo);
     if (worst.separation <= limit && lo < hi)
         branch_and_bound(&s, limit);
     return larger(worst.separation, worst.bound) <= limit;
@@ -211,8 +211,8 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
         s.lattice.spec.model = DP_MODEL_EXACT;
         s.lattice.shader = 0;
     }
-    look(&s, hi);
-    look(&s, lo);
+    note_separation(&s, hi);
+    note_separation(&s, lo);
     const int exact =
         !s.guarantee.computed && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && lo >= 0.0));
     if (isinf(worst.separation)) {

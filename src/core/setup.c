@@ -102,7 +102,7 @@ dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
     *setup = (dp_setup){.spec = *spec,
                         .curve = spec->ortho ? DP_CURVE_LINEAR : row->curve,
                         .reversed = row->reversed,
-                        .astride = n < 0.0 && f > 0.0,
+                        .spans_zero = n < 0.0 && f > 0.0,
                         .den = dp_point_den(&spec->format)};
     setup->spec.znear = n;
     setup->spec.zfar = f;

@@ -38,7 +38,7 @@ static double worst_of(const search *s, float a, float b) {
     return worst <= 1 ? worst : (double)INFINITY; /* NaN, too */
 }
 
-static void add(search *s, float a, float b) {
+static void push_piece(search *s, float a, float b) {
     piece p = {a, b, worst_of(s, a, b)};
     int at = s->count++;
     for (; at > 0 && s->heap[(at - 1) / 2].worst < p.worst; at = (at - 1) / 2)
@@ -46,7 +46,7 @@ static void add(search *s, float a, float b) {
     s->heap[at] = p;
 }
 
-static piece take(search *s) {
+static piece pop_worst(search *s) {
     const piece worst = s->heap[0], last = s->heap[--s->count];
     int at = 0;
     for (int next = 1; next < s->count; at = next, next = 2 * at + 1) {
@@ -66,14 +66,14 @@ static void first_pieces(search *s) {
     const double turn = s->reversed ? s->base / (s->base + s->slope) * 0x1p-4 : 0x1p-26;
     float b = 0.5f;
     for (; b > s->least && (double)b > turn && b > 0x1p-149f; b /= 2)
-        add(s, fmaxf(b / 2, s->least), b);
+        push_piece(s, fmaxf(b / 2, s->least), b);
     if (b > s->least)
-        add(s, s->least, b);
+        push_piece(s, s->least, b);
     for (float rest = 0.5f; rest >= 0x1p-24f; rest /= 2)
         if (1 - rest <= s->most)
-            add(s, 1 - rest, fminf(rest > 0x1p-24f ? 1 - rest / 2 : 1 - rest, s->most));
+            push_piece(s, 1 - rest, fminf(rest > 0x1p-24f ? 1 - rest / 2 : 1 - rest, s->most));
     if (s->most == 1)
-        add(s, 1, 1);
+        push_piece(s, 1, 1);
 }
 
 double bound_over(const bound_steps *steps, const dp_setup *setup) {
@@ -89,10 +89,10 @@ double bound_over(const bound_steps *steps, const dp_setup *setup) {
     steps->constants(setup, s.k);
     first_pieces(&s);
     for (int i = 0; i < HALVINGS && s.heap[0].a < s.heap[0].b; i++) {
-        const piece worst = take(&s);
+        const piece worst = pop_worst(&s);
         const float middle = dp_float_down(((double)worst.a + (double)worst.b) / 2);
-        add(&s, worst.a, middle);
-        add(&s, dp_ranked32(dp_rank32(middle) + 1U), worst.b);
+        push_piece(&s, worst.a, middle);
+        push_piece(&s, dp_ranked32(dp_rank32(middle) + 1U), worst.b);
     }
     return s.heap[0].worst * (1 + 0x1p-40) + 0x1p-48;
 }

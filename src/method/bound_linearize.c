@@ -5,7 +5,7 @@
 #include "core/bits.h"
 #include "method/bound.h"
 #include "method/estimate.h"
-#include "texture/decode.h"
+#include "shader/decode.h"
 
 /* What the reciprocal from the bits of x is off by, at most 0.05051, and its square. */
 static const double magic_off = 0.05052, magic_square = 2.552e-3;

@@ -133,7 +133,7 @@ static const size_t method_count = sizeof methods / sizeof methods[0];
 
 /* Exact: |d - value of the code| in steps of the format around d. d has 24 bits and M at most 24, so d M is a double.
  */
-static bool judge(const method_call *c, size_t i, method_error *error) {
+static bool encode_error_at(const method_call *c, size_t i, method_error *error) {
     const dp_format *f = &c->setup->spec.format;
     const double d = (double)c->in->d[i];
     const uint32_t code = c->out->code[i];
@@ -171,6 +171,6 @@ const method_family_row encode_family = {
     .methods = methods,
     .method_count = &method_count,
     .fill = method_windows,
-    .judge = judge,
+    .judge = encode_error_at,
     .limit = limit_codes,
 };

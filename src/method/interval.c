@@ -157,7 +157,7 @@ static const method_row methods[] = {
 /* clang-format on */
 static const size_t method_count = sizeof methods / sizeof methods[0];
 
-static bool judge(const method_call *c, size_t i, method_error *error) {
+static bool interval_error_at(const method_call *c, size_t i, method_error *error) {
     const dp_setup *setup = c->setup;
     const double z = c->in->z[i];
     double want, lo, hi;
@@ -191,6 +191,6 @@ const method_family_row interval_family = {
     .methods = methods,
     .method_count = &method_count,
     .fill = method_depths,
-    .judge = judge,
+    .judge = interval_error_at,
     .limit = limit_depths,
 };

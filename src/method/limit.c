@@ -2,11 +2,11 @@
 /* What no method can beat: loops that read a family's inputs, write its outputs and do next to nothing in between. */
 #include "method/method.h"
 
-#include "texture/clones.h"
+#include "shader/clones.h"
 
 enum { BLOCK = 1024 };
 
-TEXTURE_CLONES void limit_depths(const method_call *c) {
+CLONES void limit_depths(const method_call *c) {
     const size_t count = c->in->count;
     const double *restrict z = c->in->z;
     double *restrict value = c->out->value;
@@ -14,7 +14,7 @@ TEXTURE_CLONES void limit_depths(const method_call *c) {
         value[i] = -z[i];
 }
 
-TEXTURE_CLONES void limit_ranges(const method_call *c) {
+CLONES void limit_ranges(const method_call *c) {
     const size_t count = c->in->count;
     const double *restrict z = c->in->z, *restrict hi = c->in->hi;
     double *restrict value = c->out->value;
@@ -22,7 +22,7 @@ TEXTURE_CLONES void limit_ranges(const method_call *c) {
         value[i] = hi[i] - z[i];
 }
 
-TEXTURE_CLONES static void negate(const float *restrict from, float *restrict to, size_t count) {
+CLONES static void negate(const float *restrict from, float *restrict to, size_t count) {
     for (size_t i = 0; i < count; i++)
         to[i] = -from[i];
 }
@@ -31,7 +31,7 @@ void limit_windows(const method_call *c) {
     negate(c->in->d, c->out->eye, c->in->count);
 }
 
-TEXTURE_CLONES void limit_codes(const method_call *c) {
+CLONES void limit_codes(const method_call *c) {
     const size_t count = c->in->count;
     const float *restrict d = c->in->d;
     uint32_t *restrict code = c->out->code;

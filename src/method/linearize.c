@@ -16,7 +16,7 @@
 #include "method/estimate.h"
 #include "method/truth.h"
 
-/* ---- The rows of texture/decode.h -------------------------------------------------------------------------------- */
+/* ---- The rows of shader/decode.h -------------------------------------------------------------------------------- */
 
 /* Shares of far, or of the way from near to far, become depths. */
 static void decoded_run(const method_call *c) {
@@ -386,7 +386,7 @@ static const method_row methods[] = {
 static const size_t method_count = sizeof methods / sizeof methods[0];
 
 /* Beyond binary32 an exact depth lies next to an infinite far plane only. */
-static bool judge(const method_call *c, size_t i, method_error *error) {
+static bool linearize_error_at(const method_call *c, size_t i, method_error *error) {
     const double d = (double)c->in->d[i], want = dp_eye(c->setup, d, 1 - d);
     *error = truth_off((double)c->out->eye[i], want, truth_step(want));
     return !(want > (double)FLT_MAX) || isinf(want);
@@ -405,6 +405,6 @@ const method_family_row linearize_family = {
     .methods = methods,
     .method_count = &method_count,
     .fill = method_windows,
-    .judge = judge,
+    .judge = linearize_error_at,
     .limit = limit_windows,
 };

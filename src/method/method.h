@@ -12,9 +12,9 @@
 
 #include "core/bits.h"
 #include "depthprec/depthprec.h"
-#include "texture/decode.h"
-#include "texture/normal.h"
-#include "texture/position.h"
+#include "shader/decode.h"
+#include "shader/normal.h"
+#include "shader/position.h"
 
 typedef enum method_family {
     METHOD_INTERVAL = 0, /**< eye depth -> z-fighting interval */

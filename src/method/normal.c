@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The methods of texture/normal.h on slanted planes, stored in the format of a case and read back. Inputs come in
+ * The methods of shader/normal.h on slanted planes, stored in the format of a case and read back. Inputs come in
  * strips of METHOD_STRIP pixels of a 1920 x 1080 image with a vertical field of view of 60 degrees, each strip with a
  * plane and a place in the image of its own, and with the pixels around it. Planes are slanted by up to 70 degrees from
  * the line of sight and lie between near and far as far as the methods look. Errors are angles: relative is in radians,
@@ -90,7 +90,7 @@ static void fill(const dp_setup *setup, method_inputs *in) {
     }
 }
 
-static bool judge(const method_call *c, size_t i, method_error *error) {
+static bool normal_error_at(const method_call *c, size_t i, method_error *error) {
     texture_camera camera;
     view_of(c->setup, &camera);
     const strip s = strip_of(i / METHOD_STRIP);
@@ -193,6 +193,6 @@ const method_family_row normal_family = {
     .methods = methods,
     .method_count = &method_count,
     .fill = fill,
-    .judge = judge,
+    .judge = normal_error_at,
     .limit = limit_eyes,
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Places of pixels: the rows of texture/position.h, each with a claim for one camera that stands at the origin. */
+/* Places of pixels: the rows of shader/position.h, each with a claim for one camera that stands at the origin. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -56,7 +56,7 @@ static void run(const method_call *c) {
                               c->out->place[0] + i, c->out->place[1] + i, c->out->place[2] + i);
 }
 
-static bool judge(const method_call *c, size_t i, method_error *error) {
+static bool position_error_at(const method_call *c, size_t i, method_error *error) {
     const double *exact = &c->in->place[3 * i];
     const double distance = sqrt(exact[0] * exact[0] + exact[1] * exact[1] + exact[2] * exact[2]);
     double sum = 0;
@@ -129,6 +129,6 @@ const method_family_row position_family = {
     .methods = methods,
     .method_count = &method_count,
     .fill = fill,
-    .judge = judge,
+    .judge = position_error_at,
     .limit = limit_places,
 };

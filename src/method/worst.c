@@ -88,7 +88,7 @@ static void fill(const dp_setup *setup, method_inputs *in) {
     }
 }
 
-static bool judge(const method_call *c, size_t i, method_error *error) {
+static bool worst_error_at(const method_call *c, size_t i, method_error *error) {
     uint32_t first, last;
     double want = 0;
     codes_of(c->setup, c->in->z[i], c->in->hi[i], &first, &last);
@@ -113,6 +113,6 @@ const method_family_row worst_family = {
     .methods = methods,
     .method_count = &method_count,
     .fill = fill,
-    .judge = judge,
+    .judge = worst_error_at,
     .limit = limit_ranges,
 };

@@ -21,9 +21,9 @@
 #include <string.h>
 #include <strings.h>
 
-#include "model/apart.h"
+#include "model/sandbox.h"
 #include "model/transform.h"
-#include "opened/library.h"
+#include "system/dynload.h"
 
 /* What is called of it. */
 #define FUNCTIONS(X)                                                                                                   \
@@ -34,7 +34,7 @@
     X(aiGetMaterialString)                                                                                             \
     X(aiGetMaterialFloatArray)                                                                                         \
     X(aiGetMaterialIntegerArray)
-LIBRARY_FUNCTIONS(FUNCTIONS)
+DYNLOAD_FUNCTIONS(FUNCTIONS)
 
 enum { DEPTH_MAX = 256 /* of nodes within nodes */ };
 
@@ -266,8 +266,8 @@ static bool read_scene(reading *r, const char *extension) {
 static bool read_by_library(model_source *s, const char *extension) {
     static const library assimp = {"this kind of model", {"libassimp.so.5", NULL}, "libassimp5", symbols};
     reading r = {.source = s};
-    char error[LIBRARY_ERROR_SIZE];
-    if (!library_open(&assimp, r.call.all, error))
+    char error[DYNLOAD_ERROR_SIZE];
+    if (!dynload_open(&assimp, r.call.all, error))
         return model_fail(s, "%s", error);
     if (!r.call.aiIsExtensionSupported(extension))
         return model_fail(s, "must be glTF, OBJ or a kind that libassimp reads, got '%.20s'", extension);
@@ -291,7 +291,7 @@ static bool read_by_library(model_source *s, const char *extension) {
 
 /* It has been seen to crash and to loop on damaged files. */
 bool model_read_other(model_source *s, const char *extension) {
-    return model_apart(s, read_by_library, extension);
+    return model_sandboxed(s, read_by_library, extension);
 }
 
 #else

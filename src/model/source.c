@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/append.h"
-#include "opened/input.h"
+#include "system/input.h"
 
 /* ---- Names: a chain of blocks that stay where they are ----------------------------------------------------------- */
 

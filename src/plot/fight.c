@@ -9,9 +9,9 @@
 
 #include "core/append.h"
 #include "core/elementary.h"
-#include "draw/fight.h"
-#include "draw/mesh.h"
 #include "plot/figure.h"
+#include "raster/fight.h"
+#include "raster/mesh.h"
 
 enum { WALL = 1, DECAL = 2 };             /* who is drawn */
 enum { PLAIN = 0, STRIPE, COVER, KINDS }; /* what a pixel shows */

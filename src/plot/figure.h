@@ -30,7 +30,7 @@ typedef struct figure_request {
     const struct shadow_cascade *maps; /**< for the figures of shadow maps, map_count of them, at most CHART_PANELS */
     size_t map_count;
     const raster_row *raster;          /**< for the figures that draw */
-    double slant, azimuth;             /**< the normal of what they draw, see draw/fight.h; degrees */
+    double slant, azimuth;             /**< the normal of what they draw, see raster/fight.h; degrees */
     const struct need_file *file;      /**< for the figures that take a file, else null */
     const struct fights_asked *fights; /**< for the figures of a model, else null: see scene.h */
     const method_family_row *family;   /**< for the figures that show methods, else null */
@@ -43,7 +43,7 @@ typedef struct figure_request {
 enum {
     FIGURE_AT = 1 << 0,        /**< one depth, given with --at */
     FIGURE_TERMS = 1 << 1,     /**< --interpolation, --from-origin, --linearize */
-    FIGURE_FLOAT = 1 << 2,      /**< set-ups of the model float, which have no cells */
+    FIGURE_FLOAT = 1 << 2,     /**< set-ups of the model float, which have no cells */
     FIGURE_BINARY32 = 1 << 3,  /**< nothing but set-ups of the model float, whatever --model says */
     FIGURE_TOLERANCE = 1 << 4, /**< other ways to the interval than the exact cell */
     FIGURE_SIGNED = 1 << 6,    /**< depths of 0 and less: a camera with near <= 0 */

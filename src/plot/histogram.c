@@ -36,7 +36,7 @@ static int bin_of(const chart_axis *x, double z) {
     return bin < BINS ? bin : BINS - 1;
 }
 
-static bool take(void *context, uint32_t row, uint32_t count, const float *values) {
+static bool count_rows(void *context, uint32_t row, uint32_t count, const float *values) {
     bins *b = context;
     (void)row;
     for (size_t i = 0; i < (size_t)count * b->width; i++)
@@ -100,7 +100,7 @@ bool histogram_build(const frame *f, bool codes, chart *out, uint64_t *counted) 
     if (sum.count == 0)
         return true;
     b.x = axis_of(&sum);
-    if (!frame_run(f, &eye, false, take, &b))
+    if (!frame_run(f, &eye, false, count_rows, &b))
         return false;
     if (codes && !count_codes(f, &b))
         return false;

@@ -4,8 +4,8 @@
 #ifndef PLOT_HISTOGRAM_H
 #define PLOT_HISTOGRAM_H
 
+#include "frame/frame.h"
 #include "plot/chart.h"
-#include "texture/frame.h"
 
 /**
  * Fills in an empty chart whose title and subtitle are set: counts in bins from the nearest depth to the farthest, of

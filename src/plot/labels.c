@@ -16,7 +16,7 @@ typedef struct ground {
     canvas_rect taken[TAKEN_MAX]; /* points, and labels so far */
 } ground;
 
-static void take(ground *g, canvas_rect box) {
+static void occupy(ground *g, canvas_rect box) {
     if (g->count < TAKEN_MAX)
         g->taken[g->count++] = box;
 }
@@ -84,7 +84,7 @@ static void draw_label(ground *g, double x, double y, const char *text) {
     const canvas_rect box = best_place(g, x, y, canvas_text_width(p->c, text, &font));
     const double middle = box.y + box.h / 2, end = box.x + box.w;
     const bool beside = end < x - 4 * p->scale || box.x > x + 4 * p->scale;
-    take(g, box);
+    occupy(g, box);
     if (fabs(middle - y) > box.h / 2) {
         canvas_pen thin = {.colour = p->theme->faint, .width = 0.7 * p->scale};
         canvas_segment(p->c, x, y, fmin(fmax(x, box.x), end),
@@ -108,7 +108,7 @@ void labels_draw(const pencil *p, const axes *a, const chart_panel *panel) {
                 if (!axes_holds(a, points->x[i], points->y[i]))
                     continue;
                 if (pass == 0)
-                    take(&g, (canvas_rect){x - half, y - half, 2 * half, 2 * half});
+                    occupy(&g, (canvas_rect){x - half, y - half, 2 * half, 2 * half});
                 else if (points->labels != NULL)
                     draw_label(&g, x, y, points->labels[i]);
             }

@@ -9,10 +9,10 @@
 
 #include "core/append.h"
 #include "core/elementary.h"
-#include "need/check.h"
-#include "need/model.h"
 #include "plot/envelope.h"
 #include "plot/notes.h"
+#include "requirement/check.h"
+#include "requirement/model.h"
 
 enum { COLOUR_SEPARATION = 0, COLOUR_MISSED = 1, COLOUR_MET = 2, COLOUR_ERROR = 3 };
 enum { MARKER_MET = 0, MARKER_MISSED = 4 };
@@ -32,7 +32,7 @@ static bool no_ties(void *context, const dp_setup *setup, double lo, double hi, 
     return true;
 }
 
-static void judge(needs *s, chart *out) {
+static void check_requirements(needs *s, chart *out) {
     const need_file *file = s->request.file;
     const size_t all = check_count(file);
     s->verdicts = chart_memory(out, all, sizeof *s->verdicts);
@@ -169,7 +169,7 @@ const char *needs_build(const figure_request *request, chart *out) {
     for (size_t i = 0; i < request->file->camera_count; i++)
         if (request->file->cameras[i].world > 0.0)
             return "plot needs: a camera with from_origin has no curve: check judges it";
-    judge(&s, out);
+    check_requirements(&s, out);
     if (s.count == 0 && !chart_failed(out)) {
         snprintf(out->subtitle, sizeof out->subtitle, "plot needs: %s limits no separation and no error",
                  request->file->path);

@@ -6,9 +6,9 @@
 #include "core/append.h"
 #include "core/bits.h"
 #include "core/elementary.h"
+#include "frame/normal_errors.h"
 #include "plot/figure.h"
 #include "plot/refine.h"
-#include "texture/normal_measure.h"
 
 /* Each point of a curve stands for so many pixel columns, and each depth in it is an image of its own: how its pixels
  * meet the codes is chance, so the worst of some is shown. */
@@ -51,7 +51,7 @@ static double bound_of(const texture_camera *camera, const double *parameters) {
 
 /* A plane slanted askew: cos 33 cos 53.4 = 1/2. A sphere as large in the image at every depth, and a wall behind it as
  * far as it is large. */
-static double measure(const dp_setup *setup, size_t surface, size_t method, double z) {
+static double drawn_error(const dp_setup *setup, size_t surface, size_t method, double z) {
     texture_camera camera;
     normal_measured m;
     if (!middle(setup, &camera))
@@ -106,5 +106,5 @@ const char *normals_draw(const figure_request *request, normals_error *error, ch
 const char *normals_build(const figure_request *request, chart *out) {
     append(out->subtitle, sizeof out->subtitle, "; 1080 lines, %s; plane: 99 %% of the pixels, outline: mean",
            request->setups[0].spec.ortho ? "10 units high" : "field of view 60\u00b0");
-    return normals_draw(request, measure, out);
+    return normals_draw(request, drawn_error, out);
 }

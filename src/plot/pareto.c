@@ -43,7 +43,7 @@ static field gather(const method_family_row *family, const bench_result *results
 }
 
 /* Those of which `bits` are `set`, along a line the fastest first; null where there are none, or a line has but one. */
-static chart_series *add(const field *f, chart *out, chart_panel *panel, chart_kind kind, int bits, int set) {
+static chart_series *add_methods(const field *f, chart *out, chart_panel *panel, chart_kind kind, int bits, int set) {
     size_t count = 0;
     for (size_t i = 0; i < f->count; i++)
         count += (f->methods[i].is & bits) == set;
@@ -66,7 +66,7 @@ static chart_series *add(const field *f, chart *out, chart_panel *panel, chart_k
 }
 
 static void add_front(const field *f, chart *out, chart_panel *panel, int pipeline) {
-    chart_series *s = add(f, out, panel, CHART_LINE, FRONT | PIPELINE, FRONT | pipeline);
+    chart_series *s = add_methods(f, out, panel, CHART_LINE, FRONT | PIPELINE, FRONT | pipeline);
     if (s == NULL)
         return;
     s->unlisted = true;
@@ -95,7 +95,7 @@ static void add_bars(const field *f, chart *out, chart_panel *panel) {
 }
 
 static void add_points(const field *f, chart *out, chart_panel *panel, int front) {
-    chart_series *s = add(f, out, panel, CHART_POINTS, FRONT, front);
+    chart_series *s = add_methods(f, out, panel, CHART_POINTS, FRONT, front);
     if (s == NULL)
         return;
     s->style = front ? (chart_style){0, 0, 0, false} : (chart_style){1, 1, 1, false};

@@ -43,7 +43,7 @@ static double along_at(const refine *r, int value, int place) {
     return along(r, value, r->at[place].y[value]);
 }
 
-static void measure(refine *r, int first, int last, refine_sample *out) {
+static void evaluate(refine *r, int first, int last, refine_sample *out) {
     r->account->evaluations++;
     r->request.sample(r->request.context, edge(r, first), r->request.slices ? edge(r, last + 1) : edge(r, last), out);
 }
@@ -51,7 +51,7 @@ static void measure(refine *r, int first, int last, refine_sample *out) {
 static void visit(refine *r, int i) {
     if (i < 0 || i >= r->places || r->visited[i])
         return;
-    measure(r, i, i, &r->at[i]);
+    evaluate(r, i, i, &r->at[i]);
     r->visited[i] = true;
     r->points++;
     for (int v = 0; v < r->request.values; v++) {
@@ -153,7 +153,7 @@ static bool is_contained(refine *r, const int at[5]) {
         if (isfinite(e.hi) && (flicker > half / 2 || (step > half && !(e.hi - e.lo <= half))))
             return false;
         if (r->request.slices && v == 0)
-            measure(r, at[0], at[4], &whole);
+            evaluate(r, at[0], at[4], &whole);
         const double y = along(r, v, whole.y[v]);
         if (r->request.slices && isfinite(e.hi) && !(y >= e.lo - half && y <= e.hi + half))
             return false;

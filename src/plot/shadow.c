@@ -51,8 +51,8 @@ static double gap_at(const mapped *m, int way, double angle) {
 
 typedef double value_at(const mapped *m, int which, double angle);
 
-static void add(chart *out, chart_panel *panel, const mapped *m, value_at *value, int which, chart_style style,
-                const char *prefix, const char *name) {
+static void add_curve(chart *out, chart_panel *panel, const mapped *m, value_at *value, int which, chart_style style,
+                      const char *prefix, const char *name) {
     chart_series *s = chart_add_series(out, panel, CHART_LINE, POINTS);
     if (s == NULL)
         return;
@@ -81,10 +81,11 @@ static void add_panel(chart *out, const figure_request *request, size_t i) {
         snprintf(panel->title, sizeof panel->title, "Cascade %zu: %.3g to %.3g, texel %.3g", i + 1, c->from, c->to,
                  m.need.texel);
     for (int k = 0; k < GROUPS; k++)
-        add(out, panel, &m, group_at, k, (chart_style){k, 0, k, false}, "", groups[k].name);
+        add_curve(out, panel, &m, group_at, k, (chart_style){k, 0, k, false}, "", groups[k].name);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
         if (isfinite(gap_at(&m, k, panel->x.hi)))
-            add(out, panel, &m, gap_at, k, (chart_style){-1, k, -1, false}, "gap, ", shadow_way_name((shadow_way)k));
+            add_curve(out, panel, &m, gap_at, k, (chart_style){-1, k, -1, false}, "gap, ",
+                      shadow_way_name((shadow_way)k));
 }
 
 const char *shadow_build(const figure_request *request, chart *out) {

@@ -10,7 +10,7 @@
 /* Plain decades lie in [10^PLAIN_LO, 10^PLAIN_HI]. */
 enum { PLAIN_LO = -3, PLAIN_HI = 4 };
 
-static void add(ticks *out, const chart_axis *axis, double at, const char *text) {
+static void add_tick(ticks *out, const chart_axis *axis, double at, const char *text) {
     double share = chart_axis_share(axis, at);
     if (out->count == TICKS_MAX || !(share >= -1e-9 && share <= 1 + 1e-9))
         return;
@@ -65,7 +65,7 @@ static void linear(const chart_axis *axis, int room, ticks *out) {
             at = 0;
         /* Plain numbers from 1000 to 999999 too: 20000 reads better than 2e+04. */
         snprintf(text, sizeof text, "%.*g", largest >= 1e3 && largest < 1e6 && step >= 1 ? 6 : digits, at);
-        add(out, axis, at, text);
+        add_tick(out, axis, at, text);
     }
 }
 
@@ -83,12 +83,12 @@ static void decades(const chart_axis *axis, int room, ticks *out) {
         char text[TICKS_TEXT] = "";
         if ((power - origin) % stride == 0)
             ticks_label(decade, powers, text);
-        add(out, axis, decade, text);
+        add_tick(out, axis, decade, text);
         for (int factor = 2; stride == 1 && factor < 10; factor++) {
             text[0] = '\0';
             if ((factor == 2 || factor == 5) && last - first < 2 && 3 * (last - first + 1) <= room)
                 ticks_label(factor * decade, powers, text);
-            add(out, axis, factor * decade, text);
+            add_tick(out, axis, factor * decade, text);
         }
     }
 }
@@ -104,7 +104,7 @@ void ticks_make(const chart_axis *axis, int room, ticks *out) {
     out->count = 0;
     if (axis->names != NULL) {
         for (int i = 0; i < axis->hi; i++)
-            add(out, axis, i + 0.5, axis->names[i]);
+            add_tick(out, axis, i + 0.5, axis->names[i]);
         return;
     }
     if (room < 2)

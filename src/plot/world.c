@@ -22,7 +22,7 @@ static double of_metres(const chart *c, double length) {
     return c->unit != NULL ? unit_convert(length, unit_find("m"), unit_find(c->unit)) : length;
 }
 
-static void add(chart *out, chart_panel *panel, const world_asked *a, world_loss *loss) {
+static void add_schemes(chart *out, chart_panel *panel, const world_asked *a, world_loss *loss) {
     for (size_t k = 0; k < WORLD_ROWS; k++) {
         const world_row *row = world_get(k);
         const world_scheme s = {row, row->metres ? of_metres(out, row->standard) : row->standard};
@@ -60,7 +60,7 @@ const char *world_build(const figure_request *request, chart *out) {
     const double half = dp_tan(0.5 * degree * view.fov_y), z = isnan(request->at) ? of_metres(out, ahead) : request->at;
     const world_asked a = {.setup = &facing,
                            .z = z,
-                           .lean = dp_hypot(1.0, half * dp_hypot(1.0, (double)view.width / view.height)),
+                           .ray_ratio = dp_hypot(1.0, half * dp_hypot(1.0, (double)view.width / view.height)),
                            .pixels = 0.5 * view.height / half};
     char in_units[64];
     snprintf(in_units, sizeof in_units, "Gap that is safe, %s", out->unit != NULL ? out->unit : "scene units");
@@ -72,9 +72,9 @@ const char *world_build(const figure_request *request, chart *out) {
         return isnan(request->at) ? "plot world: needs --at: 10 m ahead, the default, is not between near and far"
                                   : "plot world: --at must lie between near and far";
     chart_panel *gap = add_panel(out, in_units);
-    add(out, gap, &a, world_separation);
+    add_schemes(out, gap, &a, world_separation);
     chart_panel *jitter = add_panel(out, "Jitter, pixels");
-    add(out, jitter, &a, world_jitter);
+    add_schemes(out, jitter, &a, world_jitter);
     if (isnan(request->at)) /* else it is said */
         append(out->subtitle, sizeof out->subtitle, ", %.4g ahead", z);
     append(out->subtitle, sizeof out->subtitle, "; %dx%d, fov %.4g, meshes with origins of their own", view.width,

@@ -9,8 +9,8 @@
 #include <GL/glcorearb.h>
 #include <string.h>
 
-#include "opened/library.h"
 #include "probe/spirv.h"
+#include "system/dynload.h"
 
 #define FUNCTIONS(X)                                                                                                   \
     X(eglGetPlatformDisplay)                                                                                           \
@@ -19,7 +19,7 @@
     X(eglCreateContext)                                                                                                \
     X(eglMakeCurrent)                                                                                                  \
     X(eglGetProcAddress)
-LIBRARY_FUNCTIONS(FUNCTIONS)
+DYNLOAD_FUNCTIONS(FUNCTIONS)
 
 #define CALLS(X)                                                                                                       \
     X(PFNGLGETSTRINGPROC, glGetString)                                                                                 \
@@ -214,10 +214,10 @@ static bool take_shot(context *g, shot *s) {
 
 bool shot_opengl(shot_plan *plan, shot_machine *machine) {
     static const library loader = {"a GPU", {"libEGL.so.1", NULL}, "libegl1", symbols};
-    char unused[LIBRARY_ERROR_SIZE];
+    char unused[DYNLOAD_ERROR_SIZE];
     context g = {.machine = machine};
     GLuint array, buffer;
-    if (!library_open(&loader, g.egl.all, unused))
+    if (!dynload_open(&loader, g.egl.all, unused))
         return fail(&g, "EGL, libEGL.so.1, is not there: Debian's package libegl1 has it");
     if (!open_context(&g))
         return false;

@@ -4,8 +4,8 @@
 #include <errno.h>
 #include <string.h>
 
-#include "opened/apart.h"
 #include "probe/judge.h"
+#include "system/sandbox.h"
 
 typedef struct job {
     const char *device;
@@ -39,7 +39,7 @@ static void end_text(char *text, size_t size) {
 }
 
 /* What the child wrote is checked as a file is: its driver may have written anything. */
-static bool take(const job *j, FILE *in) {
+static bool read_machine(const job *j, FILE *in) {
     shot_machine *m = j->machine;
     if (fread(m, sizeof *m, 1, in) != 1 || m->count > SHOT_DEVICES_MAX || m->chosen > m->count)
         return false;
@@ -74,23 +74,23 @@ bool probe_run(const char *device, uint64_t seed, probe_result *r, char error[SH
     job j = {device, &r->plan, &r->machine};
     if (!plan_make(&r->plan, seed))
         return fail(error, "there is no memory for it", "");
-    const apart_end end = apart_run(work, &j, (apart_limits){.wall = PROBE_SECONDS}, &made);
+    const sandbox_end end = sandbox_run(work, &j, (sandbox_limits){.wall = PROBE_SECONDS}, &made);
     bool good = false;
-    if (end == APART_NO_FILE)
+    if (end == SANDBOX_NO_FILE)
         fail(error, "needs a file for a while, which cannot be made: ", strerror(errno));
-    else if (end == APART_NO_PROCESS)
+    else if (end == SANDBOX_NO_PROCESS)
         fail(error, "needs a process of its own, which cannot be made: ", strerror(errno));
-    else if (end == APART_ENDLESS)
+    else if (end == SANDBOX_ENDLESS)
         snprintf(error, SHOT_ERROR_SIZE, "the driver does not come to an end in %d s", PROBE_SECONDS);
-    else if (end == APART_BROKEN)
+    else if (end == SANDBOX_BROKEN)
         fail(error, "the driver broke down", "");
-    else if (!take(&j, made))
+    else if (!read_machine(&j, made))
         fail(error, "what the driver made is damaged", "");
     else if (r->machine.error[0] != '\0')
         fail(error, r->machine.error, "");
     else
         good = true;
-    apart_close(made);
+    sandbox_close(made);
     if (good)
         probe_judge(r);
     return good;

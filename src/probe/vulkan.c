@@ -13,8 +13,8 @@
 #include <strings.h>
 #include <vulkan/vulkan_core.h>
 
-#include "opened/library.h"
 #include "probe/spirv.h"
+#include "system/dynload.h"
 
 #define FUNCTIONS(X)                                                                                                   \
     X(vkCreateInstance)                                                                                                \
@@ -62,7 +62,7 @@
     X(vkCmdDraw)                                                                                                       \
     X(vkCmdCopyImageToBuffer)                                                                                          \
     X(vkCmdPipelineBarrier)
-LIBRARY_FUNCTIONS(FUNCTIONS)
+DYNLOAD_FUNCTIONS(FUNCTIONS)
 
 enum {
     VERTICES_MAX = SHOT_PIXELS,
@@ -498,9 +498,9 @@ static bool take_shot(gpu *g, shot *s) {
 
 bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
     static const library loader = {"a GPU", {"libvulkan.so.1", NULL}, "libvulkan1", symbols};
-    char unused[LIBRARY_ERROR_SIZE];
+    char unused[DYNLOAD_ERROR_SIZE];
     gpu g = {.machine = machine};
-    if (!library_open(&loader, g.call.all, unused))
+    if (!dynload_open(&loader, g.call.all, unused))
         return fail(&g, "the Vulkan loader, libvulkan.so.1, is not there: Debian's package libvulkan1 has it, and "
                         "mesa-vulkan-drivers has drivers");
     if (!list(&g, wanted))

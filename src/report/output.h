@@ -52,7 +52,7 @@ typedef struct output {
  * Opens an output. Call it after all options are checked and before long work, so that a missing folder is told at
  * once.
  * @param path  null or "-" for stdout; not the empty string
- * @return EXIT_FINE; after one line on stderr EXIT_IO, or EXIT_USAGE of a file that is read (opened/input.h)
+ * @return EXIT_FINE; after one line on stderr EXIT_IO, or EXIT_USAGE of a file that is read (system/input.h)
  */
 int output_open(output *out, const char *path);
 

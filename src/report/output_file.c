@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "opened/input.h"
+#include "system/input.h"
 
 /* The temporary files, for the signal handler: empty where there is none. */
 typedef char temporary_path[4096 + 64];

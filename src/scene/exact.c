@@ -63,7 +63,7 @@ typedef struct expansion {
     double at[LONGEST];
 } expansion;
 
-static void add(expansion *e, double x) {
+static void expansion_add(expansion *e, double x) {
     int kept = 0;
     for (int i = 0; i < e->count; i++) {
         const dp_pair s = dp_two_sum(x, e->at[i]);
@@ -80,8 +80,8 @@ static void add(expansion *e, double x) {
 static void add_scaled(expansion *e, const double *x, int count, double factor) {
     for (int i = 0; i < count; i++) {
         const dp_pair p = dp_two_product(x[i], factor);
-        add(e, p.lo);
-        add(e, p.hi);
+        expansion_add(e, p.lo);
+        expansion_add(e, p.hi);
     }
 }
 

@@ -36,7 +36,7 @@ static bool in_range(double x, double hi) {
 }
 
 /* The middle and the diagonal of the model's box; false: a coordinate is out of range. */
-static bool measure(search *s) {
+static bool measure_box(search *s) {
     const model_box b = model_box_of(s->m);
     for (int k = 0; k < 3; k++) {
         if (b.lo[k] < -FINDER_COORDINATE_MAX || b.hi[k] > FINDER_COORDINATE_MAX)
@@ -179,7 +179,7 @@ finder_status finder_find(const model *m, const finder_asked *asked, finder_foun
     search s = {.m = m, .asked = asked, .threads = threads_of(asked)};
     *out = (finder_found){0};
     if (!in_range(asked->gap, FINDER_COORDINATE_MAX) || !in_range(asked->angle, FINDER_ANGLE_MAX) ||
-        !in_range(asked->width, FINDER_COORDINATE_MAX) || !measure(&s))
+        !in_range(asked->width, FINDER_COORDINATE_MAX) || !measure_box(&s))
         return FINDER_RANGE;
     s.sine = dp_sin(asked->angle * (M_PI / 180.0));
     s.found.extent = s.extent;

@@ -5,7 +5,7 @@
 
 #include "depthprec/bounds.h"
 #include "depthprec/depth.h"
-#include "need/distance.h"
+#include "requirement/distance.h"
 
 enum { DIGITS = 6 };
 

@@ -76,7 +76,7 @@ static bool beyond(exact_triangle a, const double na[3], exact_triangle b, doubl
 }
 
 /* The normals, their angle and the view; false: the angle is too large. */
-static bool look(frame *f, exact_triangle a, exact_triangle b, double sine) {
+static bool set_view(frame *f, exact_triangle a, exact_triangle b, double sine) {
     exact_normal(a, f->na);
     exact_normal(b, f->nb);
     double la = normalize(f->na);
@@ -249,7 +249,7 @@ static void set_corners(const frame *f, const polygon *p, overlap *out) {
 
 bool overlap_find(exact_triangle a, exact_triangle b, double gap, double sine, overlap *out) {
     frame f;
-    if (!look(&f, a, b, sine) || beyond(a, f.na, b, gap) || beyond(b, f.nb, a, gap) ||
+    if (!set_view(&f, a, b, sine) || beyond(a, f.na, b, gap) || beyond(b, f.nb, a, gap) ||
         separated(&f.view, exact_turn_quick))
         return false;
     f.view.plane = in_one_plane(a, b);

@@ -173,7 +173,7 @@ static void take_depths(rendering *r) {
     }
 }
 
-static double reach_of(const render_asked *asked) {
+static double resolved_up_to(const render_asked *asked) {
     double most = 0.0;
     for (size_t i = 0; i < 3 * asked->m->triangles; i++)
         for (int k = 0; k < 3; k++)
@@ -201,7 +201,7 @@ static render_status draw_all(rendering *r, size_t count) {
 render_status render_draw(const render_asked *asked, render_picture *out) {
     const raster_target *target = &asked->camera->target;
     const size_t count = (size_t)target->width * (size_t)target->height;
-    rendering r = {.asked = asked, .out = out, .reach = reach_of(asked)};
+    rendering r = {.asked = asked, .out = out, .reach = resolved_up_to(asked)};
     if (count > RENDER_PIXELS_MAX || !(r.reach <= RENDER_REACH))
         return RENDER_RANGE;
     *out = (render_picture){.width = target->width,

@@ -27,8 +27,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "draw/draw.h"
 #include "model/model.h"
+#include "raster/draw.h"
 #include "scene/eye.h"
 
 enum { RENDER_PIXELS_MAX = 1 << 25 };

@@ -6,7 +6,7 @@
 
 #include "core/elementary.h"
 #include "depthprec/bounds.h"
-#include "need/distance.h"
+#include "requirement/distance.h"
 #include "scene/exact.h"
 #include "scene/pairs.h"
 
@@ -274,7 +274,7 @@ static void widen(dp_triangles *to, const dp_triangles *by) {
     }
 }
 
-static void add(scene_sight *to, const scene_sight *from) {
+static void merge_sights(scene_sight *to, const scene_sight *from) {
     to->seen_from = fmin(to->seen_from, from->seen_from);
     to->seen_to = fmax(to->seen_to, from->seen_to);
     to->fights_from = fmin(to->fights_from, from->fights_from);
@@ -308,7 +308,7 @@ static void judge_eyes(const sight_asked *asked, const finder_finding *f, scene_
             else if (asked->classes)
                 seen.triangles = standard_of(&p, asked, &asked->eye[e], &seen, &(standard){0})->spec.triangles;
             nearest = fmin(nearest, seen.fights_from);
-            add(&sight[e], &seen);
+            merge_sights(&sight[e], &seen);
         }
     }
 }

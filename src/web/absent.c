@@ -8,15 +8,15 @@
 #include "cli/check_report.h"
 #include "cli/link.h"
 #include "cli/methods.h"
-#include "cli/option_rows.h"
-#include "cli/scene_figure.h"
-#include "need/check.h"
+#include "cli/option/rows.h"
+#include "cli/scene/figure.h"
 #include "plot/figure.h"
+#include "requirement/check.h"
 #include "scene/find.h"
-#include "texture/pack.h"
+#include "shader/pack.h"
 
 static int absent(const options *o) {
-    return usage_error("%s is not in the page: the program has it", o->verb->name);
+    return usage_error("%s is not in the page: the program has it", o->command->name);
 }
 
 #define ABSENT(name)                                                                                                   \

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/option_rows.h"
+#include "cli/option/rows.h"
 #include "web/page.h"
 
 enum { WORDS_MAX = 1024 };
@@ -25,7 +25,7 @@ PAGE_EXPORT("words") char *words_room(size_t size) {
 }
 
 /* How many words there are with the program's name; 0 where they are too many. */
-static int take(int count) {
+static int split_words(int count) {
     char *at = text;
     if (count < 0 || count > WORDS_MAX)
         return 0;
@@ -37,12 +37,12 @@ static int take(int count) {
 
 int page_words(int count, char ***out) {
     *out = words;
-    return take(count);
+    return split_words(count);
 }
 
 /** Runs the command of `count` words. @return its exit status */
 PAGE_EXPORT("run") int run_words(int count) {
-    const int argc = take(count);
+    const int argc = split_words(count);
     const int status = argc > 0 ? main(argc, words) : usage_error("at most %d words make a command", WORDS_MAX);
     fflush(NULL);
     return status;
@@ -58,12 +58,12 @@ static void say(const char *word) {
  */
 PAGE_EXPORT("parse") int parse_words(int count) {
     static options o;
-    const int argc = take(count);
+    const int argc = split_words(count);
     const int status = argc > 0 ? options_parse(&o, argc, words) : usage_error("at most %d words", WORDS_MAX);
     if (status == EXIT_FINE) {
         char number[16];
         snprintf(number, sizeof number, "%d", o.operand_count);
-        say(o.verb->name);
+        say(o.command->name);
         say(number);
         for (int i = 0; i < o.operand_count; i++)
             say(o.operands[i]);
@@ -80,7 +80,7 @@ PAGE_EXPORT("parse") int parse_words(int count) {
 /** The options of the command that is the first word: name and argument ("" of none) of each. @return exit status */
 PAGE_EXPORT("takes") int taken_by_words(int count) {
     char argument[OPTION_TEXT_SIZE];
-    const verb *v = take(count) > 1 ? verb_find(words[1]) : NULL;
+    const command_row *v = split_words(count) > 1 ? command_find(words[1]) : NULL;
     for (int id = 0; v != NULL && id < OPTION_COUNT; id++)
         if ((option_rows[id].commands & v->bit) != 0) {
             say(option_rows[id].name);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page in place of report/output_file.c, opened/input.c, report/terminal.c and cli/stop.c: no files, no terminal,
+/* The page in place of report/output_file.c, system/input.c, report/terminal.c and cli/stop.c: no files, no terminal,
  * no signals. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "cli/stop.h"
-#include "opened/input.h"
 #include "report/output.h"
 #include "report/terminal.h"
+#include "system/input.h"
 
 int output_open(output *out, const char *path) {
     *out = (output){.fd = STDOUT_FILENO};

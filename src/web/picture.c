@@ -3,7 +3,7 @@
  * The flickering picture's door: a command's words make it, each frame is one call. What is said about it is written
  * to stdout, a line for the gap and one for the rest. picture.js is the other side; all calls have the same instance.
  */
-#include "draw/picture.h"
+#include "raster/picture.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include <math.h>
 
 static world_error error_at(const world_scheme *s, const world_asked *a, double distance, double z) {
-    const world_where at = {distance, a->lean * z, z};
+    const world_where at = {distance, a->ray_ratio * z, z};
     return world_bound(s, &at);
 }
 
@@ -17,7 +17,7 @@ double world_off(const world_scheme *s, const world_asked *a, double distance) {
 static dp_displaced displaced(const world_scheme *s, const world_asked *a, double distance, double z) {
     const world_error e = error_at(s, a, distance, z);
     const double own = world_own(&e, a->shared_origin);
-    return (dp_displaced){own, world_all(&e) - own, WORLD_TURN * a->lean};
+    return (dp_displaced){own, world_all(&e) - own, WORLD_TURN * a->ray_ratio};
 }
 
 dp_status world_budget(const world_scheme *s, const world_asked *a, double distance, dp_budget_terms *terms,

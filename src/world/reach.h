@@ -11,7 +11,7 @@
 typedef struct world_asked {
     const dp_setup *setup; /**< perspective, or a box no wider than `lean` says */
     double z;              /**< eye depth in [near, far], finite and positive */
-    double lean;           /**< no place is farther from the camera than this times its eye depth; from 1 to 1e7 */
+    double ray_ratio;      /**< no place is farther from the camera than this times its eye depth; from 1 to 1e7 */
     double pixels;         /**< of the picture's height that a tangent of 1 takes: height/(2 tan(fov/2)) */
     bool shared_origin;    /**< both surfaces are of meshes about one origin */
 } world_asked;

@@ -181,15 +181,15 @@ world_error world_bound(const world_scheme *s, const world_where *at) {
     return e;
 }
 
-double world_gap(const world_scheme *s, double distance, double z, double lean, bool shared_origin) {
+double world_gap(const world_scheme *s, double distance, double z, double ray_ratio, bool shared_origin) {
     const double settled = 1.0 + 0x1p-30;
     double gap = 0.0;
     for (double before = -1.0; gap > before * settled && gap < 1e18;) {
         const double end = z + gap;
-        const world_where near_one = {distance, lean * z, z}, far_one = {distance, lean * end, end};
+        const world_where near_one = {distance, ray_ratio * z, z}, far_one = {distance, ray_ratio * end, end};
         const world_error a = world_bound(s, &near_one), b = world_bound(s, &far_one);
         before = gap;
-        gap = (world_own(&a, shared_origin) + world_own(&b, shared_origin)) / (1.0 - turn * lean) * outward;
+        gap = (world_own(&a, shared_origin) + world_own(&b, shared_origin)) / (1.0 - turn * ray_ratio) * outward;
     }
     return gap < 1e18 ? gap * outward : (double)INFINITY;
 }

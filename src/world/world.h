@@ -91,7 +91,7 @@ world_error world_bound(const world_scheme *s, const world_where *at);
  * or more. Before anything else is rounded. @param lean  no surface is farther than this times its eye depth, at most
  * 1e7
  */
-double world_gap(const world_scheme *s, double distance, double z, double lean, bool shared_origin);
+double world_gap(const world_scheme *s, double distance, double z, double ray_ratio, bool shared_origin);
 
 /** What one vertex is off by. */
 static inline double world_all(const world_error *e) {

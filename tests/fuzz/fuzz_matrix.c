@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "texture/projection.h"
+#include "shader/projection.h"
 
 enum { ENTRIES = 16, BYTES = 9 };
 

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "texture/camera.h"
-#include "texture/image_depths.h"
-#include "texture/recognise.h"
+#include "frame/image_depths.h"
+#include "frame/recognise.h"
+#include "shader/camera.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -40,7 +40,7 @@ static inline void use_image(const uint8_t *data, size_t size, image_file file) 
         return;
     }
     demand(img.file == file && image_holds(file, img.type, img.channels));
-    demand(img.width >= 1 && img.height >= 1 && img.width <= TEXTURE_SIDE_MAX && img.height <= TEXTURE_SIDE_MAX);
+    demand(img.width >= 1 && img.height >= 1 && img.width <= IMAGE_SIDE_MAX && img.height <= IMAGE_SIDE_MAX);
     /* Deflate makes at most 258 bytes of two bits; other compressions of EXR and TIFF are bounded by their blocks. */
     if (file != IMAGE_EXR && file != IMAGE_TIFF)
         demand((uint64_t)img.width * img.height * img.channels * image_type_size(img.type) <= (uint64_t)size * 1032);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/bits.h"
-#include "draw/picture.h"
+#include "raster/picture.h"
 
 static uint32_t pixels[DRAW_PICTURE_WIDTH * DRAW_PICTURE_HEIGHT];
 

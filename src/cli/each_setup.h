@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file walk.h  A report of depths, one after the other, in each set-up: what such commands share.
+ *
+ *     typedef struct table { each_setup each; row row; } table;        // the walk stands first
+ *     int status = each_setup_start(&t.each, o);                       // set-ups and depths
+ *     each_setup_write(&t.each, &spec, status);                        // its lists ask each_setup_go() and
+ * each_setup_depth()
+ */
+#ifndef CLI_EACH_SETUP_H
+#define CLI_EACH_SETUP_H
+
+#include "cli/progress.h"
+#include "cli/setups.h"
+
+typedef struct each_setup {
+    const options *o;
+    setups all;
+    options here; /**< those of the set-up at hand, see options_of() */
+    depths at;    /**< of the set-up at hand, before there is one of the first */
+    output out;
+    progress progress;
+    uint64_t done;
+    const dp_setup *setup; /**< the one at hand */
+    setup_fields fields;
+} each_setup;
+
+/** Resolves set-ups and depths. @return an exit status, after one line on stderr */
+int each_setup_start(each_setup *w, const options *o);
+
+/**
+ * Writes the report where `status` is EXIT_FINE, says on stderr what binary32 clipping loses, and frees what
+ * each_setup_start() made in any case.
+ * @return an exit status
+ */
+int each_setup_write(each_setup *w, const report_spec *spec, int status);
+
+/** Goes to set-up i. @return false behind the last */
+bool each_setup_go(each_setup *w, size_t i);
+
+/** Goes to depth i, each in turn. @return false behind the last, and where nothing more can be written */
+bool each_setup_depth(each_setup *w, size_t i, double *z);
+
+/** What text says above a set-up: for reports whose item begins with its walk. */
+void each_setup_title(page *p, void *item);
+
+#endif

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Options that are lengths, and lists of them. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/unit.h"
+#include "cli/option/rows.h"
+#include "core/append.h"
+#include "report/number.h"
+
+/* What the lengths of one argument have: some a unit, and some, other than 0, none. */
+typedef struct lengths {
+    options *o;
+    bool named, bare;
+} lengths;
+
+static bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (unsigned char)c >= 0x80;
+}
+
+/*
+ * A number of scene units, or one with a unit right behind it or behind one blank; a hexadecimal one takes no unit,
+ * which could be digits of it. A unit where nothing has said what a scene unit is makes that the metre.
+ */
+static bool read_length(lengths *seen, const char *text, size_t length, number_kind kind, double *out) {
+    char name[8] = "";
+    size_t end = length;
+    double number;
+    if (number_parse_part(text, length, kind, out)) {
+        seen->bare = seen->bare || *out != 0.0;
+        return true;
+    }
+    while (end > 0 && is_letter(text[end - 1]))
+        end--;
+    append(name, sizeof name, "%.*s", (int)(length - end), text + end);
+    const unit_row *unit = length - end < sizeof name ? unit_find(name) : NULL;
+    end -= end > 0 && text[end - 1] == ' ';
+    if (unit == NULL || memchr(text, 'x', end) != NULL || memchr(text, 'X', end) != NULL ||
+        !number_parse_part(text, end, NUMBER_FINITE, &number))
+        return false;
+    if (seen->o->unit == NULL)
+        seen->o->unit = unit_find("m");
+    *out = unit_convert(number, unit, seen->o->unit);
+    seen->named = true;
+    return isfinite(*out) && (*out != 0.0) == (number != 0.0);
+}
+
+#define UNITS_ARE "a unit is " UNIT_NAMES
+
+/* What a refusal adds where letters behind digits make one expect a unit; not those of 1e400 and 0x10. */
+static const char *unit_hint(const char *text, size_t length) {
+    const size_t digits = strcspn(text, "0123456789");
+    bool letter = false;
+    for (size_t i = digits; i < length; i++)
+        letter = letter || (is_letter(text[i]) && strchr("eEx", text[i]) == NULL);
+    return letter ? "; " UNITS_ARE : "";
+}
+
+/* "1,5m" is no length, and which depths would be meant is not clear. */
+static int check_mixed(const lengths *seen, const option_row *row, const char *value) {
+    if (!seen->named || !seen->bare)
+        return EXIT_FINE;
+    return option_refuse(row, "must have a unit in all places or in none, got '%s'; " UNITS_ARE, value);
+}
+
+int parse_length(options *o, const option_row *row, const char *value) {
+    char limits[OPTION_TEXT_SIZE];
+    const bool limited = row->least < row->most;
+    lengths seen = {.o = o};
+    double length;
+    const bool read = read_length(&seen, value, strlen(value), NUMBER_FINITE, &length);
+    if (limited && (!read || !(length >= row->least && length <= row->most)))
+        return option_refuse(row, "must be a number from %s, got '%s'%s", option_limits(row, limits), value,
+                             unit_hint(value, strlen(value)));
+    if (!read || (!limited && !(length > 0.0)))
+        return option_refuse(row, "must be a positive number of scene units, got '%s'%s", value,
+                             unit_hint(value, strlen(value)));
+    *(double *)option_field(o, row) = length;
+    return EXIT_FINE;
+}
+
+/* Surfaces of a model may be in one place. */
+int parse_separation(options *o, const option_row *row, const char *value) {
+    double apart;
+    if ((o->command->bit & (CMD_SCENE | CMD_PLOT)) == 0 || !number_parse(value, NUMBER_FINITE, &apart) || apart != 0.0)
+        return parse_length(o, row, value);
+    o->separation = 0.0;
+    return EXIT_FINE;
+}
+
+/* What is not positive needs --ortho, which may come later: check_near() of options.c. */
+int parse_near(options *o, const option_row *row, const char *value) {
+    if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FINITE, &o->znear) || o->znear > 0.0)
+        return parse_length(o, row, value);
+    o->znear += 0.0; /* -0 is 0 */
+    return EXIT_FINE;
+}
+
+int parse_far(options *o, const option_row *row, const char *value) {
+    if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FAR, &o->zfar))
+        return option_refuse(row, "must be a number greater than near and at most 1e18, or inf, got '%s'%s", value,
+                             unit_hint(value, strlen(value)));
+    return EXIT_FINE;
+}
+
+/* Three lengths with a sign in between. */
+static int parse_triple(options *o, const option_row *row, const char *value, const char *sign, double least,
+                        double *out) {
+    const char *at = value;
+    lengths seen = {.o = o};
+    for (int i = 0; i < 3; i++) {
+        const size_t length = strcspn(at, sign);
+        if (!read_length(&seen, at, length, NUMBER_FINITE, &out[i]) || !(out[i] >= least && out[i] <= 1e12) ||
+            (at[length] == '\0') != (i == 2))
+            return option_refuse(row, "must be %s, each from %s to 1e12, got '%s'%s", row->argument,
+                                 least > 0.0 ? "1e-12" : "-1e12", value, unit_hint(value, strlen(value)));
+        at += length + 1;
+    }
+    return check_mixed(&seen, row, value);
+}
+
+int parse_origin(options *o, const option_row *row, const char *value) {
+    return parse_triple(o, row, value, ",", -1e12, option_field(o, row));
+}
+
+int parse_light_box(options *o, const option_row *row, const char *value) {
+    return parse_triple(o, row, value, "x", 1e-12, o->light_box);
+}
+
+/* ---- Depths ------------------------------------------------------------------------------------------------------ */
+
+static int wrong_form(const option_row *row, const char *text) {
+    return option_refuse(row, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%s'", text);
+}
+
+/* LO:HI:log|lin:COUNT. */
+static int parse_spaced(lengths *seen, const option_row *row, const char *text, depths *out) {
+    static const char *const ends[] = {"LO", "HI"};
+    const char *part = text;
+    size_t length = strcspn(part, ":");
+    uint64_t count;
+    double z[2];
+    for (int i = 0; i < 2; i++, part += length + 1, length = strcspn(part, ":")) {
+        if (part[length] == '\0')
+            return wrong_form(row, text);
+        if (!read_length(seen, part, length, NUMBER_FINITE, &z[i]))
+            return option_refuse(row, "%s must be a number, got '%.*s' in '%s'%s", ends[i], (int)length, part, text,
+                                 unit_hint(part, length));
+    }
+    const bool log = length == 3 && memcmp(part, "log", 3) == 0;
+    if (part[length] == '\0')
+        return wrong_form(row, text);
+    if (!log && (length != 3 || memcmp(part, "lin", 3) != 0))
+        return option_refuse(row, "spacing must be log or lin, got '%.*s' in '%s'", (int)length, part, text);
+    part += length + 1;
+    if (!number_parse_count(part, DEPTHS_MAX, &count) || count < 2)
+        return option_refuse(row, "COUNT must be a whole number from 2 to %d, got '%s'", DEPTHS_MAX, part);
+    if (!(z[0] < z[1]))
+        return option_refuse(row, "LO must be less than HI, got '%s'", text);
+    *out = (depths){.kind = log ? DEPTHS_LOG : DEPTHS_LIN, .lo = z[0], .hi = z[1], .count = count};
+    return EXIT_FINE;
+}
+
+/* Numbers separated by commas, what is `said` of them: lengths where `seen` notes them; from least to most where the
+ * row has limits. */
+static int parse_listed(lengths *seen, const option_row *row, const char *text, const char *said, depths *out) {
+    depths d = {.kind = DEPTHS_LIST, .lo = (double)INFINITY, .hi = -(double)INFINITY};
+    const bool paired = row->parse == parse_pixels, whole = paired || row->parse == parse_codes;
+    const bool limited = row->least < row->most;
+    size_t count = 1;
+    for (const char *c = text; *c != '\0'; c++)
+        count += *c == ',' || (paired && *c == ';');
+    if (count > DEPTHS_MAX)
+        return option_refuse(row, "must be at most %d depths, got %zu", DEPTHS_MAX, count);
+    d.list = malloc(count * sizeof *d.list);
+    if (d.list == NULL)
+        return option_refuse(row, "no memory for %zu depths", count);
+    for (const char *item = text; d.count < count; d.count++) {
+        const size_t length = strcspn(item, paired ? ",;" : ",");
+        const bool ends = !paired || (d.count % 2 == 0 ? item[length] == ',' : item[length] != ',');
+        double z;
+        const bool read = seen != NULL ? read_length(seen, item, length, NUMBER_FINITE, &z)
+                                       : number_parse_part(item, length, NUMBER_FINITE, &z);
+        if (!read || !ends || (limited && !(z >= row->least && z <= row->most)) || (whole && z != floor(z))) {
+            free(d.list);
+            return option_refuse(row, "must be %s, got '%.*s'%s%s%s%s", said, (int)length, item,
+                                 count > 1 ? " in '" : "", count > 1 ? text : "", count > 1 ? "'" : "",
+                                 seen != NULL ? unit_hint(item, length) : "");
+        }
+        d.list[d.count] = z + 0.0; /* no -0 */
+        d.lo = fmin(d.lo, z);
+        d.hi = fmax(d.hi, z);
+        item += length + 1;
+    }
+    free(out->list); /* --depth and --code are one field, and refused together later */
+    *out = d;
+    return EXIT_FINE;
+}
+
+int parse_list(options *o, const option_row *row, const char *value) {
+    char limits[OPTION_TEXT_SIZE], said[OPTION_TEXT_SIZE + 64];
+    depths *out = option_field(o, row);
+    snprintf(said, sizeof said, "%s, %snumbers from %s", row->argument, row->parse != parse_list ? "whole " : "",
+             option_limits(row, limits));
+    return parse_listed(NULL, row, value, said, out);
+}
+
+int parse_codes(options *o, const option_row *row, const char *value) {
+    return parse_list(o, row, value);
+}
+
+int parse_pixels(options *o, const option_row *row, const char *value) {
+    return parse_list(o, row, value);
+}
+
+static int read_depths(options *o, const option_row *row, const char *value, depths *out) {
+    lengths seen = {.o = o};
+    const int status = strchr(value, ':') != NULL
+                           ? parse_spaced(&seen, row, value, out)
+                           : parse_listed(&seen, row, value, "Z[,Z...] or LO:HI:log|lin:COUNT", out);
+    return status == EXIT_FINE ? check_mixed(&seen, row, value) : status;
+}
+
+int parse_at(options *o, const option_row *row, const char *value) {
+    return read_depths(o, row, value, option_field(o, row));
+}
+
+/* The command world asks where the camera is, at several places, the others for a bound of coordinates. */
+int parse_from_origin(options *o, const option_row *row, const char *value) {
+    option_row bound = *row;
+    bound.most = 1e18;
+    bound.unit = "scene units";
+    return o->command != NULL && o->command->bit == CMD_WORLD ? read_depths(o, row, value, &o->distances)
+                                                              : parse_length(o, &bound, value);
+}
+
+int parse_range(options *o, const option_row *row, const char *value) {
+    const size_t split = strcspn(value, ":");
+    const char *const hi = value + split + 1;
+    lengths seen = {.o = o};
+    if (value[split] == '\0')
+        return option_refuse(row, "must be LO:HI, got '%s'", value);
+    if (!read_length(&seen, value, split, NUMBER_FINITE, &o->range_lo))
+        return option_refuse(row, "LO must be a number, got '%.*s' in '%s'%s", (int)split, value, value,
+                             unit_hint(value, split));
+    if (!read_length(&seen, hi, strlen(hi), NUMBER_FINITE, &o->range_hi))
+        return option_refuse(row, "HI must be a number, got '%s' in '%s'%s", hi, value, unit_hint(hi, strlen(hi)));
+    const int status = check_mixed(&seen, row, value);
+    return status != EXIT_FINE || o->range_lo < o->range_hi
+               ? status
+               : option_refuse(row, "LO must be less than HI, got '%s'", value);
+}

@@ -1,0 +1,473 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/option/options.h"
+
+#include <getopt.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "cli/depth24plus.h"
+#include "cli/option/rows.h"
+#include "core/append.h"
+#include "report/number.h"
+#include "system/input.h"
+
+const char *option_name(option_id id) {
+    return option_rows[id].name;
+}
+
+const char *option_word(option_id id, size_t index) {
+    list_item item = {0};
+    names_get(option_rows[id].names, index, &item);
+    return item.name;
+}
+
+const char *options_unit(const options *o) {
+    return o->unit != NULL ? o->unit->name : NULL;
+}
+
+const char *option_written(const options *o, option_id id) {
+    const option_row *row = &option_rows[id];
+    if (row->parse == parse_error_map)
+        return o->error_file;
+    return row->parse == parse_written ? *(const char *const *)((const char *)o + row->place) : NULL;
+}
+
+/* What gave an option its value in place of the user: a preset or a platform; its own option and name. */
+static struct chooser {
+    option_id by;
+    const char *name; /* null where the user or the default did */
+} choosers[OPTION_COUNT];
+
+static int error_of(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static int error_of(option_id id, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    int status = named_error(option_name(id), format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+/* Who did not name what is refused is told where it comes from. */
+int option_error(option_id id, const char *format, ...) {
+    const struct chooser *c = &choosers[id];
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return c->name != NULL ? error_of(id, "%s; --%s %s chose it", text, option_name(c->by), c->name)
+                           : error_of(id, "%s", text);
+}
+
+static void set_defaults(options *o) {
+    memset(choosers, 0, sizeof choosers);
+    *o = (options){.target = SOLVE_FOR_ANY, .triangles = dp_triangles_default(), .azimuth = (double)NAN};
+    for (int id = 0; id < OPTION_COUNT; id++)
+        if (option_rows[id].standard != NULL)
+            option_rows[id].parse(o, &option_rows[id], option_rows[id].standard);
+}
+
+void options_release(options *o) {
+    free(o->at.list);
+    free(o->looked_up.list);
+    free(o->pixels.list);
+    free(o->distances.list);
+    o->at.list = o->looked_up.list = o->pixels.list = o->distances.list = NULL;
+}
+
+/* getopt's names for an option: its letter, or a number that no letter has. */
+enum { LONG_ONLY = 256 };
+
+static int getopt_value(int id) {
+    return option_rows[id].letter != 0 ? option_rows[id].letter : LONG_ONLY + id;
+}
+
+static int id_of_value(int value) {
+    for (int id = 0; id < OPTION_COUNT; id++)
+        if (getopt_value(id) == value)
+            return id;
+    return OPTION_COUNT;
+}
+
+static bool takes_argument(const option_row *row) {
+    return row->argument != NULL || row->names != NULL;
+}
+
+static void make_getopt_arrays(const char *mode, char *letters, struct option *longs) {
+    letters = stpcpy(letters, mode);
+    *letters++ = ':'; /* a missing argument is told apart from an unknown option */
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        const option_row *row = &option_rows[id];
+        const int has = takes_argument(row)     ? required_argument
+                        : row->optional != NULL ? optional_argument
+                                                : no_argument;
+        *longs++ = (struct option){row->name, has, NULL, getopt_value(id)};
+        if (row->letter != 0) {
+            *letters++ = row->letter;
+            if (takes_argument(row))
+                *letters++ = ':';
+        }
+    }
+    *letters = '\0';
+    *longs = (struct option){NULL, 0, NULL, 0};
+}
+
+/* getopt has refused: say what and why, with the nearest option that the command takes. */
+static int unknown_option(const options *o, int refused, const char *argument) {
+    if (refused != 0 && id_of_value(refused) < OPTION_COUNT)
+        return option_error((option_id)id_of_value(refused), "takes no argument, got '%s'", argument);
+    if (refused != 0)
+        return usage_error("unknown option '-%c'; 'depthprec help %s' lists its options", refused, o->command->name);
+    const int length = (int)strcspn(argument, "=");
+    const char *taken[OPTION_COUNT + 1], *begun[OPTION_COUNT + 1];
+    size_t taken_count = 0, begun_count = 0;
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        const char *name = option_rows[id].name;
+        if (length > 2 && strncmp(name, argument + 2, (size_t)length - 2) == 0)
+            begun[begun_count++] = name;
+        if ((option_rows[id].commands & o->command->bit) != 0)
+            taken[taken_count++] = name;
+    }
+    begun[begun_count] = taken[taken_count] = NULL;
+    char text[NAMES_SIZE], given[64] = "";
+    const name_list all = {.words = begun_count > 1 ? begun : taken};
+    if (begun_count > 1)
+        return usage_error("option '%.*s' could be --%s", length, argument, names_join(&all, ", --", " or --", text));
+    append(given, sizeof given, "%.*s", length > 2 ? length - 2 : 0, argument + (length > 2 ? 2 : 0));
+    if (*names_nearest(&all, "--", given, text) != '\0')
+        return usage_error("unknown option '%.*s'%s", length, argument, text);
+    return usage_error("unknown option '%.*s'; 'depthprec help %s' lists its options", length, argument,
+                       o->command->name);
+}
+
+static int wrong_command(const options *o, option_id id) {
+    const option_row *row = &option_rows[id];
+    char takers[OPTION_TEXT_SIZE];
+    return option_error(id, "is not an option of %s, but of %s%s", o->command->name, option_takers(row, takers),
+                        row->instead != NULL ? row->instead : "");
+}
+
+int check_operand(const command_row *v, const char *what, const name_list *n, const char *given, list_item *found) {
+    char text[NAMES_SIZE];
+    if (names_find(n, given, NULL, found))
+        return EXIT_FINE;
+    return usage_error("%s: %.*s %s", v->name, (int)strcspn(what, " "), what, names_refuse(n, given, text));
+}
+
+static int check_operands(options *o) {
+    const command_row *v = o->command;
+    list_item item = {0};
+    char text[NAMES_SIZE] = "";
+    if (o->operand_count > v->operand_max)
+        return usage_error("unexpected argument '%s'%s", o->operands[v->operand_max],
+                           names_nearest(&(name_list){.get = list_command}, "", o->operands[v->operand_max], text));
+    if (o->operand_count < v->operand_min)
+        return usage_error("%s: needs %s%s%s", v->name, v->operand, v->names != NULL ? ": " : "",
+                           v->names != NULL ? names_join(v->names, ", ", " or ", text) : "");
+    const int status = v->names != NULL && o->operand_count > 0
+                           ? check_operand(v, v->operand, v->names, o->operands[0], &item)
+                           : EXIT_FINE;
+    o->operand_row = item.row;
+    return status;
+}
+
+/* The rule under which the bias is written. */
+static void take_api(options *o, const char *api) {
+    if (!option_given(o, OPTION_API))
+        parse_row(o, &option_rows[OPTION_API], api);
+}
+
+static void chose(const options *o, option_id by, const char *name, const option_id *ids, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (!option_given(o, ids[i]))
+            choosers[ids[i]] = (struct chooser){by, name};
+}
+
+/* A preset gives what the user did not. */
+static void take_preset(options *o, const preset *p) {
+    static const option_id chosen[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING};
+    const unit_row *own = unit_find(p->unit);
+    chose(o, OPTION_PRESET, p->name, chosen, sizeof chosen / sizeof chosen[0]);
+    if (!option_given(o, OPTION_NEAR))
+        o->znear = unit_convert(p->znear, own, o->unit);
+    if (!option_given(o, OPTION_FAR))
+        o->zfar = unit_convert(p->zfar, own, o->unit);
+    if (!option_given(o, OPTION_LOG_C)) /* 1 for a depth in the preset's own unit */
+        o->log_c /= unit_convert(1.0, own, o->unit);
+    if (!option_given(o, OPTION_FORMAT))
+        parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
+    if (!option_given(o, OPTION_MAPPING))
+        parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
+    take_api(o, p->api);
+    slant_take_preset(o, p);
+}
+
+/* What is stored; a preset's format and rasterizer give way to it, its mapping stays. */
+static void take_platform(options *o) {
+    const platform *p = o->platform;
+    if (p == NULL)
+        return;
+    const bool webgl = strcmp(p->api, "gl") == 0;
+    static const option_id chosen[] = {OPTION_FORMAT, OPTION_MAPPING};
+    const char *stored = depth24plus_on(p, o->given[OPTION_FORMAT]);
+    chose(o, OPTION_PLATFORM, p->name, chosen, o->preset_count == 0 ? 2 : 1); /* a preset's mapping stays */
+    if (!option_given(o, OPTION_FORMAT) || stored != NULL)
+        parse_formats(o, &option_rows[OPTION_FORMAT], stored != NULL ? stored : p->stored);
+    if (!option_given(o, OPTION_MAPPING) && o->preset_count == 0)
+        parse_mappings(o, &option_rows[OPTION_MAPPING], webgl ? "gl" : "d3d");
+    bool remapped = false;
+    for (size_t i = 0; i < o->mapping_count && p->remap != PLATFORM_REMAPS_NOT; i++)
+        remapped = remapped || dp_mapping_get(o->mappings[i])->ndc_signed;
+    if (!option_given(o, OPTION_ARITH) && remapped)
+        dp_arith_parse("ieee-remap", &o->arith);
+    take_api(o, p->api);
+    slant_take_raster(o, p->raster);
+}
+
+/* Of a rasterizer that is known its own arithmetic, with the remap of the platform. */
+static int take_arith(options *o) {
+    const bool known = o->has_raster_arith || (o->raster != NULL && o->raster->model != NULL);
+    if (!known || option_given(o, OPTION_ARITH))
+        return EXIT_FINE;
+    const bool remapped = dp_arith_get(o->arith)->remap;
+    if (o->has_raster_arith && dp_arith_get(o->raster_arith)->remap == remapped)
+        o->arith = o->raster_arith;
+    else if (o->raster->model != NULL && !raster_arith(o->raster, remapped, &o->arith))
+        return option_error(OPTION_RASTER,
+                            "%s was not measured with [-1, 1] remapped in the vertex shader, as on %s: name its "
+                            "arithmetic with --arith",
+                            o->raster->name, o->platform != NULL ? o->platform->name : "the platform");
+    return EXIT_FINE;
+}
+
+void options_of(const options *o, size_t camera, options *out) {
+    *out = *o;
+    if (o->preset_count < 2)
+        return;
+    const preset *p = o->presets[camera];
+    const unit_row *own = option_given(o, OPTION_UNIT) ? NULL : unit_find(p->unit);
+    out->unit = own != NULL ? own : o->unit;
+    out->znear = unit_convert(o->znear, o->unit, out->unit);
+    out->zfar = unit_convert(o->zfar, o->unit, out->unit);
+    out->range_lo = unit_convert(o->range_lo, o->unit, out->unit);
+    out->range_hi = unit_convert(o->range_hi, o->unit, out->unit);
+    out->at.lo = unit_convert(o->at.lo, o->unit, out->unit);
+    out->at.hi = unit_convert(o->at.hi, o->unit, out->unit);
+    out->at.from = o->unit;
+    out->at.to = out->unit;
+    take_preset(out, p);
+    take_platform(out);
+    take_arith(out); /* not refused: complete() asked it of the same rasterizer and platform */
+}
+
+int options_check_stored(const options *o, const dp_format *format) {
+    char names[PROFILE_FORMATS_SIZE];
+    if (profile_stores(&o->gpu, format))
+        return EXIT_FINE;
+    return option_error(OPTION_FORMAT, "must be %s with a profile of a GPU that stores no other depth, got %s",
+                        profile_formats(&o->gpu, names), format->name);
+}
+
+/* Of formats that nobody named those that the GPUs of the profiles store; one that was named has to be among them. */
+static int keep_stored(options *o) {
+    const bool given = option_given(o, OPTION_FORMAT);
+    const bool any = given ? strcmp(o->given[OPTION_FORMAT], "all") == 0 : o->preset_count == 0 && o->platform == NULL;
+    size_t kept = 0;
+    for (size_t i = 0; i < o->format_count; i++) {
+        if (profile_stores(&o->gpu, &o->formats[i]))
+            o->formats[kept++] = o->formats[i];
+        else if (!any || (i + 1 == o->format_count && kept == 0))
+            return options_check_stored(o, &o->formats[i]);
+    }
+    o->format_count = kept;
+    return EXIT_FINE;
+}
+
+/* What follows from other options. */
+static int complete(options *o) {
+    o->model_auto = o->model == DP_MODEL_COUNT;
+    if (o->model_auto)
+        o->model = DP_MODEL_EXACT;
+    for (size_t i = 0; i < o->preset_count && o->unit != NULL && !option_given(o, OPTION_UNIT); i++)
+        if (strcmp(o->presets[i]->unit, "extents") == 0)
+            return option_error(OPTION_UNIT, "must be given: %s measures in %s", o->presets[i]->name,
+                                o->presets[i]->unit);
+    if (o->platform != NULL && o->platform->remap == PLATFORM_SPREADS)
+        return option_error(
+            OPTION_PLATFORM,
+            "has no guarantee for %s, whose vertex shader spreads [0, 1] to [-1, 1] by 2 z - w: a small "
+            "z loses its digits; -F %s tells of the format alone",
+            o->platform->name, o->platform->stored);
+    if (o->preset_count > 1 && o->command->bit != CMD_TABLE)
+        return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->command->name, o->preset_count);
+    int status = slant_complete(o);
+    if (o->preset_count == 1)
+        take_preset(o, o->presets[0]);
+    take_platform(o);
+    if (status == EXIT_FINE)
+        status = take_arith(o);
+    if (!option_given(o, OPTION_SCHEME)) /* sizes in what a scene unit is, now that it is known */
+        parse_schemes(o, &option_rows[OPTION_SCHEME], option_rows[OPTION_SCHEME].standard);
+    return status == EXIT_FINE && o->preset_count < 2 ? keep_stored(o) : status;
+}
+
+/* An orthographic camera may begin at its place or behind it. */
+static int check_near(const options *o) {
+    const option_row *row = &option_rows[OPTION_NEAR];
+    const number_text given = number_full(o->znear);
+    char limits[OPTION_TEXT_SIZE];
+    if (o->znear > 0.0)
+        return EXIT_FINE;
+    if (!o->ortho)
+        return option_error(OPTION_NEAR, "must be a number from %s, got '%s'", option_limits(row, limits), given.text);
+    if (o->znear != 0.0 && !(-o->znear >= row->least && -o->znear <= row->most))
+        return option_error(OPTION_NEAR, "must be 0, or a number from %s or its negative, got '%s'",
+                            option_limits(row, limits), given.text);
+    if (o->effect != NULL && o->effect->eye01 && o->znear < 0.0)
+        return option_error(OPTION_PRODUCT,
+                            "effect:%s sees eye depth as a share of far, which needs near not less than 0, got '%s'",
+                            o->effect->name, given.text);
+    return EXIT_FINE;
+}
+
+/* What lengths mean must be known before they are read. */
+static bool is_early(int id) {
+    return id == OPTION_UNIT || id == OPTION_PRESET;
+}
+
+static int read_option(options *o, option_id id, const char *argument) {
+    const option_row *row = &option_rows[id];
+    if ((row->commands & o->command->bit) == 0)
+        return wrong_command(o, id);
+    if (o->given[id] != NULL && (takes_argument(row) || argument != NULL) && id != OPTION_PARAMETER)
+        return option_error(id, "must not be given twice, got '%s' too", argument);
+    o->given[id] = argument != NULL ? argument : "";
+    return row->parse(o, row, argument);
+}
+
+static int ask_for_help(options *o, option_id id, const command_row *asked) {
+    o->given[id] = "";
+    o->operand_row = asked;
+    o->version = id == OPTION_VERSION;
+    o->command = command_find("help");
+    return EXIT_FINE;
+}
+
+/*
+ * Those that are early, or the others; what is wrong with the line is told with the others. argv[0] is the program, or
+ * the command in its place.
+ */
+static int read_words(options *o, int argc, char **argv, const command_row *asked, bool early) {
+    char letters[2 * OPTION_COUNT + 2];
+    struct option longs[OPTION_COUNT + 1];
+    char text[OPTION_TEXT_SIZE];
+    make_getopt_arrays("", letters, longs);
+    optind = 0; /* start anew, also when an earlier call stopped half-way */
+    for (int value; (value = getopt_long(argc, argv, letters, longs, NULL)) != -1;) {
+        const int id = id_of_value(value == ':' ? optopt : value);
+        /* An argument that is missing behind a word: musl's getopt returns the option itself, without one. */
+        const bool lacks = value == ':' || (value != '?' && takes_argument(&option_rows[id]) && optarg == NULL);
+        const bool ends = value == '?' || lacks || id == OPTION_HELP || id == OPTION_VERSION;
+        if (early && ends)
+            return EXIT_FINE;
+        if (value == '?')
+            return unknown_option(o, optopt, argv[optind > 1 ? optind - 1 : 1]);
+        if (lacks)
+            return option_error((option_id)id, "needs an argument, %s", option_argument(&option_rows[id], text));
+        if (ends)
+            return ask_for_help(o, (option_id)id, asked);
+        const int status = is_early(id) == early ? read_option(o, (option_id)id, optarg) : EXIT_FINE;
+        if (status != EXIT_FINE)
+            return status;
+    }
+    o->operands = argv + optind;
+    o->operand_count = argc - optind;
+    return EXIT_FINE;
+}
+
+/* getopt puts words into another order, and C libraries differ in when: of a line that ends half-way, too. So the pass
+ * for the early ones has words of its own. */
+static int read_options(options *o, int argc, char **argv, const command_row *asked, bool early) {
+    char **words = early ? malloc(((size_t)argc + 1) * sizeof *words) : argv;
+    if (words == NULL)
+        return usage_error("no memory for %d words", argc);
+    if (early)
+        memcpy(words, argv, ((size_t)argc + 1) * sizeof *words);
+    const int status = read_words(o, argc, words, asked, early);
+    if (early)
+        free(words);
+    return status;
+}
+
+/* Puts the command before all options where the first word that belongs to no option is one. */
+static void put_command_first(int argc, char **argv) {
+    char letters[2 * OPTION_COUNT + 3];
+    struct option longs[OPTION_COUNT + 1];
+    int value;
+    make_getopt_arrays("-", letters, longs); /* words come in order, as arguments of an option 1 */
+    opterr = 0;
+    optind = 0;
+    do
+        value = getopt_long(argc, argv, letters, longs, NULL);
+    while (value != -1 && value != '?' && value != ':' && value != 1);
+    if (value != 1 || command_find(argv[optind - 1]) == NULL)
+        return;
+    char *const word = argv[optind - 1];
+    memmove(argv + 2, argv + 1, (size_t)(optind - 2) * sizeof *argv);
+    argv[1] = word;
+}
+
+int options_parse(options *o, int argc, char **argv) {
+    input_forget();
+    set_defaults(o);
+    o->argv = argv;
+    o->command = command_find("table");
+    if (argc < 1)
+        return usage_error("no program name was given");
+    put_command_first(argc, argv);
+    const bool named = argc > 1 && argv[1][0] != '-';
+    char text[NAMES_SIZE];
+    if (named)
+        o->command = command_find(argv[1]);
+    if (o->command == NULL) {
+        names_nearest(&(name_list){.get = list_command}, "", argv[1], text);
+        return usage_error("unknown word '%s'%s", argv[1],
+                           *text != '\0' ? text : "; 'depthprec --help' lists the commands");
+    }
+    const command_row *const asked = named ? o->command : NULL;
+    int status = read_options(o, argc - named, argv + named, asked, true);
+    for (size_t i = 0; i < o->preset_count && o->unit == NULL; i++)
+        o->unit = unit_find(o->presets[i]->unit);
+    if (status == EXIT_FINE)
+        status = read_options(o, argc - named, argv + named, asked, false);
+    if (status != EXIT_FINE || option_given(o, OPTION_HELP) || option_given(o, OPTION_VERSION))
+        return status;
+    status = complete(o);
+    if (status == EXIT_FINE)
+        status = check_near(o);
+    return status == EXIT_FINE ? check_operands(o) : status;
+}
+
+/* The ending of a file that holds a picture or a model, which no text is written into; null of others. */
+static const char *ending_of_picture(const char *path) {
+    static const char *const endings[] = {".svg", ".pdf", ".png", ".pfm", ".npy", ".exr", ".glb"};
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
+        if (length > 4 && strcasecmp(path + length - 4, endings[i]) == 0)
+            return endings[i];
+    return NULL;
+}
+
+int options_open(const options *o, output *out) {
+    const char *ending = o->output != NULL ? ending_of_picture(o->output) : NULL;
+    if (ending != NULL)
+        return option_error(OPTION_OUTPUT, "must not end in %s where no picture is written, got '%s'", ending,
+                            o->output);
+    const int status = output_open(out, o->output);
+    out->width = o->full ? OUTPUT_UNLIMITED : 0;
+    out->colour = (output_colour)o->colour;
+    out->measured = o->gpu.measured[0] != '\0' ? o->gpu.measured : NULL;
+    return status;
+}

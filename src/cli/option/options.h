@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file options.h  The command line: one table of option rows, from which parsing, help and completion are made.
+ *
+ * A command receives a `const options *` that is already checked option by option: numbers are whole numbers or
+ * finite values in their own range, names are known. What needs several options at once is checked by setups_make()
+ * (near, far, mapping), range_resolve() and depths_resolve().
+ */
+#ifndef CLI_OPTION_OPTIONS_H
+#define CLI_OPTION_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "api/bias.h"
+#include "api/platform.h"
+#include "api/presets.h"
+#include "api/profile.h"
+#include "api/unit.h"
+#include "cli/commands.h"
+#include "cli/depths.h"
+#include "cli/errors.h"
+#include "cli/product.h"
+#include "depthprec/depthprec.h"
+#include "frame/synthetic.h"
+#include "raster/raster.h"
+#include "raster/vertex_compare.h"
+#include "report/output.h"
+#include "shader/camera.h"
+#include "shader/effect.h"
+#include "shader/normal.h"
+#include "shader/packing.h"
+#include "shader/position.h"
+#include "world/world.h"
+
+/** The options, in the order in which help lists them. The index of an option's row is its id. */
+typedef enum option_id {
+    OPTION_NEAR = 0,
+    OPTION_FAR,
+    OPTION_FORMAT,
+    OPTION_MAPPING,
+    OPTION_LOG_C,
+    OPTION_ORTHO,
+    OPTION_PRESET,
+    OPTION_PLATFORM,
+    OPTION_UNIT,
+    OPTION_ROUNDING,
+    OPTION_MODEL,
+    OPTION_ARITH,
+    OPTION_TOLERANCE,
+    OPTION_AT,
+    OPTION_RANGE,
+    OPTION_DEPTH,
+    OPTION_CODE,
+    OPTION_FOR,
+    OPTION_SEPARATION,
+    OPTION_ERROR,
+    OPTION_INTERPOLATION,
+    OPTION_FROM_ORIGIN,
+    OPTION_COMPOSITION,
+    OPTION_SCHEME,
+    OPTION_SHARE,
+    OPTION_LINEARIZE,
+    OPTION_LOG2,
+    OPTION_EYE,
+    OPTION_LOOK,
+    OPTION_PATH,
+    OPTION_CAMERA,
+    OPTION_FOV,
+    OPTION_HFOV,
+    OPTION_VIEWPORT,
+    OPTION_RASTER,
+    OPTION_SUBPIXEL,
+    OPTION_SLANT,
+    OPTION_PLANE,
+    OPTION_TRIANGLE_CLASS,
+    OPTION_CASCADES,
+    OPTION_LAMBDA,
+    OPTION_LIGHT_BOX,
+    OPTION_CASTERS,
+    OPTION_KERNEL,
+    OPTION_ANGLE,
+    OPTION_CURVATURE,
+    OPTION_FACET,
+    OPTION_API,
+    OPTION_UNITS,
+    OPTION_FACTOR,
+    OPTION_CLAMP,
+    OPTION_SLOPE,
+    OPTION_SAMPLE,
+    OPTION_SEED,
+    OPTION_RASTERIZE,
+    OPTION_AGAINST,
+    OPTION_PROGRAM,
+    OPTION_VERTICES,
+    OPTION_WITHIN,
+    OPTION_ALSO,
+    OPTION_TRANSFORMS,
+    OPTION_RENDER,
+    OPTION_EMIT_NEED,
+    OPTION_DEVICE,
+    OPTION_KEEP,
+    OPTION_HALF_HEIGHT,
+    OPTION_MATRIX,
+    OPTION_LAST_EYE,
+    OPTION_LAST_LOOK,
+    OPTION_SYNTHETIC,
+    OPTION_SIZE,
+    OPTION_PARAMETER,
+    OPTION_SKY,
+    OPTION_METRIC,
+    OPTION_PACKING,
+    OPTION_CHANNEL,
+    OPTION_PIXEL,
+    OPTION_PRODUCT,
+    OPTION_NORMALS_BY,
+    OPTION_NORMAL_FORMAT,
+    OPTION_PACK,
+    OPTION_ERROR_MAP,
+    OPTION_FIGURE,
+    OPTION_OVERLAY,
+    OPTION_HISTOGRAM,
+    OPTION_TYPE,
+    OPTION_THEME,
+    OPTION_WIDTH,
+    OPTION_HEIGHT,
+    OPTION_TITLE,
+    OPTION_LINK,
+    OPTION_REPORT,
+    OPTION_JSON,
+    OPTION_CSV,
+    OPTION_OUTPUT,
+    OPTION_THREADS,
+    OPTION_QUIET,
+    OPTION_VERBOSE,
+    OPTION_FULL,
+    OPTION_COLOR,
+    OPTION_HELP,
+    OPTION_VERSION,
+    OPTION_COUNT
+} option_id;
+
+/** Values of --for, and SOLVE_FOR_ANY when it was not given. The planes come first. */
+typedef enum solve_target {
+    SOLVE_FOR_NEAR = 0,
+    SOLVE_FOR_FAR,
+    SOLVE_FOR_FORMAT,
+    SOLVE_FOR_MAPPING,
+    SOLVE_FOR_SEPARATION,
+    SOLVE_FOR_DISTANCE,
+    SOLVE_FOR_FRUSTA,
+    SOLVE_FOR_ANY
+} solve_target;
+
+/** Values of --report. */
+typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
+
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16, OPTIONS_SCHEMES_MAX = 16 };
+
+/** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
+typedef struct named_number {
+    char name[32];
+    double value;
+} named_number;
+
+typedef struct options {
+    const command_row *command;
+    char **argv;     /**< the whole command line, for metadata */
+    char **operands; /**< what is neither option nor command; operand_count is within the command's bounds */
+    int operand_count;
+    const void
+        *operand_row; /**< the row that the first operand names where the command has a table of them, else null */
+    const char *given[OPTION_COUNT]; /**< the argument as the user gave it, "" of none; see option_given() */
+
+    double znear; /**< scene units */
+    double zfar;  /**< scene units or INFINITY */
+    bool ortho;
+    dp_format formats[OPTIONS_FORMATS_MAX]; /**< in the order given, each once */
+    size_t format_count;
+    dp_mapping mappings[DP_MAPPING_COUNT]; /**< in the order given, each once */
+    size_t mapping_count;
+    dp_rounding rounding;
+    dp_model model;
+    bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
+    dp_arith arith;
+    dp_arith raster_arith; /**< of the GPU whose profile --raster names */
+    bool has_raster_arith;
+    bool budgeted;    /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in binary32 */
+    profile gpu;      /**< of --arith and --raster */
+    double tolerance; /**< of the choice, a share */
+    double log_c;
+
+    depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
+    double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
+    depths looked_up;          /**< window depths of --depth in [0, 1], or codes of --code; count is 0 without them */
+
+    solve_target target;             /**< --for */
+    double separation, wanted_error; /**< scene units; 0 when not given */
+
+    dp_budget_terms
+        terms;        /**< --interpolation, --from-origin, --composition, --linearize, --log2; zero when not given */
+    depths distances; /**< of the camera from the world's origin; count is 0 when not given */
+    world_scheme schemes[OPTIONS_SCHEMES_MAX]; /**< in the order given, each once */
+    size_t scheme_count;
+    bool shared_origin;       /**< both surfaces are of meshes with one origin */
+    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle-class; width 0
+                                   without the first */
+    double fov_x;             /**< --hfov, degrees */
+    double azimuth;           /**< --plane, degrees from right to up; NaN when not given */
+    const raster_row *raster; /**< --raster; null when not given */
+
+    const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
+    const preset *presets[OPTIONS_PRESETS_MAX]; /**< --preset, in the order given, each once */
+    size_t preset_count; /**< of one, what the user did not give is already filled in; of several see options_of() */
+    const platform *platform; /**< --platform; null when not given, and what the user did not give is filled in */
+    const bias_api *api;      /**< --api; null for all */
+    double units, factor;     /**< of a bias */
+    double clamp;             /**< of a bias, window depth; 0 is none */
+    double slope;             /**< scene units per pixel, not negative */
+
+    double within;            /**< eye depth; 0 when not given */
+    double eye[3], look[3];   /**< places: of an eye, and what it looks at */
+    const char *path;         /**< file of such places; or null */
+    const char *model_camera; /**< a camera of the model, by name; or null */
+    unsigned transforms;      /**< of a model's nodes: a model_transforms */
+    unsigned filters_off;     /**< of a model's pairs: 1 << finder_filter, or-ed */
+    const char *render;       /**< file of a picture; null when not given */
+    const char *emit_need;    /**< file of requirements; null when not given */
+    uint64_t sample;          /**< pairs to draw; 0 when not given */
+    uint64_t seed;
+    const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
+    size_t against_count;
+    const vertex_program *program; /**< what they are compared with */
+    unsigned vertices;             /**< how they are drawn: a vertex_spread */
+    bool drawn;                    /**< --rasterize: the surfaces are drawn */
+    int threads;                   /**< 0 when not given: as many as there are cores */
+
+    const char *device; /**< of probe; null when not given */
+    const char *keep;   /**< file of raw codes; null when not given */
+
+    unsigned cascades;   /**< of a shadow map */
+    double lambda;       /**< of their split: 0 even, 1 logarithmic */
+    double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
+    double casters;      /**< scene units */
+    unsigned kernel;     /**< the filter reads so many texels in either direction */
+    double angle;        /**< of a receiver's normal to the light, degrees */
+    double curvature;    /**< radius of curvature of receivers, scene units; read where it is given */
+    double facet;        /**< of the circles about their triangles, scene units */
+
+    camera_spec camera; /**< --size, --fov, --half-height; see texture_camera_place() */
+    const char *matrix; /**< file of a projection matrix, which then says the planes and the field of view */
+    double last_eye[3], last_look[3]; /**< of last frame's camera */
+    const synthetic_row *synthetic;   /**< null when not given, as all rows and names here */
+    named_number parameters[OPTIONS_PARAMETERS_MAX];
+    size_t parameter_count;
+    double sky;    /**< window depth */
+    double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    depths pixels; /**< column and row of each in turn; count is 0 when not given */
+    const product_row *product;
+    const position_row *position;   /**< of --product position; null for exact as well */
+    const normal_row *normal;       /**< of --product normal */
+    const effect_row *effect;       /**< of --product effect */
+    const normal_row *normals_by;   /**< of an effect, or of what is packed */
+    bool error_map;                 /**< in place of the product */
+    const char *error_file;         /**< beside it; or null */
+    unsigned normal_format;         /**< of a PNG: 0: y up, 1: y down */
+    const char *channel;            /**< of FILE, by name; null: that which is depth */
+    const packing *packing;         /**< of FILE */
+    const packing *pack;            /**< of what is written */
+    const char *figure, *histogram; /**< files */
+    double overlay;                 /**< errors above it are shown, scene units; 0 when not given */
+
+    unsigned type;     /**< --type: a canvas_format, where the name of a file does not say it */
+    unsigned theme;    /**< index of theme_get() */
+    int width, height; /**< px; 0 when not given, so that each figure has its own default */
+    const char *title; /**< null when not given */
+
+    const char *link; /**< where the page is that the link opens; null when none is asked for */
+
+    report_form report;
+    output_form form;
+    const char *output; /**< the argument of -o; null when not given. "-" is stdout: see options_open() */
+    bool quiet, verbose, full, version;
+    unsigned colour; /**< --color: an output_colour */
+} options;
+
+/**
+ * Reads a command line. argv[0] is the program; the command is the first word that belongs to no option, `table`
+ * where there is none. --help and --version anywhere make the command `help`. No order of the options matters.
+ *
+ * @return EXIT_FINE, or EXIT_USAGE after one line on stderr
+ */
+int options_parse(options *o, int argc, char **argv);
+
+/** How many cameras there are: as many as presets, at least one. */
+static inline size_t options_cameras(const options *o) {
+    return o->preset_count > 1 ? o->preset_count : 1;
+}
+
+/** Whether the GPUs of the profiles store depth in that format; where not, one line on stderr says what they store.
+ * @return EXIT_FINE or EXIT_USAGE */
+int options_check_stored(const options *o, const dp_format *format);
+
+/**
+ * The options as they would be with the preset of that index alone, all lengths in its own unit where that is known and
+ * --unit was not given; as they are where there are not several.
+ */
+void options_of(const options *o, size_t camera, options *out);
+
+/** The vertical field of view, degrees, as --fov or --hfov says it of so many pixels. @return EXIT_FINE, or EXIT_USAGE
+ * after one line on stderr */
+int view_vertical(const options *o, int width, int height, double *fov_y);
+
+/** Checks --viewport with the options beside it, and takes the field of view. @return as view_vertical() */
+int slant_view(options *o);
+
+/** View and rasterizer of what is drawn: 1920x1080 where no --viewport was given, llvmpipe where no --raster, and of
+ * the formats those that it has. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+int view_drawn(options *o);
+
+/** Opens what --output names, which is no picture's, for text, JSON or CSV, as wide as --full makes it, as --color
+ * wants it dressed. @return EXIT_FINE, or EXIT_USAGE or EXIT_IO after one line on stderr */
+int options_open(const options *o, output *out);
+
+/** Frees what options_parse() allocated, whatever it returned. */
+void options_release(options *o);
+
+/** Did the user give this option? */
+static inline bool option_given(const options *o, option_id id) {
+    return o->given[id] != NULL;
+}
+
+/**
+ * Prints "depthprec: --NAME: " and the rest, one line, on stderr. The rest says what is allowed and what was given:
+ *     return option_error(OPTION_FORMAT, "must be one format, got %zu", count);
+ * @return EXIT_USAGE
+ */
+int option_error(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** "m": what a scene unit is; null where nothing says it. */
+const char *options_unit(const options *o);
+
+/** The long name of an option without its dashes. */
+const char *option_name(option_id id);
+
+/** The file that an option has written, "-" for stdout; null where it has none. */
+const char *option_written(const options *o, option_id id);
+
+/** Word `index` of an option that takes one of a few. */
+const char *option_word(option_id id, size_t index);
+
+/** Looks up an operand, which help calls `what`. @return EXIT_FINE and *found, or EXIT_USAGE after one line on stderr
+ */
+int check_operand(const command_row *v, const char *what, const name_list *n, const char *given, list_item *found);
+
+#endif

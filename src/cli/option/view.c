@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the options of slanted triangles say together: view, rasterizer, and that they are asked about at all. */
+#include "cli/option/rows.h"
+#include "report/number.h"
+
+/* The rasterizer's grid and set-up; --subpixel is instead of it, or says how fine a grid is that has no fixed bits. */
+static int take_raster(options *o) {
+    const raster_row *row = o->raster;
+    dp_triangles *t = &o->triangles;
+    const int asked = t->subpixel;
+    const bool given = option_given(o, OPTION_SUBPIXEL);
+    if (row == NULL)
+        return EXIT_FINE;
+    if (given && !row->at_least)
+        return option_refuse(&option_rows[OPTION_SUBPIXEL], "does not apply: %s has its own grid", row->name);
+    if (given && asked < row->plane_bits)
+        return option_refuse(&option_rows[OPTION_SUBPIXEL], "must be at least %d with --raster %s, got %d",
+                             row->plane_bits, row->name, asked);
+    raster_describe(row, t);
+    if (given)
+        t->subpixel = asked;
+    return EXIT_FINE;
+}
+
+int view_vertical(const options *o, int width, int height, double *fov_y) {
+    const option_row *row = &option_rows[OPTION_HFOV];
+    *fov_y = o->camera.fov_y;
+    if (!option_given(o, OPTION_HFOV))
+        return EXIT_FINE;
+    if (option_given(o, OPTION_FOV))
+        return option_refuse(row, "cannot be combined with --fov");
+    *fov_y = dp_fov_vertical(o->fov_x, width, height);
+    if (!(*fov_y >= 0.001 && *fov_y <= 179.9)) /* as dp_triangles has it */
+        return option_refuse(row, "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",
+                             number_of(*fov_y, 6).text);
+    return EXIT_FINE;
+}
+
+/* What draws: a rasterizer whose arithmetic is known, and of the formats those that it has. */
+static int take_drawn(options *o) {
+    size_t kept = 0;
+    if (o->raster == NULL)
+        o->raster = raster_find("llvmpipe");
+    if (o->raster->model == NULL)
+        return option_refuse(&option_rows[OPTION_RASTER],
+                             "must be one that draws: llvmpipe, lavapipe, softpipe or swiftshader, got '%s'",
+                             o->raster->name);
+    for (size_t i = 0; i < o->format_count; i++)
+        if (raster_draws(o->raster, &o->formats[i]))
+            o->formats[kept++] = o->formats[i];
+        else if (option_given(o, OPTION_FORMAT))
+            return option_refuse(&option_rows[OPTION_FORMAT], "must be one that %s has and that can be bounded, got %s",
+                                 o->raster->name, o->formats[i].name);
+    o->format_count = kept;
+    return take_raster(o);
+}
+
+int view_drawn(options *o) {
+    if (o->ortho)
+        return option_refuse(&option_rows[OPTION_ORTHO], "does not apply to what is drawn");
+    if (!option_given(o, OPTION_VIEWPORT)) {
+        const dp_triangles standard = dp_triangles_default();
+        o->triangles.width = standard.width;
+        o->triangles.height = standard.height;
+    }
+    const int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    return status == EXIT_FINE ? take_drawn(o) : status;
+}
+
+int slant_view(options *o) {
+    static const option_id beside[] = {OPTION_FOV,   OPTION_HFOV,  OPTION_RASTER,        OPTION_SUBPIXEL,
+                                       OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE_CLASS};
+    enum { OF_PICTURES = 3 }; /* the first of them, which a picture takes, too: see view_drawn() */
+    const bool slanted = o->triangles.width > 0;
+    const bool measured = o->command->bit == CMD_BIAS && o->gpu.measured[0] != '\0'; /* of r, at any slant */
+    const bool by_preset = o->preset_count == 1 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV);
+    for (size_t i = o->render != NULL ? OF_PICTURES : 0; i < sizeof beside / sizeof beside[0]; i++)
+        if (option_given(o, beside[i]) && !slanted && !(beside[i] == OPTION_RASTER && measured))
+            return option_refuse(&option_rows[beside[i]], "needs --viewport: surfaces face the camera");
+    if (!slanted)
+        return EXIT_FINE;
+    if (option_given(o, OPTION_SLANT) && option_given(o, OPTION_PLANE))
+        return option_refuse(&option_rows[OPTION_PLANE], "cannot be combined with --slant");
+    if (o->ortho)
+        return option_refuse(&option_rows[o->drawn ? OPTION_RASTERIZE : OPTION_VIEWPORT],
+                             "does not apply with --ortho");
+    return by_preset ? EXIT_FINE : view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+}
+
+/* From an eye in a model surfaces slant. */
+static bool is_slanted(const options *o) {
+    return option_given(o, OPTION_VIEWPORT) || o->drawn || o->command->bit == CMD_WORLD ||
+           option_given(o, OPTION_EYE) || option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
+}
+
+int slant_complete(options *o) {
+    const bool viewed = (o->command->bit & option_rows[OPTION_VIEWPORT].commands) != 0;
+    if (!viewed || !is_slanted(o))
+        o->triangles.width = 0;
+    if (!viewed)
+        return EXIT_FINE;
+    if ((o->command->bit & (CMD_SHADOW | CMD_PLOT)) != 0) /* a shadow map's viewport says how wide the view is */
+        return take_raster(o);
+    const int status = slant_view(o);
+    if (status != EXIT_FINE)
+        return status;
+    return o->drawn ? take_drawn(o) : take_raster(o);
+}
+
+void slant_take_raster(options *o, const char *name) {
+    if (o->triangles.width == 0 || o->drawn || option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
+        return;
+    o->raster = raster_find(name);
+    raster_describe(o->raster, &o->triangles);
+}
+
+void slant_take_preset(options *o, const preset *p) {
+    dp_triangles *t = &o->triangles;
+    if (t->width == 0)
+        return;
+    if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
+        t->fov_y = preset_fov_y(p, t->width, t->height);
+    slant_take_raster(o, p->raster);
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/raster_setups.h"
+
+#include "raster/draw.h"
+
+static int check(const options *o) {
+    static const option_id others[] = {OPTION_ARITH, OPTION_ROUNDING};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (option_given(o, others[i]))
+            return option_error(others[i], "does not apply: %s has its own arithmetic", o->raster->name);
+    if (o->triangles.width > RASTER_SIZE_MAX || o->triangles.height > RASTER_SIZE_MAX)
+        return option_error(OPTION_VIEWPORT, "must be at most %dx%d to draw in, got %dx%d", RASTER_SIZE_MAX,
+                            RASTER_SIZE_MAX, o->triangles.width, o->triangles.height);
+    return EXIT_FINE;
+}
+
+int raster_setups(const options *o, setups *out) {
+    options fp32 = *o;
+    fp32.model = DP_MODEL_FLOAT;
+    int status = check(o);
+    if (status == EXIT_FINE)
+        status = setups_make(&fp32, out);
+    for (size_t i = 0; status == EXIT_FINE && i < out->count; i++) {
+        dp_spec spec = out->items[i].spec;
+        const dp_mapping_row *mapping = dp_mapping_get(spec.mapping);
+        if (!raster_arith(o->raster, mapping->ndc_signed, &spec.arith)) {
+            setups_release(out);
+            return option_error(OPTION_MAPPING, "must be d3d or reversed with --raster %s, got %s", o->raster->name,
+                                mapping->name);
+        }
+        dp_setup_init(&out->items[i], &spec);
+    }
+    return status;
+}

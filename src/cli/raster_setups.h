@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file drawn.h  From options to set-ups of surfaces that a rasterizer draws. */
+#ifndef CLI_RASTER_SETUPS_H
+#define CLI_RASTER_SETUPS_H
+
+#include "cli/setups.h"
+
+/** As setups_make(), of the model float in the rasterizer's own arithmetic; view and rasterizer are complete. */
+int raster_setups(const options *o, setups *out);
+
+#endif

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The eyes of `scene`: --eye and --look, a file of them, or a camera of the model. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/errors.h"
+#include "cli/progress.h"
+#include "cli/scene/scene.h"
+#include "cli/stop.h"
+#include "frame/strips.h"
+#include "report/number.h"
+#include "system/input.h"
+
+enum {
+    FILE_MOST = 1 << 23, /* bytes */
+    EYES_MOST = 1 << 16,
+    NUMBERS = 6
+};
+
+static const double upwards[3] = {0.0, 1.0, 0.0};
+
+/* ---- One eye ----------------------------------------------------------------------------------------------------- */
+
+static int take_look(scene *s) {
+    s->eyes.eye = malloc(sizeof *s->eyes.eye);
+    if (s->eyes.eye == NULL)
+        return usage_error("%s: no memory for an eye", s->file);
+    if (!scene_eye_look(s->o.eye, s->o.look, upwards, s->eyes.eye))
+        return option_error(OPTION_LOOK, "must be another place than --eye, which are both %s,%s,%s",
+                            number_full(s->o.eye[0]).text, number_full(s->o.eye[1]).text,
+                            number_full(s->o.eye[2]).text);
+    s->eyes.count = 1;
+    return EXIT_FINE;
+}
+
+/* ---- A camera of the model --------------------------------------------------------------------------------------- */
+
+/* What it says of the view, where nothing was given. */
+static int take_view(scene *s, const model_camera *camera) {
+    options *o = &s->o;
+    const char *name = o->model_camera;
+    const bool by_preset = o->preset_count > 0;
+    if (camera->ortho)
+        return option_error(OPTION_CAMERA, "must be a perspective one, and '%s' is orthographic", name);
+    if (!option_given(o, OPTION_NEAR) && !by_preset)
+        o->znear = camera->znear;
+    if (!option_given(o, OPTION_FAR) && !by_preset)
+        o->zfar = camera->zfar;
+    if (!(o->znear >= 1e-12 && o->znear <= 1e12))
+        return option_error(OPTION_CAMERA, "'%s' has its near plane at %s, which must be from 1e-12 to 1e12", name,
+                            number_full(o->znear).text);
+    if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV) && !by_preset) {
+        if (!(camera->fov_y >= 0.01 && camera->fov_y <= 179.0)) /* as --fov has it */
+            return option_error(OPTION_CAMERA,
+                                "'%s' has a vertical field of view of %s degrees, which must be from 0.01 to 179", name,
+                                number_of(camera->fov_y, 6).text);
+        o->camera.fov_y = o->triangles.fov_y = camera->fov_y;
+    }
+    return EXIT_FINE;
+}
+
+/* One without a name is called by its number, from 1. */
+typedef struct camera_name {
+    char text[24];
+} camera_name;
+
+/* The index of the camera that was asked for. */
+static int find_camera(const scene *s, const char **names, camera_name *numbered, size_t *found) {
+    const model *m = &s->model;
+    const name_list all = {.words = names};
+    char text[NAMES_SIZE];
+    for (size_t i = 0; i < m->cameras; i++) {
+        snprintf(numbered[i].text, sizeof numbered[i].text, "%zu", i + 1);
+        names[i] = *m->camera[i].name != '\0' ? m->camera[i].name : numbered[i].text;
+    }
+    names[m->cameras] = NULL;
+    for (*found = 0; *found < m->cameras; ++*found)
+        if (strcmp(names[*found], s->o.model_camera) == 0)
+            return EXIT_FINE;
+    if (m->cameras == 0)
+        return option_error(OPTION_CAMERA, "%s has no camera, got '%s'", s->file, s->o.model_camera);
+    return option_error(OPTION_CAMERA, "%s", names_refuse(&all, s->o.model_camera, text));
+}
+
+static int take_camera(scene *s) {
+    const model *m = &s->model;
+    size_t found = 0;
+    const char **names = malloc((m->cameras + 1) * sizeof *names);
+    camera_name *numbered = malloc((m->cameras + 1) * sizeof *numbered);
+    s->eyes.eye = malloc(sizeof *s->eyes.eye);
+    const bool room = names != NULL && numbered != NULL && s->eyes.eye != NULL;
+    int status = room ? find_camera(s, names, numbered, &found) : usage_error("%s: no memory for an eye", s->file);
+    free(names);
+    free(numbered);
+    if (status == EXIT_FINE && !scene_eye_of(&m->camera[found], s->eyes.eye))
+        status = option_error(OPTION_CAMERA, "'%s' looks nowhere: its node has no extent along z", s->o.model_camera);
+    if (status != EXIT_FINE)
+        return status;
+    s->eyes.count = 1;
+    return take_view(s, &m->camera[found]);
+}
+
+/* ---- A file of eyes ---------------------------------------------------------------------------------------------- */
+
+static bool is_between(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == ',';
+}
+
+/* The eye of a line, if it has any; # begins a comment. */
+static int read_line(scene *s, const char *text, size_t length, size_t line) {
+    double number[NUMBERS];
+    size_t count = 0;
+    for (size_t at = 0; at < length && text[at] != '#';) {
+        size_t word = 0;
+        char shown[ERROR_WORD_SIZE];
+        double extra = 0.0;
+        if (is_between(text[at])) {
+            at++;
+            continue;
+        }
+        while (at + word < length && !is_between(text[at + word]) && text[at + word] != '#')
+            word++;
+        double *const to = count < NUMBERS ? &number[count] : &extra;
+        if (!number_parse_part(text + at, word, NUMBER_FINITE, to) || !(fabs(*to) <= 1e12))
+            return option_error(OPTION_PATH, "%s: line %zu: must be numbers from -1e12 to 1e12, got '%s'", s->o.path,
+                                line, error_word(text + at, word, shown));
+        count++;
+        at += word;
+    }
+    if (count == 0)
+        return EXIT_FINE;
+    if (count != NUMBERS)
+        return option_error(OPTION_PATH, "%s: line %zu: must be six numbers, a place and the place looked at, got %zu",
+                            s->o.path, line, count);
+    if (s->eyes.count == EYES_MOST)
+        return option_error(OPTION_PATH, "%s: line %zu: must be at most %d eyes", s->o.path, line, EYES_MOST);
+    scene_eye *eye = &s->eyes.eye[s->eyes.count];
+    if (!scene_eye_look(number, number + 3, upwards, eye))
+        return option_error(OPTION_PATH, "%s: line %zu: must look at another place than its own", s->o.path, line);
+    eye->line = line;
+    s->eyes.count++;
+    return EXIT_FINE;
+}
+
+static int read_lines(scene *s, const char *text, size_t size) {
+    size_t lines = 1, line = 1;
+    int status = EXIT_FINE;
+    for (size_t i = 0; i < size; i++)
+        lines += text[i] == '\n';
+    s->eyes.eye = malloc((lines < EYES_MOST ? lines : EYES_MOST) * sizeof *s->eyes.eye);
+    if (s->eyes.eye == NULL)
+        return usage_error("%s: no memory for %zu eyes", s->o.path, lines);
+    for (size_t at = 0; at < size && status == EXIT_FINE; line++) {
+        const char *end = memchr(text + at, '\n', size - at);
+        const size_t length = end != NULL ? (size_t)(end - text) - at : size - at;
+        status = read_line(s, text + at, length, line);
+        at += length + 1;
+    }
+    if (status == EXIT_FINE && s->eyes.count == 0)
+        status = option_error(OPTION_PATH, "%s: has no line of six numbers", s->o.path);
+    return status;
+}
+
+static int take_path(scene *s) {
+    char *text = malloc(FILE_MOST + 1);
+    if (text == NULL)
+        return usage_error("%s: no memory to read it", s->o.path);
+    FILE *in = input_open(s->o.path);
+    const size_t size = in != NULL ? fread(text, 1, FILE_MOST + 1, in) : 0;
+    const int error = errno;
+    int status = EXIT_FINE;
+    if (in == NULL || ferror(in)) {
+        option_error(OPTION_PATH, "%s: %s", s->o.path, strerror(error));
+        status = EXIT_IO;
+    } else if (size > FILE_MOST) {
+        status = option_error(OPTION_PATH, "%s: must be at most %d bytes", s->o.path, FILE_MOST);
+    }
+    input_close(in);
+    if (status == EXIT_FINE)
+        status = read_lines(s, text, size);
+    free(text);
+    return status;
+}
+
+/* ---- All ways ---------------------------------------------------------------------------------------------------- */
+
+int scene_eyes_check(const options *o) {
+    const bool eye = option_given(o, OPTION_EYE), path = option_given(o, OPTION_PATH);
+    const bool camera = option_given(o, OPTION_CAMERA);
+    if (eye != option_given(o, OPTION_LOOK))
+        return option_error(eye ? OPTION_EYE : OPTION_LOOK, "needs --%s", eye ? "look" : "eye");
+    if (path && (eye || camera))
+        return option_error(OPTION_PATH, "cannot be combined with --%s", eye ? "eye" : "camera");
+    if (camera && eye)
+        return option_error(OPTION_CAMERA, "cannot be combined with --eye");
+    if ((eye || path || camera) && option_given(o, OPTION_SLANT))
+        return option_error(OPTION_SLANT, "does not apply from an eye: the model says how its surfaces slant");
+    return EXIT_FINE;
+}
+
+/* For the report. */
+static void describe(scene *s) {
+    const double nan = (double)NAN;
+    scene_eyes *e = &s->eyes;
+    e->places = e->count;
+    e->path = s->o.path;
+    e->camera = s->o.model_camera;
+    e->from = e->ahead = (scene_place){nan, nan, nan};
+    if (e->count != 1)
+        return;
+    e->from = (scene_place){e->eye->place[0], e->eye->place[1], e->eye->place[2]};
+    e->ahead = (scene_place){e->eye->ahead[0], e->eye->ahead[1], e->eye->ahead[2]};
+}
+
+int scene_eyes_take(scene *s) {
+    const int status = option_given(&s->o, OPTION_EYE)    ? take_look(s)
+                       : option_given(&s->o, OPTION_PATH) ? take_path(s)
+                       : s->o.model_camera != NULL        ? take_camera(s)
+                                                          : EXIT_FINE;
+    if (status == EXIT_FINE)
+        describe(s);
+    return status;
+}
+
+/* ---- Judging ----------------------------------------------------------------------------------------------------- */
+
+int scene_eyes_judge(scene *s) {
+    const sight_asked asked = {.m = &s->model,
+                               .found = &s->found,
+                               .setup = &s->setup,
+                               .within = s->within,
+                               .gap = s->gap,
+                               .any_side = (s->o.filters_off >> FINDER_FACING & 1U) != 0,
+                               .classes = s->o.emit_need != NULL,
+                               .eye = s->eyes.eye,
+                               .eyes = s->eyes.count,
+                               .stop = stop_asked};
+    const double nearer_than = option_given(&s->o, OPTION_WITHIN) ? s->within : HUGE_VAL;
+    const int threads = strips_threads(s->o.threads);
+    scene_sight *room = malloc((size_t)threads * s->eyes.count * sizeof *room), *next = room;
+    if (room == NULL)
+        return usage_error("%s: no memory to judge it from %zu eyes", s->file, s->eyes.count);
+    progress bar = progress_start("findings judged", s->found.findings, s->o.quiet);
+    uint64_t done = 0;
+#pragma omp parallel num_threads(threads)
+    {
+        scene_sight *own;
+#pragma omp critical(scene_room)
+        {
+            own = next;
+            next += s->eyes.count;
+        }
+#pragma omp for schedule(dynamic)
+        for (size_t i = 0; i < s->found.findings; i++) {
+            scene_finding *f = &s->findings[i];
+            f->sight = scene_sight_worst(&asked, f->of, own);
+            f->fights = f->sight.fights_from < nearer_than;
+            f->verdict.lift = f->sight.lift;
+            f->line =
+                s->o.path != NULL && !isnan(f->sight.seen_from) ? (double)s->eyes.eye[f->sight.eye].line : (double)NAN;
+#pragma omp critical(scene_progress)
+            progress_step(&bar, ++done);
+        }
+    }
+    progress_end(&bar);
+    free(room);
+    return EXIT_FINE;
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file scene_figure.h  From what scene finds to the figure of it. */
+#ifndef CLI_SCENE_FIGURE_H
+#define CLI_SCENE_FIGURE_H
+
+#include "cli/scene/scene.h"
+#include "plot/chart.h"
+#include "plot/scene.h"
+
+/** As scene_begin(), of the figure's options. */
+int scene_figure_begin(scene *s, const options *o);
+
+/** What the figure is made of, and the chart's subtitle and unit. @return false when out of memory */
+bool scene_figure_take(const scene *s, fights_asked *out, chart *c);
+
+/** The height that suits the views of a chart at a width, px. */
+int scene_figure_height(const chart *c, int width);
+
+#endif

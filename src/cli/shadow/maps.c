@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/shadow/maps.h"
+
+#include <math.h>
+
+#include "cli/option/rows.h"
+#include "cli/setups.h"
+#include "report/number.h"
+
+enum { SIDE = 2048, SIDE_MAX = 32768 };
+
+options shadow_options(const options *o) {
+    options out = *o;
+    if (!option_given(o, OPTION_FORMAT))
+        parse_formats(&out, &option_rows[OPTION_FORMAT], "fp32");
+    if (!option_given(o, OPTION_MAPPING))
+        parse_mappings(&out, &option_rows[OPTION_MAPPING], "d3d");
+    if (!option_given(o, OPTION_SIZE))
+        out.camera.width = out.camera.height = SIDE;
+    if (!option_given(o, OPTION_VIEWPORT))
+        out.triangles.width = dp_triangles_default().width;
+    if (!option_given(o, OPTION_CURVATURE))
+        out.curvature = (double)NAN;
+    return out;
+}
+
+/* A box has no view, and the depths of cascades follow from it. */
+static int check_together(const options *o) {
+    static const option_id view[] = {OPTION_NEAR,     OPTION_FAR,      OPTION_FOV,    OPTION_HFOV,
+                                     OPTION_VIEWPORT, OPTION_CASCADES, OPTION_LAMBDA, OPTION_CASTERS};
+    const bool box = option_given(o, OPTION_LIGHT_BOX);
+    for (size_t i = 0; i < sizeof view / sizeof view[0] && box; i++)
+        if (option_given(o, view[i]))
+            return option_error(view[i], "does not apply with --light-box, which is one map without a view");
+    if (option_given(o, OPTION_FACET) && !option_given(o, OPTION_CURVATURE))
+        return option_error(OPTION_FACET, "needs --curvature: planes are the same however they are drawn");
+    if (option_given(o, OPTION_RANGE) && !box)
+        return option_error(OPTION_RANGE, "needs --light-box: the depths of cascades follow from the view");
+    if (o->camera.width > SIDE_MAX || o->camera.height > SIDE_MAX)
+        return option_error(OPTION_SIZE, "must be at most %d texels a side, got '%ux%u'", SIDE_MAX, o->camera.width,
+                            o->camera.height);
+    return EXIT_FINE;
+}
+
+/*
+ * Where units follow the exponent of a depth they are worth nothing at window depth 0, so no bias is enough for what is
+ * lit there. Where nobody said where that is, it lies farther from there than 1/256 of the box, and farther than twice
+ * the way that a constant bias covers.
+ */
+static void keep_off_zero(shadow_light *light, const bias_api *api) {
+    const dp_format *format = &light->setup.spec.format;
+    const double depth = light->setup.spec.zfar;
+    shadow_need need;
+    if (!(bias_unit_at(api, format, 0.0).least < bias_unit_at(api, format, 1.0).least))
+        return;
+    shadow_need_of(light, &need);
+    const double away = fmax(depth / 256.0, 2.0 * need.bias[SHADOW_CONSTANT].gap_light);
+    if (!(away < depth / 2.0))
+        return;
+    if (dp_mapping_get(light->setup.spec.mapping)->reversed)
+        light->receiver_hi = depth - away;
+    else
+        light->receiver_lo = away;
+}
+
+/* What all maps share; of a box, also its sides and planes. */
+static shadow_light light_of(const options *o, const dp_format *format, dp_mapping mapping) {
+    const bool box = option_given(o, OPTION_LIGHT_BOX);
+    dp_spec spec = {
+        .zfar = box ? o->light_box[2] : 1.0, .ortho = true, .format = *format, .mapping = mapping, .arith = o->arith};
+    shadow_light light = shadow_light_default();
+    light.triangles = o->triangles;
+    light.triangles.width = (int)o->camera.width;
+    light.triangles.height = (int)o->camera.height;
+    light.triangles.slant_lo = 0.0;
+    light.triangles.slant_hi = o->angle;
+    light.kernel = 0.5 * o->kernel;
+    light.world = o->terms.world;
+    if (option_given(o, OPTION_CURVATURE))
+        light.radius = o->curvature;
+    light.facet = o->facet;
+    light.receiver_lo = 0.0;
+    light.receiver_hi = spec.zfar;
+    if (box) {
+        light.width = o->light_box[0];
+        light.height = o->light_box[1];
+    }
+    if (option_given(o, OPTION_RANGE)) {
+        light.receiver_lo = o->range_lo;
+        light.receiver_hi = o->range_hi;
+    }
+    dp_setup_init(&light.setup, &spec); /* cannot fail: mapping and depth have been checked */
+    if (box && !option_given(o, OPTION_RANGE) && shadow_light_check(&light) == SHADOW_OK)
+        keep_off_zero(&light, o->api != NULL ? o->api : bias_api_get(0));
+    return light;
+}
+
+static int split_of(const options *o, shadow_split *out) {
+    const dp_triangles *t = &o->triangles;
+    shadow_split s = shadow_split_default();
+    s.znear = o->znear;
+    s.zfar = o->zfar;
+    s.aspect = (double)t->width / t->height;
+    s.count = (int)o->cascades;
+    s.lambda = o->lambda;
+    s.casters = o->casters;
+    *out = s;
+    return view_vertical(o, t->width, t->height, &out->fov_y);
+}
+
+/* What the options could not see one by one. */
+static int refused(const options *o, shadow_status status) {
+    const uint32_t side = o->camera.width < o->camera.height ? o->camera.width : o->camera.height;
+    const uint32_t least = (5 * o->kernel + 6) / 2 + 1; /* a texel wider than both margins of a cascade */
+    if (status == SHADOW_RECEIVERS)
+        return option_error(OPTION_RANGE, "must lie in the box, from 0 to %s, got '%s:%s'",
+                            number_full(o->light_box[2]).text, number_full(o->range_lo).text,
+                            number_full(o->range_hi).text);
+    if (status == SHADOW_CASCADES && !(o->zfar > o->znear && o->zfar <= 1e12))
+        return option_error(OPTION_FAR, "must be greater than near and at most 1e12, got '%s'",
+                            number_full(o->zfar).text);
+    if (status == SHADOW_CASCADES)
+        return option_error(OPTION_VIEWPORT, "must be from 0.001 to 1000 times as wide as high, got '%dx%d'",
+                            o->triangles.width, o->triangles.height);
+    if (status == SHADOW_BOX && side < least)
+        return option_error(OPTION_SIZE, "must be at least %u texels a side for a filter of %ux%u, got '%ux%u'", least,
+                            o->kernel, o->kernel, o->camera.width, o->camera.height);
+    return option_error(OPTION_FAR, "makes a map too large or too small: %s", shadow_status_text(status));
+}
+
+int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
+    const bool box = option_given(o, OPTION_LIGHT_BOX);
+    int status = check_together(o);
+    if (status == EXIT_FINE)
+        status = setup_undrawn(o, format);
+    *out = (shadow_maps){.count = box ? 1 : o->cascades};
+    if (status != EXIT_FINE)
+        return status;
+    if (dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE)
+        return option_error(OPTION_MAPPING,
+                            "must be one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE " for a shadow map, got '%s'",
+                            dp_mapping_get(mapping)->name);
+    const shadow_light light = light_of(o, format, mapping);
+    if (!box)
+        status = split_of(o, &out->view);
+    if (status != EXIT_FINE)
+        return status;
+    shadow_status made = shadow_light_check(&light);
+    out->items[0].light = light;
+    for (size_t i = 0; i < out->count && !box && made == SHADOW_OK; i++)
+        made = shadow_cascade_of(&out->view, &light, (int)i, &out->items[i]);
+    return made == SHADOW_OK ? EXIT_FINE : refused(o, made);
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What lies beyond the distance that solve finds: where surfaces are seen to fight, and where it holds again. */
+#include <float.h>
+#include <math.h>
+
+#include "census/census.h"
+#include "cli/solve/report.h"
+#include "core/bits.h"
+
+/* The first stretch is short, since most fights are near, and each that follows is twice as long. */
+enum { FIRST_STRETCH = 1 << 14, DEPTHS_MOST = 1 << 25, AGAIN_SHOWN = 3 };
+
+static double depth_behind(double z, uint32_t count, double hi) {
+    const uint32_t bits = dp_bits32((float)z);
+    return fmin(bits < 0x7f000000u - count ? (double)dp_float32(bits + count) : hi, hi);
+}
+
+/* Surfaces that far apart, the nearer one at each binary32 depth; before `from` it is certain that none fight. */
+static solve_fight find_fight(const dp_setup *setup, double from, double hi, double apart) {
+    solve_fight out = {(double)NAN, (double)NAN};
+    double z = from;
+    uint32_t stretch = FIRST_STRETCH;
+    for (uint64_t done = 0; done < DEPTHS_MOST && z < hi && isnan(out.first); done += stretch, stretch *= 2) {
+        census_result found;
+        const double end = depth_behind(z, stretch, hi);
+        const census_sample_request request = {
+            .common = {.setup = setup, .lo = z, .hi = fmin(end + 2.0 * apart, fmin(hi, (double)FLT_MAX))},
+            .gap = apart};
+        if (census_sample(&request, &found) != CENSUS_DONE)
+            break;
+        out = (solve_fight){found.all.first, fmin(end, hi - apart)};
+        z = end;
+    }
+    return out;
+}
+
+void solve_look_beyond(solve_report *r) {
+    const solve_candidate *c = &r->items[0];
+    dp_setup setup;
+    r->fight = (solve_fight){(double)NAN, (double)NAN};
+    if (r->target != SOLVE_FOR_DISTANCE || judge_setup(&c->spec, &setup) != DP_OK)
+        return;
+    const double from = c->possible ? c->distance.value : r->lo;
+    if (setup.spec.model == DP_MODEL_FLOAT && setup.spec.triangles.width == 0) /* the census knows depths at a point */
+        r->fight = find_fight(&setup, from, r->hi, r->limit);
+    if (!c->distance.throughout && r->kind == MEASURE_SEPARATION)
+        r->again_count = distance_again(&setup, from, r->hi, r->limit, r->again, SOLVE_AGAIN_MAX);
+}
+
+void solve_say_beyond(page *p, const solve_report *r) {
+    for (size_t i = 0; i < r->again_count && i < AGAIN_SHOWN; i++)
+        page_note(p, i == 0 ? "holds again" : "", "from z = %s to %s",
+                  number_in(number_up(r->again[i].lo, SOLVE_DIGITS), options_unit(r->o)).text,
+                  number_in(number_down(r->again[i].hi, SOLVE_DIGITS), options_unit(r->o)).text);
+    if (r->again_count > AGAIN_SHOWN)
+        page_note(p, "", "and farther; --json lists %zu ranges", r->again_count);
+}

@@ -1,0 +1,373 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * solve: the missing one of near, far, format, mapping and separation, or how far that holds; and what is possible
+ * where that is not.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/setups.h"
+#include "cli/solve/report.h"
+#include "report/number.h"
+
+/* ---- What is asked ----------------------------------------------------------------------------------------------- */
+
+static bool has_pipeline(dp_mapping mapping) {
+    return dp_mapping_get(mapping)->curve == DP_CURVE_PERSPECTIVE;
+}
+
+static bool is_logarithm(dp_mapping mapping) {
+    return dp_mapping_get(mapping)->curve == DP_CURVE_LOG;
+}
+
+static bool is_known(const options *o, option_id id) {
+    return option_given(o, id) || o->preset_count > 0;
+}
+
+/* At a slant there is a guarantee of separations, and only of what is affine on the screen. */
+static int check_slanted(const options *o, const solve_report *r) {
+    if (r->kind == MEASURE_ERROR)
+        return option_error(OPTION_ERROR, "is that of a depth at a point, and cannot be combined with --viewport");
+    if (option_given(o, OPTION_MODEL) && !o->model_auto && o->model != DP_MODEL_FLOAT)
+        return option_error(OPTION_MODEL, "must be float or auto with --viewport, got '%s', which knows no slant",
+                            option_word(OPTION_MODEL, o->model));
+    for (size_t m = 0; m < o->mapping_count; m++)
+        if (!has_pipeline(o->mappings[m]))
+            return option_error(OPTION_MAPPING,
+                                "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with --viewport, got %s, which is not "
+                                "affine on the screen",
+                                dp_mapping_get(o->mappings[m])->name);
+    return EXIT_FINE;
+}
+
+static int check_target(const options *o, solve_report *r) {
+    static const option_id givens[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING};
+    const bool limited = option_given(o, OPTION_SEPARATION) || option_given(o, OPTION_ERROR);
+    if (option_given(o, OPTION_SEPARATION) && option_given(o, OPTION_ERROR))
+        return option_error(OPTION_ERROR, "cannot be combined with --separation");
+    r->kind = option_given(o, OPTION_ERROR) ? MEASURE_ERROR : MEASURE_SEPARATION;
+    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted_error : o->separation;
+    r->target = o->target;
+    if (r->target == SOLVE_FOR_ANY && !limited)
+        r->target = SOLVE_FOR_SEPARATION;
+    for (int i = 0; i < 4 && r->target == SOLVE_FOR_ANY; i++)
+        if (!is_known(o, givens[i]))
+            r->target = (solve_target)(SOLVE_FOR_NEAR + i);
+    if (r->target == SOLVE_FOR_ANY)
+        return usage_error("solve: nothing is left to solve for: leave out --near, --far, --format, --mapping or "
+                           "--separation, or name one with --for");
+    if (r->target == SOLVE_FOR_SEPARATION && limited)
+        return option_error(OPTION_FOR, "solves for separation: leave out --%s",
+                            option_name(r->kind == MEASURE_ERROR ? OPTION_ERROR : OPTION_SEPARATION));
+    if (r->target == SOLVE_FOR_DISTANCE && option_given(o, OPTION_AT))
+        return option_error(OPTION_AT, "does not apply to --for distance: --range LO:HI says from where");
+    if (r->target != SOLVE_FOR_SEPARATION && !limited)
+        return option_error(OPTION_SEPARATION, "must be given (or --error), to solve for %s",
+                            option_word(OPTION_FOR, r->target));
+    if (r->target <= SOLVE_FOR_FAR && option_given(o, givens[r->target - SOLVE_FOR_NEAR]))
+        return option_error(OPTION_FOR, "solves for %s: leave out --%s", option_word(OPTION_FOR, r->target),
+                            option_word(OPTION_FOR, r->target));
+    for (size_t m = 0; m < o->mapping_count; m++)
+        if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FLOAT &&
+            !is_logarithm(o->mappings[m]))
+            return option_error(OPTION_MODEL,
+                                "must be exact or staged for an error of %s, got 'float', which has no cells",
+                                dp_mapping_get(o->mappings[m])->name);
+    return o->triangles.width > 0 ? check_slanted(o, r) : EXIT_FINE;
+}
+
+static int check_depths(const options *o, solve_report *r) {
+    const bool range = option_given(o, OPTION_RANGE);
+    if (range && o->at.count > 0)
+        return option_error(OPTION_RANGE, "cannot be combined with --at");
+    if (!range && r->target == SOLVE_FOR_DISTANCE) {
+        r->lo = o->znear;
+        r->hi = is_known(o, OPTION_FAR) ? o->zfar : (double)HUGE_VAL;
+        return EXIT_FINE;
+    }
+    if (!range && o->at.count == 0)
+        return option_error(OPTION_AT, "must be given, or --range LO:HI");
+    if (o->at.count > 1)
+        return option_error(OPTION_AT, "solve takes one depth, or --range LO:HI, got %zu depths", o->at.count);
+    r->lo = range ? o->range_lo : o->at.lo;
+    r->hi = range ? o->range_hi : o->at.lo;
+    const option_id id = range ? OPTION_RANGE : OPTION_AT;
+    const bool free_near = r->target == SOLVE_FOR_NEAR;
+    const bool free_far = r->target == SOLVE_FOR_FAR || !is_known(o, OPTION_FAR);
+    const double least = free_near ? 1e-12 : o->znear;
+    const double most = free_far ? 1e18 : o->zfar;
+    if (r->target == SOLVE_FOR_FAR && !(r->hi > 0.0) && o->znear <= 0.0)
+        return option_error(id, "must reach depths above 0, to solve for far, got %s", number_full(r->hi).text);
+    if (r->lo >= least && r->hi <= most)
+        return EXIT_FINE;
+    return option_error(id, "depths must lie in [%s, %s] = [%s, %s], got %s", free_near ? "1e-12" : "near",
+                        free_far ? "1e18" : "far", number_full(least).text, number_full(most).text,
+                        number_full(r->lo >= least ? r->hi : r->lo).text);
+}
+
+/* ---- Candidates -------------------------------------------------------------------------------------------------- */
+
+static bool asks_for_choice(solve_target target) {
+    return target == SOLVE_FOR_FORMAT || target == SOLVE_FOR_MAPPING;
+}
+
+/* The model asked for, or the fullest that there is: what a user can trust. */
+static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) {
+    const options *o = r->o;
+    const bool given = option_given(o, OPTION_MODEL) && !o->model_auto;
+    const bool has_fp32 = is_logarithm(mapping) || (r->kind == MEASURE_SEPARATION && has_pipeline(mapping));
+    if (given && (asked || o->model != DP_MODEL_FLOAT))
+        return o->model;
+    return has_fp32 ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
+}
+
+static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_unknown unknown, plane_effort effort,
+                             solve_result *result) {
+    const solve_problem p = {
+        .spec = c->spec, .unknown = unknown, .kind = r->kind, .limit = r->limit, .lo = r->lo, .hi = r->hi};
+    const dp_status status = plane_solve(&p, effort, result, &c->plane);
+    if (status != DP_OK)
+        return status;
+    *(unknown == SOLVE_NEAR ? &c->spec.znear : &c->spec.zfar) = c->plane.chosen;
+    c->solved = true;
+    c->unknown = unknown;
+    c->possible = c->plane.possible;
+    c->reached = c->plane.reached;
+    c->least = result->least;
+    c->most = result->most;
+    c->island_count = result->island_count;
+    c->lattice = (solve_lattice){.possible = result->possible,
+                                 .value = result->value,
+                                 .reached = {.value = result->worst.value, .z = result->worst.z}};
+    if (r->kind == MEASURE_ERROR) { /* the depths as they are aligned */
+        solve_problem exact = p;
+        plane_answer ideal;
+        exact.spec.model = DP_MODEL_EXACT;
+        if (plane_solve(&exact, effort, result, &ideal) == DP_OK)
+            c->lattice = (solve_lattice){ideal.possible, ideal.value, ideal.reached};
+    }
+    return DP_OK;
+}
+
+/* With the planes as they are: how far it holds, or whether it does. */
+static dp_status answer_as_is(const solve_report *r, const dp_spec *spec, distance_answer *out) {
+    dp_setup setup;
+    const dp_status status = judge_setup(spec, &setup);
+    if (status != DP_OK)
+        return status;
+    if (r->target == SOLVE_FOR_DISTANCE)
+        return distance_solve(r->kind, &setup, r->lo, r->hi, r->limit, out);
+    *out = (distance_answer){.value = (double)NAN, .reached = judge(r->kind, &setup, r->lo, r->hi, r->limit)};
+    out->possible = isnan(r->limit) || out->reached.passed;
+    return DP_OK;
+}
+
+static dp_status evaluate(const solve_report *r, solve_candidate *c) {
+    distance_answer ideal = {0};
+    dp_spec exact = c->spec;
+    exact.model = DP_MODEL_EXACT;
+    dp_status status = answer_as_is(r, &c->spec, &c->distance);
+    if (status == DP_OK)
+        status = answer_as_is(r, &exact, &ideal);
+    c->reached = c->distance.reached;
+    c->possible = c->distance.possible;
+    c->lattice = (solve_lattice){ideal.possible, ideal.value, ideal.reached};
+    return status;
+}
+
+/* Fills in what is missing. */
+static dp_status try_candidate(const solve_report *r, solve_candidate *c, solve_result *result) {
+    if (r->target == SOLVE_FOR_NEAR)
+        return solve_plane(r, c, SOLVE_NEAR, PLANE_FIND, result);
+    if (r->target == SOLVE_FOR_FAR)
+        return solve_plane(r, c, SOLVE_FAR, PLANE_FIND, result);
+    return evaluate(r, c);
+}
+
+/* Where the planes are given and do not do, the near plane that this format and mapping would need. */
+static void try_other_near(const solve_report *r, solve_candidate *c, solve_result *result) {
+    solve_candidate other = *c;
+    if (c->possible || isnan(r->limit) || solve_plane(r, &other, SOLVE_NEAR, PLANE_FIND, result) != DP_OK ||
+        !other.possible)
+        return;
+    *c = other;
+}
+
+static bool listed(const solve_report *r, const dp_spec *spec) {
+    for (size_t i = 0; i < r->count; i++)
+        if (r->items[i].spec.mapping == spec->mapping && strcmp(r->items[i].spec.format.name, spec->format.name) == 0)
+            return true;
+    return false;
+}
+
+static dp_spec spec_of(const options *o) {
+    return (dp_spec){.znear = o->znear,
+                     .zfar = is_known(o, OPTION_FAR) ? o->zfar : (double)HUGE_VAL,
+                     .ortho = o->ortho,
+                     .rounding = o->rounding,
+                     .arith = o->arith,
+                     .log_c = o->log_c,
+                     .triangles = o->triangles};
+}
+
+static int refused(const solve_report *r, const solve_candidate *c, dp_status status) {
+    if (status == DP_ERROR_INFINITE && !is_known(r->o, OPTION_FAR))
+        return option_error(OPTION_FAR, "must be given: %s has no infinite far",
+                            c->spec.ortho ? "an orthographic projection" : dp_mapping_get(c->spec.mapping)->name);
+    return setup_refused(r->o, &c->spec, status);
+}
+
+static solve_candidate *add_candidate(solve_report *r, const dp_spec *spec, bool asked) {
+    solve_candidate *c = &r->items[r->count++];
+    *c = (solve_candidate){.spec = *spec, .asked = asked, .price = cost_of(&spec->format, spec->mapping)};
+    return c;
+}
+
+static int add_asked(solve_report *r, solve_result *result) {
+    const options *o = r->o;
+    dp_spec spec = spec_of(o);
+    for (size_t f = 0; f < o->format_count; f++)
+        for (size_t m = 0; m < o->mapping_count; m++) {
+            spec.format = o->formats[f];
+            spec.mapping = o->mappings[m];
+            spec.model = model_of(r, spec.mapping, is_known(o, OPTION_MAPPING));
+            if (setup_undrawn(o, &spec.format) != EXIT_FINE)
+                return EXIT_USAGE;
+            solve_candidate *c = add_candidate(r, &spec, true);
+            const dp_status status = try_candidate(r, c, result);
+            if (status != DP_OK)
+                return refused(r, c, status);
+        }
+    return EXIT_FINE;
+}
+
+/* Whether there is a guarantee of what is asked about. */
+static bool is_covered(const solve_report *r, const dp_spec *spec) {
+    const raster_row *raster = r->o->raster;
+    if (!profile_stores(&r->o->gpu, &spec->format))
+        return false;
+    return spec->triangles.width == 0 ||
+           (has_pipeline(spec->mapping) && (raster == NULL || raster_bounded(raster, &spec->format)));
+}
+
+/* Whether every mapping of a format was asked about. */
+static bool leaves_open(const solve_report *r, const dp_format *format) {
+    bool asked = false;
+    for (size_t f = 0; f < r->o->format_count; f++)
+        asked = asked || strcmp(r->o->formats[f].name, format->name) == 0;
+    return asked && r->target == SOLVE_FOR_MAPPING && !option_given(r->o, OPTION_MAPPING);
+}
+
+/*
+ * What else there is: the real depth buffers with the mappings that an engine can choose. Of the logarithms it is the
+ * one that was asked about: the others are those of other renderers, and `log` stands for what a shader may write.
+ */
+static void add_others(solve_report *r, solve_result *result) {
+    const dp_mapping asked = r->o->mappings[0];
+    const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, is_logarithm(asked) ? asked : DP_MAPPING_LOG};
+    dp_spec spec = spec_of(r->o);
+    for (size_t f = 0; f < dp_format_count(); f++)
+        for (size_t m = 0; m < sizeof mappings / sizeof mappings[0] && dp_format_get(f)->buffer; m++) {
+            spec.format = dp_format_get(f)->format;
+            spec.mapping = mappings[m];
+            spec.model = model_of(r, spec.mapping, false);
+            if (listed(r, &spec) || !is_covered(r, &spec) || (spec.mapping == DP_MAPPING_D3D && asked == DP_MAPPING_GL))
+                continue;
+            if (try_candidate(r, add_candidate(r, &spec, leaves_open(r, &spec.format)), result) != DP_OK)
+                r->count--;
+        }
+}
+
+/* ---- Order ------------------------------------------------------------------------------------------------------- */
+
+static int compare_numbers(double a, double b) {
+    return (a > b) - (a < b);
+}
+
+/* Alternatives: what is possible, the cheapest first; then what comes nearest. */
+static int compare_alternatives(const void *a, const void *b) {
+    const solve_candidate *x = a;
+    const solve_candidate *y = b;
+    if (x->possible != y->possible)
+        return x->possible ? -1 : 1;
+    if (x->possible && x->solved != y->solved) /* as it is, rather than with another near */
+        return x->solved ? 1 : -1;
+    const int price = cost_compare(&x->price, &y->price);
+    if (x->possible && price != 0)
+        return price;
+    const int value = compare_numbers(x->reached.value, y->reached.value);
+    return value != 0 ? value : price != 0 ? price : x->place < y->place ? -1 : x->place > y->place;
+}
+
+/* More room for the plane that was solved for, a larger distance, or a smaller separation. */
+static int compare_room(const solve_report *r, const solve_candidate *x, const solve_candidate *y) {
+    if (r->target == SOLVE_FOR_SEPARATION)
+        return compare_numbers(x->reached.value, y->reached.value);
+    if (!x->possible || !y->possible)
+        return 0;
+    if (r->target == SOLVE_FOR_DISTANCE)
+        return compare_numbers(y->distance.value, x->distance.value);
+    if (asks_for_choice(r->target))
+        return 0;
+    return x->unknown == SOLVE_NEAR ? compare_numbers(x->spec.znear, y->spec.znear)
+                                    : compare_numbers(y->spec.zfar, x->spec.zfar);
+}
+
+/* The answer among what was asked: with a plane left open, the one that leaves it the most room. */
+static int compare_answers(const solve_report *r, const solve_candidate *x, const solve_candidate *y) {
+    if (x->asked != y->asked)
+        return x->asked ? -1 : 1;
+    const int room = compare_room(r, x, y);
+    return room != 0 ? room : compare_alternatives(x, y);
+}
+
+/* Puts the answer first, the rest behind it in order, and its islands where the report finds them. */
+static void arrange(solve_report *r, solve_result *result) {
+    size_t best = 0;
+    for (size_t i = 1; i < r->count; i++)
+        if (compare_answers(r, &r->items[i], &r->items[best]) < 0)
+            best = i;
+    const solve_candidate answer = r->items[best];
+    r->items[best] = r->items[0];
+    r->items[0] = answer;
+    for (size_t i = 1; i < r->count; i++)
+        if (asks_for_choice(r->target))
+            try_other_near(r, &r->items[i], result);
+    for (size_t i = 0; i < r->count; i++)
+        r->items[i].place = i;
+    if (r->count > 1)
+        qsort(r->items + 1, r->count - 1, sizeof r->items[0], compare_alternatives);
+    if (!answer.solved)
+        return;
+    solve_plane(r, &r->items[0], answer.unknown, PLANE_PROVE, result);
+    r->islands = result->islands;
+}
+
+int cmd_solve(const options *o) {
+    output out;
+    solve_result result;
+    solve_candidate items[SOLVE_CANDIDATES_MAX];
+    solve_report r = {.o = o, .items = items};
+    if (o->target == SOLVE_FOR_FRUSTA)
+        return solve_frusta(o);
+    int status = setup_decided(o);
+    if (status == EXIT_FINE)
+        status = check_target(o, &r);
+    if (status == EXIT_FINE)
+        status = check_depths(o, &r);
+    if (status == EXIT_FINE)
+        status = add_asked(&r, &result);
+    if (status != EXIT_FINE)
+        return status;
+    if (!isnan(r.limit))
+        add_others(&r, &result);
+    arrange(&r, &result);
+    solve_look_beyond(&r);
+    status = options_open(o, &out);
+    if (status != EXIT_FINE)
+        return status;
+    solve_report_write(&r, &out);
+    status = output_close(&out);
+    return status == EXIT_FINE && !items[0].possible ? EXIT_FAILED : status;
+}

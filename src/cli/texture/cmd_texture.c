@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* texture: a depth image, or a synthetic image in its place. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/texture/texture.h"
+
+/* Options that need a product, or a figure of one. */
+static int check_alone(const options *o) {
+    static const option_id drawn[] = {OPTION_OVERLAY, OPTION_TYPE,   OPTION_THEME,
+                                      OPTION_WIDTH,   OPTION_HEIGHT, OPTION_TITLE};
+    if (o->error_map && o->effect != NULL && option_given(o, OPTION_PIXEL))
+        return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
+    if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
+        return option_error(OPTION_ERROR_MAP, "needs --product");
+    if (option_given(o, OPTION_AT))
+        return option_error(OPTION_AT, "is for the table of an effect without an image");
+    if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
+        return option_error(OPTION_NORMAL_FORMAT, "needs --product normal or packed-normal");
+    if (o->normals_by != NULL && (o->effect == NULL || (o->effect->needs & EFFECT_NORMALS) == 0))
+        return option_error(OPTION_NORMALS_BY, "is for --product effect:outline and --pack depth-normals; --product "
+                                               "normal:METHOD makes normals");
+    if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
+        return option_error(OPTION_PIXEL, "describes single pixels, and makes no image or figure");
+    for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
+        if (option_given(o, drawn[i]) && o->figure == NULL && (o->histogram == NULL || drawn[i] == OPTION_OVERLAY))
+            return option_error(drawn[i], "needs --figure%s", drawn[i] == OPTION_OVERLAY ? "" : " or --histogram");
+    if (option_given(o, OPTION_HISTOGRAM) && option_given(o, OPTION_PIXEL))
+        return option_error(OPTION_HISTOGRAM, "does not apply with --pixel");
+    if (option_given(o, OPTION_HISTOGRAM) && o->output != NULL && o->form == FORM_TEXT)
+        return option_error(OPTION_HISTOGRAM,
+                            "does not apply with --output, which its numbers go to with --json or --csv");
+    if (option_given(o, OPTION_HISTOGRAM) && o->form != FORM_TEXT && strcmp(o->histogram, "-") == 0)
+        return option_error(OPTION_HISTOGRAM, "must be a file with --json and --csv, got '-'");
+    if (option_given(o, OPTION_HISTOGRAM) && texture_product_wanted(o))
+        return option_error(OPTION_HISTOGRAM, "is drawn of the depths, not of a product");
+    return EXIT_FINE;
+}
+
+/* The table of an effect sees depths, and at most one pixel. */
+static int check_table(const options *o) {
+    static const option_id images[] = {
+        OPTION_SKY,        OPTION_METRIC,  OPTION_ERROR_MAP, OPTION_FIGURE,  OPTION_THEME,     OPTION_WIDTH,
+        OPTION_HEIGHT,     OPTION_TITLE,   OPTION_THREADS,   OPTION_TYPE,    OPTION_PACKING,   OPTION_NORMAL_FORMAT,
+        OPTION_NORMALS_BY, OPTION_CHANNEL, OPTION_PACK,      OPTION_OVERLAY, OPTION_HISTOGRAM, OPTION_MATRIX};
+    static const option_id cameras[] = {OPTION_FOV,  OPTION_HFOV, OPTION_HALF_HEIGHT, OPTION_EYE,
+                                        OPTION_LOOK, OPTION_SIZE, OPTION_PIXEL};
+    for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
+        if (option_given(o, images[i]))
+            return option_error(images[i], "does not apply to an effect alone, only with FILE or --synthetic");
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0] && (o->effect->needs & EFFECT_POSITION) == 0; i++)
+        if (option_given(o, cameras[i]))
+            return option_error(cameras[i],
+                                "does not apply to %s alone, which needs no position, only with FILE or --synthetic",
+                                o->effect->name);
+    return EXIT_FINE;
+}
+
+static int make_product(const options *o, const texture_source *source, texture_product *product) {
+    int status = texture_product_check(o, source, product);
+    if (status == EXIT_FINE && source->path != NULL && source->found.invalid > 0 && !o->quiet)
+        fprintf(stderr, "depthprec: %s: %zu pixels hold no window depth and become NaN\n", source->path,
+                source->found.invalid);
+    if (status == EXIT_FINE && o->output != NULL)
+        status = texture_product_write(o, source, product);
+    if (status == EXIT_FINE && o->figure != NULL)
+        status = texture_figure_draw(o, source, product);
+    return status;
+}
+
+int cmd_texture(const options *given) {
+    options own = *given, *o = &own;
+    texture_product product = {0};
+    const bool beside = o->product != NULL && o->product->packed, packed = o->pack != NULL || beside;
+    const bool described = option_given(o, OPTION_PIXEL) && o->effect != NULL;
+    const bool made = !packed && texture_product_wanted(o);
+    if (o->effect != NULL && o->operand_count == 0 && o->synthetic == NULL) {
+        const int status = check_table(o);
+        return status == EXIT_FINE ? texture_effect_table(o) : status;
+    }
+    texture_source source = {0};
+    int status = packed ? texture_pack_check(o) : check_alone(o);
+    if (status == EXIT_FINE && made)
+        status = texture_product_resolve(o, &product);
+    else if (status == EXIT_FINE && described)
+        status = texture_product_effect(o, &product);
+    if (status == EXIT_FINE)
+        status = texture_source_open(o, &source);
+    if (status == EXIT_FINE && (made || described))
+        status = texture_effect_normals(o, &source);
+    if (status == EXIT_FINE && made)
+        status = make_product(o, &source, &product);
+    else if (status == EXIT_FINE && o->pack != NULL)
+        status = texture_pack_write(o, &source);
+    else if (status == EXIT_FINE && beside)
+        status = texture_packed_normal_write(o, &source);
+    else if (status == EXIT_FINE && option_given(o, OPTION_PIXEL))
+        status = texture_pixel_write(o, &source, described ? &product.made : NULL);
+    else if (status == EXIT_FINE && o->histogram != NULL)
+        status = texture_histogram_draw(o, &source);
+    else if (status == EXIT_FINE && o->synthetic != NULL && o->output != NULL && o->form == FORM_TEXT)
+        status = texture_depth_write(o, &source);
+    else if (status == EXIT_FINE)
+        status = texture_report_write(o, &source);
+    texture_source_close(&source);
+    return status;
+}

@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * texture --product effect:NAME without an image: what the stored depth does to an effect, depth by depth, and from
+ * which (or up to which) value of its parameter on that is no more than a level of 8 bits.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/each_setup.h"
+#include "cli/texture/texture.h"
+#include "core/append.h"
+#include "report/number.h"
+
+enum { DIGITS = 6, DIGITS_Z = 9 };
+
+static const double ONE_LEVEL = 1;
+
+/* ---- Which effect ------------------------------------------------------------------------------------------------ */
+
+int texture_effect_resolve(const options *o, bool pictured, const effect_row **row, double parameters[PARAMETERS_MAX]) {
+    const parameter_use unused = pictured ? PARAMETER_TABLE : PARAMETER_IMAGE;
+    int status = EXIT_FINE;
+    *row = o->effect;
+    parameter_defaults((*row)->parameters, parameters);
+    for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
+        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->parameters[i], unused,
+                                       pictured && (*row)->given ? "reference" : NULL, parameters);
+    return status;
+}
+
+/* ---- The table --------------------------------------------------------------------------------------------------- */
+
+typedef struct row {
+    dp_sample sample;
+    double levels, share, usable, ceiling;
+} row;
+
+/* Below `row`, what is usable at all depths shown, and the depth that decides; NaN when at one of them nothing is. */
+typedef struct table {
+    each_setup each;
+    const effect_row *effect;
+    const texture_parameter *wanted;
+    const char *name, *wanted_name, *direction;
+    double parameters[PARAMETERS_MAX];
+    struct parameter {
+        const char *name, *unit;
+        double value;
+    } parameter;
+    camera_spec spec; /* where the effect needs the position: the camera, and the pixel */
+    uint32_t column, line;
+    texture_camera camera, last;
+    effect_view view;
+    row row;
+    bool begun;
+    double usable, z, ceiling, ceiling_z;
+} table;
+
+static bool needs(const table *t, unsigned what) {
+    return (t->effect->needs & what) != 0;
+}
+
+/* The pixel of --pixel, or the middle of the lowest row, which sees the ground. */
+static int make_view(table *t, const dp_setup *setup) {
+    const options *o = t->each.o;
+    const char *wrong = camera_init(&t->camera, setup, &t->spec);
+    int status = wrong != NULL ? usage_error("texture: %s", wrong) : EXIT_FINE;
+    if (status == EXIT_FINE && needs(t, EFFECT_LAST_FRAME))
+        status = texture_last_camera(o, setup, &t->spec, &t->last);
+    if (status == EXIT_FINE)
+        t->view = effect_view_of(&t->camera, needs(t, EFFECT_LAST_FRAME) ? &t->last : NULL, t->column, t->line);
+    t->view.setup = setup;
+    return status;
+}
+
+static int choose_pixel(table *t, const options *o) {
+    t->spec = o->camera;
+    t->column = t->spec.width / 2;
+    t->line = t->spec.height - 1;
+    int status = view_vertical(o, (int)t->spec.width, (int)t->spec.height, &t->spec.fov_y);
+    if (status == EXIT_FINE)
+        status = texture_camera_place(o, &t->spec);
+    if (status != EXIT_FINE || !option_given(o, OPTION_PIXEL))
+        return status;
+    if (o->pixels.count != 2)
+        return option_error(OPTION_PIXEL, "must be one pixel with an effect alone, got %zu", o->pixels.count / 2);
+    t->column = (uint32_t)depths_get(&o->pixels, 0);
+    t->line = (uint32_t)depths_get(&o->pixels, 1);
+    return texture_pixels_check(o, t->spec.width, t->spec.height);
+}
+
+static void *next_setup(void *of, size_t i) {
+    table *t = of;
+    t->begun = false;
+    return each_setup_go(&t->each, i) && make_view(t, t->each.setup) == EXIT_FINE ? t : NULL;
+}
+
+static void *next_row(void *of, size_t i) {
+    table *t = of;
+    row *x = &t->row;
+    double z;
+    if (!each_setup_depth(&t->each, i, &z))
+        return NULL;
+    x->levels = effect_error(t->effect, &t->view, t->parameters, z);
+    x->share = effect_share(t->effect, &t->view, t->parameters, z);
+    x->usable = effect_usable(t->effect, &t->view, t->parameters, z, ONE_LEVEL);
+    x->ceiling = effect_ceiling(t->effect, &t->view, t->parameters, z);
+    dp_sample_at(t->each.setup, z, &x->sample); /* depths_resolve() has seen to it */
+    const bool decides = isnan(x->usable) || (t->effect->smallest ? x->usable > t->usable : x->usable < t->usable);
+    if (!t->begun || (decides && !isnan(t->usable))) {
+        t->usable = x->usable;
+        t->z = x->sample.z;
+    }
+    if (!t->begun || ((isnan(x->ceiling) || x->ceiling < t->ceiling) && !isnan(t->ceiling))) {
+        t->ceiling = x->ceiling;
+        t->ceiling_z = x->sample.z;
+    }
+    t->begun = true;
+    return x;
+}
+
+/* Those that the table uses. */
+static void *next_parameter(void *of, size_t i) {
+    table *t = of;
+    const texture_parameter *p = t->effect->parameters;
+    for (size_t k = 0; p[k].name != NULL; k++)
+        if (p[k].use != PARAMETER_IMAGE && i-- == 0) {
+            t->parameter = (struct parameter){p[k].name, p[k].unit, t->parameters[k]};
+            return &t->parameter;
+        }
+    return NULL;
+}
+
+static void say_effect(page *p, void *item) {
+    table *t = item;
+    each_setup_title(p, item);
+    char parameters[512] = "";
+    for (size_t i = 0; next_parameter(t, i) != NULL; i++)
+        append(parameters, sizeof parameters, ", %s %s", t->parameter.name,
+               number_of(t->parameter.value, DIGITS_Z).text);
+    if (t->effect->reference != NULL)
+        append(parameters, sizeof parameters, "; %s at its worst", t->effect->reference);
+    page_text(p, "%s%s", t->name, parameters);
+    if (t->effect->alone)
+        page_text(p, "share: of the places of a plane that are wrong");
+    if (needs(t, EFFECT_POSITION))
+        page_text(p, "pixel %u,%u of %u x %u, %s %s", t->column, t->line, t->spec.width, t->spec.height,
+                  t->camera.ortho ? "half height" : "field of view",
+                  number_of(t->camera.ortho ? t->spec.half_height : t->spec.fov_y, DIGITS_Z).text);
+}
+
+/* Of another parameter, with the wanted one as it is. */
+static void say_ceiling(page *p, const table *t) {
+    const texture_parameter *other = &t->effect->parameters[t->effect->ceiling];
+    const number_text wanted = number_of(t->parameters[t->effect->wanted], DIGITS_Z),
+                      z = number_of(t->ceiling_z, DIGITS_Z);
+    if (isnan(t->ceiling))
+        page_line(p, "with %s %s no %s does at z = %s", t->wanted_name, wanted.text, other->name, z.text);
+    else if (t->ceiling == other->hi)
+        page_line(p, "with %s %s every %s does", t->wanted_name, wanted.text, other->name);
+    else
+        page_line(p, "with %s %s a %s up to %s does, too, and no larger one; z = %s decides", t->wanted_name,
+                  wanted.text, other->name, number_down(t->ceiling, DIGITS).text, z.text);
+}
+
+/* It is usable as it is printed. At the end of the range no depth decides. */
+static void say_usable(page *p, void *item) {
+    const table *t = item;
+    const number_text usable = (t->effect->smallest ? number_up : number_down)(t->usable, DIGITS);
+    const number_text z = number_of(t->z, DIGITS_Z);
+    char decides[64] = "";
+    if (t->usable != (t->effect->smallest ? t->wanted->lo : t->wanted->hi))
+        snprintf(decides, sizeof decides, "; z = %s decides", z.text);
+    if (isnan(t->usable))
+        page_line(p, "no %s is usable at z = %s", t->wanted_name, z.text);
+    else
+        page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown%s", t->wanted_name,
+                  t->direction, usable.text, t->effect->smallest ? " up" : "", decides);
+    if (t->effect->ceiling > 0)
+        say_ceiling(p, t);
+}
+
+static const column parameter_columns[] = {{FIELD(struct parameter, name, "name", "")},
+                                           {FIELD(struct parameter, unit, "unit", "")},
+                                           {FIELD(struct parameter, value, "value", "")},
+                                           {.kind = COLUMN_END}};
+
+enum { WITH_SHARE = 1, WITH_RADIUS = 2, USABLE_WIDTH = 17 };
+
+static const column all_columns[] = {{FIELD(table, usable, "usable", "")},
+                                     {FIELD(table, z, "z", "scene")},
+                                     {FIELD(table, ceiling, "usable_radius", "scene"), .when = WITH_RADIUS},
+                                     {FIELD(table, ceiling_z, "radius_z", "scene"), .when = WITH_RADIUS},
+                                     {.kind = COLUMN_END}};
+
+/* The last column is named by the parameter that is wanted, where there is room for that. */
+static int write_table(table *t, int status) {
+    char usable[64], shown[64];
+    snprintf(usable, sizeof usable, "%s %s", t->wanted_name, t->direction);
+    snprintf(shown, sizeof shown, "%s %s", strlen(usable) < USABLE_WIDTH ? t->wanted_name : "usable", t->direction);
+    const column rows[] = {
+        {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
+        {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
+        {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_Z)},
+        {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS), .spare = 1},
+        {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
+        {FIELD(row, share, "share", ""), SHOWN("share", 12, DIGITS), .when = WITH_SHARE},
+        {FIELD(row, usable, "usable", ""), SHOWN(shown, USABLE_WIDTH, DIGITS), .only = AS_JSON | AS_TEXT,
+         .upward = t->effect->smallest, .downward = !t->effect->smallest},
+        {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
+        {FIELD(row, ceiling, "usable_radius", "scene"), SHOWN("radius up to", 13, DIGITS), .when = WITH_RADIUS,
+         .downward = true},
+        {.kind = COLUMN_END}};
+    const column setup_report[] = {{PART(table, each.fields, NULL, setup_columns)},
+                                   {FIELD(table, name, "effect", ""), .only = AS_CSV},
+                                   {LIST("rows", rows, next_row)},
+                                   {GROUP("all", all_columns), .only = AS_JSON},
+                                   {.kind = COLUMN_END}};
+    const column columns[] = {{FIELD(table, name, "effect", ""), .only = AS_JSON},
+                              {LIST("parameters", parameter_columns, next_parameter), .only = AS_JSON},
+                              {FIELD(table, wanted_name, "wanted", ""), .only = AS_JSON},
+                              {FIELD(table, direction, "direction", ""), .only = AS_JSON},
+                              {LIST("setups", setup_report, next_setup), .head = say_effect, .notes = say_usable},
+                              {.kind = COLUMN_END}};
+    const unsigned when = (t->effect->alone ? WITH_SHARE : 0) | (t->effect->ceiling > 0 ? WITH_RADIUS : 0);
+    const report_spec spec = {.command = "texture", .columns = columns, .item = t, .when = when};
+    return each_setup_write(&t->each, &spec, status);
+}
+
+int texture_effect_table(const options *o) {
+    table t = {.each = {.o = o}};
+    int status = texture_effect_resolve(o, false, &t.effect, t.parameters);
+    if (status == EXIT_FINE)
+        status = texture_camera_check(o);
+    if (status == EXIT_FINE)
+        status = choose_pixel(&t, o);
+    if (status == EXIT_FINE && t.effect->eye01 && isinf(o->zfar))
+        status = option_error(OPTION_FAR, "must be finite for %s, which uses z/far, got inf", t.effect->name);
+    if (status == EXIT_FINE)
+        status = each_setup_start(&t.each, o);
+    if (status == EXIT_FINE)
+        status = make_view(&t, &t.each.all.items[0]);
+    t.name = t.effect->name;
+    t.wanted = &t.effect->parameters[t.effect->wanted];
+    t.wanted_name = t.wanted->name;
+    t.direction = t.effect->smallest ? "from" : "up to";
+    return write_table(&t, status);
+}

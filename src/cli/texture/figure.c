@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/figure_data.h"
+#include "cli/figure_file.h"
+#include "cli/progress.h"
+#include "cli/setups.h"
+#include "cli/texture/texture.h"
+#include "core/append.h"
+#include "frame/survey.h"
+#include "plot/histogram.h"
+#include "plot/notes.h"
+#include "plot/picture.h"
+#include "report/number.h"
+
+enum { WIDTH = 800, HISTOGRAM_HEIGHT = 500, BESIDE = 150, ABOVE = 130, HEIGHT_MIN = 240, HEIGHT_MAX = 1200 };
+
+typedef struct drawing {
+    picture shown;
+    picture error;          /* with --overlay: of eye depth */
+    uint64_t known, beyond; /* pixels whose error is known, and those of them in colour */
+    progress bar;
+    uint64_t done;
+} drawing;
+
+static bool draw_rows(void *context, uint32_t row, uint32_t count, const float *values) {
+    drawing *d = context;
+    picture_take(&d->shown, row, count, values);
+    progress_step(&d->bar, d->done += count);
+    return true;
+}
+
+static bool draw_both(void *context, uint32_t row, uint32_t count, const float *const *values) {
+    drawing *d = context;
+    picture_take(&d->error, row, count, values[1]);
+    for (size_t i = 0; i < (size_t)count * d->error.width; i++) {
+        d->known += isnan(values[1][i]) ? 0 : 1;
+        d->beyond += (double)values[1][i] > d->error.above ? 1 : 0;
+    }
+    return draw_rows(context, row, count, values[0]);
+}
+
+/* The product, and with --overlay the error of eye depth beside it. */
+static bool run(const options *o, const texture_source *s, const texture_product *p, drawing *d) {
+    const frame_product both[] = {p->made, {.kind = FRAME_EYE, .error = true, .radial = p->made.radial}};
+    d->bar = progress_start("rows", s->camera.height, o->quiet);
+    const bool good = o->overlay > 0 ? frame_run_all(&s->frame, both, 2, false, draw_both, d)
+                                     : frame_run(&s->frame, &p->made, false, draw_rows, d);
+    progress_end(&d->bar);
+    return good;
+}
+
+/* What is grey, and what is in colour. */
+static void build(const options *o, drawing *d, chart *c) {
+    if (!(o->overlay > 0)) {
+        picture_build(&d->shown, c);
+        return;
+    }
+    picture_build(&d->error, c);
+    picture_lay_under(&d->shown, c);
+    if (d->shown.missing < (uint64_t)d->shown.width * d->shown.height)
+        append(c->subtitle, sizeof c->subtitle, "; grey from %s, light, to %s, dark%s", number_of(c->ground.lo, 4).text,
+               number_of(c->ground.hi, 4).text, c->ground.scale == CHART_LOG ? ", logarithmic" : "");
+    if (d->known > 0)
+        append(c->subtitle, sizeof c->subtitle, "; %s %% of the pixels with a depth are in colour",
+               number_of(100 * (double)d->beyond / (double)d->known, 3).text);
+}
+
+/* Title and subtitle: what holds for all of a source, and more. */
+static void words_of(const options *o, const texture_source *s, const char *title, const char *more, chart *c) {
+    char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle];
+    const char *slash = s->path != NULL ? strrchr(s->path, '/') : NULL, *unit = options_unit(o);
+    c->unit = unit;
+    setup_label(&s->setup, true, label);
+    if (o->metric > 0)
+        snprintf(label, sizeof label, "metric depth, %g %s a unit", o->metric, unit != NULL ? unit : "scene units");
+    else if (unit != NULL)
+        append(label, sizeof label, ", lengths in %s", unit);
+    snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s", s->path != NULL ? "" : "synthetic ",
+             s->path == NULL ? s->frame.synthetic->name
+             : slash != NULL ? slash + 1
+                             : s->path,
+             s->camera.width, s->camera.height, label, more);
+    notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : title);
+    notes_clean(c->subtitle, sizeof c->subtitle, subtitle);
+}
+
+static void describe(const options *o, const texture_source *s, const texture_product *p, const picture *shown,
+                     chart *c) {
+    char title[sizeof c->title], more[160] = "";
+    const char *unit = options_unit(o);
+    snprintf(title, sizeof title, "%s", p->name);
+    if (p->made.kind == FRAME_EFFECT) {
+        const int wanted = p->made.effect->wanted;
+        append(title, sizeof title, ", %s %s", p->made.effect->parameters[wanted].name,
+               number_full(p->made.effect_settings[wanted]).text);
+    }
+    if (o->overlay > 0)
+        append(title, sizeof title, ", in colour where %s %s off by more than %s", p->made.radial ? "it" : "eye depth",
+               s->path != NULL ? "can be" : "is",
+               number_in(number_full(o->overlay), unit != NULL ? unit : "scene units").text);
+    if (title[0] >= 'a' && title[0] <= 'z')
+        title[0] = (char)(title[0] - 'a' + 'A');
+    if (shown->columns < (int)s->camera.width || shown->rows < (int)s->camera.height)
+        append(more, sizeof more,
+               shown->magnitudes ? "; a point is the largest of %.3g pixels"
+               : o->overlay > 0  ? "; a colour is the largest error of %.3g pixels"
+                                 : "; one of %.3g pixels",
+               (double)s->camera.width / shown->columns * s->camera.height / shown->rows);
+    if (shown->missing > 0)
+        append(more, sizeof more, "; hatched: no value, %llu pixels", (unsigned long long)shown->missing);
+    words_of(o, s, title, more, c);
+}
+
+/* Surfaces of a synthetic image that fight; more than can be told apart are not marked. */
+static void mark_ties(const frame *f, chart *c) {
+    enum { MOST = 256 };
+    double at[MOST][2];
+    const size_t count = survey_ties(f, MOST, at);
+    if (count <= MOST)
+        picture_mark(c, count, at, "stored as one code with what is behind: they fight");
+}
+
+/* Fills the page: the picture in its shape, words above, axes around. */
+static int height_of(const options *o, const texture_source *s, int width, bool stacked) {
+    if (o->height > 0)
+        return o->height;
+    const double shape = (double)s->camera.height / s->camera.width, scale = width / (double)WIDTH;
+    const double height = ((WIDTH - BESIDE) * shape * (stacked ? 0.37 : 1) + ABOVE) * scale;
+    return (int)fmin(fmax(height, HEIGHT_MIN), fmax(HEIGHT_MAX, width));
+}
+
+int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p) {
+    static const char *const axes[] = {"x (world)", "y (world)", "z (world)"};
+    const int width = o->width > 0 ? o->width : WIDTH;
+    const bool is_error = p->made.error, directions = p->made.kind == FRAME_NORMAL && !is_error;
+    const bool stacked = frame_channels(&p->made) == 3 && !directions;
+    drawing d = {.shown = {.width = s->camera.width,
+                           .height = s->camera.height,
+                           .channels = frame_channels(&p->made),
+                           .directions = directions,
+                           .magnitudes = is_error,
+                           .shares = p->made.kind == FRAME_EFFECT && !is_error && p->made.effect->kind != EFFECT_GAIN,
+                           .label = is_error                         ? "error"
+                                    : p->made.kind == FRAME_POSITION ? "coordinate"
+                                                                     : p->name,
+                           .unit = p->unit,
+                           .names = stacked ? axes : NULL},
+                 .error = {.width = s->camera.width,
+                           .height = s->camera.height,
+                           .channels = 1,
+                           .magnitudes = true,
+                           .above = o->overlay,
+                           .label = p->made.radial ? "error of the distance" : "error of eye depth",
+                           .unit = "scene units"}};
+    output out;
+    const int status = output_open(&out, o->figure);
+    if (status != EXIT_FINE)
+        return status;
+    chart *c = chart_new();
+    const int room = stacked ? width / 3 : width, fields = room > WIDTH ? room : WIDTH; /* as a panel has room for */
+    bool good =
+        c != NULL && picture_open(&d.shown, fields, c) && (!(o->overlay > 0) || picture_open(&d.error, fields, c));
+    if (good)
+        good = run(o, s, p, &d);
+    if (good) {
+        describe(o, s, p, &d.shown, c);
+        build(o, &d, c);
+        mark_ties(&s->frame, c);
+        good = !chart_failed(c) && figure_file_write(o, o->figure, c, width, height_of(o, s, width, stacked), &out);
+    }
+    chart_free(c);
+    if (good)
+        return output_close(&out);
+    output_abandon(&out);
+    return usage_error("texture: no memory for the figure");
+}
+
+/* The figure and, with --json or --csv, its numbers. */
+static int write_histogram(const options *o, const chart *c, output *out) {
+    output numbers;
+    int status = EXIT_FINE;
+    if (!figure_file_write(o, o->histogram, c, o->width > 0 ? o->width : WIDTH,
+                           o->height > 0 ? o->height : HISTOGRAM_HEIGHT, out)) {
+        output_abandon(out);
+        return usage_error("texture: no memory for the figure");
+    }
+    if (o->form != FORM_TEXT) {
+        status = options_open(o, &numbers);
+        if (status == EXIT_FINE) {
+            figure_data_write(&numbers, o->form, "texture", "histogram", c);
+            status = output_close(&numbers);
+        }
+    }
+    if (status == EXIT_FINE)
+        return output_close(out);
+    output_abandon(out);
+    return status;
+}
+
+int texture_histogram_draw(const options *o, const texture_source *s) {
+    const uint64_t pixels = (uint64_t)s->camera.width * s->camera.height;
+    uint64_t counted = 0;
+    char more[96] = "";
+    output out;
+    canvas_format type;
+    if (s->camera.oblique.on)
+        return option_error(OPTION_HISTOGRAM, "needs planes that all pixels share, which %s does not have",
+                            s->matrix.path);
+    int status = figure_file_type(o, OPTION_HISTOGRAM, o->histogram, &type);
+    if (status == EXIT_FINE)
+        status = output_open(&out, o->histogram);
+    if (status != EXIT_FINE)
+        return status;
+    chart *c = chart_new();
+    const bool good = c != NULL && histogram_build(&s->frame, texture_is_window(o), c, &counted);
+    if (good && counted > 0) {
+        if (counted < pixels)
+            snprintf(more, sizeof more, "; %llu pixels of sky or holes are left out",
+                     (unsigned long long)(pixels - counted));
+        words_of(o, s, "Pixels over eye depth", more, c);
+        status = write_histogram(o, c, &out);
+    } else {
+        output_abandon(&out);
+        status = usage_error(good ? "texture: no pixel has a depth" : "texture: no memory for the figure");
+    }
+    chart_free(c);
+    return status;
+}

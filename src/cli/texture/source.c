@@ -1,0 +1,356 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/option/names.h"
+#include "cli/option/rows.h"
+#include "cli/setups.h"
+#include "cli/texture/texture.h"
+#include "frame/normals.h"
+#include "report/number.h"
+
+/* UINT32_MAX stands for "no depth" among codes. */
+enum { BITS_MAX = 31 };
+
+const char *texture_origin_name(texture_origin origin) {
+    static const char *const names[] = {"given", "found", "assumed"};
+    return names[origin];
+}
+
+bool texture_scene_takes(const options *o, const char *name) {
+    return o->synthetic != NULL && parameter_find(o->synthetic->parameters, name) >= 0;
+}
+
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
+                          parameter_use unused, const char *more, double *out) {
+    const char *words[PARAMETERS_MAX + 2];
+    const name_list known = {.words = words};
+    const int index = parameter_find(list, given->name);
+    char text[NAMES_SIZE];
+    size_t count = 0;
+    for (int i = 0; list[i].name != NULL; i++)
+        if (list[i].use == PARAMETER_ALWAYS || list[i].use != unused)
+            words[count++] = list[i].name;
+    words[count++] = more;
+    words[count] = NULL;
+    if (index < 0 || (list[index].use != PARAMETER_ALWAYS && list[index].use == unused))
+        return option_error(OPTION_PARAMETER, "of %s %s", whose, names_refuse(&known, given->name, text));
+    const texture_parameter *p = &list[index];
+    if (!(given->value >= p->lo && given->value <= p->hi) || (p->whole && given->value != floor(given->value)))
+        return option_error(OPTION_PARAMETER, "%s must be %sfrom %s to %s, got %s", p->name,
+                            p->whole ? "a whole number " : "", number_of(p->lo, 6).text, number_of(p->hi, 6).text,
+                            number_full(given->value).text);
+    out[index] = given->value;
+    return EXIT_FINE;
+}
+
+/* What is not the synthetic image's may be the effect's. */
+static int synthetic_parameters(const options *o, const synthetic_row *synthetic, double *out) {
+    int status = EXIT_FINE;
+    parameter_defaults(synthetic->parameters, out);
+    for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
+        if (o->effect == NULL || texture_scene_takes(o, o->parameters[i].name))
+            status = texture_parameter_set(synthetic->name, synthetic->parameters, &o->parameters[i], PARAMETER_ALWAYS,
+                                           NULL, out);
+    return status;
+}
+
+bool texture_far_known(const options *o) {
+    return o->metric == 0 || option_given(o, OPTION_FAR) || o->preset_count > 0;
+}
+
+bool texture_is_window(const options *o) {
+    return o->metric == 0 && (o->packing == NULL || !o->packing->linear);
+}
+
+/* Options of window depth: again when a file has said what its samples are. */
+static int check_window(const options *o) {
+    static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_PRODUCT, OPTION_SKY};
+    const bool raw = o->product != NULL && o->product->kind == FRAME_RAW;
+    for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
+        if (option_given(o, window[i]) && (o->metric > 0 || window[i] != OPTION_SKY) &&
+            (raw || window[i] != OPTION_PRODUCT))
+            return option_error(window[i], "%sdoes not apply with --%s%s, which is not window depth",
+                                window[i] == OPTION_PRODUCT ? "raw " : "", o->metric > 0 ? "metric" : "packing ",
+                                o->metric > 0 ? "" : o->packing->name);
+    return EXIT_FINE;
+}
+
+/* Options that need another one, or have no meaning beside it. */
+static int check_together(const options *o) {
+    const bool file = o->operand_count > 0;
+    if (file && o->synthetic != NULL)
+        return option_error(OPTION_SYNTHETIC, "stands in place of FILE, got '%s' too", o->operands[0]);
+    if (!file && o->synthetic == NULL)
+        return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF or raw image, or --synthetic NAME");
+    if (file && o->effect == NULL && o->parameter_count > 0)
+        return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
+    if (o->metric > 0 && !file)
+        return option_error(OPTION_METRIC, "needs FILE");
+    if (o->channel != NULL && !file)
+        return option_error(OPTION_CHANNEL, "needs FILE");
+    if (o->packing != NULL && !file)
+        return option_error(OPTION_PACKING, "needs FILE");
+    if (o->packing != NULL && o->metric > 0)
+        return option_error(OPTION_METRIC, "does not apply with --packing");
+    const int status = check_window(o);
+    return status == EXIT_FINE ? texture_camera_check(o) : status;
+}
+
+/* What would change the samples in a program that obeys it. */
+static void warn_of_colours(const options *o, const texture_source *s) {
+    static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->quiet; i++)
+        if ((s->picture.colours >> i & 1U) != 0)
+            fprintf(stderr,
+                    "depthprec: %s: has %s chunk: a program that applies it changes packed depths; ignored here\n",
+                    s->path, names[i]);
+    if (s->unpacked.premultiplied && !o->quiet)
+        fprintf(stderr, "depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong\n",
+                s->path);
+}
+
+/* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
+
+/* What a codec has changed is known to nobody, so no error has it. */
+static void warn_of_compression(const options *o, const texture_source *s) {
+    if (s->picture.lossy != NULL && !o->quiet)
+        fprintf(stderr,
+                "depthprec: %s: its compression, %s, may have changed the depths, which no error here counts; save it "
+                "without loss\n",
+                s->path, s->picture.lossy);
+}
+
+/* Whether the command line says what the samples are. */
+static bool is_asked(const options *o) {
+    return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
+}
+
+/* Whether a word of the note is an option that nothing on the command line stands against. */
+static bool is_open(const options *o, option_id id) {
+    const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC;
+    return !option_given(o, id) && !(of_samples ? is_asked(o) : o->preset_count > 0 || o->matrix != NULL);
+}
+
+/* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
+static int take_note(options *o, texture_source *s) {
+    static const option_id known[] = {OPTION_PACKING, OPTION_METRIC, OPTION_NEAR,
+                                      OPTION_FAR,     OPTION_ORTHO,  OPTION_MAPPING};
+    char note[IMAGE_NOTE_SIZE], *rest = NULL;
+    const bool asked = is_asked(o);
+    bool open[sizeof known / sizeof known[0]];
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        open[i] = is_open(o, known[i]);
+    snprintf(note, sizeof note, "%s", s->picture.note);
+    for (char *word = strtok_r(note, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
+        char *value = strchr(word, '=');
+        if (value != NULL)
+            *value++ = '\0';
+        if (value != NULL && strcmp(word, "product") == 0 && strcmp(value, "depth") != 0 && !asked)
+            return usage_error(
+                "%s: holds %s, as depthprec wrote them, and no depth; --format NAME reads it all the same", s->path,
+                value);
+        for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+            const option_row *row = &option_rows[known[i]];
+            if (!open[i] || strcmp(word, row->name) != 0 || (value == NULL) != (known[i] == OPTION_ORTHO))
+                continue;
+            const int status = row->parse(o, row, value);
+            if (status != EXIT_FINE)
+                return status;
+            o->given[known[i]] = "";
+            s->noted = s->noted || known[i] == OPTION_MAPPING;
+        }
+    }
+    return EXIT_FINE;
+}
+
+/* ---- The image --------------------------------------------------------------------------------------------------- */
+
+/* The depths of a packed texture; what else is known of them is the packing's. */
+static int unpack(const options *o, texture_source *s) {
+    const packing *p = o->packing;
+    const bool zero = option_given(o, OPTION_ROUNDING) && o->rounding == DP_ROUND_ZERO;
+    dp_format formats[2];
+    if (!packing_convert(p, zero, &s->picture, &s->unpacked))
+        return usage_error("%s: %s", s->path, s->unpacked.wrong);
+    warn_of_colours(o, s);
+    recognise(&s->picture, &s->found);
+    dp_format_parse(p->format, formats);
+    s->found.format = formats[0];
+    s->found.certain = true;
+    s->found.steps = 0;
+    const char *toward = p->linear ? NULL : s->found.toward;
+    snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in steps of 1/%s%s%s", p->name,
+             p->linear ? "eye depth over far" : "window depth", number_of(p->steps, 10).text,
+             toward != NULL ? "; " : "", toward != NULL ? toward : "");
+    return EXIT_FINE;
+}
+
+void texture_source_close(texture_source *s) {
+    image_free(&s->picture);
+    free(s->unpacked.normals);
+    frame_normals_free(&s->normals);
+}
+
+static int read_image(options *o, texture_source *s) {
+    image_error error;
+    s->path = o->operands[0];
+    image_asked asked = {.channel = o->channel};
+    if (option_given(o, OPTION_SIZE)) {
+        asked.width = o->camera.width;
+        asked.height = o->camera.height;
+    }
+    if (!image_read_as(s->path, &asked, &s->picture, &error)) {
+        usage_error("%s: %s", s->path, error.text);
+        return error.unreadable ? EXIT_IO : EXIT_USAGE;
+    }
+    if (asked.width > 0 && s->picture.file != IMAGE_RAW)
+        return option_error(OPTION_SIZE, "is for --synthetic and raw files: %s has its own", s->path);
+    if (s->picture.size_assumed && !o->quiet)
+        fprintf(stderr, "depthprec: %s: %u x %u pixels are assumed, by its length; --size sets them\n", s->path,
+                s->picture.width, s->picture.height);
+    s->type = s->picture.type;
+    s->channels = s->picture.channels;
+    warn_of_compression(o, s);
+    int status = take_note(o, s);
+    if (status == EXIT_FINE)
+        status = check_window(o);
+    if (status != EXIT_FINE || o->packing != NULL)
+        return status != EXIT_FINE ? status : unpack(o, s);
+    if (o->metric == 0) {
+        recognise(&s->picture, &s->found);
+        return EXIT_FINE;
+    }
+    const char *wrong = metric_convert(&s->picture, o->metric, &s->metric);
+    return wrong == NULL ? EXIT_FINE : usage_error("%s: no metric depth: %s", s->path, wrong);
+}
+
+/* What the user gave, which may leave a choice; else what was found, else what is usual. */
+static int choose_format(const options *o, texture_source *s, dp_format *out) {
+    const bool chosen = o->preset_count > 0 || o->platform != NULL;
+    const bool given = texture_is_window(o) && (option_given(o, OPTION_FORMAT) || chosen);
+    s->format_from = given ? ORIGIN_GIVEN : s->path != NULL && s->found.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED;
+    if (!given && s->path != NULL && !s->found.depth)
+        return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path,
+                           s->found.why);
+    if (given && o->format_count > 1 && option_given(o, OPTION_FORMAT))
+        return option_error(OPTION_FORMAT, "must be one format, got %zu", o->format_count);
+    dp_format usual[2];
+    dp_format_parse("unorm24", usual);
+    *out = given ? o->formats[0] : s->path != NULL ? s->found.format : usual[0];
+    bool told = false; /* of two formats of a preset or a platform */
+    for (size_t i = 0; given && s->path != NULL && i < o->format_count && !told; i++)
+        if (strcmp(o->formats[i].name, s->found.format.name) == 0) {
+            *out = o->formats[i];
+            told = s->found.certain;
+        }
+    if (given && !told && setup_decided(o) != EXIT_FINE)
+        return EXIT_USAGE;
+    if (out->bits > BITS_MAX)
+        return option_error(OPTION_FORMAT, "must have at most %d bits in an image, got %s", BITS_MAX, out->name);
+    return EXIT_FINE;
+}
+
+static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) {
+    const bool given = option_given(o, OPTION_MAPPING) || o->preset_count > 0;
+    if (!texture_is_window(o)) { /* a packing that says so */
+        *out = DP_MAPPING_LINEAR;
+        s->mapping_from = s->direction_from = ORIGIN_FOUND;
+        return EXIT_FINE;
+    }
+    if (given && o->mapping_count > 1)
+        return option_error(OPTION_MAPPING, "must be one mapping, got %zu", o->mapping_count);
+    /* Nothing in an image tells the curve; what is usual in perspective pictures tells nothing of orthographic ones. */
+    const bool told = s->path != NULL && s->found.reversed >= 0 && !o->ortho;
+    s->mapping_from = s->noted ? ORIGIN_FOUND : given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
+    s->direction_from = s->noted                     ? ORIGIN_FOUND
+                        : given                      ? ORIGIN_GIVEN
+                        : told && s->found.direction ? ORIGIN_FOUND
+                                                     : ORIGIN_ASSUMED;
+    const dp_mapping usual = o->platform != NULL ? o->mappings[0] : DP_MAPPING_D3D;
+    *out = given ? o->mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : usual;
+    if (dp_mapping_get(*out)->log_from_near)
+        return option_error(option_given(o, OPTION_MAPPING) ? OPTION_MAPPING : OPTION_PRESET,
+                            "texture reads logarithms that begin at the eye (log, three-webgl, osgearth), none that "
+                            "begins at near; got %s",
+                            dp_mapping_get(*out)->name);
+    return EXIT_FINE;
+}
+
+static int make_setup(const options *o, texture_source *s, dp_setup *out) {
+    options one = *o;
+    setups all = {0};
+    if (o->matrix != NULL && o->packing != NULL && o->packing->linear)
+        return option_error(OPTION_MATRIX, "is for window depth, and %s holds eye depth: --fov says its camera",
+                            s->path);
+    int status = o->metric > 0 ? EXIT_FINE : choose_format(o, s, &one.formats[0]);
+    if (status == EXIT_FINE && (o->metric == 0 || o->matrix != NULL))
+        status = o->matrix != NULL ? texture_matrix_open(o, s, &one) : choose_mapping(o, s, &one.mappings[0]);
+    one.format_count = one.mapping_count = 1;
+    if (status == EXIT_FINE)
+        status = setups_make(&one, &all);
+    if (status != EXIT_FINE)
+        return status;
+    *out = all.items[0];
+    setups_release(&all);
+    return EXIT_FINE;
+}
+
+/* Metric depth lies on a lattice of its own; the planes that were given are for effects alone. */
+static int make_camera(const options *o, texture_source *s) {
+    const bool is_metric = o->metric > 0;
+    int status = make_setup(o, s, is_metric ? &s->planes : &s->setup);
+    camera_spec spec = o->camera;
+    if (s->path != NULL) {
+        spec.width = s->picture.width;
+        spec.height = s->picture.height;
+    }
+    if (status == EXIT_FINE)
+        status = view_vertical(o, (int)spec.width, (int)spec.height, &spec.fov_y);
+    if (status == EXIT_FINE)
+        status = texture_camera_place(o, &spec);
+    if (status != EXIT_FINE)
+        return status;
+    s->fov_y = spec.fov_y;
+    spec.matrix = s->matrix.path != NULL ? &s->matrix.taken : NULL;
+    const char *wrong = camera_init(&s->camera, is_metric ? &s->planes : &s->setup, &spec);
+    if (wrong != NULL)
+        return usage_error("texture: %s", wrong);
+    if (is_metric) {
+        dp_spec lattice = dp_spec_default();
+        lattice.znear = s->metric.znear;
+        lattice.zfar = s->metric.zfar;
+        lattice.mapping = DP_MAPPING_LINEAR;
+        lattice.format = s->metric.format;
+        if (dp_setup_init(&s->setup, &lattice) != DP_OK)
+            return usage_error("%s: no metric depth: its depths are too small or too large for --metric", s->path);
+        s->camera.setup = s->setup;
+    }
+    const bool moves = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0;
+    return moves ? texture_last_camera(o, &s->setup, &spec, &s->last) : EXIT_FINE;
+}
+
+int texture_source_open(options *o, texture_source *s) {
+    int status = check_together(o);
+    if (status == EXIT_FINE && o->synthetic != NULL)
+        status = synthetic_parameters(o, o->synthetic, s->parameters);
+    else if (status == EXIT_FINE)
+        status = read_image(o, s);
+    if (status == EXIT_FINE)
+        status = make_camera(o, s);
+    if (status == EXIT_FINE && s->path != NULL)
+        texture_read_on(o, s);
+    s->frame = (frame){.camera = &s->camera,
+                       .last = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0 ? &s->last : NULL,
+                       .image = s->path != NULL ? &s->picture : NULL,
+                       .synthetic = o->synthetic,
+                       .parameters = s->parameters,
+                       .grain = s->path != NULL ? &s->grain : NULL,
+                       .metric = o->metric > 0,
+                       .planes = o->metric > 0 ? &s->planes : NULL,
+                       .sky = o->sky,
+                       .threads = o->threads};
+    return status;
+}

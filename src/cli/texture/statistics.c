@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What text says of an image. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/texture/statistics.h"
+#include "core/append.h"
+#include "report/number.h"
+
+enum { DIGITS_32 = 9 }; /* that tell binary32 numbers apart */
+
+void *statistics_next_parameter(void *of, size_t i) {
+    statistics *r = of;
+    const synthetic_row *synthetic = r->source.frame.synthetic;
+    if (statistics_of_image(r) || synthetic->parameters[i].name == NULL)
+        return NULL;
+    r->parameter = synthetic->parameters[i].name;
+    r->parameter_value = r->source.parameters[i];
+    return r;
+}
+
+/* How the samples were rounded, where they are coarser than the buffer's codes. */
+static void say_grain(const statistics *r, page *p) {
+    const grain *g = &r->source.grain;
+    const char *by = g->rounding == GRAIN_ANY       ? "rounded or truncated"
+                     : g->rounding == GRAIN_NEAREST ? "rounded to nearest"
+                                                    : "truncated";
+    char other[64] = "";
+    if (g->whole > 0)
+        snprintf(other, sizeof other, ", or of 1/%s shifted up", number_of(g->whole, 9).text);
+    if (g->kind == GRAIN_STEPS)
+        page_note(p, "samples", "steps of 1/%s%s%s, %s: counted in what depths can be off by",
+                  number_of(g->steps, 9).text, other,
+                  r->named.coarser                        ? ", coarser than the format"
+                  : r->source.format_from == ORIGIN_GIVEN ? ""
+                                                          : ", of a buffer that may be finer",
+                  by);
+    else if (g->kind == GRAIN_FLOATS && g->bits == 11)
+        page_note(p, "samples", "of %d significant bits, %s: counted in what depths can be off by", g->bits, by);
+}
+
+static void say_origins(const statistics *r, page *p) {
+    const texture_source *s = &r->source;
+    const char *name = s->setup.spec.format.name;
+    char readings[READINGS_SIZE];
+    const bool other = statistics_of_image(r) && s->found.depth && strcmp(s->found.format.name, name) != 0;
+    if (statistics_of_image(r))
+        page_note(p, "recognised", "%s", s->found.why);
+    if (statistics_of_image(r) && s->picture.lossy != NULL)
+        page_note(p, "compression", "%s, which may have changed the depths: no error here counts that",
+                  s->picture.lossy);
+    page_note(p, "format", "%s %s%s%s", name, r->named.format_from,
+              other ? ": the nearest codes are taken of what looks like " : "", other ? s->found.format.name : "");
+    if (statistics_of_image(r))
+        say_grain(r, p);
+    page_note(p, "mapping", "%s %s%s", r->setup.mapping, r->named.mapping_from,
+              statistics_of_image(r) && s->mapping_from == ORIGIN_ASSUMED ? ": --mapping sets it" : "");
+    if (statistics_of_image(r) && s->direction_from != ORIGIN_GIVEN)
+        page_note(p, "direction", "%s %s%s", s->setup.reversed ? "reversed" : "not reversed", r->named.direction_from,
+                  s->found.reversed >= 0 && s->setup.spec.ortho ? ": orthographic images do not show it" : "");
+    for (const char *const *what = (const char *const[]){"mapping", "format", NULL}; *what != NULL; what++)
+        if (*texture_readings_of(s, *what, readings) != '\0')
+            page_note(p, "pixel", "%s", readings);
+}
+
+static number_text in_scene(const page *p, double length) {
+    return number_in(number_of(length, 6), p->unit != NULL ? p->unit : "scene units");
+}
+
+static void say_metric(const statistics *r, page *p) {
+    const metric *m = &r->source.metric;
+    page_text(p, "metric depth, samples in units of %s, up to %s", in_scene(p, r->o->metric).text,
+              in_scene(p, m->zfar).text);
+    if (m->step > 0)
+        page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);
+    else
+        page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
+}
+
+static void say_source(statistics *r, page *p) {
+    const texture_source *s = &r->source;
+    const shader_params *z = r->named.zbuffer;
+    char parameters[512] = "";
+    char packed[48] = "";
+    p->unit = options_unit(r->o);
+    if (r->o->packing != NULL)
+        snprintf(packed, sizeof packed, ", packed as %s", r->o->packing->name);
+    else if (s->channels > 1)
+        snprintf(packed, sizeof packed, ", the first is read");
+    for (size_t i = 0; statistics_next_parameter(r, i) != NULL; i++)
+        append(parameters, sizeof parameters, "%s %s %s", i > 0 ? "," : ";", r->parameter,
+               number_of(r->parameter_value, 6).text);
+    if (statistics_of_image(r))
+        page_text(p, "%s: %u x %u pixels, %s of %s, %u channel%s%s", s->path, s->camera.width, s->camera.height,
+                  image_file_name(s->picture.file), r->named.type, s->channels, s->channels == 1 ? "" : "s", packed);
+    else
+        page_text(p, "synthetic %s: %u x %u pixels%s", r->named.synthetic, s->camera.width, s->camera.height,
+                  parameters);
+    if (r->o->metric > 0) {
+        say_metric(r, p);
+    } else {
+        setup_title(p, &s->setup, &r->setup);
+        if (s->matrix.path != NULL)
+            texture_matrix_say(&s->matrix, p);
+        say_origins(r, p);
+    }
+    if (z != NULL)
+        page_note(p, "in Unity", "_ZBufferParams %s, %s, %s, %s", number_of(z->x, DIGITS_32).text,
+                  number_of(z->y, DIGITS_32).text, number_of(z->z, DIGITS_32).text, number_of(z->w, DIGITS_32).text);
+}
+
+static number_text share(uint64_t part, uint64_t all) {
+    return number_of(all > 0 ? 100.0 * (double)part / (double)all : 0, 3);
+}
+
+void statistics_say_head(page *p, void *item) {
+    statistics *r = item;
+    const survey *v = &r->survey;
+    const texture_camera *s = &r->source.camera;
+    say_source(r, p);
+    if (s->oblique.on)
+        page_note(p, "sky", "%llu pixels, %s %%, within %s of the far end of window depth", (unsigned long long)v->sky,
+                  share(v->sky, v->pixels).text, number_of(r->o->sky, 3).text);
+    else if (r->o->metric == 0)
+        page_note(p, "sky", "%llu pixels, %s %%; depths from %s on are within %s of far and count as sky",
+                  (unsigned long long)v->sky, share(v->sky, v->pixels).text,
+                  number_in(number_of(v->sky_from, 6), p->unit).text, number_of(r->o->sky, 3).text);
+    if (!statistics_of_image(r) && r->named.hidden > 0)
+        page_note(p, "hidden", "%llu pixels of the synthetic image count as sky", (unsigned long long)r->named.hidden);
+    if (v->invalid > 0)
+        page_note(p, "holes", "%llu pixels, %s %%, hold no depth", (unsigned long long)v->invalid,
+                  share(v->invalid, v->pixels).text);
+    if (isnan(v->lo))
+        page_note(p, "depths", "none");
+    else
+        page_note(p, "depths", "%s to %s, %llu distinct code%s", number_in(number_of(v->lo, 8), p->unit).text,
+                  number_in(number_of(v->hi, 8), p->unit).text, (unsigned long long)v->codes, v->codes == 1 ? "" : "s");
+}
+
+static void say_pairs(const survey_pairs *s, page *p) {
+    char first[NUMBER_SIZE + 32] = "", certain[NUMBER_SIZE + 48] = "";
+    if (s->ties > 0)
+        snprintf(first, sizeof first, ", the first at z = %s", number_in(number_of(s->first_tie, 6), p->unit).text);
+    if (!isnan(s->certain_to))
+        snprintf(certain, sizeof certain, "; none can fight up to z = %s",
+                 number_in(number_down(s->certain_to, 6), p->unit).text);
+    page_note(p, "pairs", "%llu to be told apart: %llu fight, stored as one code%s", (unsigned long long)s->pairs,
+              (unsigned long long)s->ties, first);
+    page_note(p, "", "%llu are closer than the separation%s", (unsigned long long)s->possible, certain);
+}
+
+void statistics_say_geometry(page *p, void *item) {
+    const statistics *r = item;
+    if (r->named.pairs != NULL)
+        say_pairs(&r->pairs, p);
+    if (!isnan(r->condition))
+        page_note(p, "condition", "%s, of the view-projection matrix", number_of(r->condition, 4).text);
+}

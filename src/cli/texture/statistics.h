@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file texture_statistics.h  The statistics of an image: what is measured, and what text says of them. */
+#ifndef CLI_TEXTURE_STATISTICS_H
+#define CLI_TEXTURE_STATISTICS_H
+
+#include "cli/setups.h"
+#include "cli/texture/texture.h"
+#include "frame/survey.h"
+
+enum { ERRORS_MAX = 32 };
+
+/** How far a product is off over all pixels; see frame_product. */
+typedef struct error_line {
+    char name[48]; /* "eye depth", "normal high" */
+    const char *unit;
+    frame_summary sum;
+    uint64_t masked;
+    char at[64]; /* the pixel, and the unit */
+} error_line;
+
+/** As the shader sees them: binary32. */
+typedef struct shader_params {
+    double x, y, z, w;
+} shader_params;
+
+/** The statistics; what does not exist is null or NaN. Below `named`, the items of lists at hand. */
+typedef struct statistics {
+    const options *o;
+    texture_source source;
+    survey survey;
+    survey_pairs pairs;
+    shader_params zbuffer;
+    double condition; /* of the view-projection matrix, 2-norm; NaN where the mapping has none */
+    size_t error_count;
+    error_line errors[ERRORS_MAX];
+    setup_fields setup;
+    struct {
+        const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
+        double metric, step, steps, steps_or, bits, fov, half_height;
+        bool coarser;
+        const bool *reversed;
+        const survey_pairs *pairs;
+        const shader_params *zbuffer;
+        uint64_t hidden;
+    } named;
+    const char *parameter;
+    double parameter_value;
+    texture_reading reading;
+    survey_band band;
+    double band_steps;
+} statistics;
+
+static inline bool statistics_of_image(const statistics *r) {
+    return r->source.path != NULL;
+}
+
+/** The parameters of the synthetic image, an item after the other. */
+void *statistics_next_parameter(void *of, size_t i);
+
+/** Above the bands, and below them. */
+void statistics_say_head(page *p, void *item);
+void statistics_say_geometry(page *p, void *item);
+
+#endif

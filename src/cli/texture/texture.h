@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file texture.h  The command texture: what it works on, and what its files make of that. */
+#ifndef CLI_TEXTURE_TEXTURE_H
+#define CLI_TEXTURE_TEXTURE_H
+
+#include "cli/option/options.h"
+#include "frame/frame.h"
+#include "frame/metric.h"
+#include "frame/recognise.h"
+#include "report/report.h"
+
+/* ---- The image, its format and mapping, the camera --------------------------------------------------------------- */
+
+/** How a name came about. */
+typedef enum texture_origin { ORIGIN_GIVEN = 0, ORIGIN_FOUND, ORIGIN_ASSUMED } texture_origin;
+
+/** How the pixel that is named would be read otherwise. */
+typedef struct texture_reading {
+    const char *what; /**< "mapping" or "format" */
+    const char *name;
+    double z; /**< eye depth; NaN where it has none */
+} texture_reading;
+
+enum { READINGS_MAX = 8, READINGS_SIZE = 512 };
+
+/** The projection matrix of --matrix. */
+typedef struct texture_matrix {
+    const char *path; /**< null: none */
+    projection taken;
+    double fov[2];     /**< degrees, across and up; NaN where it is orthographic */
+    double edges[4];   /**< left, right, bottom, top: slopes, or scene units where it is orthographic */
+    const char *looks; /**< "+z", "-z" */
+} texture_matrix;
+
+typedef struct texture_source {
+    const char *path; /**< null for a synthetic image */
+    image picture;
+    recognised found;
+    texture_origin format_from, mapping_from, direction_from;
+    image_type type; /**< of the file, where --metric has changed the picture's */
+    uint32_t channels;
+    metric metric;        /**< with --metric */
+    unpacked unpacked;    /**< with --packing */
+    bool noted;           /**< the file itself says its mapping */
+    grain grain;          /**< of an image */
+    size_t reading_count; /**< 0 where nothing is assumed that would be read otherwise */
+    texture_reading readings[READINGS_MAX];
+    uint32_t column, row; /**< the pixel of the readings */
+    dp_setup planes;      /**< with --metric: what --near and --far say */
+    double parameters[PARAMETERS_MAX];
+    texture_matrix matrix;
+    double fov_y; /**< degrees; read where there is no matrix, and no orthographic camera */
+    dp_setup setup;
+    texture_camera camera, last; /**< last frame's: where an effect needs it */
+    frame_normals normals;       /**< where an effect needs them that no synthetic image has */
+    frame frame;                 /**< points into this struct, which must stay where it is */
+} texture_source;
+
+/** "given", "found", "assumed". */
+const char *texture_origin_name(texture_origin origin);
+
+/**
+ * Reads the image, or prepares a synthetic one; texture_source_close() frees it. What a file of ours says of itself and
+ * was not given is filled into the options. @return an exit status, after one line on stderr
+ */
+int texture_source_open(options *o, texture_source *out);
+void texture_source_close(texture_source *s);
+
+/** Whether something says where far is, which metric depth does not need. */
+bool texture_far_known(const options *o);
+
+/** Whether the image holds window depths, which have a format and a mapping. */
+bool texture_is_window(const options *o);
+
+/**
+ * Of an image, what it does not say: fills in grain, how the samples were rounded, which is said in `why` of what was
+ * found, and the readings of a pixel. One line on stderr about what is assumed, if anything is.
+ */
+void texture_read_on(const options *o, texture_source *s);
+
+/** Whether the samples are coarser than the format, and not by its own steps. */
+bool texture_coarser(const texture_source *s);
+
+/** "320,180 is at z = 4.2 as d3d, 0.4 as reversed", of "mapping" or "format"; "" where it has none. @return out */
+const char *texture_readings_of(const texture_source *s, const char *what, char out[READINGS_SIZE]);
+
+/**
+ * Sets one --parameter of a synthetic image or an effect, called `whose`.
+ * @param unused  parameters of this use count as none: PARAMETER_ALWAYS for none of them
+ * @param more    another name that would be taken, for the list of those that are; or null
+ * @return EXIT_FINE, or EXIT_USAGE after one line that names those it has
+ */
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
+                          parameter_use unused, const char *more, double *out);
+
+/** Options of cameras that have no meaning beside others. @return an exit status, after one line on stderr */
+int texture_camera_check(const options *o);
+
+/** Puts it at --eye, and turns it to --look. @return as texture_camera_check() */
+int texture_camera_place(const options *o, camera_spec *spec);
+
+/** Last frame's camera: as `now`, but for what --last-eye and --last-look say. @return as texture_camera_check() */
+int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
+
+/** Reads the file of --matrix into s->matrix, and what it says of planes and mapping into `with`, whose format is
+ * there.
+ *  @return an exit status, after one line on stderr */
+int texture_matrix_open(const options *o, texture_source *s, options *with);
+
+/** For a report: its lines, and its columns, of a texture_matrix. */
+void texture_matrix_say(const texture_matrix *t, page *p);
+extern const column texture_matrix_columns[];
+
+/** Does the synthetic image have a parameter of this name? Then parameters not taken are the effect's. */
+bool texture_scene_takes(const options *o, const char *name);
+
+/* ---- What --product makes: an image of numbers, or a figure ------------------------ */
+
+enum { PRODUCT_NAME_SIZE = 96 };
+
+typedef struct texture_product {
+    frame_product made;
+    frame_product error; /**< of it, for the file of --error-map */
+    double settings[PARAMETERS_MAX];
+    char name[PRODUCT_NAME_SIZE];     /**< "normals by high, error" */
+    const char *unit, *unit_of_error; /**< "scene units", "degrees", "levels of 1/255", "" */
+} texture_product;
+
+/** Is one asked for? --pixel describes an effect instead. */
+bool texture_product_wanted(const options *o);
+
+/** The normals of an effect that needs some: of --normals-by, those of the packing, else by projective.
+ *  @return an exit status, after one line on stderr */
+int texture_effect_normals(const options *o, texture_source *s);
+
+/** The effect of --product, its parameters and reference, as above. */
+int texture_product_effect(const options *o, texture_product *out);
+
+/** Names and combinations, before anything is read. @return an exit status, after one line on stderr */
+int texture_product_resolve(const options *o, texture_product *out);
+
+/** Whether it can be made of this source, likewise. */
+int texture_product_check(const options *o, const texture_source *s, texture_product *p);
+
+/** Writes the file of -o. */
+int texture_product_write(const options *o, const texture_source *s, const texture_product *p);
+
+/** Options that have no meaning beside --pack or --product packed-normal are refused. @return an exit status */
+int texture_pack_check(const options *o);
+
+/** Writes the depths to the file of -o as --pack says. */
+int texture_pack_write(const options *o, const texture_source *s);
+
+/** Writes the normals that the image holds beside its depths. */
+int texture_packed_normal_write(const options *o, const texture_source *s);
+
+/** The depth image of a synthetic image, to the file of -o: integers or floats as the format has them. */
+int texture_depth_write(const options *o, const texture_source *s);
+
+/** Draws the file of --figure. */
+int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p);
+
+/** Draws the file of --histogram. */
+int texture_histogram_draw(const options *o, const texture_source *s);
+
+/* ---- Reports ----------------------------------------------------------------------------------------------------- */
+
+/** The statistics of a depth image: text, JSON, CSV. @return an exit status */
+int texture_report_write(const options *o, const texture_source *source);
+
+/** Whether the pixels of --pixel lie in so many. @return an exit status, after one line on stderr */
+int texture_pixels_check(const options *o, uint32_t width, uint32_t height);
+
+/** What --pixel asks about, likewise; `effect` is the effect of --product beside it, or null. */
+int texture_pixel_write(const options *o, const texture_source *source, const frame_product *effect);
+
+/** The effect that --product names, and its parameters, in an image or not. @return EXIT_FINE, or EXIT_USAGE after one
+ *  line on stderr */
+int texture_effect_resolve(const options *o, bool pictured, const effect_row **row, double parameters[PARAMETERS_MAX]);
+
+/** An effect without an image: for each set-up and depth, the error in levels and the usable values of the wanted
+ *  parameter. @return an exit status */
+int texture_effect_table(const options *o);
+
+#endif

@@ -1,0 +1,365 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#define _GNU_SOURCE /* fopencookie */
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/texture/writing.h"
+#include "core/append.h"
+#include "report/number.h"
+#include "report/report.h"
+
+enum { STREAM_BUFFER = 1 << 16 };
+
+static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
+    output *out = cookie;
+    output_bytes(out, bytes, size);
+    return output_failed(out) ? 0 : (ssize_t)size; /* what a cookie reports as an error */
+}
+
+int writing_open(const options *o, writing *w, const char *path, const texture_source *s, image_type type,
+                 uint32_t channels) {
+    int status = output_open(&w->out, path);
+    if (status != EXIT_FINE)
+        return status;
+    w->source = s;
+    w->type = type;
+    w->row_values = (size_t)s->camera.width * channels;
+    w->row = malloc(w->row_values * image_type_size(type));
+    w->codes = malloc(s->camera.width * sizeof *w->codes);
+    w->stream = fopencookie(&w->out, "w", (cookie_io_functions_t){.write = stream_write});
+    w->channels = channels;
+    w->bar = progress_start("rows", s->camera.height, o->quiet || path == o->error_file); /* one bar */
+    return EXIT_FINE;
+}
+
+bool writing_begin(writing *w, const char *note) {
+    if (w->row == NULL || w->codes == NULL || w->stream == NULL)
+        return false;
+    setvbuf(w->stream, NULL, _IOFBF, STREAM_BUFFER);
+    w->writer = image_writer_open(w->stream, w->file, w->type, w->source->camera.width, w->source->camera.height,
+                                  w->channels, note);
+    return w->writer != NULL;
+}
+
+/* Whether all of it could be given to the output. */
+static bool writing_end(writing *w, bool good) {
+    progress_end(&w->bar);
+    if (w->writer != NULL && !image_writer_close(w->writer))
+        good = false;
+    if (w->stream != NULL && fclose(w->stream) != 0)
+        good = false;
+    free(w->row);
+    free(w->codes);
+    return good;
+}
+
+int writing_close(writing *w, int count, bool good) {
+    int status = EXIT_FINE;
+    bool said = false;
+    for (int i = 0; i < count; i++)
+        good = writing_end(&w[i], good);
+    for (int i = 0; i < count; i++) {
+        const bool failed = output_failed(&w[i].out);
+        if (!good && !failed)
+            output_abandon(&w[i].out);
+        else if (output_close(&w[i].out) != EXIT_FINE) /* which says what failed */
+            status = EXIT_IO;
+        said = said || failed;
+    }
+    return good || said ? status : usage_error("texture: no memory");
+}
+
+bool writing_bottom_up(const writing *w) {
+    return w->writer != NULL && image_writer_bottom_up(w->writer);
+}
+
+/* 0.5 n + 0.5 with x to the right, y up or down, and z towards the camera, which view space has the other way. */
+static void to_colours(const writing *w, const float *values) {
+    const double signs[3] = {1, w->down ? -1 : 1, -1};
+    uint16_t *out = w->row;
+    for (size_t i = 0; i < w->row_values; i++) {
+        const double share = 0.5 * signs[i % 3] * (double)values[i] + 0.5;
+        out[i] = isnan(values[i]) ? 0 : (uint16_t)rint(fmin(fmax(share, 0), 1) * GREYS);
+    }
+}
+
+/* 0 is kept for pixels that have no value, and for errors without a bound. */
+static void to_greys(const writing *w, const float *values) {
+    uint16_t *out = w->row;
+    for (size_t i = 0; i < w->row_values; i++) {
+        const double share = fmin(fmax(((double)values[i] + w->more - w->lo) * w->scale, 0), 1) * (GREYS - 1);
+        const double grey = w->upwards ? fmin(ceil(share * (1 + 0x1p-48)), GREYS - 1) : rint(share);
+        out[i] = !isfinite(values[i]) ? 0 : (uint16_t)(1 + grey);
+    }
+}
+
+bool writing_take(void *context, uint32_t row, uint32_t count, const float *values) {
+    writing *w = context;
+    (void)row;
+    for (uint32_t i = 0; i < count; i++) {
+        const float *one = values + (writing_bottom_up(w) ? count - 1 - i : i) * w->row_values;
+        if (w->directions)
+            to_colours(w, one);
+        else if (w->type == IMAGE_U16)
+            to_greys(w, one);
+        if (!image_writer_rows(w->writer, w->type == IMAGE_U16 ? w->row : one, 1))
+            return false;
+    }
+    for (size_t i = 0; i < count * w->row_values && w->levels; i++) {
+        w->pixels += isnan(values[i]) ? 0 : 1;
+        w->beyond += values[i] > 1 ? 1 : 0;
+    }
+    progress_step(&w->bar, w->done += count);
+    return true;
+}
+
+/* Eye depth is a multiple of its unit, as sensors and simulators write it; what is nearer than that becomes 1. */
+static bool in_units(const frame_product *made, const frame_summary *sum) {
+    return made->kind == FRAME_EYE && !made->error && !made->radial && sum->count > 0 && sum->lo > 0;
+}
+
+/*
+ * The product in 16 bits is off by half a grey more; a place in all three coordinates, and a normal by the angle that
+ * three such differences of a unit vector can make.
+ */
+static bool rounding_of_product(const texture_source *s, const frame_product *made, double *more) {
+    static const double factors[FRAME_KINDS] = {[FRAME_EYE] = 1,
+                                                [FRAME_LINEAR01] = 1,
+                                                [FRAME_RAW] = 1,
+                                                [FRAME_POSITION] = 1.7320508075688774,
+                                                [FRAME_NORMAL] = 1.74 * 57.29577951308233,
+                                                [FRAME_EFFECT] = 255};
+    frame_product plain = *made;
+    frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
+    plain.error = false;
+    /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
+    const bool open = made->kind == FRAME_EFFECT && made->effect->given && !(made->reference > 0);
+    *more = 0;
+    if (open)
+        sum.lo = 0;
+    else if (made->kind != FRAME_NORMAL && !frame_summarise(&s->frame, &plain, &sum))
+        return false;
+    const double unit = in_units(&plain, &sum) ? sum.hi / GREYS : (sum.hi - sum.lo) / (GREYS - 1);
+    if (sum.count > 0)
+        *more = factors[made->kind] * unit / 2 * (1 + 0x1p-20);
+    if (in_units(&plain, &sum))
+        *more = fmax(*more, (unit - sum.lo) * (1 + 0x1p-20));
+    return true;
+}
+
+/* What the samples of a PNG mean; normals have their range by nature, all else that of what was found. */
+static bool scale_of(const texture_source *s, const frame_product *made, writing *w) {
+    frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
+    if (w->type != IMAGE_U16)
+        return true;
+    w->directions = made->kind == FRAME_NORMAL && !made->error;
+    if (!w->directions && !frame_summarise(&s->frame, made, &sum))
+        return false;
+    w->upwards = made->error;
+    if (made->error && !rounding_of_product(s, made, &w->more))
+        return false;
+    w->units = in_units(made, &sum);
+    w->hi = (sum.count == 0 ? 1 : sum.hi) + w->more;
+    w->lo = sum.count == 0 || made->error ? 0 : w->units ? w->hi / GREYS : sum.lo;
+    w->scale = w->hi > w->lo ? 1 / (w->hi - w->lo) : 0;
+    return true;
+}
+
+static const char *const axes[] = {"x right, y up, z towards the camera", "x right, y down, z towards the camera"};
+
+meaning writing_meaning(const options *o, const texture_product *p, const writing *w) {
+    meaning m = {.file = o->output,
+                 .product = p->name,
+                 .unit = *p->unit != '\0' ? p->unit : NULL,
+                 .type = image_type_name(w->type),
+                 .axes = w->directions ? axes[w->down] : NULL,
+                 .channels = w->channels,
+                 .scale = 1};
+    if (w->file == IMAGE_PNG) {
+        m.scale = w->directions ? 2.0 / GREYS : w->units ? w->lo : (w->hi - w->lo) / (GREYS - 1);
+        m.offset = w->directions ? -1 : w->units ? 0 : w->lo - m.scale;
+    }
+    return m;
+}
+
+void writing_note(const writing *w, const texture_product *p, const meaning *m, char note[IMAGE_NOTE_SIZE]) {
+    static const char *const names[FRAME_KINDS] = {
+        [FRAME_EYE] = "eye-depths",    [FRAME_LINEAR01] = "eye-depths-over-far",
+        [FRAME_RAW] = "window-depths", [FRAME_POSITION] = "positions",
+        [FRAME_NORMAL] = "normals",    [FRAME_EFFECT] = "an-effect"};
+    const dp_spec *planes = &frame_planes(&w->source->frame)->spec;
+    if (w->units && m->scale >= METRIC_SCALE_MIN && m->scale <= METRIC_SCALE_MAX)
+        snprintf(note, IMAGE_NOTE_SIZE, "product=depth metric=%s near=%s far=%s%s", number_full(m->scale).text,
+                 number_full(planes->znear).text, number_full(planes->zfar).text, planes->ortho ? " ortho" : "");
+    else
+        snprintf(note, IMAGE_NOTE_SIZE, "product=%s%s offset=%s scale=%s%s",
+                 p->made.radial ? "distances" : names[p->made.kind], p->made.error ? ",-the-error" : "",
+                 number_full(m->offset).text, number_full(m->scale).text,
+                 m->axes == NULL      ? ""
+                 : m->axes == axes[0] ? " y=up"
+                                      : " y=down");
+}
+
+static const column map_columns[] = {
+    {FIELD(meaning, file, "file", "")},         {FIELD(meaning, product, "product", "")},
+    {FIELD(meaning, unit, "unit", "")},         {FIELD(meaning, type, "type", "")},
+    {FIELD(meaning, channels, "channels", "")}, {FIELD(meaning, offset, "offset", "")},
+    {FIELD(meaning, scale, "scale", "")},       {.kind = COLUMN_END}};
+
+static const column meaning_columns[] = {{FIELD(meaning, file, "file", "")},
+                                         {FIELD(meaning, product, "product", "")},
+                                         {FIELD(meaning, unit, "unit", "")},
+                                         {FIELD(meaning, type, "type", "")},
+                                         {FIELD(meaning, channels, "channels", "")},
+                                         {FIELD(meaning, offset, "offset", "")},
+                                         {FIELD(meaning, scale, "scale", "")},
+                                         {FIELD(meaning, axes, "axes", "")},
+                                         {PART(meaning, error_map, "error_map", map_columns), .pointed = true},
+                                         {.kind = COLUMN_END}};
+
+int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m) {
+    output out;
+    if (o->form == FORM_JSON) {
+        const int status = output_open(&out, NULL);
+        if (status != EXIT_FINE)
+            return status;
+        report_write(&(report_spec){"texture", meaning_columns, m, .label = 14}, &out, FORM_JSON);
+        return output_close(&out);
+    }
+    if (w->file != IMAGE_PNG || o->quiet)
+        return EXIT_FINE;
+    if (w->directions)
+        fprintf(stderr, "depthprec: %s: 0 is -1, 65535 is 1, %s; 0 in all three where there is no value\n", o->output,
+                m->axes);
+    else
+        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
+                number_full(w->lo).text, number_full(w->hi).text, *p->unit != '\0' ? " " : "", p->unit,
+                p->made.error ? "bound" : "value");
+    return EXIT_FINE;
+}
+
+static bool take_both(void *context, uint32_t row, uint32_t count, const float *const *values) {
+    writing *w = context;
+    return writing_take(&w[0], row, count, values[0]) && writing_take(&w[1], row, count, values[1]);
+}
+
+/* In one pass, but where one file begins with the bottom row and the other does not. */
+static bool make_all(const texture_source *s, const texture_product *p, writing *w, int count) {
+    const frame_product made[2] = {p[0].made, p[1].made};
+    if (count == 2 && writing_bottom_up(&w[0]) == writing_bottom_up(&w[1]))
+        return frame_run_all(&s->frame, made, 2, writing_bottom_up(&w[0]), take_both, w);
+    return frame_run(&s->frame, &made[0], writing_bottom_up(&w[0]), writing_take, &w[0]) &&
+           (count < 2 || frame_run(&s->frame, &made[1], writing_bottom_up(&w[1]), writing_take, &w[1]));
+}
+
+static void say_levels(const options *o, const texture_source *s, const texture_product *p, const writing *w) {
+    if (w->levels && w->pixels > 0 && !o->quiet)
+        fprintf(stderr, "depthprec: %s: %s %% of the pixels %s off by more than one level\n", o->output,
+                number_of(100.0 * (double)w->beyond / (double)w->pixels, 3).text,
+                s->path != NULL || (p->made.effect->given && !(p->made.reference > 0)) ? "can be" : "are");
+}
+
+/* The product, and beside it the error as a product of its own. */
+int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
+    options each[2] = {*o, *o};
+    texture_product product[2] = {*p, *p};
+    writing w[2] = {{.down = o->normal_format != 0}, {.down = false}};
+    meaning m[2];
+    const int count = o->error_file != NULL ? 2 : 1;
+    int status = EXIT_FINE, opened = 0;
+    bool good = true;
+    each[1].output = o->error_file;
+    product[1].made = p->error;
+    product[1].unit = p->unit_of_error;
+    append(product[1].name, sizeof product[1].name, ", error");
+    for (; opened < count && status == EXIT_FINE; opened++) {
+        writing *one = &w[opened];
+        const frame_product *made = &product[opened].made;
+        one->levels = made->kind == FRAME_EFFECT && made->error;
+        image_file_of(each[opened].output, &one->file);
+        status = writing_open(o, one, each[opened].output, s, one->file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32,
+                              (uint32_t)frame_channels(made));
+    }
+    if (status != EXIT_FINE && opened == 2) {
+        writing_end(&w[0], false);
+        output_abandon(&w[0].out);
+    }
+    if (status != EXIT_FINE)
+        return status;
+    for (int i = 0; i < count; i++) {
+        char note[IMAGE_NOTE_SIZE];
+        good = good && scale_of(s, &product[i].made, &w[i]);
+        m[i] = writing_meaning(&each[i], &product[i], &w[i]);
+        writing_note(&w[i], &product[i], &m[i], note);
+        good = good && writing_begin(&w[i], note);
+    }
+    good = good && make_all(s, product, w, count);
+    status = writing_close(w, count, good);
+    m[0].error_map = count > 1 ? &m[1] : NULL;
+    for (int i = 0; i < count && status == EXIT_FINE; i++) {
+        if (i == 0 || o->form != FORM_JSON) /* one object of JSON */
+            status = writing_say(&each[i], &product[i], &w[i], &m[i]);
+        if (status == EXIT_FINE)
+            say_levels(&each[i], s, &product[i], &w[i]);
+    }
+    return status;
+}
+
+/* The samples that hold a format without loss, the first that the kind of file has. */
+static bool depth_type(const dp_format *format, image_file file, image_type *out) {
+    const bool unorm = format->kind == DP_FORMAT_UNORM;
+    const bool half = strcmp(format->name, "fp16") == 0, single = strcmp(format->name, "fp32") == 0;
+    *out = half                                         ? IMAGE_F16
+           : single                                     ? IMAGE_F32
+           : unorm && format->bits == 16                ? IMAGE_U16
+           : unorm && format->bits == 8                 ? IMAGE_U8
+           : unorm                                      ? IMAGE_U32
+           : format->bias + format->mantissa_bits > 150 ? IMAGE_F64 /* below the least binary32 number */
+                                                        : IMAGE_F32;
+    if (file == IMAGE_PFM && (half || (unorm && format->bits <= 24)))
+        *out = IMAGE_F32; /* fractions of up to 24 bits are told apart in binary32 */
+    return image_holds(file, *out, 1);
+}
+
+static void depth_row(const writing *w, uint32_t row) {
+    const dp_format *format = &w->source->setup.spec.format;
+    frame_codes(&w->source->frame, row, w->codes);
+    const bool values = w->type == IMAGE_F32;
+    for (size_t i = 0; i < w->row_values; i++)
+        if (values)
+            ((float *)w->row)[i] = (float)dp_format_value(format, w->codes[i]);
+        else if (w->type == IMAGE_F64)
+            ((double *)w->row)[i] = dp_format_value(format, w->codes[i]);
+        else if (w->type == IMAGE_U32)
+            ((uint32_t *)w->row)[i] = w->codes[i];
+        else if (w->type == IMAGE_U8)
+            ((uint8_t *)w->row)[i] = (uint8_t)w->codes[i];
+        else
+            ((uint16_t *)w->row)[i] = (uint16_t)w->codes[i]; /* of fp16 the code is the bits */
+}
+
+int texture_depth_write(const options *o, const texture_source *s) {
+    image_type type;
+    writing w = {0};
+    if (!image_file_of(o->output, &w.file))
+        return option_error(OPTION_OUTPUT,
+                            "must end in .png, .pfm or .npy for the depths, got '%s'; --json or --csv writes "
+                            "statistics",
+                            o->output);
+    if (!depth_type(&s->setup.spec.format, w.file, &type))
+        return option_error(OPTION_OUTPUT, "%s does not hold %s: .npy does, got '%s'", image_file_name(w.file),
+                            s->setup.spec.format.name, o->output);
+    const int status = writing_open(o, &w, o->output, s, type, 1);
+    if (status != EXIT_FINE)
+        return status;
+    bool good = writing_begin(&w, NULL);
+    for (uint32_t i = 0; i < s->camera.height && good; i++) {
+        depth_row(&w, writing_bottom_up(&w) ? s->camera.height - 1 - i : i);
+        good = image_writer_rows(w.writer, w.row, 1);
+        progress_step(&w.bar, i + 1);
+    }
+    return writing_close(&w, 1, good);
+}

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "frame/metric.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "frame/image_depths.h"
+#include "frame/recognise.h"
+#include "frame/recognise_lattice.h"
+
+enum { BITS_MAX = 31, VALUES_LEAST = 16 };
+
+static bool is_depth(double x) {
+    return x > 0 && isfinite(x);
+}
+
+/* What is looked at before anything is changed. */
+typedef struct look {
+    double least, most;
+    uint32_t divisor; /* integers: of all */
+    size_t depths;
+    distinct_set seen;
+} look;
+
+static void look_at(const image *img, look *l) {
+    const size_t count = (size_t)img->width * img->height;
+    *l = (look){.least = (double)INFINITY};
+    distinct_init(&l->seen, count);
+    for (size_t i = 0; i < count; i++) {
+        const double x = image_sample(img, i);
+        if (!is_depth(x))
+            continue;
+        l->depths++;
+        l->least = fmin(l->least, x);
+        l->most = fmax(l->most, x);
+        if (img->type < IMAGE_F16)
+            l->divisor = common_divisor(l->divisor, (uint32_t)x);
+    }
+}
+
+/* ---- Integers ---------------------------------------------------------------------------------------------------- */
+
+static void add_all(const image *img, look *l, double scale) {
+    for (size_t i = 0; i < (size_t)img->width * img->height && l->seen.count < RECOGNISE_DISTINCT_MAX; i++)
+        if (is_depth(image_sample(img, i)))
+            distinct_add(&l->seen, image_sample(img, i) * scale);
+}
+
+static const char *of_integers(const image *img, double scale, look *l, metric *out) {
+    static const int bits_of[] = {[IMAGE_U8] = 8, [IMAGE_U16] = 16, [IMAGE_U32] = 16};
+    int bits = bits_of[img->type];
+    while (bits <= BITS_MAX && ldexp(1, bits) - 1 < l->most)
+        bits++;
+    if (bits > BITS_MAX)
+        return "an integer is larger than 2147483647";
+    const double top = ldexp(1, bits) - 1;
+    add_all(img, l, 1);
+    /* A few values have a divisor by chance. */
+    const double divisor = l->seen.count >= VALUES_LEAST ? l->divisor : 1;
+    dp_format formats[2];
+    char name[24];
+    snprintf(name, sizeof name, "unorm%d", bits);
+    dp_format_parse(name, formats);
+    *out = (metric){.format = formats[0],
+                    .znear = 0.5 * l->least * scale,
+                    .zfar = top * scale,
+                    .step = divisor * scale,
+                    .grain = {.kind = GRAIN_STEPS, .steps = top / divisor}};
+    return NULL;
+}
+
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
+
+/* Numbers that were integers once: millimetres in metres and the like. */
+static double find_step(const image *img, look *l, int exponent) {
+    static const double steps[] = {1, 0.1, 0.01, 0.001, 0.0002, 0.0001, 0.00390625};
+    static const int bits[] = {[IMAGE_F16] = 11, [IMAGE_F32] = 24, [IMAGE_F64] = 53};
+    const grid_source source = {.bits = bits[img->type], .finest = (double)INFINITY};
+    add_all(img, l, ldexp(1, -exponent - 1)); /* below 1, which says nothing on a grid */
+    if (l->seen.count >= RECOGNISE_DISTINCT_MAX || l->seen.count < VALUES_LEAST)
+        return 0;
+    for (size_t i = 0; i < sizeof steps / sizeof steps[0]; i++)
+        if (grid_agreement(&l->seen, &source, ldexp(1, exponent + 1) / steps[i]) >= RECOGNISE_BITS)
+            return steps[i];
+    return 0;
+}
+
+static const char *of_numbers(const image *img, double scale, look *l, metric *out) {
+    int exponent;
+    dp_format formats[2];
+    if (frexp(l->most, &exponent) == 0.5)
+        exponent--; /* the least power of two that is not below */
+    const double zfar = ldexp(scale, exponent);
+    if (!(zfar >= 1e-9 && zfar <= 1e18))
+        return "its depths leave the possible range, 1e-9 to 1e18 scene units";
+    dp_format_parse("fp32", formats);
+    const double step = find_step(img, l, exponent);
+    *out = (metric){.format = formats[0],
+                    .znear = fmax(0.5 * l->least * scale, 1e-12),
+                    .zfar = zfar,
+                    .step = step * scale,
+                    .grain = {.kind = step > 0 ? GRAIN_STEPS : GRAIN_FLOATS,
+                              .steps = step > 0 ? ldexp(1, exponent) / step : 0,
+                              .rounding = img->type == IMAGE_F64 && step == 0 ? GRAIN_NEAREST : GRAIN_ANY,
+                              .bits = img->type == IMAGE_F16 ? 11 : 24,
+                              .least = img->type == IMAGE_F16 ? ldexp(1, -24 - exponent) : 0x1p-149}};
+    return NULL;
+}
+
+/* ---- Together ---------------------------------------------------------------------------------------------------- */
+
+static bool replace(image *img, const metric *m, double scale) {
+    const size_t count = (size_t)img->width * img->height;
+    const bool integers = img->type < IMAGE_F16;
+    uint32_t *made = malloc(count * sizeof *made);
+    for (size_t i = 0; i < count && made != NULL; i++) {
+        const double x = image_sample(img, i);
+        if (integers)
+            made[i] = is_depth(x) ? (uint32_t)x : UINT32_MAX;
+        else
+            ((float *)(void *)made)[i] = is_depth(x) ? (float)(x * scale / m->zfar) : (float)NAN;
+    }
+    if (made == NULL)
+        return false;
+    free(img->data);
+    img->data = made;
+    img->type = integers ? IMAGE_U32 : IMAGE_F32;
+    img->channels = 1;
+    return true;
+}
+
+const char *metric_convert(image *img, double scale, metric *out) {
+    look l;
+    look_at(img, &l);
+    const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"
+                        : img->type < IMAGE_F16 ? of_integers(img, scale, &l, out)
+                                                : of_numbers(img, scale, &l, out);
+    distinct_free(&l.seen);
+    if (wrong == NULL && !replace(img, out, scale))
+        wrong = "no memory";
+    return wrong;
+}

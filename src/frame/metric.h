@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file metric.h  Images of metric depth: the samples are eye depths in some unit, as sensors and simulators write
+ * them.
+ *
+ * Such an image is brought onto the lattice of a linear mapping that ends at `zfar`, without loss: an integer k is the
+ * code k of unormN, with zfar = (2^N - 1) scale, and a number x is the window depth x/2^e of fp32, with zfar = 2^e
+ * scale. Numbers of f8 are rounded to binary32. From there on it goes the way of all depth images.
+ */
+#ifndef FRAME_METRIC_H
+#define FRAME_METRIC_H
+
+#include "image/image.h"
+#include "shader/sample_rounding.h"
+
+/** Scene units of 1 in a sample, at least and at most. */
+#define METRIC_SCALE_MIN 1e-9
+#define METRIC_SCALE_MAX 1e6
+
+typedef struct metric {
+    dp_format format;
+    double znear, zfar; /**< half the nearest depth or less; the end of the lattice, scene units */
+    double step;        /**< scene units between neighbouring samples: integers, or numbers that all are multiples of
+                             it; 0: numbers of their own precision */
+    grain grain;        /**< how far the depth can be beside its sample, which was rounded or truncated */
+} metric;
+
+/**
+ * Converts the image, which becomes one channel of u4 or f4; holes become UINT32_MAX or NaN.
+ * @param scale  from METRIC_SCALE_MIN to METRIC_SCALE_MAX
+ * @return null, or why not: one sentence; the image is then as it was
+ */
+const char *metric_convert(image *img, double scale, metric *out);
+
+#endif

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file frame_rows.h  One row of a product: between frame.c, which prepares the strips, and frame_rows.c. */
+#ifndef FRAME_ROWS_H
+#define FRAME_ROWS_H
+
+#include <math.h>
+
+#include "core/bits.h"
+#include "frame/frame.h"
+
+enum { FRAME_NUMBERS = 8 };
+
+/** What a row is made of. */
+typedef struct frame_row {
+    const frame *frame;
+    const frame_product *product;
+    const position_state *position;
+    const float *slope_x; /**< of column 0, with the same margins as the eye depths */
+    uint32_t row;
+    const uint32_t *codes;                   /**< rows beside it, as far as the image goes, lie a width apart */
+    const float *depth;                      /**< window depth; of FRAME_RAW, FRAME_POSITION and FRAME_EFFECT only */
+    const float *eyes[2 * NORMAL_REACH + 1]; /**< eye depths of this row and its neighbours, as in normal_rows */
+    float *planes[3];                        /**< room for three times the width */
+    bool found;                              /**< the planes hold this product, whose error is wanted */
+    const dp_batch *stored;                  /**< codes to eye depths in double */
+    grain_memo *memo;                        /**< of a thread's own */
+    double *numbers;                         /**< room for FRAME_NUMBERS times the width */
+    float *out;
+} frame_row;
+
+typedef void frame_make(const frame_row *in);
+
+/** What the pixel of a synthetic image truly sees; z is NaN where it is sky, or counts as such. */
+static inline synthetic_hit frame_truth(const frame_row *in, uint32_t x) {
+    synthetic_hit hit;
+    in->frame->synthetic->hit(in->frame->camera, in->frame->parameters, x, in->row, &hit);
+    if (isinf(hit.z) || isnan(in->eyes[NORMAL_REACH][x]))
+        hit.z = NAN;
+    return hit;
+}
+
+/** What a code says of the depth. Neighbours often share one. */
+typedef struct frame_ranges {
+    uint32_t code;
+    grain_range range;
+} frame_ranges;
+
+static inline frame_ranges frame_no_range(void) {
+    return (frame_ranges){.code = UINT32_MAX};
+}
+
+static inline const grain_range *frame_range_of(const frame_row *in, frame_ranges *last, uint32_t x) {
+    const uint32_t code = in->codes[x];
+    if (code != last->code)
+        *last = (frame_ranges){code, grain_range_of(&in->frame->camera->setup, in->frame->grain, code)};
+    return &last->range;
+}
+
+/** An error map must not be below the error: the nearest binary32 number that is not. A few roundings to double came
+ *  before. */
+DP_INLINE float frame_upwards(double error) {
+    return dp_float_up(error * (1 + 0x1p-48));
+}
+
+/** Those of FRAME_EFFECT, in frame_effect.c. */
+frame_make frame_effect, frame_effect_error;
+
+/** By kind, and error or not. */
+extern frame_make *const frame_makers[FRAME_KINDS][2];
+
+#endif

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * OpenEXR by the C interface of OpenEXRCore: one channel of half, float or uint, scanlines or tiles, in any compression
+ * that the library has. The channel is the one that is asked for, else Z, R or depth, else the one whose last part is
+ * Z, as in "ViewLayer.Depth.Z", else the only one.
+ *
+ * Its headers may be missing where this is compiled, and its library where this runs; its structs differ between
+ * versions, so the library must be that of the headers.
+ */
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "core/append.h"
+#include "image/exr.h"
+#include "image/kind.h"
+
+#if __has_include(<openexr.h>)
+
+#include "system/dynload.h"
+
+/* What is called of it. */
+#define FUNCTIONS(X)                                                                                                   \
+    X(exr_start_read)                                                                                                  \
+    X(exr_finish)                                                                                                      \
+    X(exr_get_default_error_message)                                                                                   \
+    X(exr_get_count)                                                                                                   \
+    X(exr_get_storage)                                                                                                 \
+    X(exr_get_channels)                                                                                                \
+    X(exr_get_data_window)                                                                                             \
+    X(exr_get_display_window)                                                                                          \
+    X(exr_get_compression)                                                                                             \
+    X(exr_get_scanlines_per_chunk)                                                                                     \
+    X(exr_get_tile_descriptor)                                                                                         \
+    X(exr_read_scanline_chunk_info)                                                                                    \
+    X(exr_read_tile_chunk_info)                                                                                        \
+    X(exr_decoding_initialize)                                                                                         \
+    X(exr_decoding_update)                                                                                             \
+    X(exr_decoding_choose_default_routines)                                                                            \
+    X(exr_decoding_run)                                                                                                \
+    X(exr_decoding_destroy)
+DYNLOAD_FUNCTIONS(FUNCTIONS)
+
+static const library openexr = {"EXR", {IMAGE_EXR_FILE, NULL}, IMAGE_EXR_PACKAGE, symbols};
+
+/* Everything of a file. */
+typedef struct reading {
+    functions call;
+    image_source *source;
+    image *out;
+    unsigned char *bytes;
+    size_t size;
+    exr_context_t file;
+    int part;
+    const char *channel;
+    exr_attr_box2i_t window;
+    exr_decode_pipeline_t decode;
+    bool decoding;
+    size_t have; /* bytes of out->data */
+} reading;
+
+static int64_t give(exr_const_context_t file, void *of, void *to, uint64_t size, uint64_t offset,
+                    exr_stream_error_func_ptr_t failed) {
+    const reading *r = of;
+    (void)file, (void)failed;
+    if (offset >= r->size)
+        return 0;
+    const uint64_t some = size < r->size - offset ? size : r->size - offset;
+    memcpy(to, r->bytes + offset, some);
+    return (int64_t)some;
+}
+
+static int64_t give_size(exr_const_context_t file, void *of) {
+    (void)file;
+    return (int64_t)((const reading *)of)->size;
+}
+
+static void say_nothing(exr_const_context_t file, exr_result_t code, const char *message) {
+    (void)file, (void)code, (void)message;
+}
+
+static bool damaged(reading *r, exr_result_t code) {
+    if (code == EXR_ERR_FEATURE_NOT_IMPLEMENTED)
+        return source_fail(r->source, "EXR: %s does not read its compression: save it with ZIP or PIZ",
+                           openexr.files[0]);
+    return source_fail(r->source, "damaged EXR: %s", r->call.exr_get_default_error_message(code));
+}
+
+/* ---- Which channel ----------------------------------------------------------------------------------------------- */
+
+static bool is_flat(const reading *r, int part) {
+    exr_storage_t storage;
+    return r->call.exr_get_storage(r->file, part, &storage) == EXR_ERR_SUCCESS &&
+           (storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED);
+}
+
+/* How a name is looked for: as it is, or in any case, or as the last part behind a dot. */
+typedef enum likeness { LIKE_SAME = 0, LIKE_CASE, LIKE_LAST } likeness;
+
+static bool is_like(const char *name, const char *wanted, likeness how) {
+    const char *dot = strrchr(name, '.');
+    if (how == LIKE_LAST)
+        return dot != NULL && strcasecmp(dot + 1, wanted) == 0;
+    return (how == LIKE_SAME ? strcmp(name, wanted) : strcasecmp(name, wanted)) == 0;
+}
+
+static bool find_like(reading *r, const char *wanted, likeness how) {
+    int parts = 0;
+    const exr_attr_chlist_t *list;
+    r->call.exr_get_count(r->file, &parts);
+    for (int part = 0; part < parts; part++) {
+        if (!is_flat(r, part) || r->call.exr_get_channels(r->file, part, &list) != EXR_ERR_SUCCESS)
+            continue;
+        for (int i = 0; i < list->num_channels; i++)
+            if (wanted == NULL ? list->num_channels == 1 : is_like(list->entries[i].name.str, wanted, how)) {
+                r->part = part;
+                r->channel = list->entries[i].name.str;
+                return true;
+            }
+    }
+    return false;
+}
+
+static bool no_channel(reading *r) {
+    char names[128] = "";
+    int parts = 0, flat = 0;
+    const exr_attr_chlist_t *list;
+    r->call.exr_get_count(r->file, &parts);
+    for (int part = 0; part < parts; part++) {
+        if (!is_flat(r, part) || r->call.exr_get_channels(r->file, part, &list) != EXR_ERR_SUCCESS)
+            continue;
+        flat++;
+        for (int i = 0; i < list->num_channels; i++)
+            append(names, sizeof names, "%s%.40s", *names != '\0' ? ", " : "", list->entries[i].name.str);
+    }
+    if (flat == 0)
+        return source_fail(r->source, "EXR: it is deep, with any number of samples a pixel: flatten it");
+    if (r->source->asked.channel != NULL)
+        return source_fail(r->source, "EXR: has no channel %.40s, but %s", r->source->asked.channel, names);
+    return source_fail(r->source, "EXR: has no channel Z, R or depth, but %s: --channel NAME takes one", names);
+}
+
+static bool find_channel(reading *r) {
+    const char *asked = r->source->asked.channel;
+    if (asked != NULL)
+        return find_like(r, asked, LIKE_SAME) || no_channel(r);
+    return find_like(r, "Z", LIKE_CASE) || find_like(r, "R", LIKE_CASE) || find_like(r, "depth", LIKE_CASE) ||
+           find_like(r, "Z", LIKE_LAST) || find_like(r, NULL, LIKE_SAME) || no_channel(r);
+}
+
+/* DWA knows colours by name, and takes what has other names as it is. */
+static bool is_colour(const char *channel) {
+    static const char *const colours[] = {"R", "G", "B", "Y", "RY", "BY"};
+    const char *dot = strrchr(channel, '.'), *last = dot != NULL ? dot + 1 : channel;
+    for (size_t i = 0; i < sizeof colours / sizeof colours[0]; i++)
+        if (strcasecmp(last, colours[i]) == 0)
+            return true;
+    return false;
+}
+
+/* Null where it gives back what it was given, as all do for whole numbers. */
+static const char *lossy_name(const reading *r, exr_pixel_type_t type) {
+    exr_compression_t how = EXR_COMPRESSION_NONE;
+    r->call.exr_get_compression(r->file, r->part, &how);
+    switch ((int)how) {
+    case EXR_COMPRESSION_PXR24: /* which cuts floats to 24 bits */
+        return type == EXR_PIXEL_FLOAT ? "PXR24" : NULL;
+    case EXR_COMPRESSION_B44: /* halves alone */
+        return type == EXR_PIXEL_HALF ? "B44" : NULL;
+    case EXR_COMPRESSION_B44A:
+        return type == EXR_PIXEL_HALF ? "B44A" : NULL;
+    case EXR_COMPRESSION_DWAA:
+        return type != EXR_PIXEL_UINT && is_colour(r->channel) ? "DWAA" : NULL;
+    case EXR_COMPRESSION_DWAB:
+        return type != EXR_PIXEL_UINT && is_colour(r->channel) ? "DWAB" : NULL;
+    default:
+        return how < EXR_COMPRESSION_PXR24 ? NULL : "an unknown one";
+    }
+}
+
+static bool find_shape(reading *r) {
+    static const image_type types[] = {
+        [EXR_PIXEL_UINT] = IMAGE_U32, [EXR_PIXEL_HALF] = IMAGE_F16, [EXR_PIXEL_FLOAT] = IMAGE_F32};
+    exr_attr_box2i_t shown;
+    const exr_attr_chlist_t *list;
+    exr_result_t code = r->call.exr_get_data_window(r->file, r->part, &r->window);
+    if (code == EXR_ERR_SUCCESS)
+        code = r->call.exr_get_display_window(r->file, r->part, &shown);
+    if (code == EXR_ERR_SUCCESS)
+        code = r->call.exr_get_channels(r->file, r->part, &list);
+    if (code != EXR_ERR_SUCCESS)
+        return damaged(r, code);
+    const exr_attr_box2i_t *w = &r->window;
+    if (memcmp(w, &shown, sizeof shown) != 0)
+        return source_fail(r->source, "EXR: its data window %d,%d to %d,%d is not its display window: save it whole",
+                           w->min.x, w->min.y, w->max.x, w->max.y);
+    int i = 0;
+    while (list->entries[i].name.str != r->channel)
+        i++;
+    const exr_attr_chlist_entry_t *entry = &list->entries[i];
+    if (entry->x_sampling != 1 || entry->y_sampling != 1)
+        return source_fail(r->source, "EXR: channel %.40s has not a sample for every pixel", r->channel);
+    if ((unsigned)entry->pixel_type > EXR_PIXEL_FLOAT)
+        return source_fail(r->source, "EXR: channel %.40s is neither half, float nor uint", r->channel);
+    const char *lossy = lossy_name(r, entry->pixel_type);
+    const bool good = source_shape(r->source, r->out, (uint64_t)((int64_t)w->max.x - w->min.x + 1),
+                                   (uint64_t)((int64_t)w->max.y - w->min.y + 1), 1, types[entry->pixel_type]);
+    r->out->lossy = lossy;
+    return good;
+}
+
+/* ---- Samples ------------------------------------------------------------------------------------------------------*/
+
+/* A chunk that begins at that pixel, of at most so many. */
+static bool read_chunk(reading *r, const exr_chunk_info_t *chunk, uint32_t x, uint32_t y) {
+    const uint64_t most = UINT64_C(1) << 30;
+    image *out = r->out;
+    const size_t size = image_type_size(out->type), row = out->width * size;
+    if (chunk->width < 1 || chunk->height < 1 || (uint32_t)chunk->width > out->width - x ||
+        (uint32_t)chunk->height > out->height - y || chunk->unpacked_size > most || chunk->packed_size > r->size)
+        return source_fail(r->source, "damaged EXR: a block does not fit");
+    if (!source_grow(r->source, out, &r->have, (y + (size_t)chunk->height) * row))
+        return false;
+    exr_result_t code = r->decoding ? r->call.exr_decoding_update(r->file, r->part, chunk, &r->decode)
+                                    : r->call.exr_decoding_initialize(r->file, r->part, chunk, &r->decode);
+    r->decoding = r->decoding || code == EXR_ERR_SUCCESS;
+    for (int i = 0; code == EXR_ERR_SUCCESS && i < r->decode.channel_count; i++) {
+        exr_coding_channel_info_t *c = &r->decode.channels[i];
+        const bool wanted = strcmp(c->channel_name, r->channel) == 0;
+        c->decode_to_ptr = wanted ? (unsigned char *)out->data + y * row + x * size : NULL;
+        c->user_pixel_stride = (int32_t)size;
+        c->user_line_stride = (int32_t)row;
+        c->user_bytes_per_element = c->bytes_per_element;
+        c->user_data_type = c->data_type;
+        if (wanted && (c->height != chunk->height || c->width != chunk->width || (size_t)c->bytes_per_element != size))
+            return source_fail(r->source, "damaged EXR: a block has another shape than the image");
+    }
+    if (code == EXR_ERR_SUCCESS)
+        code = r->call.exr_decoding_choose_default_routines(r->file, r->part, &r->decode);
+    if (code == EXR_ERR_SUCCESS)
+        code = r->call.exr_decoding_run(r->file, r->part, &r->decode);
+    return code == EXR_ERR_SUCCESS || damaged(r, code);
+}
+
+static bool read_scanlines(reading *r) {
+    int32_t lines = 0;
+    exr_result_t code = r->call.exr_get_scanlines_per_chunk(r->file, r->part, &lines);
+    for (uint32_t y = 0; code == EXR_ERR_SUCCESS && y < r->out->height; y += (uint32_t)lines) {
+        exr_chunk_info_t chunk;
+        code = lines < 1 ? EXR_ERR_CORRUPT_CHUNK
+                         : r->call.exr_read_scanline_chunk_info(r->file, r->part, r->window.min.y + (int)y, &chunk);
+        if (code == EXR_ERR_SUCCESS && !read_chunk(r, &chunk, 0, y))
+            return false;
+    }
+    return code == EXR_ERR_SUCCESS || damaged(r, code);
+}
+
+static bool read_tiles(reading *r) {
+    uint32_t width = 0, height = 0;
+    exr_tile_level_mode_t levels;
+    exr_tile_round_mode_t rounding;
+    exr_result_t code = r->call.exr_get_tile_descriptor(r->file, r->part, &width, &height, &levels, &rounding);
+    if (code == EXR_ERR_SUCCESS && (width < 1 || height < 1))
+        code = EXR_ERR_CORRUPT_CHUNK;
+    for (uint64_t y = 0; code == EXR_ERR_SUCCESS && y < r->out->height; y += height)
+        for (uint64_t x = 0; code == EXR_ERR_SUCCESS && x < r->out->width; x += width) {
+            exr_chunk_info_t chunk;
+            code =
+                r->call.exr_read_tile_chunk_info(r->file, r->part, (int)(x / width), (int)(y / height), 0, 0, &chunk);
+            if (code == EXR_ERR_SUCCESS && !read_chunk(r, &chunk, (uint32_t)x, (uint32_t)y))
+                return false;
+        }
+    return code == EXR_ERR_SUCCESS || damaged(r, code);
+}
+
+static bool read_file(reading *r) {
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_storage_t storage = EXR_STORAGE_SCANLINE;
+    how.error_handler_fn = say_nothing;
+    how.user_data = r;
+    how.read_fn = give;
+    how.size_fn = give_size;
+    const exr_result_t code = r->call.exr_start_read(&r->file, "image", &how);
+    if (code != EXR_ERR_SUCCESS)
+        return damaged(r, code);
+    if (!find_channel(r) || !find_shape(r))
+        return false;
+    r->call.exr_get_storage(r->file, r->part, &storage);
+    return storage == EXR_STORAGE_TILED ? read_tiles(r) : read_scanlines(r);
+}
+
+static bool read_exr(image_source *source, image *out) {
+    reading r = {.source = source, .out = out, .decode = EXR_DECODE_PIPELINE_INITIALIZER};
+    if (!source_library(source, &openexr, r.call.all) || !source_all(source, &r.bytes, &r.size))
+        return false;
+    const bool good = read_file(&r);
+    if (r.decoding)
+        r.call.exr_decoding_destroy(r.file, &r.decode);
+    if (r.file != NULL)
+        r.call.exr_finish(&r.file);
+    free(r.bytes);
+    return good;
+}
+
+#else
+
+static bool read_exr(image_source *source, image *out) {
+    (void)out;
+    return source_fail(source, "EXR is not read by this build, which had no header openexr.h: Debian's package "
+                               "libopenexr-dev has it");
+}
+
+#endif
+
+const image_kind image_kind_exr = {
+    .name = "EXR",
+    .ending = ".exr",
+    .magic = {"\x76\x2f\x31\x01", NULL},
+    .magic_size = 4,
+    .types = 1U << IMAGE_U32 | 1U << IMAGE_F16 | 1U << IMAGE_F32,
+    .channels = 1U << 1,
+    .named = true,
+    .read = read_exr,
+};

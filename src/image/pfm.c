@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * PFM: "Pf" (one channel) or "PF" (three), width, height and scale as words, one blank, and binary32 samples, the
+ * bottom row first. The sign of the scale says which byte comes first. Its magnitude is 1 here and nothing else,
+ * because some programs multiply the samples by it and others do not.
+ *
+ * Between the words may be any blanks, and comments from # to the end of their line. The one blank before the samples
+ * is CR LF where that also follows the first word: the samples themselves may begin with any byte.
+ * Source: Paul Debevec's description of the format, http://www.pauldebevec.com/Research/HDR/PFM/
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/kind.h"
+
+enum { WORD_SIZE = 32, HEADER_MAX = 10000 };
+
+/* The header, a character at a time. */
+typedef struct header {
+    image_source *source;
+    size_t size; /* what was read of it */
+    char last;
+} header;
+
+static bool next(header *h) {
+    if (h->size++ >= HEADER_MAX)
+        return source_fail(h->source, "PFM: its header must have at most %d bytes", HEADER_MAX);
+    return source_header(h->source, &h->last, 1);
+}
+
+static bool is_blank(char c) {
+    return c != '\0' && strchr(" \t\n\v\f\r", c) != NULL;
+}
+
+/* To the first character that is neither blank nor comment. */
+static bool skip(header *h) {
+    bool comment = false;
+    do {
+        if (!next(h))
+            return false;
+        comment = comment ? h->last != '\n' && h->last != '\r' : h->last == '#';
+    } while (comment || is_blank(h->last));
+    return true;
+}
+
+/* A word and the one blank behind it; what is before it is skipped. */
+static bool word(header *h, const char *what, char out[WORD_SIZE]) {
+    size_t length = 0;
+    if (!skip(h))
+        return false;
+    while (!is_blank(h->last)) {
+        if (length + 1 >= WORD_SIZE || h->last < 0x21 || h->last > 0x7e)
+            return source_fail(h->source, "PFM: its %s must be a number", what);
+        out[length++] = h->last;
+        if (!next(h))
+            return false;
+    }
+    out[length] = '\0';
+    return true;
+}
+
+static bool side(header *h, const char *what, uint64_t *out) {
+    image_source *source = h->source;
+    char text[WORD_SIZE];
+    if (!word(h, what, text))
+        return false;
+    const size_t length = strlen(text);
+    if (strspn(text, "0123456789") != length || length > 18)
+        return source_fail(source, "PFM: its %s must be a whole number, got '%s'", what, text);
+    *out = strtoull(text, NULL, 10);
+    return true;
+}
+
+static bool read_scale(header *h, bool *little) {
+    char text[WORD_SIZE], *end;
+    if (!word(h, "scale", text))
+        return false;
+    const double scale = strtod(text, &end);
+    *little = scale < 0;
+    if (*end == '\0' && fabs(scale) == 1)
+        return true;
+    return source_fail(h->source,
+                       "PFM: its scale must be 1 or -1, got '%s': programs disagree on whether it multiplies the "
+                       "samples; write 1 or -1 there once they are what they should be",
+                       text);
+}
+
+/* Rows come from the bottom. */
+static void flip(image *img) {
+    const size_t words = (size_t)img->width * img->channels;
+    uint32_t *low = img->data, *high = low + words * (img->height - 1);
+    for (; low < high; low += words, high -= words)
+        for (size_t i = 0; i < words; i++) {
+            const uint32_t other = low[i];
+            low[i] = high[i];
+            high[i] = other;
+        }
+}
+
+static bool read_pfm(image_source *source, image *out) {
+    header h = {.source = source};
+    char magic[2];
+    uint64_t width = 0, height = 0;
+    bool little = true;
+    if (!source_header(source, magic, sizeof magic) || !next(&h))
+        return false;
+    if (!is_blank(h.last))
+        return source_fail(source, "PFM: a blank must follow '%.2s'", magic);
+    const bool returns = h.last == '\r' && source->ready_size > 0 && *source->ready == '\n';
+    if (!side(&h, "width", &width) || !side(&h, "height", &height) || !read_scale(&h, &little))
+        return false;
+    if (returns && h.last == '\r' && (!next(&h) || h.last != '\n'))
+        return source_fail(source, "PFM: CR LF must follow its scale, as it follows '%.2s'", magic);
+    if (!source_shape(source, out, width, height, magic[1] == 'F' ? 3 : 1, IMAGE_F32) ||
+        !source_samples(source, out, little))
+        return false;
+    flip(out);
+    return true;
+}
+
+static bool begin_pfm(image_writer *w) {
+    return fprintf(w->stream, "%s\n%u %u\n-1.0\n", w->channels == 3 ? "PF" : "Pf", w->width, w->height) > 0;
+}
+
+const image_kind image_kind_pfm = {
+    .name = "PFM",
+    .ending = ".pfm",
+    .magic = {"Pf", "PF"},
+    .magic_size = 2,
+    .types = 1U << IMAGE_F32,
+    .channels = 1U << 1 | 1U << 3,
+    .bottom_up = true,
+    .read = read_pfm,
+    .begin = begin_pfm,
+    .rows = image_rows_plain,
+};

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "raster/draw.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/bits.h"
+#include "core/elementary.h"
+
+/* ---- The camera -------------------------------------------------------------------------------------------------- */
+
+raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup) {
+    const dp_triangles *view = &setup->spec.triangles;
+    const double half = dp_tan(view->fov_y * M_PI / 360.0);
+    size_t index = 0;
+    while (raster_get(index) != NULL && raster_get(index) != row)
+        index++;
+    const raster_status status =
+        raster_target_init(&camera->target, index, view->width, view->height, &setup->spec.format, dp_path_best());
+    if (status != RASTER_OK)
+        return status;
+    if (setup->spec.ortho || dp_pipeline_init(&camera->pipeline, setup) != DP_OK ||
+        (camera->pipeline.ndc_signed && !camera->pipeline.arith->remap))
+        return RASTER_MODEL;
+    camera->p11 = (float)(1.0 / half);
+    camera->p00 = (float)(view->height / (half * view->width));
+    return RASTER_OK;
+}
+
+void draw_ray(const draw_camera *camera, const double window[2], double ray[3]) {
+    ray[0] = (2.0 * window[0] / camera->target.width - 1.0) / (double)camera->p00;
+    ray[1] = (2.0 * window[1] / camera->target.height - 1.0) / (double)camera->p11;
+    ray[2] = 1.0;
+}
+
+double draw_facing(const draw_camera *camera, const draw_plane *plane, const double window[2]) {
+    double ray[3];
+    draw_ray(camera, window, ray);
+    return plane->normal[0] * ray[0] + plane->normal[1] * ray[1] + plane->normal[2] * ray[2];
+}
+
+/* The vertex shader. */
+static raster_vertex transformed(const draw_camera *camera, const double place[3]) {
+    const float x = (float)place[0], y = (float)place[1], z = (float)place[2];
+    return (raster_vertex){camera->p00 * x, camera->p11 * y, dp_pipeline_clip(&camera->pipeline, z), z};
+}
+
+/* ---- The buffer -------------------------------------------------------------------------------------------------- */
+
+bool draw_buffer_open(draw_buffer *buffer, size_t room) {
+    *buffer = (draw_buffer){
+        .key = malloc(room * sizeof *buffer->key), .winner = malloc(room), .seen = malloc(room), .room = room};
+    if (buffer->key != NULL && buffer->winner != NULL && buffer->seen != NULL)
+        return true;
+    draw_buffer_close(buffer);
+    return false;
+}
+
+void draw_buffer_close(draw_buffer *buffer) {
+    free(buffer->key);
+    free(buffer->winner);
+    free(buffer->seen);
+    *buffer = (draw_buffer){0};
+}
+
+void draw_buffer_clear(draw_buffer *buffer, draw_area area) {
+    const size_t count = (size_t)area.width * (size_t)area.height;
+    buffer->area = area;
+    memset(buffer->key, 0xFF, count * sizeof *buffer->key);
+    memset(buffer->winner, DRAW_NOBODY, count);
+    memset(buffer->seen, 0, count);
+}
+
+/* Who draws into what. */
+typedef struct drawing {
+    draw_buffer *buffer;
+    unsigned who;
+} drawing;
+
+/* Of a span: codes to what the test compares, which is never that of an empty pixel. Depths may be below 0. */
+static void keys_of(const draw_camera *camera, int count, uint32_t *code) {
+    const uint32_t most = camera->target.format.code_max;
+    const bool is_float = camera->target.format.kind == DP_FORMAT_FLOAT;
+    const bool reversed = camera->pipeline.reversed != 0;
+    for (int i = 0; i < count && is_float; i++)
+        code[i] = reversed ? ~dp_rank32(dp_float32(code[i])) : dp_rank32(dp_float32(code[i]));
+    for (int i = 0; i < count && !is_float && reversed; i++)
+        code[i] = most - code[i];
+}
+
+static void test_depths(void *context, int x, int y, int count, const uint32_t *key) {
+    const drawing *d = context;
+    const draw_area *area = &d->buffer->area;
+    const size_t at = (size_t)(y - area->y) * (size_t)area->width + (size_t)(x - area->x);
+    uint32_t *stored = d->buffer->key + at;
+    uint8_t *winner = d->buffer->winner + at, *seen = d->buffer->seen + at;
+    const unsigned who = d->who;
+    for (int i = 0; i < count; i++) {
+        const bool nearer = key[i] < stored[i];
+        stored[i] = nearer ? key[i] : stored[i];
+        winner[i] = nearer ? (uint8_t)who : winner[i];
+        seen[i] = (uint8_t)(seen[i] | 1U << (who - 1));
+    }
+}
+
+bool draw_triangle(draw_buffer *buffer, const draw_camera *camera, const double place[3][3], unsigned who) {
+    drawing d = {buffer, who};
+    return draw_keys(camera, &buffer->area, place, test_depths, &d);
+}
+
+/* ---- Rows of pixels ---------------------------------------------------------------------------------------------- */
+
+static void draw_row(const draw_camera *camera, const draw_area *area, const raster_piece *piece, int y,
+                     draw_take *take, void *context) {
+    uint32_t key[DRAW_ROW];
+    int from, to;
+    if (!raster_span(&camera->target, piece, y, &from, &to))
+        return;
+    from = from > area->x ? from : area->x;
+    to = to < area->x + area->width ? to : area->x + area->width;
+    for (int x = from, count; x < to; x += count) {
+        count = to - x < DRAW_ROW ? to - x : DRAW_ROW;
+        raster_codes(&camera->target, piece, y, x, x + count, key);
+        keys_of(camera, count, key);
+        take(context, x, y, count, key);
+    }
+}
+
+bool draw_keys(const draw_camera *camera, const draw_area *area, const double place[3][3], draw_take *take,
+               void *context) {
+    raster_triangle drawn;
+    raster_vertex clip[3];
+    for (int i = 0; i < 3; i++)
+        clip[i] = transformed(camera, place[i]);
+    if (raster_set_up(&camera->target, clip, &drawn) != RASTER_OK)
+        return false;
+    for (int i = 0; i < drawn.count; i++) {
+        const raster_piece *piece = &drawn.piece[i];
+        const int first = piece->y0 > area->y ? piece->y0 : area->y;
+        const int end = piece->y1 < area->y + area->height ? piece->y1 : area->y + area->height;
+        for (int y = first; y < end; y++)
+            draw_row(camera, area, piece, y, take, context);
+    }
+    return true;
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "raster/mesh.h"
+
+#include <math.h>
+
+#include "core/bits.h"
+#include "core/elementary.h"
+
+/* How far the subpixel grid moves a vertex at most, pixels; and a pixel's centre beyond an edge. */
+static const double moved = 0.0625;
+
+/* ---- Random numbers ---------------------------------------------------------------------------------------------- */
+
+uint64_t draw_random(uint64_t *state) {
+    return dp_mixed64(*state += UINT64_C(0x9E3779B97F4A7C15));
+}
+
+double draw_uniform(uint64_t *state) {
+    return dp_uniform(draw_random(state));
+}
+
+double draw_log_uniform(uint64_t *state, double lo, double hi) {
+    return lo * dp_pow(hi / lo, draw_uniform(state));
+}
+
+/* ---- The mesh ---------------------------------------------------------------------------------------------------- */
+
+/* Less than a quarter of a side along each leaves every triangle the way round that it has in the grid. */
+static void place_vertex(const draw_mesh *mesh, int i, int k, double window[2]) {
+    const uint64_t random = dp_mixed64(mesh->seed + ((uint64_t)i << 32 | (uint64_t)k));
+    const double u = i + 0.5 * ((double)(random >> 32) * 0x1p-32 - 0.5);
+    const double v = k + 0.5 * ((double)(random & 0xFFFFFFFFU) * 0x1p-32 - 0.5);
+    for (int axis = 0; axis < 2; axis++)
+        window[axis] = mesh->corner[axis] + u * mesh->side[0][axis] + v * mesh->side[1][axis];
+}
+
+void draw_mesh_corners(const draw_mesh *mesh, int i, int k, int half, double window[3][2]) {
+    static const signed char corners[2][2][3][2] = {{{{0, 0}, {1, 0}, {0, 1}}, {{1, 1}, {0, 1}, {1, 0}}},
+                                                    {{{0, 0}, {1, 0}, {1, 1}}, {{1, 1}, {0, 1}, {0, 0}}}};
+    const uint64_t diagonal = dp_mixed64(~mesh->seed + ((uint64_t)i << 32 | (uint64_t)k)) & 1U;
+    for (int corner = 0; corner < 3; corner++) {
+        const signed char *off = corners[diagonal][half][corner];
+        place_vertex(mesh, i + off[0], k + off[1], window[corner]);
+    }
+}
+
+static bool has_shape(const double v[3][2], const dp_triangles *class) {
+    const double area = fabs((v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
+    double longest = 0.0, widest = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const double *next = v[(i + 1) % 3];
+        const double x = fabs(next[0] - v[i][0]), y = fabs(next[1] - v[i][1]);
+        longest = fmax(longest, dp_hypot(x, y));
+        widest = fmax(widest, fmax(x, y));
+    }
+    return widest + 4.0 * moved <= class->pixels &&
+           longest * longest / area * (1.0 + 8.0 * moved / sqrt(area)) <= class->slim;
+}
+
+/* Of the pixels inside and of the vertices; 1/z changes evenly across the screen. */
+static bool has_depth(const draw_camera *camera, const draw_plane *plane, const double facing[3], double depth) {
+    const double *n = plane->normal;
+    const double step = 2.0 * (fabs(n[0]) / ((double)camera->p00 * camera->target.width) +
+                               fabs(n[1]) / ((double)camera->p11 * camera->target.height));
+    const double least = fmin(fmin(facing[0], facing[1]), facing[2]);
+    const double most = fmax(fmax(facing[0], facing[1]), facing[2]);
+    const double allowed = depth * (1.0 - 0x1p-20);
+    return most + moved * step <= allowed * least && most <= allowed * (least - moved * step);
+}
+
+/* Not next to an edge either, for clip coordinates are rounded. */
+static bool in_view(const draw_camera *camera, const double window[2], double z) {
+    return window[0] >= moved && window[0] <= camera->target.width - moved && window[1] >= moved &&
+           window[1] <= camera->target.height - moved && z >= (double)camera->pipeline.znear &&
+           z <= (double)camera->pipeline.zfar && dp_pipeline_drawn(&camera->pipeline, (float)z);
+}
+
+/* Whether a triangle can reach pixels of the area. */
+static bool is_near(const draw_area *area, const double v[3][2]) {
+    const int lo[2] = {area->x, area->y}, size[2] = {area->width, area->height};
+    for (int axis = 0; axis < 2; axis++) {
+        const double least = fmin(fmin(v[0][axis], v[1][axis]), v[2][axis]);
+        const double most = fmax(fmax(v[0][axis], v[1][axis]), v[2][axis]);
+        if (most < lo[axis] - 1.0 || least > lo[axis] + size[axis] + 1.0)
+            return false;
+    }
+    return true;
+}
+
+static bool draw_part(draw_buffer *buffer, const draw_camera *camera, const draw_plane *plane,
+                      const double window[3][2], const dp_triangles *class, unsigned who) {
+    double place[3][3], facing[3];
+    if (!is_near(&buffer->area, window))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        facing[i] = draw_facing(camera, plane, window[i]);
+        const double z = plane->distance / facing[i];
+        if (!(facing[i] > 0.0) || !in_view(camera, window[i], z))
+            return false;
+        draw_ray(camera, window[i], place[i]);
+        for (int axis = 0; axis < 3; axis++)
+            place[i][axis] *= z;
+    }
+    if (class != NULL && !(has_shape(window, class) && has_depth(camera, plane, facing, class->depth)))
+        return false;
+    return draw_triangle(buffer, camera, (const double(*)[3])place, who);
+}
+
+int draw_mesh_plane(draw_buffer *buffer, const draw_camera *camera, const draw_plane *plane, const draw_mesh *mesh,
+                    const dp_triangles *class, unsigned who) {
+    int drawn = 0;
+    for (int i = 0; i < mesh->cells[0]; i++)
+        for (int k = 0; k < mesh->cells[1]; k++)
+            for (int half = 0; half < 2; half++) {
+                double window[3][2];
+                draw_mesh_corners(mesh, i, k, half, window);
+                drawn += draw_part(buffer, camera, plane, (const double(*)[2])window, class, who);
+            }
+    return drawn;
+}

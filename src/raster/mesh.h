@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file mesh.h  A plane drawn as a mesh of random triangles: a grid on the screen whose vertices are moved. */
+#ifndef RASTER_MESH_H
+#define RASTER_MESH_H
+
+#include "raster/draw.h"
+
+/** The next of splitmix64's numbers, and one of [0, 1): the same on every machine. */
+uint64_t draw_random(uint64_t *state);
+double draw_uniform(uint64_t *state);
+
+/** Between two positive numbers, each ratio with equal chance. */
+double draw_log_uniform(uint64_t *state, double lo, double hi);
+
+/** In window coordinates, pixels: vertex (i, k) lies about corner + i side[0] + k side[1], up to a quarter off. */
+typedef struct draw_mesh {
+    double corner[2], side[2][2];
+    int cells[2];  /**< along each side; each is parted into two triangles, by either diagonal */
+    uint64_t seed; /**< of the vertices' moves and of the diagonals */
+} draw_mesh;
+
+/** The window coordinates of one of the two triangles of a cell: half 0 or 1. */
+void draw_mesh_corners(const draw_mesh *mesh, int i, int k, int half, double window[3][2]);
+
+/**
+ * Draws a plane as the mesh's triangles, but for those that lie outside a class of triangles, have a vertex outside
+ * the view, or are too near edge-on to have a depth.
+ * @param class  null: any triangle. Its `depth` is taken of all pixels inside a triangle, up to `across` pixels beyond
+ *               its edges, and its pixels and shape with what the subpixel grid may move; see dp_triangles
+ * @return how many were drawn
+ */
+int draw_mesh_plane(draw_buffer *buffer, const draw_camera *camera, const draw_plane *plane, const draw_mesh *mesh,
+                    const dp_triangles *class, unsigned who);
+
+#endif

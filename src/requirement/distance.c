@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "requirement/distance.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/elementary.h"
+#include "core/engine.h"
+
+enum { STEPS = 400 };
+
+static const double farthest = 1e18;
+
+typedef struct ruler {
+    measure_kind kind;
+    const dp_setup *setup;
+    dp_guarantee guarantee;
+    double limit;
+    bool whole; /* binary32 depths alone are of interest */
+    double lo;
+    double holds, fails; /* it holds from lo to the one, and does not at the other */
+} ruler;
+
+/* A depth between the two ends, or NaN when there is none to try. */
+static double between(const ruler *r) {
+    const bool far_apart = r->holds > 0.0 && r->holds < 0.5 * r->fails;
+    double middle = far_apart ? sqrt(r->holds) * sqrt(r->fails) : 0.5 * r->holds + 0.5 * r->fails;
+    if (r->whole) {
+        middle = (double)(float)middle;
+        if (middle <= r->holds)
+            middle = (double)nextafterf((float)r->holds, HUGE_VALF);
+        if (middle <= r->holds)
+            middle = (double)nextafterf((float)middle, HUGE_VALF);
+    } else if (r->fails <= r->holds + fabs(r->holds) * 0x1p-48) {
+        return (double)NAN;
+    }
+    return middle > r->holds && middle < r->fails ? middle : (double)NAN;
+}
+
+/*
+ * One part more, judged by itself: what was certain before stays so. A separation names the depth that is worst, and
+ * where that is too much nothing beyond it counts. Of an error the whole range is judged: cells end where it does.
+ */
+static void extend(ruler *r, double end) {
+    const double begin = r->kind == MEASURE_ERROR ? r->lo : r->holds;
+    if (r->kind == MEASURE_SEPARATION &&
+        dp_guarantee_at(&r->guarantee, end) > r->limit) { /* cheaper than to judge them all */
+        r->fails = end;
+        return;
+    }
+    const judgement j = judge(r->kind, r->setup, begin, end, r->limit);
+    if (j.passed)
+        r->holds = end;
+    else if (r->kind == MEASURE_SEPARATION && j.z > r->holds && dp_guarantee_at(&r->guarantee, j.z) > r->limit)
+        r->fails = j.z;
+    else
+        r->fails = end;
+}
+
+/* Whether every depth from the one to just before the other is the same, rounded down to that many digits. */
+static bool is_settled(double holds, double fails, int digits) {
+    const double unit = dp_pow(10.0, floor(dp_log10(fmin(fabs(holds), fabs(fails)))) + 1.0 - digits);
+    return floor(holds / unit) == ceil(fails / unit) - 1.0;
+}
+
+/*
+ * The ends by depths one by one, which are cheap, then one judgement of all before: where the separation rises with
+ * depth nothing else is left to judge.
+ */
+static void aim(ruler *r, int digits) {
+    ruler by_depths = *r;
+    for (int i = 0; i < STEPS && !is_settled(by_depths.holds, by_depths.fails, digits); i++) {
+        const double middle = between(&by_depths);
+        if (isnan(middle))
+            break;
+        *(dp_guarantee_at(&r->guarantee, middle) > r->limit ? &by_depths.fails : &by_depths.holds) = middle;
+    }
+    r->fails = by_depths.fails;
+    if (by_depths.holds > r->holds)
+        extend(r, by_depths.holds);
+}
+
+/* Until the ends are neighbours, or agree in so many digits if that is not 0. */
+static void search(ruler *r, int digits) {
+    const double end = r->fails;
+    if (r->lo < end)
+        extend(r, end);
+    if (digits > 0 && r->holds < r->fails)
+        aim(r, digits);
+    for (int i = 0; i < STEPS && r->holds < end && !(digits > 0 && is_settled(r->holds, r->fails, digits)); i++) {
+        const double middle = between(r);
+        if (isnan(middle))
+            break;
+        extend(r, middle);
+    }
+}
+
+static ruler ruler_of(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit) {
+    return (ruler){.kind = kind,
+                   .setup = setup,
+                   .guarantee = dp_guarantee_make(setup),
+                   .limit = limit,
+                   .whole = dp_is_computed(setup),
+                   .lo = lo,
+                   .holds = lo,
+                   .fails = fmin(hi, farthest)};
+}
+
+double distance_about(const dp_setup *setup, double lo, double hi, double limit, int digits) {
+    ruler r = ruler_of(MEASURE_SEPARATION, setup, lo, hi, limit);
+    if (!(dp_guarantee_at(&r.guarantee, lo) <= limit))
+        return (double)NAN;
+    search(&r, digits);
+    return r.holds;
+}
+
+/* As `check` would judge it, in one piece: where that stops refining too early, a little less. */
+static void confirm(ruler *r, distance_answer *out) {
+    const double reach = r->holds;
+    for (double share = 0x1p-48; share < 1.0; share *= 2.0) {
+        out->reached = judge(r->kind, r->setup, r->lo, r->holds, r->limit);
+        if (out->reached.passed)
+            break;
+        r->holds = fmax(reach - fabs(reach) * share, r->lo);
+    }
+    out->value = r->holds;
+}
+
+dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit,
+                         distance_answer *out) {
+    if (setup == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    if (kind == MEASURE_ERROR && setup->spec.model == DP_MODEL_FLOAT)
+        return DP_ERROR_MODEL;
+    if (!(limit > 0.0 && lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || lo > farthest)
+        return DP_ERROR_RANGE;
+    ruler r = ruler_of(kind, setup, lo, hi, limit);
+    const double end = r.fails;
+    *out = (distance_answer){.value = lo, .fails = lo};
+    out->reached = judge(kind, setup, lo, lo, limit);
+    out->possible = out->reached.passed;
+    if (!out->possible)
+        return DP_OK;
+    search(&r, 0);
+    confirm(&r, out);
+    out->throughout = out->value == end;
+    out->fails = out->throughout ? (double)NAN : r.fails;
+    return DP_OK;
+}
+
+/* ---- Beyond ------------------------------------------------------------------------------------------------------ */
+
+enum { OCTAVES = 16, EACH = 64, NEXT_TO = 24, TRIED = 2 * OCTAVES * EACH };
+static const double SHORTEST = 0x1p-24;
+
+typedef struct trials {
+    const dp_setup *setup;
+    double after, end;
+    double z[TRIED];
+    size_t count;
+} trials;
+
+static void try_depth(trials *t, double z) {
+    if (dp_is_computed(t->setup))
+        z = (double)(float)z;
+    if (t->count < TRIED && z > t->after && z <= t->end)
+        t->z[t->count++] = z;
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void choose_depths(trials *t) {
+    for (int i = 1; i <= OCTAVES * EACH; i++)
+        try_depth(t, t->after * dp_exp2((double)i / EACH));
+    const double d = dp_window(t->setup, t->after);
+    for (int i = 0; i < OCTAVES && d > 0.0; i++) {
+        const double edge = ldexp(1.0, ilogb(d) + (t->setup->reversed ? -i : i + 1));
+        const double z = edge <= 1.0 ? dp_eye(t->setup, edge, 1.0 - edge) : (double)NAN;
+        for (int k = 0; k <= NEXT_TO; k++)
+            try_depth(t, z * (1.0 + ldexp(1.0, -k)));
+    }
+    qsort(t->z, t->count, sizeof t->z[0], ascending);
+}
+
+size_t distance_again(const dp_setup *setup, double after, double hi, double limit, distance_span *out, size_t room) {
+    trials t = {.setup = setup, .after = after, .end = fmin(hi, farthest)};
+    double fails = after;
+    size_t count = 0;
+    if (!(after > 0.0)) /* an orthographic range about the camera: a step is a step */
+        return 0;
+    choose_depths(&t);
+    for (size_t i = 0; i < t.count && count < room; i++) {
+        if (count > 0 && t.z[i] <= out[count - 1].hi)
+            continue;
+        if (!judge(MEASURE_SEPARATION, setup, t.z[i], t.z[i], limit).passed) {
+            fails = t.z[i];
+            continue;
+        }
+        ruler r = {.whole = dp_is_computed(setup), .holds = fails, .fails = t.z[i]};
+        for (double middle = between(&r); !isnan(middle); middle = between(&r))
+            *(judge(MEASURE_SEPARATION, setup, middle, middle, limit).passed ? &r.fails : &r.holds) = middle;
+        distance_answer answer;
+        fails = r.fails;
+        if (distance_solve(MEASURE_SEPARATION, setup, r.fails, t.end, limit, &answer) != DP_OK || !answer.possible)
+            continue;
+        fails = answer.value;
+        if (answer.value > r.fails * (1.0 + SHORTEST)) /* else a depth that passes by how it was rounded */
+            out[count++] = (distance_span){r.fails, answer.value};
+    }
+    return count;
+}

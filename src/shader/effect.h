@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file effect.h  Effects that consume depth, a row each: what an error of the depth does to them.
+ *
+ * An effect sees the stored depth in place of the true one, which may be anywhere in the same cell. Its error at z is
+ * the largest difference that makes to the output, over all depths of z's cell, in levels of 1/255.
+ *
+ * Some effects compare the depth with something of their own: the eye depth of a surface, the height of the water, the
+ * focus. Wherever that is, the error is no larger than when it lies in the cell as well, so there it is put: in the
+ * worst of three places, the stored depth and the two ends of the cell.
+ *
+ * Each row has its formula twice: exactly, in double, and in binary32, operation by operation, as a shader evaluates it
+ * on the depth that it decodes and the place that it reconstructs.
+ *
+ * Depths enter as doubles, each within 2^-50 of itself, which errors inherit.
+ */
+#ifndef SHADER_EFFECT_H
+#define SHADER_EFFECT_H
+
+#include "shader/camera.h"
+#include "shader/parameter.h"
+
+/** How the wanted parameter p and the row's quantity v, with v' where it is compared, make the output. */
+typedef enum effect_kind {
+    EFFECT_FADE = 0, /**< a ramp of (v - v')/p from 0 to 1: the error falls as p grows */
+    EFFECT_GAIN,     /**< p (v - v') and a constant: the error grows with p */
+    EFFECT_CLAMPED,  /**< saturate(p v): the error grows with p until the output saturates */
+    EFFECT_DECAY,    /**< 1 - exp(-p (v - v')): the error grows with p */
+    EFFECT_STEP      /**< 0 or 1: which, a comparison with p says */
+} effect_kind;
+
+/** What an effect needs besides the depth of its pixel: bits. */
+enum {
+    EFFECT_POSITION = 1,     /**< the world position of the pixel, so the camera */
+    EFFECT_LAST_FRAME = 2,   /**< last frame's view-projection */
+    EFFECT_SECOND_DEPTH = 4, /**< another depth: of a surface that is drawn, or of other pixels */
+    EFFECT_NORMALS = 8       /**< normals: of a synthetic image, or packed, or made of the depths */
+};
+
+/** Which pixels an effect looks at besides its own: corners of a square, `sample-distance` away on both axes. */
+typedef enum effect_taps {
+    EFFECT_ALONE = 0,
+    EFFECT_DIAGONALS, /**< opposite corners are compared; the larger of two outputs */
+    EFFECT_AROUND     /**< its own with each corner; the mean of four outputs */
+} effect_taps;
+
+/** What a pixel is to an effect, exactly. */
+typedef struct effect_view {
+    const dp_setup *setup;    /**< planes; cells, where none are given */
+    double base[3], along[3]; /**< at eye depth z it shows the place base + along z, world coordinates */
+    double stretch;           /**< length of its ray per unit of eye depth */
+    double normals[2][3];     /**< EFFECT_NORMALS: of two pixels, view space */
+    double ndc[2];            /**< where it lies in this frame: from -1 to 1, to the right and up */
+    /** Where its place lay in last frame's picture: (from + per z)/(w + w_per z). */
+    struct {
+        double from[2], per[2], w, w_per;
+    } last;
+} effect_view;
+
+/**
+ * The view of a pixel. The camera must live as long, or `setup` be set to one that does.
+ * @param last  last frame's camera; null: it was this one
+ */
+effect_view effect_view_of(const texture_camera *camera, const texture_camera *last, double column, double row);
+
+/** The same in a shader. Of a depth that it only compares with, eye and eye01. */
+typedef struct effect_pixel {
+    float eye, eye01; /**< eye depth; the same over far */
+    float world[3];
+    float ndc[2], stretch;
+    float normal[3];
+    const float (*last)[4]; /**< rows x, y and w of last frame's view-projection */
+} effect_pixel;
+
+/** |v - v'| of two depths; the farther they are from each other the larger. */
+typedef double effect_apart(const effect_view *view, const double *parameters, double z, double other);
+/** EFFECT_CLAMPED: v, monotone in z. EFFECT_FADE: null, or v - v', which may be concave in place of monotone. */
+typedef double effect_quantity(const effect_view *view, const double *parameters, double z);
+/** The largest v - v' of the depths from lo to hi. */
+typedef double effect_most(const effect_view *view, const double *parameters, double lo, double hi);
+/** The output, before it is stored in 8 bits, where the effect sees eye depth z; `reference` is the eye depth of what
+ *  it is compared with, if that is `given` or another pixel. */
+typedef double effect_output(const effect_view *view, const double *parameters, double z, double reference);
+typedef float effect_shader(const effect_pixel *pixel, const float *parameters, const effect_pixel *reference);
+/**
+ * EFFECT_STEP: below which values of the wanted parameter the output on a plane is 1, the least and the most of them.
+ * @param seen   the depth of the pixel
+ * @param apart  between which differences of two depths, scene units
+ */
+typedef void effect_critical(const effect_view *view, const double *parameters, double seen, const double apart[2],
+                             double out[2]);
+
+typedef struct effect_row {
+    const char *name; /**< "intersection", "fog", ... */
+    const char *note; /**< the formula */
+    texture_parameter parameters[PARAMETERS_MAX + 1];
+    int wanted;            /**< the parameter whose usable values are looked for */
+    bool smallest;         /**< it is usable from some value up; else from some value down */
+    int ceiling;           /**< EFFECT_STEP: another parameter, beyond which differences count for nothing; 0: none */
+    bool eye01;            /**< uses z/far, so far must be finite */
+    unsigned needs;        /**< EFFECT_POSITION and the like */
+    const char *reference; /**< what the depth is compared with; null when with nothing */
+    bool given;            /**< the reference is an eye depth that the user gives with an image */
+    const char *source;
+    effect_kind kind;
+    effect_taps taps;
+    bool alone; /**< EFFECT_STEP: the difference is that of a depth to the stored one of its own cell, else that of the
+                     stored depths of two pixels of a plane, the one `slope` behind the other */
+    bool quiet; /**< EFFECT_STEP: on a plane the output should be 0; else what it would be without rounding */
+    effect_quantity *quantity;
+    effect_most *most;         /**< EFFECT_FADE with a quantity */
+    effect_apart *apart;       /**< null for EFFECT_CLAMPED and EFFECT_STEP */
+    effect_critical *critical; /**< EFFECT_STEP */
+    effect_output *output;
+    effect_shader *shader;
+} effect_row;
+
+/** The rows in order; null beyond the last. */
+const effect_row *effect_get(size_t index);
+
+/** Can the effect be had? Not when it needs a finite far plane and there is none. */
+bool effect_applies(const effect_row *row, const dp_setup *setup);
+
+/**
+ * The error of the output at z, in levels of 1/255.
+ *
+ * Every quantity is monotone in the depth, so the largest difference lies at an end of the cell. An output of 8 bits
+ * cannot be more than 255 levels off. EFFECT_STEP has the output 0 or 1: its error is 255 where a place of a plane, at
+ * a depth of z's cell, gets another answer than the plane should, and 0 elsewhere. Of "motion-blur" it is the length of
+ * the difference of two velocities.
+ *
+ * @param parameters  PARAMETERS_MAX numbers, in the order of the row, within their ranges
+ * @param z           in [near, far]
+ * @return from 0 to 255; NaN where the effect cannot be had, and in the model float, which has no cells
+ */
+double effect_error(const effect_row *row, const effect_view *view, const double *parameters, double z);
+
+/** What is known of the depth behind a pixel, in place of a cell. */
+typedef struct effect_depths {
+    double seen;   /**< what the effect gets */
+    double lo, hi; /**< between which it truly lies */
+} effect_depths;
+
+/** As effect_error(), over these depths; NaN for EFFECT_STEP that is not `alone`. */
+double effect_error_within(const effect_row *row, const effect_view *view, const double *parameters,
+                           const effect_depths *depths);
+
+/**
+ * The end of the usable values of the wanted parameter: the smallest (row->smallest) from which on, or the largest up
+ * to which, every value of the range keeps the error at z at most `levels`. Found in closed form, then settled to the
+ * last bit by effect_error().
+ *
+ * @param parameters  as above; the wanted one is not read
+ * @param levels      above 0 and below 255
+ * @return within the range of the parameter; NaN when no value of the range is usable, and where the error is NaN
+ */
+double effect_usable(const effect_row *row, const effect_view *view, const double *parameters, double z, double levels);
+
+/** The largest value of the parameter `ceiling` with which no place of a plane, at a depth of z's cell, gets another
+ *  answer than it should, the others being what they are: every smaller one has none either. NaN for other rows, in the
+ *  model float, and where there is none. */
+double effect_ceiling(const effect_row *row, const effect_view *view, const double *parameters, double z);
+
+/** EFFECT_STEP that is `alone`: the share of the places of a plane, all over z's cell and all over a texel, that get
+ *  another answer than they should; eye depths in the cell count alike. NaN for other rows. */
+double effect_share(const effect_row *row, const effect_view *view, const double *parameters, double z);
+
+#endif

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file oblique.h  The eye depths of codes where they may differ from pixel to pixel: see projection.h.
+ *
+ * With k the constant of the pixel in d = k + e/z, carried as a sum of two doubles, z = e/(d - k). Bound: 2^-50
+ * relative where |d - k| is above 2^-45 of the largest term of k. At d = k and beyond lies nothing, not even at
+ * infinity: INFINITY stands for it.
+ */
+#ifndef SHADER_OBLIQUE_H
+#define SHADER_OBLIQUE_H
+
+#include "shader/camera.h"
+#include "shader/sample_rounding.h"
+
+/** What codes of pixels from (column, row) on to the right stand for, as grain_ranges_of(); by that where the camera is
+ *  not oblique. */
+void pixel_ranges_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row, const uint32_t *codes,
+                     size_t count, const grain_rows *out);
+
+/** Eye depths of a whole row of an oblique camera in binary32; NaN where there are none. Codes above code_max are
+ *  skipped. */
+void pixel_eyes(const texture_camera *camera, uint32_t row, const uint32_t *codes, float *eyes);
+
+/** Of one pixel: as grain_range_of(), and as dp_stored(). */
+grain_range pixel_range_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row, uint32_t code);
+double pixel_stored(const texture_camera *camera, uint32_t column, uint32_t row, uint32_t code);
+
+#endif
