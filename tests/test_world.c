@@ -272,7 +272,7 @@ static void within_three_times(void **state) {
         double least = 1.0;
         for (int d = 0; d < DISTANCES; d++) {
             double most = 0.0;
-            for (uint64_t climb = test_cases(1, 50, 1000); climb > 0; climb--) {
+            for (uint64_t climb = test_cases(1, 25, 1000); climb > 0; climb--) {
                 pose best = {0};
                 double share = 0.0;
                 for (int step = 0; step < 3000; step++) {
@@ -327,7 +327,7 @@ static void order_is_kept(void **state) {
         double least = 1.0;
         for (int d = 0; d < DISTANCES; d++) {
             double most = 0.0;
-            for (uint64_t climb = test_cases(1, 50, 1000); climb > 0; climb--) {
+            for (uint64_t climb = test_cases(1, 25, 1000); climb > 0; climb--) {
                 pose best = {0};
                 double share = 0.0;
                 for (int step = 0; step < 3000; step++) {
