@@ -49,6 +49,7 @@ check "a changed number changes the digest" [ "$(digest "$scratch/a.svg")" != "$
 for figure in distribution share error interval budget map normals; do
     for ending in svg pdf png; do
         "$DEPTHPREC" plot $figure -F unorm24,fp32 -m reversed -o "$scratch/1.$ending"
+        [ $ending = svg ] || [ -n "${DEPTHPREC_FULL-}" ] || continue
         "$DEPTHPREC" plot $figure -F unorm24,fp32 -m reversed -o "$scratch/2.$ending"
         check "$figure.$ending: the same bytes twice" cmp "$scratch/1.$ending" "$scratch/2.$ending"
     done

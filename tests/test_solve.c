@@ -123,7 +123,7 @@ static void test_tight(void **state) {
     tally neighbour = {.name = "near of a perspective: the very next double fails"};
     tally islands = {.name = "a value passes exactly when an island holds it"};
     tally impossible = {.name = "impossible: no sampled value passes, none comes nearer"};
-    const uint64_t cases = test_cases(400, 10000, 100000);
+    const uint64_t cases = test_cases(400, 3000, 100000);
     uint64_t weak = 0;
     for (uint64_t i = 0; i < cases;) {
         solve_problem p;
@@ -195,7 +195,7 @@ static void test_closed_form(void **state) {
     static solve_result s;
     rng r = rng_make("solve closed form");
     tally close = {.name = "UNORM under a perspective: the closed form"};
-    const uint64_t cases = test_cases(300, 5000, 50000);
+    const uint64_t cases = test_cases(300, 1500, 50000);
     for (uint64_t i = 0; i < cases; i++) {
         static const char *const names[] = {"unorm16", "unorm24", "unorm32"};
         const double n = rng_log(&r, 1e-3, 10.0);
@@ -305,7 +305,7 @@ static void test_error(void **state) {
     rng r = rng_make("solve error");
     tally held = {.name = "no error is larger than its measure"};
     tally near_by = {.name = "an error near by is nearly as large"};
-    const uint64_t cases = test_cases(1000, 20000, 200000);
+    const uint64_t cases = test_cases(1000, 6000, 200000);
     for (uint64_t i = 0; i < cases; i++) {
         solve_problem p;
         dp_setup setup;
@@ -332,7 +332,7 @@ static void test_range(void **state) {
     (void)state;
     rng r = rng_make("solve range");
     tally largest = {.name = "no depth of a range has a larger measure"};
-    const uint64_t cases = test_cases(500, 5000, 50000);
+    const uint64_t cases = test_cases(500, 1500, 50000);
     for (uint64_t i = 0; i < cases; i++) {
         solve_problem p;
         dp_setup setup;

@@ -86,7 +86,7 @@ static void codes_match_mpfr(void **state) {
     (void)state;
     tally t = {.name = "staged codes"};
     rng r = rng_make("staged codes");
-    for (uint64_t i = test_cases(2000, 40000, 1000000); i > 0; i--) {
+    for (uint64_t i = test_cases(2000, 15000, 1000000); i > 0; i--) {
         dp_spec spec;
         dp_setup setup;
         if (!random_setup_signed(&r, &spec, &setup))
@@ -133,7 +133,7 @@ static void separation_is_safe(void **state) {
     (void)state;
     tally t = {.name = "staged separation"};
     rng r = rng_make("staged separation");
-    for (uint64_t i = test_cases(2000, 40000, 1000000); i > 0; i--) {
+    for (uint64_t i = test_cases(2000, 15000, 1000000); i > 0; i--) {
         dp_spec spec;
         dp_setup setup;
         if (!random_setup_signed(&r, &spec, &setup))

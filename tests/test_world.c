@@ -228,7 +228,7 @@ static void never_below(void **state) {
     tally never = {.name = "never below"};
     for (size_t i = 0; i < WORLD_ROWS; i++) {
         double most = 0.0;
-        for (uint64_t n = test_cases(2000, 100000, 12500000); n > 0; n--) {
+        for (uint64_t n = test_cases(2000, 30000, 12500000); n > 0; n--) {
             const world_scheme s = any_size(&r, i);
             const double distance = rng_below(&r, 2) ? distances[rng_below(&r, DISTANCES)] : rng_log(&r, 1e-2, 1e12);
             const double z = rng_log(&r, 0.05, 5e3);
@@ -272,7 +272,7 @@ static void within_three_times(void **state) {
         double least = 1.0;
         for (int d = 0; d < DISTANCES; d++) {
             double most = 0.0;
-            for (uint64_t climb = test_cases(1, 50, 1000); climb > 0; climb--) {
+            for (uint64_t climb = test_cases(1, 25, 1000); climb > 0; climb--) {
                 pose best = {0};
                 double share = 0.0;
                 for (int step = 0; step < 3000; step++) {
@@ -327,7 +327,7 @@ static void order_is_kept(void **state) {
         double least = 1.0;
         for (int d = 0; d < DISTANCES; d++) {
             double most = 0.0;
-            for (uint64_t climb = test_cases(1, 50, 1000); climb > 0; climb--) {
+            for (uint64_t climb = test_cases(1, 25, 1000); climb > 0; climb--) {
                 pose best = {0};
                 double share = 0.0;
                 for (int step = 0; step < 3000; step++) {
@@ -516,7 +516,7 @@ static void codes_are_in_order(void **state) {
     tally near_it = {.name = "some a quarter of it"};
     for (size_t i = 0; i < WORLD_ROWS; i++) {
         double ties = 0.0;
-        for (uint64_t n = test_cases(300, 20000, 1000000); n > 0; n--) {
+        for (uint64_t n = test_cases(300, 6000, 1000000); n > 0; n--) {
             const buffer b = random_buffer(&r, 2000.0);
             const dp_spec *spec = &b.setup.spec;
             const world_scheme s = standard(i);
