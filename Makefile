@@ -169,6 +169,7 @@ WEB_DRAW_O := $(call web_objects,$(filter-out %/fight.c %/mesh.c %/vertex_compar
 SAMPLES_O := $(foreach p,samples frames,$(B)/web/obj/tests/web/$p.o $(B)/obj/tests/web/$p.o)
 # Fast where numbers are made, small elsewhere.
 $(B)/web/obj/src/core/%.o $(B)/web/obj/src/raster/%.o: WEB_OPTIMIZE := -O2
+$(B)/web/obj/src/raster/vertex_%.o: WEB_OPTIMIZE := -Oz
 $(B)/web/obj/%.o: WEB_OPTIMIZE ?= -Oz
 $(B)/web/obj/%.o: %.c Makefile
 	@mkdir -p $(@D)
