@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * world: how far from the origin a world may reach: what each scheme costs in view z, in the gap that is safe and in
- * pixels of jitter, how far that suffices, and which is enough.
+ * world: how far from the origin a world may reach: what each scheme costs in view z, in the separation that is safe
+ * and in pixels of jitter, how far that suffices, and which is enough.
  */
 #include <math.h>
 #include <stdio.h>

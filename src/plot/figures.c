@@ -32,8 +32,8 @@ static const figure_row rows[] = {
     {"shadow", "Shadow maps: the bias that is needed and the gap that opens",
      "the bias that a surface needs at each angle to the light, cause by cause, and the gap that each of three opens",
      1, FIGURE_SHADOW, NULL, NULL, shadow_build},
-    {"world", "Large worlds: the gap that is safe, and jitter",
-     "the gap that is safe and the jitter of a picture against the distance from the world's origin, a curve a scheme",
+    {"world", "Large worlds: the separation that is safe, and jitter",
+     "the separation that is safe and the jitter of a picture against the distance from the world's origin, by scheme",
      1, FIGURE_AT | FIGURE_FLOAT | FIGURE_BINARY32, NULL, "fp32", world_build},
     {"fight", "Z-fighting as a rasterizer draws it",
      "a wall and a decal before it, pixel by pixel, as slanted triangles: nearer than is guaranteed, and as far as "

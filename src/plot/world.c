@@ -63,7 +63,7 @@ const char *world_build(const figure_request *request, chart *out) {
                            .ray_ratio = dp_hypot(1.0, half * dp_hypot(1.0, (double)view.width / view.height)),
                            .pixels = 0.5 * view.height / half};
     char in_units[64];
-    snprintf(in_units, sizeof in_units, "Gap that is safe, %s", out->unit != NULL ? out->unit : "scene units");
+    snprintf(in_units, sizeof in_units, "Separation that is safe, %s", out->unit != NULL ? out->unit : "scene units");
     if (!isnan(request->lo))
         return "plot world: --range does not apply: distances are from 100 to 1e8 scene units";
     if (facing.spec.ortho)

@@ -92,9 +92,9 @@ static void say_guarantee(void) {
     if (draw_picture_marked(&picture))
         printf("Nothing flickers from %s on: guaranteed.\n", from.text);
     else if (isfinite(picture.guaranteed))
-        printf("A gap is safe for sure from %s on, more than there is room for.\n", from.text);
+        printf("A separation is guaranteed from %s on, more than there is room for.\n", from.text);
     else
-        printf("No gap is safe for sure at this depth.\n");
+        printf("No separation is guaranteed at this depth.\n");
 }
 
 /** Says the gap at a place of the slider, and what it does, as the last frame was; `quiet`: none was wrong lately. */
