@@ -72,9 +72,11 @@ static void check_figure(const char *options, const char *format, const char *ma
 
 static void test_figure(void **state) {
     (void)state;
-    check_figure("-F fp32 -m reversed -f inf", "fp32", "reversed", INFINITY, 10, 1, "Separation that is safe, scene units",
+    check_figure("-F fp32 -m reversed -f inf", "fp32", "reversed", INFINITY, 10, 1,
+                 "Separation that is safe, scene units",
                  "fp32 reversed, near 0.1, far inf, perspective, nearest, float ieee, 10 ahead");
-    check_figure("-F d24 -m d3d -f 5000 --at 300", "unorm24", "d3d", 5000, 300, 1, "Separation that is safe, scene units",
+    check_figure("-F d24 -m d3d -f 5000 --at 300", "unorm24", "d3d", 5000, 300, 1,
+                 "Separation that is safe, scene units",
                  "unorm24 d3d, near 0.1, far 5000, perspective, nearest, float ieee, at depth 300");
     check_figure("-F fp32 -m reversed -f inf --unit cm", "fp32", "reversed", INFINITY, 1000, 100,
                  "Separation that is safe, cm",
