@@ -22,7 +22,7 @@ const command_row command_rows[] = {
     {"budget", CMD_BUDGET, "", 0, 0, NULL,
      "how much of the separation each cause takes",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
-     "  depthprec budget -F fp32 -m reversed --from-origin 5000 --linearize --at 10,100,1000\n"
+     "  depthprec budget -F fp32 -m reversed --from-origin 5km --linearize --at 10m\n"
      "  depthprec budget -F fp32 -m reversed --viewport 1920x1080 --raster spec-d3d\n", 0, NULL},
     {"solve", CMD_SOLVE, "", 0, 0, NULL,
      "near, far, format, mapping or distance for a separation",
@@ -50,7 +50,7 @@ const command_row command_rows[] = {
      "what a depth bias does, how much is enough, per API",
      "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
      "  depthprec bias --api all --separation 0.02 --at 300\n"
-     "  depthprec bias --api webgpu -F depth24plus -m d3d --separation 0.01 --range 1:100\n"
+     "  depthprec bias --api webgpu -F depth24plus --separation 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0, NULL},
     {"world", CMD_WORLD, "", 0, 0, NULL,
      "large worlds: safe separation, jitter far from the origin",

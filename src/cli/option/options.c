@@ -433,7 +433,7 @@ int options_parse(options *o, int argc, char **argv) {
         o->command = command_find(argv[1]);
     if (o->command == NULL) {
         names_nearest(&(name_list){.get = list_command}, "", argv[1], text);
-        return usage_error("unknown word '%s'%s", argv[1],
+        return usage_error("unknown command '%s'%s", argv[1],
                            *text != '\0' ? text : "; 'depthprec --help' lists the commands");
     }
     const command_row *const asked = named ? o->command : NULL;
