@@ -90,8 +90,8 @@ static void report(const char *what, const slack_report *slack) {
 }
 
 /*
- * Every pair of a census, for 12 cameras x 4 mappings x 4 formats, in every row of arithmetic; by default in `ieee`, and
- * of each mapping and format three cameras, each camera with a format of every mapping.
+ * Every pair of a census, for 12 cameras x 4 mappings x 4 formats, in every row of arithmetic; by default in `ieee`,
+ * and of each mapping and format three cameras, each camera with a format of every mapping.
  */
 static void never_violated_and_tight(void **state) {
     (void)state;
