@@ -57,7 +57,8 @@ OPTIMIZE_release := -O3
 OPTIMIZE_asan := -O2 -g
 
 SANITIZE := address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-MODE_asan := -fsanitize=$(SANITIZE) -Wno-pass-failed # no loop with sanitizers in it becomes vectors
+# No loop with sanitizers in it becomes vectors. That they are there gcc says by this macro, clang by another word.
+MODE_asan := -fsanitize=$(SANITIZE) -Wno-pass-failed -D__SANITIZE_ADDRESS__=1
 # Exceptions within libraries that are opened later need it there from the start.
 LINK_asan := -Wl,--no-as-needed -lstdc++
 MODE_coverage := --coverage
