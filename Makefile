@@ -57,7 +57,10 @@ OPTIMIZE_release := -O3
 OPTIMIZE_asan := -O2 -g
 
 SANITIZE := address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-MODE_asan := -fsanitize=$(SANITIZE) -Wno-pass-failed # no loop with sanitizers in it becomes vectors
+# No loop with sanitizers in it becomes vectors. That they are there gcc says by this macro, clang by another word.
+MODE_asan := -fsanitize=$(SANITIZE) -Wno-pass-failed -D__SANITIZE_ADDRESS__=1
+# Exceptions within libraries that are opened later need it there from the start.
+LINK_asan := -Wl,--no-as-needed -lstdc++
 MODE_coverage := --coverage
 MODE_fuzz := -fsanitize=fuzzer-no-link,$(SANITIZE)
 MODE := $(MODE_$(CONF))
@@ -74,7 +77,7 @@ WARN_clang := $(WARN) -Wno-double-promotion
 EXACT := -fno-math-errno -fno-trapping-math -ffp-contract=off -fopenmp-simd
 INCLUDES := -Iinclude -Isrc -Itests
 COMPILE = $(CC) -std=gnu11 $(INCLUDES) $(CPPFLAGS) $(if $(findstring clang,$(CC)),$(WARN_clang),$(WARN)) $(CFLAGS) $(MODE) $(EXACT) -fvisibility=hidden -fPIC -MMD -MP
-LINK = $(CC) $(CFLAGS) $(MODE) $(LDFLAGS) -Wl,--as-needed
+LINK = $(CC) $(CFLAGS) $(MODE) $(LDFLAGS) $(LINK_$(CONF)) -Wl,--as-needed
 
 Q := $(if $(filter 1,$(V)),,@)
 comma := ,
@@ -406,7 +409,7 @@ help:
 ## make check       install what is missing, build, run the tests: at most 5 minutes on two cores
 ## make check-full  all cases, and check-web, check-probe, cross and deb: hours, before a release (Debian)
 ## make check-baseline  the tests that know it, without AVX
-## make check-probe  a Vulkan driver without a GPU, and what the probe finds there (Debian)
+## make check-probe  a Vulkan driver without a GPU, and what the probe finds there (Debian): a part, see check-full
 ## make cross       built for MACHINES="aarch64 s390x" and run, emulated: the tests, and the same bytes as here (Debian)
 ## make asan        the tests, built by clang, under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
@@ -415,7 +418,8 @@ help:
 ## make lint        format, warnings of clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
 ## make bench       measure the speed of the engine and the methods, redraw the charts of both; last, which aims are met
-## make check-web       the page in Chromium, which it installs: what it shows against the program, keyboard, speed
+## make check-web       the page in Chromium, which it installs: a minute of it: what it shows against the program, bad
+##                  addresses; DEPTHPREC_FULL=1 adds keyboard, speed and more
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
