@@ -232,8 +232,8 @@ asan:
 # Without what needs AVX: neither kernels of the library's own, of which src/core/batch.c alone knows, nor the C library's
 # functions. The programs whose numbers may come from either, with few cases, and the recorded texts.
 WITHOUT_AVX := batch bias_drawn bound census census_asked census_kernel code decode draw draw_fight effect effects_pixels \
-    elementary frame frame_errors frame_summary grain image_depths normal picture position quotient raster \
-    raster_any raster_input rasterizers scene_render shadow_drawn staged texture_report triangles triangles_drawn \
+    elementary frame frame_errors frame_summary image_depths normal picture position quotient raster raster_any \
+    raster_input rasterizers sample_rounding scene_render shadow_drawn staged texture_report triangles triangles_drawn \
     values_texture values_zfight vertex world
 BASELINE_PROGRAMS := $(patsubst %,$(B)/baseline/test_%,$(WITHOUT_AVX))
 check-baseline:
@@ -336,7 +336,7 @@ lint-man:
 	$(Q)$(if $(MAN),mandoc -T lint -W warning $(MAN))
 
 lint-spell:
-	$(Q)codespell -L nd,eror,arithmetics $(wildcard README.md) Makefile include src man tests/*.[ch] tests/*.sh
+	$(Q)codespell -L nd,eror,arithmetics,positoin $(wildcard README.md) Makefile include src man tests/*.[ch] tests/*.sh
 
 lint-scripts:
 	$(Q)for f in $(SCRIPTS); do sh -n $$f || exit 1; done; bash -n .ci/run

@@ -71,7 +71,7 @@ list encodings --json
 list methods --json
 list presets --json
 plot stability linearize --csv
-plot stability encode --csv
+plot stability interval --csv
 zfight -n 1 -f 1.2 -F unorm16 -m all --csv
 zfight -n 1 -f 1.5 -F fp16 --sample 2000 --separation 0.0001 --json
 solve -f 1000 -F all $every --separation 0.01 --at 100 --json

@@ -133,7 +133,7 @@ static void random_options(rng *r, double size, bool eye, char out[512]) {
              away * from[2]);
 }
 
-/* Either is moved; where they touch or cross, either way. */
+/* Either is moved; where they touch, either way. */
 static void lifts(void **state) {
     rng r = rng_make("mended models");
     tally t = {.name = "enough"}, said_some = {.name = "said"};
@@ -167,6 +167,28 @@ static void lifts(void **state) {
     tally_end(&t);
 }
 
+/* What crosses fights along a line wherever it is moved to: no distance is promised, from everywhere and from an eye.
+ */
+static void crossing(void **state) {
+    static const char *const eyes[] = {"", "--eye 0,0,3 --look 0,0,0"};
+    static const char obj[] = "o below\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n"
+                              "o above\nv -1 -1 %g\nv 1 -1 %g\nv 0 1 %g\nf 4 5 6\n";
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const char *path = scratch_file("crossed.obj");
+        const double below = k < 2 ? 1e-5 : -1e-5; /* else above as a whole */
+        FILE *out = fopen(path, "w");
+        assert_non_null(out);
+        fprintf(out, obj, -below, 1e-5, 1e-5);
+        assert_int_equal(fclose(out), 0);
+        char options[128];
+        snprintf(options, sizeof options, "-F d24 -m d3d -n 0.1 -f 1000 --separation 1mm --within 50 %s", eyes[k % 2]);
+        const said s = ask(path, options);
+        assert_true(s.fights);
+        assert_true(k < 2 ? isnan(s.lift) : s.lift > 0 && isfinite(s.lift));
+    }
+}
+
 /* What can fight fails, by the same camera in the file. */
 static void requirements(void **state) {
     rng r = rng_make("requirements of models");
@@ -193,6 +215,7 @@ static void requirements(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lifts), cmocka_unit_test(requirements)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lifts), cmocka_unit_test(crossing),
+                                       cmocka_unit_test(requirements)};
     return run_tap(tests);
 }

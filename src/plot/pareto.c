@@ -78,7 +78,7 @@ static void add_front(const field *f, chart *out, chart_panel *panel, int pipeli
 static void add_bars(const field *f, chart *out, chart_panel *panel) {
     size_t count = 0;
     for (size_t i = 0; i < f->count; i++)
-        count += isfinite(f->methods[i].of->bound);
+        count += isfinite(f->methods[i].of->bound) ? 1 : 0;
     chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_BARS, 2 * count) : NULL;
     if (s == NULL)
         return;

@@ -375,64 +375,42 @@ static double lack_moved(const sight_asked *asked, const pair *p, double by) {
     return lack;
 }
 
-/* Whether the triangles that face as the finding does lie on both sides of each other, together or one of them. */
-static bool is_crossing(const model *m, const finder_found *found, const finder_finding *f) {
+/*
+ * Whether the triangles of a pair meet in some places and part in others: they cross, or fold apart along a line. Where
+ * they meet they fight however far they are moved, and what lies beside them comes nearer.
+ */
+static bool is_crossing(const finder_found *found, const finder_finding *f) {
     const double none = SCENE_NO_GAP * found->extent;
-    bool above = false, below = false;
     for (size_t i = 0; i < f->pairs; i++) {
         const finder_pair *p = &found->pair[f->first + i];
-        const bool up = p->gap_hi > none, down = p->gap_lo < -none;
-        double n[3];
-        if ((above || !up) && (below || !down))
-            continue;
-        unit_normal(m, p->triangle[0], n);
-        const bool alike = dot(n, f->normal) > 0.5;
-        above = above || (up && (alike || down));
-        below = below || (down && (alike || up));
+        if (p->gap_lo <= none && p->gap_hi >= -none && p->gap_hi - p->gap_lo > none)
+            return true;
     }
-    return above && below;
-}
-
-/* By how much the triangles reach through each other; 0 where none does. */
-static double crossing(const model *m, const finder_found *found, const finder_finding *f) {
-    double most = 0.0;
-    if (!is_crossing(m, found, f))
-        return 0.0;
-    for (size_t i = 0; i < f->pairs; i++) {
-        const overlap o = whole_overlap(m, &found->pair[f->first + i]);
-        most = fmax(most, fmax(-o.lo, o.hi));
-    }
-    return most;
+    return false;
 }
 
 double scene_lift(const model *m, const finder_found *found, const finder_finding *f, double lift) {
     double share = 1.0;
+    if (lift > 0.0 && is_crossing(found, f))
+        return HUGE_VAL;
     for (size_t i = 0; i < f->pairs && lift > 0.0; i++) {
         double n[2][3];
         for (int k = 0; k < 2; k++)
             unit_normal(m, found->pair[f->first + i].triangle[k], n[k]);
         share = fmin(share, parallel(n[0], n[1]));
     }
-    return lift > 0.0 ? (lift + crossing(m, found, f)) / share : lift;
+    return lift > 0.0 ? lift / share : lift;
 }
 
-/* Of what touches or crosses neither side is the one to which it is moved. */
-static bool has_no_side(const finder_found *found, const finder_finding *f) {
-    const double none = SCENE_NO_GAP * found->extent;
-    for (size_t i = 0; i < f->pairs; i++)
-        if (found->pair[f->first + i].gap_lo <= none && found->pair[f->first + i].gap_hi >= -none)
-            return true;
-    return false;
-}
-
+/* Of what touches neither side is the one to which it is moved. */
 static double lack_of_all(const sight_asked *asked, const finder_finding *f, double lift) {
-    const bool either = has_no_side(asked->found, f);
+    const double none = SCENE_NO_GAP * asked->found->extent;
     double lack = 0.0;
     for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
         const pair p = whole_pair_of(asked, &asked->found->pair[f->first + i]);
-        if (either || p.gap_hi >= 0.0)
+        if (p.gap_hi >= -none)
             lack = fmax(lack, lack_moved(asked, &p, lift));
-        if (either || p.gap_hi < 0.0)
+        if (p.gap_lo <= none)
             lack = fmax(lack, lack_moved(asked, &p, -lift));
     }
     return lack;
@@ -443,7 +421,8 @@ static double lack_of_all(const sight_asked *asked, const finder_finding *f, dou
 static double enough_lift(const sight_asked *asked, const finder_finding *f, double lift) {
     if (!(lift > 0.0))
         return lift;
-    lift += crossing(asked->m, asked->found, f);
+    if (is_crossing(asked->found, f))
+        return HUGE_VAL;
     for (int round = 0; round < ROUNDS && isfinite(lift); round++) {
         const double lack = lack_of_all(asked, f, lift);
         if (lack == 0.0)

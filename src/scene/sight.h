@@ -57,7 +57,8 @@ typedef struct sight_asked {
 
 /**
  * What has to be added to the distance of a finding, along any of its normals, so that it grows by `lift` everywhere:
- * more where triangles are tilted against each other, and where they reach through each other.
+ * more where triangles are tilted against each other; infinite where they meet in some places and part in others, which
+ * no distance mends.
  */
 double scene_lift(const model *m, const finder_found *found, const finder_finding *f, double lift);
 
