@@ -138,7 +138,7 @@ static void lifts(void **state) {
     rng r = rng_make("mended models");
     tally t = {.name = "enough"}, said_some = {.name = "said"};
     (void)state;
-    for (uint64_t run = 0; run < test_cases(60, 80, 4000); run++) {
+    for (uint64_t run = 0; run < test_cases(60, 200, 4000); run++) {
         const bool eye = run % 4 != 0;
         const double size = rng_log(&r, 0.3, 10), gap = rng_below(&r, 5) == 0 ? 0 : size * rng_log(&r, 1e-6, 1e-3);
         char path[512], options[512];
@@ -194,7 +194,7 @@ static void requirements(void **state) {
     rng r = rng_make("requirements of models");
     tally t = {.name = "fails"};
     (void)state;
-    for (uint64_t run = 0; run < test_cases(100, 150, 10000); run++) {
+    for (uint64_t run = 0; run < test_cases(100, 400, 10000); run++) {
         const double size = rng_log(&r, 0.3, 10), gap = size * rng_log(&r, 1e-4, 1e-1);
         char path[512], options[512], need[512], line[1280];
         snprintf(path, sizeof path, "%s", scratch_file("asked.obj"));

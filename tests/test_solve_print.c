@@ -129,7 +129,7 @@ static void test_printed(void **state) {
     const int file = mkstemp(path);
     assert_true(file >= 0);
     close(file);
-    const uint64_t cases = test_cases(40, 150, 6000);
+    const uint64_t cases = test_cases(40, 400, 6000);
     for (uint64_t i = 0; i < cases; i++) {
         const asked a = draw(&r);
         if (isinf(a.separation))
@@ -169,7 +169,7 @@ static void test_all_beyond(void **state) {
     const int file = mkstemp(path);
     assert_true(file >= 0);
     close(file);
-    const uint64_t cases = test_cases(30, 100, 3000);
+    const uint64_t cases = test_cases(30, 300, 3000);
     for (uint64_t i = 0; i < cases; i++) {
         asked a = {"unorm24", "d3d", "fp32", 0, 0, i == 0 ? 10000 : INFINITY,
                    5000,      0.01}; /* the examples of README.md */
