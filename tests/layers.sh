@@ -147,6 +147,22 @@ header_circles() {
 check "no circle between files" empty circles
 check "no circle between headers" empty header_circles
 
+# A comment names files as they are called: a header itself, and whatever else ends in .c or .h.
+misnamed() {
+    find src include tests -name '*.[ch]' >"$scratch/files" && grep -q '^src/cli/main.c$' "$scratch/files" || return
+    xargs awk '
+        FILENAME == ARGV[1] && FNR == 1 { for (i = 1; i < ARGC; i++) { name = ARGV[i]; sub(/.*\//, "", name); known[name] } }
+        / @file / { name = FILENAME; sub(/.*\//, "", name)
+            if (index($0, "@file " name " ") == 0) print FILENAME ":" FNR ": " $0 }
+        !/^ ?\*|\/\*/ || /#include/ { next }
+        { for (rest = $0; match(rest, /[a-z][a-z0-9_\/]*\.[ch]/); rest = substr(rest, at)) {
+            at = RSTART + RLENGTH; name = substr(rest, RSTART, RLENGTH); sub(/.*\//, "", name)
+            before = substr(rest, RSTART - 1, RSTART > 1); after = substr(rest, at, 1)
+            if (length(name) > 5 && before !~ /[A-Za-z0-9_.>-]/ && after !~ /[a-z0-9_]/ && !(name in known) && name != "math.h")
+                print FILENAME ":" FNR ": " name } }' <"$scratch/files"
+}
+check "comments name files as they are called" empty misnamed
+
 # ---- Lines and functions -----------------------------------------------------------------------------------------
 
 long_lines() { lines -rnE --include='*.[ch]' '^.{121,}' src include tests; }

@@ -91,6 +91,9 @@ scene tests/models/house.gltf $bent
 shadow --light-box 40x40x200 -F fp32
 END
 check "softpipe brings its own" counts "--raster softpipe" softpipe ieee budget -F fp32 -m d3d --viewport 640x480 --at 10
+# A profile brings its own, not that of the rasterizer's row.
+sed 's/"arith":"mesa"/"arith":"softpipe"/' tests/profiles/lavapipe.json >"$scratch/other.json"
+check "a profile brings its own" counts "--raster $scratch/other.json" softpipe mesa budget -F fp32 -m d3d --viewport 640x480 --at 10
 # Where two presets are compared each has its view, and all the one rasterizer.
 compared() {
     "$DEPTHPREC" table --preset unity,godot-forward --viewport 640x480 --raster llvmpipe --at 10 >"$scratch/alone" &&

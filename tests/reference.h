@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file promise.h  The promise of the guaranteed separation s, put to the test.
+ * @file reference.h  The promise of the guaranteed separation s, put to the test.
  *
  *     For all real depths z1 < z2 in [near, far] with z2 - z1 >= s(z1) the codes are strictly in order.
  *

@@ -32,7 +32,7 @@ typedef struct reference_pipe {
 /** The pipeline of a set-up; mappings with a pipeline only. */
 reference_pipe reference_pipe_make(const dp_setup *setup, bool flush);
 
-/** The keys of `count` binary32 depths that follow each other, the first having the rank `first`: see promise.h. */
+/** The keys of `count` binary32 depths that follow each other, the first having the rank `first`: see reference.h. */
 void reference_keys(const reference_pipe *p, uint32_t first, size_t count, uint32_t *keys);
 
 /** The key of one depth. */

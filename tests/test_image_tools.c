@@ -304,6 +304,53 @@ static void tiff_apart(void **state) {
     image_free(&img);
 }
 
+/* A block of 8 by 8 samples, all 128, as JPEG in a TIFF: it is read, and told to be what a compression made of depths.
+ */
+static void tiff_jpeg(void **state) {
+    static const unsigned char tables[] = {
+        0xff, 0xc0, 0, 11, 8,    0, 8, 0, 8,  1, 1,    0x11, 0, /* 8 bits, 8 by 8, one component */
+        0xff, 0xc4, 0, 20, 0x00, 1, 0, 0, 0,  0, 0,    0,    0,
+        0,    0,    0, 0,  0,    0, 0, 0, 0, /* the code 0: no difference */
+        0xff, 0xc4, 0, 20, 0x10, 1, 0, 0, 0,  0, 0,    0,    0,
+        0,    0,    0, 0,  0,    0, 0, 0, 0, /* the code 0: end of block */
+        0xff, 0xda, 0, 8,  1,    1, 0, 0, 63, 0, 0x3f, 0xff, 0xd9};
+    enum { BYTES = 2 + 4 + 65 + sizeof tables };
+    static const uint32_t entries[][2] = {/* tag, value */
+                                          {256, 8}, {257, 8}, {258, 8}, {259, 7},    {262, 1},
+                                          {273, 8}, {277, 1}, {278, 8}, {279, BYTES}};
+    handmade h = {.size = 0};
+    image img = {.data = NULL};
+    image_error error;
+    (void)state;
+    if (!tiff_is_read())
+        skip();
+    handmade_text(&h, "II");
+    handmade_number(&h, 42, 2, 1);
+    handmade_number(&h, 8 + BYTES, 4, 1);
+    handmade_number(&h, 0xffd8, 2, 0);
+    handmade_number(&h, 0xffdb0043, 4, 0);
+    for (int i = 0; i < 65; i++)
+        handmade_number(&h, i > 0, 1, 0);
+    for (size_t i = 0; i < sizeof tables; i++)
+        handmade_number(&h, tables[i], 1, 0);
+    handmade_number(&h, sizeof entries / sizeof entries[0], 2, 1);
+    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
+        handmade_number(&h, entries[i][0], 2, 1);
+        handmade_number(&h, 4, 2, 1);
+        handmade_number(&h, 1, 4, 1);
+        handmade_number(&h, entries[i][1], 4, 1);
+    }
+    handmade_number(&h, 0, 4, 1);
+    if (!image_parse(h.at, h.size, &img, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(img.width, 8);
+    for (int i = 0; i < 64; i++)
+        assert_int_equal(((const uint8_t *)img.data)[i], 128);
+    assert_non_null(img.lossy);
+    assert_string_equal(img.lossy, "JPEG");
+    image_free(&img);
+}
+
 static void tiff_sentences(void **state) {
     (void)state;
     static const struct {
@@ -588,9 +635,10 @@ static void by_the_program(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exr_channels),   cmocka_unit_test(tiff_types),    cmocka_unit_test(tiff_apart),
-        cmocka_unit_test(tiff_sentences), cmocka_unit_test(damaged_files), cmocka_unit_test(missing_libraries),
-        cmocka_unit_test(made_by_tools),  cmocka_unit_test(made_by_numpy), cmocka_unit_test(by_the_program),
+        cmocka_unit_test(exr_channels),      cmocka_unit_test(tiff_types),     cmocka_unit_test(tiff_apart),
+        cmocka_unit_test(tiff_jpeg),         cmocka_unit_test(tiff_sentences), cmocka_unit_test(damaged_files),
+        cmocka_unit_test(missing_libraries), cmocka_unit_test(made_by_tools),  cmocka_unit_test(made_by_numpy),
+        cmocka_unit_test(by_the_program),
     };
     return run_tap(tests);
 }

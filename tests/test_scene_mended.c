@@ -189,6 +189,39 @@ static void crossing(void **state) {
     }
 }
 
+/* A camera of the file has the class of the very triangles: of a sliver 4 long and 1/1000 of that high, seen from 3. */
+static void class_of_a_sliver(void **state) {
+    static const double seen = 4 * 360 / (3 * 0.57735026918962576); /* pixels of 720 in 60 degrees */
+    (void)state;
+    char path[512], need[512], line[1280], text[4096];
+    snprintf(path, sizeof path, "%s", scratch_file("sliver.obj"));
+    snprintf(need, sizeof need, "%s", scratch_file("sliver.need"));
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs("o below\nv -2 0 0\nv 2 0 0\nv 2 0.004 0\nf 1 2 3\n"
+          "o above\nv -2 0 1e-4\nv 2 0 1e-4\nv 2 0.004 1e-4\nf 4 5 6\n",
+          out);
+    assert_int_equal(fclose(out), 0);
+    snprintf(line, sizeof line,
+             "-F d24 -m d3d --viewport 1280x720 --fov 60 --eye 0,0,3 --look 0,0,0 --separation 1mm --within 20 "
+             "--emit-need %s",
+             need);
+    assert_true(ask(path, line).is_seen);
+    FILE *in = fopen(need, "r");
+    assert_non_null(in);
+    text[fread(text, 1, sizeof text - 1, in)] = '\0';
+    assert_int_equal(fclose(in), 0);
+    const char *camera = strstr(text, "scene_p1 =");
+    double depth = 0, pixels = 0, slim = 0;
+    assert_non_null(camera);
+    assert_int_equal(sscanf(strstr(camera, "triangle ="), "triangle = { depth = %lf; pixels = %lf; slim = %lf;", &depth,
+                            &pixels, &slim),
+                     3);
+    assert_true(depth >= 1 && depth < 1.01);
+    assert_true(pixels >= seen && pixels < 1.01 * seen); /* each vertex is snapped */
+    assert_true(slim >= 1000 && slim < 1050);
+}
+
 /* What can fight fails, by the same camera in the file. */
 static void requirements(void **state) {
     rng r = rng_make("requirements of models");
@@ -216,6 +249,6 @@ static void requirements(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lifts), cmocka_unit_test(crossing),
-                                       cmocka_unit_test(requirements)};
+                                       cmocka_unit_test(class_of_a_sliver), cmocka_unit_test(requirements)};
     return run_tap(tests);
 }

@@ -625,7 +625,31 @@ static void test_solve(void **state) {
     }
 }
 
+/* One format and no mapping: the answer is the only one that does it, a logarithm; the library says which do. */
+static void test_logarithm_answers(void **state) {
+    (void)state;
+    for (dp_mapping m = 0; m < DP_MAPPING_COUNT; m++) {
+        if (m != DP_MAPPING_D3D && m != DP_MAPPING_GL && m != DP_MAPPING_REVERSED && m != DP_MAPPING_LOG)
+            continue;
+        dp_spec spec = dp_spec_default();
+        dp_setup setup;
+        spec.zfar = 1e6;
+        spec.mapping = m;
+        dp_format both[2];
+        assert_int_equal(dp_format_parse("unorm24", both), 1);
+        spec.format = both[0];
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        setup = dp_setup_guaranteed(&setup);
+        assert_int_equal(dp_separation(&setup, 500) <= 0.01, m == DP_MAPPING_LOG);
+    }
+    printed p = print_of("solve --for mapping -n 0.1 -f 1e6 -F d24 --separation 0.01 --at 500");
+    assert_int_equal(p.status, 0);
+    assert_true(strncmp(p.out, "unorm24 log, near 0.1, far 1000000 tells surfaces 0.01 apart", 60) == 0);
+    printed_free(&p);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_solve), cmocka_unit_test(check_apart)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_solve), cmocka_unit_test(test_logarithm_answers),
+                                       cmocka_unit_test(check_apart)};
     return run_tap(tests);
 }

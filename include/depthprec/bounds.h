@@ -60,7 +60,7 @@ typedef struct dp_separation_worst {
  * The largest dp_separation() over [lo, hi].
  *
  * In the model `exact` the separation rises with z inside a binade, so the ends of binades are all that can be worst.
- * In `staged` and `fp32` the range is divided until an upper bound of each part is either at most 2^-10 above the
+ * In `staged` and `float` the range is divided until an upper bound of each part is either at most 2^-10 above the
  * largest separation found, or at most `limit`, or the part is a single depth.
  *
  * @param lo, hi  eye depths, near <= lo <= hi <= far, lo finite

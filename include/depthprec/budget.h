@@ -150,7 +150,7 @@ typedef struct dp_choice {
 /**
  * Chooses the simplest model that is good enough: at every depth, what it neglects adds at most `tolerance` to the
  * separation that it finds, or to half a step of binary32 depths where that is larger: a depth is rounded by as much,
- * however narrow the cell at a plane is. The measure is the fullest model that the set-up has: fp32, or staged for
+ * however narrow the cell at a plane is. The measure is the fullest model that the set-up has: float, or staged for
  * linear and log; both count the rounding of the eye depth.
  *
  * @param z, count   eye depths in [near, far]; count >= 1

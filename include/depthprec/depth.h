@@ -90,7 +90,7 @@ DP_API dp_cell dp_cell_of(const dp_setup *setup, uint32_t code);
  * larger of the two steps where d to d + step reaches across a binade end; so it has no sawtooth inside a binade.
  *
  * In `staged` a step of each binary32 rounding is added, that of the eye depths too, since surfaces stand anywhere; in
- * `fp32` it is the guaranteed separation of dp_budget_at(), INFINITY for depths that binary32 cannot hold. With
+ * `float` it is the guaranteed separation of dp_budget_at(), INFINITY for depths that binary32 cannot hold. With
  * triangles in the set-up that is how far in front of z, along the normal, a parallel surface must lie; the other
  * models know of none.
  *

@@ -44,9 +44,7 @@ typedef struct prepass {
 static int check(prepass *a) {
     const options *o = a->each.o;
     vertex_request *r = &a->request;
-    options fp32 = *o;
-    fp32.model = DP_MODEL_FLOAT;
-    int status = setups_make(&fp32, &a->each.all);
+    int status = setups_make_float(o, &a->each.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &r->lo, &r->hi);
     if (status == EXIT_FINE && isinf(r->hi))

@@ -279,9 +279,7 @@ static int check(zfight *z) {
     const options *o = z->each.o;
     if (option_given(o, OPTION_SEED) && o->sample == 0)
         return option_error(OPTION_SEED, "needs --sample");
-    options fp32 = *o;
-    fp32.model = DP_MODEL_FLOAT;
-    int status = setups_make(&fp32, &z->each.all);
+    int status = setups_make_float(o, &z->each.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &z->lo, &z->hi);
     if (status == EXIT_FINE && isinf(z->hi))

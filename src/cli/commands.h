@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file verbs.h  The commands, one row each. A new one is a bit and a function here, its row in verbs.c, and the row
- * of main.c that runs it.
+ * @file commands.h  The commands, one row each. A new one is a bit and a function here, its row in commands.c, and the
+ * row of main.c that runs it.
  */
 #ifndef CLI_COMMANDS_H
 #define CLI_COMMANDS_H

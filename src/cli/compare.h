@@ -8,7 +8,7 @@
 /** Whether that is what was asked for: text, more than one set-up, and nothing that only the tables show. */
 bool compare_suits(const each_setup *w);
 
-/** Writes the screen in place of the tables of a walk that was started; frees what each_setup_start() made. */
+/** Writes the screen in place of the tables of what each_setup_start() began; frees what each_setup_start() made. */
 int compare_write(each_setup *w);
 
 #endif

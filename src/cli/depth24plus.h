@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file stored.h  Who stores what for depth24plus, a format that leaves the choice to the browser. */
+/** @file depth24plus.h  Who stores what for depth24plus, a format that leaves the choice to the browser. */
 #ifndef CLI_DEPTH24PLUS_H
 #define CLI_DEPTH24PLUS_H
 

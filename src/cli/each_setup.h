@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file walk.h  A report of depths, one after the other, in each set-up: what such commands share.
+ * @file each_setup.h  A report of depths, one after the other, in each set-up: what such commands share.
  *
- *     typedef struct table { each_setup each; row row; } table;        // the walk stands first
- *     int status = each_setup_start(&t.each, o);                       // set-ups and depths
- *     each_setup_write(&t.each, &spec, status);                        // its lists ask each_setup_go() and
- * each_setup_depth()
+ *     typedef struct table { each_setup each; row row; } table;  // `each` stands first
+ *     int status = each_setup_start(&t.each, o);                 // set-ups and depths
+ *     each_setup_write(&t.each, &spec, status);                  // its lists ask each_setup_go(), each_setup_depth()
  */
 #ifndef CLI_EACH_SETUP_H
 #define CLI_EACH_SETUP_H
@@ -41,7 +40,7 @@ bool each_setup_go(each_setup *w, size_t i);
 /** Goes to depth i, each in turn. @return false behind the last, and where nothing more can be written */
 bool each_setup_depth(each_setup *w, size_t i, double *z);
 
-/** What text says above a set-up: for reports whose item begins with its walk. */
+/** What text says above a set-up: for reports whose item begins with an each_setup. */
 void each_setup_title(page *p, void *item);
 
 #endif

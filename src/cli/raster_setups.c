@@ -15,11 +15,9 @@ static int check(const options *o) {
 }
 
 int raster_setups(const options *o, setups *out) {
-    options fp32 = *o;
-    fp32.model = DP_MODEL_FLOAT;
     int status = check(o);
     if (status == EXIT_FINE)
-        status = setups_make(&fp32, out);
+        status = setups_make_float(o, out);
     for (size_t i = 0; status == EXIT_FINE && i < out->count; i++) {
         dp_spec spec = out->items[i].spec;
         const dp_mapping_row *mapping = dp_mapping_get(spec.mapping);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file drawn.h  From options to set-ups of surfaces that a rasterizer draws. */
+/** @file raster_setups.h  From options to set-ups of surfaces that a rasterizer draws. */
 #ifndef CLI_RASTER_SETUPS_H
 #define CLI_RASTER_SETUPS_H
 

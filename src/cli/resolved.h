@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file reach.h  How far a set-up goes: the depths up to which three common separations are guaranteed. */
+/** @file resolved.h  How far a set-up goes: the depths up to which three common separations are guaranteed. */
 #ifndef CLI_RESOLVED_H
 #define CLI_RESOLVED_H
 

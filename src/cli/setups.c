@@ -129,6 +129,12 @@ int setups_make(const options *o, setups *out) {
     return status;
 }
 
+int setups_make_float(const options *o, setups *out) {
+    options in_float = *o;
+    in_float.model = DP_MODEL_FLOAT;
+    return setups_make(&in_float, out);
+}
+
 void setups_release(setups *s) {
     free(s->items);
     free(s->cameras);

@@ -24,6 +24,9 @@ typedef struct setups {
  */
 int setups_make(const options *o, setups *out);
 
+/** The same in the model float, whatever --model is. */
+int setups_make_float(const options *o, setups *out);
+
 void setups_release(setups *s);
 
 /** Whether one of them has a logarithmic mapping. */
@@ -53,12 +56,12 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
 
 /**
  * What names a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON `arith` follows
- * where the model is fp32, `log_c` where the mapping is log, and the unit, null where nothing says it.
+ * where the model is float, `log_c` where the mapping is log, and the unit, null where nothing says it.
  */
 typedef struct setup_fields {
     double znear, zfar, log_c; /**< log_c is NaN unless the mapping is log */
     const char *projection, *mapping, *format, *rounding, *model;
-    const char *arith;  /**< null unless the model is fp32 */
+    const char *arith;  /**< null unless the model is float */
     const char *unit;   /**< what a scene unit is; null where nothing says it */
     const char *preset; /**< null where there are not several */
 } setup_fields;

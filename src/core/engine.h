@@ -49,7 +49,7 @@ double dp_shader_error_over(const dp_setup *setup, double lo, double hi, double 
 
 /*
  * Whether dp_separation() is at most `limit` at every depth of [lo, hi] in every camera whose near and far lie between
- * those of two set-ups, which are alike but for one of the two, where that of the model exact is. Model fp32 of a
+ * those of two set-ups, which are alike but for one of the two, where that of the model exact is. Model float of a
  * mapping that has a matrix; 0 also where it could not be shown. A bound, not samples.
  */
 int dp_separation_within(const dp_setup *one, const dp_setup *other, double lo, double hi, double limit);

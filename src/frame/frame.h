@@ -23,7 +23,7 @@
 
 enum { FRAME_NORMAL_DEGREE = 256 };
 
-/** Normals beside the depths: see frame_normals.h. */
+/** Normals beside the depths: see normals.h. */
 typedef struct frame_normals {
     const uint8_t *texels; /**< two channels a pixel, as packing_normal() reads them */
     bool truncated;        /**< channels were cut off; else they are the nearest */

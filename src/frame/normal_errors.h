@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file normal_measure.h  Normals of a whole image, and how far those of a synthetic one are from its own. */
+/** @file normal_errors.h  Normals of a whole image, and how far those of a synthetic one are from its own. */
 #ifndef FRAME_NORMAL_ERRORS_H
 #define FRAME_NORMAL_ERRORS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file frame_normals.h  Normals beside the depths of a frame, as _CameraDepthNormalsTexture has them: packed. */
+/** @file normals.h  Normals beside the depths of a frame, as _CameraDepthNormalsTexture has them: packed. */
 #ifndef FRAME_NORMALS_H
 #define FRAME_NORMALS_H
 

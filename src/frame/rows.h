@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file frame_rows.h  One row of a product: between frame.c, which prepares the strips, and frame_rows.c. */
+/** @file rows.h  One row of a product: between frame.c, which prepares the strips, and rows.c. */
 #ifndef FRAME_ROWS_H
 #define FRAME_ROWS_H
 
@@ -62,7 +62,7 @@ DP_INLINE float frame_upwards(double error) {
     return dp_float_up(error * (1 + 0x1p-48));
 }
 
-/** Those of FRAME_EFFECT, in frame_effect.c. */
+/** Those of FRAME_EFFECT, in effect.c. */
 frame_make frame_effect, frame_effect_error;
 
 /** By kind, and error or not. */

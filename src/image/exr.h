@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file image_exr.h  The OpenEXR library of the headers that this is compiled with; nothing where there are none. */
+/** @file exr.h  The OpenEXR library of the headers that this is compiled with; nothing where there are none. */
 #ifndef IMAGE_EXR_H
 #define IMAGE_EXR_H
 

@@ -100,7 +100,7 @@ typedef struct image_writer image_writer;
 bool image_holds(image_file file, image_type type, uint32_t channels);
 
 /** Writes the header. @return null when out of memory, when the stream failed, or the file cannot hold it; the stream
- *  stays the caller's. PNG: 16 bits as a fast compression has them, see image_png.c
+ *  stays the caller's. PNG: 16 bits as a fast compression has them, see png.c
  *  @param note  shorter than IMAGE_NOTE_SIZE, in a text chunk of a PNG; null: none. Other kinds have no place for it */
 image_writer *image_writer_open(FILE *stream, image_file file, image_type type, uint32_t width, uint32_t height,
                                 uint32_t channels, const char *note);

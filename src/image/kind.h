@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file image_kind.h  For the image rooms alone: where bytes come from, and the row of a kind of file.
+ * @file kind.h  For this room alone: where bytes come from, and the row of a kind of file.
  */
 #ifndef IMAGE_KIND_H
 #define IMAGE_KIND_H
@@ -73,7 +73,7 @@ struct image_writer {
     uint32_t rows_left;
     bool failed;
     const char *note; /**< null: none */
-    void *png, *info; /**< of image_png.c */
+    void *png, *info; /**< of png.c */
 };
 
 /** A kind of file. */

@@ -120,7 +120,7 @@ struct method_row {
     void *(*open)(const dp_setup *setup);
     void (*close)(void *state);
     /**
-     * What bench times in place of run: the processor's instruction where run is a model of it, because of an
+     * What is timed in place of run: the processor's instruction where run is a model of it, because of an
      * instruction that promises an error, not bits, each maker has another. It keeps the row's claims. Null: run.
      */
     method_run *timed;
@@ -155,7 +155,7 @@ typedef struct method_family_row {
     bool ortho;          /**< stability walks an orthographic projection, too */
     method_case cases[METHOD_CASES];
     size_t case_count;
-    size_t inputs;  /**< how many bench takes */
+    size_t inputs;  /**< how many are timed */
     size_t walked;  /**< how many stability takes, for each set-up */
     int per_decade; /**< set-ups of stability in each decade of far/near */
     const size_t *method_count;

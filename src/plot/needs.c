@@ -86,7 +86,7 @@ static void error_of(const void *context, double from, double to, refine_sample 
 static void add_curve(const figure_request *r, chart *out, chart_panel *panel, const dp_setup *given, bool is_error) {
     dp_setup staged;
     dp_spec spec = given->spec;
-    spec.model = DP_MODEL_STAGED; /* an error is judged in this one where fp32, which has none, is the fullest */
+    spec.model = DP_MODEL_STAGED; /* an error is judged in this one where float, which has none, is the fullest */
     const bool other = is_error && given->spec.model == DP_MODEL_FLOAT && dp_setup_init(&staged, &spec) == DP_OK;
     const dp_setup *setup = other ? &staged : given;
     refine_request q = envelope_request(r, setup, out, panel, is_error ? error_of : envelope_separation, setup);

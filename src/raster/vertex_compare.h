@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file compare.h  The same vertices through two vertex programs: how many get different codes, and how far apart.
+ * @file vertex_compare.h  The same vertices through two vertex programs: how many get different codes, and how
+ * far apart.
  *
  * What differs depends on where vertices and cameras are, so the distribution is part of the answer. Vertices are drawn
  * at random: vertex i depends on the seed and i alone, and results do not depend on the number of threads.

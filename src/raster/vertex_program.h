@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file program.h  Vertex programs: how a shader makes clip z and clip w of a world position in binary32, a row each.
+ * @file vertex_program.h  Vertex programs: how a shader makes clip z and clip w of a world position in
+ * binary32, a row each.
  *
  * Two programs that are the same on paper round differently, so a depth prepass by the one and a main pass by the other
  * store different depths of the same vertex.

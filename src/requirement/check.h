@@ -2,7 +2,7 @@
 /**
  * @file check.h  Requirements judged: a verdict each, found with the cheapest analysis that can decide.
  *
- *     separation  the largest dp_separation() at the depths asked about. Model fp32: the guaranteed separation; exact
+ *     separation  the largest dp_separation() at the depths asked about. Model float: the guaranteed separation; exact
  *                 first, which passes nothing but refuses what no arithmetic can save. Model auto: the lattice alone
  *                 where it refuses, else the guaranteed separation. That of slanted surfaces where the camera says
  *                 what draws them; the other two are of depths at a point.

@@ -84,7 +84,7 @@ double normal_plane_depth(const texture_camera *camera, const normal_plane *plan
 double normal_plane_error(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
                           double reading);
 
-/** The same for samples of an image, which say less of the depth: see grain.h. Null: they are codes. */
+/** The same for samples of an image, which say less of the depth: see sample_rounding.h. Null: they are codes. */
 double normal_plane_error_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row,
                              const normal_plane *plane, double reading);
 

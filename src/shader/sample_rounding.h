@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file grain.h  What a sample of an image says about the depth behind it: from which to which eye depth.
+ * @file sample_rounding.h  What a sample of an image says about the depth behind it: from which to which eye depth.
  *
  * A buffer rounds the depth to a code; the image may have rounded that again, to fewer values. So a sample stands for
  * a range of codes and each of these for its cell. How an image was rounded is not known unless it is said: to nearest,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file library.h  Libraries that are opened when a file of their kind is named: the program runs without them. */
+/** @file dynload.h  Libraries that are opened when a file of their kind is named: the program runs without them. */
 #ifndef SYSTEM_DYNLOAD_H
 #define SYSTEM_DYNLOAD_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file apart.h  Work of a library or driver that may crash or never end, in a process of its own.
+ * @file sandbox.h  Work of a library or driver that may crash or never end, in a process of its own.
  *
  *     FILE *made;
  *     const sandbox_end end = sandbox_run(work, &of, (sandbox_limits){.processor = 60}, &made);

@@ -86,8 +86,8 @@ enum {
 #define ROW(field, among)            .parse = parse_row, SIZED(field), .names = &(among)
 
 /* Where it is otherwise: a default spelled out, what holds without, what it does. */
-#define BUT(verbs, spelled, holds, does)                                                                               \
-    { .commands = (verbs), .standard = (spelled), .without = (holds), .help = (does) }
+#define BUT(those, spelled, holds, does)                                                                               \
+    { .commands = (those), .standard = (spelled), .without = (holds), .help = (does) }
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {

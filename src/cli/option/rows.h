@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file option_rows.h  The option table, from which reading, help and completion are made, and how options are read.
+ * @file rows.h  The option table, from which reading, help and completion are made, and how options are read.
  *
  * An option is an enumerator and a field of options.h and a row here: its kind is the function that reads its argument
  * into the field. Only what is a language of its own (lists, depths, sizes) has a function of its own.

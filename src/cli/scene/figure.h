@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file scene_figure.h  From what scene finds to the figure of it. */
+/** @file figure.h  From what scene finds to the figure of it. */
 #ifndef CLI_SCENE_FIGURE_H
 #define CLI_SCENE_FIGURE_H
 

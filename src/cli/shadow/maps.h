@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file shadow_maps.h  The shadow maps of a command line: one of a box, or the cascades of a view. */
+/** @file maps.h  The shadow maps of a command line: one of a box, or the cascades of a view. */
 #ifndef CLI_SHADOW_MAPS_H
 #define CLI_SHADOW_MAPS_H
 

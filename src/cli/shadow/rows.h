@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file shadow_rows.h  What shadow maps need, as an API takes it: the rows of the command shadow. */
+/** @file rows.h  What shadow maps need, as an API takes it: the rows of the command shadow. */
 #ifndef CLI_SHADOW_ROWS_H
 #define CLI_SHADOW_ROWS_H
 

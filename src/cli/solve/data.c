@@ -11,7 +11,7 @@
 typedef struct candidate {
     solve_candidate found;
     setup_fields setup;
-    const char *model; /* as text calls it: a format is called fp32, too */
+    const char *model;
     double guaranteed, slanted;
     const plane_answer *plane;                /* where one was found */
     const double *lattice_near, *lattice_far; /* where it was solved for */

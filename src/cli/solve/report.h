@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file solve_report.h  What solve found, as text, JSON and CSV. */
+/** @file report.h  What solve found, as text, JSON and CSV. */
 #ifndef CLI_SOLVE_REPORT_H
 #define CLI_SOLVE_REPORT_H
 

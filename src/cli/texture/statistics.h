@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file texture_statistics.h  The statistics of an image: what is measured, and what text says of them. */
+/** @file statistics.h  The statistics of an image: what is measured, and what text says of them. */
 #ifndef CLI_TEXTURE_STATISTICS_H
 #define CLI_TEXTURE_STATISTICS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file texture_writing.h  For the files of texture alone: an image on its way into an output. */
+/** @file writing.h  For the files of texture alone: an image on its way into an output. */
 #ifndef CLI_TEXTURE_WRITING_H
 #define CLI_TEXTURE_WRITING_H
 
