@@ -2,10 +2,10 @@
 /**
  * @file plane.h  The near or far plane that meets a requirement in any model, judged as `check` judges.
  *
- * No model has a separation below that of the lattice, so the lattice's answer (solve.h) bounds all others. In float the
- * measure is not monotone: whether a plane will do hangs on how its matrix entries are rounded to binary32. So there
- * are two answers: the first value that passes, beyond which every binary32 value fails for 2^-10 of itself at least;
- * and the one to use, on whose safe side all pass, which a bound over all cameras in between proves.
+ * No model has a separation below that of the lattice, so the lattice's answer (solve.h) bounds all others. In float
+ * the measure is not monotone: whether a plane will do hangs on how its matrix entries are rounded to binary32. So
+ * there are two answers: the first value that passes, beyond which every binary32 value fails for 2^-10 of itself at
+ * least; and the one to use, on whose safe side all pass, which a bound over all cameras in between proves.
  */
 #ifndef REQUIREMENT_PLANE_H
 #define REQUIREMENT_PLANE_H
