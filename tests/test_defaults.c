@@ -3,28 +3,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/option/rows.h"
+#include "cli/option/uses.h"
 #include "printed.h"
+
+#define BIT(id) (1U << (id))
 
 /* A line of each command that has defaults, small where the work depends on it. */
 static const struct {
     unsigned verb;
     const char *line;
 } lines[] = {
-    {CMD_TABLE, "table"},
-    {CMD_PLOT, "plot error --csv"},
-    {CMD_ZFIGHT, "zfight --range 1:1.01"},
-    {CMD_PREPASS, "prepass --sample 1000"},
-    {CMD_BUDGET, "budget"},
-    {CMD_TEXTURE, "texture --synthetic steps --size 64x36"},
-    {CMD_METHODS, "methods interval --json"},
-    {CMD_CHECK, "check tests/needs/village.need"},
-    {CMD_SOLVE, "solve -F d24 -m d3d --separation 0.01 --at 50"},
-    {CMD_BIAS, "bias --units -1"},
-    {CMD_SHADOW, "shadow"},
-    {CMD_WORLD, "world --from-origin 1e5"},
-    {CMD_SCENE, "scene tests/models/street.obj --separation 0.02"},
-    {CMD_LIST, "list synthetic"},
+    {BIT(CMD_TABLE), "table"},
+    {BIT(CMD_PLOT), "plot error --csv"},
+    {BIT(CMD_ZFIGHT), "zfight --range 1:1.01"},
+    {BIT(CMD_PREPASS), "prepass --sample 1000"},
+    {BIT(CMD_BUDGET), "budget"},
+    {BIT(CMD_TEXTURE), "texture --synthetic steps --size 64x36"},
+    {BIT(CMD_METHODS), "methods interval --json"},
+    {BIT(CMD_CHECK), "check tests/needs/village.need"},
+    {BIT(CMD_SOLVE), "solve -F d24 -m d3d --separation 0.01 --at 50"},
+    {BIT(CMD_BIAS), "bias --units -1"},
+    {BIT(CMD_SHADOW), "shadow"},
+    {BIT(CMD_WORLD), "world --from-origin 1e5"},
+    {BIT(CMD_SCENE), "scene tests/models/street.obj --separation 0.02"},
+    {BIT(CMD_LIST), "list synthetic"},
 };
 
 #define ALL (~0U)
@@ -40,36 +42,38 @@ static const struct {
     const char *line; /* in place of the command's; null: that */
     const char *more;
 } besides[] = {
-    {CMD_PLOT, IDS(OPTION_PLANE), "plot fight --csv", ""},
-    {CMD_PLOT, IDS(OPTION_INTERPOLATION, OPTION_FROM_ORIGIN), "plot budget -F d24 -m d3d --csv", ""},
-    {CMD_PLOT, IDS(OPTION_COMPOSITION), "plot budget -F d24 -m d3d --csv", "--from-origin 100"},
-    {CMD_PLOT, IDS(OPTION_LOG2), "plot budget -F d24 -m log --csv", ""},
-    {CMD_BUDGET, IDS(OPTION_LOG2), "budget -F d24 -m log", ""},
-    {CMD_PLOT, IDS(OPTION_SLANT), "plot budget -F d24 -m d3d --csv", "--viewport 640x480"},
-    {CMD_PLOT,
+    {BIT(CMD_PLOT), IDS(OPTION_PLANE), "plot fight --csv", ""},
+    {BIT(CMD_PLOT), IDS(OPTION_INTERPOLATION, OPTION_FROM_ORIGIN), "plot budget -F d24 -m d3d --csv", ""},
+    {BIT(CMD_PLOT), IDS(OPTION_COMPOSITION), "plot budget -F d24 -m d3d --csv", "--from-origin 100"},
+    {BIT(CMD_PLOT), IDS(OPTION_LOG2), "plot budget -F d24 -m log --csv", ""},
+    {BIT(CMD_BUDGET), IDS(OPTION_LOG2), "budget -F d24 -m log", ""},
+    {BIT(CMD_PLOT), IDS(OPTION_SLANT), "plot budget -F d24 -m d3d --csv", "--viewport 640x480"},
+    {BIT(CMD_PLOT),
      IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_TRIANGLE_CLASS, OPTION_CASCADES, OPTION_LAMBDA, OPTION_CASTERS,
-         OPTION_KERNEL, OPTION_ANGLE, OPTION_SIZE),
+         OPTION_KERNEL, OPTION_SIZE),
      "plot shadow --csv", ""},
-    {CMD_PLOT, IDS(OPTION_TRANSFORMS), "plot scene tests/models/street.obj --separation 0.02 --csv", ""},
-    {CMD_PLOT, IDS(OPTION_ARITH), "plot interval -F d24 -m d3d --csv", "--model float"},
-    {CMD_BUDGET, IDS(OPTION_COMPOSITION), NULL, "--from-origin 100"},
-    {CMD_TABLE | CMD_BUDGET | CMD_SOLVE | CMD_ZFIGHT | CMD_SCENE,
+    {BIT(CMD_PLOT), IDS(OPTION_TRANSFORMS, OPTION_ANGLE), "plot scene tests/models/street.obj --separation 0.02 --csv",
+     ""},
+    {BIT(CMD_PLOT), IDS(OPTION_ARITH), "plot interval -F d24 -m d3d --csv", "--model float"},
+    {BIT(CMD_BUDGET), IDS(OPTION_COMPOSITION), NULL, "--from-origin 100"},
+    {BIT(CMD_TABLE) | BIT(CMD_BUDGET) | BIT(CMD_SOLVE) | BIT(CMD_ZFIGHT) | BIT(CMD_SCENE),
      IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE_CLASS), NULL, "--viewport 640x480"},
-    {CMD_ZFIGHT, IDS(OPTION_FOV, OPTION_RASTER, OPTION_SLANT, OPTION_TRIANGLE_CLASS),
+    {BIT(CMD_ZFIGHT), IDS(OPTION_FOV, OPTION_SLANT, OPTION_TRIANGLE_CLASS),
      "zfight -F fp32 -m d3d --rasterize --sample 20", ""},
-    {CMD_ZFIGHT, IDS(OPTION_SEED), NULL, "--sample 1000"},
-    {CMD_PREPASS, IDS(OPTION_SAMPLE), "prepass -F d24 -m d3d --against fma", ""},
-    {CMD_BIAS, IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE_CLASS), "bias --at 10",
+    {BIT(CMD_ZFIGHT), IDS(OPTION_SEED), NULL, "--sample 1000"},
+    {BIT(CMD_PREPASS), IDS(OPTION_SAMPLE), "prepass -F d24 -m d3d --against fma", ""},
+    {BIT(CMD_BIAS), IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE_CLASS), "bias --at 10",
      "--viewport 640x480"},
-    {CMD_BIAS, IDS(OPTION_CLAMP), NULL, "--api vulkan"},
-    {CMD_BIAS, IDS(OPTION_API), "bias -F fp32", ""},
-    {CMD_SHADOW, IDS(OPTION_FACET), NULL, "--curvature 5"},
-    {CMD_TEXTURE, IDS(OPTION_HALF_HEIGHT), NULL, "--ortho"},
-    {CMD_TEXTURE, IDS(OPTION_SIZE), "texture --synthetic plane", ""},
-    {CMD_TABLE, IDS(OPTION_MODEL), "table -F d24 -m d3d", ""},
-    {CMD_TABLE, IDS(OPTION_ARITH), NULL, "--model float"},
-    {CMD_TABLE | CMD_PLOT | CMD_TEXTURE | CMD_BIAS | CMD_SCENE, IDS(OPTION_LOG_C), NULL, "-m log"},
-    {CMD_SOLVE, IDS(OPTION_LOG_C), "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
+    {BIT(CMD_BIAS), IDS(OPTION_CLAMP), NULL, "--api vulkan"},
+    {BIT(CMD_BIAS), IDS(OPTION_API), "bias -F fp32", ""},
+    {BIT(CMD_SHADOW), IDS(OPTION_FACET), NULL, "--curvature 5"},
+    {BIT(CMD_TEXTURE), IDS(OPTION_HALF_HEIGHT), NULL, "--ortho"},
+    {BIT(CMD_TEXTURE), IDS(OPTION_SIZE), "texture --synthetic plane", ""},
+    {BIT(CMD_TABLE), IDS(OPTION_MODEL), "table -F d24 -m d3d", ""},
+    {BIT(CMD_TABLE), IDS(OPTION_ARITH), NULL, "--model float"},
+    {BIT(CMD_TABLE) | BIT(CMD_PLOT) | BIT(CMD_TEXTURE) | BIT(CMD_BIAS) | BIT(CMD_SCENE), IDS(OPTION_LOG_C), NULL,
+     "-m log"},
+    {BIT(CMD_SOLVE), IDS(OPTION_LOG_C), "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
 };
 
 /* Defaults that help tells in words: the value that they mean, in a line where it holds; null where no value means the
@@ -79,60 +83,63 @@ static const struct {
     const option_id *ids;
     const char *value, *line, *more; /* line null: the command's */
 } meant[] = {
-    {ALL & ~(unsigned)CMD_TEXTURE, IDS(OPTION_OUTPUT), "-", NULL, ""},
-    {CMD_TEXTURE, IDS(OPTION_OUTPUT), "-", NULL, "--csv"},
-    {ALL & ~(unsigned)CMD_PLOT, IDS(OPTION_THREADS), "1", NULL, ""},
-    {CMD_PLOT, IDS(OPTION_THREADS), "1", "plot scene tests/models/street.obj --separation 0.02 --csv", ""},
-    {CMD_TABLE, IDS(OPTION_AT), "0.1:1000:log:9", "table -F d24 -m d3d", ""},
-    {CMD_TABLE, IDS(OPTION_AT), "0.1:1e5:log:9", "table -F d24 -m d3d -f inf", ""},
-    {CMD_TABLE, IDS(OPTION_AT), "-3:7:lin:9", "table -F d24 -m d3d --ortho -n -3 -f 7", ""},
-    {CMD_TABLE, IDS(OPTION_AT), "0.1,1,10,100,1000", NULL, ""},
-    {CMD_TABLE, IDS(OPTION_AT), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
-    {CMD_BUDGET | CMD_BIAS, IDS(OPTION_AT), "0.1:1000:log:9", NULL, ""},
-    {CMD_TEXTURE, IDS(OPTION_AT), "0.1:1000:log:9", "texture --product effect:fog -F d16 -m d3d", ""},
-    {CMD_WORLD, IDS(OPTION_AT), "10", NULL, ""},
-    {CMD_WORLD, IDS(OPTION_AT), "10m", NULL, "--unit cm"},
-    {CMD_WORLD, IDS(OPTION_SEPARATION), "0.01", NULL, ""},
-    {CMD_WORLD, IDS(OPTION_SEPARATION), "1cm", NULL, "--unit m"},
-    {CMD_SOLVE, IDS(OPTION_FAR), "inf", NULL, "--csv"},
-    {CMD_SOLVE, IDS(OPTION_FOR), "near", NULL, ""},
-    {CMD_SOLVE, IDS(OPTION_FOR), "far", "solve -n 0.1 --separation 0.01 --at 50 -F d24 -m d3d", ""},
-    {CMD_SOLVE, IDS(OPTION_FOR), "format", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -m d3d", ""},
-    {CMD_SOLVE, IDS(OPTION_FOR), "mapping", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -F d24", ""},
-    {CMD_SOLVE, IDS(OPTION_NEAR), "0.1", "solve --for far -F d24 -m d3d --separation 0.01 --at 50 --csv", ""},
-    {CMD_SOLVE, IDS(OPTION_FORMAT), "all", "solve -m d3d --separation 0.01 --at 50", ""},
-    {CMD_SOLVE, IDS(OPTION_MAPPING), "all", "solve -F d24 --separation 0.01 --at 50", ""},
-    {CMD_SOLVE, IDS(OPTION_RANGE), "0.1:1000", "solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01",
-     ""},
-    {CMD_METHODS, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
-    {CMD_METHODS, IDS(OPTION_MAPPING), "d3d", NULL, ""},
-    {CMD_TEXTURE, IDS(OPTION_FORMAT), "unorm24", NULL, "--pixel 9,9 --csv"},
-    {CMD_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --product effect:fog", ""},
-    {CMD_TEXTURE, IDS(OPTION_MAPPING), "d3d", NULL, "--pixel 9,9 --csv"},
-    {CMD_PLOT, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
-    {CMD_PLOT, IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
-    {CMD_PREPASS, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
-    {CMD_ZFIGHT, IDS(OPTION_RANGE), "1:1.0078125", "zfight -n 1 -f 1.0078125 -F d24 -m d3d --csv", ""},
-    {CMD_BUDGET, IDS(OPTION_SCHEME), "absolute", NULL, "--from-origin 100"},
-    {CMD_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
-    {CMD_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot shadow --csv", ""},
-    {CMD_SCENE, IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --eye 0,2,30 --look 0,2,0", ""},
-    {CMD_ZFIGHT, IDS(OPTION_VIEWPORT), "1920x1080", "zfight -F fp32 -m d3d --rasterize --sample 20", ""},
-    {ALL & ~(unsigned)CMD_SOLVE, IDS(OPTION_UNIT), "m", NULL, "-n 10cm"},
-    {CMD_SOLVE, IDS(OPTION_UNIT), "m", "solve --for far -n 10cm -F d24 -m d3d --separation 0.01 --at 50", ""},
-    {CMD_WORLD | CMD_TABLE | CMD_BUDGET, IDS(OPTION_UNIT), "cm", NULL, "--preset unreal"},
+    {ALL & ~BIT(CMD_TEXTURE), IDS(OPTION_OUTPUT), "-", NULL, ""},
+    {BIT(CMD_TEXTURE), IDS(OPTION_OUTPUT), "-", NULL, "--csv"},
+    {ALL & ~BIT(CMD_PLOT), IDS(OPTION_THREADS), "1", NULL, ""},
+    {BIT(CMD_PLOT), IDS(OPTION_THREADS), "1", "plot scene tests/models/street.obj --separation 0.02 --csv", ""},
+    {BIT(CMD_TABLE), IDS(OPTION_AT), "0.1:1000:log:9", "table -F d24 -m d3d", ""},
+    {BIT(CMD_TABLE), IDS(OPTION_AT), "0.1:1e5:log:9", "table -F d24 -m d3d -f inf", ""},
+    {BIT(CMD_TABLE), IDS(OPTION_AT), "-3:7:lin:9", "table -F d24 -m d3d --ortho -n -3 -f 7", ""},
+    {BIT(CMD_TABLE), IDS(OPTION_AT), "0.1,1,10,100,1000", NULL, ""},
+    {BIT(CMD_TABLE), IDS(OPTION_AT), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
+    {BIT(CMD_BUDGET) | BIT(CMD_BIAS), IDS(OPTION_AT), "0.1:1000:log:9", NULL, ""},
+    {BIT(CMD_TEXTURE), IDS(OPTION_AT), "0.1:1000:log:9", "texture --product effect:fog -F d16 -m d3d", ""},
+    {BIT(CMD_WORLD), IDS(OPTION_AT), "10", NULL, ""},
+    {BIT(CMD_WORLD), IDS(OPTION_AT), "10m", NULL, "--unit cm"},
+    {BIT(CMD_WORLD), IDS(OPTION_SEPARATION), "0.01", NULL, ""},
+    {BIT(CMD_WORLD), IDS(OPTION_SEPARATION), "1cm", NULL, "--unit m"},
+    {BIT(CMD_SOLVE), IDS(OPTION_FAR), "inf", NULL, "--csv"},
+    {BIT(CMD_SOLVE), IDS(OPTION_FOR), "near", NULL, ""},
+    {BIT(CMD_SOLVE), IDS(OPTION_FOR), "far", "solve -n 0.1 --separation 0.01 --at 50 -F d24 -m d3d", ""},
+    {BIT(CMD_SOLVE), IDS(OPTION_FOR), "format", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -m d3d", ""},
+    {BIT(CMD_SOLVE), IDS(OPTION_FOR), "mapping", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -F d24", ""},
+    {BIT(CMD_SOLVE), IDS(OPTION_NEAR), "0.1", "solve --for far -F d24 -m d3d --separation 0.01 --at 50 --csv", ""},
+    {BIT(CMD_SOLVE), IDS(OPTION_FORMAT), "all", "solve -m d3d --separation 0.01 --at 50", ""},
+    {BIT(CMD_SOLVE), IDS(OPTION_MAPPING), "all", "solve -F d24 --separation 0.01 --at 50", ""},
+    {BIT(CMD_SOLVE), IDS(OPTION_RANGE), "0.1:1000",
+     "solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01", ""},
+    {BIT(CMD_SOLVE), IDS(OPTION_MODEL), "float", NULL, ""},
+    {BIT(CMD_ZFIGHT), IDS(OPTION_RASTER), "llvmpipe", "zfight -F fp32 -m d3d --rasterize --sample 20", ""},
+    {BIT(CMD_METHODS), IDS(OPTION_FORMAT), "unorm24", NULL, ""},
+    {BIT(CMD_METHODS), IDS(OPTION_MAPPING), "d3d", NULL, ""},
+    {BIT(CMD_TEXTURE), IDS(OPTION_FORMAT), "unorm24", NULL, "--pixel 9,9 --csv"},
+    {BIT(CMD_TEXTURE), IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --product effect:fog", ""},
+    {BIT(CMD_TEXTURE), IDS(OPTION_MAPPING), "d3d", NULL, "--pixel 9,9 --csv"},
+    {BIT(CMD_PLOT), IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
+    {BIT(CMD_PLOT), IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
+    {BIT(CMD_PREPASS), IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
+    {BIT(CMD_ZFIGHT), IDS(OPTION_RANGE), "1:1.0078125", "zfight -n 1 -f 1.0078125 -F d24 -m d3d --csv", ""},
+    {BIT(CMD_BUDGET), IDS(OPTION_SCHEME), "absolute", NULL, "--from-origin 100"},
+    {BIT(CMD_PLOT), IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
+    {BIT(CMD_PLOT), IDS(OPTION_VIEWPORT), "1920x1080", "plot shadow --csv", ""},
+    {BIT(CMD_SCENE), IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --eye 0,2,30 --look 0,2,0", ""},
+    {BIT(CMD_ZFIGHT), IDS(OPTION_VIEWPORT), "1920x1080", "zfight -F fp32 -m d3d --rasterize --sample 20", ""},
+    {ALL & ~BIT(CMD_SOLVE), IDS(OPTION_UNIT), "m", NULL, "-n 10cm"},
+    {BIT(CMD_SOLVE), IDS(OPTION_UNIT), "m", "solve --for far -n 10cm -F d24 -m d3d --separation 0.01 --at 50", ""},
+    {BIT(CMD_WORLD) | BIT(CMD_TABLE) | BIT(CMD_BUDGET), IDS(OPTION_UNIT), "cm", NULL, "--preset unreal"},
     /* what no value means */
     {ALL, IDS(OPTION_ORTHO, OPTION_SHARE, OPTION_HFOV, OPTION_MATRIX, OPTION_LIGHT_BOX, OPTION_CURVATURE), NULL, NULL,
      ""},
     {ALL, IDS(OPTION_WIDTH, OPTION_HEIGHT, OPTION_RASTER, OPTION_CHANNEL, OPTION_DEVICE), NULL, NULL, ""},
     {ALL, IDS(OPTION_EYE, OPTION_LOOK, OPTION_LAST_EYE, OPTION_LAST_LOOK, OPTION_SAMPLE), NULL, NULL, ""},
     {ALL, IDS(OPTION_TOLERANCE, OPTION_WITHIN, OPTION_UNITS), NULL, NULL, ""},
-    {CMD_ZFIGHT | CMD_BIAS | CMD_PLOT | CMD_SCENE, IDS(OPTION_SEPARATION), NULL, NULL, ""},
-    {CMD_TABLE | CMD_BIAS | CMD_SHADOW, IDS(OPTION_RANGE), NULL, NULL, ""}, /* given, more is said of it */
-    {CMD_TABLE | CMD_BUDGET | CMD_BIAS | CMD_SOLVE, IDS(OPTION_VIEWPORT), NULL, NULL, ""},
-    {CMD_ZFIGHT, IDS(OPTION_PLANE), NULL, NULL, ""},
-    {CMD_TEXTURE, IDS(OPTION_NORMALS_BY), NULL, NULL, ""},
-    {CMD_WORLD, IDS(OPTION_FROM_ORIGIN), NULL, NULL, ""},
+    {BIT(CMD_ZFIGHT) | BIT(CMD_BIAS) | BIT(CMD_PLOT) | BIT(CMD_SCENE), IDS(OPTION_SEPARATION), NULL, NULL, ""},
+    {BIT(CMD_TABLE) | BIT(CMD_BIAS) | BIT(CMD_SHADOW), IDS(OPTION_RANGE), NULL, NULL,
+     ""}, /* given, more is said of it */
+    {BIT(CMD_TABLE) | BIT(CMD_BUDGET) | BIT(CMD_BIAS) | BIT(CMD_SOLVE), IDS(OPTION_VIEWPORT), NULL, NULL, ""},
+    {BIT(CMD_ZFIGHT), IDS(OPTION_PLANE), NULL, NULL, ""},
+    {BIT(CMD_TEXTURE), IDS(OPTION_NORMALS_BY), NULL, NULL, ""},
+    {BIT(CMD_WORLD), IDS(OPTION_FROM_ORIGIN), NULL, NULL, ""},
 };
 
 /* What a command takes where nothing was said and help spells it out; of two rows the first holds. */
@@ -142,22 +149,22 @@ static const struct {
     const char *value;
 } spelled[] = {
     {OPTION_NEAR, ALL, "0.1"},
-    {OPTION_FAR, CMD_WORLD, "inf"},
+    {OPTION_FAR, BIT(CMD_WORLD), "inf"},
     {OPTION_FAR, ALL, "1000"},
-    {OPTION_FORMAT, CMD_BIAS, "fp32,unorm16,unorm24"},
-    {OPTION_FORMAT, CMD_WORLD | CMD_SCENE | CMD_SHADOW, "fp32"},
+    {OPTION_FORMAT, BIT(CMD_BIAS), "fp32,unorm16,unorm24"},
+    {OPTION_FORMAT, BIT(CMD_WORLD) | BIT(CMD_SCENE) | BIT(CMD_SHADOW), "fp32"},
     {OPTION_FORMAT, ALL, "all"},
-    {OPTION_MAPPING, CMD_SHADOW, "d3d"},
-    {OPTION_MAPPING, CMD_WORLD | CMD_SCENE, "reversed"},
+    {OPTION_MAPPING, BIT(CMD_SHADOW), "d3d"},
+    {OPTION_MAPPING, BIT(CMD_WORLD) | BIT(CMD_SCENE), "reversed"},
     {OPTION_MAPPING, ALL, "all"},
     {OPTION_LOG_C, ALL, "1"},
     {OPTION_ROUNDING, ALL, "nearest"},
-    {OPTION_MODEL, CMD_SOLVE, "float"},
+    {OPTION_MODEL, BIT(CMD_SOLVE), "float"},
     {OPTION_MODEL, ALL, "exact"},
     {OPTION_ARITH, ALL, "ieee"},
     {OPTION_TOLERANCE, ALL, "5%"},
     {OPTION_INTERPOLATION, ALL, "0"},
-    {OPTION_FROM_ORIGIN, CMD_PREPASS, "100"},
+    {OPTION_FROM_ORIGIN, BIT(CMD_PREPASS), "100"},
     {OPTION_FROM_ORIGIN, ALL, "0"},
     {OPTION_COMPOSITION, ALL, "once"},
     {OPTION_SCHEME, ALL, "all"},
@@ -173,7 +180,7 @@ static const struct {
     {OPTION_LAMBDA, ALL, "0.5"},
     {OPTION_CASTERS, ALL, "100"},
     {OPTION_KERNEL, ALL, "3"},
-    {OPTION_ANGLE, CMD_SCENE, "1"},
+    {OPTION_ANGLE, BIT(CMD_SCENE) | BIT(CMD_PLOT), "1"},
     {OPTION_ANGLE, ALL, "75"},
     {OPTION_FACET, ALL, "0"},
     {OPTION_API, ALL, "d3d11"},
@@ -188,7 +195,7 @@ static const struct {
     {OPTION_TRANSFORMS, ALL, "exact"},
     {OPTION_HALF_HEIGHT, ALL, "5"},
     {OPTION_EYE, ALL, "0,0,0"},
-    {OPTION_SIZE, CMD_TEXTURE, "640x360"},
+    {OPTION_SIZE, BIT(CMD_TEXTURE), "640x360"},
     {OPTION_SIZE, ALL, "2048x2048"},
     {OPTION_SKY, ALL, "0.0001"},
     {OPTION_REPORT, ALL, "text"},
@@ -197,7 +204,7 @@ static const struct {
 
 static const char *spelled_of(option_id id, const command_row *v) {
     for (size_t i = 0; i < sizeof spelled / sizeof spelled[0]; i++)
-        if (spelled[i].id == id && (spelled[i].verbs & v->bit) != 0)
+        if (spelled[i].id == id && (spelled[i].verbs & BIT(v->id)) != 0)
             return spelled[i].value;
     fail_msg("%s --%s has a default that this test does not know", v->name, option_rows[id].name);
     return NULL;
@@ -211,7 +218,7 @@ static bool among(const option_id *ids, option_id id) {
 
 static const char *line_of_verb(const command_row *v) {
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
-        if (lines[i].verb == v->bit)
+        if (lines[i].verb == BIT(v->id))
             return lines[i].line;
     fail_msg("%s has no line in this test", v->name);
     return NULL;
@@ -220,7 +227,7 @@ static const char *line_of_verb(const command_row *v) {
 static void line_of(const command_row *v, option_id id, char out[256]) {
     const char *line = line_of_verb(v), *more = "";
     for (size_t i = 0; i < sizeof besides / sizeof besides[0]; i++)
-        if ((besides[i].verbs & v->bit) != 0 && among(besides[i].ids, id)) {
+        if ((besides[i].verbs & BIT(v->id)) != 0 && among(besides[i].ids, id)) {
             line = besides[i].line != NULL ? besides[i].line : line;
             more = besides[i].more;
         }
@@ -244,7 +251,7 @@ static void keep_setup(char *text) {
 
 static void same_with(tally *t, const command_row *v, const char *line, const option_row *row, const char *value) {
     printed without = print_of("%s", line), with = print_of("%s --%s %s", line, row->name, value);
-    if (v->bit == CMD_METHODS) {
+    if (BIT(v->id) == BIT(CMD_METHODS)) {
         keep_setup(without.out);
         keep_setup(with.out);
     }
@@ -255,6 +262,12 @@ static void same_with(tally *t, const command_row *v, const char *line, const op
     printed_free(&with);
 }
 
+/* As its help shows it, or as one of its parts has it. */
+static const option_use *use_of(const command_row *v, option_id id) {
+    const option_use *shown = option_used(v, v->shown, id);
+    return shown != NULL ? shown : option_used(v, ~0U, id);
+}
+
 static void test_spelled_out(void **state) {
     tally t = {.name = "defaults"};
     int tried = 0;
@@ -263,10 +276,12 @@ static void test_spelled_out(void **state) {
         for (int id = 0; id < OPTION_COUNT; id++) {
             const command_row *v = &command_rows[i];
             const option_row *row = &option_rows[id];
-            const struct option_exception *e = option_exception_of(row, v);
-            const char *standard = e != NULL ? e->standard : row->standard;
-            if ((row->commands & v->bit) == 0 || standard == NULL || id == OPTION_THEME || id == OPTION_TYPE ||
-                id == OPTION_NORMAL_FORMAT || v->bit == CMD_PROBE)
+            const option_use *use = use_of(v, (option_id)id);
+            const char *standard = NULL, *without = NULL;
+            if (use != NULL)
+                option_default(use, &standard, &without);
+            if (standard == NULL || id == OPTION_THEME || id == OPTION_TYPE || id == OPTION_NORMAL_FORMAT ||
+                BIT(v->id) == BIT(CMD_PROBE))
                 /* test_png_out, cli/web.txt and probe.sh have these */
                 continue;
             char line[256];
@@ -289,23 +304,24 @@ static void test_in_words(void **state) {
         for (int id = 0; id < OPTION_COUNT; id++) {
             const command_row *v = &command_rows[i];
             const option_row *row = &option_rows[id];
-            const struct option_exception *e = option_exception_of(row, v);
-            const bool told =
-                e != NULL ? e->standard == NULL && e->without != NULL : row->standard == NULL && row->without != NULL;
+            const option_use *use = use_of(v, (option_id)id);
+            const char *standard = NULL, *without = NULL;
+            if (use != NULL)
+                option_default(use, &standard, &without);
+            const bool told = standard == NULL && without != NULL;
             size_t found = 0;
-            for (size_t k = 0; k < sizeof meant / sizeof meant[0] && (row->commands & v->bit) != 0 && told; k++) {
+            for (size_t k = 0; k < sizeof meant / sizeof meant[0] && told; k++) {
                 char line[256];
-                if ((meant[k].verbs & v->bit) == 0 || !among(meant[k].ids, (option_id)id))
+                if ((meant[k].verbs & BIT(v->id)) == 0 || !among(meant[k].ids, (option_id)id))
                     continue;
                 found++;
-                if (meant[k].value == NULL || v->bit == CMD_PROBE)
+                if (meant[k].value == NULL || BIT(v->id) == BIT(CMD_PROBE))
                     continue;
                 snprintf(line, sizeof line, "%s %s", meant[k].line != NULL ? meant[k].line : line_of_verb(v),
                          meant[k].more);
                 same_with(&t, v, line, row, meant[k].value);
             }
-            TALLY(&t, found > 0 || !told || (row->commands & v->bit) == 0, "%s --%s: '%s' is not tried here", v->name,
-                  row->name, e != NULL ? e->without : row->without);
+            TALLY(&t, found > 0 || !told, "%s --%s: '%s' is not tried here", v->name, row->name, without);
         }
     TALLY(&t, t.cases > 300, "few cases");
     tally_end(&t);

@@ -385,15 +385,6 @@ static int check_states(const options *o, const bias_api *api) {
     return EXIT_FINE;
 }
 
-/* No API biases what is written to a colour target, so fp16 is not among the formats when none are asked for. */
-static void drop_fp16(options *o) {
-    size_t kept = 0;
-    for (size_t i = 0; i < o->format_count; i++)
-        if (strcmp(o->formats[i].name, "fp16") != 0)
-            o->formats[kept++] = o->formats[i];
-    o->format_count = kept;
-}
-
 /* The range that is asked for, else that of the depths that are. */
 static int resolve(biasing *b, const options *o) {
     const depths *at = &b->each.at;
@@ -411,8 +402,6 @@ static int resolve(biasing *b, const options *o) {
 int cmd_bias(const options *given) {
     options o = *given;
     const bias_api *api = o.api;
-    if (!option_given(&o, OPTION_FORMAT) && o.preset_count == 0)
-        drop_fp16(&o);
     const int affine = bias_check_slant(&o);
     if (affine != EXIT_FINE || api == NULL)
         return affine != EXIT_FINE ? affine : bias_all_write(&o);

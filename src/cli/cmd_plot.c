@@ -20,9 +20,6 @@
 
 enum { WIDTH = 800, HEIGHT = 500 };
 
-/* Of the plane that is drawn, degrees. */
-static const double standard_slant = 60.0, standard_azimuth = 45.0;
-
 /* Depths that a figure waits for, about a quarter of a second a set-up. */
 static const uint64_t census_depths = UINT64_C(1) << 28;
 
@@ -46,8 +43,6 @@ typedef struct plotting {
 static int resolve_depths(plotting *p) {
     const options *o = p->o;
     if (option_given(o, OPTION_AT)) {
-        if ((p->row->takes & FIGURE_AT) == 0)
-            return option_error(OPTION_AT, "does not apply to the figure %s; --range limits its axis", p->row->name);
         if (o->at.count != 1)
             return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", p->row->name, o->at.count);
         if (option_given(o, OPTION_RANGE))
@@ -61,68 +56,16 @@ static int resolve_depths(plotting *p) {
     return p->all.count > 0 ? range_resolve(o, &p->request.lo, &p->request.hi) : EXIT_FINE;
 }
 
-/* A file is for the figure that shows requirements, and brings all that makes a set-up. */
+/* A file is for the figures that show requirements or a model. */
 static int check_file_given(const options *o, const figure_row *row) {
-    static const option_id camera[] = {OPTION_NEAR,  OPTION_FAR,   OPTION_FORMAT, OPTION_MAPPING,  OPTION_ORTHO,
-                                       OPTION_MODEL, OPTION_ARITH, OPTION_LOG_C,  OPTION_ROUNDING, OPTION_PRESET};
     if ((row->takes & FIGURE_MODEL) != 0)
         return o->operand_count > 1 ? EXIT_FINE : usage_error("plot %s: needs MODEL, a file as of scene", row->name);
     if ((row->takes & FIGURE_FILE) == 0)
         return o->operand_count == 1 || row->family != NULL
                    ? EXIT_FINE
                    : usage_error("plot %s: takes no file, got '%s'", row->name, o->operands[1]);
-    if (o->operand_count < 2)
-        return usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
-    for (size_t i = 0; i < sizeof camera / sizeof camera[0]; i++)
-        if (option_given(o, camera[i]))
-            return option_error(camera[i], "does not apply to the figure %s: the file has it", row->name);
-    return EXIT_FINE;
-}
-
-#define SLANTED        (FIGURE_SLANTED | FIGURE_MODEL)
-#define VIEWED         (SLANTED | FIGURE_DRAWN | FIGURE_SHADOW)
-#define VIEWED_FIGURES "budget, fight, interval, scene and shadow"
-
-/* Options of some figures alone. */
-static const struct {
-    option_id id;
-    unsigned takes;
-    const char *figure;
-} only[] = {{OPTION_INTERPOLATION, FIGURE_TERMS, "budget"},
-            {OPTION_FROM_ORIGIN, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
-            {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},
-            {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
-            {OPTION_LOG2, FIGURE_TERMS, "budget"},
-            {OPTION_FOV, VIEWED, VIEWED_FIGURES},
-            {OPTION_HFOV, VIEWED, VIEWED_FIGURES},
-            {OPTION_VIEWPORT, VIEWED, VIEWED_FIGURES},
-            {OPTION_RASTER, VIEWED, VIEWED_FIGURES},
-            {OPTION_TRIANGLE_CLASS, VIEWED, VIEWED_FIGURES},
-            {OPTION_SUBPIXEL, SLANTED | FIGURE_SHADOW, "budget, interval, scene and shadow"},
-            {OPTION_SLANT, SLANTED, "budget, interval and scene"},
-            {OPTION_PLANE, FIGURE_DRAWN, "fight"},
-            {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},
-            {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
-            {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},
-            {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},
-            {OPTION_ANGLE, FIGURE_SHADOW | FIGURE_MODEL, "scene and shadow"},
-            {OPTION_SEPARATION, FIGURE_MODEL, "scene"},
-            {OPTION_WITHIN, FIGURE_MODEL, "scene"},
-            {OPTION_ALSO, FIGURE_MODEL, "scene"},
-            {OPTION_TRANSFORMS, FIGURE_MODEL, "scene"},
-            {OPTION_EYE, FIGURE_MODEL, "scene"},
-            {OPTION_LOOK, FIGURE_MODEL, "scene"},
-            {OPTION_PATH, FIGURE_MODEL, "scene"},
-            {OPTION_CAMERA, FIGURE_MODEL, "scene"},
-            {OPTION_THREADS, FIGURE_MODEL, "scene"},
-            {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
-
-static int check_only(const options *o, const figure_row *row) {
-    for (size_t i = 0; i < sizeof only / sizeof only[0]; i++)
-        if (option_given(o, only[i].id) && (row->takes & only[i].takes) == 0)
-            return option_error(only[i].id, "does not apply to the figure %s, only to %s%s", row->name, only[i].figure,
-                                only[i].id == OPTION_SIZE ? "; a figure's size is --width and --height" : "");
-    return EXIT_FINE;
+    return o->operand_count == 2 ? EXIT_FINE
+                                 : usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
 }
 
 /* Options that this figure has no use for. */
@@ -268,8 +211,8 @@ static int resolve_setups(plotting *p) {
     p->request.setups = p->all.items;
     p->request.count = p->all.count;
     p->request.raster = drawn ? in_model.raster : NULL;
-    p->request.slant = option_given(p->o, OPTION_PLANE) ? p->o->triangles.slant_lo : standard_slant;
-    p->request.azimuth = option_given(p->o, OPTION_PLANE) ? p->o->azimuth : standard_azimuth;
+    p->request.slant = p->o->triangles.slant_lo;
+    p->request.azimuth = p->o->azimuth;
     status = choose_models(p);
     name_setups(p);
     p->chart->unit = options_unit(p->o);
@@ -285,12 +228,7 @@ static int resolve_file(plotting *p) {
 
 /* Shadow maps bring their own cameras. */
 static int resolve_shadow(plotting *p) {
-    static const option_id others[] = {OPTION_ORTHO, OPTION_PRESET, OPTION_ROUNDING,  OPTION_MODEL,
-                                       OPTION_ARITH, OPTION_LOG_C,  OPTION_TOLERANCE, OPTION_AT};
-    const options o = shadow_options(p->o);
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(&o, others[i]))
-            return option_error(others[i], "does not apply to the figure %s", p->row->name);
+    const options o = *p->o;
     if (o.format_count * o.mapping_count != 1)
         return usage_error("plot %s: shows one format in one mapping, got %zu: name one with --format and --mapping",
                            p->row->name, o.format_count * o.mapping_count);
@@ -424,8 +362,6 @@ int cmd_plot(const options *o) {
     int status = check_output(o);
     if (status == EXIT_FINE)
         status = check_file_given(o, p.row);
-    if (status == EXIT_FINE)
-        status = check_only(o, p.row);
     if (status != EXIT_FINE)
         return status;
     p.chart = chart_new();

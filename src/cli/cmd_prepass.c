@@ -11,8 +11,7 @@
 #include "report/number.h"
 
 enum { DIGITS = 6 };
-static const uint64_t drawn_by_default = 1000000;
-static const double world_by_default = 100.0, most_z = 1e38;
+static const double most_z = 1e38;
 
 /* What an API takes to make up for a difference; NaN where nothing is enough. */
 typedef struct api_bias {
@@ -215,8 +214,8 @@ int cmd_prepass(const options *o) {
                  .program = o->program->name,
                  .vertices = vertex_spread_name((vertex_spread)o->vertices),
                  .request = {.spread = (vertex_spread)o->vertices,
-                             .world = option_given(o, OPTION_FROM_ORIGIN) ? o->terms.world : world_by_default,
-                             .count = o->sample > 0 ? o->sample : drawn_by_default,
+                             .world = o->terms.world,
+                             .count = o->sample,
                              .seed = o->seed,
                              .threads = o->threads,
                              .base = o->program,

@@ -190,18 +190,10 @@ static double length_or(bool given, double value, double metres, const unit_row 
     return given ? value : unit_convert(metres, unit_find("m"), unit);
 }
 
-/* What was left open: a reversed infinite binary32 buffer is what a large world has. */
 static int complete(world *w, const options *o) {
     options *c = &w->o;
-    const bool camera = o->preset_count > 0, stored = camera || o->platform != NULL;
     *c = *o;
     c->model = DP_MODEL_FLOAT;
-    if (!option_given(o, OPTION_FAR) && !camera)
-        c->zfar = (double)INFINITY;
-    if (!option_given(o, OPTION_FORMAT) && !stored)
-        parse_formats(c, &option_rows[OPTION_FORMAT], "fp32");
-    if (!option_given(o, OPTION_MAPPING) && !stored)
-        parse_mappings(c, &option_rows[OPTION_MAPPING], "reversed");
     for (size_t m = 0; m < c->mapping_count; m++)
         if (dp_mapping_get(c->mappings[m])->curve != DP_CURVE_PERSPECTIVE)
             return option_error(OPTION_MAPPING, "must be one of " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",

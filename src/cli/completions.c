@@ -2,10 +2,10 @@
 /* completions: a script for a shell, by which it completes a command line, from the same rows as help. */
 #include <string.h>
 
-#include "cli/option/rows.h"
+#include "cli/option/uses.h"
 
-static bool takes(const command_row *v, const option_row *row) {
-    return (row->commands & v->bit) != 0;
+static bool takes(const command_row *v, int id) {
+    return option_used(v, ~0U, (option_id)id) != NULL;
 }
 
 static const char *words_of(const name_list *n, char out[NAMES_SIZE]) {
@@ -29,7 +29,7 @@ static void write_cases(output *out, const char *previous, const char *word) {
         const command_row *v = &command_rows[i];
         output_format(out, "        %s) offered='%s", v->name, words_of(v->names, text));
         for (int id = 0; id < OPTION_COUNT; id++)
-            if (takes(v, &option_rows[id]))
+            if (takes(v, id))
                 output_format(out, " --%s", option_rows[id].name);
         output_text(out, "' ;;\n");
     }
@@ -65,7 +65,7 @@ static void write_fish(output *out) {
         const bool argument = *option_argument(row, text) != '\0';
         output_text(out, "complete -c depthprec -n '__fish_seen_subcommand_from");
         for (size_t i = 0; i < command_count; i++)
-            if (takes(&command_rows[i], row))
+            if (takes(&command_rows[i], id))
                 output_format(out, " %s", command_rows[i].name);
         output_format(out, "' -l %s", row->name);
         if (row->letter != 0)

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/option/rows.h"
+#include "cli/option/uses.h"
 #include "core/append.h"
 #include "report/page.h"
 
@@ -37,82 +37,90 @@ static void list_commands(output *out) {
 
 enum { DESCRIPTION_SIZE = 1024 };
 
-/* "default D: what that means", or "default of solve D, else what holds". */
-static void add_default(const char *of, const char *standard, const char *without, bool excepted,
-                        char out[DESCRIPTION_SIZE]) {
-    append(out, DESCRIPTION_SIZE, "default%s%s%s%s%s", *of != '\0' ? " of " : "", of, standard != NULL ? " " : "",
-           standard != NULL ? standard : "",
-           without == NULL                ? ""
-           : standard != NULL && excepted ? ", "
-                                          : ": ");
-    append(out, DESCRIPTION_SIZE, "%s", without != NULL ? without : "");
-}
-
-/* What is otherwise for some commands. */
-static void add_exception(const struct option_exception *e, char out[DESCRIPTION_SIZE]) {
-    const bool has_default = e->standard != NULL || e->without != NULL;
-    char takers[OPTION_TEXT_SIZE];
-    option_takers_of(e->commands, takers);
-    append(out, DESCRIPTION_SIZE, "; ");
-    if (e->help != NULL)
-        append(out, DESCRIPTION_SIZE, "%s: %s%s", takers, e->help, has_default ? ", " : "");
-    if (has_default)
-        add_default(e->help != NULL ? "" : takers, e->standard, e->without, true, out);
-}
-
-/* "what it does (LEAST to MOST UNIT; default D: what that means)" for a command, in its own words; for all of them,
- * those with another default at the end. */
-static const char *describe(const command_row *v, const option_row *row, char out[DESCRIPTION_SIZE]) {
+/* "what it does (LEAST to MOST UNIT; default D: what that means)". */
+static const char *describe(const option_use *use, char out[DESCRIPTION_SIZE]) {
+    const option_row *row = &option_rows[use->id];
+    const char *help = use->help != NULL ? use->help : row->help, *standard, *without;
     char text[OPTION_TEXT_SIZE];
-    const struct option_exception *other = v != NULL ? option_exception_of(row, v) : NULL;
-    const char *help = other != NULL && other->help != NULL ? other->help : row->help;
-    const char *standard = other != NULL ? other->standard : row->standard;
-    const char *without = other != NULL ? other->without : row->without;
     const int before = (int)strcspn(help, "@");
-    const bool named = help[before] != '\0', limited = row->least < row->most;
+    const bool named = help[before] != '\0', limited = row->least < row->most && use->parse == NULL;
+    option_default(use, &standard, &without);
     out[0] = '\0';
     append(out, DESCRIPTION_SIZE, "%.*s", before, help);
     if (named)
         append(out, DESCRIPTION_SIZE, "%s%s", names_join(row->names, ", ", ", ", text), help + before + 1);
-    for (int i = 0; i < OPTION_ADDITIONS; i++)
-        if (row->adds[i].commands != 0 && (v == NULL || (row->adds[i].commands & v->bit) != 0))
-            append(out, DESCRIPTION_SIZE, "; %s", row->adds[i].words);
+    if (use->also != NULL)
+        append(out, DESCRIPTION_SIZE, "; %s", use->also);
     if (limited)
         append(out, DESCRIPTION_SIZE, " (%s", option_limits(row, text));
-    if (standard != NULL || without != NULL) {
-        append(out, DESCRIPTION_SIZE, limited ? "; " : " (");
-        add_default("", standard, without, other != NULL, out);
-    }
+    if (standard != NULL || without != NULL)
+        append(out, DESCRIPTION_SIZE, "%sdefault%s%s%s%s", limited ? "; " : " (", standard != NULL ? " " : "",
+               standard != NULL ? standard : "", without != NULL ? ": " : "", without != NULL ? without : "");
     if (limited || standard != NULL || without != NULL)
         append(out, DESCRIPTION_SIZE, ")");
-    for (int i = 0; v == NULL && i < OPTION_EXCEPTIONS; i++)
-        if (row->except[i].commands != 0)
-            add_exception(&row->except[i], out);
     return out;
+}
+
+/* "-n, --near Z". */
+static void label_of(const option_use *use, char label[128]) {
+    const option_row *row = &option_rows[use->id];
+    char argument[OPTION_TEXT_SIZE];
+    option_use_argument(use, argument);
+    snprintf(label, 128, "    ");
+    if (row->letter != 0)
+        snprintf(label, 128, "-%c, ", row->letter);
+    append(label, 128, "--%s%s%s", row->name, *argument != '\0' ? " " : "", argument);
+    if (row->optional != NULL)
+        append(label, 128, "[=%s]", row->optional);
 }
 
 /* Those of a command; without one, all, and which commands take them. */
 static void list_options(page *p, const command_row *v) {
+    const unsigned parts = v != NULL && v->shown != 0 ? v->shown : ~0U;
     const char *group = NULL, *shown = NULL;
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];
-        char label[128] = "    ", text[DESCRIPTION_SIZE], argument[OPTION_TEXT_SIZE];
+        const option_use general = {.id = (option_id)id};
+        const option_use *use = v != NULL ? option_used(v, parts, (option_id)id) : &general;
+        char label[128], text[DESCRIPTION_SIZE], takers[OPTION_TEXT_SIZE];
         group = row->group != NULL ? row->group : group;
-        if (v != NULL && (row->commands & v->bit) == 0)
+        if (use == NULL)
             continue;
         if (group != shown)
             output_format(p->out, "\n%s\n", group);
         shown = group;
-        if (row->letter != 0)
-            snprintf(label, sizeof label, "-%c, ", row->letter);
-        option_argument(row, argument);
-        append(label, sizeof label, "--%s%s%s", row->name, *argument != '\0' ? " " : "", argument);
-        if (row->optional != NULL)
-            append(label, sizeof label, "[=%s]", row->optional);
-        page_wrapped(p, label, describe(v, row, text));
-        snprintf(text, sizeof text, "Taken by %s.", option_takers(row, argument));
-        if (v == NULL && ~row->commands != 0)
+        label_of(use, label);
+        page_wrapped(p, label, describe(use, text));
+        snprintf(text, sizeof text, "Taken by %s.", command_takers(id, takers));
+        if (v == NULL && id != OPTION_HELP && id != OPTION_VERSION)
             page_wrapped(p, "", text);
+    }
+}
+
+/* Options of single parts, which the command that has their name describes, or the first that takes them. */
+static void list_others(page *p, const command_row *v) {
+    command_part part;
+    bool headed = false;
+    for (size_t i = 0; v->shown != 0 && option_part_get(v, i, &part); i++) {
+        char text[DESCRIPTION_SIZE] = "", takers[OPTION_TEXT_SIZE], label[64];
+        const char *like = command_find(part.words) != NULL ? part.words : NULL;
+        for (int id = 0; id < OPTION_COUNT; id++) {
+            if (option_used(v, part.bits, (option_id)id) == NULL || option_used(v, v->shown, (option_id)id) != NULL)
+                continue;
+            append(text, sizeof text, "%s--%s", text[0] != '\0' ? ", " : "", option_rows[id].name);
+            if (like == NULL) {
+                like = command_takers(id, takers);
+                takers[strcspn(takers, ",")] = '\0';
+            }
+        }
+        if (text[0] == '\0')
+            continue;
+        if (!headed)
+            output_format(p->out, "\nOptions of single figures\n");
+        headed = true;
+        snprintf(label, sizeof label, "  %s %s", v->name, part.words);
+        append(text, sizeof text, ": see 'depthprec help %s'", like);
+        page_wrapped(p, label, text);
     }
 }
 
@@ -132,6 +140,8 @@ int cmd_help(const options *o) {
             output_format(&out, "depthprec %s: %s\n\n%s\nUsage: depthprec %s%s%s [options]\n", v->name, v->summary,
                           v->example, v->name, *v->operand != '\0' ? " " : "", v->operand);
         list_options(&p, v);
+        if (v != NULL)
+            list_others(&p, v);
     }
     return output_close(&out);
 }

@@ -57,7 +57,7 @@ int link_write(const options *o) {
     char text[TEXT_SIZE] = "", fragment[TEXT_SIZE];
     list_item found;
     output out;
-    if (o->command->bit == CMD_PLOT && !names_find(&figures, o->operands[0], NULL, &found))
+    if (o->command->id == CMD_PLOT && !names_find(&figures, o->operands[0], NULL, &found))
         return option_error(OPTION_LINK, "must be of a figure that the page has, %s, got '%s'",
                             names_join(&figures, ", ", " or ", text), o->operands[0]);
     command_words(o, text);

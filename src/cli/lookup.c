@@ -80,13 +80,9 @@ bool lookup_wanted(const options *o) {
 
 /* What is asked is no depth of the scene, and a code must be one of each format. */
 static int check(const options *o, const setups *all) {
-    static const option_id depths_only[] = {OPTION_AT, OPTION_RANGE, OPTION_TOLERANCE, OPTION_VIEWPORT};
     if (option_given(o, OPTION_DEPTH) && option_given(o, OPTION_CODE))
         return option_error(OPTION_CODE, "cannot be combined with --depth");
     const option_id asked = option_given(o, OPTION_CODE) ? OPTION_CODE : OPTION_DEPTH;
-    for (size_t i = 0; i < sizeof depths_only / sizeof depths_only[0]; i++)
-        if (option_given(o, depths_only[i]))
-            return option_error(depths_only[i], "does not apply with --%s", option_name(asked));
     for (size_t i = 0; i < all->count && asked == OPTION_CODE; i++) {
         const dp_format *format = &all->items[i].spec.format;
         if (o->looked_up.hi > (double)format->code_max)

@@ -12,7 +12,7 @@
 /* Depth that a shader writes goes through no pipeline; where table is asked, what is counted of that shader is said. */
 static int refuse_float(const options *o, dp_mapping mapping) {
     const dp_mapping_row *row = dp_mapping_get(mapping);
-    const bool counted = o->command->bit == CMD_TABLE && row->curve == DP_CURVE_LOG;
+    const bool counted = o->command->id == CMD_TABLE && row->curve == DP_CURVE_LOG;
     if (option_given(o, OPTION_MODEL))
         return option_error(OPTION_MODEL,
                             "float is a pipeline's arithmetic, and a shader writes the depth of %s: leave it out%s, or "

@@ -51,6 +51,7 @@ enum {
     FIGURE_DRAWN = 1 << 8,     /**< what a rasterizer draws: the set-ups have a view, and its arithmetic */
     FIGURE_SLANTED = 1 << 9,   /**< set-ups with triangles */
     FIGURE_MODEL = 1 << 10,    /**< a model and what was found in it; the camera is that of the command scene */
+    FIGURE_SETUPS = 1 << 11,   /**< set-ups, as the options of a camera say them */
     FIGURE_SHADOW = 1 << 7,    /**< shadow maps, whose cameras are not that of the view */
 };
 

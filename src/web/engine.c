@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/option/rows.h"
+#include "cli/option/uses.h"
 #include "web/page.h"
 
 enum { WORDS_MAX = 1024 };
@@ -81,11 +81,13 @@ PAGE_EXPORT("parse") int parse_words(int count) {
 PAGE_EXPORT("takes") int taken_by_words(int count) {
     char argument[OPTION_TEXT_SIZE];
     const command_row *v = split_words(count) > 1 ? command_find(words[1]) : NULL;
-    for (int id = 0; v != NULL && id < OPTION_COUNT; id++)
-        if ((option_rows[id].commands & v->bit) != 0) {
+    for (int id = 0; v != NULL && id < OPTION_COUNT; id++) {
+        const option_use *use = option_used(v, ~0U, (option_id)id);
+        if (use != NULL) {
             say(option_rows[id].name);
-            say(option_argument(&option_rows[id], argument));
+            say(option_use_argument(use, argument));
         }
+    }
     fflush(NULL);
     return v != NULL ? EXIT_FINE : EXIT_USAGE;
 }

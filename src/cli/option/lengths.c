@@ -82,9 +82,9 @@ int parse_length(options *o, const option_row *row, const char *value) {
 }
 
 /* Surfaces of a model may be in one place. */
-int parse_separation(options *o, const option_row *row, const char *value) {
+int parse_separation_or_0(options *o, const option_row *row, const char *value) {
     double apart;
-    if ((o->command->bit & (CMD_SCENE | CMD_PLOT)) == 0 || !number_parse(value, NUMBER_FINITE, &apart) || apart != 0.0)
+    if (!number_parse(value, NUMBER_FINITE, &apart) || apart != 0.0)
         return parse_length(o, row, value);
     o->separation = 0.0;
     return EXIT_FINE;
@@ -227,13 +227,11 @@ int parse_at(options *o, const option_row *row, const char *value) {
     return read_depths(o, row, value, option_field(o, row));
 }
 
-/* The command world asks where the camera is, at several places, the others for a bound of coordinates. */
-int parse_from_origin(options *o, const option_row *row, const char *value) {
-    option_row bound = *row;
-    bound.most = 1e18;
-    bound.unit = "scene units";
-    return o->command != NULL && o->command->bit == CMD_WORLD ? read_depths(o, row, value, &o->distances)
-                                                              : parse_length(o, &bound, value);
+/* In place of a bound of coordinates, whose limits are not theirs. */
+int parse_distances(options *o, const option_row *row, const char *value) {
+    option_row free = *row;
+    free.least = free.most = 0.0;
+    return read_depths(o, &free, value, &o->distances);
 }
 
 int parse_range(options *o, const option_row *row, const char *value) {

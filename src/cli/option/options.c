@@ -8,7 +8,7 @@
 #include <strings.h>
 
 #include "cli/depth24plus.h"
-#include "cli/option/rows.h"
+#include "cli/option/uses.h"
 #include "core/append.h"
 #include "report/number.h"
 #include "system/input.h"
@@ -61,12 +61,30 @@ int option_error(option_id id, const char *format, ...) {
                            : error_of(id, "%s", text);
 }
 
+/* What the rows say; what a command has of its own follows when its options are read. */
 static void set_defaults(options *o) {
     memset(choosers, 0, sizeof choosers);
-    *o = (options){.target = SOLVE_FOR_ANY, .triangles = dp_triangles_default(), .azimuth = (double)NAN};
+    *o = (options){.target = SOLVE_FOR_ANY,
+                   .triangles = dp_triangles_default(),
+                   .azimuth = (double)NAN,
+                   .curvature = (double)NAN,
+                   .parts = ~0U};
     for (int id = 0; id < OPTION_COUNT; id++)
         if (option_rows[id].standard != NULL)
             option_rows[id].parse(o, &option_rows[id], option_rows[id].standard);
+}
+
+static int parse_use(options *o, const option_use *use, const char *argument) {
+    const option_row *row = &option_rows[use->id];
+    return (use->parse != NULL ? use->parse : row->parse)(o, row, argument);
+}
+
+static void set_own_defaults(options *o) {
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        const option_use *use = option_used(o->command, o->parts, (option_id)id);
+        if (use != NULL && use->standard != NULL && !option_given(o, (option_id)id))
+            parse_use(o, use, use->standard);
+    }
 }
 
 void options_release(options *o) {
@@ -127,7 +145,7 @@ static int unknown_option(const options *o, int refused, const char *argument) {
         const char *name = option_rows[id].name;
         if (length > 2 && strncmp(name, argument + 2, (size_t)length - 2) == 0)
             begun[begun_count++] = name;
-        if ((option_rows[id].commands & o->command->bit) != 0)
+        if (option_used(o->command, ~0U, (option_id)id) != NULL)
             taken[taken_count++] = name;
     }
     begun[begun_count] = taken[taken_count] = NULL;
@@ -145,7 +163,7 @@ static int unknown_option(const options *o, int refused, const char *argument) {
 static int wrong_command(const options *o, option_id id) {
     const option_row *row = &option_rows[id];
     char takers[OPTION_TEXT_SIZE];
-    return option_error(id, "is not an option of %s, but of %s%s", o->command->name, option_takers(row, takers),
+    return option_error(id, "is not an option of %s, but of %s%s", o->command->name, command_takers(id, takers),
                         row->instead != NULL ? row->instead : "");
 }
 
@@ -300,8 +318,6 @@ static int complete(options *o) {
             "has no guarantee for %s, whose vertex shader spreads [0, 1] to [-1, 1] by 2 z - w: a small "
             "z loses its digits; -F %s tells of the format alone",
             o->platform->name, o->platform->stored);
-    if (o->preset_count > 1 && o->command->bit != CMD_TABLE)
-        return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->command->name, o->preset_count);
     int status = slant_complete(o);
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
@@ -339,12 +355,20 @@ static bool is_early(int id) {
 
 static int read_option(options *o, option_id id, const char *argument) {
     const option_row *row = &option_rows[id];
-    if ((row->commands & o->command->bit) == 0)
+    const option_use *use = option_used(o->command, ~0U, id);
+    if (use == NULL)
         return wrong_command(o, id);
     if (o->given[id] != NULL && (takes_argument(row) || argument != NULL) && id != OPTION_PARAMETER)
         return option_error(id, "must not be given twice, got '%s' too", argument);
     o->given[id] = argument != NULL ? argument : "";
-    return row->parse(o, row, argument);
+    return parse_use(o, use, argument);
+}
+
+static int needs_argument(const options *o, option_id id) {
+    const option_use *use = option_used(o->command, ~0U, id);
+    char text[OPTION_TEXT_SIZE];
+    return option_error(id, "needs an argument, %s",
+                        use != NULL ? option_use_argument(use, text) : option_argument(&option_rows[id], text));
 }
 
 static int ask_for_help(options *o, option_id id, const command_row *asked) {
@@ -362,7 +386,6 @@ static int ask_for_help(options *o, option_id id, const command_row *asked) {
 static int read_words(options *o, int argc, char **argv, const command_row *asked, bool early) {
     char letters[2 * OPTION_COUNT + 2];
     struct option longs[OPTION_COUNT + 1];
-    char text[OPTION_TEXT_SIZE];
     make_getopt_arrays("", letters, longs);
     optind = 0; /* start anew, also when an earlier call stopped half-way */
     for (int value; (value = getopt_long(argc, argv, letters, longs, NULL)) != -1;) {
@@ -375,7 +398,7 @@ static int read_words(options *o, int argc, char **argv, const command_row *aske
         if (value == '?')
             return unknown_option(o, optopt, argv[optind > 1 ? optind - 1 : 1]);
         if (lacks)
-            return option_error((option_id)id, "needs an argument, %s", option_argument(&option_rows[id], text));
+            return needs_argument(o, (option_id)id);
         if (ends)
             return ask_for_help(o, (option_id)id, asked);
         const int status = is_early(id) == early ? read_option(o, (option_id)id, optarg) : EXIT_FINE;
@@ -444,10 +467,15 @@ int options_parse(options *o, int argc, char **argv) {
         status = read_options(o, argc - named, argv + named, asked, false);
     if (status != EXIT_FINE || option_given(o, OPTION_HELP) || option_given(o, OPTION_VERSION))
         return status;
-    status = complete(o);
+    status = check_operands(o);
+    if (status != EXIT_FINE)
+        return status;
+    o->parts = option_parts(o);
+    set_own_defaults(o);
+    status = option_check_parts(o);
     if (status == EXIT_FINE)
-        status = check_near(o);
-    return status == EXIT_FINE ? check_operands(o) : status;
+        status = complete(o);
+    return status == EXIT_FINE ? check_near(o) : status;
 }
 
 /* The ending of a file that holds a picture or a model, which no text is written into; null of others. */

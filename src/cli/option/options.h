@@ -171,6 +171,7 @@ typedef struct options {
     int operand_count;
     const void
         *operand_row; /**< the row that the first operand names where the command has a table of them, else null */
+    unsigned parts;   /**< the part of the command that is asked for: option_parts() of uses.h */
     const char *given[OPTION_COUNT]; /**< the argument as the user gave it, "" of none; see option_given() */
 
     double znear; /**< scene units */

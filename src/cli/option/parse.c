@@ -80,25 +80,6 @@ static number_text limit_text(double limit, bool whole) {
     return out;
 }
 
-const struct option_exception *option_exception_of(const option_row *row, const command_row *v) {
-    for (int i = 0; i < OPTION_EXCEPTIONS; i++)
-        if ((row->except[i].commands & v->bit) != 0)
-            return &row->except[i];
-    return NULL;
-}
-
-const char *option_takers(const option_row *row, char out[OPTION_TEXT_SIZE]) {
-    return option_takers_of(row->commands, out);
-}
-
-const char *option_takers_of(unsigned commands, char out[OPTION_TEXT_SIZE]) {
-    out[0] = '\0';
-    for (size_t i = 0; i < command_count; i++)
-        if ((commands & command_rows[i].bit) != 0)
-            append(out, OPTION_TEXT_SIZE, "%s%s", out[0] != '\0' ? ", " : "", command_rows[i].name);
-    return out;
-}
-
 const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]) {
     const bool whole = row->parse == parse_whole;
     snprintf(out, OPTION_TEXT_SIZE, "%s to %s%s%s", limit_text(row->least, whole).text,
@@ -226,6 +207,12 @@ static int add_preset(options *o, const option_row *row, const char *name) {
     return EXIT_FINE;
 }
 
+int parse_preset(options *o, const option_row *row, const char *value) {
+    const size_t commas = strcspn(value, ",");
+    return value[commas] == '\0' ? add_preset(o, row, value)
+                                 : option_refuse(row, "must be one preset for %s, got '%s'", o->command->name, value);
+}
+
 int parse_presets(options *o, const option_row *row, const char *value) {
     return parse_names(o, row, value, add_preset);
 }
@@ -325,17 +312,24 @@ int option_read_sides(const option_row *row, const char *value, unsigned most, b
     return EXIT_FINE;
 }
 
-int parse_size(options *o, const option_row *row, const char *value) {
+static int read_size(options *o, const option_row *row, const char *value, bool square) {
     uint64_t sides[2];
-    const bool square = strchr(value, 'x') == NULL && o->command->bit != CMD_TEXTURE;
     const int status = option_read_sides(row, value, IMAGE_SIDE_MAX, square, sides);
     if (status != EXIT_FINE)
         return status;
-    if ((uint64_t)sides[0] * sides[1] > IMAGE_PIXELS_MAX)
+    if (sides[0] * sides[1] > IMAGE_PIXELS_MAX)
         return option_refuse(row, "must be at most %u pixels in all, got '%s'", (unsigned)IMAGE_PIXELS_MAX, value);
     o->camera.width = (uint32_t)sides[0];
     o->camera.height = (uint32_t)sides[1];
     return EXIT_FINE;
+}
+
+int parse_size(options *o, const option_row *row, const char *value) {
+    return read_size(o, row, value, false);
+}
+
+int parse_size_or_n(options *o, const option_row *row, const char *value) {
+    return read_size(o, row, value, strchr(value, 'x') == NULL);
 }
 
 int parse_parameter(options *o, const option_row *row, const char *value) {

@@ -2,8 +2,9 @@
 /**
  * @file rows.h  The option table, from which reading, help and completion are made, and how options are read.
  *
- * An option is an enumerator and a field of options.h and a row here: its kind is the function that reads its argument
- * into the field. Only what is a language of its own (lists, depths, sizes) has a function of its own.
+ * An option is an enumerator and a field of options.h, a row here, and a use by each command that takes it (uses.h).
+ * Its kind is the function that reads its argument into the field. Only what is a language of its own (lists, depths,
+ * sizes) has a function of its own.
  */
 #ifndef CLI_OPTION_ROWS_H
 #define CLI_OPTION_ROWS_H
@@ -13,8 +14,6 @@
 
 struct option_row;
 
-enum { OPTION_EXCEPTIONS = 8, OPTION_ADDITIONS = 3 };
-
 /** Reads an argument of the option of that row. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 typedef int option_parser(options *o, const struct option_row *row, const char *value);
 
@@ -22,7 +21,6 @@ typedef struct option_row {
     const char *name;       /**< long name without dashes */
     char letter;            /**< short name, 0 when there is none */
     const char *argument;   /**< how help writes the argument, "Z"; null when there is none, or one of `names` */
-    unsigned commands;      /**< the VERB_... bits of the commands that take it */
     const char *help;       /**< what it does; @ stands for the names, limits and default follow */
     option_parser *parse;   /**< null for --help and --version */
     size_t place, size;     /**< of the field in `options` */
@@ -31,20 +29,9 @@ typedef struct option_row {
     const name_list *names; /**< what it may be; null when it is no name */
     const char *standard;   /**< the default, as a user would write it; null when there is none */
     const char *without;    /**< what the default means, or holds without the option; or null */
-    /** Commands where it is otherwise: the default, spelled out; what holds without; what it does. Null as above, but a
-     *  default, which is then none. */
-    struct option_exception {
-        unsigned commands;
-        const char *standard, *without, *help;
-    } except[OPTION_EXCEPTIONS];
-    /** What else it does for some commands, as words that say which even in a list of all options. */
-    struct {
-        unsigned commands;
-        const char *words;
-    } adds[OPTION_ADDITIONS];
-    const char *instead;  /**< what a command that does not take it may be meant to have; or null */
-    const char *optional; /**< an argument that may be left out, and is written behind "=": "FILE"; else null */
-    const char *group;    /**< the heading above this row and those behind it; null where the one before goes on */
+    const char *instead;    /**< what a command that does not take it may be meant to have; or null */
+    const char *optional;   /**< an argument that may be left out, and is written behind "=": "FILE"; else null */
+    const char *group;      /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
 
 /** Index: option_id. */
@@ -57,13 +44,6 @@ const char *option_argument(const option_row *row, char out[OPTION_TEXT_SIZE]);
 
 /** "LEAST to MOST UNIT". @return out */
 const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]);
-
-/** "table, plot, budget": the commands of these bits, or those that take it. @return out */
-const char *option_takers_of(unsigned commands, char out[OPTION_TEXT_SIZE]);
-const char *option_takers(const option_row *row, char out[OPTION_TEXT_SIZE]);
-
-/** Where it is otherwise for that command; null where it is not. */
-const struct option_exception *option_exception_of(const option_row *row, const command_row *v);
 
 /** As option_error(), which knows the rows; the rows know the kinds that call this. @return EXIT_USAGE */
 int option_refuse(const option_row *row, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -101,10 +81,10 @@ option_parser parse_pixels;  /**< the same, pairs of them with a semicolon in be
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
-option_parser parse_unit, parse_presets, parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance,
-    parse_at, parse_schemes, parse_range, parse_origin, parse_from_origin, parse_error_map;
-option_parser parse_product, parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_separation,
-    parse_also;
+option_parser parse_unit, parse_preset, parse_presets, parse_near, parse_far, parse_formats, parse_mappings,
+    parse_tolerance, parse_at, parse_schemes, parse_range, parse_origin, parse_distances, parse_error_map,
+    parse_size_or_n, parse_separation_or_0;
+option_parser parse_product, parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_also;
 option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
 option_parser parse_viewport, parse_slant, parse_plane, parse_triangle, parse_light_box;
 

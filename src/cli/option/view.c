@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the options of slanted triangles say together: view, rasterizer, and that they are asked about at all. */
-#include "cli/option/rows.h"
+#include "cli/option/uses.h"
 #include "report/number.h"
 
 /* The rasterizer's grid and set-up; --subpixel is instead of it, or says how fine a grid is that has no fixed bits. */
@@ -72,7 +72,7 @@ int slant_view(options *o) {
                                        OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE_CLASS};
     enum { OF_PICTURES = 3 }; /* the first of them, which a picture takes, too: see view_drawn() */
     const bool slanted = o->triangles.width > 0;
-    const bool measured = o->command->bit == CMD_BIAS && o->gpu.measured[0] != '\0'; /* of r, at any slant */
+    const bool measured = o->command->id == CMD_BIAS && o->gpu.measured[0] != '\0'; /* of r, at any slant */
     const bool by_preset = o->preset_count == 1 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV);
     for (size_t i = o->render != NULL ? OF_PICTURES : 0; i < sizeof beside / sizeof beside[0]; i++)
         if (option_given(o, beside[i]) && !slanted && !(beside[i] == OPTION_RASTER && measured))
@@ -88,18 +88,19 @@ int slant_view(options *o) {
 }
 
 /* From an eye in a model surfaces slant. */
-static bool is_slanted(const options *o) {
-    return option_given(o, OPTION_VIEWPORT) || o->drawn || o->command->bit == CMD_WORLD ||
-           option_given(o, OPTION_EYE) || option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
+static bool is_slanted(const options *o, const option_use *viewport) {
+    return option_given(o, OPTION_VIEWPORT) || o->drawn || viewport->standard != NULL || option_given(o, OPTION_EYE) ||
+           option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
 }
 
 int slant_complete(options *o) {
-    const bool viewed = (o->command->bit & option_rows[OPTION_VIEWPORT].commands) != 0;
-    if (!viewed || !is_slanted(o))
+    const option_use *viewport = option_used(o->command, o->parts, OPTION_VIEWPORT);
+    if (viewport == NULL || !is_slanted(o, viewport))
         o->triangles.width = 0;
-    if (!viewed)
+    if (viewport == NULL && option_used(o->command, o->parts, OPTION_RASTER) == NULL)
         return EXIT_FINE;
-    if ((o->command->bit & (CMD_SHADOW | CMD_PLOT)) != 0) /* a shadow map's viewport says how wide the view is */
+    const bool mapped = o->command->id == CMD_SHADOW || o->command->id == CMD_PLOT;
+    if (mapped) /* the viewport of a shadow map says how wide the view is */
         return take_raster(o);
     const int status = slant_view(o);
     if (status != EXIT_FINE)

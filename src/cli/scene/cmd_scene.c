@@ -22,18 +22,6 @@ enum { STEPS = 1000, DIGITS = 6, AT_ONCE = 128 /* findings that a thread judges 
 
 /* ---- Reading and finding ----------------------------------------------------------------------------------------- */
 
-static options scene_options(const options *given) {
-    options o = *given;
-    const bool chosen = given->preset_count > 0 || given->platform != NULL;
-    if (!option_given(given, OPTION_FORMAT) && !chosen)
-        parse_formats(&o, &option_rows[OPTION_FORMAT], "fp32");
-    if (!option_given(given, OPTION_MAPPING) && !chosen)
-        parse_mappings(&o, &option_rows[OPTION_MAPPING], "reversed");
-    if (!option_given(given, OPTION_ANGLE))
-        o.angle = FINDER_ANGLE;
-    return o;
-}
-
 /* The report is on stdout without -o; that the files beside it can be written is known before the search. */
 static int check_files(const scene *s) {
     static const option_id files[] = {OPTION_RENDER, OPTION_EMIT_NEED};
@@ -250,7 +238,7 @@ static int take_camera(scene *s) {
 }
 
 int scene_begin(scene *s, const options *given, const char *file) {
-    *s = (scene){.o = scene_options(given), .file = file, .unit = options_unit(given)};
+    *s = (scene){.o = *given, .file = file, .unit = options_unit(given)};
     s->angle = s->o.angle;
     s->transforms = option_word(OPTION_TRANSFORMS, s->o.transforms);
     const int status = scene_eyes_check(&s->o);

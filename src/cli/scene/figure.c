@@ -14,11 +14,7 @@
 enum { WITHIN_DIGITS = 4 };
 
 int scene_figure_begin(scene *s, const options *o) {
-    static const option_id others[] = {OPTION_AT, OPTION_RANGE, OPTION_ORTHO, OPTION_MODEL, OPTION_TOLERANCE};
     options view = *o;
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]))
-            return option_error(others[i], "does not apply to the figure scene");
     const int status = slant_view(&view);
     return status == EXIT_FINE ? scene_begin(s, &view, o->operands[1]) : status;
 }

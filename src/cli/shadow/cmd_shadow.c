@@ -328,7 +328,7 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
 
 int cmd_shadow(const options *given) {
     output out;
-    shadow s = {.o = shadow_options(given),
+    shadow s = {.o = *given,
                 .api = given->api,
                 .unit = options_unit(given),
                 .arith = dp_arith_get(given->arith)->name};

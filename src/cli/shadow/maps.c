@@ -7,35 +7,12 @@
 #include "cli/setups.h"
 #include "report/number.h"
 
-enum { SIDE = 2048, SIDE_MAX = 32768 };
-
-options shadow_options(const options *o) {
-    options out = *o;
-    if (!option_given(o, OPTION_FORMAT))
-        parse_formats(&out, &option_rows[OPTION_FORMAT], "fp32");
-    if (!option_given(o, OPTION_MAPPING))
-        parse_mappings(&out, &option_rows[OPTION_MAPPING], "d3d");
-    if (!option_given(o, OPTION_SIZE))
-        out.camera.width = out.camera.height = SIDE;
-    if (!option_given(o, OPTION_VIEWPORT))
-        out.triangles.width = dp_triangles_default().width;
-    if (!option_given(o, OPTION_CURVATURE))
-        out.curvature = (double)NAN;
-    return out;
-}
+enum { SIDE_MAX = 32768 };
 
 /* A box has no view, and the depths of cascades follow from it. */
 static int check_together(const options *o) {
-    static const option_id view[] = {OPTION_NEAR,     OPTION_FAR,      OPTION_FOV,    OPTION_HFOV,
-                                     OPTION_VIEWPORT, OPTION_CASCADES, OPTION_LAMBDA, OPTION_CASTERS};
-    const bool box = option_given(o, OPTION_LIGHT_BOX);
-    for (size_t i = 0; i < sizeof view / sizeof view[0] && box; i++)
-        if (option_given(o, view[i]))
-            return option_error(view[i], "does not apply with --light-box, which is one map without a view");
     if (option_given(o, OPTION_FACET) && !option_given(o, OPTION_CURVATURE))
         return option_error(OPTION_FACET, "needs --curvature: planes are the same however they are drawn");
-    if (option_given(o, OPTION_RANGE) && !box)
-        return option_error(OPTION_RANGE, "needs --light-box: the depths of cascades follow from the view");
     if (o->camera.width > SIDE_MAX || o->camera.height > SIDE_MAX)
         return option_error(OPTION_SIZE, "must be at most %d texels a side, got '%ux%u'", SIDE_MAX, o->camera.width,
                             o->camera.height);

@@ -14,12 +14,8 @@ typedef struct shadow_maps {
     shadow_cascade items[SHADOW_CASCADES_MAX]; /**< of a box the light alone is set */
 } shadow_maps;
 
-/** The options with one format, one mapping and the size of a shadow map where they were not given. */
-options shadow_options(const options *o);
-
 /**
  * The maps in that format and mapping.
- * @param o  as shadow_options() gave it
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr that names the option at fault
  */
 int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out);

@@ -29,10 +29,6 @@ typedef struct planning {
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
 static int check_frusta(const options *o) {
-    static const option_id others[] = {OPTION_ERROR, OPTION_AT, OPTION_RANGE, OPTION_VIEWPORT};
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]))
-            return option_error(others[i], "does not apply to --for frusta, which keeps --separation from near to far");
     if (!option_given(o, OPTION_SEPARATION))
         return option_error(OPTION_SEPARATION, "must be given, to solve for frusta");
     if (!(option_given(o, OPTION_FAR) || o->preset_count > 0) || isinf(o->zfar))

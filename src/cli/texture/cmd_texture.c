@@ -13,8 +13,6 @@ static int check_alone(const options *o) {
         return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --product");
-    if (option_given(o, OPTION_AT))
-        return option_error(OPTION_AT, "is for the table of an effect without an image");
     if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
         return option_error(OPTION_NORMAL_FORMAT, "needs --product normal or packed-normal");
     if (o->normals_by != NULL && (o->effect == NULL || (o->effect->needs & EFFECT_NORMALS) == 0))
@@ -37,25 +35,6 @@ static int check_alone(const options *o) {
     return EXIT_FINE;
 }
 
-/* The table of an effect sees depths, and at most one pixel. */
-static int check_table(const options *o) {
-    static const option_id images[] = {
-        OPTION_SKY,        OPTION_METRIC,  OPTION_ERROR_MAP, OPTION_FIGURE,  OPTION_THEME,     OPTION_WIDTH,
-        OPTION_HEIGHT,     OPTION_TITLE,   OPTION_THREADS,   OPTION_TYPE,    OPTION_PACKING,   OPTION_NORMAL_FORMAT,
-        OPTION_NORMALS_BY, OPTION_CHANNEL, OPTION_PACK,      OPTION_OVERLAY, OPTION_HISTOGRAM, OPTION_MATRIX};
-    static const option_id cameras[] = {OPTION_FOV,  OPTION_HFOV, OPTION_HALF_HEIGHT, OPTION_EYE,
-                                        OPTION_LOOK, OPTION_SIZE, OPTION_PIXEL};
-    for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
-        if (option_given(o, images[i]))
-            return option_error(images[i], "does not apply to an effect alone, only with FILE or --synthetic");
-    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0] && (o->effect->needs & EFFECT_POSITION) == 0; i++)
-        if (option_given(o, cameras[i]))
-            return option_error(cameras[i],
-                                "does not apply to %s alone, which needs no position, only with FILE or --synthetic",
-                                o->effect->name);
-    return EXIT_FINE;
-}
-
 static int make_product(const options *o, const texture_source *source, texture_product *product) {
     int status = texture_product_check(o, source, product);
     if (status == EXIT_FINE && source->path != NULL && source->found.invalid > 0 && !o->quiet)
@@ -74,10 +53,8 @@ int cmd_texture(const options *given) {
     const bool beside = o->product != NULL && o->product->packed, packed = o->pack != NULL || beside;
     const bool described = option_given(o, OPTION_PIXEL) && o->effect != NULL;
     const bool made = !packed && texture_product_wanted(o);
-    if (o->effect != NULL && o->operand_count == 0 && o->synthetic == NULL) {
-        const int status = check_table(o);
-        return status == EXIT_FINE ? texture_effect_table(o) : status;
-    }
+    if (o->effect != NULL && o->operand_count == 0 && o->synthetic == NULL)
+        return texture_effect_table(o);
     texture_source source = {0};
     int status = packed ? texture_pack_check(o) : check_alone(o);
     if (status == EXIT_FINE && made)

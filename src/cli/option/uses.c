@@ -1,0 +1,371 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/option/uses.h"
+
+#include "core/append.h"
+#include "plot/figure.h"
+
+/* clang-format off */
+/* An option as its row has it, or with a command's own words; a group of them, or a group for some parts alone. */
+#define TAKE(option)     {.id = OPTION_##option}
+#define OWN(option, ...) {.id = OPTION_##option, __VA_ARGS__}
+#define GROUP(of)        {.group = (of)}
+#define FOR(these, of)   {.group = (of), .parts = (these)}
+#define END              {.id = OPTION_COUNT}
+
+#define HELP(words)      .help = (words)
+#define ALSO(words)      .also = (words)
+#define DEFAULT(typed)   .standard = (typed)
+#define WITHOUT(words)   .without = (words)
+
+#define PERSPECTIVE     "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+#define ALL_PERSPECTIVE PERSPECTIVE "; all are d3d and reversed"
+
+/* ---- What several commands take ---------------------------------------------------------------------------------- */
+
+static const option_use always[] = {TAKE(HELP), TAKE(VERSION), END};
+
+static const option_use written[] = {
+    TAKE(JSON), TAKE(CSV), TAKE(OUTPUT), TAKE(QUIET), TAKE(FULL), TAKE(COLOR), END};
+
+static const option_use planes[] = {
+    TAKE(NEAR), TAKE(FAR), TAKE(FORMAT), TAKE(MAPPING), TAKE(UNIT), END};
+
+static const option_use camera[] = {GROUP(planes), TAKE(PRESET), TAKE(ROUNDING), END};
+
+/* Of either projection. */
+static const option_use projected[] = {
+    OWN(NEAR, ALSO("with --ortho also 0 or negative")), TAKE(ORTHO), TAKE(PLATFORM), GROUP(camera), END};
+
+/* What a view changes of the camera, and what stands beside --viewport. */
+#define OF_VIEW "with --viewport its field of view and rasterizer"
+static const option_use beside_viewport[] = {
+    TAKE(FOV), TAKE(HFOV), TAKE(RASTER), TAKE(SUBPIXEL), TAKE(TRIANGLE_CLASS), END};
+static const option_use slanted[] = {
+    OWN(PRESET, ALSO(OF_VIEW)),
+    OWN(PLATFORM, ALSO("with --viewport the rasterizer")),
+    OWN(ARITH, ALSO("that of --raster where it is known; that of --platform where it is known")),
+    TAKE(SLANT), GROUP(beside_viewport), END};
+
+static const option_use budget_terms[] = {
+    TAKE(INTERPOLATION), TAKE(FROM_ORIGIN), TAKE(COMPOSITION), TAKE(LINEARIZE), TAKE(LOG2), END};
+
+static const option_use shadow_map[] = {
+    OWN(FROM_ORIGIN, HELP("no coordinate of positions exceeds R"), DEFAULT("0"),
+        WITHOUT("positions about the middle of the light's box")),
+    OWN(SIZE, .argument = "WxH|N", HELP("texels of each shadow map; N is NxN"), DEFAULT("2048x2048"),
+        .parse = parse_size_or_n),
+    TAKE(LIGHT_BOX), TAKE(KERNEL), TAKE(ANGLE), END};
+static const option_use cascades[] = {TAKE(CASCADES), TAKE(LAMBDA), TAKE(CASTERS), END};
+
+static const option_use model[] = {
+    OWN(SEPARATION, HELP("surfaces at most S scene units apart; 0: exactly in one plane"),
+        WITHOUT("what is not told apart as far as is judged"), .parse = parse_separation_or_0),
+    OWN(ANGLE, HELP("surfaces whose planes meet at no more than this angle"), DEFAULT("1")),
+    TAKE(EYE), TAKE(LOOK), TAKE(PATH), TAKE(CAMERA), TAKE(WITHIN), TAKE(ALSO), TAKE(TRANSFORMS),
+    TAKE(THREADS), END};
+
+static const option_use picture[] = {
+    TAKE(TYPE), TAKE(THEME), TAKE(WIDTH), TAKE(HEIGHT), TAKE(TITLE), END};
+
+/* ---- The commands ------------------------------------------------------------------------------------------------ */
+
+/* What the reverse has no use for. */
+enum { TABLE_OF_DEPTHS = 1, TABLE_OF_CODES = 2 };
+static const option_use of_depths[] = {
+    OWN(TOLERANCE, WITHOUT("5% for the model; intervals are exact")),
+    OWN(AT, WITHOUT("nine, log-spaced from near to far, or to 1e6 times near; evenly where near is not above 0; of "
+        "several set-ups round ones")),
+    TAKE(RANGE), TAKE(VIEWPORT), END};
+const option_use table_uses[] = {
+    OWN(PRESET, .argument = "NAME[,NAME...]", ALSO(OF_VIEW "; table compares several"), .parse = parse_presets),
+    OWN(MODEL, DEFAULT("exact"), WITHOUT("of several set-ups the fullest that each has")),
+    FOR(TABLE_OF_DEPTHS, of_depths),
+    TAKE(DEPTH), TAKE(CODE), TAKE(LOG_C), TAKE(LINK), TAKE(VERBOSE),
+    OWN(FULL, HELP("all columns, however wide; and a table for each set-up in place of a comparison")),
+    GROUP(slanted), GROUP(projected), GROUP(written), END};
+
+const option_use budget_uses[] = {
+    OWN(MAPPING, HELP(PERSPECTIVE ", " DP_MAPPING_NAMES_LOG "; all are d3d and reversed"), DEFAULT("all")),
+    OWN(TOLERANCE, HELP("a model is enough if it neglects no more of the separation, 0.05 or 5%"), DEFAULT("5%")),
+    TAKE(AT), TAKE(LOG_C),
+    OWN(SCHEME, HELP("with --from-origin: how vertices come before the camera, one scheme, see 'depthprec list "
+        "schemes'"), WITHOUT("absolute: as --composition says")),
+    OWN(SHARE, HELP("with --scheme: both surfaces are of meshes about one origin")),
+    GROUP(budget_terms), TAKE(VIEWPORT), TAKE(LINK), GROUP(slanted), GROUP(projected), GROUP(written), END};
+
+enum { SOLVE_ONE = 1, SOLVE_FRUSTA = 2 };
+static const option_use solve_one[] = {
+    OWN(AT, HELP("the depth asked about"), WITHOUT("")),
+    OWN(RANGE, HELP("the depths at which it must hold"), WITHOUT("near to far for a distance, else --at")),
+    TAKE(ERROR), TAKE(VIEWPORT), END};
+const option_use solve_uses[] = {
+    OWN(NEAR, ALSO("with --ortho also 0 or negative"),
+        WITHOUT("what is solved for, or 0.1 where --for names another")),
+    OWN(FAR, WITHOUT("inf; solved for where only near is given")),
+    OWN(FORMAT, WITHOUT("solved for where near and far are given, else all")),
+    OWN(MAPPING, WITHOUT("solved for where near, far and format are given, else all")),
+    OWN(MODEL, WITHOUT("float: the guarantee; staged for an error, and for linear and log")),
+    FOR(SOLVE_ONE, solve_one),
+    TAKE(LOG_C), TAKE(FOR), TAKE(SEPARATION), TAKE(LINK),
+    GROUP(slanted), GROUP(projected), GROUP(written), END};
+
+const option_use check_uses[] = {
+    TAKE(REPORT), TAKE(THREADS), OWN(QUIET, HELP("print only failures")),
+    OWN(VERBOSE, HELP("print how each verdict was decided")), GROUP(written), END};
+
+const option_use zfight_uses[] = {
+    OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("all")),
+    OWN(RANGE, HELP("the depths that are visited"), WITHOUT("near to far; needed where far is inf")),
+    OWN(SEPARATION, HELP("where surfaces S scene units apart tie and swap"),
+        WITHOUT("neighbouring binary32 depths")),
+    OWN(VIEWPORT, HELP("the pixels of the viewport; without --rasterize what is guaranteed at any slant stands "
+        "beside the census"), WITHOUT("1920x1080 with --rasterize, else surfaces face the camera")),
+    OWN(RASTER, HELP("the rasterizer or specification, as in 'depthprec list rasterizers'; with --rasterize one "
+        "that draws: llvmpipe, lavapipe, softpipe or swiftshader"), WITHOUT("llvmpipe with --rasterize")),
+    TAKE(PLANE), TAKE(SAMPLE), TAKE(SEED), TAKE(RASTERIZE), TAKE(THREADS), TAKE(LINK),
+    GROUP(slanted), GROUP(projected), GROUP(written), END};
+
+const option_use prepass_uses[] = {
+    OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("all")),
+    OWN(ARITH, ALSO("that of --platform where it is known")),
+    OWN(RANGE, HELP("the eye depths of the vertices"), WITHOUT("near to far; needed where far is inf")),
+    OWN(FROM_ORIGIN, HELP("no coordinate of a camera exceeds R"), DEFAULT("100")),
+    OWN(SAMPLE, HELP("draw N vertices at random"), DEFAULT("1000000")),
+    OWN(SEED, HELP("seed of the vertices: the same for the same seed"), DEFAULT("0")),
+    TAKE(AGAINST), TAKE(PROGRAM), TAKE(VERTICES), TAKE(THREADS), TAKE(LINK),
+    GROUP(projected), GROUP(written), END};
+
+const option_use bias_uses[] = {
+    OWN(FORMAT, DEFAULT("fp32,unorm16,unorm24"), WITHOUT("the depth buffers")),
+    OWN(PRESET, ALSO("for a bias the API that its users write; " OF_VIEW)),
+    OWN(PLATFORM, ALSO("for a bias the API; with --viewport the rasterizer")),
+    OWN(SEPARATION, HELP("how much nearer a layer must come, in scene units"), WITHOUT("told apart")),
+    TAKE(AT), TAKE(RANGE), TAKE(LOG_C), TAKE(API), TAKE(UNITS), TAKE(FACTOR), TAKE(CLAMP),
+    TAKE(SLOPE), TAKE(VIEWPORT), TAKE(LINK),
+    OWN(VERBOSE, HELP("print where a biased depth is held at a plane")),
+    GROUP(slanted), GROUP(projected), GROUP(written), END};
+
+const option_use world_uses[] = {
+    OWN(FAR, DEFAULT("inf")), OWN(FORMAT, DEFAULT("fp32")),
+    OWN(MAPPING, HELP(PERSPECTIVE), DEFAULT("reversed")),
+    TAKE(ARITH),
+    OWN(AT, HELP("how far ahead of the camera the surfaces are"), WITHOUT("10 m, or 10")),
+    OWN(SEPARATION, HELP("how far apart along the view surfaces are"), WITHOUT("1 cm, or 0.01")),
+    OWN(FROM_ORIGIN, .argument = "R[,R...]|LO:HI:log|lin:COUNT",
+        HELP("how far the camera is from the world's origin, at most 1e12 scene units"),
+        WITHOUT("how far each scheme reaches"), .parse = parse_distances),
+    TAKE(SCHEME), TAKE(SHARE), TAKE(FOV), TAKE(HFOV),
+    OWN(VIEWPORT, HELP("pixels of the view"), DEFAULT("1920x1080")),
+    GROUP(camera), GROUP(written), END};
+
+const option_use scene_uses[] = {
+    OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, DEFAULT("reversed")),
+    OWN(PRESET, ALSO("for a bias the API that its users write; " OF_VIEW)),
+    OWN(PLATFORM, ALSO("for a bias the API; with --viewport the rasterizer")),
+    OWN(VIEWPORT, WITHOUT("1920x1080 from an eye, else surfaces face the camera")),
+    TAKE(LOG_C), GROUP(model), TAKE(API), TAKE(RENDER), TAKE(EMIT_NEED), TAKE(REPORT),
+    GROUP(slanted), GROUP(camera), GROUP(written), END};
+
+enum { TEXTURE_EFFECT = 1, TEXTURE_PLACED = 2, TEXTURE_IMAGE = 4 };
+static const option_use of_effect[] = {TAKE(AT), END};
+static const option_use of_image[] = {
+    TAKE(SKY), TAKE(METRIC), TAKE(ERROR_MAP), TAKE(FIGURE), GROUP(picture), TAKE(THREADS),
+    TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(NORMALS_BY), TAKE(CHANNEL), TAKE(PACK), TAKE(OVERLAY),
+    TAKE(HISTOGRAM), TAKE(MATRIX), END};
+static const option_use of_position[] = {
+    TAKE(FOV), TAKE(HFOV), TAKE(HALF_HEIGHT),
+    OWN(EYE, HELP("the camera's place in the world"), DEFAULT("0,0,0")),
+    OWN(LOOK, WITHOUT("along world z")), TAKE(SIZE), TAKE(PIXEL), END};
+const option_use texture_uses[] = {
+    OWN(FORMAT, WITHOUT("as the image has it; unorm24 with --synthetic; all with an effect alone")),
+    OWN(MAPPING, WITHOUT("as the image has it; d3d with --synthetic; all with an effect alone")),
+    TAKE(LOG_C), TAKE(LAST_EYE), TAKE(LAST_LOOK), TAKE(SYNTHETIC), TAKE(PARAMETER), TAKE(PRODUCT),
+    FOR(TEXTURE_EFFECT | TEXTURE_PLACED, of_effect),
+    FOR(TEXTURE_IMAGE, of_image), FOR(TEXTURE_PLACED | TEXTURE_IMAGE, of_position),
+    OWN(OUTPUT, HELP("write the product to FILE: PNG, PFM or NPY by its ending; else what is printed"),
+        WITHOUT("stdout")),
+    GROUP(projected), GROUP(written), END};
+
+enum { SHADOW_CASCADES = 1, SHADOW_BOX = 2 };
+static const option_use of_cascades[] = {
+    OWN(NEAR, HELP("near plane of the view"), DEFAULT("0.1")),
+    OWN(FAR, HELP("how far the view sees shadows, greater than near and at most 1e12 scene units"),
+        DEFAULT("1000")),
+    TAKE(FOV), TAKE(HFOV),
+    OWN(VIEWPORT, HELP("pixels of the view, which say how wide it is"), DEFAULT("1920x1080")),
+    GROUP(cascades), END};
+static const option_use of_box[] = {
+    OWN(RANGE, HELP("with --light-box: how far along the light what is lit lies, from the front of the box"),
+        WITHOUT("all of the box, less 1/256 where units are worth nothing at window depth 0")), END};
+const option_use shadow_uses[] = {
+    OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("d3d")),
+    OWN(UNIT, HELP("what a scene unit is; any length may carry a unit: 10cm"),
+        WITHOUT("m where a length has a unit")),
+    OWN(ARITH, ALSO("that of --raster where it is known")),
+    FOR(SHADOW_CASCADES, of_cascades), FOR(SHADOW_BOX, of_box), GROUP(shadow_map),
+    TAKE(RASTER), TAKE(SUBPIXEL), TAKE(TRIANGLE_CLASS), TAKE(CURVATURE), TAKE(FACET), TAKE(API),
+    GROUP(written), END};
+
+const option_use methods_uses[] = {
+    OWN(FORMAT, WITHOUT("that of the family's first case")),
+    OWN(MAPPING, WITHOUT("that of the family's first case")),
+    OWN(UNIT, HELP("what a scene unit is; any length may carry a unit: 10cm"),
+        WITHOUT("m where a length has a unit")),
+    OWN(TOLERANCE, HELP("the cheapest method that claims no more than 0.05, or 5%, is marked"), WITHOUT("none")),
+    OWN(FULL, HELP("all columns, however wide; and the methods to which another is faster and more exact")),
+    GROUP(planes), GROUP(written), END};
+
+const option_use probe_uses[] = {
+    OWN(SEED, HELP("seed of the random scene that is predicted"), DEFAULT("0")),
+    TAKE(DEVICE), TAKE(KEEP), GROUP(written), END};
+
+const option_use list_uses[] = {
+    OWN(TOLERANCE, HELP("list methods: the cases for which each is the cheapest that claims no more than 0.05, or "
+        "5%"), WITHOUT("")), GROUP(written), END};
+
+/* The figures: those of set-ups, and those of a model, of shadow maps and of a requirement file, whose options are
+ * those of their own commands. */
+enum { SLANTED = FIGURE_SLANTED | FIGURE_MODEL, VIEWED = SLANTED | FIGURE_DRAWN | FIGURE_SHADOW };
+static const option_use of_cameras[] = {TAKE(NEAR), TAKE(FAR), TAKE(FORMAT), TAKE(MAPPING), END};
+static const option_use of_setups[] = {
+    OWN(NEAR, ALSO("with --ortho also 0 or negative")), TAKE(ORTHO), {.id = OPTION_TOLERANCE,
+        WITHOUT("5% for the model; intervals are as exact as the picture shows")},
+    OWN(MODEL, DEFAULT("exact"), WITHOUT("float in figures of its pipeline")), END};
+static const option_use of_setups_and_models[] = {
+    OWN(PRESET, ALSO(OF_VIEW)), OWN(PLATFORM, ALSO("with --viewport the rasterizer")), TAKE(ROUNDING),
+    OWN(ARITH, ALSO("that of --raster where it is known; that of --platform where it is known")),
+    TAKE(LOG_C), END};
+static const option_use of_one_depth[] = {
+    OWN(AT, HELP("the depth asked about, in figures of a single one"), WITHOUT("")), END};
+static const option_use of_ranges[] = {
+    OWN(RANGE, HELP("the depths that are shown"), WITHOUT("near to far, or to 1e6 times near")), END};
+static const option_use of_scene[] = {OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, DEFAULT("reversed")),
+    GROUP(model), END};
+static const option_use of_shadow[] = {OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, DEFAULT("d3d")),
+    OWN(VIEWPORT, HELP("pixels of the view, which say how wide it is"), DEFAULT("1920x1080")),
+    GROUP(shadow_map), GROUP(cascades), END};
+static const option_use of_fight[] = {OWN(PLANE, DEFAULT("60,45"),
+    HELP("the angle of the planes' normal to the view axis and where it points on the screen, degrees, 0 to the right "
+        "and 90 up")), END};
+static const option_use of_views[] = {
+    OWN(VIEWPORT, HELP("the pixels of the viewport; budget and interval then count slanted triangles"),
+        WITHOUT("1920x1080 in fight and shadow, else surfaces face the camera")), GROUP(beside_viewport), END};
+static const option_use of_slants[] = {TAKE(SLANT), END};
+const option_use plot_uses[] = {
+    FOR(FIGURE_MODEL, of_scene), FOR(FIGURE_SHADOW, of_shadow), FOR(FIGURE_DRAWN, of_fight),
+    FOR(FIGURE_TERMS, budget_terms),
+    FOR(FIGURE_SETUPS, of_setups), FOR(FIGURE_SETUPS | FIGURE_MODEL, of_setups_and_models),
+    FOR(FIGURE_SETUPS | FIGURE_MODEL | FIGURE_SHADOW, of_cameras),
+    FOR(FIGURE_AT, of_one_depth), FOR(FIGURE_SETUPS | FIGURE_SHADOW | FIGURE_FILE, of_ranges),
+    FOR(VIEWED, of_views), FOR(SLANTED, of_slants), TAKE(UNIT), GROUP(picture), TAKE(LINK),
+    OWN(OUTPUT, HELP("draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type says; the numbers of "
+        "--json and --csv go to stdout, or to a FILE of another ending"), WITHOUT("")),
+    TAKE(JSON), TAKE(CSV), TAKE(QUIET), TAKE(COLOR),
+    OWN(VERBOSE, HELP("print how many values were computed")), END};
+
+const option_use no_uses[] = {END};
+/* clang-format on */
+
+/* ---- Parts of commands ------------------------------------------------------------------------------------------- */
+
+const command_part table_parts[] = {
+    {"without --depth and --code", TABLE_OF_DEPTHS}, {"with --depth or --code", TABLE_OF_CODES}, {NULL, 0}};
+const command_part solve_parts[] = {{"with another --for", SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
+const command_part shadow_parts[] = {{"to cascades", SHADOW_CASCADES}, {"with --light-box", SHADOW_BOX}, {NULL, 0}};
+const command_part texture_parts[] = {{"to an effect alone that needs no position", TEXTURE_EFFECT},
+                                      {"to an effect alone that needs the position", TEXTURE_PLACED},
+                                      {"with FILE or --synthetic", TEXTURE_IMAGE},
+                                      {NULL, 0}};
+
+size_t table_part(const options *o) {
+    return o->looked_up.count > 0;
+}
+
+size_t solve_part(const options *o) {
+    return o->target == SOLVE_FOR_FRUSTA;
+}
+
+size_t shadow_part(const options *o) {
+    return option_given(o, OPTION_LIGHT_BOX);
+}
+
+size_t texture_part(const options *o) {
+    if (o->effect == NULL || o->operand_count > 0 || o->synthetic != NULL)
+        return 2;
+    return (o->effect->needs & EFFECT_POSITION) != 0;
+}
+
+/* A figure is a part of plot. */
+size_t plot_part(const options *o) {
+    size_t i = 0;
+    while (figure_get(i) != o->operand_row)
+        i++;
+    return i;
+}
+
+bool option_part_get(const command_row *v, size_t index, command_part *out) {
+    const figure_row *figure = v->id == CMD_PLOT ? figure_get(index) : NULL;
+    *out = figure != NULL     ? (command_part){figure->name, figure->takes}
+           : v->parts != NULL ? v->parts[index]
+                              : (command_part){NULL, 0};
+    return out->words != NULL;
+}
+
+unsigned option_parts(const options *o) {
+    command_part part;
+    return o->command->part != NULL && option_part_get(o->command, o->command->part(o), &part) ? part.bits : ~0U;
+}
+
+/* ---- Which command takes what ------------------------------------------------------------------------------------ */
+
+static const option_use *find(const option_use *uses, unsigned parts, option_id id) {
+    for (; uses->group != NULL || uses->id != OPTION_COUNT; uses++) {
+        const option_use *found = uses->group != NULL ? find(uses->group, parts, id) : uses->id == id ? uses : NULL;
+        if (found != NULL && (uses->parts == 0 || (uses->parts & parts) != 0))
+            return found;
+    }
+    return NULL;
+}
+
+const option_use *option_used(const command_row *v, unsigned parts, option_id id) {
+    const option_use *found = find(v->uses, parts, id);
+    return found != NULL ? found : find(always, parts, id);
+}
+
+enum { OTHERS_NAMED = 6 }; /* more parts are no help */
+
+int option_check_parts(const options *o) {
+    char names[OPTION_TEXT_SIZE] = "";
+    command_part now, part;
+    const char *lead = o->command->id == CMD_PLOT ? "to the figure " : "";
+    if (o->command->part == NULL || !option_part_get(o->command, o->command->part(o), &now))
+        return EXIT_FINE;
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        if (!option_given(o, (option_id)id) || option_used(o->command, now.bits, (option_id)id) != NULL)
+            continue;
+        size_t others = 0;
+        for (size_t i = 0; option_part_get(o->command, i, &part); i++)
+            if (option_used(o->command, part.bits, (option_id)id) != NULL)
+                append(names, sizeof names, "%s%s", others++ > 0 ? ", " : "", part.words);
+        if (others > OTHERS_NAMED)
+            return option_refuse(&option_rows[id], "does not apply %s%s", lead, now.words);
+        return option_refuse(&option_rows[id], "does not apply %s%s, only %s%s%s", lead, now.words, lead, names,
+                             option_rows[id].instead != NULL ? option_rows[id].instead : "");
+    }
+    return EXIT_FINE;
+}
+
+void option_default(const option_use *use, const char **standard, const char **without) {
+    const option_row *row = &option_rows[use->id];
+    const bool own = use->standard != NULL || use->without != NULL;
+    *standard = own ? use->standard : row->standard;
+    *without = own ? use->without : row->without;
+    if (*without != NULL && **without == '\0')
+        *without = NULL;
+}
+
+const char *option_use_argument(const option_use *use, char out[OPTION_TEXT_SIZE]) {
+    out[0] = '\0';
+    append(out, OPTION_TEXT_SIZE, "%s", use->argument != NULL ? use->argument : "");
+    return use->argument != NULL ? out : option_argument(&option_rows[use->id], out);
+}

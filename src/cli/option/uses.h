@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file uses.h  Which command takes which options, and what is its own of them.
+ *
+ * A command lists uses: options, and groups of them that several commands take. What a use leaves null is as the row of
+ * the option has it. Where an option is found twice the first is meant, so what is a command's own stands before its
+ * groups.
+ */
+#ifndef CLI_OPTION_USES_H
+#define CLI_OPTION_USES_H
+
+#include "cli/option/rows.h"
+
+typedef struct option_use {
+    option_id id;
+    const char *argument;           /**< how help writes the argument */
+    const char *help;               /**< what it does */
+    const char *also;               /**< what it does beside that */
+    const char *standard;           /**< the default, which is read as if it were typed, */
+    const char *without;            /**< and what it means, or holds without the option; "": nothing is said of it */
+    option_parser *parse;           /**< another language than the row's */
+    unsigned parts;                 /**< the parts of the command that take it, see options.h; 0: all of them */
+    const struct option_use *group; /**< in place of an option: all of these */
+} option_use;
+
+/** The uses of each command, for commands.c; and what its parts are, which one is asked for. */
+extern const option_use table_uses[], budget_uses[], solve_uses[], check_uses[], zfight_uses[], prepass_uses[],
+    bias_uses[], world_uses[], scene_uses[], texture_uses[], shadow_uses[], methods_uses[], probe_uses[], plot_uses[],
+    list_uses[], no_uses[];
+extern const command_part table_parts[], solve_parts[], shadow_parts[], texture_parts[];
+size_t table_part(const options *o), solve_part(const options *o), shadow_part(const options *o),
+    texture_part(const options *o), plot_part(const options *o);
+
+/** The use of an option by those parts of a command, ~0u for any; null where they do not take it. */
+const option_use *option_used(const command_row *v, unsigned parts, option_id id);
+
+/** Part `index` of a command; false behind the last. */
+bool option_part_get(const command_row *v, size_t index, command_part *out);
+
+/** The bits of the part that is asked for, ~0u where the command has none. Operands are known. */
+unsigned option_parts(const options *o);
+
+/** Refuses an option that the part does not take. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+int option_check_parts(const options *o);
+
+/** The default of an option for a command, and what holds without it, each null where there is none. */
+void option_default(const option_use *use, const char **standard, const char **without);
+
+/** How help writes the argument for a command, with the names where there is no other; "" when there is none.
+ * @return out */
+const char *option_use_argument(const option_use *use, char out[OPTION_TEXT_SIZE]);
+
+#endif
