@@ -61,7 +61,7 @@ make --no-print-directory --output-sync=target -j"${JOBS:-$(nproc)}" all || exit
 every='-m d3d,gl,reversed,gl-reversed'
 synthetic='--size 96x54 --synthetic'
 commands="
-table --at 0.1:1000:log:2500 -F fp16,fp32,unorm16,unorm24,float5.10,unorm20 $every,linear,log --csv -v
+table --at 0.1:1000:log:2500 -F fp16,fp32,unorm16,unorm24,float5.10,unorm20 $every,linear,log --csv --full
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding zero --ortho --csv
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding even --csv
 table -f inf --at 0.1:1e6:log:500 -F all -m all --model staged --csv

@@ -100,7 +100,7 @@ check "too many staircases" refuses 2 "at most 8 set-ups" distribution -F unorm2
 check "nothing was left behind by the refused ones" [ ! -e "$scratch/x.svg" ]
 
 counted() { # counted FIGURE ARGUMENT...: fewer evaluations than a third of the pixel columns
-    "$DEPTHPREC" plot "$@" -v -o "$scratch/counted.svg" 2>&1 >"$scratch/log" | sed -n 's/.*: \([0-9]*\) evaluations.*would be \([0-9]*\)).*/\1 \2/p' >"$scratch/counts"
+    "$DEPTHPREC" plot "$@" --full -o "$scratch/counted.svg" 2>&1 >"$scratch/log" | sed -n 's/.*: \([0-9]*\) evaluations.*would be \([0-9]*\)).*/\1 \2/p' >"$scratch/counts"
     read -r spent full <"$scratch/counts" && [ "$spent" -gt 0 ] && [ $((3 * spent)) -lt "$full" ]
 }
 for figure in distribution share error interval; do

@@ -345,7 +345,7 @@ const char *camera_options(const camera_case *c, char out[512]) {
     list(out, 512, " -F ", c->formats);
     list(out, 512, " -m ", c->mappings);
     if (c->ortho)
-        strcat(out, " --ortho");
+        snprintf(out + strlen(out), 512 - strlen(out), c->half > 0 ? " --ortho=%g" : " --ortho", c->half);
     if (c->rounding != DP_ROUND_NEAREST)
         snprintf(out + strlen(out), 512 - strlen(out), " --rounding %s", dp_rounding_name(c->rounding));
     if (c->model != DP_MODEL_EXACT && !c->implied)

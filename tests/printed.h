@@ -173,6 +173,7 @@ typedef struct camera_case {
     const char *formats[5];
     const char *mappings[4];
     int ortho;
+    double half; /* of --ortho=H; 0: not given */
     dp_rounding rounding;
     dp_model model; /**< written as --model where it is not exact, unless `implied` */
     bool implied;

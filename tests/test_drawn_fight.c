@@ -29,12 +29,12 @@ static const fight_case cases[] = {
      "of "
      "view 60\u00b0, slant 60\u00b0",
      "unorm24", "mesa", "llvmpipe", "", DP_MAPPING_D3D, 1000, 10, 60, 45, 1920, 1080, 120, 90, &drawn_light},
-    {"-F fp32 -m reversed -f inf --at 5000 --raster swiftshader --unit m --plane 70,-120 --theme dark",
+    {"-F fp32 -m reversed -f inf --at 5000 --raster swiftshader --unit m --slant 70,-120 --theme dark",
      "fp32 reversed, near 0.1, far inf, perspective, nearest, float mesa, at depth 5000, lengths in m; swiftshader at "
      "1920 x 1080, field of view 60\u00b0, slant 70\u00b0",
      "fp32", "mesa", "swiftshader", " m", DP_MAPPING_REVERSED, INFINITY, 5000, 70, -120, 1920, 1080, 120, 90,
      &drawn_dark},
-    {"-F unorm16 -m gl --at 20 --viewport 301x80 --plane 20,90",
+    {"-F unorm16 -m gl --at 20 --viewport 301x80 --slant 20,90",
      "unorm16 gl, near 0.1, far 1000, perspective, nearest, float mesa-remap, at depth 20; llvmpipe at 301 x 80, field "
      "of view 60\u00b0, slant 20\u00b0",
      "unorm16", "mesa-remap", "llvmpipe", "", DP_MAPPING_GL, 1000, 20, 20, 90, 301, 80, 120, 40, &drawn_light},

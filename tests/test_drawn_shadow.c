@@ -103,7 +103,7 @@ static void cascades(void **state) {
     const shadow_split split = {0.5, 60, 40, 2, 3, 0.25, 30, true};
     const shadow_light model = light_of("fp32", 512, 1.5, 75);
     drawn *d =
-        drawn_run(&drawn_light, "plot shadow -n 0.5 -f 60 --fov 40 --viewport 640x320 --cascades 3 --lambda 0.25 "
+        drawn_run(&drawn_light, "plot shadow -n 0.5 -f 60 --fov 40 --viewport 640x320 --cascades 3:0.25 "
                                 "--casters 30 --size 512");
     (void)state;
     assert_int_equal(d->panel_count, 3);

@@ -19,7 +19,7 @@ static bool tried[OPTION_COUNT];
 static int parse(options *o, const char *command, option_id id, const char *value, char line[1024]) {
     char words[32], name[64], given[128], viewport[] = "--viewport=64x48";
     const bool slants = id == OPTION_HFOV || id == OPTION_RASTER || id == OPTION_SUBPIXEL || id == OPTION_SLANT ||
-                        id == OPTION_TRIANGLE_CLASS || id == OPTION_PLANE;
+                        id == OPTION_TRIANGLE_CLASS;
     snprintf(words, sizeof words, "%s", command);
     snprintf(name, sizeof name, "--%s", option_name(id));
     snprintf(given, sizeof given, "%s", value != NULL ? value : "");
@@ -75,13 +75,7 @@ static const struct {
     {"texture", OPTION_FOV, AT(camera.fov_y), 60, 0.01, 179, "0.01", "179", "0", "180",
      "a number from 0.01 to 179 degrees"},
     {"budget", OPTION_HFOV, AT(fov_x), 0, 0.01, 179, "0.01", "179", "0", "180", "a number from 0.01 to 179 degrees"},
-    {"texture", OPTION_HALF_HEIGHT, AT(camera.half_height), 5, 1e-12, 1e12, "1e-12", "1e12", "0", "1e13",
-     "a number from 1e-12 to 1e12 scene units"},
-    {"shadow", OPTION_LAMBDA, AT(lambda), 0.5, 0, 1, "0", "1", "-0.1", "1.1", "a number from 0 to 1"},
     {"shadow", OPTION_ANGLE, AT(angle), 75, 0, 89.9, "0", "89.9", "-1", "89.91", "a number from 0 to 89.9 degrees"},
-    {"shadow", OPTION_CURVATURE, AT(curvature), NAN, 1e-12, 1e18, "1e-12", "1e18", "0", "2e18",
-     "a number from 1e-12 to 1e18 scene units"},
-    {"shadow", OPTION_FACET, AT(facet), 0, 0, 1e18, "0", "1e18", "-1", "2e18", "a number from 0 to 1e18 scene units"},
     {"shadow", OPTION_CASTERS, AT(casters), 100, 0, 1e12, "0", "1e12", "-1", "2e12",
      "a number from 0 to 1e12 scene units"},
     {"texture", OPTION_SKY, AT(sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5"},
@@ -163,7 +157,6 @@ static void test_whole(void **state) {
         {"check", OPTION_THREADS, 1, 1024, "1", "1024", "0", "1025", "a whole number from 1 to 1024"},
         {"texture", OPTION_WIDTH, 320, 8192, "320", "8192", "319", "8193", "a whole number from 320 to 8192 pixels"},
         {"budget", OPTION_SUBPIXEL, 1, 8, "1", "8", "0", "9", "a whole number from 1 to 8 bits"},
-        {"shadow", OPTION_CASCADES, 1, 8, "1", "8", "0", "9", "a whole number from 1 to 8"},
         {"shadow", OPTION_KERNEL, 1, 64, "1", "64", "0", "65", "a whole number from 1 to 64 texels"},
         {"texture", OPTION_HEIGHT, 200, 8192, "200", "8192", "199", "8193", "a whole number from 200 to 8192 pixels"},
     };
@@ -179,7 +172,7 @@ static void test_whole(void **state) {
             parse(&o, wholes[i].command, wholes[i].id, k == 0 ? wholes[i].least_text : wholes[i].most_text, line);
             const uint64_t fields[] = {
                 [0] = o.sample, o.seed,   (uint64_t)o.threads, (uint64_t)o.width, (uint64_t)o.triangles.subpixel,
-                o.cascades,     o.kernel, (uint64_t)o.height};
+                o.kernel, (uint64_t)o.height};
             TALLY(&t, fields[i] == (k == 0 ? wholes[i].least : wholes[i].most), "--%s: %llu, %s",
                   option_name(wholes[i].id), (unsigned long long)fields[i], line);
             options_release(&o);
@@ -426,7 +419,7 @@ static void test_flags(void **state) {
         size_t field, size;
     } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},      {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
                  {"zfight", OPTION_RASTERIZE, WORD_AT(drawn)}, {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
-                 {"list", OPTION_QUIET, WORD_AT(quiet)},       {"table", OPTION_VERBOSE, WORD_AT(verbose)},
+                 {"list", OPTION_QUIET, WORD_AT(quiet)},
                  {"list", OPTION_FULL, WORD_AT(full)},         {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];
     tally t = {.name = "flags"};
@@ -607,7 +600,9 @@ static void test_own(void **state) {
 static void test_slanted(void **state) {
     static const char *const viewports[] = {"0x5", "5x0", "32769x1", "1x32769", "5", "5x", "x5", "5x5x5", "-1x5", ""};
     static const char *const slants[] = {"5", "5:4", "-1:5", "0:91", ":", "x:5", "5:x", ""};
-    static const char *const planes[] = {"5", "91,0", "-1,0", "5,361", "5,-361", "5:0", "x,0", "5,", ""};
+    static const char *const planes[] = {"91,0", "-1,0", "5,361", "5,-361", "x,0", "5,"};
+    static const char *const splits[] = {"0", "9", "x", "", "4:", "4:-0.1", "4:1.1", "4:x", ":0.5", "4.5", "1e1", "-1"};
+    static const char *const bends[] = {"0", "2e18", "x", "", "5:", "5:-1", "5:2e18", "5:x", ":1", "inf", "nan"};
     static const char *const classes[] = {"",
                                           "depth",
                                           "depth=0.5",
@@ -631,7 +626,7 @@ static void test_slanted(void **state) {
     assert_true(o.triangles.depth == 2 && o.triangles.pixels == 512 && o.triangles.slim == 16);
     assert_int_equal(parse(&o, "table", OPTION_SLANT, "0.5:80", line), EXIT_FINE);
     assert_true(o.triangles.slant_lo == 0.5 && o.triangles.slant_hi == 80);
-    assert_int_equal(parse(&o, "zfight", OPTION_PLANE, "30.5,-360", line), EXIT_FINE);
+    assert_int_equal(parse(&o, "zfight", OPTION_SLANT, "30.5,-360", line), EXIT_FINE);
     assert_true(o.triangles.slant_lo == 30.5 && o.triangles.slant_hi == 30.5 && o.azimuth == -360);
     assert_int_equal(parse(&o, "zfight", OPTION_RASTERIZE, NULL, line), EXIT_FINE);
     assert_true(isnan(o.azimuth) && o.triangles.width == 1920 && o.triangles.height == 1080 && o.format_count == 3);
@@ -644,12 +639,26 @@ static void test_slanted(void **state) {
     assert_relative(o.triangles.fov_y, 2 * atan(0.75) * 180 / 3.14159265358979323846, 1e-14);
     assert_int_equal(parse(&o, "budget", OPTION_QUIET, NULL, line), EXIT_FINE);
     assert_int_equal(o.triangles.width, 0);
+    assert_int_equal(parse(&o, "shadow", OPTION_CASCADES, "8", line), EXIT_FINE);
+    assert_true(o.cascades == 8 && o.lambda == 0.5);
+    assert_int_equal(parse(&o, "shadow", OPTION_CASCADES, "1:0", line), EXIT_FINE);
+    assert_true(o.cascades == 1 && o.lambda == 0);
+    assert_int_equal(parse(&o, "shadow", OPTION_CURVATURE, "1e-12", line), EXIT_FINE);
+    assert_true(o.curvature == 1e-12 && o.facet == 0);
+    assert_int_equal(parse(&o, "shadow", OPTION_CURVATURE, "5m:2cm", line), EXIT_FINE);
+    assert_true(o.curvature == 5 && o.facet == 0.02);
+    assert_int_equal(parse(&o, "shadow", OPTION_QUIET, NULL, line), EXIT_FINE);
+    assert_true(o.cascades == 4 && o.lambda == 0.5 && isnan(o.curvature) && o.facet == 0);
+    for (size_t i = 0; i < sizeof splits / sizeof splits[0]; i++)
+        refused(&t, "shadow", OPTION_CASCADES, splits[i], "N or N:LAMBDA, N a whole number from 1 to 8, LAMBDA from 0 to 1");
+    for (size_t i = 0; i < sizeof bends / sizeof bends[0]; i++)
+        refused(&t, "shadow", OPTION_CURVATURE, bends[i], "Z or Z:FACET, Z from 1e-12 and FACET from 0 to 1e18 scene units");
     for (size_t i = 0; i < sizeof viewports / sizeof viewports[0]; i++)
         refused(&t, "table", OPTION_VIEWPORT, viewports[i], "WIDTHxHEIGHT, each from 1 to 32768 pixels");
     for (size_t i = 0; i < sizeof slants / sizeof slants[0]; i++)
         refused(&t, "table", OPTION_SLANT, slants[i], "LO:HI, from 0 to 90 degrees");
     for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
-        refused(&t, "zfight", OPTION_PLANE, planes[i], "SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees");
+        refused(&t, "zfight", OPTION_SLANT, planes[i], "SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees");
     for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
         refused(&t, "table", OPTION_TRIANGLE_CLASS, classes[i],
                 "depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, each at most once, "

@@ -266,6 +266,8 @@ static void check_text(const values *v, const bias_case *c, const char *argument
             count++;
     }
     printed p = print_of("%s --full", arguments);
+    for (char *held = p.out; (held = strstr(held, "  held at a plane")) != NULL;) /* words behind the numbers */
+        memset(held, ' ', strlen("  held at a plane"));
     check_text_table(v, p.out, shown, count, lines);
     const bool reversed = strcmp(value_at(v, "setups[0].mapping")->text, "reversed") == 0;
     const bool none = c->inverse && isnan(value_at(v, "setups[0].range.units_apart")->number);

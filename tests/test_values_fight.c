@@ -29,7 +29,7 @@ static const fight_case cases[] = {
      25, /* five bands */
      UINT64_C(8589934597)},
     {{0.1, INFINITY, {"unorm24"}, {"gl-reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .unit = "cm"},
-     "--plane 35,-120",
+     "--slant 35,-120",
      "llvmpipe",
      "mesa-remap",
      {1920, 1080, 60, 0, {0, 0, 0, 0}, 35, 35, 2, 512, 16},

@@ -35,7 +35,7 @@ typedef struct shadow_case {
 } shadow_case;
 
 static const shadow_case given[] = {
-    {.options = "-n 0.25 -f 90 --cascades 3 --lambda 0.7 --fov 50 --viewport 800x600 --casters 40 --size 1024 "
+    {.options = "-n 0.25 -f 90 --cascades 3:0.7 --fov 50 --viewport 800x600 --casters 40 --size 1024 "
                 "--kernel 5 --angle 70 -F fp32,unorm24 -m d3d,reversed",
      .formats = {"fp32", "unorm24"},
      .mappings = {DP_MAPPING_D3D, DP_MAPPING_REVERSED},
@@ -53,7 +53,7 @@ static const shadow_case given[] = {
      .casters = 40,
      .cascades = 3},
     {.options = "--light-box 30mx20mx50m --size 512x256 -F d16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
-                "--triangle-class pixels=64,slim=8 --kernel 3 --angle 60 --from-origin 1km --curvature 2m --facet 5cm",
+                "--triangle-class pixels=64,slim=8 --kernel 3 --angle 60 --from-origin 1km --curvature 2m:5cm",
      .formats = {"unorm16"},
      .mappings = {DP_MAPPING_GL},
      .api = "gl",

@@ -219,8 +219,6 @@ static void want_table(values *v, const table_case *c, dp_setup *setup, size_t i
 static void check_table_text(const values *v, const char *arguments, const line_places *lines) {
     static const text_column narrow[] = {{"z", 8},        {"code", 10},   {"depth", 7},     {"error", 5},
                                          {"interval", 5}, {"lattice", 5}, {"guaranteed", 5}};
-    static const text_column verbose[] = {{"z", 8},          {"code", 10},   {"lattice", 5},
-                                          {"guaranteed", 5}, {"cell_lo", 9}, {"cell_hi", 9}};
     static const text_column full[] = {{"z", 8},       {"code", 10},    {"depth", 7},   {"z_stored", 9},
                                        {"error", 5},   {"interval", 5}, {"lattice", 5}, {"guaranteed", 5},
                                        {"cell_lo", 9}, {"cell_hi", 9}};
@@ -228,7 +226,7 @@ static void check_table_text(const values *v, const char *arguments, const line_
         const char *options;
         const text_column *columns;
         size_t count;
-    } forms[] = {{"", narrow, 7}, {"-v", verbose, 6}, {"--full", full, 8}, {"--full -v", full, 10}};
+    } forms[] = {{"", narrow, 7}, {"--full", full, 10}};
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
         printed p = print_of("%s %s", arguments, forms[i].options);
         assert_int_equal(p.status, 0);

@@ -72,7 +72,7 @@ static void write_text(const options *o, bool failures, output *out, const check
                       v->passed ? "pass" : "FAIL", p.plain, f->file.path, v->asked->line, v->asked->name,
                       v->camera->name, setup_label(&v->setup, false, label),
                       option_word(OPTION_MODEL, setup_model(&v->setup)), sentence(f, v, text));
-            if (o->verbose)
+            if (o->full)
                 page_note(&p, "", "decided by %s: %s", check_method_name(v->method),
                           setup_label(&v->setup, true, label));
         }

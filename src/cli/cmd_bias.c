@@ -301,7 +301,7 @@ enum { EFFECT = 1, INVERSE = 2, WITH_GAP = 4, WITH_SLOPE = 8, VERBOSE = 16, WITH
 
 static unsigned conditions(const biasing *b) {
     return (b->inverse ? INVERSE : EFFECT) | (b->goal.gap > 0.0 ? WITH_GAP : 0) |
-           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->each.o->verbose ? VERBOSE : 0) |
+           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->each.o->full ? VERBOSE : 0) |
            (b->triangles != NULL ? WITH_TRIANGLES : 0);
 }
 

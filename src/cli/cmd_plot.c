@@ -81,6 +81,9 @@ static int check_options(const options *o, const figure_row *row) {
     if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_SLANTED) != 0 && (row->takes & FIGURE_BINARY32) == 0 &&
         o->model != DP_MODEL_FLOAT)
         return option_error(OPTION_VIEWPORT, "needs --model float in the figure %s", row->name);
+    if (!isnan(o->azimuth) && (row->takes & FIGURE_DRAWN) == 0)
+        return option_error(OPTION_SLANT, "must be LO:HI in the figure %s, got '%s'", row->name,
+                            o->given[OPTION_SLANT]);
     if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
         return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
     return EXIT_FINE;
@@ -184,6 +187,9 @@ static int resolve_drawn(const plotting *p, options *o) {
         status = depths_resolve(p->o, 1, &at);
     if (status == EXIT_FINE && option_given(o, OPTION_RANGE))
         status = option_error(OPTION_RANGE, "does not apply to the figure %s; --at says its depth", p->row->name);
+    if (status == EXIT_FINE && isnan(o->azimuth))
+        status = option_error(OPTION_SLANT, "must be SLANT,AZIMUTH in the figure %s, got '%s'", p->row->name,
+                              o->given[OPTION_SLANT]);
     return status;
 }
 
@@ -328,7 +334,7 @@ static int write_figure(plotting *p) {
         good = figure_file_write(o, o->output, c, p->request.columns, height_of(p), &out);
     else if (good)
         figure_data_write(&out, o->form, "plot", p->row->name, c);
-    if (good && o->verbose)
+    if (good && o->full)
         say_evaluations(p->row, c);
     if (good && drawn && o->form != FORM_TEXT)
         status = write_numbers(p);

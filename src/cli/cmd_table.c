@@ -342,8 +342,8 @@ static const column columns[] = {{PART(table, triangles, "triangles", slant_colu
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
-    unsigned when = (option_given(t->each.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
-                    (t->each.o->verbose ? VERBOSE : 0) | (t->each.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
+    unsigned when = (option_given(t->each.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) | (t->each.o->full ? VERBOSE : 0) |
+                    (t->each.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
                     (t->triangles != NULL ? WITH_TRIANGLES : 0);
     for (size_t i = 0; i < t->each.all.count; i++) {
         when |= t->each.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;

@@ -312,8 +312,8 @@ static int run(zfight *z) {
 int cmd_zfight(const options *o) {
     if (o->drawn)
         return zfight_triangles(o);
-    if (option_given(o, OPTION_PLANE))
-        return option_error(OPTION_PLANE, "needs --rasterize");
+    if (!isnan(o->azimuth))
+        return option_error(OPTION_SLANT, "must be LO:HI without --rasterize, got '%s'", o->given[OPTION_SLANT]);
     zfight z = {.each.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->separation};
     z.triangles = slant_fields_of(o, &z.slant);
     int status = check(&z);

@@ -77,7 +77,7 @@ const command_row command_rows[CMD_COUNT] = {
      "shadow maps: the bias without acne, and its gap",
      "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
      "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
-     "  depthprec shadow -f 300 --cascades 3 --lambda 0.8 --api all\n"
+     "  depthprec shadow -f 300 --cascades 3:0.8 --api all\n"
      "  depthprec plot shadow -f 150 -o shadow.svg\n", 0, NULL, shadow_part, shadow_parts},
     [CMD_METHODS] = {"methods", CMD_METHODS, methods_uses, "FAMILY", 0, 1, &families,
      "ways to a quantity: time, worst error, where they fail",

@@ -294,7 +294,7 @@ static void write(comparison *c) {
 
 bool compare_suits(const each_setup *w) {
     const options *o = w->o;
-    return o->form == FORM_TEXT && w->all.count > 1 && !o->full && !o->verbose && !option_given(o, OPTION_MODEL) &&
+    return o->form == FORM_TEXT && w->all.count > 1 && !o->full && !option_given(o, OPTION_MODEL) &&
            !option_given(o, OPTION_RANGE) && !option_given(o, OPTION_TOLERANCE) &&
            (!option_given(o, OPTION_AT) || w->at.count <= DEPTHS);
 }

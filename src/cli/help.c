@@ -70,8 +70,8 @@ static void label_of(const option_use *use, char label[128]) {
     if (row->letter != 0)
         snprintf(label, 128, "-%c, ", row->letter);
     append(label, 128, "--%s%s%s", row->name, *argument != '\0' ? " " : "", argument);
-    if (row->optional != NULL)
-        append(label, 128, "[=%s]", row->optional);
+    if (option_use_optional(use) != NULL)
+        append(label, 128, "[=%s]", option_use_optional(use));
 }
 
 /* Those of a command; without one, all, and which commands take them. */

@@ -250,3 +250,46 @@ int parse_range(options *o, const option_row *row, const char *value) {
                ? status
                : option_refuse(row, "LO must be less than HI, got '%s'", value);
 }
+
+/* Half the height of what an image shows stands behind "=". */
+int parse_ortho(options *o, const option_row *row, const char *value) {
+    option_row half = *row;
+    half.place = offsetof(options, camera.half_height);
+    half.least = 1e-12;
+    half.most = 1e12;
+    half.unit = "scene units";
+    const int status = value != NULL ? parse_length(o, &half, value) : EXIT_FINE;
+    return status == EXIT_FINE ? parse_flag(o, row, NULL) : status;
+}
+
+/* N, or N:LAMBDA. */
+int parse_cascades(options *o, const option_row *row, const char *value) {
+    enum { MOST = 8 }; /* as many as a figure has panels */
+    const size_t length = strcspn(value, ":");
+    char number[8];
+    uint64_t count;
+    snprintf(number, sizeof number, "%.*s", (int)length, value);
+    if (length >= sizeof number || !number_parse_count(number, MOST, &count) || count < 1 ||
+        (value[length] != '\0' &&
+         (!number_parse(value + length + 1, NUMBER_FINITE, &o->lambda) || !(o->lambda >= 0.0 && o->lambda <= 1.0))))
+        return option_refuse(row, "must be N or N:LAMBDA, N a whole number from 1 to %d, LAMBDA from 0 to 1, got '%s'",
+                             MOST, value);
+    o->cascades = (unsigned)count;
+    return EXIT_FINE;
+}
+
+/* Z, or Z:FACET. */
+int parse_curvature(options *o, const option_row *row, const char *value) {
+    const size_t split = strcspn(value, ":");
+    lengths seen = {.o = o};
+    const bool faceted = value[split] != '\0';
+    double radius, facet = 0.0;
+    if (!read_length(&seen, value, split, NUMBER_FINITE, &radius) || !(radius >= 1e-12 && radius <= 1e18) ||
+        (faceted && (!read_length(&seen, value + split + 1, strlen(value + split + 1), NUMBER_FINITE, &facet) ||
+                     !(facet >= 0.0 && facet <= 1e18))))
+        return option_refuse(row, "must be Z or Z:FACET, Z from 1e-12 and FACET from 0 to 1e18 scene units, got '%s'%s",
+                             value, unit_hint(value, split));
+    o->curvature = radius;
+    o->facet = facet;
+    return check_mixed(&seen, row, value);
+}

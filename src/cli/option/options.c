@@ -68,6 +68,7 @@ static void set_defaults(options *o) {
                    .triangles = dp_triangles_default(),
                    .azimuth = (double)NAN,
                    .curvature = (double)NAN,
+                   .camera.half_height = 5.0,
                    .parts = ~0U};
     for (int id = 0; id < OPTION_COUNT; id++)
         if (option_rows[id].standard != NULL)
@@ -118,9 +119,7 @@ static void make_getopt_arrays(const char *mode, char *letters, struct option *l
     *letters++ = ':'; /* a missing argument is told apart from an unknown option */
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];
-        const int has = takes_argument(row)     ? required_argument
-                        : row->optional != NULL ? optional_argument
-                                                : no_argument;
+        const int has = takes_argument(row) ? required_argument : optional_argument; /* where it may: read_option() */
         *longs++ = (struct option){row->name, has, NULL, getopt_value(id)};
         if (row->letter != 0) {
             *letters++ = row->letter;
@@ -134,8 +133,6 @@ static void make_getopt_arrays(const char *mode, char *letters, struct option *l
 
 /* getopt has refused: say what and why, with the nearest option that the command takes. */
 static int unknown_option(const options *o, int refused, const char *argument) {
-    if (refused != 0 && id_of_value(refused) < OPTION_COUNT)
-        return option_error((option_id)id_of_value(refused), "takes no argument, got '%s'", argument);
     if (refused != 0)
         return usage_error("unknown option '-%c'; 'depthprec help %s' lists its options", refused, o->command->name);
     const int length = (int)strcspn(argument, "=");
@@ -358,6 +355,8 @@ static int read_option(options *o, option_id id, const char *argument) {
     const option_use *use = option_used(o->command, ~0U, id);
     if (use == NULL)
         return wrong_command(o, id);
+    if (argument != NULL && !takes_argument(row) && option_use_optional(use) == NULL)
+        return option_error(id, "takes no argument, got '%s'", argument);
     if (o->given[id] != NULL && (takes_argument(row) || argument != NULL) && id != OPTION_PARAMETER)
         return option_error(id, "must not be given twice, got '%s' too", argument);
     o->given[id] = argument != NULL ? argument : "";

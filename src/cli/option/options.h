@@ -73,16 +73,13 @@ typedef enum option_id {
     OPTION_RASTER,
     OPTION_SUBPIXEL,
     OPTION_SLANT,
-    OPTION_PLANE,
     OPTION_TRIANGLE_CLASS,
     OPTION_CASCADES,
-    OPTION_LAMBDA,
     OPTION_LIGHT_BOX,
     OPTION_CASTERS,
     OPTION_KERNEL,
     OPTION_ANGLE,
     OPTION_CURVATURE,
-    OPTION_FACET,
     OPTION_API,
     OPTION_UNITS,
     OPTION_FACTOR,
@@ -101,7 +98,6 @@ typedef enum option_id {
     OPTION_EMIT_NEED,
     OPTION_DEVICE,
     OPTION_KEEP,
-    OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_LAST_EYE,
     OPTION_LAST_LOOK,
@@ -133,7 +129,6 @@ typedef enum option_id {
     OPTION_OUTPUT,
     OPTION_THREADS,
     OPTION_QUIET,
-    OPTION_VERBOSE,
     OPTION_FULL,
     OPTION_COLOR,
     OPTION_HELP,
@@ -208,7 +203,7 @@ typedef struct options {
     dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle-class; width 0
                                    without the first */
     double fov_x;             /**< --hfov, degrees */
-    double azimuth;           /**< --plane, degrees from right to up; NaN when not given */
+    double azimuth;           /**< of one plane of --slant, degrees from right to up; NaN when not given */
     const raster_row *raster; /**< --raster; null when not given */
 
     const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
@@ -249,7 +244,7 @@ typedef struct options {
     double curvature;    /**< radius of curvature of receivers, scene units; read where it is given */
     double facet;        /**< of the circles about their triangles, scene units */
 
-    camera_spec camera; /**< --size, --fov, --half-height; see texture_camera_place() */
+    camera_spec camera; /**< --size, --fov, --ortho; see texture_camera_place() */
     const char *matrix; /**< file of a projection matrix, which then says the planes and the field of view */
     double last_eye[3], last_look[3]; /**< of last frame's camera */
     const synthetic_row *synthetic;   /**< null when not given, as all rows and names here */
@@ -282,7 +277,7 @@ typedef struct options {
     report_form report;
     output_form form;
     const char *output; /**< the argument of -o; null when not given. "-" is stdout: see options_open() */
-    bool quiet, verbose, full, version;
+    bool quiet, full, version;
     unsigned colour; /**< --color: an output_colour */
 } options;
 

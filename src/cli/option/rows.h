@@ -86,6 +86,7 @@ option_parser parse_unit, parse_preset, parse_presets, parse_near, parse_far, pa
     parse_size_or_n, parse_separation_or_0;
 option_parser parse_product, parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_also;
 option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
-option_parser parse_viewport, parse_slant, parse_plane, parse_triangle, parse_light_box;
+option_parser parse_viewport, parse_slant, parse_slant_or_plane, parse_triangle, parse_light_box, parse_ortho,
+    parse_cascades, parse_curvature;
 
 #endif

@@ -28,10 +28,13 @@ int parse_slant(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
-int parse_plane(options *o, const option_row *row, const char *value) {
+/* A range, or one plane. */
+int parse_slant_or_plane(options *o, const option_row *row, const char *value) {
     const size_t split = strcspn(value, ",");
     double slant, azimuth;
-    if (value[split] == '\0' || !number_parse_part(value, split, NUMBER_FINITE, &slant) ||
+    if (value[split] == '\0')
+        return parse_slant(o, row, value);
+    if (!number_parse_part(value, split, NUMBER_FINITE, &slant) ||
         !number_parse(value + split + 1, NUMBER_FINITE, &azimuth) || !(slant >= 0.0 && slant <= 90.0) ||
         !(azimuth >= -360.0 && azimuth <= 360.0))
         return option_refuse(row, "must be SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees, got '%s'", value);

@@ -55,7 +55,7 @@ static const option_use shadow_map[] = {
     OWN(SIZE, .argument = "WxH|N", HELP("texels of each shadow map; N is NxN"), DEFAULT("2048x2048"),
         .parse = parse_size_or_n),
     TAKE(LIGHT_BOX), TAKE(KERNEL), TAKE(ANGLE), END};
-static const option_use cascades[] = {TAKE(CASCADES), TAKE(LAMBDA), TAKE(CASTERS), END};
+static const option_use cascades[] = {TAKE(CASCADES), TAKE(CASTERS), END};
 
 static const option_use model[] = {
     OWN(SEPARATION, HELP("surfaces at most S scene units apart; 0: exactly in one plane"),
@@ -80,8 +80,9 @@ const option_use table_uses[] = {
     OWN(PRESET, .argument = "NAME[,NAME...]", ALSO(OF_VIEW "; table compares several"), .parse = parse_presets),
     OWN(MODEL, DEFAULT("exact"), WITHOUT("of several set-ups the fullest that each has")),
     FOR(TABLE_OF_DEPTHS, of_depths),
-    TAKE(DEPTH), TAKE(CODE), TAKE(LOG_C), TAKE(LINK), TAKE(VERBOSE),
-    OWN(FULL, HELP("all columns, however wide; and a table for each set-up in place of a comparison")),
+    TAKE(DEPTH), TAKE(CODE), TAKE(LOG_C), TAKE(LINK),
+    OWN(FULL, HELP("all columns, however wide, with the cell of each depth; and a table for each set-up in place of a "
+        "comparison")),
     GROUP(slanted), GROUP(projected), GROUP(written), END};
 
 const option_use budget_uses[] = {
@@ -111,9 +112,12 @@ const option_use solve_uses[] = {
 
 const option_use check_uses[] = {
     TAKE(REPORT), TAKE(THREADS), OWN(QUIET, HELP("print only failures")),
-    OWN(VERBOSE, HELP("print how each verdict was decided")), GROUP(written), END};
+    OWN(FULL, HELP("say how each verdict was decided, too")), GROUP(written), END};
 
 const option_use zfight_uses[] = {
+    OWN(SLANT, .argument = "LO:HI|SLANT,AZIMUTH", .parse = parse_slant_or_plane, DEFAULT("0:90"),
+        HELP("angles of the surfaces' normal to the view axis, degrees; 0 faces the camera, 90 is edge-on; with "
+        "--rasterize also one angle and where the normal points on the screen, 0 to the right and 90 up")),
     OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("all")),
     OWN(RANGE, HELP("the depths that are visited"), WITHOUT("near to far; needed where far is inf")),
     OWN(SEPARATION, HELP("where surfaces S scene units apart tie and swap"),
@@ -122,7 +126,7 @@ const option_use zfight_uses[] = {
         "beside the census"), WITHOUT("1920x1080 with --rasterize, else surfaces face the camera")),
     OWN(RASTER, HELP("the rasterizer or specification, as in 'depthprec list rasterizers'; with --rasterize one "
         "that draws: llvmpipe, lavapipe, softpipe or swiftshader"), WITHOUT("llvmpipe with --rasterize")),
-    TAKE(PLANE), TAKE(SAMPLE), TAKE(SEED), TAKE(RASTERIZE), TAKE(THREADS), TAKE(LINK),
+    TAKE(SAMPLE), TAKE(SEED), TAKE(RASTERIZE), TAKE(THREADS), TAKE(LINK),
     GROUP(slanted), GROUP(projected), GROUP(written), END};
 
 const option_use prepass_uses[] = {
@@ -142,7 +146,7 @@ const option_use bias_uses[] = {
     OWN(SEPARATION, HELP("how much nearer a layer must come, in scene units"), WITHOUT("told apart")),
     TAKE(AT), TAKE(RANGE), TAKE(LOG_C), TAKE(API), TAKE(UNITS), TAKE(FACTOR), TAKE(CLAMP),
     TAKE(SLOPE), TAKE(VIEWPORT), TAKE(LINK),
-    OWN(VERBOSE, HELP("print where a biased depth is held at a plane")),
+    OWN(FULL, HELP("all columns, however wide; and where a biased depth is held at a plane")),
     GROUP(slanted), GROUP(projected), GROUP(written), END};
 
 const option_use world_uses[] = {
@@ -173,12 +177,14 @@ static const option_use of_image[] = {
     TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(NORMALS_BY), TAKE(CHANNEL), TAKE(PACK), TAKE(OVERLAY),
     TAKE(HISTOGRAM), TAKE(MATRIX), END};
 static const option_use of_position[] = {
-    TAKE(FOV), TAKE(HFOV), TAKE(HALF_HEIGHT),
+    TAKE(FOV), TAKE(HFOV),
     OWN(EYE, HELP("the camera's place in the world"), DEFAULT("0,0,0")),
     OWN(LOOK, WITHOUT("along world z")), TAKE(SIZE), TAKE(PIXEL), END};
 const option_use texture_uses[] = {
     OWN(FORMAT, WITHOUT("as the image has it; unorm24 with --synthetic; all with an effect alone")),
     OWN(MAPPING, WITHOUT("as the image has it; d3d with --synthetic; all with an effect alone")),
+    OWN(ORTHO, .optional = "H", HELP("orthographic projection, H half the height of the view"),
+        WITHOUT("perspective; of H 5 scene units")),
     TAKE(LOG_C), TAKE(LAST_EYE), TAKE(LAST_LOOK), TAKE(SYNTHETIC), TAKE(PARAMETER), TAKE(PRODUCT),
     FOR(TEXTURE_EFFECT | TEXTURE_PLACED, of_effect),
     FOR(TEXTURE_IMAGE, of_image), FOR(TEXTURE_PLACED | TEXTURE_IMAGE, of_position),
@@ -203,7 +209,7 @@ const option_use shadow_uses[] = {
         WITHOUT("m where a length has a unit")),
     OWN(ARITH, ALSO("that of --raster where it is known")),
     FOR(SHADOW_CASCADES, of_cascades), FOR(SHADOW_BOX, of_box), GROUP(shadow_map),
-    TAKE(RASTER), TAKE(SUBPIXEL), TAKE(TRIANGLE_CLASS), TAKE(CURVATURE), TAKE(FACET), TAKE(API),
+    TAKE(RASTER), TAKE(SUBPIXEL), TAKE(TRIANGLE_CLASS), TAKE(CURVATURE), TAKE(API),
     GROUP(written), END};
 
 const option_use methods_uses[] = {
@@ -244,7 +250,8 @@ static const option_use of_scene[] = {OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING,
 static const option_use of_shadow[] = {OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, DEFAULT("d3d")),
     OWN(VIEWPORT, HELP("pixels of the view, which say how wide it is"), DEFAULT("1920x1080")),
     GROUP(shadow_map), GROUP(cascades), END};
-static const option_use of_fight[] = {OWN(PLANE, DEFAULT("60,45"),
+static const option_use of_fight[] = {OWN(SLANT, .argument = "SLANT,AZIMUTH", .parse = parse_slant_or_plane,
+    DEFAULT("60,45"),
     HELP("the angle of the planes' normal to the view axis and where it points on the screen, degrees, 0 to the right "
         "and 90 up")), END};
 static const option_use of_views[] = {
@@ -261,7 +268,7 @@ const option_use plot_uses[] = {
     OWN(OUTPUT, HELP("draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type says; the numbers of "
         "--json and --csv go to stdout, or to a FILE of another ending"), WITHOUT("")),
     TAKE(JSON), TAKE(CSV), TAKE(QUIET), TAKE(COLOR),
-    OWN(VERBOSE, HELP("print how many values were computed")), END};
+    OWN(FULL, HELP("say how many values were computed")), END};
 
 const option_use no_uses[] = {END};
 /* clang-format on */
@@ -368,4 +375,8 @@ const char *option_use_argument(const option_use *use, char out[OPTION_TEXT_SIZE
     out[0] = '\0';
     append(out, OPTION_TEXT_SIZE, "%s", use->argument != NULL ? use->argument : "");
     return use->argument != NULL ? out : option_argument(&option_rows[use->id], out);
+}
+
+const char *option_use_optional(const option_use *use) {
+    return use->optional != NULL ? use->optional : option_rows[use->id].optional;
 }

@@ -14,6 +14,7 @@
 typedef struct option_use {
     option_id id;
     const char *argument;           /**< how help writes the argument */
+    const char *optional;           /**< an argument that may be left out, and is written behind "=" */
     const char *help;               /**< what it does */
     const char *also;               /**< what it does beside that */
     const char *standard;           /**< the default, which is read as if it were typed, */
@@ -45,6 +46,9 @@ int option_check_parts(const options *o);
 
 /** The default of an option for a command, and what holds without it, each null where there is none. */
 void option_default(const option_use *use, const char **standard, const char **without);
+
+/** The argument that may be left out; null where there is none. */
+const char *option_use_optional(const option_use *use);
 
 /** How help writes the argument for a command, with the names where there is no other; "" when there is none.
  * @return out */

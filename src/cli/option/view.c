@@ -68,8 +68,8 @@ int view_drawn(options *o) {
 }
 
 int slant_view(options *o) {
-    static const option_id beside[] = {OPTION_FOV,   OPTION_HFOV,  OPTION_RASTER,        OPTION_SUBPIXEL,
-                                       OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE_CLASS};
+    static const option_id beside[] = {OPTION_FOV,      OPTION_HFOV,  OPTION_RASTER,
+                                       OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE_CLASS};
     enum { OF_PICTURES = 3 }; /* the first of them, which a picture takes, too: see view_drawn() */
     const bool slanted = o->triangles.width > 0;
     const bool measured = o->command->id == CMD_BIAS && o->gpu.measured[0] != '\0'; /* of r, at any slant */
@@ -79,8 +79,6 @@ int slant_view(options *o) {
             return option_refuse(&option_rows[beside[i]], "needs --viewport: surfaces face the camera");
     if (!slanted)
         return EXIT_FINE;
-    if (option_given(o, OPTION_SLANT) && option_given(o, OPTION_PLANE))
-        return option_refuse(&option_rows[OPTION_PLANE], "cannot be combined with --slant");
     if (o->ortho)
         return option_refuse(&option_rows[o->drawn ? OPTION_RASTERIZE : OPTION_VIEWPORT],
                              "does not apply with --ortho");

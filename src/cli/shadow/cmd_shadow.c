@@ -328,10 +328,7 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
 
 int cmd_shadow(const options *given) {
     output out;
-    shadow s = {.o = *given,
-                .api = given->api,
-                .unit = options_unit(given),
-                .arith = dp_arith_get(given->arith)->name};
+    shadow s = {.o = *given, .api = given->api, .unit = options_unit(given), .arith = dp_arith_get(given->arith)->name};
     const options *o = &s.o;
     s.api_name = s.api != NULL ? s.api->name : "all";
     s.setup_count = o->format_count * o->mapping_count;

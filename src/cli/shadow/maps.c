@@ -11,8 +11,6 @@ enum { SIDE_MAX = 32768 };
 
 /* A box has no view, and the depths of cascades follow from it. */
 static int check_together(const options *o) {
-    if (option_given(o, OPTION_FACET) && !option_given(o, OPTION_CURVATURE))
-        return option_error(OPTION_FACET, "needs --curvature: planes are the same however they are drawn");
     if (o->camera.width > SIDE_MAX || o->camera.height > SIDE_MAX)
         return option_error(OPTION_SIZE, "must be at most %d texels a side, got '%ux%u'", SIDE_MAX, o->camera.width,
                             o->camera.height);

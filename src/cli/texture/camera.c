@@ -28,9 +28,7 @@ int texture_camera_check(const options *o) {
     bool any = false;
     for (option_id id = OPTION_FOV; id <= OPTION_HFOV; id++)
         if (o->ortho && option_given(o, id))
-            return option_error(id, "does not apply with --ortho; --half-height does");
-    if (!o->ortho && option_given(o, OPTION_HALF_HEIGHT))
-        return option_error(OPTION_HALF_HEIGHT, "needs --ortho");
+            return option_error(id, "does not apply with --ortho; --ortho=H says half the height of the view");
     for (int i = 0; i < LAST_OPTIONS; i++) {
         any = any || option_given(o, last_options[i]);
         if (option_given(o, last_options[i]) && !looks_back)

@@ -68,8 +68,8 @@ static int read_entries(const char *path, double m[ENTRIES]) {
 
 /* It says what these would, or is of window depth. */
 static int check_others(const options *o) {
-    static const option_id others[] = {OPTION_NEAR,        OPTION_FAR,   OPTION_ORTHO,  OPTION_FOV,   OPTION_HFOV,
-                                       OPTION_HALF_HEIGHT, OPTION_LOG_C, OPTION_PRESET, OPTION_METRIC};
+    static const option_id others[] = {OPTION_NEAR, OPTION_FAR,   OPTION_ORTHO,  OPTION_FOV,
+                                       OPTION_HFOV, OPTION_LOG_C, OPTION_PRESET, OPTION_METRIC};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (option_given(o, others[i]))
             return option_error(OPTION_MATRIX, "does not apply with --%s", option_name(others[i]));

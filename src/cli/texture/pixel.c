@@ -166,7 +166,8 @@ static bool find(pixels *all) {
 /* Where the camera is known: of an image it is what the user says it was. */
 static bool has_camera(const pixels *all) {
     return all->source->path == NULL || all->o->matrix != NULL || option_given(all->o, OPTION_FOV) ||
-           option_given(all->o, OPTION_HFOV) || option_given(all->o, OPTION_HALF_HEIGHT);
+           option_given(all->o, OPTION_HFOV) ||
+           (option_given(all->o, OPTION_ORTHO) && *all->o->given[OPTION_ORTHO] != '\0');
 }
 
 /* Of a synthetic image how much it is, of an image at most. */
@@ -242,7 +243,7 @@ static void say_head(page *p, void *item) {
     if (all->o->metric == 0)
         page_text(p, "format %s, mapping %s%s", all->format_from, all->mapping_from,
                   has_camera(all)   ? ""
-                  : s->camera.ortho ? "; --half-height adds position and normal"
+                  : s->camera.ortho ? "; --ortho=H adds position and normal"
                                     : "; --fov adds position and normal");
     output_char(p->out, '\n');
 }
