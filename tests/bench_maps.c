@@ -40,7 +40,7 @@ static const way ways[] = {
     {"normals", "--product normal:projective -o out.npy", 3, AIM_COUNT},
     {"  and their errors", "--product normal:projective -o out.npy --error-map=error.npy", 4, AIM_NORMALS_MAP},
     {"statistics", "-o out.txt", 0, AIM_STATISTICS},
-    {"a figure of 3840 px", "--figure out.png --width 3840", 0, AIM_FIGURE},
+    {"a figure of 3840 px", "--figure out.png --figure-size 3840", 0, AIM_FIGURE},
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 

@@ -96,6 +96,6 @@ all_named texture "$scratch/metres.npy" --metric 1
 all_named texture --synthetic plane --product eye -o "$scratch/eye.png"
 all_named texture --synthetic plane --product eye -o "$scratch/eye.png" --error-map="$scratch/map.png"
 all_named texture --synthetic plane --size 64x36 --histogram "$scratch/histogram.svg"
-"$DEPTHPREC" texture --synthetic plane --size 64x36 --pack rg -o "$scratch/packed.png"
+"$DEPTHPREC" texture --synthetic plane --size 64x36 --product pack:rg -o "$scratch/packed.png"
 all_named texture "$scratch/packed.png"
 finish

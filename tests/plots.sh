@@ -75,7 +75,7 @@ check "an unknown figure" refuses 2 "must be distribution, .*got 'eror'.*error" 
 check "an unknown ending" refuses 2 "--output: must end in .svg, .pdf or .png, or --type say which, got" error -o "$scratch/x.gif"
 check "no -o" refuses 2 "needs -o FILE" error
 check "a folder that is not there" refuses 3 "" error -o "$scratch/none/x.svg"
-check "a width too small" refuses 2 "--width: must be .*from 320 to 8192" error --width 100 -o "$scratch/x.svg"
+check "a width too small" refuses 2 "--figure-size: must be .*from 320 to 8192" error --figure-size 100 -o "$scratch/x.svg"
 check "a range outside the planes" refuses 2 "--range: " error --range 1:2000 -o "$scratch/x.svg"
 check "--at where it has no meaning" refuses 2 "--at: " error --at 3 -o "$scratch/x.svg"
 check "--at with two depths" refuses 2 "--at: must be one depth" map -F fp32 --at 3,4 -o "$scratch/x.svg"

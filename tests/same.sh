@@ -20,7 +20,7 @@ budget -n 0.3 --at 17.25 --json
 solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
 bias --range 1:10 --separation 0.01
 texture --synthetic sphere --size 96x54 -F unorm16 -m d3d --json
-plot map -F unorm24 --width 320 --height 240 -o $scratch/map.svg
+plot map -F unorm24 --figure-size 320x240 -o $scratch/map.svg
 plot share -F unorm24 -m d3d,log -o $scratch/share.svg
 END
     cat "$scratch/share.svg" "$scratch/map.svg" && rm "$scratch/share.svg" "$scratch/map.svg"

@@ -175,7 +175,7 @@ static void metric_depth(void **state) {
     drawn_legend_is(d, 1, (const char *const[]){"pixels"});
     drawn_close(d);
     snprintf(path, sizeof path, "%s/packed.png", drawn_folder());
-    free(drawn_output("texture --synthetic sphere --size 96x8 --pack rg -q -o %s", path));
+    free(drawn_output("texture --synthetic sphere --size 96x8 --product pack:rg -q -o %s", path));
     d = drawn_run(&drawn_light, "texture %s --packing rg -q --histogram", path);
     drawn_legend_is(d, 1, (const char *const[]){"pixels"});
     drawn_close(d);

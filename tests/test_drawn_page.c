@@ -23,7 +23,7 @@ static void titles(void **state) {
     assert_string_equal(d->title, "One long title after all that needs more than a single line of the page, as it goes "
                                   "on and on, for a while");
     drawn_close(d);
-    d = drawn_run(&drawn_light, "plot share -F fp16 -m d3d --width 320 --height 240 --title 'One long title %s'",
+    d = drawn_run(&drawn_light, "plot share -F fp16 -m d3d --figure-size 320x240 --title 'One long title %s'",
                   "that needs more than two lines of the page, as it goes on and on, until it cannot be shown at all");
     const char *cut = strstr(d->title, "\u2026");
     assert_true(cut != NULL && cut[strlen("\u2026")] == '\0' && cut > d->title + 40 && cut[-1] != ' ');
@@ -58,7 +58,7 @@ static void sizes(void **state) {
     static const int all[][2] = {{1600, 1000}, {400, 300}, {320, 200}, {2000, 500}, {500, 900}};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm24,fp16", "d3d,reversed");
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        drawn *d = drawn_run(&drawn_light, "plot interval -F unorm24,fp16 -m d3d,reversed --width %d --height %d",
+        drawn *d = drawn_run(&drawn_light, "plot interval -F unorm24,fp16 -m d3d,reversed --figure-size %dx%d",
                              all[i][0], all[i][1]);
         for (size_t k = 0; k < c.count; k++) {
             const drawn_entry *e = drawn_legend(d, c.names[k]);
@@ -81,7 +81,7 @@ static void many(void **state) {
     static const drawn_shape shapes[] = {DRAWN_DISC,     DRAWN_SQUARE,        DRAWN_DIAMOND,
                                          DRAWN_TRIANGLE, DRAWN_TRIANGLE_DOWN, DRAWN_HEXAGON};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16,unorm20,unorm24,fp16", mappings);
-    drawn *d = drawn_run(&drawn_light, "plot share -F unorm16,unorm20,unorm24,fp16 -m %s --height 700", mappings);
+    drawn *d = drawn_run(&drawn_light, "plot share -F unorm16,unorm20,unorm24,fp16 -m %s --figure-size 800x700", mappings);
     assert_int_equal(d->entry_count, c.count);
     for (size_t i = 0; i < c.count; i++) {
         const drawn_entry *e = &d->entries[i];

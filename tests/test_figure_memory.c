@@ -43,7 +43,7 @@ static double memory_of(const char *path, int width) {
     assert_true(child >= 0);
     if (child == 0) {
         execl(program, "depthprec", "texture", path, "-n", "0.1", "-f", "1000", "-F", "unorm24", "-m", "d3d", "-q",
-              "--threads", "1", "--figure", figure, "--width", size, (char *)NULL);
+              "--threads", "1", "--figure", figure, "--figure-size", size, (char *)NULL);
         _exit(127);
     }
     assert_int_equal(wait4(child, &status, 0, &used), child);

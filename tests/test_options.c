@@ -155,10 +155,8 @@ static void test_whole(void **state) {
         {"zfight", OPTION_SEED, 0, 9007199254740992, "0", "9007199254740992", "-1", "9007199254740993",
          "a whole number from 0 to 9007199254740992"},
         {"check", OPTION_THREADS, 1, 1024, "1", "1024", "0", "1025", "a whole number from 1 to 1024"},
-        {"texture", OPTION_WIDTH, 320, 8192, "320", "8192", "319", "8193", "a whole number from 320 to 8192 pixels"},
         {"budget", OPTION_SUBPIXEL, 1, 8, "1", "8", "0", "9", "a whole number from 1 to 8 bits"},
         {"shadow", OPTION_KERNEL, 1, 64, "1", "64", "0", "65", "a whole number from 1 to 64 texels"},
-        {"texture", OPTION_HEIGHT, 200, 8192, "200", "8192", "199", "8193", "a whole number from 200 to 8192 pixels"},
     };
     tally t = {.name = "whole"};
     (void)state;
@@ -171,8 +169,7 @@ static void test_whole(void **state) {
             options o;
             parse(&o, wholes[i].command, wholes[i].id, k == 0 ? wholes[i].least_text : wholes[i].most_text, line);
             const uint64_t fields[] = {
-                [0] = o.sample, o.seed,   (uint64_t)o.threads, (uint64_t)o.width, (uint64_t)o.triangles.subpixel,
-                o.kernel, (uint64_t)o.height};
+                [0] = o.sample, o.seed, (uint64_t)o.threads, (uint64_t)o.triangles.subpixel, o.kernel};
             TALLY(&t, fields[i] == (k == 0 ? wholes[i].least : wholes[i].most), "--%s: %llu, %s",
                   option_name(wholes[i].id), (unsigned long long)fields[i], line);
             options_release(&o);
@@ -322,9 +319,7 @@ static void test_rows(void **state) {
          "medium"},
         {"texture", OPTION_PRODUCT, AT(normal), "normal", "projective", offsetof(normal_row, name), "norml", "normal"},
         {"texture", OPTION_PRODUCT, AT(effect), "effect:Fog", "fog", offsetof(effect_row, name), "effect:edeg", "edge"},
-        {"texture", OPTION_NORMALS_BY, AT(normals_by), "low", "low", offsetof(normal_row, name), "hihg", "high"},
         {"texture", OPTION_PACKING, AT(packing), "rgb24", "rgb24", offsetof(packing, name), "rgb42", "rgb24"},
-        {"texture", OPTION_PACK, AT(pack), "RG", "rg", offsetof(packing, name), "depth-normal", "depth-normals"},
     };
     tally t = {.name = "rows"};
     (void)state;
@@ -419,8 +414,8 @@ static void test_flags(void **state) {
         size_t field, size;
     } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},      {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
                  {"zfight", OPTION_RASTERIZE, WORD_AT(drawn)}, {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
-                 {"list", OPTION_QUIET, WORD_AT(quiet)},
-                 {"list", OPTION_FULL, WORD_AT(full)},         {"list", OPTION_VERSION, WORD_AT(version)}};
+                 {"list", OPTION_QUIET, WORD_AT(quiet)},       {"list", OPTION_FULL, WORD_AT(full)},
+                 {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];
     tally t = {.name = "flags"};
     (void)state;
@@ -602,6 +597,7 @@ static void test_slanted(void **state) {
     static const char *const slants[] = {"5", "5:4", "-1:5", "0:91", ":", "x:5", "5:x", ""};
     static const char *const planes[] = {"91,0", "-1,0", "5,361", "5,-361", "x,0", "5,"};
     static const char *const splits[] = {"0", "9", "x", "", "4:", "4:-0.1", "4:1.1", "4:x", ":0.5", "4.5", "1e1", "-1"};
+    static const char *const figures[] = {"319", "8193", "320x", "320x199", "320x8193", "x200", "", "320x200x2", "-5"};
     static const char *const bends[] = {"0", "2e18", "x", "", "5:", "5:-1", "5:2e18", "5:x", ":1", "inf", "nan"};
     static const char *const classes[] = {"",
                                           "depth",
@@ -649,10 +645,19 @@ static void test_slanted(void **state) {
     assert_true(o.curvature == 5 && o.facet == 0.02);
     assert_int_equal(parse(&o, "shadow", OPTION_QUIET, NULL, line), EXIT_FINE);
     assert_true(o.cascades == 4 && o.lambda == 0.5 && isnan(o.curvature) && o.facet == 0);
+    assert_int_equal(parse(&o, "texture", OPTION_FIGURE_SIZE, "320x8192", line), EXIT_FINE);
+    assert_true(o.width == 320 && o.height == 8192);
+    assert_int_equal(parse(&o, "texture", OPTION_FIGURE_SIZE, "8192", line), EXIT_FINE);
+    assert_true(o.width == 8192 && o.height == 0);
+    for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++)
+        refused(&t, "texture", OPTION_FIGURE_SIZE, figures[i],
+                "W or WxH, W from 320 to 8192 and H from 200 to 8192 pixels");
     for (size_t i = 0; i < sizeof splits / sizeof splits[0]; i++)
-        refused(&t, "shadow", OPTION_CASCADES, splits[i], "N or N:LAMBDA, N a whole number from 1 to 8, LAMBDA from 0 to 1");
+        refused(&t, "shadow", OPTION_CASCADES, splits[i],
+                "N or N:LAMBDA, N a whole number from 1 to 8, LAMBDA from 0 to 1");
     for (size_t i = 0; i < sizeof bends / sizeof bends[0]; i++)
-        refused(&t, "shadow", OPTION_CURVATURE, bends[i], "Z or Z:FACET, Z from 1e-12 and FACET from 0 to 1e18 scene units");
+        refused(&t, "shadow", OPTION_CURVATURE, bends[i],
+                "Z or Z:FACET, Z from 1e-12 and FACET from 0 to 1e18 scene units");
     for (size_t i = 0; i < sizeof viewports / sizeof viewports[0]; i++)
         refused(&t, "table", OPTION_VIEWPORT, viewports[i], "WIDTHxHEIGHT, each from 1 to 32768 pixels");
     for (size_t i = 0; i < sizeof slants / sizeof slants[0]; i++)

@@ -543,8 +543,10 @@ static void there_and_back(void **state) {
     truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, depths);
     for (size_t i = 0; i < ALL; i++) {
         const char *in = truth_path("in.npy"), *png = truth_path("in.png"), *again = truth_path("eye.png");
-        assert_int_equal(run((const char *const[]){in, "-n", "0.5", "-f", "40", "-F", "fp32", "-m", "d3d", "--pack",
-                                                   all[i].name, "-o", png, NULL}),
+        char product[64];
+        snprintf(product, sizeof product, "pack:%s", all[i].name);
+        assert_int_equal(run((const char *const[]){in, "-n", "0.5", "-f", "40", "-F", "fp32", "-m", "d3d", "--product",
+                                                   product, "-o", png, NULL}),
                          0);
         const command base = {.arguments = {png, "-q"}, .count = 2};
         char field[48];
@@ -560,7 +562,7 @@ static void there_and_back(void **state) {
             TALLY(&t, fabs((double)eyes[k] - truth[k]) <= (double)errors[k] && errors[k] < 0.5F * eyes[k],
                   "pixel %d: %.9g instead of %.9g, at most %.3g off", k, (double)eyes[k], truth[k], (double)errors[k]);
         tally_end(&t);
-        assert_int_equal(run((const char *const[]){png, "-q", "--pack", all[i].name, "-o", again, NULL}), 0);
+        assert_int_equal(run((const char *const[]){png, "-q", "--product", product, "-o", again, NULL}), 0);
         same_files("in.png", "eye.png");
     }
 }
@@ -579,9 +581,11 @@ static void holes(void **state) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         image img;
         image_error error;
+        char product[64];
+        snprintf(product, sizeof product, "pack:%s", rows[i].packing);
         assert_int_equal(
             run((const char *const[]){truth_path("in.npy"), "-n", "1", "-f", "40", "-F", "fp32", "-m", rows[i].mapping,
-                                      "--pack", rows[i].packing, "-o", truth_path("eye.npy"), NULL}),
+                                      "--product", product, "-o", truth_path("eye.npy"), NULL}),
             0);
         assert_true(was_said("eye.npy: 2 pixels hold no depth and are written as the far plane"));
         assert_true(image_read(truth_path("eye.npy"), &img, &error));
@@ -600,7 +604,7 @@ static void normals_come_back(void **state) {
     const char *png = truth_path("in.png"), *npy = truth_path("place.npy");
     assert_int_equal(
         run((const char *const[]){"--synthetic", "plane", "--size", "24x10", "-n", "1", "-f", "20", "--fov", "40",
-                                  "--parameter", "tilt=30", "--pack", "depth-normals", "-o", png, NULL}),
+                                  "--parameter", "tilt=30", "--product", "pack:depth-normals", "-o", png, NULL}),
         0);
     assert_int_equal(run((const char *const[]){png, "--product", "packed-normal", "-o", npy, NULL}), 0);
     truth_floats("place.npy", 3, normals);
@@ -693,16 +697,15 @@ static void refusals(void **state) {
         {{in, "--packing", "rg", "--metric", "1"}, "--metric: does not apply with --packing"},
         {{in, "--packing", "depth-normals"}, "the packing depth-normals takes 4 channels, got 3"},
         {{"--synthetic", "plane", "--packing", "rg"}, "--packing: needs FILE"},
-        {{in, "--packing", "rgb24", "--pack", "rg"}, "--pack needs -o FILE"},
-        {{in, "--pack", "rg", "-o", "x.pfm"}, "must end in .png or .npy for --pack, got 'x.pfm'"},
-        {{in, "--pack", "rg", "--product", "eye", "-o", out}, "--product: does not apply with --pack"},
-        {{in, "--pack", "rg", "--json", "-o", out}, "--json: does not apply with --pack"},
-        {{in, "--pack", "rg", "--normals-by", "low", "-o", out}, "--normals-by: does not apply with --pack rg"},
-        {{in, "--pack", "rg", "--product", "packed-normal", "-o", out}, "--product: does not apply with --pack"},
-        {{"--synthetic", "plane", "-f", "inf", "--pack", "rg", "-o", out}, "it needs a finite far plane"},
-        {{"--synthetic", "plane", "--ortho", "-n", "-5", "-f", "9", "--pack", "rg", "-o", out},
+        {{in, "--packing", "rgb24", "--product", "pack:rg"}, "--product pack needs -o FILE"},
+        {{in, "--product", "pack:rg", "-o", "x.pfm"}, "must end in .png or .npy for --product pack, got 'x.pfm'"},
+        {{in, "--product", "pack:rg", "--json", "-o", out}, "--json: does not apply with --product pack"},
+        {{in, "--product", "pack:rg:low", "-o", out},
+         "--product: takes NORMALS with effect:outline and pack:depth-normals, got 'low'"},
+        {{"--synthetic", "plane", "-f", "inf", "--product", "pack:rg", "-o", out}, "it needs a finite far plane"},
+        {{"--synthetic", "plane", "--ortho", "-n", "-5", "-f", "9", "--product", "pack:rg", "-o", out},
          "it needs near not less than 0"},
-        {{in, "--metric", "1", "--pack", "rgb24", "-o", out}, "rgb24 holds window depth, which"},
+        {{in, "--metric", "1", "--product", "pack:rgb24", "-o", out}, "rgb24 holds window depth, which"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         assert_int_equal(run(rows[i].words), 2);

@@ -249,7 +249,7 @@ static void refusals(void **state) {
          "depthprec: texture: eye depth over far: this needs far greater than 0\n"},
         {"-m d3d --product raw --product linear01",
          "depthprec: --product: must not be given twice, got 'linear01' too\n"},
-        {"-m d3d --pack rg --product raw", "depthprec: --product: does not apply with --pack\n"}};
+        {"-m d3d --product pack:rg --product raw", "depthprec: --product: must not be given twice, got 'raw' too\n"}};
     char path[512];
     double samples[PIXELS];
     rng r = rng_make("refusals");

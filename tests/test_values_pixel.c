@@ -337,7 +337,7 @@ static void test_bounds(void **state) {
     assert_non_null(file);
     fputs("1 0 0 0  0 1 0 0  0.1 0 -0.0001 0.1  0 0 -1 0\n", file);
     assert_int_equal(fclose(file), 0);
-    printed p = print_of("texture %s -F fp32 -m reversed -q --product effect:outline --normals-by low "
+    printed p = print_of("texture %s -F fp32 -m reversed -q --product effect:outline:low "
                          "--pixel 6,5",
                          path);
     assert_non_null(strstr(p.out, " levels\n"));

@@ -50,11 +50,11 @@ double page_measure(const char *text, int length, double size, int bold) {
 static const char *const figures[] = {
     "plot interval -n 0.1 -f 1000 -F d24,fp32 -m d3d,reversed",
     "plot interval -n 0.1 -f 1000 -F fp32 -m reversed --model float --viewport 1920x1080 --theme dark",
-    "plot error -n 0.1 -f 1000 -F d16 -m gl --width 400 --height 300",
+    "plot error -n 0.1 -f 1000 -F d16 -m gl --figure-size 400x300",
     "plot distribution -n 1 -f 10 -F unorm4 -m d3d",
     "plot share -F d24 -m d3d,gl",
     "plot budget -F fp32 -m reversed --theme dark",
-    "plot map -F d16,fp32 -m d3d --width 600 --height 400",
+    "plot map -F d16,fp32 -m d3d --figure-size 600x400",
     "plot shadow -f 150",
 };
 

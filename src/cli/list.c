@@ -305,7 +305,7 @@ static const topic topics[] = {
     {"schemes", "ways to bring a large world before the camera, for world --scheme", list_scheme, .bound = "size"},
     {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
      .bound = "bound"},
-    {"packings", "textures with a depth in several channels, for texture --packing and --pack", list_packing,
+    {"packings", "textures with a depth in several channels, for texture --packing and --product pack", list_packing,
      .bound = "bound"},
     {"products", "what texture makes of the depths, for --product", list_product, .bound = "methods"},
     {"effects", "effects for texture --product effect: formulas and parameters", list_effect, .bound = "parameters"},

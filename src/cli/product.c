@@ -49,6 +49,7 @@ bool list_normal(size_t index, list_item *item) {
 
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
+static const name_list packings = {.get = list_packing};
 static const name_list effects = {.get = list_effect};
 
 #define METHOD(among, field, usual) .methods = &(among), .place = offsetof(options, field), .standard = (usual)
@@ -66,6 +67,8 @@ static const product_row rows[] = {
      .by = "normals by ", .unit = "", .unit_of_error = "degrees"},
     {"packed-normal", "the normals that --packing depth-normals holds beside the depth", FRAME_NORMAL, .packed = true,
      .by = "", .unit = "", .unit_of_error = ""},
+    {"pack", "the depths in several channels of 8 bits, a PNG or NPY, as --packing reads them back", FRAME_EYE,
+     METHOD(packings, pack, NULL), .by = "", .unit = "", .unit_of_error = ""},
     {"effect", "an effect that reads depth; without an image, the usable values of its parameter", FRAME_EFFECT,
      METHOD(effects, effect, NULL), .by = "", .unit = "", .unit_of_error = "levels of 1/255"},
 };

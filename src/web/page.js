@@ -365,7 +365,7 @@ const unescaped = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">")
 function drawing(one) {
     const width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640)));
     const height = Math.max(240, Math.round(width * 0.55));
-    return ["--type", "svg", "-o", "-", "--theme", theme(), "--width", String(width), "--height", String(height)];
+    return ["--type", "svg", "-o", "-", "--theme", theme(), "--figure-size", `${width}x${height}`];
 }
 
 function showFigure(one, svg) {

@@ -36,7 +36,7 @@ const slow = (page) => page.evaluate(() => {
     const { engine } = window.depthprec;
     const text = document.querySelector("[data-panel=zfight] [data-run]"), svg = document.querySelector("[data-panel=plot] [data-run]");
     const drawn = decodeURIComponent(svg.querySelector("img").src.split(",")[1]), size = /width="(\d+)" height="(\d+)"/.exec(drawn);
-    const again = ["--type", "svg", "-o", "-", "--theme", "light", "--width", size[1], "--height", size[2]];
+    const again = ["--type", "svg", "-o", "-", "--theme", "light", "--figure-size", `${size[1]}x${size[2]}`];
     return {
         text: text.querySelector("pre").textContent, svg: drawn,
         textHere: engine.run(text.dataset.run.split(" ")).out,

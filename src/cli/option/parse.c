@@ -7,6 +7,7 @@
 
 #include "api/unit.h"
 #include "core/append.h"
+#include "plot/draw.h"
 #include "report/number.h"
 #include "scene/find.h"
 #include "system/input.h"
@@ -332,6 +333,22 @@ int parse_size_or_n(options *o, const option_row *row, const char *value) {
     return read_size(o, row, value, strchr(value, 'x') == NULL);
 }
 
+/* The width alone, or both. */
+int parse_figure_size(options *o, const option_row *row, const char *value) {
+    const size_t length = strcspn(value, "x");
+    char width[8];
+    uint64_t sides[2] = {0};
+    snprintf(width, sizeof width, "%.*s", (int)length, value);
+    if (length >= sizeof width || !number_parse_count(width, DRAW_SIZE_MAX, &sides[0]) || sides[0] < DRAW_WIDTH_MIN ||
+        (value[length] != '\0' &&
+         (!number_parse_count(value + length + 1, DRAW_SIZE_MAX, &sides[1]) || sides[1] < DRAW_HEIGHT_MIN)))
+        return option_refuse(row, "must be W or WxH, W from %d to %d and H from %d to %d pixels, got '%s'",
+                             DRAW_WIDTH_MIN, DRAW_SIZE_MAX, DRAW_HEIGHT_MIN, DRAW_SIZE_MAX, value);
+    o->width = (int)sides[0];
+    o->height = (int)sides[1];
+    return EXIT_FINE;
+}
+
 int parse_parameter(options *o, const option_row *row, const char *value) {
     const size_t length = strcspn(value, "=");
     named_number given = {{0}, 0};
@@ -350,7 +367,22 @@ int parse_parameter(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
-/* KIND, or KIND:METHOD. */
+/* The method of normals that a product compares or holds, behind a second colon. */
+static int read_normals(options *o, const option_row *row, const char *value) {
+    static const name_list normals = {.get = list_normal};
+    const bool packed = o->pack != NULL && o->pack->normals;
+    const bool compared = o->effect != NULL && (o->effect->needs & EFFECT_NORMALS) != 0;
+    char text[NAMES_SIZE];
+    list_item item;
+    if (!packed && !compared)
+        return option_refuse(row, "takes NORMALS with effect:outline and pack:depth-normals, got '%s'", value);
+    if (!names_find(&normals, value, NULL, &item))
+        return option_refuse(row, "NORMALS %s", names_refuse(&normals, value, text));
+    o->normals_by = item.row;
+    return EXIT_FINE;
+}
+
+/* KIND, KIND:METHOD or KIND:METHOD:NORMALS. */
 int parse_product(options *o, const option_row *row, const char *value) {
     char name[64], text[NAMES_SIZE];
     list_item item;
@@ -365,10 +397,12 @@ int parse_product(options *o, const option_row *row, const char *value) {
     if (method == NULL)
         return option_refuse(row, "%s needs a name behind a colon: %s", p->name,
                              names_join(p->methods, ", ", " or ", text));
-    if (!names_find(p->methods, method, NULL, &item))
-        return option_refuse(row, "%s: %s", p->name, names_refuse(p->methods, method, text));
+    const size_t end = strcspn(method, ":");
+    snprintf(name, sizeof name, "%.*s", (int)end, method);
+    if (!names_find(p->methods, name, NULL, &item))
+        return option_refuse(row, "%s: %s", p->name, names_refuse(p->methods, name, text));
     memcpy((char *)o + p->place, &item.row, sizeof item.row);
-    return EXIT_FINE;
+    return method[end] == '\0' ? EXIT_FINE : read_normals(o, row, method + end + 1);
 }
 
 /* With a name it stands beside the product. */

@@ -30,7 +30,6 @@ static const name_list filters_or_all = {.words = (const char *const[]){"all", N
 static const name_list transforms = {.words = (const char *const[]){"exact", "binary32", NULL}};
 static const name_list synthetics = {.get = list_synthetic};
 static const name_list products = {.get = list_product};
-static const name_list normals = {.get = list_normal};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
 static const name_list packings = {.get = list_packing};
 /* In the order of their enumerators. */
@@ -267,7 +266,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "the image's pixels: with --synthetic, with a raw FILE, and with an effect alone if that needs the position",
         parse_size,
         .standard = "640x360",
-        .instead = "; a figure's size is --width and --height"},
+        .instead = "; a figure's size is --figure-size"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE",
         "a parameter of the synthetic image or the effect; may be repeated", .parse = parse_parameter},
     [OPTION_SKY] = {"sky", 0, "T",
@@ -286,17 +285,14 @@ const option_row option_rows[OPTION_COUNT] = {
         "describe single pixels: code, eye depth and its range, neighbours, position, normal; 0,0 is the "
         "top left. With an effect alone: the pixel that sees the depths",
         SEVERAL(parse_pixels, pixels, 0, IMAGE_SIDE_MAX - 1)},
-    [OPTION_PRODUCT] = {"product", 0, "KIND[:METHOD]",
-        "what is made of the depths: @; position:METHOD and normal:METHOD say how, effect:NAME which; see 'depthprec "
-        "list products'. An effect without an image: the usable values of its parameter",
+    [OPTION_PRODUCT] = {"product", 0, "KIND[:METHOD[:NORMALS]]",
+        "what is made of the depths: @; position:METHOD and normal:METHOD say how, effect:NAME and pack:NAME which; "
+        "NORMALS is the method of those that effect:outline compares and pack:depth-normals holds, else those that "
+        "FILE holds or, for effect:outline, the scene has, else projective; see 'depthprec list products'. An effect "
+        "without an image: the usable values of its parameter",
         .parse = parse_product, FIELD(const product_row *, product), .names = &products},
-    [OPTION_NORMALS_BY] = {"normals-by", 0, "METHOD",
-        "the normals that effect:outline compares, and those of --pack depth-normals: @", ROW(normals_by, normals),
-        .without = "those that FILE holds or, for effect:outline, the scene has; else projective"},
     [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL,
         "which way y runs in a PNG of normals: up, or down", WORD(normal_format, normal_formats), .standard = "opengl"},
-    [OPTION_PACK] = {"pack", 0, "NAME",
-        "write the depths to -o FILE, a PNG or NPY of 8 bits, in several channels: @", ROW(pack, packings)},
     [OPTION_ERROR_MAP] = {"error-map", 0, NULL,
         "write the error of the product instead; with =FILE, beside the product in the same pass",
         .parse = parse_error_map, SIZED(error_map), .optional = "FILE"},
@@ -314,11 +310,8 @@ const option_row option_rows[OPTION_COUNT] = {
         .standard = "svg", .group = "The figure"},
     [OPTION_THEME] = {"theme", 0, NULL,
         "colours of the figure", WORD(theme, themes), .standard = "light"},
-    [OPTION_WIDTH] = {"width", 0, "PX",
-        "width of the figure", WHOLE(width, DRAW_WIDTH_MIN, DRAW_SIZE_MAX, "pixels"), .without = "as suits the figure"},
-    [OPTION_HEIGHT] = {"height", 0, "PX",
-        "height of the figure", WHOLE(height, DRAW_HEIGHT_MIN, DRAW_SIZE_MAX, "pixels"),
-        .without = "as suits the figure"},
+    [OPTION_FIGURE_SIZE] = {"figure-size", 0, "W[xH]",
+        "width and height of the figure, pixels", .parse = parse_figure_size, .without = "as suits the figure"},
     [OPTION_TITLE] = {"title", 0, "TEXT",
         "title of the figure", TEXT(title)},
     [OPTION_LINK] = {"link", 0, NULL,

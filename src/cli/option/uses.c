@@ -65,7 +65,7 @@ static const option_use model[] = {
     TAKE(THREADS), END};
 
 static const option_use picture[] = {
-    TAKE(TYPE), TAKE(THEME), TAKE(WIDTH), TAKE(HEIGHT), TAKE(TITLE), END};
+    TAKE(TYPE), TAKE(THEME), TAKE(FIGURE_SIZE), TAKE(TITLE), END};
 
 /* ---- The commands ------------------------------------------------------------------------------------------------ */
 
@@ -174,7 +174,7 @@ enum { TEXTURE_EFFECT = 1, TEXTURE_PLACED = 2, TEXTURE_IMAGE = 4 };
 static const option_use of_effect[] = {TAKE(AT), END};
 static const option_use of_image[] = {
     TAKE(SKY), TAKE(METRIC), TAKE(ERROR_MAP), TAKE(FIGURE), GROUP(picture), TAKE(THREADS),
-    TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(NORMALS_BY), TAKE(CHANNEL), TAKE(PACK), TAKE(OVERLAY),
+    TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(CHANNEL), TAKE(OVERLAY),
     TAKE(HISTOGRAM), TAKE(MATRIX), END};
 static const option_use of_position[] = {
     TAKE(FOV), TAKE(HFOV),

@@ -7,17 +7,13 @@
 
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
-    static const option_id drawn[] = {OPTION_OVERLAY, OPTION_TYPE,   OPTION_THEME,
-                                      OPTION_WIDTH,   OPTION_HEIGHT, OPTION_TITLE};
+    static const option_id drawn[] = {OPTION_OVERLAY, OPTION_TYPE, OPTION_THEME, OPTION_FIGURE_SIZE, OPTION_TITLE};
     if (o->error_map && o->effect != NULL && option_given(o, OPTION_PIXEL))
         return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --product");
     if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
         return option_error(OPTION_NORMAL_FORMAT, "needs --product normal or packed-normal");
-    if (o->normals_by != NULL && (o->effect == NULL || (o->effect->needs & EFFECT_NORMALS) == 0))
-        return option_error(OPTION_NORMALS_BY, "is for --product effect:outline and --pack depth-normals; --product "
-                                               "normal:METHOD makes normals");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
         return option_error(OPTION_PIXEL, "describes single pixels, and makes no image or figure");
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)

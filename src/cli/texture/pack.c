@@ -10,23 +10,19 @@
 #include "report/number.h"
 
 int texture_pack_check(const options *o) {
-    static const option_id others[] = {OPTION_PRODUCT,   OPTION_ERROR_MAP, OPTION_FIGURE, OPTION_OVERLAY,
-                                       OPTION_HISTOGRAM, OPTION_PIXEL,     OPTION_AT,     OPTION_JSON,
-                                       OPTION_CSV,       OPTION_PARAMETER, OPTION_TYPE,   OPTION_THEME,
-                                       OPTION_WIDTH,     OPTION_HEIGHT,    OPTION_TITLE};
-    const char *name = o->pack != NULL ? "pack" : "product packed-normal";
+    static const option_id others[] = {OPTION_ERROR_MAP, OPTION_FIGURE, OPTION_OVERLAY, OPTION_HISTOGRAM,
+                                       OPTION_PIXEL,     OPTION_AT,     OPTION_JSON,    OPTION_CSV,
+                                       OPTION_PARAMETER, OPTION_TYPE,   OPTION_THEME,   OPTION_FIGURE_SIZE,
+                                       OPTION_TITLE};
+    const char *name = o->pack != NULL ? "pack" : "packed-normal";
     image_file file;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->synthetic == NULL) &&
-            (others[i] != OPTION_PRODUCT || o->pack != NULL))
-            return option_error(others[i], "does not apply with --%s", name);
-    if (o->normals_by != NULL && (o->pack == NULL || !o->pack->normals))
-        return option_error(OPTION_NORMALS_BY, "does not apply with --%s%s%s", name, o->pack != NULL ? " " : "",
-                            o->pack != NULL ? o->pack->name : "");
+        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->synthetic == NULL))
+            return option_error(others[i], "does not apply with --product %s", name);
     if (o->output == NULL)
-        return usage_error("texture: --%s needs -o FILE", name);
+        return usage_error("texture: --product %s needs -o FILE", name);
     if (!image_file_of(o->output, &file) || (o->pack != NULL && file == IMAGE_PFM))
-        return option_error(OPTION_OUTPUT, "must end in .png%s or .npy for --%s, got '%s'",
+        return option_error(OPTION_OUTPUT, "must end in .png%s or .npy for --product %s, got '%s'",
                             o->pack != NULL ? "" : ", .pfm", name, o->output);
     return EXIT_FINE;
 }
@@ -101,11 +97,12 @@ int texture_pack_write(const options *o, const texture_source *s) {
     const dp_spec *planes = &frame_planes(&s->frame)->spec;
     char note[IMAGE_NOTE_SIZE];
     if (s->camera.oblique.on)
-        return option_error(OPTION_PACK, "needs planes that all pixels share, which %s does not have", s->matrix.path);
+        return option_error(OPTION_PRODUCT, "pack needs planes that all pixels share, which %s does not have",
+                            s->matrix.path);
     if (!o->pack->linear && !texture_is_window(o))
-        return option_error(OPTION_PACK, "%s holds window depth, which %s is not", o->pack->name, s->path);
+        return option_error(OPTION_PRODUCT, "%s holds window depth, which %s is not", o->pack->name, s->path);
     if (o->pack->linear && (isinf(planes->zfar) || planes->znear < 0))
-        return option_error(OPTION_PACK, "%s holds eye depth over far: it needs %s", o->pack->name,
+        return option_error(OPTION_PRODUCT, "%s holds eye depth over far: it needs %s", o->pack->name,
                             planes->znear < 0 ? "near not less than 0" : "a finite far plane");
     note_of_packing(o, s, note);
     image_file_of(o->output, &on.w.file);

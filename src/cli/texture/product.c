@@ -9,7 +9,7 @@
 
 bool texture_product_wanted(const options *o) {
     const bool described = o->effect != NULL && option_given(o, OPTION_PIXEL);
-    return (o->product != NULL && !o->product->packed && !described) || o->figure != NULL;
+    return (o->product != NULL && !o->product->packed && o->pack == NULL && !described) || o->figure != NULL;
 }
 
 int texture_effect_normals(const options *o, texture_source *s) {

@@ -129,7 +129,7 @@ typedef struct texture_product {
 /** Is one asked for? --pixel describes an effect instead. */
 bool texture_product_wanted(const options *o);
 
-/** The normals of an effect that needs some: of --normals-by, those of the packing, else by projective.
+/** The normals of an effect that needs some: of --product, those of the packing, else by projective.
  *  @return an exit status, after one line on stderr */
 int texture_effect_normals(const options *o, texture_source *s);
 
@@ -145,10 +145,10 @@ int texture_product_check(const options *o, const texture_source *s, texture_pro
 /** Writes the file of -o. */
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p);
 
-/** Options that have no meaning beside --pack or --product packed-normal are refused. @return an exit status */
+/** Options that have no meaning beside --product pack and packed-normal are refused. @return an exit status */
 int texture_pack_check(const options *o);
 
-/** Writes the depths to the file of -o as --pack says. */
+/** Writes the depths to the file of -o as --product pack:NAME says. */
 int texture_pack_write(const options *o, const texture_source *s);
 
 /** Writes the normals that the image holds beside its depths. */
