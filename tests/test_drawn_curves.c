@@ -348,7 +348,8 @@ static void hidden_points(void **state) {
 /* Each of many set-ups has two curves, one of them with markers. */
 static void guarantees_of_many(void **state) {
     (void)state;
-    drawn *d = drawn_run(&drawn_light, "plot interval --model float --figure-size 800x900 -F unorm16,unorm20,unorm24,fp16,fp32,"
+    drawn *d = drawn_run(&drawn_light, "plot interval --model float --figure-size 800x900 "
+                                       "-F unorm16,unorm20,unorm24,fp16,fp32,"
                                        "unorm12 -m d3d,gl,reversed");
     drawn_marker all[256];
     assert_int_equal(d->entry_count, 18 + 1); /* one says what an arrow means */

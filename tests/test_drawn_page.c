@@ -81,7 +81,8 @@ static void many(void **state) {
     static const drawn_shape shapes[] = {DRAWN_DISC,     DRAWN_SQUARE,        DRAWN_DIAMOND,
                                          DRAWN_TRIANGLE, DRAWN_TRIANGLE_DOWN, DRAWN_HEXAGON};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16,unorm20,unorm24,fp16", mappings);
-    drawn *d = drawn_run(&drawn_light, "plot share -F unorm16,unorm20,unorm24,fp16 -m %s --figure-size 800x700", mappings);
+    drawn *d =
+        drawn_run(&drawn_light, "plot share -F unorm16,unorm20,unorm24,fp16 -m %s --figure-size 800x700", mappings);
     assert_int_equal(d->entry_count, c.count);
     for (size_t i = 0; i < c.count; i++) {
         const drawn_entry *e = &d->entries[i];

@@ -38,47 +38,47 @@ static const struct {
     double expected;
     const char *unit; /* null: not known */
 } lengths[] = {
-    {"table|-n|10cm", AT(znear), 0.1, "m"},
-    {"table|-n|0.25", AT(znear), 0.25, NULL},
-    {"table|-n|250 mm", AT(znear), 0.25, "m"},
-    {"table|-n|10cm|--unit|cm", AT(znear), 10, "cm"},
-    {"table|--unit|cm|-n|10cm", AT(znear), 10, "cm"},
-    {"table|--unit|mm|-n|0.25", AT(znear), 0.25, "mm"},
-    {"table|-n|1in", AT(znear), 0.0254, "m"},
-    {"table|-n|3ft|--unit|in", AT(znear), 36, "in"},
-    {"table|-n|5e3nm", AT(znear), 5e-6, "m"},
-    {"table|-n|7um|--unit|nm", AT(znear), 7000, "nm"},
-    {"table|-n|7\302\265m|--unit|nm", AT(znear), 7000, "nm"},
-    {"table|-n|0x1p3", AT(znear), 8, NULL},
-    {"table|-f|1km", AT(zfar), 1000, "m"},
-    {"table|-f|1km|--unit|ft", AT(zfar), 1e12 / 304.8e6, "ft"},
-    {"table|--at|5m|--preset|unreal", AT(at.lo), 500, "cm"},
-    {"table|--at|5km,10m", AT(at.hi), 5000, "m"},
-    {"table|--at|5km,10m", AT(at.lo), 10, "m"},
-    {"table|--at|1m:1km:log:5|--unit|cm", AT(at.lo), 100, "cm"},
-    {"table|--at|1m:1km:log:5|--unit|cm", AT(at.hi), 1e5, "cm"},
-    {"table|--range|1m:1km|--unit|mm", AT(range_lo), 1e3, "mm"},
-    {"table|--range|0:1km|--unit|mm", AT(range_hi), 1e6, "mm"},
-    {"table|--preset|unreal|--unit|m", AT(znear), 0.1, "m"},
-    {"table|--unit|m|--preset|unreal|-n|5", AT(znear), 5, "m"},
-    {"table|--preset|unity|--unit|cm", AT(znear), 30, "cm"},
-    {"table|--preset|unity|--unit|cm", AT(zfar), 1e5, "cm"},
-    {"table|--preset|unity", AT(znear), 0.3, "m"},
-    {"table|--preset|cesium|--unit|cm", AT(log_c), 0.01, "cm"},
-    {"table|--preset|cesium|--unit|cm|--log-c|2", AT(log_c), 2, "cm"},
-    {"table|--preset|three|--at|50cm", AT(at.lo), 0.5, "m"},
-    {"table|--preset|three", AT(znear), 0.1, NULL},
-    {"table|--preset|mujoco|--unit|m|--at|50cm", AT(at.lo), 0.5, "m"},
-    {"solve|--separation|1mm", AT(separation), 0.001, "m"},
-    {"solve|--error|2 cm|--preset|unreal", AT(wanted_error), 2, "cm"},
-    {"bias|--separation|3mm|--unit|cm", AT(separation), 0.3, "cm"},
-    {"bias|--slope|5cm", AT(slope), 0.05, "m"},
-    {"budget|--from-origin|2km", AT(terms.world), 2000, "m"},
-    {"texture|x|--ortho=10ft", AT(camera.half_height), 3.048, "m"},
-    {"texture|x|--metric|1mm", AT(metric), 0.001, "m"},
-    {"texture|x|--eye|-1m,0,20cm", AT(eye[0]), -1, "m"},
-    {"texture|x|--eye|-1m,0,20cm", AT(eye[2]), 0.2, "m"},
-    {"texture|x|--last-eye|0,0,30cm", AT(last_eye[2]), 0.3, "m"},
+    {"table|-n|10cm", AT(camera.znear), 0.1, "m"},
+    {"table|-n|0.25", AT(camera.znear), 0.25, NULL},
+    {"table|-n|250 mm", AT(camera.znear), 0.25, "m"},
+    {"table|-n|10cm|--unit|cm", AT(camera.znear), 10, "cm"},
+    {"table|--unit|cm|-n|10cm", AT(camera.znear), 10, "cm"},
+    {"table|--unit|mm|-n|0.25", AT(camera.znear), 0.25, "mm"},
+    {"table|-n|1in", AT(camera.znear), 0.0254, "m"},
+    {"table|-n|3ft|--unit|in", AT(camera.znear), 36, "in"},
+    {"table|-n|5e3nm", AT(camera.znear), 5e-6, "m"},
+    {"table|-n|7um|--unit|nm", AT(camera.znear), 7000, "nm"},
+    {"table|-n|7\302\265m|--unit|nm", AT(camera.znear), 7000, "nm"},
+    {"table|-n|0x1p3", AT(camera.znear), 8, NULL},
+    {"table|-f|1km", AT(camera.zfar), 1000, "m"},
+    {"table|-f|1km|--unit|ft", AT(camera.zfar), 1e12 / 304.8e6, "ft"},
+    {"table|--at|5m|--preset|unreal", AT(camera.at.lo), 500, "cm"},
+    {"table|--at|5km,10m", AT(camera.at.hi), 5000, "m"},
+    {"table|--at|5km,10m", AT(camera.at.lo), 10, "m"},
+    {"table|--at|1m:1km:log:5|--unit|cm", AT(camera.at.lo), 100, "cm"},
+    {"table|--at|1m:1km:log:5|--unit|cm", AT(camera.at.hi), 1e5, "cm"},
+    {"table|--range|1m:1km|--unit|mm", AT(camera.range_lo), 1e3, "mm"},
+    {"table|--range|0:1km|--unit|mm", AT(camera.range_hi), 1e6, "mm"},
+    {"table|--preset|unreal|--unit|m", AT(camera.znear), 0.1, "m"},
+    {"table|--unit|m|--preset|unreal|-n|5", AT(camera.znear), 5, "m"},
+    {"table|--preset|unity|--unit|cm", AT(camera.znear), 30, "cm"},
+    {"table|--preset|unity|--unit|cm", AT(camera.zfar), 1e5, "cm"},
+    {"table|--preset|unity", AT(camera.znear), 0.3, "m"},
+    {"table|--preset|cesium|--unit|cm", AT(camera.log_c), 0.01, "cm"},
+    {"table|--preset|cesium|--unit|cm|--log-c|2", AT(camera.log_c), 2, "cm"},
+    {"table|--preset|three|--at|50cm", AT(camera.at.lo), 0.5, "m"},
+    {"table|--preset|three", AT(camera.znear), 0.1, NULL},
+    {"table|--preset|mujoco|--unit|m|--at|50cm", AT(camera.at.lo), 0.5, "m"},
+    {"solve|--separation|1mm", AT(wanted.separation), 0.001, "m"},
+    {"solve|--error|2 cm|--preset|unreal", AT(wanted.error), 2, "cm"},
+    {"bias|--separation|3mm|--unit|cm", AT(wanted.separation), 0.3, "cm"},
+    {"bias|--slope|5cm", AT(bias.slope), 0.05, "m"},
+    {"budget|--from-origin|2km", AT(world.terms.world), 2000, "m"},
+    {"texture|x|--ortho=10ft", AT(view.spec.half_height), 3.048, "m"},
+    {"texture|x|--metric|1mm", AT(image.metric), 0.001, "m"},
+    {"texture|x|--eye|-1m,0,20cm", AT(view.eye[0]), -1, "m"},
+    {"texture|x|--eye|-1m,0,20cm", AT(view.eye[2]), 0.2, "m"},
+    {"texture|x|--last-eye|0,0,30cm", AT(view.last_eye[2]), 0.3, "m"},
 };
 
 static void test_units(void **state) {
@@ -92,8 +92,9 @@ static void test_units(void **state) {
         TALLY(&t, fabs(number_at(&o, lengths[i].field) - lengths[i].expected) <= 4e-16 * fabs(lengths[i].expected),
               "%s: %.17g", lengths[i].words, number_at(&o, lengths[i].field));
         TALLY(&t,
-              lengths[i].unit == NULL ? o.unit == NULL : o.unit != NULL && strcmp(o.unit->name, lengths[i].unit) == 0,
-              "%s: in %s", lengths[i].words, o.unit != NULL ? o.unit->name : "nothing");
+              lengths[i].unit == NULL ? o.camera.unit == NULL
+                                      : o.camera.unit != NULL && strcmp(o.camera.unit->name, lengths[i].unit) == 0,
+              "%s: in %s", lengths[i].words, o.camera.unit != NULL ? o.camera.unit->name : "nothing");
         options_release(&o);
     }
     tally_end(&t);
@@ -170,15 +171,16 @@ static void test_platforms(void **state) {
         options o;
         dp_arith_parse(rows[i].arith, &arith);
         TALLY(&t, parse_line(&o, rows[i].line, line) == EXIT_FINE, "%s: %s", rows[i].line, line);
-        for (size_t f = 0; f < o.format_count && f < 3; f++)
+        for (size_t f = 0; f < o.camera.format_count && f < 3; f++)
             snprintf(formats + strlen(formats), sizeof formats - strlen(formats), "%s%s", f > 0 ? " " : "",
-                     o.formats[f].name);
+                     o.camera.formats[f].name);
         TALLY(&t, strcmp(formats, rows[i].formats) == 0, "%s: %s", rows[i].line, formats);
-        TALLY(&t, o.mapping_count == 1 && strcmp(dp_mapping_get(o.mappings[0])->name, rows[i].mapping) == 0,
+        TALLY(&t,
+              o.camera.mapping_count == 1 && strcmp(dp_mapping_get(o.camera.mappings[0])->name, rows[i].mapping) == 0,
               "%s: mapping", rows[i].line);
-        TALLY(&t, o.arith == arith, "%s: arithmetic", rows[i].line);
-        TALLY(&t, rows[i].api == NULL || strcmp(o.api->name, rows[i].api) == 0, "%s: API", rows[i].line);
-        TALLY(&t, rows[i].raster == NULL ? o.raster == NULL : strcmp(o.raster->name, rows[i].raster) == 0,
+        TALLY(&t, o.camera.arith == arith, "%s: arithmetic", rows[i].line);
+        TALLY(&t, rows[i].api == NULL || strcmp(o.bias.api->name, rows[i].api) == 0, "%s: API", rows[i].line);
+        TALLY(&t, rows[i].raster == NULL ? o.camera.raster == NULL : strcmp(o.camera.raster->name, rows[i].raster) == 0,
               "%s: rasterizer", rows[i].line);
         options_release(&o);
     }
@@ -210,7 +212,7 @@ static void test_twice(void **state) {
     char line[1024];
     options o;
     assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1|--parameter|b=2", line), EXIT_FINE);
-    assert_int_equal(o.parameter_count, 2);
+    assert_int_equal(o.image.parameter_count, 2);
     assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1|--parameter|a=2", line), EXIT_USAGE);
     assert_int_equal(parse_line(&o, "table|-q|-q|--json|--json|--ortho|--ortho", line), EXIT_FINE);
     tally_end(&t);
@@ -245,7 +247,8 @@ static void test_order(void **state) {
               rows[i].operand == NULL ? status != EXIT_FINE || o.operand_count == 0
                                       : o.operand_count == 1 && strcmp(o.operands[0], rows[i].operand) == 0,
               "%s: operands", rows[i].words);
-        TALLY(&t, strstr(rows[i].words, "-n|5") == NULL || o.znear == 5, "%s: near %g", rows[i].words, o.znear);
+        TALLY(&t, strstr(rows[i].words, "-n|5") == NULL || o.camera.znear == 5, "%s: near %g", rows[i].words,
+              o.camera.znear);
     }
     tally_end(&t);
 }

@@ -51,7 +51,7 @@ bias_call_text bias_call(const bias_api *api, double units, double factor) {
 }
 
 const char *bias_of_gpu(const options *o, const bias_api *api, const dp_format *format, char out[BIAS_CALL_SIZE]) {
-    const profile_format *of = profile_biased(&o->gpu, o->platform, api, format);
+    const profile_format *of = profile_biased(&o->camera.gpu, o->camera.platform, api, format);
     out[0] = '\0';
     if (of == NULL)
         return out;
@@ -67,10 +67,10 @@ const char *bias_of_gpu(const options *o, const bias_api *api, const dp_format *
 }
 
 int bias_check_slant(const options *o) {
-    for (size_t i = 0; i < o->mapping_count && o->triangles.width > 0; i++)
-        if (dp_mapping_get(o->mappings[i])->curve != DP_CURVE_PERSPECTIVE)
+    for (size_t i = 0; i < o->camera.mapping_count && o->camera.triangles.width > 0; i++)
+        if (dp_mapping_get(o->camera.mappings[i])->curve != DP_CURVE_PERSPECTIVE)
             return option_error(OPTION_VIEWPORT, "does not apply with %s, which is not affine on the screen",
-                                dp_mapping_get(o->mappings[i])->name);
+                                dp_mapping_get(o->camera.mappings[i])->name);
     return EXIT_FINE;
 }
 
@@ -100,13 +100,13 @@ typedef struct all {
 /* ---- What is needed ---------------------------------------------------------------------------------------------- */
 
 static bias_goal goal_of(const options *o, const bias_api *api, const dp_setup *setup) {
-    const double factor = bias_chooses_factor(o) ? bias_factor_least(setup) : o->factor * bias_sign(setup);
-    return (bias_goal){.api = api, .factor = factor, .slope = o->slope, .gap = o->separation};
+    const double factor = bias_chooses_factor(o) ? bias_factor_least(setup) : o->bias.factor * bias_sign(setup);
+    return (bias_goal){.api = api, .factor = factor, .slope = o->bias.slope, .gap = o->wanted.separation};
 }
 
 /* Where the gap leads to the near plane, at least. */
 static double range_from(const all *a) {
-    return fmin(fmax(a->lo, a->each.here.znear + a->each.here.separation), a->hi);
+    return fmin(fmax(a->lo, a->each.here->camera.znear + a->each.here->wanted.separation), a->hi);
 }
 
 /* The call, or where in the range there is one. */
@@ -131,8 +131,8 @@ static void write_short(double units, char out[NUMBER_SIZE]) {
 }
 
 static void fill_row(const all *a, const bias_api *named, const dp_setup *setup, double z, row *r) {
-    const options *o = &a->each.here;
-    const bias_api here = profile_bias(&o->gpu, o->platform, named, &setup->spec.format), *api = &here;
+    const options *o = a->each.here;
+    const bias_api here = profile_bias(&o->camera.gpu, o->camera.platform, named, &setup->spec.format), *api = &here;
     const bias_goal goal = goal_of(o, api, setup);
     *r = (row){.api = api->name, .label = api->name, .z = z, .lo = (double)NAN, .hi = (double)NAN, .units_z = z};
     r->factor = goal.factor * bias_sign(setup) + 0.0; /* no -0 */
@@ -198,13 +198,13 @@ static void *next_setup(void *of, size_t i) {
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 static void say_goal(page *p, const all *a) {
-    const options *o = &a->each.here;
+    const options *o = a->each.here;
     const char *unit = options_unit(o);
     char goal[64] = "To be told apart", place[128] = "", slope[64] = "";
-    if (o->separation > 0.0)
-        snprintf(goal, sizeof goal, "To come nearer by %s", number_in(number_full(o->separation), unit).text);
-    if (o->slope > 0.0)
-        snprintf(slope, sizeof slope, ", slope %s per pixel", number_in(number_full(o->slope), unit).text);
+    if (o->wanted.separation > 0.0)
+        snprintf(goal, sizeof goal, "To come nearer by %s", number_in(number_full(o->wanted.separation), unit).text);
+    if (o->bias.slope > 0.0)
+        snprintf(slope, sizeof slope, ", slope %s per pixel", number_in(number_full(o->bias.slope), unit).text);
     if (a->by_range)
         snprintf(place, sizeof place, " from z = %s to %s", number_in(number_of(range_from(a), DIGITS_Z), unit).text,
                  number_in(number_of(a->hi, DIGITS_Z), unit).text);
@@ -217,7 +217,7 @@ static void say_setup(page *p, void *item) {
     const all *a = item;
     const dp_setup full = dp_setup_guaranteed(a->each.setup);
     each_setup_title(p, item);
-    slant_say(p, page_title, &a->each.here, &full);
+    slant_say(p, page_title, a->each.here, &full);
     say_goal(p, a);
 }
 
@@ -252,23 +252,23 @@ static void say_choice(page *p, const options *o, const dp_format *format) {
 
 static void say_notes(page *p, void *item) {
     const all *a = item;
-    if (bias_chooses_factor(&a->each.here) && isinf(a->row.factor))
+    if (bias_chooses_factor(a->each.here) && isinf(a->row.factor))
         page_line(p, "%s", BIAS_NO_FACTOR);
-    else if (bias_chooses_factor(&a->each.here))
+    else if (bias_chooses_factor(a->each.here))
         page_line(p, "F, the factor of the slope, is %s", number_full(a->row.factor).text);
     if (a->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);
     if (bias_is_missed(a->each.setup))
         page_line(p, "%s", BIAS_MISSED);
-    say_choice(p, &a->each.here, &a->each.setup->spec.format);
+    say_choice(p, a->each.here, &a->each.setup->spec.format);
 }
 
 /* Formats above mappings, and below what is written in place of U. */
 static void say_beside(page *p, void *item) {
     const all *a = item;
-    const options *o = &a->each.here;
-    page_title(p, "near %s, far %s, %s", number_full(o->znear).text, number_full(o->zfar).text,
-               o->ortho ? "orthographic" : "perspective");
+    const options *o = a->each.here;
+    page_title(p, "near %s, far %s, %s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
+               o->camera.ortho ? "orthographic" : "perspective");
     say_goal(p, a);
     output_format(p->out, "%s%-13s", p->soft, "");
     for (size_t k = 0; k < a->each.all.count; k++)
@@ -298,7 +298,7 @@ static void say_calls(page *p, void *item) {
     output_char(p->out, '\n');
     for (size_t i = 0; bias_api_get(i) != NULL; i++)
         page_note(p, bias_api_get(i)->name, "%s",
-                  call_of(bias_api_get(i), "U", number_full(a->each.o->factor).text).text);
+                  call_of(bias_api_get(i), "U", number_full(a->each.o->bias.factor).text).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -352,9 +352,10 @@ static int write_beside(all *a, int status) {
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 int bias_all_write(const options *o) {
-    all a = {.by_range = !option_given(o, OPTION_AT), .apis = "all", .slope = o->slope, .gap = o->separation};
+    all a = {
+        .by_range = !option_given(o, OPTION_AT), .apis = "all", .slope = o->bias.slope, .gap = o->wanted.separation};
     a.triangles = slant_fields_of(o, &a.slant);
-    a.factor = bias_chooses_factor(o) ? (double)NAN : o->factor;
+    a.factor = bias_chooses_factor(o) ? (double)NAN : o->bias.factor;
     if (option_given(o, OPTION_UNITS) || option_given(o, OPTION_CLAMP))
         return option_error(OPTION_API, "must be one API with --%s, got 'all'",
                             option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP));
@@ -363,9 +364,9 @@ int bias_all_write(const options *o) {
     int status = each_setup_start(&a.each, o);
     if (status == EXIT_FINE)
         status = range_resolve(o, &a.lo, &a.hi);
-    const bool beside = o->form == FORM_TEXT && !o->full && a.each.all.count > 1 && a.each.all.count <= BESIDE &&
-                        (a.by_range || a.each.at.count == 1) && a.triangles == NULL &&
-                        o->gpu.measured[0] == '\0'; /* what was measured is told of each format */
+    const bool beside = o->out.form == FORM_TEXT && !o->out.full && a.each.all.count > 1 &&
+                        a.each.all.count <= BESIDE && (a.by_range || a.each.at.count == 1) && a.triangles == NULL &&
+                        o->camera.gpu.measured[0] == '\0'; /* what was measured is told of each format */
     const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.each.at.count > 1 ? OF_SEVERAL : 0) |
                           (a.triangles != NULL ? WITH_TRIANGLES : 0);
     if (beside)

@@ -34,7 +34,7 @@ static inline bool bias_is_missed(const dp_setup *setup) {
 
 /** Whether each set-up's factor is the least that is enough at any slant: a viewport, and neither factor nor slope. */
 static inline bool bias_chooses_factor(const options *o) {
-    return o->triangles.width > 0 && !option_given(o, OPTION_FACTOR) && !option_given(o, OPTION_SLOPE);
+    return o->camera.triangles.width > 0 && !option_given(o, OPTION_FACTOR) && !option_given(o, OPTION_SLOPE);
 }
 
 /** What was measured of an API's r in that format on the GPU of a profile: a sentence, "" where nothing was. @return

@@ -72,7 +72,7 @@ static void write_text(const options *o, bool failures, output *out, const check
                       v->passed ? "pass" : "FAIL", p.plain, f->file.path, v->asked->line, v->asked->name,
                       v->camera->name, setup_label(&v->setup, false, label),
                       option_word(OPTION_MODEL, setup_model(&v->setup)), sentence(f, v, text));
-            if (o->full)
+            if (o->out.full)
                 page_note(&p, "", "decided by %s: %s", check_method_name(v->method),
                           setup_label(&v->setup, true, label));
         }
@@ -189,18 +189,18 @@ static const column columns[] = {{FIELD(verdicts, passed, "passed", ""), .only =
                                  {.kind = COLUMN_END}};
 
 void check_say_failures(const options *o, const check_file *files, size_t count) {
-    output errors = {.fd = STDERR_FILENO, .colour = (output_colour)o->colour};
+    output errors = {.fd = STDERR_FILENO, .colour = (output_colour)o->out.colour};
     write_text(o, true, &errors, files, count);
     output_flush(&errors);
 }
 
 void check_report(const options *o, output *out, const check_file *files, size_t count, bool passed) {
     verdicts all = {.files = files, .count = count, .passed = passed};
-    const output_form form = o->report == REPORT_JSON ? FORM_JSON : o->form;
-    if (o->report == REPORT_JUNIT)
+    const output_form form = o->out.report == REPORT_JSON ? FORM_JSON : o->out.form;
+    if (o->out.report == REPORT_JUNIT)
         write_junit(out, files, count);
     else if (form == FORM_TEXT)
-        write_text(o, o->quiet, out, files, count);
+        write_text(o, o->out.quiet, out, files, count);
     else
         report_write(&(report_spec){.command = "check", .columns = columns, .item = &all}, out, form);
 }

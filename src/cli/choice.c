@@ -71,9 +71,9 @@ choosing choose_at(const dp_setup *setup, double tolerance, const depths *at) {
 
 void setup_choose(const options *o, const depths *at, dp_setup *setup) {
     dp_spec spec = setup->spec;
-    if (!o->model_auto)
+    if (!o->camera.model_auto)
         return;
-    spec.model = choose_at(setup, o->tolerance, at).choice.model;
+    spec.model = choose_at(setup, o->wanted.tolerance, at).choice.model;
     dp_setup_init(setup, &spec); /* the choice is among the models that the set-up has */
 }
 

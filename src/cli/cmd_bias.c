@@ -154,8 +154,8 @@ static needs over_range(const biasing *b) {
 static void take_measured(biasing *b) {
     const options *o = b->each.o;
     const dp_format *format = &b->each.setup->spec.format;
-    const profile_format *found = profile_biased(&o->gpu, o->platform, b->named, format);
-    b->row_here = profile_bias(&o->gpu, o->platform, b->named, format);
+    const profile_format *found = profile_biased(&o->camera.gpu, o->camera.platform, b->named, format);
+    b->row_here = profile_bias(&o->camera.gpu, o->camera.platform, b->named, format);
     b->cuts = found != NULL && found->cuts;
     b->state.units = b->cuts ? trunc(b->units_sent) : b->units_sent;
 }
@@ -172,7 +172,7 @@ static void *next_setup(void *of, size_t i) {
     }
     if (b->chosen)
         b->state.factor = bias_sign(b->each.setup) * bias_factor_least(b->each.setup);
-    if (b->inverse && b->each.o->form != FORM_CSV)
+    if (b->inverse && b->each.o->out.form != FORM_CSV)
         b->needs = over_range(b);
     return b;
 }
@@ -248,7 +248,7 @@ static void say_range(page *p, const biasing *b) {
 static bool say_measured(page *p, const biasing *b) {
     const options *o = b->each.o;
     char text[BIAS_CALL_SIZE];
-    if (o->gpu.measured[0] == '\0')
+    if (o->camera.gpu.measured[0] == '\0')
         return false;
     bias_of_gpu(o, b->named, &b->each.setup->spec.format, text);
     if (text[0] == '\0')
@@ -290,8 +290,8 @@ static void say_notes(page *p, void *item) {
         page_line(p, "a biased depth that leaves [0, 1] is held at the plane");
     if (!say_measured(p, b))
         say_open(p, b);
-    if (b->each.o->platform != NULL && b->each.o->platform->bias[0] != '\0')
-        page_line(p, "%s %s", b->each.o->platform->name, b->each.o->platform->bias);
+    if (b->each.o->camera.platform != NULL && b->each.o->camera.platform->bias[0] != '\0')
+        page_line(p, "%s %s", b->each.o->camera.platform->name, b->each.o->camera.platform->bias);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -301,7 +301,7 @@ enum { EFFECT = 1, INVERSE = 2, WITH_GAP = 4, WITH_SLOPE = 8, VERBOSE = 16, WITH
 
 static unsigned conditions(const biasing *b) {
     return (b->inverse ? INVERSE : EFFECT) | (b->goal.gap > 0.0 ? WITH_GAP : 0) |
-           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->each.o->full ? VERBOSE : 0) |
+           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->each.o->out.full ? VERBOSE : 0) |
            (b->triangles != NULL ? WITH_TRIANGLES : 0);
 }
 
@@ -373,13 +373,14 @@ static int check_states(const options *o, const bias_api *api) {
         return option_error(OPTION_VIEWPORT, "cannot be combined with --units: it says how many are enough");
     if (given && option_given(o, OPTION_SEPARATION))
         return option_error(OPTION_UNITS, "cannot be combined with --separation, which solves for them");
-    if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30) &&
-        (o->platform == NULL || !o->platform->cuts))
+    if (given && api->whole && !(o->bias.units == nearbyint(o->bias.units) && fabs(o->bias.units) <= 0x1.fffffffcp30) &&
+        (o->camera.platform == NULL || !o->camera.platform->cuts))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",
-                            api->name, number_full(o->units).text);
+                            api->name, number_full(o->bias.units).text);
     if (option_given(o, OPTION_CLAMP) && !api->clamps)
         return option_error(OPTION_CLAMP, "must not be given for %s, which has no clamp",
-                            o->platform != NULL && o->platform->drops_clamp ? o->platform->name : api->name);
+                            o->camera.platform != NULL && o->camera.platform->drops_clamp ? o->camera.platform->name
+                                                                                          : api->name);
     if (option_given(o, OPTION_CLAMP) && !given)
         return option_error(OPTION_CLAMP, "must be given together with --units");
     return EXIT_FINE;
@@ -401,25 +402,25 @@ static int resolve(biasing *b, const options *o) {
 
 int cmd_bias(const options *given) {
     options o = *given;
-    const bias_api *api = o.api;
+    const bias_api *api = o.bias.api;
     const int affine = bias_check_slant(&o);
     if (affine != EXIT_FINE || api == NULL)
         return affine != EXIT_FINE ? affine : bias_all_write(&o);
-    biasing b = {.state = {api, o.units, o.factor, o.clamp},
-                 .goal = {.api = api, .slope = o.slope, .gap = o.separation},
+    biasing b = {.state = {api, o.bias.units, o.bias.factor, o.bias.clamp},
+                 .goal = {.api = api, .slope = o.bias.slope, .gap = o.wanted.separation},
                  .inverse = !option_given(&o, OPTION_UNITS),
                  .api = api->name,
                  .named = api,
-                 .row_here = platform_bias(o.platform, api)};
+                 .row_here = platform_bias(o.camera.platform, api)};
     b.state.api = b.goal.api = &b.row_here;
-    if (o.platform != NULL && o.platform->cuts)
-        b.state.units = trunc(o.units);
+    if (o.camera.platform != NULL && o.camera.platform->cuts)
+        b.state.units = trunc(o.bias.units);
     b.units_sent = b.state.units;
-    b.units = b.inverse ? (double)NAN : o.units;
-    b.gap = b.inverse ? o.separation : (double)NAN;
+    b.units = b.inverse ? (double)NAN : o.bias.units;
+    b.gap = b.inverse ? o.wanted.separation : (double)NAN;
     b.triangles = slant_fields_of(&o, &b.slant);
     b.chosen = bias_chooses_factor(&o);
-    b.factor = b.chosen ? (double)NAN : o.factor;
+    b.factor = b.chosen ? (double)NAN : o.bias.factor;
     int status = check_states(&o, &b.row_here);
     if (status != EXIT_FINE)
         return status;

@@ -103,7 +103,7 @@ static void budget_by(const budget *b, const world_scheme *scheme, const dp_setu
     const world_asked a = {.setup = setup,
                            .z = z,
                            .ray_ratio = ray_ratio_of(&setup->spec.triangles),
-                           .shared_origin = b->each.o->shared_origin};
+                           .shared_origin = b->each.o->world.shared_origin};
     *terms = b->terms;
     if (scheme != NULL)
         world_budget(scheme, &a, root3 * b->terms.world, terms, out);
@@ -206,7 +206,7 @@ static void *next_row(void *of, size_t index) {
         budget_by(b, b->scheme, &b->facing, r->z, &terms, &facing);
         r->facing = facing.separation;
     }
-    for (int i = 0; i < DP_CAUSE_COUNT && b->each.o->form == FORM_TEXT; i++)
+    for (int i = 0; i < DP_CAUSE_COUNT && b->each.o->out.form == FORM_TEXT; i++)
         write_cause(r, i);
     note(b, r);
     return r;
@@ -221,7 +221,7 @@ static void *next_setup(void *of, size_t i) {
     b->chosen = b->shader ? NULL : &b->chosen_fields;
     b->staged_share = (double)NAN;
     b->facing = dp_setup_facing(b->each.setup);
-    b->choice = choosing_start(&b->facing, b->each.o->tolerance);
+    b->choice = choosing_start(&b->facing, b->each.o->wanted.tolerance);
     b->hopeless = b->largest.z = b->largest.parts.separation = (double)NAN;
     return b;
 }
@@ -359,34 +359,36 @@ static const column columns[] = {
 
 /* One scheme; `absolute` is what --from-origin means without. */
 static int take_scheme(budget *b, const options *o) {
-    if (!(o->terms.world > 0.0))
+    if (!(o->world.terms.world > 0.0))
         return option_error(OPTION_SCHEME, "needs --from-origin: eye depth is given");
-    if (o->scheme_count != 1)
-        return option_error(OPTION_SCHEME, "must be one scheme for budget, got %zu", o->scheme_count);
-    if (o->schemes[0].row == world_get(0))
+    if (o->world.scheme_count != 1)
+        return option_error(OPTION_SCHEME, "must be one scheme for budget, got %zu", o->world.scheme_count);
+    if (o->world.schemes[0].row == world_get(0))
         return EXIT_FINE;
-    if (o->ortho)
+    if (o->camera.ortho)
         return option_error(OPTION_SCHEME, "does not apply with --ortho: --composition does");
     if (option_given(o, OPTION_COMPOSITION))
-        return option_error(OPTION_COMPOSITION, "cannot be combined with --scheme %s", o->schemes[0].row->name);
-    b->scheme = &o->schemes[0];
+        return option_error(OPTION_COMPOSITION, "cannot be combined with --scheme %s", o->world.schemes[0].row->name);
+    b->scheme = &o->world.schemes[0];
     b->scheme_name = b->scheme->row->name;
     return EXIT_FINE;
 }
 
 int cmd_budget(const options *o) {
-    budget b = {.terms = o->terms, .log2 = dp_log2_get(o->terms.log2)->name, .linearize = o->terms.linearize != 0};
+    budget b = {.terms = o->world.terms,
+                .log2 = dp_log2_get(o->world.terms.log2)->name,
+                .linearize = o->world.terms.linearize != 0};
     options in_binary32 = *o;
-    in_binary32.model = DP_MODEL_FLOAT;
-    in_binary32.budgeted = true;
+    in_binary32.camera.model = DP_MODEL_FLOAT;
+    in_binary32.camera.budgeted = true;
     int status = EXIT_FINE;
     b.triangles = slant_fields_of(o, &b.slant);
     if (option_given(o, OPTION_SCHEME))
         status = take_scheme(&b, o);
     if (status != EXIT_FINE)
         return status;
-    if (o->terms.world > 0.0 && b.scheme == NULL)
-        b.composition = dp_composition_get(o->terms.composition)->name;
+    if (o->world.terms.world > 0.0 && b.scheme == NULL)
+        b.composition = dp_composition_get(o->world.terms.composition)->name;
     else if (option_given(o, OPTION_COMPOSITION) && b.scheme == NULL)
         return option_error(OPTION_COMPOSITION, "needs --from-origin: eye depth is given");
     status = each_setup_start(&b.each, &in_binary32);

@@ -34,9 +34,9 @@ static bool count_ties(void *context, const dp_setup *setup, double lo, double h
     census_result *result = malloc(sizeof *result);
     if (result == NULL)
         return false;
-    progress bar = progress_start("depths", sample ? (uint64_t)CHECK_SAMPLE : census_count(lo, hi), o->quiet);
+    progress bar = progress_start("depths", sample ? (uint64_t)CHECK_SAMPLE : census_count(lo, hi), o->out.quiet);
     census_sample_request request = {
-        .common = {.setup = setup, .lo = lo, .hi = hi, .threads = o->threads, .progress = advance, .context = &bar},
+        .common = {.setup = setup, .lo = lo, .hi = hi, .threads = o->out.threads, .progress = advance, .context = &bar},
         .count = CHECK_SAMPLE,
         .seed = CHECK_SEED};
     const census_status status = sample ? census_sample(&request, result) : census_run(&request.common, result);
@@ -85,7 +85,7 @@ int cmd_check(const options *o) {
     const size_t count = (size_t)o->operand_count;
     long failed = 0;
     output out;
-    if (o->report != REPORT_TEXT && o->form != FORM_TEXT)
+    if (o->out.report != REPORT_TEXT && o->out.form != FORM_TEXT)
         return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
     int status = options_open(o, &out);
     if (status != EXIT_FINE)
@@ -98,7 +98,7 @@ int cmd_check(const options *o) {
     if (status == EXIT_FINE) {
         check_report(o, &out, files, count, failed == 0);
         status = output_close(&out);
-        if (failed > 0 && o->output != NULL && strcmp(o->output, "-") != 0)
+        if (failed > 0 && o->out.file != NULL && strcmp(o->out.file, "-") != 0)
             check_say_failures(o, files, count);
     } else {
         output_abandon(&out);

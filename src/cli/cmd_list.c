@@ -77,7 +77,7 @@ static void write_list(listing *l, output *out) {
     report_write(&(report_spec){"list", columns, l, .when = option_given(l->o, OPTION_TOLERANCE) ? WITH_CHOICES : 0,
                                 .label = 12, .head = topics_alone ? say_topics : NULL,
                                 .notes = l->topic->get == list_format ? say_other_formats : NULL},
-                 out, l->o->form);
+                 out, l->o->out.form);
 }
 
 int cmd_list(const options *o) {

@@ -85,8 +85,8 @@ static void say_inputs(page *p, void *item) {
     const measuring *b = item;
     const method_family_row *f = b->asked.family;
     page_title(p, "%s: %s", f->name, f->summary);
-    page_text(p, "%s, near %s, far %s; %s", f->cases[b->asked.which].name, number_full(b->o->znear).text,
-              number_full(b->o->zfar).text, b->machine);
+    page_text(p, "%s, near %s, far %s; %s", f->cases[b->asked.which].name, number_full(b->o->camera.znear).text,
+              number_full(b->o->camera.zfar).text, b->machine);
 }
 
 /* Families count in steps of a code or in units in the last place, and of some methods bounds are proven. */
@@ -124,10 +124,10 @@ static void say_marks(page *p, void *item) {
 
 /* Text is for a reader who wants the fastest that is exact enough. */
 static void order(measuring *b) {
-    const bool text = b->o->form == FORM_TEXT;
+    const bool text = b->o->out.form == FORM_TEXT;
     for (size_t i = 0; i < b->count; i++) {
         size_t at = b->shown;
-        if (text && b->results[i].row->behind && !b->o->full)
+        if (text && b->results[i].row->behind && !b->o->out.full)
             continue;
         for (; text && at > 0 && b->results[i].ns < b->results[b->order[at - 1]].ns; at--)
             b->order[at] = b->order[at - 1];
@@ -237,7 +237,7 @@ static const column families[] = {{LIST("families", family_columns, next_family)
 
 static int list_families(const options *o, output *out) {
     family_line l;
-    report_write(&(report_spec){"methods", families, &l, .label = 12, .head = say_families}, out, o->form);
+    report_write(&(report_spec){"methods", families, &l, .label = 12, .head = say_families}, out, o->out.form);
     return output_close(out);
 }
 
@@ -261,8 +261,9 @@ static bool measure(measuring *b) {
 
 static void describe(measuring *b) {
     const options *o = b->o;
-    const double ratio = o->zfar / o->znear;
-    const method_wish wish = {.tolerance = o->tolerance, .ratio_lo = fmin(ratio, METHOD_RATIO_HI), .ratio_hi = ratio};
+    const double ratio = o->camera.zfar / o->camera.znear;
+    const method_wish wish = {
+        .tolerance = o->wanted.tolerance, .ratio_lo = fmin(ratio, METHOD_RATIO_HI), .ratio_hi = ratio};
     if (!isnan(b->tolerance))
         b->choice = method_choose(b->asked.family, b->asked.which, &wish);
     methods_machine(b->machine, sizeof b->machine);
@@ -284,7 +285,7 @@ static bool all_hold(const measuring *b) {
 
 int cmd_methods(const options *o) {
     output out;
-    measuring b = {.o = o, .tolerance = option_given(o, OPTION_TOLERANCE) ? o->tolerance : (double)NAN};
+    measuring b = {.o = o, .tolerance = option_given(o, OPTION_TOLERANCE) ? o->wanted.tolerance : (double)NAN};
     int status = check_family(o);
     if (status == EXIT_FINE && o->operand_row != NULL)
         status = methods_resolve(o, o->operand_row, &b.asked);
@@ -300,7 +301,7 @@ int cmd_methods(const options *o) {
     }
     describe(&b);
     report_write(&(report_spec){"methods", columns, &b, .when = conditions(&b), .head = say_inputs, .notes = say_marks},
-                 &out, o->form);
+                 &out, o->out.form);
     status = output_close(&out);
     return status == EXIT_FINE && !all_hold(&b) ? EXIT_FAILED : status;
 }

@@ -43,16 +43,17 @@ typedef struct plotting {
 static int resolve_depths(plotting *p) {
     const options *o = p->o;
     if (option_given(o, OPTION_AT)) {
-        if (o->at.count != 1)
-            return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", p->row->name, o->at.count);
+        if (o->camera.at.count != 1)
+            return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", p->row->name,
+                                o->camera.at.count);
         if (option_given(o, OPTION_RANGE))
             return option_error(OPTION_AT, "cannot be combined with --range");
-        p->request.at = o->at.lo;
+        p->request.at = o->camera.at.lo;
     }
     if (!option_given(o, OPTION_RANGE))
         return EXIT_FINE;
-    p->request.lo = o->range_lo;
-    p->request.hi = o->range_hi;
+    p->request.lo = o->camera.range_lo;
+    p->request.hi = o->camera.range_hi;
     return p->all.count > 0 ? range_resolve(o, &p->request.lo, &p->request.hi) : EXIT_FINE;
 }
 
@@ -70,21 +71,21 @@ static int check_file_given(const options *o, const figure_row *row) {
 
 /* Options that this figure has no use for. */
 static int check_options(const options *o, const figure_row *row) {
-    if (o->znear <= 0.0 && (row->takes & FIGURE_SIGNED) == 0)
+    if (o->camera.znear <= 0.0 && (row->takes & FIGURE_SIGNED) == 0)
         return option_error(OPTION_NEAR, "must be greater than 0 in the figure %s, got '%s'", row->name,
-                            number_full(o->znear).text);
-    if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
+                            number_full(o->camera.znear).text);
+    if (option_given(o, OPTION_COMPOSITION) && !(o->world.terms.world > 0.0))
         return option_error(OPTION_COMPOSITION, "needs --from-origin: eye depth is given");
-    if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FLOAT)
+    if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->camera.model != DP_MODEL_FLOAT)
         return option_error(OPTION_MODEL, "must be float in the figure %s, got '%s'", row->name,
-                            option_word(OPTION_MODEL, o->model_auto ? DP_MODEL_COUNT : o->model));
+                            option_word(OPTION_MODEL, o->camera.model_auto ? DP_MODEL_COUNT : o->camera.model));
     if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_SLANTED) != 0 && (row->takes & FIGURE_BINARY32) == 0 &&
-        o->model != DP_MODEL_FLOAT)
+        o->camera.model != DP_MODEL_FLOAT)
         return option_error(OPTION_VIEWPORT, "needs --model float in the figure %s", row->name);
-    if (!isnan(o->azimuth) && (row->takes & FIGURE_DRAWN) == 0)
+    if (!isnan(o->camera.azimuth) && (row->takes & FIGURE_DRAWN) == 0)
         return option_error(OPTION_SLANT, "must be LO:HI in the figure %s, got '%s'", row->name,
                             o->given[OPTION_SLANT]);
-    if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
+    if (option_given(o, OPTION_TOLERANCE) && !o->camera.model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
         return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
     return EXIT_FINE;
 }
@@ -111,7 +112,7 @@ static void name_setups(plotting *p) {
     for (size_t i = 0; i < p->all.count; i++) {
         char *name = p->text[i];
         p->names[i] = setup_label(&p->all.items[i], false, name);
-        if (p->o->model_auto)
+        if (p->o->camera.model_auto)
             append(name, SETUP_LABEL_SIZE, ", %s", option_word(OPTION_MODEL, p->all.items[i].spec.model));
     }
 }
@@ -124,7 +125,7 @@ static void subtitle_of(const options *o, const figure_request *request, bool bu
         setup_fields_budget(&request->setups[0], &fields);
     setup_label_as(&request->setups[0], &fields, full);
     char *last = strrchr(full, ',');
-    if (o->model_auto && request->count > 1 && last != NULL)
+    if (o->camera.model_auto && request->count > 1 && last != NULL)
         *last = '\0'; /* the names say it */
     const char *rest = strstr(full, ", ");
     const char *one = request->count == 1 ? full : rest != NULL ? rest + 2 : "";
@@ -152,8 +153,9 @@ static int resolve_methods(plotting *p) {
     int status = check_operand(o->command, "FAMILY", &families, family, &item);
     if (status == EXIT_FINE)
         status = methods_resolve(o, item.row, &p->asked);
-    snprintf(p->where, sizeof p->where, "near %s, far %s; %s", number_in(number_full(o->znear), options_unit(o)).text,
-             number_in(number_full(o->zfar), options_unit(o)).text, methods_machine(machine, sizeof machine));
+    snprintf(p->where, sizeof p->where, "near %s, far %s; %s",
+             number_in(number_full(o->camera.znear), options_unit(o)).text,
+             number_in(number_full(o->camera.zfar), options_unit(o)).text, methods_machine(machine, sizeof machine));
     p->request.setups = &p->asked.setup;
     p->request.count = 1;
     p->request.family = p->asked.family;
@@ -165,18 +167,18 @@ static int resolve_methods(plotting *p) {
 /* Where none are named and all would be too many: those that the figure shows then, and of a single set-up the first
  * mapping. */
 static void choose_setups(options *o, const figure_row *row) {
-    const size_t all = o->format_count;
+    const size_t all = o->camera.format_count;
     if (row->formats == NULL)
         return;
-    if (!option_given(o, OPTION_FORMAT) && all * o->mapping_count > row->setups_max) {
-        o->format_count = 0;
+    if (!option_given(o, OPTION_FORMAT) && all * o->camera.mapping_count > row->setups_max) {
+        o->camera.format_count = 0;
         for (size_t i = 0; i < all; i++)
-            if (strstr(row->formats, o->formats[i].name) != NULL)
-                o->formats[o->format_count++] = o->formats[i];
-        o->format_count += o->format_count == 0; /* a rasterizer that has none of them */
+            if (strstr(row->formats, o->camera.formats[i].name) != NULL)
+                o->camera.formats[o->camera.format_count++] = o->camera.formats[i];
+        o->camera.format_count += o->camera.format_count == 0; /* a rasterizer that has none of them */
     }
     if (row->setups_max == 1 && !option_given(o, OPTION_MAPPING))
-        o->mapping_count = 1;
+        o->camera.mapping_count = 1;
 }
 
 /* What a rasterizer draws is at one depth between the planes. */
@@ -187,7 +189,7 @@ static int resolve_drawn(const plotting *p, options *o) {
         status = depths_resolve(p->o, 1, &at);
     if (status == EXIT_FINE && option_given(o, OPTION_RANGE))
         status = option_error(OPTION_RANGE, "does not apply to the figure %s; --at says its depth", p->row->name);
-    if (status == EXIT_FINE && isnan(o->azimuth))
+    if (status == EXIT_FINE && isnan(o->camera.azimuth))
         status = option_error(OPTION_SLANT, "must be SLANT,AZIMUTH in the figure %s, got '%s'", p->row->name,
                               o->given[OPTION_SLANT]);
     return status;
@@ -201,8 +203,8 @@ static int resolve_setups(plotting *p) {
         status = resolve_drawn(p, &in_model);
     choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
-        in_model.model = DP_MODEL_FLOAT;
-    in_model.budgeted = (p->row->takes & FIGURE_TERMS) != 0;
+        in_model.camera.model = DP_MODEL_FLOAT;
+    in_model.camera.budgeted = (p->row->takes & FIGURE_TERMS) != 0;
     if (status == EXIT_FINE)
         status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model) : EXIT_FINE;
     if (status == EXIT_FINE)
@@ -216,13 +218,13 @@ static int resolve_setups(plotting *p) {
         return status;
     p->request.setups = p->all.items;
     p->request.count = p->all.count;
-    p->request.raster = drawn ? in_model.raster : NULL;
-    p->request.slant = p->o->triangles.slant_lo;
-    p->request.azimuth = p->o->azimuth;
+    p->request.raster = drawn ? in_model.camera.raster : NULL;
+    p->request.slant = p->o->camera.triangles.slant_lo;
+    p->request.azimuth = p->o->camera.azimuth;
     status = choose_models(p);
     name_setups(p);
     p->chart->unit = options_unit(p->o);
-    subtitle_of(p->o, &p->request, in_model.budgeted, p->chart->subtitle, sizeof p->chart->subtitle);
+    subtitle_of(p->o, &p->request, in_model.camera.budgeted, p->chart->subtitle, sizeof p->chart->subtitle);
     return status == EXIT_FINE && p->row->family != NULL ? resolve_methods(p) : status;
 }
 
@@ -235,22 +237,24 @@ static int resolve_file(plotting *p) {
 /* Shadow maps bring their own cameras. */
 static int resolve_shadow(plotting *p) {
     const options o = *p->o;
-    if (o.format_count * o.mapping_count != 1)
+    if (o.camera.format_count * o.camera.mapping_count != 1)
         return usage_error("plot %s: shows one format in one mapping, got %zu: name one with --format and --mapping",
-                           p->row->name, o.format_count * o.mapping_count);
-    const int status = shadow_maps_make(&o, &o.formats[0], o.mappings[0], &p->maps);
+                           p->row->name, o.camera.format_count * o.camera.mapping_count);
+    const int status = shadow_maps_make(&o, &o.camera.formats[0], o.camera.mappings[0], &p->maps);
     p->request.maps = p->maps.items;
     p->request.map_count = p->maps.count;
     p->chart->unit = options_unit(&o);
     char *const subtitle = p->chart->subtitle;
     const size_t size = sizeof p->chart->subtitle;
-    snprintf(subtitle, size, "%s %s, %u x %u texels, filter of %u x %u; ", o.formats[0].name,
-             dp_mapping_get(o.mappings[0])->name, o.camera.width, o.camera.height, o.kernel, o.kernel);
+    snprintf(subtitle, size, "%s %s, %u x %u texels, filter of %u x %u; ", o.camera.formats[0].name,
+             dp_mapping_get(o.camera.mappings[0])->name, o.view.spec.width, o.view.spec.height, o.shadow.kernel,
+             o.shadow.kernel);
     if (p->maps.view.count > 0)
-        append(subtitle, size, "view near %s, far %s", number_full(o.znear).text, number_full(o.zfar).text);
+        append(subtitle, size, "view near %s, far %s", number_full(o.camera.znear).text,
+               number_full(o.camera.zfar).text);
     else
-        append(subtitle, size, "box %s x %s x %s", number_full(o.light_box[0]).text, number_full(o.light_box[1]).text,
-               number_full(o.light_box[2]).text);
+        append(subtitle, size, "box %s x %s x %s", number_full(o.shadow.light_box[0]).text,
+               number_full(o.shadow.light_box[1]).text, number_full(o.shadow.light_box[2]).text);
     return status;
 }
 
@@ -292,7 +296,7 @@ static int look_at_model(plotting *p, output *out) {
 }
 
 static int height_of(const plotting *p) {
-    const bool own = p->request.fights != NULL && p->o->height == 0;
+    const bool own = p->request.fights != NULL && p->o->figure.height == 0;
     return own ? scene_figure_height(p->chart, p->request.columns) : p->request.rows;
 }
 
@@ -300,11 +304,11 @@ static int height_of(const plotting *p) {
 static int write_numbers(const plotting *p) {
     options beside = *p->o;
     output out;
-    beside.output = NULL;
+    beside.out.file = NULL;
     const int status = options_open(&beside, &out);
     if (status != EXIT_FINE)
         return status;
-    figure_data_write(&out, beside.form, "plot", p->row->name, p->chart);
+    figure_data_write(&out, beside.out.form, "plot", p->row->name, p->chart);
     return output_close(&out);
 }
 
@@ -313,7 +317,7 @@ static int write_figure(plotting *p) {
     const bool drawn = figure_file_wanted(o);
     chart *c = p->chart;
     output out;
-    int status = drawn ? output_open(&out, o->output) : options_open(o, &out);
+    int status = drawn ? output_open(&out, o->out.file) : options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     if ((p->row->takes & FIGURE_MODEL) != 0)
@@ -331,12 +335,12 @@ static int write_figure(plotting *p) {
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);
     if (good && drawn)
-        good = figure_file_write(o, o->output, c, p->request.columns, height_of(p), &out);
+        good = figure_file_write(o, o->out.file, c, p->request.columns, height_of(p), &out);
     else if (good)
-        figure_data_write(&out, o->form, "plot", p->row->name, c);
-    if (good && o->full)
+        figure_data_write(&out, o->out.form, "plot", p->row->name, c);
+    if (good && o->out.full)
         say_evaluations(p->row, c);
-    if (good && drawn && o->form != FORM_TEXT)
+    if (good && drawn && o->out.form != FORM_TEXT)
         status = write_numbers(p);
     if (good && status == EXIT_FINE)
         return output_close(&out);
@@ -348,10 +352,10 @@ static int write_figure(plotting *p) {
 }
 
 static int check_output(const options *o) {
-    if (o->form == FORM_TEXT && o->output == NULL)
+    if (o->out.form == FORM_TEXT && o->out.file == NULL)
         return usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
     canvas_format type;
-    return figure_file_wanted(o) ? figure_file_type(o, OPTION_OUTPUT, o->output, &type) : EXIT_FINE;
+    return figure_file_wanted(o) ? figure_file_type(o, OPTION_OUTPUT, o->out.file, &type) : EXIT_FINE;
 }
 
 int cmd_plot(const options *o) {
@@ -360,11 +364,11 @@ int cmd_plot(const options *o) {
                                  .lo = NAN,
                                  .hi = NAN,
                                  .at = NAN,
-                                 .terms = o->terms,
-                                 .tolerance = option_given(o, OPTION_TOLERANCE) ? o->tolerance : (double)NAN,
+                                 .terms = o->world.terms,
+                                 .tolerance = option_given(o, OPTION_TOLERANCE) ? o->wanted.tolerance : (double)NAN,
                                  .census = census_depths,
-                                 .columns = o->width > 0 ? o->width : WIDTH,
-                                 .rows = o->height > 0 ? o->height : HEIGHT};
+                                 .columns = o->figure.width > 0 ? o->figure.width : WIDTH,
+                                 .rows = o->figure.height > 0 ? o->figure.height : HEIGHT};
     int status = check_output(o);
     if (status == EXIT_FINE)
         status = check_file_given(o, p.row);
@@ -373,7 +377,7 @@ int cmd_plot(const options *o) {
     p.chart = chart_new();
     if (p.chart == NULL)
         return usage_error("plot: no memory");
-    notes_clean(p.chart->title, sizeof p.chart->title, o->title != NULL ? o->title : "");
+    notes_clean(p.chart->title, sizeof p.chart->title, o->figure.title != NULL ? o->figure.title : "");
     status = (p.row->takes & FIGURE_FILE) != 0     ? resolve_file(&p)
              : (p.row->takes & FIGURE_MODEL) != 0  ? scene_figure_begin(&p.model, o)
              : (p.row->takes & FIGURE_SHADOW) != 0 ? resolve_shadow(&p)

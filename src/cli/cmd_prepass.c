@@ -65,7 +65,7 @@ static void tick(void *context, uint64_t done) {
 static int work(prepass *a) {
     bool fine = true;
     a->results = calloc(a->each.all.count, sizeof *a->results);
-    a->each.progress = progress_start("vertices", a->each.all.count * a->request.count, a->each.o->quiet);
+    a->each.progress = progress_start("vertices", a->each.all.count * a->request.count, a->each.o->out.quiet);
     for (size_t i = 0; i < a->each.all.count && fine; i++) {
         a->request.setup = &a->each.all.items[i];
         fine = a->results != NULL && vertex_compare(&a->request, a->results[i]);
@@ -211,26 +211,26 @@ static const column columns[] = {{LIST("setups", setup_report, next_setup), .hea
 
 int cmd_prepass(const options *o) {
     prepass a = {.each.o = o,
-                 .program = o->program->name,
-                 .vertices = vertex_spread_name((vertex_spread)o->vertices),
-                 .request = {.spread = (vertex_spread)o->vertices,
-                             .world = o->terms.world,
-                             .count = o->sample,
-                             .seed = o->seed,
-                             .threads = o->threads,
-                             .base = o->program,
-                             .others = o->against_count,
+                 .program = o->census.program->name,
+                 .vertices = vertex_spread_name((vertex_spread)o->census.vertices),
+                 .request = {.spread = (vertex_spread)o->census.vertices,
+                             .world = o->world.terms.world,
+                             .count = o->census.sample,
+                             .seed = o->census.seed,
+                             .threads = o->out.threads,
+                             .base = o->census.program,
+                             .others = o->census.against_count,
                              .progress = tick}};
     a.request.context = &a;
-    for (size_t i = 0; i < o->against_count; i++)
-        a.request.other[i] = o->against[i];
+    for (size_t i = 0; i < o->census.against_count; i++)
+        a.request.other[i] = o->census.against[i];
     int status = check(&a);
     if (status == EXIT_FINE)
         status = work(&a);
     if (status == EXIT_FINE)
         status = options_open(o, &a.each.out);
     if (status == EXIT_FINE) {
-        report_write(&(report_spec){"prepass", columns, &a, .label = 14}, &a.each.out, o->form);
+        report_write(&(report_spec){"prepass", columns, &a, .label = 14}, &a.each.out, o->out.form);
         status = output_close(&a.each.out);
     }
     free(a.results);

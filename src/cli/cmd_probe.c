@@ -194,8 +194,9 @@ static int refuse(const options *o, probe_result *r, const char *error) {
     probe_free(r);
     for (size_t i = 0; i < m->count; i++)
         append(names, sizeof names, "%s%zu (%s)", i > 0 ? ", " : "", i, m->device[i].name);
-    if (o->device != NULL && m->count > 0 && m->chosen == m->count)
-        return option_error(OPTION_DEVICE, "must be a number or a part of a name of %s, got '%s'", names, o->device);
+    if (o->probe.device != NULL && m->count > 0 && m->chosen == m->count)
+        return option_error(OPTION_DEVICE, "must be a number or a part of a name of %s, got '%s'", names,
+                            o->probe.device);
     usage_error("probe: %s", error);
     return EXIT_IO;
 }
@@ -205,24 +206,24 @@ int cmd_probe(const options *o) {
     char error[SHOT_ERROR_SIZE];
     output out;
     int status = options_open(o, &out);
-    if (status == EXIT_FINE && o->keep != NULL && (status = output_check(o->keep)) != EXIT_FINE)
+    if (status == EXIT_FINE && o->probe.keep != NULL && (status = output_check(o->probe.keep)) != EXIT_FINE)
         output_abandon(&out);
     if (status != EXIT_FINE)
         return status;
-    if (!probe_run(o->device, o->seed, &result, error)) {
+    if (!probe_run(o->probe.device, o->census.seed, &result, error)) {
         output_abandon(&out);
         return refuse(o, &result, error);
     }
     probing p = {.result = &result,
                  .device = &result.machine.device[result.machine.chosen],
                  .of = device_of(&result, result.machine.chosen)};
-    const bool text = o->form == FORM_TEXT;
+    const bool text = o->out.form == FORM_TEXT;
     p.subpixel_bits = p.device->subpixel_bits;
     report_write(&(report_spec){"probe", text ? no_columns : columns, &p, .label = 12, .head = text ? say_probe : NULL},
-                 &out, o->form);
+                 &out, o->out.form);
     status = output_close(&out);
-    if (status == EXIT_FINE && o->keep != NULL)
-        status = keep(&result, o->keep);
+    if (status == EXIT_FINE && o->probe.keep != NULL)
+        status = keep(&result, o->probe.keep);
     probe_free(&result);
     return status;
 }

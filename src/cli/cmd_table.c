@@ -118,9 +118,9 @@ static void *next_row(void *of, size_t i) {
     per_vertex_add(&t->written, &r->written, z);
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, &t->setup, z);
-    if (t->each.o->form == FORM_TEXT)
+    if (t->each.o->out.form == FORM_TEXT)
         set_digits(r);
-    if (t->each.o->form != FORM_CSV)
+    if (t->each.o->out.form != FORM_CSV)
         choosing_add(&t->choice, z);
     return r;
 }
@@ -138,17 +138,17 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     const dp_setup *setup = &t->setup;
     const options *o = t->each.o;
-    t->triangles = slant_fields_of(&t->each.here, &t->slant);
+    t->triangles = slant_fields_of(t->each.here, &t->slant);
     t->setup = dp_setup_facing(t->each.setup);
     t->slanted = dp_setup_guaranteed(t->each.setup);
-    range_resolve(&t->each.here, &t->lo, &t->hi);
+    range_resolve(t->each.here, &t->lo, &t->hi);
     t->exact = resolved_in(setup, DP_MODEL_EXACT);
     t->full = dp_setup_guaranteed(setup);
     t->written = per_vertex_none();
-    t->choice = choosing_start(setup, o->tolerance);
+    t->choice = choosing_start(setup, o->wanted.tolerance);
     if (option_given(o, OPTION_TOLERANCE))
-        t->interval = way_choose(setup, o->tolerance, has_cut_cells(t, setup));
-    if (o->form == FORM_CSV)
+        t->interval = way_choose(setup, o->wanted.tolerance, has_cut_cells(t, setup));
+    if (o->out.form == FORM_CSV)
         return t;
     t->worst_case = (dp_worst){0};
     dp_worst_over(setup, t->lo, t->hi, &t->worst_case);
@@ -183,9 +183,9 @@ static void say_reach_of(page *p, const dp_setup *full, const unit_row *unit, co
 
 static void say_reach(page *p, void *item) {
     const table *t = item;
-    const unit_row *unit = t->each.here.unit;
+    const unit_row *unit = t->each.here->camera.unit;
     each_setup_title(p, item);
-    slant_say(p, page_title, &t->each.here, &t->full);
+    slant_say(p, page_title, t->each.here, &t->full);
     if (t->each.all.count > 1)
         return;
     say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");
@@ -252,7 +252,7 @@ static void say_notes(page *p, void *item) {
     per_vertex_say(p, &t->written, t->slant.triangles.depth);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
     if (option_given(t->each.o, OPTION_TOLERANCE))
-        say_way(p, &t->interval, t->each.o->tolerance);
+        say_way(p, &t->interval, t->each.o->wanted.tolerance);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -342,9 +342,9 @@ static const column columns[] = {{PART(table, triangles, "triangles", slant_colu
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
-    unsigned when = (option_given(t->each.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) | (t->each.o->full ? VERBOSE : 0) |
-                    (t->each.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
-                    (t->triangles != NULL ? WITH_TRIANGLES : 0);
+    unsigned when =
+        (option_given(t->each.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) | (t->each.o->out.full ? VERBOSE : 0) |
+        (t->each.o->camera.preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) | (t->triangles != NULL ? WITH_TRIANGLES : 0);
     for (size_t i = 0; i < t->each.all.count; i++) {
         when |= t->each.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
         when |= per_vertex_matters(&t->each.all.items[i]) ? PER_VERTEX : 0;
@@ -359,8 +359,8 @@ int cmd_table(const options *o) {
     t.triangles = slant_fields_of(o, &t.slant);
     int status = each_setup_start(&t.each, o);
     for (size_t i = 0; status == EXIT_FINE && each_setup_go(&t.each, i); i++) {
-        status = range_resolve(&t.each.here, &t.lo, &t.hi);
-        if (status == EXIT_FINE && (o->model == DP_MODEL_FLOAT || o->model_auto))
+        status = range_resolve(t.each.here, &t.lo, &t.hi);
+        if (status == EXIT_FINE && (o->camera.model == DP_MODEL_FLOAT || o->camera.model_auto))
             status = depths_in_binary32(&t.each.at);
         if (status == EXIT_FINE)
             setup_choose(o, &t.each.at, &t.each.all.items[i]);

@@ -97,9 +97,9 @@ static void *next_distance(void *of, size_t i) {
         return NULL;
     w->distance = w->distances.count > 0 ? depths_get(&w->distances, i) : (double)NAN;
     w->least = NULL;
-    for (size_t k = 0; k < w->o.scheme_count && w->distances.count > 0 && w->least == NULL; k++)
-        if (is_enough(w, &w->o.schemes[k])) {
-            label_of(&w->o.schemes[k], w->least_label);
+    for (size_t k = 0; k < w->o.world.scheme_count && w->distances.count > 0 && w->least == NULL; k++)
+        if (is_enough(w, &w->o.world.schemes[k])) {
+            label_of(&w->o.world.schemes[k], w->least_label);
             w->least = w->least_label;
         }
     return w;
@@ -107,9 +107,9 @@ static void *next_distance(void *of, size_t i) {
 
 static void *next_line(void *of, size_t i) {
     world *w = of;
-    if (i == w->o.scheme_count)
+    if (i == w->o.world.scheme_count)
         return NULL;
-    fill_line(w, &w->o.schemes[i]);
+    fill_line(w, &w->o.world.schemes[i]);
     return &w->line;
 }
 
@@ -136,7 +136,7 @@ static void say_distance(page *p, void *item) {
 /* Of a single scheme, and no distance: the answer is a sentence. */
 static void say_reach(page *p, void *item) {
     world *w = item;
-    if (!isnan(w->distance) || w->o.scheme_count != 1)
+    if (!isnan(w->distance) || w->o.world.scheme_count != 1)
         return;
     const line *l = &w->line;
     const number_text gap = number_in(number_full(w->wanted), p->unit);
@@ -193,16 +193,16 @@ static double length_or(bool given, double value, double metres, const unit_row 
 static int complete(world *w, const options *o) {
     options *c = &w->o;
     *c = *o;
-    c->model = DP_MODEL_FLOAT;
-    for (size_t m = 0; m < c->mapping_count; m++)
-        if (dp_mapping_get(c->mappings[m])->curve != DP_CURVE_PERSPECTIVE)
+    c->camera.model = DP_MODEL_FLOAT;
+    for (size_t m = 0; m < c->camera.mapping_count; m++)
+        if (dp_mapping_get(c->camera.mappings[m])->curve != DP_CURVE_PERSPECTIVE)
             return option_error(OPTION_MAPPING, "must be one of " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
-                                dp_mapping_get(c->mappings[m])->name);
-    if (o->at.count > 1)
-        return option_error(OPTION_AT, "must be one depth, got %zu", o->at.count);
-    w->z = length_or(o->at.count > 0, o->at.lo, 10.0, o->unit);
-    w->wanted = length_or(option_given(o, OPTION_SEPARATION), o->separation, 0.01, o->unit);
-    w->distances = o->distances;
+                                dp_mapping_get(c->camera.mappings[m])->name);
+    if (o->camera.at.count > 1)
+        return option_error(OPTION_AT, "must be one depth, got %zu", o->camera.at.count);
+    w->z = length_or(o->camera.at.count > 0, o->camera.at.lo, 10.0, o->camera.unit);
+    w->wanted = length_or(option_given(o, OPTION_SEPARATION), o->wanted.separation, 0.01, o->camera.unit);
+    w->distances = o->world.distances;
     if (w->distances.count > 0 && !(w->distances.lo >= 0.0 && w->distances.hi <= WORLD_FARTHEST))
         return option_error(OPTION_FROM_ORIGIN, "must be from 0 to 1e12 scene units, got %s",
                             number_full(w->distances.lo < 0.0 ? w->distances.lo : w->distances.hi).text);
@@ -215,7 +215,7 @@ static int complete(world *w, const options *o) {
 /* Surfaces face the camera; of the view there is left how many pixels it has and how far its corners are. */
 static void take_view(world *w) {
     const dp_triangles standard = dp_triangles_default();
-    dp_triangles *t = &w->o.triangles;
+    dp_triangles *t = &w->o.camera.triangles;
     w->width = t->width > 0 ? t->width : standard.width;
     w->height = t->width > 0 ? t->height : standard.height;
     w->fov = t->width > 0 ? t->fov_y : standard.fov_y;
@@ -224,14 +224,14 @@ static void take_view(world *w) {
     w->asked = (world_asked){.z = w->z,
                              .ray_ratio = dp_hypot(1.0, half * dp_hypot(1.0, (double)w->width / w->height)),
                              .pixels = 0.5 * w->height / half,
-                             .shared_origin = w->o.shared_origin};
+                             .shared_origin = w->o.world.shared_origin};
 }
 
 /* The default is in metres, near and far may be of scene units: who gave no depth is told both. */
 static int refuse_depth(const world *w) {
     const char *unit = options_unit(&w->o);
-    const number_text z = number_in(number_full(w->z), unit), lo = number_in(number_full(w->o.znear), unit);
-    const number_text hi = number_in(number_full(w->o.zfar), unit);
+    const number_text z = number_in(number_full(w->z), unit), lo = number_in(number_full(w->o.camera.znear), unit);
+    const number_text hi = number_in(number_full(w->o.camera.zfar), unit);
     if (option_given(&w->o, OPTION_AT))
         return option_error(OPTION_AT, "must lie between near and far, %s and %s, got %s", lo.text, hi.text, z.text);
     return option_error(OPTION_AT, "must be given: 10 m ahead, %s here, is not between near and far, %s and %s", z.text,
@@ -246,13 +246,13 @@ int cmd_world(const options *o) {
         return status;
     take_view(&w);
     status = setups_make(&w.o, &w.all);
-    if (status == EXIT_FINE && !(w.z >= w.o.znear && w.z <= w.o.zfar))
+    if (status == EXIT_FINE && !(w.z >= w.o.camera.znear && w.z <= w.o.camera.zfar))
         status = refuse_depth(&w);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
     if (status == EXIT_FINE) {
         const unsigned when = w.distances.count > 0 ? AT_DISTANCE : 0;
-        report_write(&(report_spec){"world", columns, &w, .when = when, .label = 10}, &out, o->form);
+        report_write(&(report_spec){"world", columns, &w, .when = when, .label = 10}, &out, o->out.form);
         status = output_close(&out);
     }
     setups_release(&w.all);

@@ -46,18 +46,18 @@ static int tick(void *context, uint64_t done) {
 }
 
 static uint64_t visits(const zfight *z) {
-    return z->each.o->sample > 0 ? z->each.o->sample : census_count(z->lo, z->hi);
+    return z->each.o->census.sample > 0 ? z->each.o->census.sample : census_count(z->lo, z->hi);
 }
 
 static census_status work(zfight *z, const dp_setup *setup, census_result *result) {
     census_sample_request q = {.common = census_of_guarantee(setup, z->lo, z->hi),
-                               .count = z->each.o->sample,
-                               .seed = z->each.o->seed,
-                               .gap = z->each.o->separation};
-    q.common.threads = z->each.o->threads;
+                               .count = z->each.o->census.sample,
+                               .seed = z->each.o->census.seed,
+                               .gap = z->each.o->wanted.separation};
+    q.common.threads = z->each.o->out.threads;
     q.common.progress = tick;
     q.common.context = z;
-    if (z->each.o->sample > 0 || z->each.o->separation > 0.0)
+    if (z->each.o->census.sample > 0 || z->each.o->wanted.separation > 0.0)
         return census_sample(&q, result);
     return census_run(&q.common, result);
 }
@@ -103,9 +103,10 @@ static band band_of(const zfight *z, const census_band *b) {
                 .used = b->slack,
                 .clipped = (double)b->clipped,
                 .slanted = slanted_over(z, b->lo, b->hi)};
-    if (z->each.o->separation > 0.0)
+    if (z->each.o->wanted.separation > 0.0)
         out.longest = out.used = (double)NAN;
-    if (z->each.o->separation > 0.0 || z->each.o->sample > 0) /* a sample would only count those that it drew */
+    if (z->each.o->wanted.separation > 0.0 ||
+        z->each.o->census.sample > 0) /* a sample would only count those that it drew */
         out.clipped = (double)NAN;
     return out;
 }
@@ -118,7 +119,7 @@ static void *next_band(void *of, size_t index) {
     while (z->band_index < z->result->band_count && is_empty(&z->result->bands[z->band_index]))
         z->band_index++;
     const int at = z->band_index++;
-    if (at > z->result->band_count || (at == z->result->band_count && z->each.o->form != FORM_TEXT))
+    if (at > z->result->band_count || (at == z->result->band_count && z->each.o->out.form != FORM_TEXT))
         return NULL;
     z->band = band_of(z, at < z->result->band_count ? &z->result->bands[at] : &z->result->all);
     snprintf(z->band.from, sizeof z->band.from, "%s",
@@ -149,7 +150,7 @@ static void say_gap(page *p, const zfight *z) {
     const number_text gap = number_in(number_full(z->gap), p->unit);
     const number_text first = number_in(number_down(all->first, DIGITS), p->unit);
     const number_text always = number_in(number_up(z->always, DIGITS), p->unit);
-    const char *drawn = z->each.o->sample > 0 ? "Of the pairs drawn, surfaces" : "Surfaces";
+    const char *drawn = z->each.o->census.sample > 0 ? "Of the pairs drawn, surfaces" : "Surfaces";
     if (isnan(all->first))
         page_text(p, "%s %s apart never fight from %s to %s.", drawn, gap.text,
                   number_in(number_full(z->lo), p->unit).text, number_in(number_full(z->hi), p->unit).text);
@@ -164,7 +165,7 @@ static void say_gap(page *p, const zfight *z) {
 static void say_neighbours(page *p, const zfight *z) {
     const census_band *all = &z->result->all;
     page_text(p, "Neighbouring binary32 depths%s: %s %% tie, %s %% swap. --separation asks about surfaces.",
-              z->each.o->sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
+              z->each.o->census.sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
               number_of(z->whole.swaps, 3).text);
     if (all->longest > 0.0)
         page_line(p, "longest interval %s at z = %s, guaranteed there %s",
@@ -196,8 +197,9 @@ static void say_planes(page *p, void *item) {
 enum { WITH_INTERVALS = 1, WITH_CLIPPED = 2, WITH_SAMPLE = 4, WITH_GAP = 8, WITH_TRIANGLES = 16 };
 
 static unsigned conditions(const options *o) {
-    return (o->separation > 0.0 ? WITH_GAP : WITH_INTERVALS) | (o->sample > 0 ? WITH_SAMPLE : 0) |
-           (o->sample == 0 && o->separation <= 0.0 ? WITH_CLIPPED : 0) | (o->triangles.width > 0 ? WITH_TRIANGLES : 0);
+    return (o->wanted.separation > 0.0 ? WITH_GAP : WITH_INTERVALS) | (o->census.sample > 0 ? WITH_SAMPLE : 0) |
+           (o->census.sample == 0 && o->wanted.separation <= 0.0 ? WITH_CLIPPED : 0) |
+           (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
 }
 
 static const column count_columns[] = {
@@ -262,7 +264,7 @@ static const column columns[] = {
 
 /* Geometry that the user asked about and the hardware would not draw: worth a line, whatever the form of the data. */
 static void warn(const zfight *z) {
-    for (size_t i = 0; i < z->each.all.count && !z->each.o->quiet; i++) {
+    for (size_t i = 0; i < z->each.all.count && !z->each.o->out.quiet; i++) {
         const census_result *r = &z->results[i];
         const double from = r->near_effective, to = r->far_effective;
         char label[SETUP_LABEL_SIZE];
@@ -277,7 +279,7 @@ static void warn(const zfight *z) {
 
 static int check(zfight *z) {
     const options *o = z->each.o;
-    if (option_given(o, OPTION_SEED) && o->sample == 0)
+    if (option_given(o, OPTION_SEED) && o->census.sample == 0)
         return option_error(OPTION_SEED, "needs --sample");
     int status = setups_make_float(o, &z->each.all);
     if (status == EXIT_FINE)
@@ -289,14 +291,14 @@ static int check(zfight *z) {
                               number_full(z->hi).text);
     if (status == EXIT_FINE && census_count(z->lo, z->hi) < 2)
         status = option_error(OPTION_RANGE, "must hold at least two binary32 depths");
-    if (status == EXIT_FINE && o->separation >= z->hi - z->lo)
+    if (status == EXIT_FINE && o->wanted.separation >= z->hi - z->lo)
         status = option_error(OPTION_SEPARATION, "must be less than the range is wide");
     return status;
 }
 
 static int run(zfight *z) {
     stop_watch();
-    z->each.progress = progress_start("depths", z->each.all.count * visits(z), z->each.o->quiet);
+    z->each.progress = progress_start("depths", z->each.all.count * visits(z), z->each.o->out.quiet);
     int status = work_all(z);
     progress_end(&z->each.progress);
     stop_end(&z->each.out);
@@ -304,17 +306,21 @@ static int run(zfight *z) {
         output_abandon(&z->each.out);
         return status;
     }
-    report_write(&(report_spec){"zfight", columns, z, .when = conditions(z->each.o)}, &z->each.out, z->each.o->form);
+    report_write(&(report_spec){"zfight", columns, z, .when = conditions(z->each.o)}, &z->each.out,
+                 z->each.o->out.form);
     warn(z);
     return output_close(&z->each.out);
 }
 
 int cmd_zfight(const options *o) {
-    if (o->drawn)
+    if (o->census.drawn)
         return zfight_triangles(o);
-    if (!isnan(o->azimuth))
+    if (!isnan(o->camera.azimuth))
         return option_error(OPTION_SLANT, "must be LO:HI without --rasterize, got '%s'", o->given[OPTION_SLANT]);
-    zfight z = {.each.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->separation};
+    zfight z = {.each.o = o,
+                .method = o->census.sample > 0 ? "sample" : "census",
+                .seed = o->census.seed,
+                .gap = o->wanted.separation};
     z.triangles = slant_fields_of(o, &z.slant);
     int status = check(&z);
     if (status == EXIT_FINE) {

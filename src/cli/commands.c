@@ -72,7 +72,8 @@ const command_row command_rows[CMD_COUNT] = {
      "  capture | depthprec texture - -n 0.3 -f 1000\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
      "  depthprec texture depth.png -f 1000 --product normal:high -o normals.npy\n"
-     "  depthprec texture --synthetic decals --parameter gap=0.01 -F d24 -m reversed\n", 1, NULL, texture_part, texture_parts},
+     "  depthprec texture --synthetic decals --parameter gap=0.01 -F d24 -m reversed\n", 1, NULL,
+     texture_part, texture_parts},
     [CMD_SHADOW] = {"shadow", CMD_SHADOW, shadow_uses, "", 0, 0, NULL,
      "shadow maps: the bias without acne, and its gap",
      "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"

@@ -57,7 +57,7 @@ typedef struct comparison {
 /* ---- What is measured -------------------------------------------------------------------------------------------- */
 
 static void compute_row(const comparison *c, compared *r) {
-    const unit_row *unit = c->each->o->unit;
+    const unit_row *unit = c->each->o->camera.unit;
     const dp_setup full = dp_setup_guaranteed(r->setup);
     for (size_t i = 0; i < c->depth_count; i++) {
         const double z = unit_convert(c->depths[i], unit, r->unit);
@@ -106,11 +106,11 @@ static void choose_depths(comparison *c) {
         far = fmax(far, isinf(c->rows[i].zfar) ? 1e6 * c->rows[i].znear : c->rows[i].zfar);
     }
     if (option_given(o, OPTION_AT)) {
-        for (c->depth_count = 0; c->depth_count < o->at.count; c->depth_count++)
-            c->depths[c->depth_count] = depths_get(&o->at, c->depth_count);
+        for (c->depth_count = 0; c->depth_count < o->camera.at.count; c->depth_count++)
+            c->depths[c->depth_count] = depths_get(&o->camera.at, c->depth_count);
         return;
     }
-    const int most = o->preset_count > 1 ? DEPTHS_OF_PRESETS : DEPTHS;
+    const int most = o->camera.preset_count > 1 ? DEPTHS_OF_PRESETS : DEPTHS;
     if (!(near > 0)) {
         choose_multiples(c, near, far, most);
         return;
@@ -130,7 +130,7 @@ static bool to_the_end(const compared *r) {
 }
 
 static const char *at_a_slant(const comparison *c) {
-    return c->each->o->triangles.width > 0 ? " at any slant" : "";
+    return c->each->o->camera.triangles.width > 0 ? " at any slant" : "";
 }
 
 static void say_farthest(page *p, const comparison *c, const char *limit) {
@@ -148,7 +148,7 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
         page_text(p, "None of these is guaranteed to tell surfaces %s apart%s, even at the near plane.", limit, slant);
     else if (all == 0)
         page_text(p, "%s goes farthest: it tells surfaces %s apart%s up to z = %s.", best->name, limit, slant,
-                  resolved_text(best->zfar, best->up_to[MIDDLE], c->each->o->unit, text));
+                  resolved_text(best->zfar, best->up_to[MIDDLE], c->each->o->camera.unit, text));
     else
         page_text(p, "%s tell%s surfaces %s apart%s all the way to the far plane.", names, all == 1 ? "s" : "", limit,
                   slant);
@@ -174,8 +174,8 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
         const compared *r = &c->rows[i], *other = reversed_of(c, r);
         if (other == NULL || r->cost.buffer == 0 || isnan(r->up_to[MIDDLE]))
             continue;
-        resolved_text(r->zfar, r->up_to[MIDDLE], c->each->o->unit, before);
-        resolved_text(other->zfar, other->up_to[MIDDLE], c->each->o->unit, after);
+        resolved_text(r->zfar, r->up_to[MIDDLE], c->each->o->camera.unit, before);
+        resolved_text(other->zfar, other->up_to[MIDDLE], c->each->o->camera.unit, after);
         append(gains, sizeof gains, "%s %s", *gains != '\0' ? "," : "", r->name);
         append(gains, sizeof gains, strcmp(before, after) == 0 ? " not at all" : " from %s to %s", before, after);
     }
@@ -185,8 +185,8 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
 
 static void say_notes(page *p, void *item) {
     const comparison *c = item;
-    const number_text limit = resolved_limit_text(MIDDLE, c->each->o->unit);
-    const bool slanted = c->each->o->triangles.width > 0;
+    const number_text limit = resolved_limit_text(MIDDLE, c->each->o->camera.unit);
+    const bool slanted = c->each->o->camera.triangles.width > 0;
     bool bent = false, linear = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
@@ -215,20 +215,20 @@ static void say_cameras(page *p, const comparison *c) {
     char planes[1024] = "", unit[32] = "";
     if (p->unit != NULL)
         snprintf(unit, sizeof unit, ", lengths in %s", p->unit);
-    if (o->preset_count < 2) {
-        page_title(p, "near %s, far %s, %s%s", number_full(o->znear).text, number_full(o->zfar).text,
-                   o->ortho ? "orthographic" : "perspective", unit);
+    if (o->camera.preset_count < 2) {
+        page_title(p, "near %s, far %s, %s%s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
+                   o->camera.ortho ? "orthographic" : "perspective", unit);
         slant_say(p, page_title, o, NULL);
         return;
     }
-    page_title(p, "%zu presets, %s%s", o->preset_count, o->ortho ? "orthographic" : "perspective", unit);
+    page_title(p, "%zu presets, %s%s", o->camera.preset_count, o->camera.ortho ? "orthographic" : "perspective", unit);
     slant_say(p, page_title, o, NULL);
-    for (size_t k = 0; k < o->preset_count; k++)
+    for (size_t k = 0; k < o->camera.preset_count; k++)
         for (size_t i = 0; i < c->each->all.count; i++)
             if (c->rows[i].camera == k) {
-                append(planes, sizeof planes, "%s%s near %s, far %s", k > 0 ? "; " : "", o->presets[k]->name,
+                append(planes, sizeof planes, "%s%s near %s, far %s", k > 0 ? "; " : "", o->camera.presets[k]->name,
                        number_full(c->rows[i].znear).text, number_full(c->rows[i].zfar).text);
-                if (o->triangles.width > 0)
+                if (o->camera.triangles.width > 0)
                     append(planes, sizeof planes, ", fov %s, %s", number_of(c->rows[i].fov_y, DIGITS_FOV).text,
                            c->rows[i].raster);
                 break;
@@ -244,7 +244,7 @@ static void say_head(page *p, void *item) {
     const int width = COLUMN_WIDTH * (int)c->depth_count, limits = c->limit_end - c->limit_begin;
     p->unit = options_unit(c->each->o);
     say_cameras(p, c);
-    const char *const *words = above_depths[c->each->o->triangles.width > 0];
+    const char *const *words = above_depths[c->each->o->camera.triangles.width > 0];
     output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : words[2], width,
                   width > 27   ? words[0]
                   : width > 20 ? words[1]
@@ -278,7 +278,7 @@ static void write(comparison *c) {
     }
     for (int i = c->limit_begin; i < c->limit_end; i++) {
         char *title = c->titles[DEPTHS + i];
-        snprintf(title, NUMBER_SIZE, "%s", resolved_limit_text((size_t)i, c->each->o->unit).text);
+        snprintf(title, NUMBER_SIZE, "%s", resolved_limit_text((size_t)i, c->each->o->camera.unit).text);
         rows[n++] = (column){TEXT_FIELD(compared, up_to[0], title, COLUMN_WIDTH, RESOLVED_DIGITS), .downward = true,
                              .brief = true};
         rows[n - 1].offset = offsetof(compared, up_to[i]);
@@ -294,7 +294,7 @@ static void write(comparison *c) {
 
 bool compare_suits(const each_setup *w) {
     const options *o = w->o;
-    return o->form == FORM_TEXT && w->all.count > 1 && !o->full && !option_given(o, OPTION_MODEL) &&
+    return o->out.form == FORM_TEXT && w->all.count > 1 && !o->out.full && !option_given(o, OPTION_MODEL) &&
            !option_given(o, OPTION_RANGE) && !option_given(o, OPTION_TOLERANCE) &&
            (!option_given(o, OPTION_AT) || w->at.count <= DEPTHS);
 }
@@ -302,24 +302,24 @@ bool compare_suits(const each_setup *w) {
 static void compare_setup(comparison *c, size_t i) {
     compared *r = &c->rows[i];
     const options *o = c->each->o;
-    const bool slanted = o->triangles.width > 0;
+    const bool slanted = o->camera.triangles.width > 0;
     each_setup_go(c->each, i);
     const dp_mapping mapping = c->each->setup->spec.mapping;
     const char *engine = c->each->fields.preset;
     *r = (compared){.setup = c->each->setup,
                     .camera = c->each->all.cameras[i],
-                    .unit = c->each->here.unit,
-                    .znear = unit_convert(c->each->setup->spec.znear, c->each->here.unit, o->unit),
-                    .zfar = unit_convert(c->each->setup->spec.zfar, c->each->here.unit, o->unit),
-                    .fov_y = c->each->here.triangles.fov_y,
+                    .unit = c->each->here->camera.unit,
+                    .znear = unit_convert(c->each->setup->spec.znear, c->each->here->camera.unit, o->camera.unit),
+                    .zfar = unit_convert(c->each->setup->spec.zfar, c->each->here->camera.unit, o->camera.unit),
+                    .fov_y = c->each->here->camera.triangles.fov_y,
                     .unbounded = slanted && dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE,
                     .cost = cost_of(&c->each->setup->spec.format, mapping)};
     char label[SETUP_LABEL_SIZE];
-    const raster_row *raster = c->each->here.raster;
+    const raster_row *raster = c->each->here->camera.raster;
     if (raster != NULL)
         snprintf(r->raster, sizeof r->raster, "%s", raster->name);
     else
-        snprintf(r->raster, sizeof r->raster, "%d subpixel bits", c->each->here.triangles.subpixel);
+        snprintf(r->raster, sizeof r->raster, "%d subpixel bits", c->each->here->camera.triangles.subpixel);
     snprintf(r->name, sizeof r->name, "%s%s%s", engine != NULL ? engine : "", engine != NULL ? " " : "",
              setup_label(r->setup, false, label));
     r->bytes = (uint64_t)r->cost.bytes;

@@ -33,7 +33,7 @@ void depth24plus_say(page *p, const options *o) {
     } formats[] = {
         {"fp32", "fp32 in"}, {"unorm24", "unorm24 in"}, {with_stencil, "either in"}, {open_name, "either in"}};
     const char *given = o->given[OPTION_FORMAT];
-    if (given == NULL || o->platform != NULL || strncasecmp(given, open_name, strlen(open_name)) != 0)
+    if (given == NULL || o->camera.platform != NULL || strncasecmp(given, open_name, strlen(open_name)) != 0)
         return;
     char text[512] = "";
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {

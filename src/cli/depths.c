@@ -24,18 +24,20 @@ double depths_get(const depths *d, size_t i) {
 }
 
 static int check_within(const options *o, option_id id, double lo, double hi) {
-    if (lo >= o->znear && hi <= o->zfar)
+    if (lo >= o->camera.znear && hi <= o->camera.zfar)
         return EXIT_FINE;
     const char *unit = options_unit(o);
     return option_error(id, "depths must lie in [near, far] = [%s, %s%c, got %s",
-                        number_in(number_full(o->znear), unit).text, number_in(number_full(o->zfar), unit).text,
-                        isinf(o->zfar) ? ')' : ']', number_in(number_full(lo < o->znear ? lo : hi), unit).text);
+                        number_in(number_full(o->camera.znear), unit).text,
+                        number_in(number_full(o->camera.zfar), unit).text, isinf(o->camera.zfar) ? ')' : ']',
+                        number_in(number_full(lo < o->camera.znear ? lo : hi), unit).text);
 }
 
 int depths_resolve(const options *o, size_t count, depths *out) {
-    const double end = isinf(o->zfar) ? o->znear * infinite_far_ratio : o->zfar;
-    const depths_kind kind = o->znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN;
-    *out = o->at.count > 0 ? o->at : (depths){.kind = kind, .lo = o->znear, .hi = end, .count = count};
+    const double end = isinf(o->camera.zfar) ? o->camera.znear * infinite_far_ratio : o->camera.zfar;
+    const depths_kind kind = o->camera.znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN;
+    *out = o->camera.at.count > 0 ? o->camera.at
+                                  : (depths){.kind = kind, .lo = o->camera.znear, .hi = end, .count = count};
     const int status = check_within(o, OPTION_AT, out->lo, out->hi);
     if (status == EXIT_FINE && out->kind == DEPTHS_LOG && out->lo <= 0.0)
         return option_error(OPTION_AT, "log spacing needs LO greater than 0, got %s: lin has equal steps",
@@ -52,7 +54,7 @@ int depths_in_binary32(const depths *d) {
 
 int range_resolve(const options *o, double *lo, double *hi) {
     bool asked = option_given(o, OPTION_RANGE);
-    *lo = asked ? o->range_lo : o->znear;
-    *hi = asked ? o->range_hi : o->zfar;
+    *lo = asked ? o->camera.range_lo : o->camera.znear;
+    *hi = asked ? o->camera.range_hi : o->camera.zfar;
     return check_within(o, OPTION_RANGE, *lo, *hi);
 }

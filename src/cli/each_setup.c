@@ -7,8 +7,8 @@ enum { DEFAULT_ROWS = 9 };
 
 /* The depths of set-up i. */
 static int resolve(each_setup *w, size_t i) {
-    options_of(w->o, w->all.cameras[i], &w->here);
-    return depths_resolve(&w->here, DEFAULT_ROWS, &w->at);
+    w->here = options_of(w->o, w->all.cameras[i]);
+    return depths_resolve(w->here, DEFAULT_ROWS, &w->at);
 }
 
 int each_setup_start(each_setup *w, const options *o) {
@@ -23,12 +23,12 @@ int each_setup_write(each_setup *w, const report_spec *spec, int status) {
     if (status == EXIT_FINE)
         status = options_open(w->o, &w->out);
     if (status == EXIT_FINE) {
-        const bool silent = w->o->quiet || isatty(w->out.fd); /* rows on the same terminal are progress enough */
+        const bool silent = w->o->out.quiet || isatty(w->out.fd); /* rows on the same terminal are progress enough */
         w->progress = progress_start("rows", (uint64_t)w->all.count * w->at.count, silent);
-        report_write(spec, &w->out, w->o->form);
+        report_write(spec, &w->out, w->o->out.form);
         progress_end(&w->progress);
         status = output_close(&w->out);
-        if (status == EXIT_FINE && !w->o->quiet)
+        if (status == EXIT_FINE && !w->o->out.quiet)
             clipping_warn(&w->all);
     }
     setups_release(&w->all);
@@ -40,8 +40,8 @@ bool each_setup_go(each_setup *w, size_t i) {
         return false;
     resolve(w, i);
     w->setup = &w->all.items[i];
-    w->fields = setup_fields_of(w->setup, options_unit(&w->here));
-    w->fields.preset = w->o->preset_count > 1 ? w->o->presets[w->all.cameras[i]]->name : NULL;
+    w->fields = setup_fields_of(w->setup, options_unit(w->here));
+    w->fields.preset = w->o->camera.preset_count > 1 ? w->o->camera.presets[w->all.cameras[i]]->name : NULL;
     return true;
 }
 

@@ -15,7 +15,7 @@
 typedef struct each_setup {
     const options *o;
     setups all;
-    options here; /**< those of the set-up at hand, see options_of() */
+    const options *here; /**< those of the set-up at hand, see options_of() */
     depths at;    /**< of the set-up at hand, before there is one of the first */
     output out;
     progress progress;

@@ -28,20 +28,20 @@ static void command_line(const options *o, const char *written, char out[COMMAND
 int figure_file_type(const options *o, option_id id, const char *path, canvas_format *out) {
     const bool typed = option_given(o, OPTION_TYPE);
     *out = canvas_format_of(path);
-    if (typed && *out != CANVAS_FORMAT_COUNT && *out != o->type)
+    if (typed && *out != CANVAS_FORMAT_COUNT && *out != o->figure.type)
         return option_error(OPTION_TYPE, "must be %s, which is what '%s' ends in, got '%s'",
-                            option_word(OPTION_TYPE, *out), path, option_word(OPTION_TYPE, o->type));
+                            option_word(OPTION_TYPE, *out), path, option_word(OPTION_TYPE, o->figure.type));
     if (*out == CANVAS_FORMAT_COUNT && !typed && strcmp(path, "-") != 0)
         return option_error(id, "must end in .svg, .pdf or .png, or --type say which, got '%s'", path);
     if (*out == CANVAS_FORMAT_COUNT)
-        *out = (canvas_format)o->type;
+        *out = (canvas_format)o->figure.type;
     return EXIT_FINE;
 }
 
 bool figure_file_wanted(const options *o) {
-    const bool file = o->output != NULL && strcmp(o->output, "-") != 0;
-    return o->form == FORM_TEXT ||
-           (file && (option_given(o, OPTION_TYPE) || canvas_format_of(o->output) != CANVAS_FORMAT_COUNT));
+    const bool file = o->out.file != NULL && strcmp(o->out.file, "-") != 0;
+    return o->out.form == FORM_TEXT ||
+           (file && (option_given(o, OPTION_TYPE) || canvas_format_of(o->out.file) != CANVAS_FORMAT_COUNT));
 }
 
 bool figure_file_write(const options *o, const char *path, const chart *c, int width, int height, output *out) {
@@ -50,7 +50,7 @@ bool figure_file_write(const options *o, const char *path, const chart *c, int w
     canvas_format type;
     command_line(o, path, line);
     if (figure_file_type(o, OPTION_OUTPUT, path, &type) != EXIT_FINE ||
-        !draw_chart(c, theme_get(o->theme), type, width, height, line, &bytes))
+        !draw_chart(c, theme_get(o->figure.theme), type, width, height, line, &bytes))
         return false;
     output_bytes(out, bytes.at, bytes.size);
     free(bytes.at);

@@ -65,7 +65,7 @@ int link_write(const options *o) {
         return option_error(OPTION_LINK, "holds at most %d characters of UTF-8 without control characters",
                             FRAGMENT_MAX);
     output_open(&out, NULL);
-    output_format(&out, "%s#", o->link);
+    output_format(&out, "%s#", o->out.link);
     output_text(&out, fragment);
     output_char(&out, '\n');
     return output_close(&out);

@@ -233,16 +233,6 @@ static bool list_encoding(size_t index, list_item *item) {
     return true;
 }
 
-bool list_packing(size_t index, list_item *item) {
-    const packing *row = packing_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    append(item->bound, sizeof item->bound, "depth: at most %s%s", number_up(0.5 / row->steps + row->off, 3).text,
-           row->linear ? " of far" : "");
-    return true;
-}
-
 bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});

@@ -46,7 +46,7 @@ static void *next_setup(void *of, size_t i) {
     l->empty = false;
     if (!each_setup_go(&l->each, i))
         return NULL;
-    l->each.at = l->each.o->looked_up;
+    l->each.at = l->each.o->wanted.looked_up;
     return l;
 }
 
@@ -75,7 +75,7 @@ static const column columns[] = {
     {LIST("setups", setup_report, next_setup), .head = each_setup_title, .notes = say_notes}, {.kind = COLUMN_END}};
 
 bool lookup_wanted(const options *o) {
-    return o->looked_up.count > 0;
+    return o->wanted.looked_up.count > 0;
 }
 
 /* What is asked is no depth of the scene, and a code must be one of each format. */
@@ -85,9 +85,9 @@ static int check(const options *o, const setups *all) {
     const option_id asked = option_given(o, OPTION_CODE) ? OPTION_CODE : OPTION_DEPTH;
     for (size_t i = 0; i < all->count && asked == OPTION_CODE; i++) {
         const dp_format *format = &all->items[i].spec.format;
-        if (o->looked_up.hi > (double)format->code_max)
+        if (o->wanted.looked_up.hi > (double)format->code_max)
             return option_error(OPTION_CODE, "must be from 0 to %u in %s, got %s", format->code_max, format->name,
-                                number_full(o->looked_up.hi).text);
+                                number_full(o->wanted.looked_up.hi).text);
     }
     return EXIT_FINE;
 }

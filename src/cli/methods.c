@@ -14,8 +14,8 @@
 void list_method_choice(const options *o, size_t index, char chosen[LIST_TEXT_SIZE]) {
     const method_row *row = method_get(index);
     const method_family_row *family = method_family_get(row->family);
-    const double ratio = o->zfar / o->znear;
-    const method_wish wish = {.tolerance = o->tolerance,
+    const double ratio = o->camera.zfar / o->camera.znear;
+    const method_wish wish = {.tolerance = o->wanted.tolerance,
                               .ratio_lo = ratio,
                               .ratio_hi = ratio,
                               .pipeline = (row->domain & METHOD_PIPELINE) != 0};
@@ -29,10 +29,10 @@ static bool wanted(const options *o, const method_case *c) {
     dp_format format[2];
     bool formatted = !option_given(o, OPTION_FORMAT), mapped = !option_given(o, OPTION_MAPPING);
     dp_format_parse(c->format, format);
-    for (size_t i = 0; i < o->format_count; i++)
-        formatted = formatted || strcmp(o->formats[i].name, format[0].name) == 0;
-    for (size_t i = 0; i < o->mapping_count; i++)
-        mapped = mapped || o->mappings[i] == c->mapping;
+    for (size_t i = 0; i < o->camera.format_count; i++)
+        formatted = formatted || strcmp(o->camera.formats[i].name, format[0].name) == 0;
+    for (size_t i = 0; i < o->camera.mapping_count; i++)
+        mapped = mapped || o->camera.mappings[i] == c->mapping;
     return formatted && mapped;
 }
 
@@ -42,7 +42,7 @@ int methods_resolve(const options *o, const method_family_row *family, methods_a
     for (size_t i = 0; i < out->family->case_count; i++) {
         if (wanted(o, &out->family->cases[i])) {
             out->which = i;
-            dp_status wrong = method_setup(out->family, i, o->znear, o->zfar, false, &out->setup);
+            dp_status wrong = method_setup(out->family, i, o->camera.znear, o->camera.zfar, false, &out->setup);
             if (wrong != DP_OK)
                 return option_error(wrong == DP_ERROR_NEAR ? OPTION_NEAR : OPTION_FAR, "%s", dp_status_text(wrong));
             return EXIT_FINE;

@@ -5,6 +5,7 @@
 
 #include "cli/option/options.h"
 #include "core/append.h"
+#include "report/number.h"
 
 /* ---- Methods ---------------------------------------------------------------------------------------------------- */
 
@@ -45,6 +46,16 @@ bool list_normal(size_t index, list_item *item) {
            list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
 }
 
+bool list_packing(size_t index, list_item *item) {
+    const packing *row = packing_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    append(item->bound, sizeof item->bound, "depth: at most %s%s", number_up(0.5 / row->steps + row->off, 3).text,
+           row->linear ? " of far" : "");
+    return true;
+}
+
 /* ---- Kinds ---------------------------------------------------------------------------------------------------- */
 
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
@@ -61,16 +72,17 @@ static const product_row rows[] = {
     {"linear01", "eye depth over far, as Unity's Linear01Depth", FRAME_LINEAR01, .by = "eye depth over far", .unit = "",
      .unit_of_error = ""},
     {"raw", "window depth, of sky too", FRAME_RAW, .by = "window depth", .unit = "", .unit_of_error = ""},
-    {"position", "world positions, by default exact: the truth", FRAME_POSITION, METHOD(positions, position, "exact"),
-     .by = "positions by ", .unit = "scene units", .unit_of_error = "scene units"},
-    {"normal", "normals, by default projective", FRAME_NORMAL, METHOD(normals, normal, "projective"),
+    {"position", "world positions, by default exact: the truth", FRAME_POSITION,
+     METHOD(positions, image.position, "exact"), .by = "positions by ", .unit = "scene units",
+     .unit_of_error = "scene units"},
+    {"normal", "normals, by default projective", FRAME_NORMAL, METHOD(normals, image.normal, "projective"),
      .by = "normals by ", .unit = "", .unit_of_error = "degrees"},
     {"packed-normal", "the normals that --packing depth-normals holds beside the depth", FRAME_NORMAL, .packed = true,
      .by = "", .unit = "", .unit_of_error = ""},
     {"pack", "the depths in several channels of 8 bits, a PNG or NPY, as --packing reads them back", FRAME_EYE,
-     METHOD(packings, pack, NULL), .by = "", .unit = "", .unit_of_error = ""},
+     METHOD(packings, image.pack, NULL), .by = "", .unit = "", .unit_of_error = ""},
     {"effect", "an effect that reads depth; without an image, the usable values of its parameter", FRAME_EFFECT,
-     METHOD(effects, effect, NULL), .by = "", .unit = "", .unit_of_error = "levels of 1/255"},
+     METHOD(effects, image.effect, NULL), .by = "", .unit = "", .unit_of_error = "levels of 1/255"},
 };
 
 const product_row *product_get(size_t index) {

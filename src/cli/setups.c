@@ -40,12 +40,12 @@ int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
 }
 
 int setup_undrawn(const options *o, const dp_format *format) {
-    if (o->raster == NULL || raster_bounded(o->raster, format))
+    if (o->camera.raster == NULL || raster_bounded(o->camera.raster, format))
         return EXIT_FINE;
     return option_error(OPTION_RASTER,
                         "%s steps the codes of %s from pixel to pixel, which has no bound: name other formats with "
                         "--format",
-                        o->raster->name, format->name);
+                        o->camera.raster->name, format->name);
 }
 
 /* What has a budget: a logarithmic mapping without the terms that its shader has not. */
@@ -71,28 +71,28 @@ static int check_budget(const options *o, const dp_spec *spec) {
 }
 
 int setup_decided(const options *o) {
-    if (o->platform == NULL || option_given(o, OPTION_FORMAT) || o->format_count < 2)
+    if (o->camera.platform == NULL || option_given(o, OPTION_FORMAT) || o->camera.format_count < 2)
         return EXIT_FINE;
     return option_error(OPTION_PLATFORM, "stores unorm24 or fp32 on %s, as the device has it: -F says for which",
-                        o->platform->name);
+                        o->camera.platform->name);
 }
 
 static int add_setups(const options *o, size_t camera, setups *out) {
-    dp_spec spec = {.znear = o->znear,
-                    .zfar = o->zfar,
-                    .ortho = o->ortho,
-                    .rounding = o->rounding,
-                    .model = o->model,
-                    .arith = o->arith,
-                    .log_c = o->log_c,
-                    .triangles = o->triangles};
-    for (size_t f = 0; f < o->format_count; f++)
-        for (size_t m = 0; m < o->mapping_count; m++) {
-            spec.format = o->formats[f];
-            spec.mapping = o->mappings[m];
+    dp_spec spec = {.znear = o->camera.znear,
+                    .zfar = o->camera.zfar,
+                    .ortho = o->camera.ortho,
+                    .rounding = o->camera.rounding,
+                    .model = o->camera.model,
+                    .arith = o->camera.arith,
+                    .log_c = o->camera.log_c,
+                    .triangles = o->camera.triangles};
+    for (size_t f = 0; f < o->camera.format_count; f++)
+        for (size_t m = 0; m < o->camera.mapping_count; m++) {
+            spec.format = o->camera.formats[f];
+            spec.mapping = o->camera.mappings[m];
             const bool shader = dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG;
-            spec.model = o->budgeted && shader ? DP_MODEL_EXACT : o->model;
-            if (o->budgeted && check_budget(o, &spec) != EXIT_FINE)
+            spec.model = o->camera.budgeted && shader ? DP_MODEL_EXACT : o->camera.model;
+            if (o->camera.budgeted && check_budget(o, &spec) != EXIT_FINE)
                 return EXIT_USAGE;
             if (options_check_stored(o, &spec.format) != EXIT_FINE || setup_undrawn(o, &spec.format) != EXIT_FINE)
                 return EXIT_USAGE;
@@ -117,12 +117,9 @@ int setups_make(const options *o, setups *out) {
     *out = (setups){.items = malloc(most * sizeof *out->items), .cameras = malloc(most * sizeof *out->cameras)};
     if (out->items == NULL || out->cameras == NULL)
         status = usage_error("no memory for %zu set-ups", most);
-    for (size_t i = 0; i < cameras && status == EXIT_FINE; i++) {
-        options one;
-        options_of(o, i, &one);
-        status = add_setups(&one, i, out);
-    }
-    if (status == EXIT_FINE && o->budgeted && option_given(o, OPTION_LOG2) && !setups_have_log(out))
+    for (size_t i = 0; i < cameras && status == EXIT_FINE; i++)
+        status = add_setups(options_of(o, i), i, out);
+    if (status == EXIT_FINE && o->camera.budgeted && option_given(o, OPTION_LOG2) && !setups_have_log(out))
         status = option_error(OPTION_LOG2, "needs one of the mappings " DP_MAPPING_NAMES_LOG);
     if (status != EXIT_FINE)
         setups_release(out);
@@ -131,7 +128,7 @@ int setups_make(const options *o, setups *out) {
 
 int setups_make_float(const options *o, setups *out) {
     options in_float = *o;
-    in_float.model = DP_MODEL_FLOAT;
+    in_float.camera.model = DP_MODEL_FLOAT;
     return setups_make(&in_float, out);
 }
 

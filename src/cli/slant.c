@@ -21,9 +21,9 @@ static void say_rasterizer(page *p, slant_line *line, const raster_row *row, int
 }
 
 void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setup) {
-    const dp_triangles *t = &o->triangles;
-    const bool theirs = setup == NULL && o->preset_count > 1; /* each has its own view and rasterizer */
-    const char *const arith = dp_arith_get(setup != NULL ? setup->spec.arith : o->arith)->name;
+    const dp_triangles *t = &o->camera.triangles;
+    const bool theirs = setup == NULL && o->camera.preset_count > 1; /* each has its own view and rasterizer */
+    const char *const arith = dp_arith_get(setup != NULL ? setup->spec.arith : o->camera.arith)->name;
     char view[64] = "";
     if (t->width == 0)
         return;
@@ -33,20 +33,21 @@ void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setu
     }
     if (!theirs)
         append(view, sizeof view, " fov %s,", number_of(t->fov_y, DIGITS).text);
-    if (!theirs && o->raster == NULL)
+    if (!theirs && o->camera.raster == NULL)
         append(view, sizeof view, " %d subpixel bits,", t->subpixel);
     line(p, "viewport %dx%d,%s slant %s to %s degrees%s%s", t->width, t->height, view, number_full(t->slant_lo).text,
-         number_full(t->slant_hi).text, o->raster == NULL ? ", " : "", o->raster == NULL ? arith : "");
-    if (!theirs && o->raster != NULL)
-        say_rasterizer(p, line, o->raster, t->subpixel, arith);
+         number_full(t->slant_hi).text, o->camera.raster == NULL ? ", " : "", o->camera.raster == NULL ? arith : "");
+    if (!theirs && o->camera.raster != NULL)
+        say_rasterizer(p, line, o->camera.raster, t->subpixel, arith);
     line(p, "triangles from z/%s to %s z, at most %s pixels, no slimmer than 1:%s", number_full(t->depth).text,
          number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
 }
 
 const slant_fields *slant_fields_of(const options *o, slant_fields *out) {
-    if (o->triangles.width == 0)
+    if (o->camera.triangles.width == 0)
         return NULL;
-    *out = (slant_fields){o->triangles, o->raster != NULL ? o->raster->name : NULL, dp_arith_get(o->arith)->name};
+    *out = (slant_fields){o->camera.triangles, o->camera.raster != NULL ? o->camera.raster->name : NULL,
+                          dp_arith_get(o->camera.arith)->name};
     return out;
 }
 

@@ -40,12 +40,12 @@ static draw_fight_request request_of(drawn *d, const dp_setup *setup, const draw
     const options *o = d->each.o;
     return (draw_fight_request){.camera = camera,
                                 .setup = setup,
-                                .azimuth = o->azimuth,
+                                .azimuth = o->camera.azimuth,
                                 .lo = d->lo,
                                 .hi = d->hi,
-                                .count = o->sample > 0 ? o->sample : PAIRS,
-                                .seed = o->seed,
-                                .threads = o->threads,
+                                .count = o->census.sample > 0 ? o->census.sample : PAIRS,
+                                .seed = o->census.seed,
+                                .threads = o->out.threads,
                                 .progress = tick,
                                 .context = d};
 }
@@ -54,7 +54,7 @@ static int work(drawn *d) {
     for (size_t i = 0; i < d->each.all.count; i++) {
         const dp_setup *setup = &d->each.all.items[i];
         draw_camera camera;
-        const raster_status status = draw_camera_init(&camera, d->each.o->raster, setup);
+        const raster_status status = draw_camera_init(&camera, d->each.o->camera.raster, setup);
         if (status != RASTER_OK)
             return option_error(OPTION_VIEWPORT, "%s", raster_status_text(status));
         const draw_fight_request request = request_of(d, setup, &camera);
@@ -164,7 +164,7 @@ static int run(drawn *d) {
     const draw_fight_request request = request_of(d, NULL, NULL);
     d->pairs = draw_fight_count(&request);
     stop_watch();
-    d->each.progress = progress_start("pairs", d->each.all.count * d->pairs, d->each.o->quiet);
+    d->each.progress = progress_start("pairs", d->each.all.count * d->pairs, d->each.o->out.quiet);
     const int status = work(d);
     progress_end(&d->each.progress);
     stop_end(&d->each.out);
@@ -172,12 +172,12 @@ static int run(drawn *d) {
         output_abandon(&d->each.out);
         return status;
     }
-    report_write(&(report_spec){"zfight", columns, d, .when = 0}, &d->each.out, d->each.o->form);
+    report_write(&(report_spec){"zfight", columns, d, .when = 0}, &d->each.out, d->each.o->out.form);
     return output_close(&d->each.out);
 }
 
 int zfight_triangles(const options *o) {
-    drawn d = {.each.o = o, .method = "triangles", .seed = o->seed, .azimuth = o->azimuth};
+    drawn d = {.each.o = o, .method = "triangles", .seed = o->census.seed, .azimuth = o->camera.azimuth};
     int status = check(&d);
     slant_fields_of(o, &d.slant);
     if (status == EXIT_FINE) {

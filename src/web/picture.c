@@ -32,17 +32,17 @@ static int make(const options *all) {
     options o;
     size_t format = 0;
     options_of(all, 0, &o);
-    const raster_row *row = o.raster != NULL ? o.raster : raster_find("llvmpipe");
-    while (format + 1 < o.format_count && !raster_draws(row, &o.formats[format]))
+    const raster_row *row = o.camera.raster != NULL ? o.camera.raster : raster_find("llvmpipe");
+    while (format + 1 < o.camera.format_count && !raster_draws(row, &o.camera.formats[format]))
         format++;
-    const dp_spec spec = {.znear = o.znear,
-                          .zfar = o.zfar,
-                          .ortho = o.ortho,
-                          .mapping = o.mappings[0],
-                          .format = o.formats[format],
-                          .rounding = o.rounding,
-                          .log_c = o.log_c};
-    const double z = o.at.count > 0 ? depths_get(&o.at, 0) : (double)NAN;
+    const dp_spec spec = {.znear = o.camera.znear,
+                          .zfar = o.camera.zfar,
+                          .ortho = o.camera.ortho,
+                          .mapping = o.camera.mappings[0],
+                          .format = o.camera.formats[format],
+                          .rounding = o.camera.rounding,
+                          .log_c = o.camera.log_c};
+    const double z = o.camera.at.count > 0 ? depths_get(&o.camera.at, 0) : (double)NAN;
     const char *wrong = draw_picture_open(&picture, &spec, row, z);
     unit = options_unit(&o);
     return wrong == NULL ? EXIT_FINE : usage_error("%s: %s", row->name, wrong);

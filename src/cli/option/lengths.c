@@ -40,9 +40,9 @@ static bool read_length(lengths *seen, const char *text, size_t length, number_k
     if (unit == NULL || memchr(text, 'x', end) != NULL || memchr(text, 'X', end) != NULL ||
         !number_parse_part(text, end, NUMBER_FINITE, &number))
         return false;
-    if (seen->o->unit == NULL)
-        seen->o->unit = unit_find("m");
-    *out = unit_convert(number, unit, seen->o->unit);
+    if (seen->o->camera.unit == NULL)
+        seen->o->camera.unit = unit_find("m");
+    *out = unit_convert(number, unit, seen->o->camera.unit);
     seen->named = true;
     return isfinite(*out) && (*out != 0.0) == (number != 0.0);
 }
@@ -86,20 +86,21 @@ int parse_separation_or_0(options *o, const option_row *row, const char *value) 
     double apart;
     if (!number_parse(value, NUMBER_FINITE, &apart) || apart != 0.0)
         return parse_length(o, row, value);
-    o->separation = 0.0;
+    o->wanted.separation = 0.0;
     return EXIT_FINE;
 }
 
 /* What is not positive needs --ortho, which may come later: check_near() of options.c. */
 int parse_near(options *o, const option_row *row, const char *value) {
-    if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FINITE, &o->znear) || o->znear > 0.0)
+    if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FINITE, &o->camera.znear) ||
+        o->camera.znear > 0.0)
         return parse_length(o, row, value);
-    o->znear += 0.0; /* -0 is 0 */
+    o->camera.znear += 0.0; /* -0 is 0 */
     return EXIT_FINE;
 }
 
 int parse_far(options *o, const option_row *row, const char *value) {
-    if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FAR, &o->zfar))
+    if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FAR, &o->camera.zfar))
         return option_refuse(row, "must be a number greater than near and at most 1e18, or inf, got '%s'%s", value,
                              unit_hint(value, strlen(value)));
     return EXIT_FINE;
@@ -126,7 +127,7 @@ int parse_origin(options *o, const option_row *row, const char *value) {
 }
 
 int parse_light_box(options *o, const option_row *row, const char *value) {
-    return parse_triple(o, row, value, "x", 1e-12, o->light_box);
+    return parse_triple(o, row, value, "x", 1e-12, o->shadow.light_box);
 }
 
 /* ---- Depths ------------------------------------------------------------------------------------------------------ */
@@ -231,7 +232,7 @@ int parse_at(options *o, const option_row *row, const char *value) {
 int parse_distances(options *o, const option_row *row, const char *value) {
     option_row free = *row;
     free.least = free.most = 0.0;
-    return read_depths(o, &free, value, &o->distances);
+    return read_depths(o, &free, value, &o->world.distances);
 }
 
 int parse_range(options *o, const option_row *row, const char *value) {
@@ -240,13 +241,13 @@ int parse_range(options *o, const option_row *row, const char *value) {
     lengths seen = {.o = o};
     if (value[split] == '\0')
         return option_refuse(row, "must be LO:HI, got '%s'", value);
-    if (!read_length(&seen, value, split, NUMBER_FINITE, &o->range_lo))
+    if (!read_length(&seen, value, split, NUMBER_FINITE, &o->camera.range_lo))
         return option_refuse(row, "LO must be a number, got '%.*s' in '%s'%s", (int)split, value, value,
                              unit_hint(value, split));
-    if (!read_length(&seen, hi, strlen(hi), NUMBER_FINITE, &o->range_hi))
+    if (!read_length(&seen, hi, strlen(hi), NUMBER_FINITE, &o->camera.range_hi))
         return option_refuse(row, "HI must be a number, got '%s' in '%s'%s", hi, value, unit_hint(hi, strlen(hi)));
     const int status = check_mixed(&seen, row, value);
-    return status != EXIT_FINE || o->range_lo < o->range_hi
+    return status != EXIT_FINE || o->camera.range_lo < o->camera.range_hi
                ? status
                : option_refuse(row, "LO must be less than HI, got '%s'", value);
 }
@@ -254,7 +255,7 @@ int parse_range(options *o, const option_row *row, const char *value) {
 /* Half the height of what an image shows stands behind "=". */
 int parse_ortho(options *o, const option_row *row, const char *value) {
     option_row half = *row;
-    half.place = offsetof(options, camera.half_height);
+    half.place = offsetof(options, view.spec.half_height);
     half.least = 1e-12;
     half.most = 1e12;
     half.unit = "scene units";
@@ -270,11 +271,11 @@ int parse_cascades(options *o, const option_row *row, const char *value) {
     uint64_t count;
     snprintf(number, sizeof number, "%.*s", (int)length, value);
     if (length >= sizeof number || !number_parse_count(number, MOST, &count) || count < 1 ||
-        (value[length] != '\0' &&
-         (!number_parse(value + length + 1, NUMBER_FINITE, &o->lambda) || !(o->lambda >= 0.0 && o->lambda <= 1.0))))
+        (value[length] != '\0' && (!number_parse(value + length + 1, NUMBER_FINITE, &o->shadow.lambda) ||
+                                   !(o->shadow.lambda >= 0.0 && o->shadow.lambda <= 1.0))))
         return option_refuse(row, "must be N or N:LAMBDA, N a whole number from 1 to %d, LAMBDA from 0 to 1, got '%s'",
                              MOST, value);
-    o->cascades = (unsigned)count;
+    o->shadow.cascades = (unsigned)count;
     return EXIT_FINE;
 }
 
@@ -289,7 +290,7 @@ int parse_curvature(options *o, const option_row *row, const char *value) {
                      !(facet >= 0.0 && facet <= 1e18))))
         return option_refuse(row, "must be Z or Z:FACET, Z from 1e-12 and FACET from 0 to 1e18 scene units, got '%s'%s",
                              value, unit_hint(value, split));
-    o->curvature = radius;
-    o->facet = facet;
+    o->shadow.curvature = radius;
+    o->shadow.facet = facet;
     return check_mixed(&seen, row, value);
 }

@@ -7,68 +7,30 @@
 #include <string.h>
 #include <strings.h>
 
-#include "cli/depth24plus.h"
 #include "cli/option/uses.h"
 #include "core/append.h"
 #include "report/number.h"
 #include "system/input.h"
 
-const char *option_name(option_id id) {
-    return option_rows[id].name;
-}
-
-const char *option_word(option_id id, size_t index) {
-    list_item item = {0};
-    names_get(option_rows[id].names, index, &item);
-    return item.name;
-}
-
 const char *options_unit(const options *o) {
-    return o->unit != NULL ? o->unit->name : NULL;
+    return o->camera.unit != NULL ? o->camera.unit->name : NULL;
 }
 
 const char *option_written(const options *o, option_id id) {
     const option_row *row = &option_rows[id];
     if (row->parse == parse_error_map)
-        return o->error_file;
+        return o->image.error_file;
     return row->parse == parse_written ? *(const char *const *)((const char *)o + row->place) : NULL;
-}
-
-/* What gave an option its value in place of the user: a preset or a platform; its own option and name. */
-static struct chooser {
-    option_id by;
-    const char *name; /* null where the user or the default did */
-} choosers[OPTION_COUNT];
-
-static int error_of(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static int error_of(option_id id, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    int status = named_error(option_name(id), format, arguments);
-    va_end(arguments);
-    return status;
-}
-
-/* Who did not name what is refused is told where it comes from. */
-int option_error(option_id id, const char *format, ...) {
-    const struct chooser *c = &choosers[id];
-    char text[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return c->name != NULL ? error_of(id, "%s; --%s %s chose it", text, option_name(c->by), c->name)
-                           : error_of(id, "%s", text);
 }
 
 /* What the rows say; what a command has of its own follows when its options are read. */
 static void set_defaults(options *o) {
-    memset(choosers, 0, sizeof choosers);
-    *o = (options){.target = SOLVE_FOR_ANY,
-                   .triangles = dp_triangles_default(),
-                   .azimuth = (double)NAN,
-                   .curvature = (double)NAN,
-                   .camera.half_height = 5.0,
+    option_forget_choosers();
+    *o = (options){.wanted.target = SOLVE_FOR_ANY,
+                   .camera.triangles = dp_triangles_default(),
+                   .camera.azimuth = (double)NAN,
+                   .shadow.curvature = (double)NAN,
+                   .view.spec.half_height = 5.0,
                    .parts = ~0U};
     for (int id = 0; id < OPTION_COUNT; id++)
         if (option_rows[id].standard != NULL)
@@ -89,11 +51,13 @@ static void set_own_defaults(options *o) {
 }
 
 void options_release(options *o) {
-    free(o->at.list);
-    free(o->looked_up.list);
-    free(o->pixels.list);
-    free(o->distances.list);
-    o->at.list = o->looked_up.list = o->pixels.list = o->distances.list = NULL;
+    free(o->each);
+    o->each = NULL;
+    free(o->camera.at.list);
+    free(o->wanted.looked_up.list);
+    free(o->image.pixels.list);
+    free(o->world.distances.list);
+    o->camera.at.list = o->wanted.looked_up.list = o->image.pixels.list = o->world.distances.list = NULL;
 }
 
 /* getopt's names for an option: its letter, or a number that no letter has. */
@@ -186,163 +150,6 @@ static int check_operands(options *o) {
                            : EXIT_FINE;
     o->operand_row = item.row;
     return status;
-}
-
-/* The rule under which the bias is written. */
-static void take_api(options *o, const char *api) {
-    if (!option_given(o, OPTION_API))
-        parse_row(o, &option_rows[OPTION_API], api);
-}
-
-static void chose(const options *o, option_id by, const char *name, const option_id *ids, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (!option_given(o, ids[i]))
-            choosers[ids[i]] = (struct chooser){by, name};
-}
-
-/* A preset gives what the user did not. */
-static void take_preset(options *o, const preset *p) {
-    static const option_id chosen[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING};
-    const unit_row *own = unit_find(p->unit);
-    chose(o, OPTION_PRESET, p->name, chosen, sizeof chosen / sizeof chosen[0]);
-    if (!option_given(o, OPTION_NEAR))
-        o->znear = unit_convert(p->znear, own, o->unit);
-    if (!option_given(o, OPTION_FAR))
-        o->zfar = unit_convert(p->zfar, own, o->unit);
-    if (!option_given(o, OPTION_LOG_C)) /* 1 for a depth in the preset's own unit */
-        o->log_c /= unit_convert(1.0, own, o->unit);
-    if (!option_given(o, OPTION_FORMAT))
-        parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
-    if (!option_given(o, OPTION_MAPPING))
-        parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
-    take_api(o, p->api);
-    slant_take_preset(o, p);
-}
-
-/* What is stored; a preset's format and rasterizer give way to it, its mapping stays. */
-static void take_platform(options *o) {
-    const platform *p = o->platform;
-    if (p == NULL)
-        return;
-    const bool webgl = strcmp(p->api, "gl") == 0;
-    static const option_id chosen[] = {OPTION_FORMAT, OPTION_MAPPING};
-    const char *stored = depth24plus_on(p, o->given[OPTION_FORMAT]);
-    chose(o, OPTION_PLATFORM, p->name, chosen, o->preset_count == 0 ? 2 : 1); /* a preset's mapping stays */
-    if (!option_given(o, OPTION_FORMAT) || stored != NULL)
-        parse_formats(o, &option_rows[OPTION_FORMAT], stored != NULL ? stored : p->stored);
-    if (!option_given(o, OPTION_MAPPING) && o->preset_count == 0)
-        parse_mappings(o, &option_rows[OPTION_MAPPING], webgl ? "gl" : "d3d");
-    bool remapped = false;
-    for (size_t i = 0; i < o->mapping_count && p->remap != PLATFORM_REMAPS_NOT; i++)
-        remapped = remapped || dp_mapping_get(o->mappings[i])->ndc_signed;
-    if (!option_given(o, OPTION_ARITH) && remapped)
-        dp_arith_parse("ieee-remap", &o->arith);
-    take_api(o, p->api);
-    slant_take_raster(o, p->raster);
-}
-
-/* Of a rasterizer that is known its own arithmetic, with the remap of the platform. */
-static int take_arith(options *o) {
-    const bool known = o->has_raster_arith || (o->raster != NULL && o->raster->model != NULL);
-    if (!known || option_given(o, OPTION_ARITH))
-        return EXIT_FINE;
-    const bool remapped = dp_arith_get(o->arith)->remap;
-    if (o->has_raster_arith && dp_arith_get(o->raster_arith)->remap == remapped)
-        o->arith = o->raster_arith;
-    else if (o->raster->model != NULL && !raster_arith(o->raster, remapped, &o->arith))
-        return option_error(OPTION_RASTER,
-                            "%s was not measured with [-1, 1] remapped in the vertex shader, as on %s: name its "
-                            "arithmetic with --arith",
-                            o->raster->name, o->platform != NULL ? o->platform->name : "the platform");
-    return EXIT_FINE;
-}
-
-void options_of(const options *o, size_t camera, options *out) {
-    *out = *o;
-    if (o->preset_count < 2)
-        return;
-    const preset *p = o->presets[camera];
-    const unit_row *own = option_given(o, OPTION_UNIT) ? NULL : unit_find(p->unit);
-    out->unit = own != NULL ? own : o->unit;
-    out->znear = unit_convert(o->znear, o->unit, out->unit);
-    out->zfar = unit_convert(o->zfar, o->unit, out->unit);
-    out->range_lo = unit_convert(o->range_lo, o->unit, out->unit);
-    out->range_hi = unit_convert(o->range_hi, o->unit, out->unit);
-    out->at.lo = unit_convert(o->at.lo, o->unit, out->unit);
-    out->at.hi = unit_convert(o->at.hi, o->unit, out->unit);
-    out->at.from = o->unit;
-    out->at.to = out->unit;
-    take_preset(out, p);
-    take_platform(out);
-    take_arith(out); /* not refused: complete() asked it of the same rasterizer and platform */
-}
-
-int options_check_stored(const options *o, const dp_format *format) {
-    char names[PROFILE_FORMATS_SIZE];
-    if (profile_stores(&o->gpu, format))
-        return EXIT_FINE;
-    return option_error(OPTION_FORMAT, "must be %s with a profile of a GPU that stores no other depth, got %s",
-                        profile_formats(&o->gpu, names), format->name);
-}
-
-/* Of formats that nobody named those that the GPUs of the profiles store; one that was named has to be among them. */
-static int keep_stored(options *o) {
-    const bool given = option_given(o, OPTION_FORMAT);
-    const bool any = given ? strcmp(o->given[OPTION_FORMAT], "all") == 0 : o->preset_count == 0 && o->platform == NULL;
-    size_t kept = 0;
-    for (size_t i = 0; i < o->format_count; i++) {
-        if (profile_stores(&o->gpu, &o->formats[i]))
-            o->formats[kept++] = o->formats[i];
-        else if (!any || (i + 1 == o->format_count && kept == 0))
-            return options_check_stored(o, &o->formats[i]);
-    }
-    o->format_count = kept;
-    return EXIT_FINE;
-}
-
-/* What follows from other options. */
-static int complete(options *o) {
-    o->model_auto = o->model == DP_MODEL_COUNT;
-    if (o->model_auto)
-        o->model = DP_MODEL_EXACT;
-    for (size_t i = 0; i < o->preset_count && o->unit != NULL && !option_given(o, OPTION_UNIT); i++)
-        if (strcmp(o->presets[i]->unit, "extents") == 0)
-            return option_error(OPTION_UNIT, "must be given: %s measures in %s", o->presets[i]->name,
-                                o->presets[i]->unit);
-    if (o->platform != NULL && o->platform->remap == PLATFORM_SPREADS)
-        return option_error(
-            OPTION_PLATFORM,
-            "has no guarantee for %s, whose vertex shader spreads [0, 1] to [-1, 1] by 2 z - w: a small "
-            "z loses its digits; -F %s tells of the format alone",
-            o->platform->name, o->platform->stored);
-    int status = slant_complete(o);
-    if (o->preset_count == 1)
-        take_preset(o, o->presets[0]);
-    take_platform(o);
-    if (status == EXIT_FINE)
-        status = take_arith(o);
-    if (!option_given(o, OPTION_SCHEME)) /* sizes in what a scene unit is, now that it is known */
-        parse_schemes(o, &option_rows[OPTION_SCHEME], option_rows[OPTION_SCHEME].standard);
-    return status == EXIT_FINE && o->preset_count < 2 ? keep_stored(o) : status;
-}
-
-/* An orthographic camera may begin at its place or behind it. */
-static int check_near(const options *o) {
-    const option_row *row = &option_rows[OPTION_NEAR];
-    const number_text given = number_full(o->znear);
-    char limits[OPTION_TEXT_SIZE];
-    if (o->znear > 0.0)
-        return EXIT_FINE;
-    if (!o->ortho)
-        return option_error(OPTION_NEAR, "must be a number from %s, got '%s'", option_limits(row, limits), given.text);
-    if (o->znear != 0.0 && !(-o->znear >= row->least && -o->znear <= row->most))
-        return option_error(OPTION_NEAR, "must be 0, or a number from %s or its negative, got '%s'",
-                            option_limits(row, limits), given.text);
-    if (o->effect != NULL && o->effect->eye01 && o->znear < 0.0)
-        return option_error(OPTION_PRODUCT,
-                            "effect:%s sees eye depth as a share of far, which needs near not less than 0, got '%s'",
-                            o->effect->name, given.text);
-    return EXIT_FINE;
 }
 
 /* What lengths mean must be known before they are read. */
@@ -460,8 +267,8 @@ int options_parse(options *o, int argc, char **argv) {
     }
     const command_row *const asked = named ? o->command : NULL;
     int status = read_options(o, argc - named, argv + named, asked, true);
-    for (size_t i = 0; i < o->preset_count && o->unit == NULL; i++)
-        o->unit = unit_find(o->presets[i]->unit);
+    for (size_t i = 0; i < o->camera.preset_count && o->camera.unit == NULL; i++)
+        o->camera.unit = unit_find(o->camera.presets[i]->unit);
     if (status == EXIT_FINE)
         status = read_options(o, argc - named, argv + named, asked, false);
     if (status != EXIT_FINE || option_given(o, OPTION_HELP) || option_given(o, OPTION_VERSION))
@@ -472,9 +279,7 @@ int options_parse(options *o, int argc, char **argv) {
     o->parts = option_parts(o);
     set_own_defaults(o);
     status = option_check_parts(o);
-    if (status == EXIT_FINE)
-        status = complete(o);
-    return status == EXIT_FINE ? check_near(o) : status;
+    return status == EXIT_FINE ? options_complete(o) : status;
 }
 
 /* The ending of a file that holds a picture or a model, which no text is written into; null of others. */
@@ -488,13 +293,13 @@ static const char *ending_of_picture(const char *path) {
 }
 
 int options_open(const options *o, output *out) {
-    const char *ending = o->output != NULL ? ending_of_picture(o->output) : NULL;
+    const char *ending = o->out.file != NULL ? ending_of_picture(o->out.file) : NULL;
     if (ending != NULL)
         return option_error(OPTION_OUTPUT, "must not end in %s where no picture is written, got '%s'", ending,
-                            o->output);
-    const int status = output_open(out, o->output);
-    out->width = o->full ? OUTPUT_UNLIMITED : 0;
-    out->colour = (output_colour)o->colour;
-    out->measured = o->gpu.measured[0] != '\0' ? o->gpu.measured : NULL;
+                            o->out.file);
+    const int status = output_open(out, o->out.file);
+    out->width = o->out.full ? OUTPUT_UNLIMITED : 0;
+    out->colour = (output_colour)o->out.colour;
+    out->measured = o->camera.gpu.measured[0] != '\0' ? o->camera.gpu.measured : NULL;
     return status;
 }

@@ -156,6 +156,146 @@ typedef struct named_number {
     double value;
 } named_number;
 
+/** What set-ups are made of. */
+typedef struct options_camera {
+    double znear; /**< scene units */
+    double zfar;  /**< scene units or INFINITY */
+    bool ortho;
+    dp_format formats[OPTIONS_FORMATS_MAX]; /**< in the order given, each once */
+    size_t format_count;
+    dp_mapping mappings[DP_MAPPING_COUNT]; /**< in the order given, each once */
+    size_t mapping_count;
+    double log_c;
+    dp_rounding rounding;
+    dp_model model;
+    bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
+    bool budgeted;   /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in binary32 */
+    dp_arith arith;
+    dp_arith raster_arith; /**< of the GPU whose profile --raster names */
+    bool has_raster_arith;
+    profile gpu;              /**< of --arith and --raster */
+    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle-class; width 0
+                                   without the first */
+    double fov_x;             /**< --hfov, degrees */
+    double azimuth;           /**< of one plane of --slant, degrees from right to up; NaN when not given */
+    const raster_row *raster; /**< --raster; null when not given */
+    const unit_row *unit;     /**< what a scene unit is; null where nothing says it: lengths are converted already */
+    const preset *presets[OPTIONS_PRESETS_MAX]; /**< --preset, in the order given, each once */
+    size_t preset_count; /**< of one, what the user did not give is already filled in; of several see options_of() */
+    const platform *platform;  /**< --platform; null when not given, and what the user did not give is filled in */
+    depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
+    double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
+} options_camera;
+
+/** What is asked of them. */
+typedef struct options_wanted {
+    solve_target target;      /**< --for */
+    double separation, error; /**< scene units; 0 when not given */
+    double tolerance;         /**< a share */
+    depths looked_up;         /**< window depths of --depth in [0, 1], or codes of --code; count is 0 without them */
+} options_wanted;
+
+/** Where vertices come from. */
+typedef struct options_world {
+    dp_budget_terms
+        terms;        /**< --interpolation, --from-origin, --composition, --linearize, --log2; zero when not given */
+    depths distances; /**< of the camera from the world's origin; count is 0 when not given */
+    world_scheme schemes[OPTIONS_SCHEMES_MAX]; /**< in the order given, each once */
+    size_t scheme_count;
+    bool shared_origin; /**< both surfaces are of meshes with one origin */
+} options_world;
+
+typedef struct options_bias {
+    const bias_api *api; /**< --api; null for all */
+    double units, factor;
+    double clamp; /**< window depth; 0 is none */
+    double slope; /**< scene units per pixel, not negative */
+} options_bias;
+
+/** A camera's place, and last frame's. */
+typedef struct options_view {
+    double eye[3], look[3]; /**< places: of an eye, and what it looks at */
+    double last_eye[3], last_look[3];
+    camera_spec spec; /**< --size, --fov, --ortho; see texture_camera_place() */
+} options_view;
+
+typedef struct options_scene {
+    double within;         /**< eye depth; 0 when not given */
+    const char *path;      /**< file of eyes; or null */
+    const char *camera;    /**< of the model, by name; or null */
+    unsigned transforms;   /**< of a model's nodes: a model_transforms */
+    unsigned filters_off;  /**< of a model's pairs: 1 << finder_filter, or-ed */
+    const char *render;    /**< file of a picture; null when not given */
+    const char *emit_need; /**< file of requirements; null when not given */
+} options_scene;
+
+/** Pairs of surfaces, and the vertex programs that place them. */
+typedef struct options_census {
+    uint64_t sample; /**< pairs to draw; 0 when not given */
+    uint64_t seed;
+    bool drawn;                                   /**< --rasterize: the surfaces are drawn */
+    const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
+    size_t against_count;
+    const vertex_program *program; /**< what they are compared with */
+    unsigned vertices;             /**< how they are drawn: a vertex_spread */
+} options_census;
+
+typedef struct options_probe {
+    const char *device; /**< null when not given */
+    const char *keep;   /**< file of raw codes; null when not given */
+} options_probe;
+
+typedef struct options_shadow {
+    unsigned cascades;
+    double lambda;       /**< of their split: 0 even, 1 logarithmic */
+    double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
+    double casters;      /**< scene units */
+    unsigned kernel;     /**< the filter reads so many texels in either direction */
+    double curvature;    /**< radius of curvature of receivers, scene units; NaN when not given */
+    double facet;        /**< of the circles about their triangles, scene units */
+} options_shadow;
+
+/** A depth image, and what is made of it. Rows and names are null when not given. */
+typedef struct options_image {
+    const char *matrix; /**< file of a projection matrix, which then says the planes and the field of view */
+    const synthetic_row *synthetic;
+    named_number parameters[OPTIONS_PARAMETERS_MAX];
+    size_t parameter_count;
+    double sky;             /**< window depth */
+    double metric;          /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    const char *channel;    /**< of FILE, by name; null: that which is depth */
+    const packing *packing; /**< of FILE */
+    depths pixels;          /**< column and row of each in turn; count is 0 when not given */
+    const product_row *product;
+    const position_row *position;   /**< of --product position; null for exact as well */
+    const normal_row *normal;       /**< of --product normal */
+    const effect_row *effect;       /**< of --product effect */
+    const packing *pack;            /**< of --product pack */
+    const normal_row *normals_by;   /**< of an effect, or of what is packed */
+    bool error_map;                 /**< in place of the product */
+    const char *error_file;         /**< beside it; or null */
+    unsigned normal_format;         /**< of a PNG: 0: y up, 1: y down */
+    const char *figure, *histogram; /**< files */
+    double overlay;                 /**< errors above it are shown, scene units; 0 when not given */
+} options_image;
+
+typedef struct options_figure {
+    unsigned type;     /**< a canvas_format, where the name of a file does not say it */
+    unsigned theme;    /**< index of theme_get() */
+    int width, height; /**< px; 0 when not given, so that each figure has its own default */
+    const char *title; /**< null when not given */
+} options_figure;
+
+typedef struct options_output {
+    const char *link; /**< where the page is that the link opens; null when none is asked for */
+    report_form report;
+    output_form form;
+    const char *file; /**< the argument of -o; null when not given. "-" is stdout: see options_open() */
+    bool quiet, full;
+    unsigned colour; /**< --color: an output_colour */
+    int threads;     /**< 0 when not given: as many as there are cores */
+} options_output;
+
 typedef struct options {
     const command_row *command;
     char **argv;     /**< the whole command line, for metadata */
@@ -165,117 +305,22 @@ typedef struct options {
         *operand_row; /**< the row that the first operand names where the command has a table of them, else null */
     unsigned parts;   /**< the part of the command that is asked for: option_parts() of uses.h */
     const char *given[OPTION_COUNT]; /**< the argument as the user gave it, "" of none; see option_given() */
+    bool version;                    /**< in place of help */
+    struct options *each;            /**< of several presets these options with each alone; else null */
 
-    double znear; /**< scene units */
-    double zfar;  /**< scene units or INFINITY */
-    bool ortho;
-    dp_format formats[OPTIONS_FORMATS_MAX]; /**< in the order given, each once */
-    size_t format_count;
-    dp_mapping mappings[DP_MAPPING_COUNT]; /**< in the order given, each once */
-    size_t mapping_count;
-    dp_rounding rounding;
-    dp_model model;
-    bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
-    dp_arith arith;
-    dp_arith raster_arith; /**< of the GPU whose profile --raster names */
-    bool has_raster_arith;
-    bool budgeted;    /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in binary32 */
-    profile gpu;      /**< of --arith and --raster */
-    double tolerance; /**< of the choice, a share */
-    double log_c;
-
-    depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
-    double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
-    depths looked_up;          /**< window depths of --depth in [0, 1], or codes of --code; count is 0 without them */
-
-    solve_target target;             /**< --for */
-    double separation, wanted_error; /**< scene units; 0 when not given */
-
-    dp_budget_terms
-        terms;        /**< --interpolation, --from-origin, --composition, --linearize, --log2; zero when not given */
-    depths distances; /**< of the camera from the world's origin; count is 0 when not given */
-    world_scheme schemes[OPTIONS_SCHEMES_MAX]; /**< in the order given, each once */
-    size_t scheme_count;
-    bool shared_origin;       /**< both surfaces are of meshes with one origin */
-    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle-class; width 0
-                                   without the first */
-    double fov_x;             /**< --hfov, degrees */
-    double azimuth;           /**< of one plane of --slant, degrees from right to up; NaN when not given */
-    const raster_row *raster; /**< --raster; null when not given */
-
-    const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
-    const preset *presets[OPTIONS_PRESETS_MAX]; /**< --preset, in the order given, each once */
-    size_t preset_count; /**< of one, what the user did not give is already filled in; of several see options_of() */
-    const platform *platform; /**< --platform; null when not given, and what the user did not give is filled in */
-    const bias_api *api;      /**< --api; null for all */
-    double units, factor;     /**< of a bias */
-    double clamp;             /**< of a bias, window depth; 0 is none */
-    double slope;             /**< scene units per pixel, not negative */
-
-    double within;            /**< eye depth; 0 when not given */
-    double eye[3], look[3];   /**< places: of an eye, and what it looks at */
-    const char *path;         /**< file of such places; or null */
-    const char *model_camera; /**< a camera of the model, by name; or null */
-    unsigned transforms;      /**< of a model's nodes: a model_transforms */
-    unsigned filters_off;     /**< of a model's pairs: 1 << finder_filter, or-ed */
-    const char *render;       /**< file of a picture; null when not given */
-    const char *emit_need;    /**< file of requirements; null when not given */
-    uint64_t sample;          /**< pairs to draw; 0 when not given */
-    uint64_t seed;
-    const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
-    size_t against_count;
-    const vertex_program *program; /**< what they are compared with */
-    unsigned vertices;             /**< how they are drawn: a vertex_spread */
-    bool drawn;                    /**< --rasterize: the surfaces are drawn */
-    int threads;                   /**< 0 when not given: as many as there are cores */
-
-    const char *device; /**< of probe; null when not given */
-    const char *keep;   /**< file of raw codes; null when not given */
-
-    unsigned cascades;   /**< of a shadow map */
-    double lambda;       /**< of their split: 0 even, 1 logarithmic */
-    double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
-    double casters;      /**< scene units */
-    unsigned kernel;     /**< the filter reads so many texels in either direction */
-    double angle;        /**< of a receiver's normal to the light, degrees */
-    double curvature;    /**< radius of curvature of receivers, scene units; read where it is given */
-    double facet;        /**< of the circles about their triangles, scene units */
-
-    camera_spec camera; /**< --size, --fov, --ortho; see texture_camera_place() */
-    const char *matrix; /**< file of a projection matrix, which then says the planes and the field of view */
-    double last_eye[3], last_look[3]; /**< of last frame's camera */
-    const synthetic_row *synthetic;   /**< null when not given, as all rows and names here */
-    named_number parameters[OPTIONS_PARAMETERS_MAX];
-    size_t parameter_count;
-    double sky;    /**< window depth */
-    double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
-    depths pixels; /**< column and row of each in turn; count is 0 when not given */
-    const product_row *product;
-    const position_row *position;   /**< of --product position; null for exact as well */
-    const normal_row *normal;       /**< of --product normal */
-    const effect_row *effect;       /**< of --product effect */
-    const normal_row *normals_by;   /**< of an effect, or of what is packed */
-    bool error_map;                 /**< in place of the product */
-    const char *error_file;         /**< beside it; or null */
-    unsigned normal_format;         /**< of a PNG: 0: y up, 1: y down */
-    const char *channel;            /**< of FILE, by name; null: that which is depth */
-    const packing *packing;         /**< of FILE */
-    const packing *pack;            /**< of what is written */
-    const char *figure, *histogram; /**< files */
-    double overlay;                 /**< errors above it are shown, scene units; 0 when not given */
-
-    unsigned type;     /**< --type: a canvas_format, where the name of a file does not say it */
-    unsigned theme;    /**< index of theme_get() */
-    int width, height; /**< px; 0 when not given, so that each figure has its own default */
-    const char *title; /**< null when not given */
-
-    const char *link; /**< where the page is that the link opens; null when none is asked for */
-
-    report_form report;
-    output_form form;
-    const char *output; /**< the argument of -o; null when not given. "-" is stdout: see options_open() */
-    bool quiet, full, version;
-    unsigned colour; /**< --color: an output_colour */
+    options_camera camera;
+    options_wanted wanted;
+    options_world world;
+    options_bias bias;
+    options_view view;
+    options_scene scene;
+    options_census census;
+    options_probe probe;
+    options_shadow shadow;
+    options_image image;
+    options_figure figure;
+    options_output out;
+    double angle; /**< degrees: of a receiver's normal to the light, or between the planes of surfaces */
 } options;
 
 /**
@@ -288,18 +333,18 @@ int options_parse(options *o, int argc, char **argv);
 
 /** How many cameras there are: as many as presets, at least one. */
 static inline size_t options_cameras(const options *o) {
-    return o->preset_count > 1 ? o->preset_count : 1;
+    return o->camera.preset_count > 1 ? o->camera.preset_count : 1;
 }
 
 /** Whether the GPUs of the profiles store depth in that format; where not, one line on stderr says what they store.
  * @return EXIT_FINE or EXIT_USAGE */
 int options_check_stored(const options *o, const dp_format *format);
 
-/**
- * The options as they would be with the preset of that index alone, all lengths in its own unit where that is known and
- * --unit was not given; as they are where there are not several.
- */
-void options_of(const options *o, size_t camera, options *out);
+/** The options with the preset of that index alone, lengths in its own unit where that is known and --unit was not
+ * given; as they are where there are not several. */
+static inline const options *options_of(const options *o, size_t camera) {
+    return o->each != NULL ? &o->each[camera] : o;
+}
 
 /** The vertical field of view, degrees, as --fov or --hfov says it of so many pixels. @return EXIT_FINE, or EXIT_USAGE
  * after one line on stderr */

@@ -112,8 +112,8 @@ static int unknown_name(const option_row *row, const char *name) {
 }
 
 int parse_unit(options *o, const option_row *row, const char *value) {
-    o->unit = unit_find(value);
-    return o->unit != NULL ? EXIT_FINE : option_refuse(row, "must be " UNIT_NAMES ", got '%s'", value);
+    o->camera.unit = unit_find(value);
+    return o->camera.unit != NULL ? EXIT_FINE : option_refuse(row, "must be " UNIT_NAMES ", got '%s'", value);
 }
 
 int parse_word(options *o, const option_row *row, const char *value) {
@@ -153,12 +153,12 @@ static int parse_names(options *o, const option_row *row, const char *value,
 }
 
 static int add_one_format(options *o, const option_row *row, const dp_format *format) {
-    for (size_t i = 0; i < o->format_count; i++)
-        if (strcmp(o->formats[i].name, format->name) == 0)
+    for (size_t i = 0; i < o->camera.format_count; i++)
+        if (strcmp(o->camera.formats[i].name, format->name) == 0)
             return EXIT_FINE;
-    if (o->format_count == OPTIONS_FORMATS_MAX)
+    if (o->camera.format_count == OPTIONS_FORMATS_MAX)
         return option_refuse(row, "must be at most %d formats, got '%s' too", OPTIONS_FORMATS_MAX, format->name);
-    o->formats[o->format_count++] = *format;
+    o->camera.formats[o->camera.format_count++] = *format;
     return EXIT_FINE;
 }
 
@@ -173,7 +173,7 @@ static int add_format(options *o, const option_row *row, const char *name) {
 }
 
 int parse_formats(options *o, const option_row *row, const char *value) {
-    o->format_count = 0;
+    o->camera.format_count = 0;
     return parse_names(o, row, value, add_format);
 }
 
@@ -183,15 +183,15 @@ static int add_mapping(options *o, const option_row *row, const char *name) {
         return add_mapping(o, row, "d3d") != EXIT_FINE ? EXIT_USAGE : add_mapping(o, row, "reversed");
     if (dp_mapping_parse(name, &mapping) != DP_OK)
         return unknown_name(row, name);
-    for (size_t i = 0; i < o->mapping_count; i++)
-        if (o->mappings[i] == mapping)
+    for (size_t i = 0; i < o->camera.mapping_count; i++)
+        if (o->camera.mappings[i] == mapping)
             return EXIT_FINE;
-    o->mappings[o->mapping_count++] = mapping;
+    o->camera.mappings[o->camera.mapping_count++] = mapping;
     return EXIT_FINE;
 }
 
 int parse_mappings(options *o, const option_row *row, const char *value) {
-    o->mapping_count = 0;
+    o->camera.mapping_count = 0;
     return parse_names(o, row, value, add_mapping);
 }
 
@@ -199,12 +199,12 @@ static int add_preset(options *o, const option_row *row, const char *name) {
     list_item found;
     if (!names_find(row->names, name, NULL, &found))
         return unknown_name(row, name);
-    for (size_t i = 0; i < o->preset_count; i++)
-        if (o->presets[i] == found.row)
+    for (size_t i = 0; i < o->camera.preset_count; i++)
+        if (o->camera.presets[i] == found.row)
             return EXIT_FINE;
-    if (o->preset_count == OPTIONS_PRESETS_MAX)
+    if (o->camera.preset_count == OPTIONS_PRESETS_MAX)
         return option_refuse(row, "must be at most %d presets, got '%s' too", OPTIONS_PRESETS_MAX, name);
-    o->presets[o->preset_count++] = found.row;
+    o->camera.presets[o->camera.preset_count++] = found.row;
     return EXIT_FINE;
 }
 
@@ -224,16 +224,16 @@ static int add_program(options *o, const option_row *row, const char *name) {
         return unknown_name(row, name);
     for (size_t i = 0; found.row == NULL && vertex_program_get(i) != NULL; i++)
         add_program(o, row, vertex_program_get(i)->name);
-    for (size_t i = 0; i < o->against_count; i++)
-        if (o->against[i] == found.row)
+    for (size_t i = 0; i < o->census.against_count; i++)
+        if (o->census.against[i] == found.row)
             return EXIT_FINE;
     if (found.row != NULL)
-        o->against[o->against_count++] = found.row; /* there is room for every row */
+        o->census.against[o->census.against_count++] = found.row; /* there is room for every row */
     return EXIT_FINE;
 }
 
 int parse_against(options *o, const option_row *row, const char *value) {
-    o->against_count = 0;
+    o->census.against_count = 0;
     return parse_names(o, row, value, add_program);
 }
 
@@ -252,7 +252,7 @@ static int add_scheme(options *o, const option_row *row, const char *text) {
     }
     world_scheme s = {.row = found.row};
     if (s.row != NULL)
-        s.size = s.row->metres ? unit_convert(s.row->standard, unit_find("m"), o->unit) : s.row->standard;
+        s.size = s.row->metres ? unit_convert(s.row->standard, unit_find("m"), o->camera.unit) : s.row->standard;
     if (text[length] != '\0' &&
         (s.row == NULL || !number_parse(text + length + 1, NUMBER_FINITE, &s.size) || !world_size_fits(s.row, s.size)))
         return option_refuse(
@@ -261,17 +261,17 @@ static int add_scheme(options *o, const option_row *row, const char *text) {
             : s.row->power2 ? "%s:SIZE must be a power of two from 1e-3 to 1e12 scene units, got '%s'"
                             : "%s:SIZE must be a number of scene units from 1e-3 to 1e12, without a unit, got '%s'",
             name, text);
-    for (size_t i = 0; i < o->scheme_count; i++)
-        if (o->schemes[i].row == s.row && o->schemes[i].size == s.size)
+    for (size_t i = 0; i < o->world.scheme_count; i++)
+        if (o->world.schemes[i].row == s.row && o->world.schemes[i].size == s.size)
             return EXIT_FINE;
-    if (o->scheme_count == OPTIONS_SCHEMES_MAX)
+    if (o->world.scheme_count == OPTIONS_SCHEMES_MAX)
         return option_refuse(row, "must be at most %d schemes", OPTIONS_SCHEMES_MAX);
-    o->schemes[o->scheme_count++] = s;
+    o->world.schemes[o->world.scheme_count++] = s;
     return EXIT_FINE;
 }
 
 int parse_schemes(options *o, const option_row *row, const char *value) {
-    o->scheme_count = 0;
+    o->world.scheme_count = 0;
     return parse_names(o, row, value, add_scheme);
 }
 
@@ -281,12 +281,12 @@ static int add_filter(options *o, const option_row *row, const char *name) {
         return unknown_name(row, name);
     for (size_t i = 0; finder_filter_get(i) != NULL; i++)
         if (found.row == NULL || found.row == finder_filter_get(i))
-            o->filters_off |= 1U << i;
+            o->scene.filters_off |= 1U << i;
     return EXIT_FINE;
 }
 
 int parse_also(options *o, const option_row *row, const char *value) {
-    o->filters_off = 0;
+    o->scene.filters_off = 0;
     return parse_names(o, row, value, add_filter);
 }
 
@@ -297,7 +297,7 @@ int parse_tolerance(options *o, const option_row *row, const char *value) {
     double share;
     if (!number_parse_part(value, length - percent, NUMBER_FINITE, &share) || !(share >= 0.0))
         return option_refuse(row, "must be a share such as 0.05, or 5%%, not negative, got '%s'", value);
-    o->tolerance = percent ? share / 100.0 : share;
+    o->wanted.tolerance = percent ? share / 100.0 : share;
     return EXIT_FINE;
 }
 
@@ -320,8 +320,8 @@ static int read_size(options *o, const option_row *row, const char *value, bool 
         return status;
     if (sides[0] * sides[1] > IMAGE_PIXELS_MAX)
         return option_refuse(row, "must be at most %u pixels in all, got '%s'", (unsigned)IMAGE_PIXELS_MAX, value);
-    o->camera.width = (uint32_t)sides[0];
-    o->camera.height = (uint32_t)sides[1];
+    o->view.spec.width = (uint32_t)sides[0];
+    o->view.spec.height = (uint32_t)sides[1];
     return EXIT_FINE;
 }
 
@@ -344,8 +344,8 @@ int parse_figure_size(options *o, const option_row *row, const char *value) {
          (!number_parse_count(value + length + 1, DRAW_SIZE_MAX, &sides[1]) || sides[1] < DRAW_HEIGHT_MIN)))
         return option_refuse(row, "must be W or WxH, W from %d to %d and H from %d to %d pixels, got '%s'",
                              DRAW_WIDTH_MIN, DRAW_SIZE_MAX, DRAW_HEIGHT_MIN, DRAW_SIZE_MAX, value);
-    o->width = (int)sides[0];
-    o->height = (int)sides[1];
+    o->figure.width = (int)sides[0];
+    o->figure.height = (int)sides[1];
     return EXIT_FINE;
 }
 
@@ -357,28 +357,28 @@ int parse_parameter(options *o, const option_row *row, const char *value) {
         return option_refuse(row, "must be NAME=NUMBER, got '%s'", value);
     memcpy(given.name, value, length);
     size_t i = 0;
-    while (i < o->parameter_count && strcmp(o->parameters[i].name, given.name) != 0)
+    while (i < o->image.parameter_count && strcmp(o->image.parameters[i].name, given.name) != 0)
         i++;
-    if (i < o->parameter_count)
+    if (i < o->image.parameter_count)
         return option_refuse(row, "must not be given twice for '%s', got '%s' too", given.name, value);
     if (i == OPTIONS_PARAMETERS_MAX)
         return option_refuse(row, "must not be more than %d, got '%s' too", OPTIONS_PARAMETERS_MAX, value);
-    o->parameters[o->parameter_count++] = given;
+    o->image.parameters[o->image.parameter_count++] = given;
     return EXIT_FINE;
 }
 
 /* The method of normals that a product compares or holds, behind a second colon. */
 static int read_normals(options *o, const option_row *row, const char *value) {
     static const name_list normals = {.get = list_normal};
-    const bool packed = o->pack != NULL && o->pack->normals;
-    const bool compared = o->effect != NULL && (o->effect->needs & EFFECT_NORMALS) != 0;
+    const bool packed = o->image.pack != NULL && o->image.pack->normals;
+    const bool compared = o->image.effect != NULL && (o->image.effect->needs & EFFECT_NORMALS) != 0;
     char text[NAMES_SIZE];
     list_item item;
     if (!packed && !compared)
         return option_refuse(row, "takes NORMALS with effect:outline and pack:depth-normals, got '%s'", value);
     if (!names_find(&normals, value, NULL, &item))
         return option_refuse(row, "NORMALS %s", names_refuse(&normals, value, text));
-    o->normals_by = item.row;
+    o->image.normals_by = item.row;
     return EXIT_FINE;
 }
 
@@ -390,7 +390,7 @@ int parse_product(options *o, const option_row *row, const char *value) {
     snprintf(name, sizeof name, "%.*s", (int)length, value);
     if (!names_find(row->names, name, NULL, &item))
         return option_refuse(row, "%s", names_refuse(row->names, name, text));
-    const product_row *p = o->product = item.row;
+    const product_row *p = o->image.product = item.row;
     const char *method = value[length] == ':' ? value + length + 1 : p->standard;
     if (p->methods == NULL)
         return method == NULL ? EXIT_FINE : option_refuse(row, "%s has no methods, got '%s'", p->name, value);
@@ -407,14 +407,14 @@ int parse_product(options *o, const option_row *row, const char *value) {
 
 /* With a name it stands beside the product. */
 int parse_error_map(options *o, const option_row *row, const char *value) {
-    o->error_map = value == NULL;
-    o->error_file = value;
+    o->image.error_map = value == NULL;
+    o->image.error_file = value;
     return value == NULL || *value != '\0' ? EXIT_FINE : option_refuse(row, "must be a file name, got ''");
 }
 
 int parse_link(options *o, const option_row *row, const char *value) {
-    o->link = value != NULL ? value : "depthprec.html";
-    if (*o->link == '\0' || o->link[strcspn(o->link, "# \n")] != '\0')
+    o->out.link = value != NULL ? value : "depthprec.html";
+    if (*o->out.link == '\0' || o->out.link[strcspn(o->out.link, "# \n")] != '\0')
         return option_refuse(row, "must be a URL without '#' and blanks, got '%s'", value);
     return EXIT_FINE;
 }
@@ -422,8 +422,8 @@ int parse_link(options *o, const option_row *row, const char *value) {
 int parse_form(options *o, const option_row *row, const char *value) {
     const output_form form = (output_form)row->least;
     (void)value;
-    if (o->form != FORM_TEXT && o->form != form)
+    if (o->out.form != FORM_TEXT && o->out.form != form)
         return option_refuse(row, "cannot be combined with --%s", form == FORM_JSON ? "csv" : "json");
-    o->form = form;
+    o->out.form = form;
     return EXIT_FINE;
 }

@@ -7,7 +7,7 @@ static int parse_profile(options *o, const option_row *row, const char *value, o
     char name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
     if (names_find(row->names, value, NULL, NULL) || !profile_is_file(value))
         return parse(o, row, value);
-    if (!profile_add(&o->gpu, value, row->name, name, error))
+    if (!profile_add(&o->camera.gpu, value, row->name, name, error))
         return option_refuse(row, "%s", error);
     if (!names_find(row->names, name, NULL, NULL))
         return option_refuse(row, "'%s' names what is not known here, '%.40s'", value, name);
@@ -23,7 +23,7 @@ int parse_raster(options *o, const option_row *row, const char *value) {
     char name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
     const int status = parse_profile(o, row, value, parse_row);
     if (status == EXIT_FINE && !names_find(row->names, value, NULL, NULL))
-        o->has_raster_arith =
-            profile_add(&o->gpu, value, "arith", name, error) && dp_arith_parse(name, &o->raster_arith) == DP_OK;
+        o->camera.has_raster_arith = profile_add(&o->camera.gpu, value, "arith", name, error) &&
+                                     dp_arith_parse(name, &o->camera.raster_arith) == DP_OK;
     return status;
 }

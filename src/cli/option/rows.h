@@ -48,6 +48,13 @@ const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]);
 /** As option_error(), which knows the rows; the rows know the kinds that call this. @return EXIT_USAGE */
 int option_refuse(const option_row *row, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/** Presets and platforms choose what the user did not give: option_error() says so of these, until all is forgotten. */
+void option_chosen(const options *o, option_id by, const char *name, const option_id *ids, size_t count);
+void option_forget_choosers(void);
+
+/** What follows from other options, once all are read; several presets are resolved. @return as above */
+int options_complete(options *o);
+
 /** Reads WIDTHxHEIGHT, each from 1 to `most`, or N for both where `square`. @return an exit status, after one line on
  *  stderr */
 int option_read_sides(const option_row *row, const char *value, unsigned most, bool square, uint64_t sides[2]);

@@ -12,8 +12,8 @@ int parse_viewport(options *o, const option_row *row, const char *value) {
     const int status = option_read_sides(row, value, VIEWPORT_MAX, false, sides);
     if (status != EXIT_FINE)
         return status;
-    o->triangles.width = (int)sides[0];
-    o->triangles.height = (int)sides[1];
+    o->camera.triangles.width = (int)sides[0];
+    o->camera.triangles.height = (int)sides[1];
     return EXIT_FINE;
 }
 
@@ -23,8 +23,8 @@ int parse_slant(options *o, const option_row *row, const char *value) {
     if (value[split] == '\0' || !number_parse_part(value, split, NUMBER_FINITE, &lo) ||
         !number_parse(value + split + 1, NUMBER_FINITE, &hi) || !(lo >= 0.0 && lo <= hi && hi <= 90.0))
         return option_refuse(row, "must be LO:HI, from 0 to 90 degrees, got '%s'", value);
-    o->triangles.slant_lo = lo;
-    o->triangles.slant_hi = hi;
+    o->camera.triangles.slant_lo = lo;
+    o->camera.triangles.slant_hi = hi;
     return EXIT_FINE;
 }
 
@@ -38,8 +38,8 @@ int parse_slant_or_plane(options *o, const option_row *row, const char *value) {
         !number_parse(value + split + 1, NUMBER_FINITE, &azimuth) || !(slant >= 0.0 && slant <= 90.0) ||
         !(azimuth >= -360.0 && azimuth <= 360.0))
         return option_refuse(row, "must be SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees, got '%s'", value);
-    o->triangles.slant_lo = o->triangles.slant_hi = slant;
-    o->azimuth = azimuth;
+    o->camera.triangles.slant_lo = o->camera.triangles.slant_hi = slant;
+    o->camera.azimuth = azimuth;
     return EXIT_FINE;
 }
 
@@ -72,7 +72,7 @@ int parse_triangle(options *o, const option_row *row, const char *value) {
     bool seen[CLASS_ROWS] = {false};
     for (const char *at = value;; at++) {
         const size_t length = strcspn(at, ",");
-        if (!read_class(&o->triangles, at, length, seen))
+        if (!read_class(&o->camera.triangles, at, length, seen))
             return option_refuse(row,
                                  "must be depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, "
                                  "each at most once, separated by commas, got '%s'",

@@ -285,11 +285,11 @@ const command_part texture_parts[] = {{"to an effect alone that needs no positio
                                       {NULL, 0}};
 
 size_t table_part(const options *o) {
-    return o->looked_up.count > 0;
+    return o->wanted.looked_up.count > 0;
 }
 
 size_t solve_part(const options *o) {
-    return o->target == SOLVE_FOR_FRUSTA;
+    return o->wanted.target == SOLVE_FOR_FRUSTA;
 }
 
 size_t shadow_part(const options *o) {
@@ -297,9 +297,9 @@ size_t shadow_part(const options *o) {
 }
 
 size_t texture_part(const options *o) {
-    if (o->effect == NULL || o->operand_count > 0 || o->synthetic != NULL)
+    if (o->image.effect == NULL || o->operand_count > 0 || o->image.synthetic != NULL)
         return 2;
-    return (o->effect->needs & EFFECT_POSITION) != 0;
+    return (o->image.effect->needs & EFFECT_POSITION) != 0;
 }
 
 /* A figure is a part of plot. */

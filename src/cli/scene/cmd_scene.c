@@ -26,7 +26,7 @@ enum { STEPS = 1000, DIGITS = 6, AT_ONCE = 128 /* findings that a thread judges 
 static int check_files(const scene *s) {
     static const option_id files[] = {OPTION_RENDER, OPTION_EMIT_NEED};
     const options *o = &s->o;
-    option_id on_stdout = o->output == NULL || strcmp(o->output, "-") == 0 ? OPTION_OUTPUT : OPTION_COUNT;
+    option_id on_stdout = o->out.file == NULL || strcmp(o->out.file, "-") == 0 ? OPTION_OUTPUT : OPTION_COUNT;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         const char *path = option_written(o, files[i]);
         if (path == NULL)
@@ -45,9 +45,9 @@ static int check_files(const scene *s) {
 /* One camera: its fullest model. */
 static int take_setup(scene *s) {
     setups all;
-    if (option_given(&s->o, OPTION_SEPARATION) && s->o.separation > FINDER_COORDINATE_MAX)
+    if (option_given(&s->o, OPTION_SEPARATION) && s->o.wanted.separation > FINDER_COORDINATE_MAX)
         return option_error(OPTION_SEPARATION, "must be at most %g here, got '%s'", FINDER_COORDINATE_MAX,
-                            number_full(s->o.separation).text);
+                            number_full(s->o.wanted.separation).text);
     if (s->o.angle > FINDER_ANGLE_MAX)
         return option_error(OPTION_ANGLE, "must be at most %g degrees here, got '%s'", FINDER_ANGLE_MAX,
                             number_full(s->o.angle).text);
@@ -64,11 +64,11 @@ static int take_setup(scene *s) {
 }
 
 static int read_model(scene *s) {
-    const model_asked asked = {.transforms = s->o.transforms == 0 ? MODEL_EXACT : MODEL_BINARY32};
+    const model_asked asked = {.transforms = s->o.scene.transforms == 0 ? MODEL_EXACT : MODEL_BINARY32};
     model_error error;
     if (model_read(s->file, &asked, &s->model, &error)) {
-        if (s->model.metres > 0.0 && s->o.unit != NULL) /* both say what theirs is */
-            model_scale(&s->model, s->model.metres * 1e9 / s->o.unit->nanometres);
+        if (s->model.metres > 0.0 && s->o.camera.unit != NULL) /* both say what theirs is */
+            model_scale(&s->model, s->model.metres * 1e9 / s->o.camera.unit->nanometres);
         return EXIT_FINE;
     }
     const int status = usage_error("%s: %s", s->file, error.text);
@@ -105,11 +105,11 @@ static int take_limits(scene *s) {
     const model_box b = model_box_of(&s->model);
     dp_separation_worst worst = {.bound = HUGE_VAL};
     s->extent = model_box_diagonal(&b);
-    s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
+    s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.scene.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
     if (!(s->within >= znear && s->within <= zfar))
         return option_error(OPTION_WITHIN, "must lie between near and far, got '%s'", number_full(s->within).text);
     dp_separation_over(&s->setup, znear, s->within, 0.0, &worst);
-    s->gap = option_given(&s->o, OPTION_SEPARATION) ? s->o.separation : worst.bound;
+    s->gap = option_given(&s->o, OPTION_SEPARATION) ? s->o.wanted.separation : worst.bound;
     if (!option_given(&s->o, OPTION_SEPARATION) && !option_given(&s->o, OPTION_WITHIN) && s->eyes.count == 0)
         shorten(s, COARSEST * s->extent);
     return EXIT_FINE;
@@ -121,12 +121,12 @@ static int advance(void *context, double share) {
 }
 
 static int find(scene *s) {
-    progress bar = progress_start("of the search", STEPS, s->o.quiet);
+    progress bar = progress_start("of the search", STEPS, s->o.out.quiet);
     const finder_asked asked = {.gap = s->gap,
                                 .angle = s->angle,
                                 .width = ldexp(s->extent, -22), /* four steps of binary32 */
-                                .off = s->o.filters_off,
-                                .threads = s->o.threads,
+                                .off = s->o.scene.filters_off,
+                                .threads = s->o.out.threads,
                                 .progress = advance,
                                 .context = &bar};
     stop_watch();
@@ -179,9 +179,9 @@ static bool is_as_before(const finder_finding *f, size_t i) {
 static void judge_distances(scene *s) {
     const finder_finding *f = s->found.finding;
     const size_t count = s->found.findings;
-    const int threads = strips_threads(s->o.threads);
+    const int threads = strips_threads(s->o.out.threads);
     const size_t round = AT_ONCE * (size_t)threads;
-    progress bar = progress_start("findings judged", count, s->o.quiet);
+    progress bar = progress_start("findings judged", count, s->o.out.quiet);
     for (size_t first = 0; first < count && !stop_asked(); first += round) {
         const size_t end = first + round < count ? first + round : count;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
@@ -240,16 +240,16 @@ static int take_camera(scene *s) {
 int scene_begin(scene *s, const options *given, const char *file) {
     *s = (scene){.o = *given, .file = file, .unit = options_unit(given)};
     s->angle = s->o.angle;
-    s->transforms = option_word(OPTION_TRANSFORMS, s->o.transforms);
+    s->transforms = option_word(OPTION_TRANSFORMS, s->o.scene.transforms);
     const int status = scene_eyes_check(&s->o);
-    return status == EXIT_FINE && s->o.model_camera == NULL ? take_camera(s) : status;
+    return status == EXIT_FINE && s->o.scene.camera == NULL ? take_camera(s) : status;
 }
 
 int scene_look(scene *s, output *out) {
     int status = read_model(s);
     if (status == EXIT_FINE)
         status = scene_eyes_take(s);
-    if (status == EXIT_FINE && s->o.model_camera != NULL)
+    if (status == EXIT_FINE && s->o.scene.camera != NULL)
         status = take_camera(s);
     if (status == EXIT_FINE)
         status = take_limits(s);
@@ -274,13 +274,13 @@ void scene_end(scene *s) {
 /* What is asked of this command alone. */
 static int check_asked(const scene *s) {
     const options *o = &s->o;
-    if (o->report != REPORT_TEXT && o->form != FORM_TEXT)
+    if (o->out.report != REPORT_TEXT && o->out.form != FORM_TEXT)
         return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
-    if (o->report == REPORT_JUNIT && !option_given(o, OPTION_WITHIN))
+    if (o->out.report == REPORT_JUNIT && !option_given(o, OPTION_WITHIN))
         return option_error(OPTION_REPORT, "junit needs --within: what fights nearer fails");
-    if (o->emit_need != NULL && option_given(o, OPTION_SEPARATION) && o->separation == 0.0)
+    if (o->scene.emit_need != NULL && option_given(o, OPTION_SEPARATION) && o->wanted.separation == 0.0)
         return option_error(OPTION_EMIT_NEED, "needs a --separation above 0: no camera tells one plane apart");
-    if (o->api == NULL)
+    if (o->bias.api == NULL)
         return option_error(OPTION_API, "must name one here, got 'all'");
     const int status = setup_decided(o);
     return status == EXIT_FINE ? check_files(s) : status;
@@ -291,7 +291,7 @@ static int write_files(scene *s, output *out) {
     const struct {
         const char *path;
         int (*write)(scene *s);
-    } files[] = {{s->o.render, scene_render}, {s->o.emit_need, scene_need}};
+    } files[] = {{s->o.scene.render, scene_render}, {s->o.scene.emit_need, scene_need}};
     int status = EXIT_FINE;
     for (size_t i = 0; i < sizeof files / sizeof files[0] && status == EXIT_FINE; i++) {
         if (files[i].path != NULL)
@@ -302,11 +302,11 @@ static int write_files(scene *s, output *out) {
 }
 
 static int write_report(scene *s, output *out) {
-    if (s->o.report == REPORT_JUNIT) {
+    if (s->o.out.report == REPORT_JUNIT) {
         scene_junit(s, out);
     } else {
         const report_spec spec = scene_report(s);
-        report_write(&spec, out, s->o.report == REPORT_JSON ? FORM_JSON : s->o.form);
+        report_write(&spec, out, s->o.out.report == REPORT_JSON ? FORM_JSON : s->o.out.form);
     }
     return output_close(out);
 }

@@ -28,10 +28,10 @@ static int take_look(scene *s) {
     s->eyes.eye = malloc(sizeof *s->eyes.eye);
     if (s->eyes.eye == NULL)
         return usage_error("%s: no memory for an eye", s->file);
-    if (!scene_eye_look(s->o.eye, s->o.look, upwards, s->eyes.eye))
+    if (!scene_eye_look(s->o.view.eye, s->o.view.look, upwards, s->eyes.eye))
         return option_error(OPTION_LOOK, "must be another place than --eye, which are both %s,%s,%s",
-                            number_full(s->o.eye[0]).text, number_full(s->o.eye[1]).text,
-                            number_full(s->o.eye[2]).text);
+                            number_full(s->o.view.eye[0]).text, number_full(s->o.view.eye[1]).text,
+                            number_full(s->o.view.eye[2]).text);
     s->eyes.count = 1;
     return EXIT_FINE;
 }
@@ -41,23 +41,23 @@ static int take_look(scene *s) {
 /* What it says of the view, where nothing was given. */
 static int take_view(scene *s, const model_camera *camera) {
     options *o = &s->o;
-    const char *name = o->model_camera;
-    const bool by_preset = o->preset_count > 0;
+    const char *name = o->scene.camera;
+    const bool by_preset = o->camera.preset_count > 0;
     if (camera->ortho)
         return option_error(OPTION_CAMERA, "must be a perspective one, and '%s' is orthographic", name);
     if (!option_given(o, OPTION_NEAR) && !by_preset)
-        o->znear = camera->znear;
+        o->camera.znear = camera->znear;
     if (!option_given(o, OPTION_FAR) && !by_preset)
-        o->zfar = camera->zfar;
-    if (!(o->znear >= 1e-12 && o->znear <= 1e12))
+        o->camera.zfar = camera->zfar;
+    if (!(o->camera.znear >= 1e-12 && o->camera.znear <= 1e12))
         return option_error(OPTION_CAMERA, "'%s' has its near plane at %s, which must be from 1e-12 to 1e12", name,
-                            number_full(o->znear).text);
+                            number_full(o->camera.znear).text);
     if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV) && !by_preset) {
         if (!(camera->fov_y >= 0.01 && camera->fov_y <= 179.0)) /* as --fov has it */
             return option_error(OPTION_CAMERA,
                                 "'%s' has a vertical field of view of %s degrees, which must be from 0.01 to 179", name,
                                 number_of(camera->fov_y, 6).text);
-        o->camera.fov_y = o->triangles.fov_y = camera->fov_y;
+        o->view.spec.fov_y = o->camera.triangles.fov_y = camera->fov_y;
     }
     return EXIT_FINE;
 }
@@ -78,11 +78,11 @@ static int find_camera(const scene *s, const char **names, camera_name *numbered
     }
     names[m->cameras] = NULL;
     for (*found = 0; *found < m->cameras; ++*found)
-        if (strcmp(names[*found], s->o.model_camera) == 0)
+        if (strcmp(names[*found], s->o.scene.camera) == 0)
             return EXIT_FINE;
     if (m->cameras == 0)
-        return option_error(OPTION_CAMERA, "%s has no camera, got '%s'", s->file, s->o.model_camera);
-    return option_error(OPTION_CAMERA, "%s", names_refuse(&all, s->o.model_camera, text));
+        return option_error(OPTION_CAMERA, "%s has no camera, got '%s'", s->file, s->o.scene.camera);
+    return option_error(OPTION_CAMERA, "%s", names_refuse(&all, s->o.scene.camera, text));
 }
 
 static int take_camera(scene *s) {
@@ -96,7 +96,7 @@ static int take_camera(scene *s) {
     free(names);
     free(numbered);
     if (status == EXIT_FINE && !scene_eye_of(&m->camera[found], s->eyes.eye))
-        status = option_error(OPTION_CAMERA, "'%s' looks nowhere: its node has no extent along z", s->o.model_camera);
+        status = option_error(OPTION_CAMERA, "'%s' looks nowhere: its node has no extent along z", s->o.scene.camera);
     if (status != EXIT_FINE)
         return status;
     s->eyes.count = 1;
@@ -125,8 +125,8 @@ static int read_line(scene *s, const char *text, size_t length, size_t line) {
             word++;
         double *const to = count < NUMBERS ? &number[count] : &extra;
         if (!number_parse_part(text + at, word, NUMBER_FINITE, to) || !(fabs(*to) <= 1e12))
-            return option_error(OPTION_PATH, "%s: line %zu: must be numbers from -1e12 to 1e12, got '%s'", s->o.path,
-                                line, error_word(text + at, word, shown));
+            return option_error(OPTION_PATH, "%s: line %zu: must be numbers from -1e12 to 1e12, got '%s'",
+                                s->o.scene.path, line, error_word(text + at, word, shown));
         count++;
         at += word;
     }
@@ -134,12 +134,13 @@ static int read_line(scene *s, const char *text, size_t length, size_t line) {
         return EXIT_FINE;
     if (count != NUMBERS)
         return option_error(OPTION_PATH, "%s: line %zu: must be six numbers, a place and the place looked at, got %zu",
-                            s->o.path, line, count);
+                            s->o.scene.path, line, count);
     if (s->eyes.count == EYES_MOST)
-        return option_error(OPTION_PATH, "%s: line %zu: must be at most %d eyes", s->o.path, line, EYES_MOST);
+        return option_error(OPTION_PATH, "%s: line %zu: must be at most %d eyes", s->o.scene.path, line, EYES_MOST);
     scene_eye *eye = &s->eyes.eye[s->eyes.count];
     if (!scene_eye_look(number, number + 3, upwards, eye))
-        return option_error(OPTION_PATH, "%s: line %zu: must look at another place than its own", s->o.path, line);
+        return option_error(OPTION_PATH, "%s: line %zu: must look at another place than its own", s->o.scene.path,
+                            line);
     eye->line = line;
     s->eyes.count++;
     return EXIT_FINE;
@@ -152,7 +153,7 @@ static int read_lines(scene *s, const char *text, size_t size) {
         lines += text[i] == '\n';
     s->eyes.eye = malloc((lines < EYES_MOST ? lines : EYES_MOST) * sizeof *s->eyes.eye);
     if (s->eyes.eye == NULL)
-        return usage_error("%s: no memory for %zu eyes", s->o.path, lines);
+        return usage_error("%s: no memory for %zu eyes", s->o.scene.path, lines);
     for (size_t at = 0; at < size && status == EXIT_FINE; line++) {
         const char *end = memchr(text + at, '\n', size - at);
         const size_t length = end != NULL ? (size_t)(end - text) - at : size - at;
@@ -160,23 +161,23 @@ static int read_lines(scene *s, const char *text, size_t size) {
         at += length + 1;
     }
     if (status == EXIT_FINE && s->eyes.count == 0)
-        status = option_error(OPTION_PATH, "%s: has no line of six numbers", s->o.path);
+        status = option_error(OPTION_PATH, "%s: has no line of six numbers", s->o.scene.path);
     return status;
 }
 
 static int take_path(scene *s) {
     char *text = malloc(FILE_MOST + 1);
     if (text == NULL)
-        return usage_error("%s: no memory to read it", s->o.path);
-    FILE *in = input_open(s->o.path);
+        return usage_error("%s: no memory to read it", s->o.scene.path);
+    FILE *in = input_open(s->o.scene.path);
     const size_t size = in != NULL ? fread(text, 1, FILE_MOST + 1, in) : 0;
     const int error = errno;
     int status = EXIT_FINE;
     if (in == NULL || ferror(in)) {
-        option_error(OPTION_PATH, "%s: %s", s->o.path, strerror(error));
+        option_error(OPTION_PATH, "%s: %s", s->o.scene.path, strerror(error));
         status = EXIT_IO;
     } else if (size > FILE_MOST) {
-        status = option_error(OPTION_PATH, "%s: must be at most %d bytes", s->o.path, FILE_MOST);
+        status = option_error(OPTION_PATH, "%s: must be at most %d bytes", s->o.scene.path, FILE_MOST);
     }
     input_close(in);
     if (status == EXIT_FINE)
@@ -206,8 +207,8 @@ static void describe(scene *s) {
     const double nan = (double)NAN;
     scene_eyes *e = &s->eyes;
     e->places = e->count;
-    e->path = s->o.path;
-    e->camera = s->o.model_camera;
+    e->path = s->o.scene.path;
+    e->camera = s->o.scene.camera;
     e->from = e->ahead = (scene_place){nan, nan, nan};
     if (e->count != 1)
         return;
@@ -218,7 +219,7 @@ static void describe(scene *s) {
 int scene_eyes_take(scene *s) {
     const int status = option_given(&s->o, OPTION_EYE)    ? take_look(s)
                        : option_given(&s->o, OPTION_PATH) ? take_path(s)
-                       : s->o.model_camera != NULL        ? take_camera(s)
+                       : s->o.scene.camera != NULL        ? take_camera(s)
                                                           : EXIT_FINE;
     if (status == EXIT_FINE)
         describe(s);
@@ -233,17 +234,17 @@ int scene_eyes_judge(scene *s) {
                                .setup = &s->setup,
                                .within = s->within,
                                .gap = s->gap,
-                               .any_side = (s->o.filters_off >> FINDER_FACING & 1U) != 0,
-                               .classes = s->o.emit_need != NULL,
+                               .any_side = (s->o.scene.filters_off >> FINDER_FACING & 1U) != 0,
+                               .classes = s->o.scene.emit_need != NULL,
                                .eye = s->eyes.eye,
                                .eyes = s->eyes.count,
                                .stop = stop_asked};
     const double nearer_than = option_given(&s->o, OPTION_WITHIN) ? s->within : HUGE_VAL;
-    const int threads = strips_threads(s->o.threads);
+    const int threads = strips_threads(s->o.out.threads);
     scene_sight *room = malloc((size_t)threads * s->eyes.count * sizeof *room), *next = room;
     if (room == NULL)
         return usage_error("%s: no memory to judge it from %zu eyes", s->file, s->eyes.count);
-    progress bar = progress_start("findings judged", s->found.findings, s->o.quiet);
+    progress bar = progress_start("findings judged", s->found.findings, s->o.out.quiet);
     uint64_t done = 0;
 #pragma omp parallel num_threads(threads)
     {
@@ -259,8 +260,8 @@ int scene_eyes_judge(scene *s) {
             f->sight = scene_sight_worst(&asked, f->of, own);
             f->fights = f->sight.fights_from < nearer_than;
             f->verdict.lift = f->sight.lift;
-            f->line =
-                s->o.path != NULL && !isnan(f->sight.seen_from) ? (double)s->eyes.eye[f->sight.eye].line : (double)NAN;
+            f->line = s->o.scene.path != NULL && !isnan(f->sight.seen_from) ? (double)s->eyes.eye[f->sight.eye].line
+                                                                            : (double)NAN;
 #pragma omp critical(scene_progress)
             progress_step(&bar, ++done);
         }

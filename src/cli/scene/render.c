@@ -30,16 +30,16 @@ static int take_camera(scene *s, draw_camera *camera) {
         status = raster_setups(&o, &all);
     if (status != EXIT_FINE)
         return status;
-    if ((double)o.triangles.width * o.triangles.height > RENDER_PIXELS_MAX)
+    if ((double)o.camera.triangles.width * o.camera.triangles.height > RENDER_PIXELS_MAX)
         status = option_error(OPTION_VIEWPORT, "must be of at most %d pixels with --render, got %dx%d",
-                              RENDER_PIXELS_MAX, o.triangles.width, o.triangles.height);
-    if (status == EXIT_FINE && draw_camera_init(camera, o.raster, &all.items[0]) != RASTER_OK)
-        status =
-            option_error(OPTION_RENDER, "cannot be drawn by %s in %s", o.raster->name, all.items[0].spec.format.name);
-    s->rendered = (scene_rendered){.file = s->o.render,
-                                   .raster = o.raster->name,
-                                   .width = o.triangles.width,
-                                   .height = o.triangles.height,
+                              RENDER_PIXELS_MAX, o.camera.triangles.width, o.camera.triangles.height);
+    if (status == EXIT_FINE && draw_camera_init(camera, o.camera.raster, &all.items[0]) != RASTER_OK)
+        status = option_error(OPTION_RENDER, "cannot be drawn by %s in %s", o.camera.raster->name,
+                              all.items[0].spec.format.name);
+    s->rendered = (scene_rendered){.file = s->o.scene.render,
+                                   .raster = o.camera.raster->name,
+                                   .width = o.camera.triangles.width,
+                                   .height = o.camera.triangles.height,
                                    .fov_y = all.items[0].spec.triangles.fov_y};
     setups_release(&all);
     return status;
@@ -47,11 +47,11 @@ static int take_camera(scene *s, draw_camera *camera) {
 
 int scene_render_check(scene *s) {
     draw_camera camera;
-    if (s->o.render == NULL)
+    if (s->o.scene.render == NULL)
         return EXIT_FINE;
-    if (canvas_format_of(s->o.render) != CANVAS_PNG)
-        return option_error(OPTION_RENDER, "must end in .png, got '%s'", s->o.render);
-    if (s->o.path != NULL)
+    if (canvas_format_of(s->o.scene.render) != CANVAS_PNG)
+        return option_error(OPTION_RENDER, "must end in .png, got '%s'", s->o.scene.render);
+    if (s->o.scene.path != NULL)
         return option_error(OPTION_RENDER, "cannot be combined with --path: a picture has one eye");
     return take_camera(s, &camera);
 }
@@ -127,7 +127,8 @@ static int write_picture(const scene *s, const render_asked *asked, const render
     }
     free(pixel);
     good = (stream == NULL || fclose(stream) == 0) && good;
-    int status = good ? output_open(&out, s->o.render) : usage_error("%s: no memory for the picture", s->o.render);
+    int status =
+        good ? output_open(&out, s->o.scene.render) : usage_error("%s: no memory for the picture", s->o.scene.render);
     if (good && status == EXIT_FINE) {
         output_bytes(&out, bytes, size);
         status = output_close(&out);
@@ -142,13 +143,13 @@ int scene_render(scene *s) {
     int status = take_camera(s, &camera);
     if (status != EXIT_FINE)
         return status;
-    progress bar = progress_start("of the picture", STEPS, s->o.quiet);
+    progress bar = progress_start("of the picture", STEPS, s->o.out.quiet);
     render_asked asked = {.m = &s->model,
                           .camera = &camera,
                           .progress = advance,
                           .context = &bar,
-                          .any_side = (s->o.filters_off & 1U << FINDER_FACING) != 0,
-                          .blended = (s->o.filters_off & 1U << FINDER_BLENDED) != 0};
+                          .any_side = (s->o.scene.filters_off & 1U << FINDER_FACING) != 0,
+                          .blended = (s->o.scene.filters_off & 1U << FINDER_BLENDED) != 0};
     const bool good = take_eye(s, &camera, &asked.eye);
     s->rendered.eye = (scene_place){asked.eye.place[0], asked.eye.place[1], asked.eye.place[2]};
     s->rendered.ahead = (scene_place){asked.eye.ahead[0], asked.eye.ahead[1], asked.eye.ahead[2]};
@@ -159,7 +160,7 @@ int scene_render(scene *s) {
     if (drawn == RENDER_RANGE)
         return usage_error("%s: its coordinates are beyond 1e30: too far to be drawn", s->file);
     if (drawn == RENDER_NO_MEMORY || !count_wrong(s, &p)) {
-        status = usage_error("%s: no memory for the picture", s->o.render);
+        status = usage_error("%s: no memory for the picture", s->o.scene.render);
     } else {
         status = write_picture(s, &asked, &p);
     }

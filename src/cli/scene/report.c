@@ -207,13 +207,13 @@ static void say_finding(page *p, const scene *s, size_t i) {
 void scene_bias_take(scene *s) {
     const dp_setup *setup = &s->setup;
     const double least = bias_factor_least(setup), znear = setup->spec.znear;
-    const bias_api api = profile_bias(&s->o.gpu, s->o.platform, s->o.api, &setup->spec.format);
+    const bias_api api = profile_bias(&s->o.camera.gpu, s->o.camera.platform, s->o.bias.api, &setup->spec.format);
     const bias_goal goal = {.api = &api, .factor = least};
     double units = HUGE_VAL, z;
     if (isfinite(least) && s->within > znear)
         units = bias_needed_over(setup, &goal, znear, s->within, &z);
     units = bias_signed(setup, units);
-    s->bias = (scene_bias){s->o.api->name, units, isnan(units) ? units : least * bias_sign(setup)};
+    s->bias = (scene_bias){s->o.bias.api->name, units, isnan(units) ? units : least * bias_sign(setup)};
 }
 
 static void say_bias(page *p, const scene *s) {
@@ -222,7 +222,7 @@ static void say_bias(page *p, const scene *s) {
                   length(p, s->within).text);
     else
         page_text(p, "Or, for what is drawn second: %s; enough up to %s%s.",
-                  bias_call(s->o.api, s->bias.units, s->bias.factor).text, length(p, s->within).text,
+                  bias_call(s->o.bias.api, s->bias.units, s->bias.factor).text, length(p, s->within).text,
                   s->triangles != NULL ? " in triangles as above"
                                        : " where they face the camera; --viewport counts slants, too");
 }
@@ -357,7 +357,7 @@ static const column columns[] = {
 static void count(scene *s) {
     s->triangle_count = s->model.triangles;
     s->surface_count = s->model.surfaces;
-    s->picture = s->o.render != NULL ? &s->rendered : NULL;
+    s->picture = s->o.scene.render != NULL ? &s->rendered : NULL;
     s->degenerate = s->found.degenerate;
     for (int k = 0; k < FINDER_FILTERS; k++)
         s->left_out[k] = s->found.left_out[k];

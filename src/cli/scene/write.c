@@ -72,9 +72,9 @@ static void put_view(output *out, const scene *s, const dp_triangles *t) {
         return;
     output_format(out, "\n            viewport = [%d, %d];", t->width, t->height);
     put_number(out, "fov", t->fov_y);
-    if (s->o.raster != NULL)
-        put_word(out, "raster", s->o.raster->name);
-    if (s->o.raster == NULL || s->o.raster->at_least)
+    if (s->o.camera.raster != NULL)
+        put_word(out, "raster", s->o.camera.raster->name);
+    if (s->o.camera.raster == NULL || s->o.camera.raster->at_least)
         output_format(out, " subpixel = %d;", t->subpixel);
     output_text(out, "\n           ");
     put_pair(out, "slant", t->slant_lo + 0.0, t->slant_hi + 0.0);
@@ -179,7 +179,7 @@ static void put_need(output *out, const char *camera, double lo, double hi, doub
 
 int scene_need(scene *s) {
     output out;
-    const int status = output_open(&out, s->o.emit_need);
+    const int status = output_open(&out, s->o.scene.emit_need);
     if (status != EXIT_FINE)
         return status;
     output_text(&out, "# What a camera must tell apart in a model: `depthprec check` of this file.\n");

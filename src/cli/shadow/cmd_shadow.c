@@ -65,8 +65,8 @@ static void *next_setup(void *of, size_t i) {
     const options *o = &s->o;
     if (i == s->setup_count)
         return NULL;
-    const dp_format *format = &o->formats[i / o->mapping_count];
-    const dp_mapping mapping = o->mappings[i % o->mapping_count];
+    const dp_format *format = &o->camera.formats[i / o->camera.mapping_count];
+    const dp_mapping mapping = o->camera.mappings[i % o->camera.mapping_count];
     shadow_maps_make(o, format, mapping, &s->maps); /* cannot fail: cmd_shadow() has tried */
     s->format = format->name;
     s->mapping = dp_mapping_get(mapping)->name;
@@ -82,10 +82,10 @@ static void say_maps(page *p, void *item) {
     const shadow *s = item;
     const options *o = &s->o;
     const shadow_split *v = &s->maps.view;
-    const dp_triangles *t = &o->triangles;
+    const dp_triangles *t = &o->camera.triangles;
     p->unit = s->unit;
     page_title(p, "%s %s, %ux%u texels, filter %ux%u, angles up to %s degrees%s%s", s->format, s->mapping,
-               o->camera.width, o->camera.height, o->kernel, o->kernel, number_full(o->angle).text,
+               o->view.spec.width, o->view.spec.height, o->shadow.kernel, o->shadow.kernel, number_full(o->angle).text,
                p->unit != NULL ? ", in " : "", p->unit != NULL ? p->unit : "");
     if (v->count > 0) {
         page_title(p, "view near %s, far %s, fov %s, %dx%d", number_full(v->znear).text, number_full(v->zfar).text,
@@ -93,10 +93,12 @@ static void say_maps(page *p, void *item) {
         page_title(p, "%d cascade%s, lambda %s, casters up to %s before", v->count, v->count == 1 ? "" : "s",
                    number_full(v->lambda).text, number_full(v->casters).text);
     } else {
-        const double texel = fmax(o->light_box[0] / o->camera.width, o->light_box[1] / o->camera.height);
-        page_title(p, "box %s x %s, %s deep along the light, texel %s", number_full(o->light_box[0]).text,
-                   number_full(o->light_box[1]).text, number_full(o->light_box[2]).text, number_of(texel, DIGITS).text);
-        if (s->lit.lo > 0.0 || s->lit.hi < o->light_box[2])
+        const double texel =
+            fmax(o->shadow.light_box[0] / o->view.spec.width, o->shadow.light_box[1] / o->view.spec.height);
+        page_title(p, "box %s x %s, %s deep along the light, texel %s", number_full(o->shadow.light_box[0]).text,
+                   number_full(o->shadow.light_box[1]).text, number_full(o->shadow.light_box[2]).text,
+                   number_of(texel, DIGITS).text);
+        if (s->lit.lo > 0.0 || s->lit.hi < o->shadow.light_box[2])
             page_title(p, "lit from %s to %s along the light%s", number_up(s->lit.lo, DIGITS).text,
                        number_down(s->lit.hi, DIGITS).text,
                        option_given(o, OPTION_RANGE) ? "" : ": units are worth nothing at depth 0");
@@ -105,7 +107,7 @@ static void say_maps(page *p, void *item) {
                t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text, s->arith);
     if (option_given(o, OPTION_CURVATURE))
         page_title(p, "receivers bend away with a radius of at least %s, triangles in circles of %s",
-                   number_full(o->curvature).text, number_full(o->facet).text);
+                   number_full(o->shadow.curvature).text, number_full(o->shadow.facet).text);
 }
 
 /* One API: what to write. All: what follows is a table of them. */
@@ -300,8 +302,9 @@ static const column setup_report[] = {
     {LIST(NULL, row_columns, next_row), .only = AS_TEXT, .when = ONE_API, .head = say_heads, .notes = say_notes},
     {.kind = COLUMN_END}};
 
-static const column size_columns[] = {
-    {FIELD(shadow, o.camera.width, "width", "")}, {FIELD(shadow, o.camera.height, "height", "")}, {.kind = COLUMN_END}};
+static const column size_columns[] = {{FIELD(shadow, o.view.spec.width, "width", "")},
+                                      {FIELD(shadow, o.view.spec.height, "height", "")},
+                                      {.kind = COLUMN_END}};
 
 static const column view_columns[] = {
     {FIELD(shadow_split, znear, "near", "scene")},      {FIELD(shadow_split, zfar, "far", "scene")},
@@ -311,15 +314,15 @@ static const column view_columns[] = {
 
 static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS_JSON},
                                  {GROUP("size", size_columns), .only = AS_JSON},
-                                 {FIELD(shadow, o.kernel, "kernel", "texels"), .only = AS_JSON},
+                                 {FIELD(shadow, o.shadow.kernel, "kernel", "texels"), .only = AS_JSON},
                                  {FIELD(shadow, o.angle, "angle", "degrees"), .only = AS_JSON},
-                                 {FIELD(shadow, o.triangles.subpixel, "subpixel", ""), .only = AS_JSON},
-                                 {FIELD(shadow, o.triangles.pixels, "pixels", ""), .only = AS_JSON},
-                                 {FIELD(shadow, o.triangles.slim, "slim", ""), .only = AS_JSON},
+                                 {FIELD(shadow, o.camera.triangles.subpixel, "subpixel", ""), .only = AS_JSON},
+                                 {FIELD(shadow, o.camera.triangles.pixels, "pixels", ""), .only = AS_JSON},
+                                 {FIELD(shadow, o.camera.triangles.slim, "slim", ""), .only = AS_JSON},
                                  {FIELD(shadow, arith, "arith", ""), .only = AS_JSON},
-                                 {FIELD(shadow, o.terms.world, "from_origin", "scene"), .only = AS_JSON},
-                                 {FIELD(shadow, o.curvature, "curvature", "scene"), .only = AS_JSON},
-                                 {FIELD(shadow, o.facet, "facet", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.world.terms.world, "from_origin", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.shadow.curvature, "curvature", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.shadow.facet, "facet", "scene"), .only = AS_JSON},
                                  {PART(shadow, view, "view", view_columns), .only = AS_JSON, .pointed = true},
                                  {LIST("setups", setup_report, next_setup), .head = say_answer},
                                  {.kind = COLUMN_END}};
@@ -328,19 +331,23 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
 
 int cmd_shadow(const options *given) {
     output out;
-    shadow s = {.o = *given, .api = given->api, .unit = options_unit(given), .arith = dp_arith_get(given->arith)->name};
+    shadow s = {.o = *given,
+                .api = given->bias.api,
+                .unit = options_unit(given),
+                .arith = dp_arith_get(given->camera.arith)->name};
     const options *o = &s.o;
     s.api_name = s.api != NULL ? s.api->name : "all";
-    s.setup_count = o->format_count * o->mapping_count;
+    s.setup_count = o->camera.format_count * o->camera.mapping_count;
     int status = EXIT_FINE;
     for (size_t i = 0; i < s.setup_count && status == EXIT_FINE; i++)
-        status = shadow_maps_make(o, &o->formats[i / o->mapping_count], o->mappings[i % o->mapping_count], &s.maps);
+        status = shadow_maps_make(o, &o->camera.formats[i / o->camera.mapping_count],
+                                  o->camera.mappings[i % o->camera.mapping_count], &s.maps);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     s.view = s.maps.view.count > 0 ? &s.maps.view : NULL;
     const unsigned when = (s.api != NULL ? ONE_API : ALL_APIS) | (s.view != NULL ? SPLIT : 0);
-    report_write(&(report_spec){"shadow", columns, &s, .when = when, .label = 14}, &out, o->form);
+    report_write(&(report_spec){"shadow", columns, &s, .when = when, .label = 14}, &out, o->out.form);
     return output_close(&out);
 }

@@ -11,9 +11,9 @@ enum { SIDE_MAX = 32768 };
 
 /* A box has no view, and the depths of cascades follow from it. */
 static int check_together(const options *o) {
-    if (o->camera.width > SIDE_MAX || o->camera.height > SIDE_MAX)
-        return option_error(OPTION_SIZE, "must be at most %d texels a side, got '%ux%u'", SIDE_MAX, o->camera.width,
-                            o->camera.height);
+    if (o->view.spec.width > SIDE_MAX || o->view.spec.height > SIDE_MAX)
+        return option_error(OPTION_SIZE, "must be at most %d texels a side, got '%ux%u'", SIDE_MAX, o->view.spec.width,
+                            o->view.spec.height);
     return EXIT_FINE;
 }
 
@@ -41,65 +41,68 @@ static void keep_off_zero(shadow_light *light, const bias_api *api) {
 /* What all maps share; of a box, also its sides and planes. */
 static shadow_light light_of(const options *o, const dp_format *format, dp_mapping mapping) {
     const bool box = option_given(o, OPTION_LIGHT_BOX);
-    dp_spec spec = {
-        .zfar = box ? o->light_box[2] : 1.0, .ortho = true, .format = *format, .mapping = mapping, .arith = o->arith};
+    dp_spec spec = {.zfar = box ? o->shadow.light_box[2] : 1.0,
+                    .ortho = true,
+                    .format = *format,
+                    .mapping = mapping,
+                    .arith = o->camera.arith};
     shadow_light light = shadow_light_default();
-    light.triangles = o->triangles;
-    light.triangles.width = (int)o->camera.width;
-    light.triangles.height = (int)o->camera.height;
+    light.triangles = o->camera.triangles;
+    light.triangles.width = (int)o->view.spec.width;
+    light.triangles.height = (int)o->view.spec.height;
     light.triangles.slant_lo = 0.0;
     light.triangles.slant_hi = o->angle;
-    light.kernel = 0.5 * o->kernel;
-    light.world = o->terms.world;
+    light.kernel = 0.5 * o->shadow.kernel;
+    light.world = o->world.terms.world;
     if (option_given(o, OPTION_CURVATURE))
-        light.radius = o->curvature;
-    light.facet = o->facet;
+        light.radius = o->shadow.curvature;
+    light.facet = o->shadow.facet;
     light.receiver_lo = 0.0;
     light.receiver_hi = spec.zfar;
     if (box) {
-        light.width = o->light_box[0];
-        light.height = o->light_box[1];
+        light.width = o->shadow.light_box[0];
+        light.height = o->shadow.light_box[1];
     }
     if (option_given(o, OPTION_RANGE)) {
-        light.receiver_lo = o->range_lo;
-        light.receiver_hi = o->range_hi;
+        light.receiver_lo = o->camera.range_lo;
+        light.receiver_hi = o->camera.range_hi;
     }
     dp_setup_init(&light.setup, &spec); /* cannot fail: mapping and depth have been checked */
     if (box && !option_given(o, OPTION_RANGE) && shadow_light_check(&light) == SHADOW_OK)
-        keep_off_zero(&light, o->api != NULL ? o->api : bias_api_get(0));
+        keep_off_zero(&light, o->bias.api != NULL ? o->bias.api : bias_api_get(0));
     return light;
 }
 
 static int split_of(const options *o, shadow_split *out) {
-    const dp_triangles *t = &o->triangles;
+    const dp_triangles *t = &o->camera.triangles;
     shadow_split s = shadow_split_default();
-    s.znear = o->znear;
-    s.zfar = o->zfar;
+    s.znear = o->camera.znear;
+    s.zfar = o->camera.zfar;
     s.aspect = (double)t->width / t->height;
-    s.count = (int)o->cascades;
-    s.lambda = o->lambda;
-    s.casters = o->casters;
+    s.count = (int)o->shadow.cascades;
+    s.lambda = o->shadow.lambda;
+    s.casters = o->shadow.casters;
     *out = s;
     return view_vertical(o, t->width, t->height, &out->fov_y);
 }
 
 /* What the options could not see one by one. */
 static int refused(const options *o, shadow_status status) {
-    const uint32_t side = o->camera.width < o->camera.height ? o->camera.width : o->camera.height;
-    const uint32_t least = (5 * o->kernel + 6) / 2 + 1; /* a texel wider than both margins of a cascade */
+    const uint32_t side = o->view.spec.width < o->view.spec.height ? o->view.spec.width : o->view.spec.height;
+    const uint32_t least = (5 * o->shadow.kernel + 6) / 2 + 1; /* a texel wider than both margins of a cascade */
     if (status == SHADOW_RECEIVERS)
         return option_error(OPTION_RANGE, "must lie in the box, from 0 to %s, got '%s:%s'",
-                            number_full(o->light_box[2]).text, number_full(o->range_lo).text,
-                            number_full(o->range_hi).text);
-    if (status == SHADOW_CASCADES && !(o->zfar > o->znear && o->zfar <= 1e12))
+                            number_full(o->shadow.light_box[2]).text, number_full(o->camera.range_lo).text,
+                            number_full(o->camera.range_hi).text);
+    if (status == SHADOW_CASCADES && !(o->camera.zfar > o->camera.znear && o->camera.zfar <= 1e12))
         return option_error(OPTION_FAR, "must be greater than near and at most 1e12, got '%s'",
-                            number_full(o->zfar).text);
+                            number_full(o->camera.zfar).text);
     if (status == SHADOW_CASCADES)
         return option_error(OPTION_VIEWPORT, "must be from 0.001 to 1000 times as wide as high, got '%dx%d'",
-                            o->triangles.width, o->triangles.height);
+                            o->camera.triangles.width, o->camera.triangles.height);
     if (status == SHADOW_BOX && side < least)
         return option_error(OPTION_SIZE, "must be at least %u texels a side for a filter of %ux%u, got '%ux%u'", least,
-                            o->kernel, o->kernel, o->camera.width, o->camera.height);
+                            o->shadow.kernel, o->shadow.kernel, o->view.spec.width, o->view.spec.height);
     return option_error(OPTION_FAR, "makes a map too large or too small: %s", shadow_status_text(status));
 }
 
@@ -108,7 +111,7 @@ int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mappi
     int status = check_together(o);
     if (status == EXIT_FINE)
         status = setup_undrawn(o, format);
-    *out = (shadow_maps){.count = box ? 1 : o->cascades};
+    *out = (shadow_maps){.count = box ? 1 : o->shadow.cascades};
     if (status != EXIT_FINE)
         return status;
     if (dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE)

@@ -22,22 +22,22 @@ static bool is_logarithm(dp_mapping mapping) {
 }
 
 static bool is_known(const options *o, option_id id) {
-    return option_given(o, id) || o->preset_count > 0;
+    return option_given(o, id) || o->camera.preset_count > 0;
 }
 
 /* At a slant there is a guarantee of separations, and only of what is affine on the screen. */
 static int check_slanted(const options *o, const solve_report *r) {
     if (r->kind == MEASURE_ERROR)
         return option_error(OPTION_ERROR, "is that of a depth at a point, and cannot be combined with --viewport");
-    if (option_given(o, OPTION_MODEL) && !o->model_auto && o->model != DP_MODEL_FLOAT)
+    if (option_given(o, OPTION_MODEL) && !o->camera.model_auto && o->camera.model != DP_MODEL_FLOAT)
         return option_error(OPTION_MODEL, "must be float or auto with --viewport, got '%s', which knows no slant",
-                            option_word(OPTION_MODEL, o->model));
-    for (size_t m = 0; m < o->mapping_count; m++)
-        if (!has_pipeline(o->mappings[m]))
+                            option_word(OPTION_MODEL, o->camera.model));
+    for (size_t m = 0; m < o->camera.mapping_count; m++)
+        if (!has_pipeline(o->camera.mappings[m]))
             return option_error(OPTION_MAPPING,
                                 "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with --viewport, got %s, which is not "
                                 "affine on the screen",
-                                dp_mapping_get(o->mappings[m])->name);
+                                dp_mapping_get(o->camera.mappings[m])->name);
     return EXIT_FINE;
 }
 
@@ -47,8 +47,8 @@ static int check_target(const options *o, solve_report *r) {
     if (option_given(o, OPTION_SEPARATION) && option_given(o, OPTION_ERROR))
         return option_error(OPTION_ERROR, "cannot be combined with --separation");
     r->kind = option_given(o, OPTION_ERROR) ? MEASURE_ERROR : MEASURE_SEPARATION;
-    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted_error : o->separation;
-    r->target = o->target;
+    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted.error : o->wanted.separation;
+    r->target = o->wanted.target;
     if (r->target == SOLVE_FOR_ANY && !limited)
         r->target = SOLVE_FOR_SEPARATION;
     for (int i = 0; i < 4 && r->target == SOLVE_FOR_ANY; i++)
@@ -68,36 +68,36 @@ static int check_target(const options *o, solve_report *r) {
     if (r->target <= SOLVE_FOR_FAR && option_given(o, givens[r->target - SOLVE_FOR_NEAR]))
         return option_error(OPTION_FOR, "solves for %s: leave out --%s", option_word(OPTION_FOR, r->target),
                             option_word(OPTION_FOR, r->target));
-    for (size_t m = 0; m < o->mapping_count; m++)
-        if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FLOAT &&
-            !is_logarithm(o->mappings[m]))
+    for (size_t m = 0; m < o->camera.mapping_count; m++)
+        if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->camera.model == DP_MODEL_FLOAT &&
+            !is_logarithm(o->camera.mappings[m]))
             return option_error(OPTION_MODEL,
                                 "must be exact or staged for an error of %s, got 'float', which has no cells",
-                                dp_mapping_get(o->mappings[m])->name);
-    return o->triangles.width > 0 ? check_slanted(o, r) : EXIT_FINE;
+                                dp_mapping_get(o->camera.mappings[m])->name);
+    return o->camera.triangles.width > 0 ? check_slanted(o, r) : EXIT_FINE;
 }
 
 static int check_depths(const options *o, solve_report *r) {
     const bool range = option_given(o, OPTION_RANGE);
-    if (range && o->at.count > 0)
+    if (range && o->camera.at.count > 0)
         return option_error(OPTION_RANGE, "cannot be combined with --at");
     if (!range && r->target == SOLVE_FOR_DISTANCE) {
-        r->lo = o->znear;
-        r->hi = is_known(o, OPTION_FAR) ? o->zfar : (double)HUGE_VAL;
+        r->lo = o->camera.znear;
+        r->hi = is_known(o, OPTION_FAR) ? o->camera.zfar : (double)HUGE_VAL;
         return EXIT_FINE;
     }
-    if (!range && o->at.count == 0)
+    if (!range && o->camera.at.count == 0)
         return option_error(OPTION_AT, "must be given, or --range LO:HI");
-    if (o->at.count > 1)
-        return option_error(OPTION_AT, "solve takes one depth, or --range LO:HI, got %zu depths", o->at.count);
-    r->lo = range ? o->range_lo : o->at.lo;
-    r->hi = range ? o->range_hi : o->at.lo;
+    if (o->camera.at.count > 1)
+        return option_error(OPTION_AT, "solve takes one depth, or --range LO:HI, got %zu depths", o->camera.at.count);
+    r->lo = range ? o->camera.range_lo : o->camera.at.lo;
+    r->hi = range ? o->camera.range_hi : o->camera.at.lo;
     const option_id id = range ? OPTION_RANGE : OPTION_AT;
     const bool free_near = r->target == SOLVE_FOR_NEAR;
     const bool free_far = r->target == SOLVE_FOR_FAR || !is_known(o, OPTION_FAR);
-    const double least = free_near ? 1e-12 : o->znear;
-    const double most = free_far ? 1e18 : o->zfar;
-    if (r->target == SOLVE_FOR_FAR && !(r->hi > 0.0) && o->znear <= 0.0)
+    const double least = free_near ? 1e-12 : o->camera.znear;
+    const double most = free_far ? 1e18 : o->camera.zfar;
+    if (r->target == SOLVE_FOR_FAR && !(r->hi > 0.0) && o->camera.znear <= 0.0)
         return option_error(id, "must reach depths above 0, to solve for far, got %s", number_full(r->hi).text);
     if (r->lo >= least && r->hi <= most)
         return EXIT_FINE;
@@ -115,10 +115,10 @@ static bool asks_for_choice(solve_target target) {
 /* The model asked for, or the fullest that there is: what a user can trust. */
 static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) {
     const options *o = r->o;
-    const bool given = option_given(o, OPTION_MODEL) && !o->model_auto;
+    const bool given = option_given(o, OPTION_MODEL) && !o->camera.model_auto;
     const bool has_fp32 = is_logarithm(mapping) || (r->kind == MEASURE_SEPARATION && has_pipeline(mapping));
-    if (given && (asked || o->model != DP_MODEL_FLOAT))
-        return o->model;
+    if (given && (asked || o->camera.model != DP_MODEL_FLOAT))
+        return o->camera.model;
     return has_fp32 ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
 }
 
@@ -202,13 +202,13 @@ static bool listed(const solve_report *r, const dp_spec *spec) {
 }
 
 static dp_spec spec_of(const options *o) {
-    return (dp_spec){.znear = o->znear,
-                     .zfar = is_known(o, OPTION_FAR) ? o->zfar : (double)HUGE_VAL,
-                     .ortho = o->ortho,
-                     .rounding = o->rounding,
-                     .arith = o->arith,
-                     .log_c = o->log_c,
-                     .triangles = o->triangles};
+    return (dp_spec){.znear = o->camera.znear,
+                     .zfar = is_known(o, OPTION_FAR) ? o->camera.zfar : (double)HUGE_VAL,
+                     .ortho = o->camera.ortho,
+                     .rounding = o->camera.rounding,
+                     .arith = o->camera.arith,
+                     .log_c = o->camera.log_c,
+                     .triangles = o->camera.triangles};
 }
 
 static int refused(const solve_report *r, const solve_candidate *c, dp_status status) {
@@ -227,10 +227,10 @@ static solve_candidate *add_candidate(solve_report *r, const dp_spec *spec, bool
 static int add_asked(solve_report *r, solve_result *result) {
     const options *o = r->o;
     dp_spec spec = spec_of(o);
-    for (size_t f = 0; f < o->format_count; f++)
-        for (size_t m = 0; m < o->mapping_count; m++) {
-            spec.format = o->formats[f];
-            spec.mapping = o->mappings[m];
+    for (size_t f = 0; f < o->camera.format_count; f++)
+        for (size_t m = 0; m < o->camera.mapping_count; m++) {
+            spec.format = o->camera.formats[f];
+            spec.mapping = o->camera.mappings[m];
             spec.model = model_of(r, spec.mapping, is_known(o, OPTION_MAPPING));
             if (setup_undrawn(o, &spec.format) != EXIT_FINE)
                 return EXIT_USAGE;
@@ -244,8 +244,8 @@ static int add_asked(solve_report *r, solve_result *result) {
 
 /* Whether there is a guarantee of what is asked about. */
 static bool is_covered(const solve_report *r, const dp_spec *spec) {
-    const raster_row *raster = r->o->raster;
-    if (!profile_stores(&r->o->gpu, &spec->format))
+    const raster_row *raster = r->o->camera.raster;
+    if (!profile_stores(&r->o->camera.gpu, &spec->format))
         return false;
     return spec->triangles.width == 0 ||
            (has_pipeline(spec->mapping) && (raster == NULL || raster_bounded(raster, &spec->format)));
@@ -254,8 +254,8 @@ static bool is_covered(const solve_report *r, const dp_spec *spec) {
 /* Whether every mapping of a format was asked about. */
 static bool leaves_open(const solve_report *r, const dp_format *format) {
     bool asked = false;
-    for (size_t f = 0; f < r->o->format_count; f++)
-        asked = asked || strcmp(r->o->formats[f].name, format->name) == 0;
+    for (size_t f = 0; f < r->o->camera.format_count; f++)
+        asked = asked || strcmp(r->o->camera.formats[f].name, format->name) == 0;
     return asked && r->target == SOLVE_FOR_MAPPING && !option_given(r->o, OPTION_MAPPING);
 }
 
@@ -264,7 +264,7 @@ static bool leaves_open(const solve_report *r, const dp_format *format) {
  * one that was asked about: the others are those of other renderers, and `log` stands for what a shader may write.
  */
 static void add_others(solve_report *r, solve_result *result) {
-    const dp_mapping asked = r->o->mappings[0];
+    const dp_mapping asked = r->o->camera.mappings[0];
     const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, is_logarithm(asked) ? asked : DP_MAPPING_LOG};
     dp_spec spec = spec_of(r->o);
     for (size_t f = 0; f < dp_format_count(); f++)
@@ -349,7 +349,7 @@ int cmd_solve(const options *o) {
     solve_result result;
     solve_candidate items[SOLVE_CANDIDATES_MAX];
     solve_report r = {.o = o, .items = items};
-    if (o->target == SOLVE_FOR_FRUSTA)
+    if (o->wanted.target == SOLVE_FOR_FRUSTA)
         return solve_frusta(o);
     int status = setup_decided(o);
     if (status == EXIT_FINE)

@@ -72,7 +72,7 @@ static void *next_alternative(void *of, size_t i) {
     if (i + 1 >= s->report.count)
         return NULL;
     take_candidate(s, &s->report.items[i + 1]);
-    if (s->report.o->form == FORM_TEXT)
+    if (s->report.o->out.form == FORM_TEXT)
         write_cells(&s->report, &s->candidate);
     return &s->candidate;
 }
@@ -80,9 +80,9 @@ static void *next_alternative(void *of, size_t i) {
 static void say_others(page *p, void *item) {
     const solve_report *r = item;
     if (r->count > 1)
-        output_format(p->out, "\n%s%s%s\n",
-                      r->target == SOLVE_FOR_SEPARATION ? "Others" : "Alternatives, cheapest first",
-                      r->o->unit != NULL ? ", lengths in " : "", r->o->unit != NULL ? r->o->unit->name : "");
+        output_format(
+            p->out, "\n%s%s%s\n", r->target == SOLVE_FOR_SEPARATION ? "Others" : "Alternatives, cheapest first",
+            r->o->camera.unit != NULL ? ", lengths in " : "", r->o->camera.unit != NULL ? r->o->camera.unit->name : "");
 }
 
 /* The first possible alternative with its format, so that a caution is said once. */
@@ -181,7 +181,8 @@ static const column fight_columns[] = {{FIELD(solve_fight, first, "first", "scen
 
 static unsigned conditions(const solve_report *r) {
     return (r->target == SOLVE_FOR_SEPARATION ? OF_SEPARATION : OF_OTHERS) |
-           (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0) | (r->o->triangles.width > 0 ? WITH_TRIANGLES : 0);
+           (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0) |
+           (r->o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
 }
 
 /* What is measured names a column, and what is solved for another. */
@@ -242,5 +243,5 @@ void solve_report_write(const solve_report *r, output *out) {
     const report_spec spec = {"solve", columns, &s, .when = conditions(r), .label = 15, .head = solve_report_answer};
     s.triangles = slant_fields_of(r->o, &s.slant);
     take_candidate(&s, &r->items[0]);
-    report_write(&spec, out, r->o->form);
+    report_write(&spec, out, r->o->out.form);
 }

@@ -31,29 +31,30 @@ typedef struct planning {
 static int check_frusta(const options *o) {
     if (!option_given(o, OPTION_SEPARATION))
         return option_error(OPTION_SEPARATION, "must be given, to solve for frusta");
-    if (!(option_given(o, OPTION_FAR) || o->preset_count > 0) || isinf(o->zfar))
+    if (!(option_given(o, OPTION_FAR) || o->camera.preset_count > 0) || isinf(o->camera.zfar))
         return option_error(OPTION_FAR,
                             "must be finite, to solve for frusta: at an infinite far nothing is told apart");
-    if (o->format_count != 1)
-        return option_error(OPTION_FORMAT, "must be one format, to solve for frusta, got %zu", o->format_count);
-    if (o->mapping_count != 1)
-        return option_error(OPTION_MAPPING, "must be one mapping, to solve for frusta, got %zu", o->mapping_count);
+    if (o->camera.format_count != 1)
+        return option_error(OPTION_FORMAT, "must be one format, to solve for frusta, got %zu", o->camera.format_count);
+    if (o->camera.mapping_count != 1)
+        return option_error(OPTION_MAPPING, "must be one mapping, to solve for frusta, got %zu",
+                            o->camera.mapping_count);
     return EXIT_FINE;
 }
 
 static dp_spec spec_of(const options *o) {
-    const bool chosen = option_given(o, OPTION_MODEL) && !o->model_auto;
-    const bool linear = dp_mapping_get(o->mappings[0])->curve == DP_CURVE_LINEAR;
-    return (dp_spec){.znear = o->znear,
-                     .zfar = o->zfar,
-                     .ortho = o->ortho,
-                     .rounding = o->rounding,
-                     .arith = o->arith,
-                     .log_c = o->log_c,
-                     .format = o->formats[0],
-                     .mapping = o->mappings[0],
-                     .triangles = o->triangles,
-                     .model = chosen   ? o->model
+    const bool chosen = option_given(o, OPTION_MODEL) && !o->camera.model_auto;
+    const bool linear = dp_mapping_get(o->camera.mappings[0])->curve == DP_CURVE_LINEAR;
+    return (dp_spec){.znear = o->camera.znear,
+                     .zfar = o->camera.zfar,
+                     .ortho = o->camera.ortho,
+                     .rounding = o->camera.rounding,
+                     .arith = o->camera.arith,
+                     .log_c = o->camera.log_c,
+                     .format = o->camera.formats[0],
+                     .mapping = o->camera.mappings[0],
+                     .triangles = o->camera.triangles,
+                     .model = chosen   ? o->camera.model
                               : linear ? DP_MODEL_STAGED
                                        : DP_MODEL_FLOAT};
 }
@@ -128,13 +129,16 @@ static void write_plan(planning *x, output *out) {
                               {GROUP("fixed", fixed_columns), .only = AS_JSON},
                               {LIST("frusta", frustum_columns, next_frustum), .indent = 2},
                               {.kind = COLUMN_END}};
-    report_write(&(report_spec){"solve", columns, x, .label = 15, .head = say_plan}, out, x->o->form);
+    report_write(&(report_spec){"solve", columns, x, .label = 15, .head = say_plan}, out, x->o->out.form);
 }
 
 int solve_frusta(const options *o) {
     output out;
-    planning x = {
-        .o = o, .limit = o->separation, .ratio = fixed_ratio, .fixed_value = (double)NAN, .fixed_z = (double)NAN};
+    planning x = {.o = o,
+                  .limit = o->wanted.separation,
+                  .ratio = fixed_ratio,
+                  .fixed_value = (double)NAN,
+                  .fixed_z = (double)NAN};
     int status = check_frusta(o);
     if (status != EXIT_FINE)
         return status;

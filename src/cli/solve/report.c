@@ -34,7 +34,7 @@ typedef struct phrase {
 } phrase;
 
 static bool is_slanted(const solve_report *r) {
-    return r->o->triangles.width > 0;
+    return r->o->camera.triangles.width > 0;
 }
 
 static bool is_near(const solve_candidate *c) {
@@ -292,7 +292,7 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
         [DP_MODEL_STAGED] = "staged: NDC and window depth each rounded to binary32",
         [DP_MODEL_FLOAT] = "float: guaranteed in binary32 arithmetic, ",
     };
-    const bool chosen = r->o->model_auto || !option_given(r->o, OPTION_MODEL);
+    const bool chosen = r->o->camera.model_auto || !option_given(r->o, OPTION_MODEL);
     const char *more = "";
     if (c->spec.model == DP_MODEL_FLOAT)
         more = dp_arith_get(c->spec.arith)->name;
@@ -334,8 +334,9 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
 
 /* The planes that nobody gave. */
 static void say_assumed(const solve_report *r, page *p) {
-    const bool no_near = !option_given(r->o, OPTION_NEAR) && r->o->preset_count == 0 && r->target != SOLVE_FOR_NEAR;
-    const bool no_far = !option_given(r->o, OPTION_FAR) && r->o->preset_count == 0 && r->target != SOLVE_FOR_FAR;
+    const bool no_near =
+        !option_given(r->o, OPTION_NEAR) && r->o->camera.preset_count == 0 && r->target != SOLVE_FOR_NEAR;
+    const bool no_far = !option_given(r->o, OPTION_FAR) && r->o->camera.preset_count == 0 && r->target != SOLVE_FOR_FAR;
     const number_text near = whole(r, r->items[0].spec.znear), far = whole(r, r->items[0].spec.zfar);
     if (no_near && no_far)
         page_note(p, "assumed", "near %s, far %s: not given", near.text, far.text);

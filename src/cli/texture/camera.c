@@ -23,11 +23,11 @@ static const char *names_of_those(char out[NAMES_SIZE]) {
 }
 
 int texture_camera_check(const options *o) {
-    const bool looks_back = needs_last_frame(o->effect);
+    const bool looks_back = needs_last_frame(o->image.effect);
     char names[NAMES_SIZE];
     bool any = false;
     for (option_id id = OPTION_FOV; id <= OPTION_HFOV; id++)
-        if (o->ortho && option_given(o, id))
+        if (o->camera.ortho && option_given(o, id))
             return option_error(id, "does not apply with --ortho; --ortho=H says half the height of the view");
     for (int i = 0; i < LAST_OPTIONS; i++) {
         any = any || option_given(o, last_options[i]);
@@ -37,13 +37,13 @@ int texture_camera_check(const options *o) {
     }
     if (looks_back && !any)
         return option_error(OPTION_PRODUCT, "effect:%s needs last frame's camera: --last-eye or --last-look",
-                            o->effect->name);
+                            o->image.effect->name);
     return EXIT_FINE;
 }
 
 int texture_camera_place(const options *o, camera_spec *spec) {
-    memcpy(spec->origin, o->eye, sizeof spec->origin);
-    return option_given(o, OPTION_LOOK) && !camera_look(spec, o->look)
+    memcpy(spec->origin, o->view.eye, sizeof spec->origin);
+    return option_given(o, OPTION_LOOK) && !camera_look(spec, o->view.look)
                ? option_error(OPTION_LOOK, "must be another place than --eye, got '%s'", o->given[OPTION_LOOK])
                : EXIT_FINE;
 }
@@ -51,8 +51,8 @@ int texture_camera_place(const options *o, camera_spec *spec) {
 int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out) {
     camera_spec spec = *now;
     if (option_given(o, OPTION_LAST_EYE))
-        memcpy(spec.origin, o->last_eye, sizeof spec.origin);
-    if (option_given(o, OPTION_LAST_LOOK) && !camera_look(&spec, o->last_look))
+        memcpy(spec.origin, o->view.last_eye, sizeof spec.origin);
+    if (option_given(o, OPTION_LAST_LOOK) && !camera_look(&spec, o->view.last_look))
         return option_error(OPTION_LAST_LOOK, "must be another place than last frame's eye, got '%s'",
                             o->given[OPTION_LAST_LOOK]);
     const char *wrong = camera_init(out, setup, &spec);

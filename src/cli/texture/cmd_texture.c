@@ -8,23 +8,24 @@
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
     static const option_id drawn[] = {OPTION_OVERLAY, OPTION_TYPE, OPTION_THEME, OPTION_FIGURE_SIZE, OPTION_TITLE};
-    if (o->error_map && o->effect != NULL && option_given(o, OPTION_PIXEL))
+    if (o->image.error_map && o->image.effect != NULL && option_given(o, OPTION_PIXEL))
         return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --product");
-    if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
+    if (option_given(o, OPTION_NORMAL_FORMAT) && o->image.normal == NULL)
         return option_error(OPTION_NORMAL_FORMAT, "needs --product normal or packed-normal");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
         return option_error(OPTION_PIXEL, "describes single pixels, and makes no image or figure");
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
-        if (option_given(o, drawn[i]) && o->figure == NULL && (o->histogram == NULL || drawn[i] == OPTION_OVERLAY))
+        if (option_given(o, drawn[i]) && o->image.figure == NULL &&
+            (o->image.histogram == NULL || drawn[i] == OPTION_OVERLAY))
             return option_error(drawn[i], "needs --figure%s", drawn[i] == OPTION_OVERLAY ? "" : " or --histogram");
     if (option_given(o, OPTION_HISTOGRAM) && option_given(o, OPTION_PIXEL))
         return option_error(OPTION_HISTOGRAM, "does not apply with --pixel");
-    if (option_given(o, OPTION_HISTOGRAM) && o->output != NULL && o->form == FORM_TEXT)
+    if (option_given(o, OPTION_HISTOGRAM) && o->out.file != NULL && o->out.form == FORM_TEXT)
         return option_error(OPTION_HISTOGRAM,
                             "does not apply with --output, which its numbers go to with --json or --csv");
-    if (option_given(o, OPTION_HISTOGRAM) && o->form != FORM_TEXT && strcmp(o->histogram, "-") == 0)
+    if (option_given(o, OPTION_HISTOGRAM) && o->out.form != FORM_TEXT && strcmp(o->image.histogram, "-") == 0)
         return option_error(OPTION_HISTOGRAM, "must be a file with --json and --csv, got '-'");
     if (option_given(o, OPTION_HISTOGRAM) && texture_product_wanted(o))
         return option_error(OPTION_HISTOGRAM, "is drawn of the depths, not of a product");
@@ -33,12 +34,12 @@ static int check_alone(const options *o) {
 
 static int make_product(const options *o, const texture_source *source, texture_product *product) {
     int status = texture_product_check(o, source, product);
-    if (status == EXIT_FINE && source->path != NULL && source->found.invalid > 0 && !o->quiet)
+    if (status == EXIT_FINE && source->path != NULL && source->found.invalid > 0 && !o->out.quiet)
         fprintf(stderr, "depthprec: %s: %zu pixels hold no window depth and become NaN\n", source->path,
                 source->found.invalid);
-    if (status == EXIT_FINE && o->output != NULL)
+    if (status == EXIT_FINE && o->out.file != NULL)
         status = texture_product_write(o, source, product);
-    if (status == EXIT_FINE && o->figure != NULL)
+    if (status == EXIT_FINE && o->image.figure != NULL)
         status = texture_figure_draw(o, source, product);
     return status;
 }
@@ -46,10 +47,10 @@ static int make_product(const options *o, const texture_source *source, texture_
 int cmd_texture(const options *given) {
     options own = *given, *o = &own;
     texture_product product = {0};
-    const bool beside = o->product != NULL && o->product->packed, packed = o->pack != NULL || beside;
-    const bool described = option_given(o, OPTION_PIXEL) && o->effect != NULL;
+    const bool beside = o->image.product != NULL && o->image.product->packed, packed = o->image.pack != NULL || beside;
+    const bool described = option_given(o, OPTION_PIXEL) && o->image.effect != NULL;
     const bool made = !packed && texture_product_wanted(o);
-    if (o->effect != NULL && o->operand_count == 0 && o->synthetic == NULL)
+    if (o->image.effect != NULL && o->operand_count == 0 && o->image.synthetic == NULL)
         return texture_effect_table(o);
     texture_source source = {0};
     int status = packed ? texture_pack_check(o) : check_alone(o);
@@ -63,15 +64,15 @@ int cmd_texture(const options *given) {
         status = texture_effect_normals(o, &source);
     if (status == EXIT_FINE && made)
         status = make_product(o, &source, &product);
-    else if (status == EXIT_FINE && o->pack != NULL)
+    else if (status == EXIT_FINE && o->image.pack != NULL)
         status = texture_pack_write(o, &source);
     else if (status == EXIT_FINE && beside)
         status = texture_packed_normal_write(o, &source);
     else if (status == EXIT_FINE && option_given(o, OPTION_PIXEL))
         status = texture_pixel_write(o, &source, described ? &product.made : NULL);
-    else if (status == EXIT_FINE && o->histogram != NULL)
+    else if (status == EXIT_FINE && o->image.histogram != NULL)
         status = texture_histogram_draw(o, &source);
-    else if (status == EXIT_FINE && o->synthetic != NULL && o->output != NULL && o->form == FORM_TEXT)
+    else if (status == EXIT_FINE && o->image.synthetic != NULL && o->out.file != NULL && o->out.form == FORM_TEXT)
         status = texture_depth_write(o, &source);
     else if (status == EXIT_FINE)
         status = texture_report_write(o, &source);

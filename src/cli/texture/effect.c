@@ -21,10 +21,10 @@ static const double ONE_LEVEL = 1;
 int texture_effect_resolve(const options *o, bool pictured, const effect_row **row, double parameters[PARAMETERS_MAX]) {
     const parameter_use unused = pictured ? PARAMETER_TABLE : PARAMETER_IMAGE;
     int status = EXIT_FINE;
-    *row = o->effect;
+    *row = o->image.effect;
     parameter_defaults((*row)->parameters, parameters);
-    for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
-        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->parameters[i], unused,
+    for (size_t i = 0; i < o->image.parameter_count && status == EXIT_FINE; i++)
+        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->image.parameters[i], unused,
                                        pictured && (*row)->given ? "reference" : NULL, parameters);
     return status;
 }
@@ -74,7 +74,7 @@ static int make_view(table *t, const dp_setup *setup) {
 }
 
 static int choose_pixel(table *t, const options *o) {
-    t->spec = o->camera;
+    t->spec = o->view.spec;
     t->column = t->spec.width / 2;
     t->line = t->spec.height - 1;
     int status = view_vertical(o, (int)t->spec.width, (int)t->spec.height, &t->spec.fov_y);
@@ -82,10 +82,10 @@ static int choose_pixel(table *t, const options *o) {
         status = texture_camera_place(o, &t->spec);
     if (status != EXIT_FINE || !option_given(o, OPTION_PIXEL))
         return status;
-    if (o->pixels.count != 2)
-        return option_error(OPTION_PIXEL, "must be one pixel with an effect alone, got %zu", o->pixels.count / 2);
-    t->column = (uint32_t)depths_get(&o->pixels, 0);
-    t->line = (uint32_t)depths_get(&o->pixels, 1);
+    if (o->image.pixels.count != 2)
+        return option_error(OPTION_PIXEL, "must be one pixel with an effect alone, got %zu", o->image.pixels.count / 2);
+    t->column = (uint32_t)depths_get(&o->image.pixels, 0);
+    t->line = (uint32_t)depths_get(&o->image.pixels, 1);
     return texture_pixels_check(o, t->spec.width, t->spec.height);
 }
 
@@ -234,7 +234,7 @@ int texture_effect_table(const options *o) {
         status = texture_camera_check(o);
     if (status == EXIT_FINE)
         status = choose_pixel(&t, o);
-    if (status == EXIT_FINE && t.effect->eye01 && isinf(o->zfar))
+    if (status == EXIT_FINE && t.effect->eye01 && isinf(o->camera.zfar))
         status = option_error(OPTION_FAR, "must be finite for %s, which uses z/far, got inf", t.effect->name);
     if (status == EXIT_FINE)
         status = each_setup_start(&t.each, o);

@@ -45,16 +45,16 @@ static bool draw_both(void *context, uint32_t row, uint32_t count, const float *
 /* The product, and with --overlay the error of eye depth beside it. */
 static bool run(const options *o, const texture_source *s, const texture_product *p, drawing *d) {
     const frame_product both[] = {p->made, {.kind = FRAME_EYE, .error = true, .radial = p->made.radial}};
-    d->bar = progress_start("rows", s->camera.height, o->quiet);
-    const bool good = o->overlay > 0 ? frame_run_all(&s->frame, both, 2, false, draw_both, d)
-                                     : frame_run(&s->frame, &p->made, false, draw_rows, d);
+    d->bar = progress_start("rows", s->camera.height, o->out.quiet);
+    const bool good = o->image.overlay > 0 ? frame_run_all(&s->frame, both, 2, false, draw_both, d)
+                                           : frame_run(&s->frame, &p->made, false, draw_rows, d);
     progress_end(&d->bar);
     return good;
 }
 
 /* What is grey, and what is in colour. */
 static void build(const options *o, drawing *d, chart *c) {
-    if (!(o->overlay > 0)) {
+    if (!(o->image.overlay > 0)) {
         picture_build(&d->shown, c);
         return;
     }
@@ -74,8 +74,9 @@ static void words_of(const options *o, const texture_source *s, const char *titl
     const char *slash = s->path != NULL ? strrchr(s->path, '/') : NULL, *unit = options_unit(o);
     c->unit = unit;
     setup_label(&s->setup, true, label);
-    if (o->metric > 0)
-        snprintf(label, sizeof label, "metric depth, %g %s a unit", o->metric, unit != NULL ? unit : "scene units");
+    if (o->image.metric > 0)
+        snprintf(label, sizeof label, "metric depth, %g %s a unit", o->image.metric,
+                 unit != NULL ? unit : "scene units");
     else if (unit != NULL)
         append(label, sizeof label, ", lengths in %s", unit);
     snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s", s->path != NULL ? "" : "synthetic ",
@@ -83,7 +84,7 @@ static void words_of(const options *o, const texture_source *s, const char *titl
              : slash != NULL ? slash + 1
                              : s->path,
              s->camera.width, s->camera.height, label, more);
-    notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : title);
+    notes_clean(c->title, sizeof c->title, o->figure.title != NULL ? o->figure.title : title);
     notes_clean(c->subtitle, sizeof c->subtitle, subtitle);
 }
 
@@ -97,17 +98,17 @@ static void describe(const options *o, const texture_source *s, const texture_pr
         append(title, sizeof title, ", %s %s", p->made.effect->parameters[wanted].name,
                number_full(p->made.effect_settings[wanted]).text);
     }
-    if (o->overlay > 0)
+    if (o->image.overlay > 0)
         append(title, sizeof title, ", in colour where %s %s off by more than %s", p->made.radial ? "it" : "eye depth",
                s->path != NULL ? "can be" : "is",
-               number_in(number_full(o->overlay), unit != NULL ? unit : "scene units").text);
+               number_in(number_full(o->image.overlay), unit != NULL ? unit : "scene units").text);
     if (title[0] >= 'a' && title[0] <= 'z')
         title[0] = (char)(title[0] - 'a' + 'A');
     if (shown->columns < (int)s->camera.width || shown->rows < (int)s->camera.height)
         append(more, sizeof more,
-               shown->magnitudes ? "; a point is the largest of %.3g pixels"
-               : o->overlay > 0  ? "; a colour is the largest error of %.3g pixels"
-                                 : "; one of %.3g pixels",
+               shown->magnitudes      ? "; a point is the largest of %.3g pixels"
+               : o->image.overlay > 0 ? "; a colour is the largest error of %.3g pixels"
+                                      : "; one of %.3g pixels",
                (double)s->camera.width / shown->columns * s->camera.height / shown->rows);
     if (shown->missing > 0)
         append(more, sizeof more, "; hatched: no value, %llu pixels", (unsigned long long)shown->missing);
@@ -125,8 +126,8 @@ static void mark_ties(const frame *f, chart *c) {
 
 /* Fills the page: the picture in its shape, words above, axes around. */
 static int height_of(const options *o, const texture_source *s, int width, bool stacked) {
-    if (o->height > 0)
-        return o->height;
+    if (o->figure.height > 0)
+        return o->figure.height;
     const double shape = (double)s->camera.height / s->camera.width, scale = width / (double)WIDTH;
     const double height = ((WIDTH - BESIDE) * shape * (stacked ? 0.37 : 1) + ABOVE) * scale;
     return (int)fmin(fmax(height, HEIGHT_MIN), fmax(HEIGHT_MAX, width));
@@ -134,7 +135,7 @@ static int height_of(const options *o, const texture_source *s, int width, bool 
 
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p) {
     static const char *const axes[] = {"x (world)", "y (world)", "z (world)"};
-    const int width = o->width > 0 ? o->width : WIDTH;
+    const int width = o->figure.width > 0 ? o->figure.width : WIDTH;
     const bool is_error = p->made.error, directions = p->made.kind == FRAME_NORMAL && !is_error;
     const bool stacked = frame_channels(&p->made) == 3 && !directions;
     drawing d = {.shown = {.width = s->camera.width,
@@ -152,24 +153,25 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
                            .height = s->camera.height,
                            .channels = 1,
                            .magnitudes = true,
-                           .above = o->overlay,
+                           .above = o->image.overlay,
                            .label = p->made.radial ? "error of the distance" : "error of eye depth",
                            .unit = "scene units"}};
     output out;
-    const int status = output_open(&out, o->figure);
+    const int status = output_open(&out, o->image.figure);
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();
     const int room = stacked ? width / 3 : width, fields = room > WIDTH ? room : WIDTH; /* as a panel has room for */
-    bool good =
-        c != NULL && picture_open(&d.shown, fields, c) && (!(o->overlay > 0) || picture_open(&d.error, fields, c));
+    bool good = c != NULL && picture_open(&d.shown, fields, c) &&
+                (!(o->image.overlay > 0) || picture_open(&d.error, fields, c));
     if (good)
         good = run(o, s, p, &d);
     if (good) {
         describe(o, s, p, &d.shown, c);
         build(o, &d, c);
         mark_ties(&s->frame, c);
-        good = !chart_failed(c) && figure_file_write(o, o->figure, c, width, height_of(o, s, width, stacked), &out);
+        good =
+            !chart_failed(c) && figure_file_write(o, o->image.figure, c, width, height_of(o, s, width, stacked), &out);
     }
     chart_free(c);
     if (good)
@@ -182,15 +184,15 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
 static int write_histogram(const options *o, const chart *c, output *out) {
     output numbers;
     int status = EXIT_FINE;
-    if (!figure_file_write(o, o->histogram, c, o->width > 0 ? o->width : WIDTH,
-                           o->height > 0 ? o->height : HISTOGRAM_HEIGHT, out)) {
+    if (!figure_file_write(o, o->image.histogram, c, o->figure.width > 0 ? o->figure.width : WIDTH,
+                           o->figure.height > 0 ? o->figure.height : HISTOGRAM_HEIGHT, out)) {
         output_abandon(out);
         return usage_error("texture: no memory for the figure");
     }
-    if (o->form != FORM_TEXT) {
+    if (o->out.form != FORM_TEXT) {
         status = options_open(o, &numbers);
         if (status == EXIT_FINE) {
-            figure_data_write(&numbers, o->form, "texture", "histogram", c);
+            figure_data_write(&numbers, o->out.form, "texture", "histogram", c);
             status = output_close(&numbers);
         }
     }
@@ -209,9 +211,9 @@ int texture_histogram_draw(const options *o, const texture_source *s) {
     if (s->camera.oblique.on)
         return option_error(OPTION_HISTOGRAM, "needs planes that all pixels share, which %s does not have",
                             s->matrix.path);
-    int status = figure_file_type(o, OPTION_HISTOGRAM, o->histogram, &type);
+    int status = figure_file_type(o, OPTION_HISTOGRAM, o->image.histogram, &type);
     if (status == EXIT_FINE)
-        status = output_open(&out, o->histogram);
+        status = output_open(&out, o->image.histogram);
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();

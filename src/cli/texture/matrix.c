@@ -78,9 +78,9 @@ static int check_others(const options *o) {
 
 static int check_mapping(const options *o, dp_mapping given) {
     const dp_mapping_row *row = dp_mapping_get(given);
-    if (option_given(o, OPTION_MAPPING) && (o->mapping_count > 1 || row->curve != DP_CURVE_PERSPECTIVE))
+    if (option_given(o, OPTION_MAPPING) && (o->camera.mapping_count > 1 || row->curve != DP_CURVE_PERSPECTIVE))
         return option_error(OPTION_MAPPING, "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with --matrix, got %s",
-                            o->mapping_count > 1 ? "several" : row->name);
+                            o->camera.mapping_count > 1 ? "several" : row->name);
     return EXIT_FINE;
 }
 
@@ -95,7 +95,7 @@ static void name_edges(texture_matrix *t) {
 
 int texture_matrix_open(const options *o, texture_source *s, options *with) {
     const bool given = option_given(o, OPTION_MAPPING);
-    const dp_mapping asked = given ? o->mappings[0] : DP_MAPPING_D3D;
+    const dp_mapping asked = given ? o->camera.mappings[0] : DP_MAPPING_D3D;
     const dp_mapping_row *row = dp_mapping_get(asked);
     double m[ENTRIES];
     char why[PROJECTION_WHY];
@@ -103,37 +103,38 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
     if (status == EXIT_FINE)
         status = check_mapping(o, asked);
     if (status == EXIT_FINE)
-        status = read_entries(o->matrix, m);
+        status = read_entries(o->image.matrix, m);
     if (status != EXIT_FINE)
         return status;
     projection *p = &s->matrix.taken;
     if (!projection_init(p, m, row->ndc_signed != 0, row->reversed != 0, why))
-        return option_error(OPTION_MATRIX, "%s: %s", o->matrix, why);
+        return option_error(OPTION_MATRIX, "%s: %s", o->image.matrix, why);
     if (given && p->reversed != (row->reversed != 0))
         return option_error(OPTION_MAPPING, "must be %s: window depth %s with distance in %s, got %s",
                             row->ndc_signed ? (p->reversed ? "gl-reversed" : "gl")
                             : p->reversed   ? "reversed"
                                             : "d3d",
-                            p->reversed ? "falls" : "grows", o->matrix, row->name);
-    if (p->oblique && o->synthetic != NULL)
+                            p->reversed ? "falls" : "grows", o->image.matrix, row->name);
+    if (p->oblique && o->image.synthetic != NULL)
         return option_error(OPTION_MATRIX,
-                            "%s: has planes that differ from pixel to pixel, which --synthetic cannot draw", o->matrix);
-    s->matrix.path = o->matrix;
+                            "%s: has planes that differ from pixel to pixel, which --synthetic cannot draw",
+                            o->image.matrix);
+    s->matrix.path = o->image.matrix;
     name_edges(&s->matrix);
     s->mapping_from = given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
     s->direction_from = p->ortho && !given ? ORIGIN_ASSUMED : given ? ORIGIN_GIVEN : ORIGIN_FOUND;
-    with->mappings[0] = given ? asked : p->reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
-    with->ortho = p->ortho;
-    with->znear = p->znear;
-    with->zfar = p->zfar;
+    with->camera.mappings[0] = given ? asked : p->reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+    with->camera.ortho = p->ortho;
+    with->camera.znear = p->znear;
+    with->camera.zfar = p->zfar;
     const dp_spec spec = {.znear = p->znear,
                           .zfar = p->zfar,
                           .ortho = p->ortho,
-                          .mapping = with->mappings[0],
-                          .format = with->formats[0]};
+                          .mapping = with->camera.mappings[0],
+                          .format = with->camera.formats[0]};
     const dp_status planes = dp_setup_init(&s->setup, &spec);
     if (planes != DP_OK)
-        return option_error(OPTION_MATRIX, "%s: its near plane is %s and its far plane %s: %s", o->matrix,
+        return option_error(OPTION_MATRIX, "%s: its near plane is %s and its far plane %s: %s", o->image.matrix,
                             number_full(p->znear).text, number_full(p->zfar).text, dp_status_text(planes));
     return EXIT_FINE;
 }

@@ -14,16 +14,16 @@ int texture_pack_check(const options *o) {
                                        OPTION_PIXEL,     OPTION_AT,     OPTION_JSON,    OPTION_CSV,
                                        OPTION_PARAMETER, OPTION_TYPE,   OPTION_THEME,   OPTION_FIGURE_SIZE,
                                        OPTION_TITLE};
-    const char *name = o->pack != NULL ? "pack" : "packed-normal";
+    const char *name = o->image.pack != NULL ? "pack" : "packed-normal";
     image_file file;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->synthetic == NULL))
+        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->image.synthetic == NULL))
             return option_error(others[i], "does not apply with --product %s", name);
-    if (o->output == NULL)
+    if (o->out.file == NULL)
         return usage_error("texture: --product %s needs -o FILE", name);
-    if (!image_file_of(o->output, &file) || (o->pack != NULL && file == IMAGE_PFM))
+    if (!image_file_of(o->out.file, &file) || (o->image.pack != NULL && file == IMAGE_PFM))
         return option_error(OPTION_OUTPUT, "must end in .png%s or .npy for --product %s, got '%s'",
-                            o->pack != NULL ? "" : ", .pfm", name, o->output);
+                            o->image.pack != NULL ? "" : ", .pfm", name, o->out.file);
     return EXIT_FINE;
 }
 
@@ -84,39 +84,40 @@ static bool take_packed(void *context, uint32_t row, uint32_t count, const float
 /* What reading it back takes. */
 static void note_of_packing(const options *o, const texture_source *s, char note[IMAGE_NOTE_SIZE]) {
     const dp_spec *planes = &frame_planes(&s->frame)->spec;
-    snprintf(note, IMAGE_NOTE_SIZE, "product=depth packing=%s near=%s far=%s%s%s%s", o->pack->name,
-             number_full(planes->znear).text, number_full(planes->zfar).text,
-             o->pack->linear ? "" : " mapping=", o->pack->linear ? "" : dp_mapping_get(planes->mapping)->name,
-             planes->ortho && !o->pack->linear ? " ortho" : "");
+    snprintf(note, IMAGE_NOTE_SIZE, "product=depth packing=%s near=%s far=%s%s%s%s", o->image.pack->name,
+             number_full(planes->znear).text, number_full(planes->zfar).text, o->image.pack->linear ? "" : " mapping=",
+             o->image.pack->linear ? "" : dp_mapping_get(planes->mapping)->name,
+             planes->ortho && !o->image.pack->linear ? " ortho" : "");
 }
 
 int texture_pack_write(const options *o, const texture_source *s) {
-    packing_on on = {.p = o->pack, .normals = o->normals_by == NULL ? s->unpacked.normals : NULL};
-    frame_product product = {.kind = o->pack->normals ? FRAME_NORMAL : FRAME_EYE,
-                             .normal = o->normals_by != NULL ? o->normals_by : normal_get(NORMAL_PROJECTIVE)};
+    packing_on on = {.p = o->image.pack, .normals = o->image.normals_by == NULL ? s->unpacked.normals : NULL};
+    frame_product product = {.kind = o->image.pack->normals ? FRAME_NORMAL : FRAME_EYE,
+                             .normal =
+                                 o->image.normals_by != NULL ? o->image.normals_by : normal_get(NORMAL_PROJECTIVE)};
     const dp_spec *planes = &frame_planes(&s->frame)->spec;
     char note[IMAGE_NOTE_SIZE];
     if (s->camera.oblique.on)
         return option_error(OPTION_PRODUCT, "pack needs planes that all pixels share, which %s does not have",
                             s->matrix.path);
-    if (!o->pack->linear && !texture_is_window(o))
-        return option_error(OPTION_PRODUCT, "%s holds window depth, which %s is not", o->pack->name, s->path);
-    if (o->pack->linear && (isinf(planes->zfar) || planes->znear < 0))
-        return option_error(OPTION_PRODUCT, "%s holds eye depth over far: it needs %s", o->pack->name,
+    if (!o->image.pack->linear && !texture_is_window(o))
+        return option_error(OPTION_PRODUCT, "%s holds window depth, which %s is not", o->image.pack->name, s->path);
+    if (o->image.pack->linear && (isinf(planes->zfar) || planes->znear < 0))
+        return option_error(OPTION_PRODUCT, "%s holds eye depth over far: it needs %s", o->image.pack->name,
                             planes->znear < 0 ? "near not less than 0" : "a finite far plane");
     note_of_packing(o, s, note);
-    image_file_of(o->output, &on.w.file);
-    const int status = writing_open(o, &on.w, o->output, s, IMAGE_U8, o->pack->channels);
+    image_file_of(o->out.file, &on.w.file);
+    const int status = writing_open(o, &on.w, o->out.file, s, IMAGE_U8, o->image.pack->channels);
     if (status != EXIT_FINE)
         return status;
     on.depths = malloc(s->camera.width * sizeof *on.depths);
-    on.texels = malloc((size_t)s->camera.width * o->pack->channels);
+    on.texels = malloc((size_t)s->camera.width * o->image.pack->channels);
     const bool good = writing_begin(&on.w, note) && on.depths != NULL && on.texels != NULL &&
                       frame_run(&s->frame, &product, false, take_packed, &on);
     free(on.depths);
     free(on.texels);
-    if (good && on.holes > 0 && !o->quiet)
-        fprintf(stderr, "depthprec: %s: %llu pixels hold no depth and are written as the far plane\n", o->output,
+    if (good && on.holes > 0 && !o->out.quiet)
+        fprintf(stderr, "depthprec: %s: %llu pixels hold no depth and are written as the far plane\n", o->out.file,
                 (unsigned long long)on.holes);
     return writing_close(&on.w, 1, good);
 }
@@ -124,14 +125,14 @@ int texture_pack_write(const options *o, const texture_source *s) {
 int texture_packed_normal_write(const options *o, const texture_source *s) {
     const uint32_t width = s->camera.width, height = s->camera.height;
     const texture_product p = {.made = {.kind = FRAME_NORMAL}, .name = "normals, packed", .unit = ""};
-    writing w = {.down = o->normal_format != 0};
+    writing w = {.down = o->image.normal_format != 0};
     char note[IMAGE_NOTE_SIZE];
     if (s->unpacked.normals == NULL)
         return option_error(OPTION_PRODUCT, "packed-normal needs FILE with --packing depth-normals");
-    image_file_of(o->output, &w.file);
+    image_file_of(o->out.file, &w.file);
     const bool png = w.file == IMAGE_PNG;
     w.directions = png;
-    int status = writing_open(o, &w, o->output, s, png ? IMAGE_U16 : IMAGE_F32, 3);
+    int status = writing_open(o, &w, o->out.file, s, png ? IMAGE_U16 : IMAGE_F32, 3);
     if (status != EXIT_FINE)
         return status;
     float *row = malloc(3 * (size_t)width * sizeof *row);

@@ -151,8 +151,8 @@ static bool find(pixels *all) {
     const frame_product normals = {.kind = FRAME_NORMAL, .normal = normal_get(NORMAL_PROJECTIVE)};
     uint32_t *codes = malloc(all->source->camera.width * sizeof *codes);
     for (size_t i = 0; codes != NULL && i < all->count; i++) {
-        all->items[i].column = (uint32_t)depths_get(&all->o->pixels, 2 * i);
-        all->items[i].row = (uint32_t)depths_get(&all->o->pixels, 2 * i + 1);
+        all->items[i].column = (uint32_t)depths_get(&all->o->image.pixels, 2 * i);
+        all->items[i].row = (uint32_t)depths_get(&all->o->image.pixels, 2 * i + 1);
         describe_pixel(all->o, all->source, &all->items[i], codes);
     }
     const bool good = codes != NULL && read_product(all, normals, offsetof(pixel, normal)) &&
@@ -165,7 +165,7 @@ static bool find(pixels *all) {
 
 /* Where the camera is known: of an image it is what the user says it was. */
 static bool has_camera(const pixels *all) {
-    return all->source->path == NULL || all->o->matrix != NULL || option_given(all->o, OPTION_FOV) ||
+    return all->source->path == NULL || all->o->image.matrix != NULL || option_given(all->o, OPTION_FOV) ||
            option_given(all->o, OPTION_HFOV) ||
            (option_given(all->o, OPTION_ORTHO) && *all->o->given[OPTION_ORTHO] != '\0');
 }
@@ -239,8 +239,8 @@ static void say_head(page *p, void *item) {
     char label[SETUP_LABEL_SIZE];
     p->unit = options_unit(all->o);
     page_text(p, "%s: %u x %u pixels, %s", all->synthetic != NULL ? all->synthetic : s->path, s->camera.width,
-              s->camera.height, all->o->metric > 0 ? "metric depth" : setup_label(&s->setup, true, label));
-    if (all->o->metric == 0)
+              s->camera.height, all->o->image.metric > 0 ? "metric depth" : setup_label(&s->setup, true, label));
+    if (all->o->image.metric == 0)
         page_text(p, "format %s, mapping %s%s", all->format_from, all->mapping_from,
                   has_camera(all)   ? ""
                   : s->camera.ortho ? "; --ortho=H adds position and normal"
@@ -317,8 +317,8 @@ static const column columns[] = {{FIELD(pixels, source_path, "file", ""), .only 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 int texture_pixels_check(const options *o, uint32_t width, uint32_t height) {
-    for (size_t i = 0; i < o->pixels.count; i += 2) {
-        const double x = depths_get(&o->pixels, i), y = depths_get(&o->pixels, i + 1);
+    for (size_t i = 0; i < o->image.pixels.count; i += 2) {
+        const double x = depths_get(&o->image.pixels, i), y = depths_get(&o->image.pixels, i + 1);
         if (x >= width || y >= height)
             return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f", width,
                                 height, width - 1, height - 1, x, y);
@@ -338,7 +338,7 @@ int texture_pixel_write(const options *o, const texture_source *source, const fr
                   .format_from = texture_origin_name(source->format_from),
                   .mapping_from = texture_origin_name(source->mapping_from),
                   .direction_from = texture_origin_name(source->direction_from),
-                  .count = o->pixels.count / 2};
+                  .count = o->image.pixels.count / 2};
     int status = texture_pixels_check(o, source->camera.width, source->camera.height);
     const char *wrong = effect != NULL ? frame_refuses(&source->frame, effect) : NULL;
     if (status == EXIT_FINE && wrong != NULL)
@@ -352,7 +352,7 @@ int texture_pixel_write(const options *o, const texture_source *source, const fr
         const unsigned when = (all.synthetic != NULL ? OF_SYNTHETIC : 0) | (has_camera(&all) ? WITH_CAMERA : 0) |
                               (effect != NULL ? WITH_EFFECT : 0);
         report_write(&(report_spec){"texture", columns, &all, .when = when, .label = 14, .head = say_head}, &out,
-                     o->form);
+                     o->out.form);
         status = output_close(&out);
     } else {
         output_abandon(&out);

@@ -8,17 +8,20 @@
 #include "frame/normals.h"
 
 bool texture_product_wanted(const options *o) {
-    const bool described = o->effect != NULL && option_given(o, OPTION_PIXEL);
-    return (o->product != NULL && !o->product->packed && o->pack == NULL && !described) || o->figure != NULL;
+    const bool described = o->image.effect != NULL && option_given(o, OPTION_PIXEL);
+    return (o->image.product != NULL && !o->image.product->packed && o->image.pack == NULL && !described) ||
+           o->image.figure != NULL;
 }
 
 int texture_effect_normals(const options *o, texture_source *s) {
-    if (o->effect == NULL || (o->effect->needs & EFFECT_NORMALS) == 0 || (s->path == NULL && o->normals_by == NULL))
+    if (o->image.effect == NULL || (o->image.effect->needs & EFFECT_NORMALS) == 0 ||
+        (s->path == NULL && o->image.normals_by == NULL))
         return EXIT_FINE;
-    if (o->normals_by == NULL && s->unpacked.normals != NULL)
+    if (o->image.normals_by == NULL && s->unpacked.normals != NULL)
         s->normals =
             (frame_normals){.texels = s->unpacked.normals, .truncated = s->unpacked.grain.rounding == GRAIN_ZERO};
-    else if (!frame_normals_make(&s->frame, o->normals_by != NULL ? o->normals_by : normal_get(NORMAL_PROJECTIVE),
+    else if (!frame_normals_make(&s->frame,
+                                 o->image.normals_by != NULL ? o->image.normals_by : normal_get(NORMAL_PROJECTIVE),
                                  option_given(o, OPTION_ERROR_MAP) || option_given(o, OPTION_PIXEL), &s->normals))
         return usage_error("texture: no memory");
     s->frame.normals = &s->normals;
@@ -29,13 +32,13 @@ int texture_effect_normals(const options *o, texture_source *s) {
 int texture_product_effect(const options *o, texture_product *p) {
     options rest = *o;
     bool compared = false;
-    rest.parameter_count = 0;
-    for (size_t i = 0; i < o->parameter_count; i++) {
-        if (o->effect->given && strcmp(o->parameters[i].name, "reference") == 0) {
-            p->made.reference = o->parameters[i].value;
+    rest.image.parameter_count = 0;
+    for (size_t i = 0; i < o->image.parameter_count; i++) {
+        if (o->image.effect->given && strcmp(o->image.parameters[i].name, "reference") == 0) {
+            p->made.reference = o->image.parameters[i].value;
             compared = true;
-        } else if (!texture_scene_takes(o, o->parameters[i].name)) {
-            rest.parameters[rest.parameter_count++] = o->parameters[i];
+        } else if (!texture_scene_takes(o, o->image.parameters[i].name)) {
+            rest.image.parameters[rest.image.parameter_count++] = o->image.parameters[i];
         }
     }
     int status = texture_effect_resolve(&rest, true, &p->made.effect, p->settings);
@@ -44,7 +47,7 @@ int texture_product_effect(const options *o, texture_product *p) {
     const effect_row *row = p->made.effect;
     p->made.kind = FRAME_EFFECT;
     p->made.effect_settings = p->settings;
-    if (row->given && (compared || !o->error_map) && !(p->made.reference > 0))
+    if (row->given && (compared || !o->image.error_map) && !(p->made.reference > 0))
         return option_error(OPTION_PARAMETER, "%s needs reference=Z, %s, a positive eye depth%s", row->name,
                             row->reference, compared ? "" : "; it was not given");
     return EXIT_FINE;
@@ -52,49 +55,50 @@ int texture_product_effect(const options *o, texture_product *p) {
 
 static int check_files(const options *o) {
     image_file file = IMAGE_FILE_COUNT;
-    if (o->output == NULL && o->figure == NULL)
+    if (o->out.file == NULL && o->image.figure == NULL)
         return usage_error("texture: a product needs -o FILE that ends in .png, .pfm or .npy, or --figure FILE");
-    if (o->output != NULL && !image_file_of(o->output, &file))
-        return option_error(OPTION_OUTPUT, "must end in .png, .pfm or .npy for a product, got '%s'", o->output);
-    if (o->error_file != NULL && !image_file_of(o->error_file, &file))
-        return option_error(OPTION_ERROR_MAP, "must end in .png, .pfm or .npy, got '%s'", o->error_file);
-    if (o->error_file != NULL && o->output == NULL)
-        return option_error(OPTION_ERROR_MAP, "needs -o FILE for the product beside it, got '%s'", o->error_file);
+    if (o->out.file != NULL && !image_file_of(o->out.file, &file))
+        return option_error(OPTION_OUTPUT, "must end in .png, .pfm or .npy for a product, got '%s'", o->out.file);
+    if (o->image.error_file != NULL && !image_file_of(o->image.error_file, &file))
+        return option_error(OPTION_ERROR_MAP, "must end in .png, .pfm or .npy, got '%s'", o->image.error_file);
+    if (o->image.error_file != NULL && o->out.file == NULL)
+        return option_error(OPTION_ERROR_MAP, "needs -o FILE for the product beside it, got '%s'", o->image.error_file);
     canvas_format type;
-    if (o->figure != NULL && figure_file_type(o, OPTION_FIGURE, o->figure, &type) != EXIT_FINE)
+    if (o->image.figure != NULL && figure_file_type(o, OPTION_FIGURE, o->image.figure, &type) != EXIT_FINE)
         return EXIT_USAGE;
-    if (o->form == FORM_CSV || (o->form == FORM_JSON && o->output == NULL))
-        return option_error(o->form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
+    if (o->out.form == FORM_CSV || (o->out.form == FORM_JSON && o->out.file == NULL))
+        return option_error(o->out.form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
                             "is for statistics, which a product does not have%s",
-                            o->form == FORM_JSON ? "; with -o FILE it says what the numbers in FILE are" : "");
-    if (option_given(o, OPTION_NORMAL_FORMAT) && (o->output == NULL || file != IMAGE_PNG || o->error_map))
+                            o->out.form == FORM_JSON ? "; with -o FILE it says what the numbers in FILE are" : "");
+    if (option_given(o, OPTION_NORMAL_FORMAT) && (o->out.file == NULL || file != IMAGE_PNG || o->image.error_map))
         return option_error(OPTION_NORMAL_FORMAT, "is for the normals in a PNG");
     return EXIT_FINE;
 }
 
 static const char *method_of(const options *o) {
-    return o->effect != NULL ? o->effect->name : o->normal != NULL ? o->normal->name : "exact";
+    return o->image.effect != NULL ? o->image.effect->name : o->image.normal != NULL ? o->image.normal->name : "exact";
 }
 
 int texture_product_resolve(const options *o, texture_product *p) {
-    const product_row *row = o->product != NULL ? o->product : product_get(0); /* where --figure is all that was said */
+    const product_row *row =
+        o->image.product != NULL ? o->image.product : product_get(0); /* where --figure is all that was said */
     int status = EXIT_FINE;
     *p = (texture_product){.made = {.kind = row->kind,
-                                    .error = o->error_map,
+                                    .error = o->image.error_map,
                                     .radial = row->radial,
-                                    .position = o->position,
-                                    .normal = o->normal,
+                                    .position = o->image.position,
+                                    .normal = o->image.normal,
                                     .effect_settings = p->settings},
-                           .unit = o->error_map ? row->unit_of_error : row->unit,
+                           .unit = o->image.error_map ? row->unit_of_error : row->unit,
                            .unit_of_error = row->unit_of_error};
     snprintf(p->name, sizeof p->name, "%s%s", row->by,
-             row->methods == NULL  ? ""
-             : o->position != NULL ? o->position->name
-                                   : method_of(o));
-    if (o->overlay > 0 && (o->error_map || row->kind >= FRAME_POSITION))
+             row->methods == NULL        ? ""
+             : o->image.position != NULL ? o->image.position->name
+                                         : method_of(o));
+    if (o->image.overlay > 0 && (o->image.error_map || row->kind >= FRAME_POSITION))
         return option_error(OPTION_OVERLAY,
                             "does not apply with --%s%s, only with --product eye, radial, linear01 and raw",
-                            o->error_map ? "error-map" : "product ", o->error_map ? "" : row->name);
+                            o->image.error_map ? "error-map" : "product ", o->image.error_map ? "" : row->name);
     if (row->kind == FRAME_EFFECT)
         status = texture_product_effect(o, p);
     p->error = p->made;
@@ -113,7 +117,7 @@ int texture_product_check(const options *o, const texture_source *s, texture_pro
     };
     if (p->made.kind == FRAME_LINEAR01 && !texture_far_known(o))
         return option_error(OPTION_PRODUCT, "linear01 needs --far with --metric, which has none");
-    const char *wrong = frame_refuses(&s->frame, o->error_file != NULL ? &p->error : &p->made);
+    const char *wrong = frame_refuses(&s->frame, o->image.error_file != NULL ? &p->error : &p->made);
     if (wrong != NULL)
         return usage_error("texture: %s: %s", p->name, wrong);
     if (p->made.error)

@@ -21,7 +21,9 @@ static int number_bits(const texture_source *s) {
 }
 
 static grain_rounding rounding_of(const options *o) {
-    return !option_given(o, OPTION_ROUNDING) ? GRAIN_ANY : o->rounding == DP_ROUND_ZERO ? GRAIN_ZERO : GRAIN_NEAREST;
+    return !option_given(o, OPTION_ROUNDING)     ? GRAIN_ANY
+           : o->camera.rounding == DP_ROUND_ZERO ? GRAIN_ZERO
+                                                 : GRAIN_NEAREST;
 }
 
 /* Steps that every file of this type has, as shares of 1; 0 where its samples are codes. */
@@ -72,12 +74,12 @@ static grain steps_grain(const texture_source *s, double found, double own) {
 static void find_grain(const options *o, texture_source *s) {
     const dp_format *format = &s->setup.spec.format;
     const image_type type = s->picture.type;
-    const double own = type_steps(s), found = o->metric > 0 ? 0 : found_steps(s);
+    const double own = type_steps(s), found = o->image.metric > 0 ? 0 : found_steps(s);
     const bool half = strcmp(format->name, "fp16") == 0, assumed = s->format_from != ORIGIN_GIVEN;
     s->grain = (grain){.kind = GRAIN_CODES};
-    if (o->metric > 0)
+    if (o->image.metric > 0)
         s->grain = s->metric.grain;
-    else if (o->packing != NULL && s->format_from != ORIGIN_GIVEN)
+    else if (o->image.packing != NULL && s->format_from != ORIGIN_GIVEN)
         s->grain = s->unpacked.grain;
     else if (found > 0 || own > 0)
         s->grain = steps_grain(s, found, own);
@@ -172,9 +174,9 @@ static void formats_of(texture_source *s) {
 static void find_readings(const options *o, texture_source *s) {
     double d;
     s->reading_count = 0;
-    if (o->metric > 0 || !find_pixel(s, &d))
+    if (o->image.metric > 0 || !find_pixel(s, &d))
         return;
-    if (s->mapping_from == ORIGIN_ASSUMED && o->matrix == NULL)
+    if (s->mapping_from == ORIGIN_ASSUMED && o->image.matrix == NULL)
         mappings_of(s, d);
     if (s->format_from == ORIGIN_ASSUMED && !s->camera.oblique.on &&
         (s->picture.type == IMAGE_U16 || s->picture.type == IMAGE_U32))
@@ -202,13 +204,13 @@ static void warn_of(const texture_source *s, const char *what) {
 }
 
 static void warn(const options *o, const texture_source *s) {
-    if (o->quiet)
+    if (o->out.quiet)
         return;
     warn_of(s, "mapping");
     warn_of(s, "format");
-    if (s->reading_count == 0 && o->metric == 0 && s->mapping_from == ORIGIN_ASSUMED)
+    if (s->reading_count == 0 && o->image.metric == 0 && s->mapping_from == ORIGIN_ASSUMED)
         fprintf(stderr, "depthprec: %s: the mapping is assumed; --mapping sets it\n", s->path);
-    if (o->metric == 0 && s->found.metric)
+    if (o->image.metric == 0 && s->found.metric)
         fprintf(stderr,
                 "depthprec: %s: may be metric depth, whole numbers with 0 for holes; --metric 0.001 reads "
                 "millimetres\n",

@@ -43,9 +43,9 @@ static void *next_error(void *of, size_t i) {
 enum { OF_SYNTHETIC = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8 };
 
 static unsigned conditions(const statistics *r) {
-    const unsigned source = !statistics_of_image(r) ? OF_SYNTHETIC
-                            : r->o->metric == 0     ? OF_IMAGE | OF_WINDOW
-                                                    : OF_IMAGE;
+    const unsigned source = !statistics_of_image(r)   ? OF_SYNTHETIC
+                            : r->o->image.metric == 0 ? OF_IMAGE | OF_WINDOW
+                                                      : OF_IMAGE;
     return source | (r->source.matrix.path != NULL ? OF_MATRIX : 0);
 }
 
@@ -177,19 +177,19 @@ static void name_all(statistics *r) {
     static const bool answers[] = {false, true};
     const texture_source *s = &r->source;
     const grain *g = &s->grain;
-    const bool is_metric = r->o->metric > 0, has_steps = g->kind == GRAIN_STEPS;
+    const bool is_metric = r->o->image.metric > 0, has_steps = g->kind == GRAIN_STEPS;
     const double none = (double)NAN;
     r->setup = setup_fields_of(&s->setup, options_unit(r->o));
     r->named.synthetic = statistics_of_image(r) ? NULL : s->frame.synthetic->name;
     r->named.truth = statistics_of_image(r) ? NULL : "synthetic";
-    r->named.packing = r->o->packing != NULL ? r->o->packing->name : NULL;
+    r->named.packing = r->o->image.packing != NULL ? r->o->image.packing->name : NULL;
     r->named.type = image_type_name(s->type);
     r->named.rounded = g->kind == GRAIN_CODES ? NULL : grain_rounding_name(g->rounding);
     r->named.format = s->found.depth ? s->found.format.name : NULL;
     r->named.format_from = texture_origin_name(s->format_from);
     r->named.mapping_from = texture_origin_name(s->mapping_from);
     r->named.direction_from = texture_origin_name(s->direction_from);
-    r->named.metric = is_metric ? r->o->metric : none;
+    r->named.metric = is_metric ? r->o->image.metric : none;
     r->named.step = is_metric && s->metric.step > 0 ? s->metric.step : none;
     r->named.steps = !is_metric && has_steps ? g->steps : none;
     r->named.steps_or = !is_metric && has_steps && g->whole > 0 ? g->whole : none;
@@ -243,7 +243,7 @@ static size_t products_of(const statistics *r, frame_product out[ERRORS_MAX]) {
 static bool gather_statistics(statistics *r) {
     frame_product products[ERRORS_MAX];
     const size_t count = products_of(r, products);
-    progress bar = progress_start("passes", count + 1, r->o->quiet);
+    progress bar = progress_start("passes", count + 1, r->o->out.quiet);
     bool good = survey_make(&r->source.frame, &r->survey);
     for (size_t k = 0; good && k < count; k++) {
         progress_step(&bar, k + 1);
@@ -272,6 +272,6 @@ int texture_report_write(const options *o, const texture_source *source) {
     name_all(&r);
     report_write(
         &(report_spec){"texture", columns, &r, .when = conditions(&r), .label = 14, .head = statistics_say_head}, &out,
-        o->form);
+        o->out.form);
     return output_close(&out);
 }

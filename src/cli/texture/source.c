@@ -20,7 +20,7 @@ const char *texture_origin_name(texture_origin origin) {
 }
 
 bool texture_scene_takes(const options *o, const char *name) {
-    return o->synthetic != NULL && parameter_find(o->synthetic->parameters, name) >= 0;
+    return o->image.synthetic != NULL && parameter_find(o->image.synthetic->parameters, name) >= 0;
 }
 
 int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
@@ -50,50 +50,50 @@ int texture_parameter_set(const char *whose, const texture_parameter *list, cons
 static int synthetic_parameters(const options *o, const synthetic_row *synthetic, double *out) {
     int status = EXIT_FINE;
     parameter_defaults(synthetic->parameters, out);
-    for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
-        if (o->effect == NULL || texture_scene_takes(o, o->parameters[i].name))
-            status = texture_parameter_set(synthetic->name, synthetic->parameters, &o->parameters[i], PARAMETER_ALWAYS,
-                                           NULL, out);
+    for (size_t i = 0; i < o->image.parameter_count && status == EXIT_FINE; i++)
+        if (o->image.effect == NULL || texture_scene_takes(o, o->image.parameters[i].name))
+            status = texture_parameter_set(synthetic->name, synthetic->parameters, &o->image.parameters[i],
+                                           PARAMETER_ALWAYS, NULL, out);
     return status;
 }
 
 bool texture_far_known(const options *o) {
-    return o->metric == 0 || option_given(o, OPTION_FAR) || o->preset_count > 0;
+    return o->image.metric == 0 || option_given(o, OPTION_FAR) || o->camera.preset_count > 0;
 }
 
 bool texture_is_window(const options *o) {
-    return o->metric == 0 && (o->packing == NULL || !o->packing->linear);
+    return o->image.metric == 0 && (o->image.packing == NULL || !o->image.packing->linear);
 }
 
 /* Options of window depth: again when a file has said what its samples are. */
 static int check_window(const options *o) {
     static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_PRODUCT, OPTION_SKY};
-    const bool raw = o->product != NULL && o->product->kind == FRAME_RAW;
+    const bool raw = o->image.product != NULL && o->image.product->kind == FRAME_RAW;
     for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
-        if (option_given(o, window[i]) && (o->metric > 0 || window[i] != OPTION_SKY) &&
+        if (option_given(o, window[i]) && (o->image.metric > 0 || window[i] != OPTION_SKY) &&
             (raw || window[i] != OPTION_PRODUCT))
             return option_error(window[i], "%sdoes not apply with --%s%s, which is not window depth",
-                                window[i] == OPTION_PRODUCT ? "raw " : "", o->metric > 0 ? "metric" : "packing ",
-                                o->metric > 0 ? "" : o->packing->name);
+                                window[i] == OPTION_PRODUCT ? "raw " : "", o->image.metric > 0 ? "metric" : "packing ",
+                                o->image.metric > 0 ? "" : o->image.packing->name);
     return EXIT_FINE;
 }
 
 /* Options that need another one, or have no meaning beside it. */
 static int check_together(const options *o) {
     const bool file = o->operand_count > 0;
-    if (file && o->synthetic != NULL)
+    if (file && o->image.synthetic != NULL)
         return option_error(OPTION_SYNTHETIC, "stands in place of FILE, got '%s' too", o->operands[0]);
-    if (!file && o->synthetic == NULL)
+    if (!file && o->image.synthetic == NULL)
         return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF or raw image, or --synthetic NAME");
-    if (file && o->effect == NULL && o->parameter_count > 0)
+    if (file && o->image.effect == NULL && o->image.parameter_count > 0)
         return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
-    if (o->metric > 0 && !file)
+    if (o->image.metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
-    if (o->channel != NULL && !file)
+    if (o->image.channel != NULL && !file)
         return option_error(OPTION_CHANNEL, "needs FILE");
-    if (o->packing != NULL && !file)
+    if (o->image.packing != NULL && !file)
         return option_error(OPTION_PACKING, "needs FILE");
-    if (o->packing != NULL && o->metric > 0)
+    if (o->image.packing != NULL && o->image.metric > 0)
         return option_error(OPTION_METRIC, "does not apply with --packing");
     const int status = check_window(o);
     return status == EXIT_FINE ? texture_camera_check(o) : status;
@@ -102,12 +102,12 @@ static int check_together(const options *o) {
 /* What would change the samples in a program that obeys it. */
 static void warn_of_colours(const options *o, const texture_source *s) {
     static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->quiet; i++)
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->out.quiet; i++)
         if ((s->picture.colours >> i & 1U) != 0)
             fprintf(stderr,
                     "depthprec: %s: has %s chunk: a program that applies it changes packed depths; ignored here\n",
                     s->path, names[i]);
-    if (s->unpacked.premultiplied && !o->quiet)
+    if (s->unpacked.premultiplied && !o->out.quiet)
         fprintf(stderr, "depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong\n",
                 s->path);
 }
@@ -116,7 +116,7 @@ static void warn_of_colours(const options *o, const texture_source *s) {
 
 /* What a codec has changed is known to nobody, so no error has it. */
 static void warn_of_compression(const options *o, const texture_source *s) {
-    if (s->picture.lossy != NULL && !o->quiet)
+    if (s->picture.lossy != NULL && !o->out.quiet)
         fprintf(stderr,
                 "depthprec: %s: its compression, %s, may have changed the depths, which no error here counts; save it "
                 "without loss\n",
@@ -131,7 +131,7 @@ static bool is_asked(const options *o) {
 /* Whether a word of the note is an option that nothing on the command line stands against. */
 static bool is_open(const options *o, option_id id) {
     const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC;
-    return !option_given(o, id) && !(of_samples ? is_asked(o) : o->preset_count > 0 || o->matrix != NULL);
+    return !option_given(o, id) && !(of_samples ? is_asked(o) : o->camera.preset_count > 0 || o->image.matrix != NULL);
 }
 
 /* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
@@ -170,8 +170,8 @@ static int take_note(options *o, texture_source *s) {
 
 /* The depths of a packed texture; what else is known of them is the packing's. */
 static int unpack(const options *o, texture_source *s) {
-    const packing *p = o->packing;
-    const bool zero = option_given(o, OPTION_ROUNDING) && o->rounding == DP_ROUND_ZERO;
+    const packing *p = o->image.packing;
+    const bool zero = option_given(o, OPTION_ROUNDING) && o->camera.rounding == DP_ROUND_ZERO;
     dp_format formats[2];
     if (!packing_convert(p, zero, &s->picture, &s->unpacked))
         return usage_error("%s: %s", s->path, s->unpacked.wrong);
@@ -197,10 +197,10 @@ void texture_source_close(texture_source *s) {
 static int read_image(options *o, texture_source *s) {
     image_error error;
     s->path = o->operands[0];
-    image_asked asked = {.channel = o->channel};
+    image_asked asked = {.channel = o->image.channel};
     if (option_given(o, OPTION_SIZE)) {
-        asked.width = o->camera.width;
-        asked.height = o->camera.height;
+        asked.width = o->view.spec.width;
+        asked.height = o->view.spec.height;
     }
     if (!image_read_as(s->path, &asked, &s->picture, &error)) {
         usage_error("%s: %s", s->path, error.text);
@@ -208,7 +208,7 @@ static int read_image(options *o, texture_source *s) {
     }
     if (asked.width > 0 && s->picture.file != IMAGE_RAW)
         return option_error(OPTION_SIZE, "is for --synthetic and raw files: %s has its own", s->path);
-    if (s->picture.size_assumed && !o->quiet)
+    if (s->picture.size_assumed && !o->out.quiet)
         fprintf(stderr, "depthprec: %s: %u x %u pixels are assumed, by its length; --size sets them\n", s->path,
                 s->picture.width, s->picture.height);
     s->type = s->picture.type;
@@ -217,33 +217,33 @@ static int read_image(options *o, texture_source *s) {
     int status = take_note(o, s);
     if (status == EXIT_FINE)
         status = check_window(o);
-    if (status != EXIT_FINE || o->packing != NULL)
+    if (status != EXIT_FINE || o->image.packing != NULL)
         return status != EXIT_FINE ? status : unpack(o, s);
-    if (o->metric == 0) {
+    if (o->image.metric == 0) {
         recognise(&s->picture, &s->found);
         return EXIT_FINE;
     }
-    const char *wrong = metric_convert(&s->picture, o->metric, &s->metric);
+    const char *wrong = metric_convert(&s->picture, o->image.metric, &s->metric);
     return wrong == NULL ? EXIT_FINE : usage_error("%s: no metric depth: %s", s->path, wrong);
 }
 
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
 static int choose_format(const options *o, texture_source *s, dp_format *out) {
-    const bool chosen = o->preset_count > 0 || o->platform != NULL;
+    const bool chosen = o->camera.preset_count > 0 || o->camera.platform != NULL;
     const bool given = texture_is_window(o) && (option_given(o, OPTION_FORMAT) || chosen);
     s->format_from = given ? ORIGIN_GIVEN : s->path != NULL && s->found.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED;
     if (!given && s->path != NULL && !s->found.depth)
         return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path,
                            s->found.why);
-    if (given && o->format_count > 1 && option_given(o, OPTION_FORMAT))
-        return option_error(OPTION_FORMAT, "must be one format, got %zu", o->format_count);
+    if (given && o->camera.format_count > 1 && option_given(o, OPTION_FORMAT))
+        return option_error(OPTION_FORMAT, "must be one format, got %zu", o->camera.format_count);
     dp_format usual[2];
     dp_format_parse("unorm24", usual);
-    *out = given ? o->formats[0] : s->path != NULL ? s->found.format : usual[0];
+    *out = given ? o->camera.formats[0] : s->path != NULL ? s->found.format : usual[0];
     bool told = false; /* of two formats of a preset or a platform */
-    for (size_t i = 0; given && s->path != NULL && i < o->format_count && !told; i++)
-        if (strcmp(o->formats[i].name, s->found.format.name) == 0) {
-            *out = o->formats[i];
+    for (size_t i = 0; given && s->path != NULL && i < o->camera.format_count && !told; i++)
+        if (strcmp(o->camera.formats[i].name, s->found.format.name) == 0) {
+            *out = o->camera.formats[i];
             told = s->found.certain;
         }
     if (given && !told && setup_decided(o) != EXIT_FINE)
@@ -254,23 +254,23 @@ static int choose_format(const options *o, texture_source *s, dp_format *out) {
 }
 
 static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) {
-    const bool given = option_given(o, OPTION_MAPPING) || o->preset_count > 0;
+    const bool given = option_given(o, OPTION_MAPPING) || o->camera.preset_count > 0;
     if (!texture_is_window(o)) { /* a packing that says so */
         *out = DP_MAPPING_LINEAR;
         s->mapping_from = s->direction_from = ORIGIN_FOUND;
         return EXIT_FINE;
     }
-    if (given && o->mapping_count > 1)
-        return option_error(OPTION_MAPPING, "must be one mapping, got %zu", o->mapping_count);
+    if (given && o->camera.mapping_count > 1)
+        return option_error(OPTION_MAPPING, "must be one mapping, got %zu", o->camera.mapping_count);
     /* Nothing in an image tells the curve; what is usual in perspective pictures tells nothing of orthographic ones. */
-    const bool told = s->path != NULL && s->found.reversed >= 0 && !o->ortho;
+    const bool told = s->path != NULL && s->found.reversed >= 0 && !o->camera.ortho;
     s->mapping_from = s->noted ? ORIGIN_FOUND : given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
     s->direction_from = s->noted                     ? ORIGIN_FOUND
                         : given                      ? ORIGIN_GIVEN
                         : told && s->found.direction ? ORIGIN_FOUND
                                                      : ORIGIN_ASSUMED;
-    const dp_mapping usual = o->platform != NULL ? o->mappings[0] : DP_MAPPING_D3D;
-    *out = given ? o->mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : usual;
+    const dp_mapping usual = o->camera.platform != NULL ? o->camera.mappings[0] : DP_MAPPING_D3D;
+    *out = given ? o->camera.mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : usual;
     if (dp_mapping_get(*out)->log_from_near)
         return option_error(option_given(o, OPTION_MAPPING) ? OPTION_MAPPING : OPTION_PRESET,
                             "texture reads logarithms that begin at the eye (log, three-webgl, osgearth), none that "
@@ -282,13 +282,14 @@ static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) 
 static int make_setup(const options *o, texture_source *s, dp_setup *out) {
     options one = *o;
     setups all = {0};
-    if (o->matrix != NULL && o->packing != NULL && o->packing->linear)
+    if (o->image.matrix != NULL && o->image.packing != NULL && o->image.packing->linear)
         return option_error(OPTION_MATRIX, "is for window depth, and %s holds eye depth: --fov says its camera",
                             s->path);
-    int status = o->metric > 0 ? EXIT_FINE : choose_format(o, s, &one.formats[0]);
-    if (status == EXIT_FINE && (o->metric == 0 || o->matrix != NULL))
-        status = o->matrix != NULL ? texture_matrix_open(o, s, &one) : choose_mapping(o, s, &one.mappings[0]);
-    one.format_count = one.mapping_count = 1;
+    int status = o->image.metric > 0 ? EXIT_FINE : choose_format(o, s, &one.camera.formats[0]);
+    if (status == EXIT_FINE && (o->image.metric == 0 || o->image.matrix != NULL))
+        status =
+            o->image.matrix != NULL ? texture_matrix_open(o, s, &one) : choose_mapping(o, s, &one.camera.mappings[0]);
+    one.camera.format_count = one.camera.mapping_count = 1;
     if (status == EXIT_FINE)
         status = setups_make(&one, &all);
     if (status != EXIT_FINE)
@@ -300,9 +301,9 @@ static int make_setup(const options *o, texture_source *s, dp_setup *out) {
 
 /* Metric depth lies on a lattice of its own; the planes that were given are for effects alone. */
 static int make_camera(const options *o, texture_source *s) {
-    const bool is_metric = o->metric > 0;
+    const bool is_metric = o->image.metric > 0;
     int status = make_setup(o, s, is_metric ? &s->planes : &s->setup);
-    camera_spec spec = o->camera;
+    camera_spec spec = o->view.spec;
     if (s->path != NULL) {
         spec.width = s->picture.width;
         spec.height = s->picture.height;
@@ -328,29 +329,30 @@ static int make_camera(const options *o, texture_source *s) {
             return usage_error("%s: no metric depth: its depths are too small or too large for --metric", s->path);
         s->camera.setup = s->setup;
     }
-    const bool moves = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0;
+    const bool moves = o->image.effect != NULL && (o->image.effect->needs & EFFECT_LAST_FRAME) != 0;
     return moves ? texture_last_camera(o, &s->setup, &spec, &s->last) : EXIT_FINE;
 }
 
 int texture_source_open(options *o, texture_source *s) {
     int status = check_together(o);
-    if (status == EXIT_FINE && o->synthetic != NULL)
-        status = synthetic_parameters(o, o->synthetic, s->parameters);
+    if (status == EXIT_FINE && o->image.synthetic != NULL)
+        status = synthetic_parameters(o, o->image.synthetic, s->parameters);
     else if (status == EXIT_FINE)
         status = read_image(o, s);
     if (status == EXIT_FINE)
         status = make_camera(o, s);
     if (status == EXIT_FINE && s->path != NULL)
         texture_read_on(o, s);
-    s->frame = (frame){.camera = &s->camera,
-                       .last = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0 ? &s->last : NULL,
-                       .image = s->path != NULL ? &s->picture : NULL,
-                       .synthetic = o->synthetic,
-                       .parameters = s->parameters,
-                       .grain = s->path != NULL ? &s->grain : NULL,
-                       .metric = o->metric > 0,
-                       .planes = o->metric > 0 ? &s->planes : NULL,
-                       .sky = o->sky,
-                       .threads = o->threads};
+    s->frame =
+        (frame){.camera = &s->camera,
+                .last = o->image.effect != NULL && (o->image.effect->needs & EFFECT_LAST_FRAME) != 0 ? &s->last : NULL,
+                .image = s->path != NULL ? &s->picture : NULL,
+                .synthetic = o->image.synthetic,
+                .parameters = s->parameters,
+                .grain = s->path != NULL ? &s->grain : NULL,
+                .metric = o->image.metric > 0,
+                .planes = o->image.metric > 0 ? &s->planes : NULL,
+                .sky = o->image.sky,
+                .threads = o->out.threads};
     return status;
 }

@@ -70,7 +70,7 @@ static number_text in_scene(const page *p, double length) {
 
 static void say_metric(const statistics *r, page *p) {
     const metric *m = &r->source.metric;
-    page_text(p, "metric depth, samples in units of %s, up to %s", in_scene(p, r->o->metric).text,
+    page_text(p, "metric depth, samples in units of %s, up to %s", in_scene(p, r->o->image.metric).text,
               in_scene(p, m->zfar).text);
     if (m->step > 0)
         page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);
@@ -84,8 +84,8 @@ static void say_source(statistics *r, page *p) {
     char parameters[512] = "";
     char packed[48] = "";
     p->unit = options_unit(r->o);
-    if (r->o->packing != NULL)
-        snprintf(packed, sizeof packed, ", packed as %s", r->o->packing->name);
+    if (r->o->image.packing != NULL)
+        snprintf(packed, sizeof packed, ", packed as %s", r->o->image.packing->name);
     else if (s->channels > 1)
         snprintf(packed, sizeof packed, ", the first is read");
     for (size_t i = 0; statistics_next_parameter(r, i) != NULL; i++)
@@ -97,7 +97,7 @@ static void say_source(statistics *r, page *p) {
     else
         page_text(p, "synthetic %s: %u x %u pixels%s", r->named.synthetic, s->camera.width, s->camera.height,
                   parameters);
-    if (r->o->metric > 0) {
+    if (r->o->image.metric > 0) {
         say_metric(r, p);
     } else {
         setup_title(p, &s->setup, &r->setup);
@@ -121,11 +121,11 @@ void statistics_say_head(page *p, void *item) {
     say_source(r, p);
     if (s->oblique.on)
         page_note(p, "sky", "%llu pixels, %s %%, within %s of the far end of window depth", (unsigned long long)v->sky,
-                  share(v->sky, v->pixels).text, number_of(r->o->sky, 3).text);
-    else if (r->o->metric == 0)
+                  share(v->sky, v->pixels).text, number_of(r->o->image.sky, 3).text);
+    else if (r->o->image.metric == 0)
         page_note(p, "sky", "%llu pixels, %s %%; depths from %s on are within %s of far and count as sky",
                   (unsigned long long)v->sky, share(v->sky, v->pixels).text,
-                  number_in(number_of(v->sky_from, 6), p->unit).text, number_of(r->o->sky, 3).text);
+                  number_in(number_of(v->sky_from, 6), p->unit).text, number_of(r->o->image.sky, 3).text);
     if (!statistics_of_image(r) && r->named.hidden > 0)
         page_note(p, "hidden", "%llu pixels of the synthetic image count as sky", (unsigned long long)r->named.hidden);
     if (v->invalid > 0)

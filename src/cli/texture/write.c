@@ -31,7 +31,7 @@ int writing_open(const options *o, writing *w, const char *path, const texture_s
     w->codes = malloc(s->camera.width * sizeof *w->codes);
     w->stream = fopencookie(&w->out, "w", (cookie_io_functions_t){.write = stream_write});
     w->channels = channels;
-    w->bar = progress_start("rows", s->camera.height, o->quiet || path == o->error_file); /* one bar */
+    w->bar = progress_start("rows", s->camera.height, o->out.quiet || path == o->image.error_file); /* one bar */
     return EXIT_FINE;
 }
 
@@ -171,7 +171,7 @@ static bool scale_of(const texture_source *s, const frame_product *made, writing
 static const char *const axes[] = {"x right, y up, z towards the camera", "x right, y down, z towards the camera"};
 
 meaning writing_meaning(const options *o, const texture_product *p, const writing *w) {
-    meaning m = {.file = o->output,
+    meaning m = {.file = o->out.file,
                  .product = p->name,
                  .unit = *p->unit != '\0' ? p->unit : NULL,
                  .type = image_type_name(w->type),
@@ -222,20 +222,20 @@ static const column meaning_columns[] = {{FIELD(meaning, file, "file", "")},
 
 int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m) {
     output out;
-    if (o->form == FORM_JSON) {
+    if (o->out.form == FORM_JSON) {
         const int status = output_open(&out, NULL);
         if (status != EXIT_FINE)
             return status;
         report_write(&(report_spec){"texture", meaning_columns, m, .label = 14}, &out, FORM_JSON);
         return output_close(&out);
     }
-    if (w->file != IMAGE_PNG || o->quiet)
+    if (w->file != IMAGE_PNG || o->out.quiet)
         return EXIT_FINE;
     if (w->directions)
-        fprintf(stderr, "depthprec: %s: 0 is -1, 65535 is 1, %s; 0 in all three where there is no value\n", o->output,
+        fprintf(stderr, "depthprec: %s: 0 is -1, 65535 is 1, %s; 0 in all three where there is no value\n", o->out.file,
                 m->axes);
     else
-        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
+        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->out.file,
                 number_full(w->lo).text, number_full(w->hi).text, *p->unit != '\0' ? " " : "", p->unit,
                 p->made.error ? "bound" : "value");
     return EXIT_FINE;
@@ -256,8 +256,8 @@ static bool make_all(const texture_source *s, const texture_product *p, writing 
 }
 
 static void say_levels(const options *o, const texture_source *s, const texture_product *p, const writing *w) {
-    if (w->levels && w->pixels > 0 && !o->quiet)
-        fprintf(stderr, "depthprec: %s: %s %% of the pixels %s off by more than one level\n", o->output,
+    if (w->levels && w->pixels > 0 && !o->out.quiet)
+        fprintf(stderr, "depthprec: %s: %s %% of the pixels %s off by more than one level\n", o->out.file,
                 number_of(100.0 * (double)w->beyond / (double)w->pixels, 3).text,
                 s->path != NULL || (p->made.effect->given && !(p->made.reference > 0)) ? "can be" : "are");
 }
@@ -266,12 +266,12 @@ static void say_levels(const options *o, const texture_source *s, const texture_
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
     options each[2] = {*o, *o};
     texture_product product[2] = {*p, *p};
-    writing w[2] = {{.down = o->normal_format != 0}, {.down = false}};
+    writing w[2] = {{.down = o->image.normal_format != 0}, {.down = false}};
     meaning m[2];
-    const int count = o->error_file != NULL ? 2 : 1;
+    const int count = o->image.error_file != NULL ? 2 : 1;
     int status = EXIT_FINE, opened = 0;
     bool good = true;
-    each[1].output = o->error_file;
+    each[1].out.file = o->image.error_file;
     product[1].made = p->error;
     product[1].unit = p->unit_of_error;
     append(product[1].name, sizeof product[1].name, ", error");
@@ -279,8 +279,8 @@ int texture_product_write(const options *o, const texture_source *s, const textu
         writing *one = &w[opened];
         const frame_product *made = &product[opened].made;
         one->levels = made->kind == FRAME_EFFECT && made->error;
-        image_file_of(each[opened].output, &one->file);
-        status = writing_open(o, one, each[opened].output, s, one->file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32,
+        image_file_of(each[opened].out.file, &one->file);
+        status = writing_open(o, one, each[opened].out.file, s, one->file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32,
                               (uint32_t)frame_channels(made));
     }
     if (status != EXIT_FINE && opened == 2) {
@@ -300,7 +300,7 @@ int texture_product_write(const options *o, const texture_source *s, const textu
     status = writing_close(w, count, good);
     m[0].error_map = count > 1 ? &m[1] : NULL;
     for (int i = 0; i < count && status == EXIT_FINE; i++) {
-        if (i == 0 || o->form != FORM_JSON) /* one object of JSON */
+        if (i == 0 || o->out.form != FORM_JSON) /* one object of JSON */
             status = writing_say(&each[i], &product[i], &w[i], &m[i]);
         if (status == EXIT_FINE)
             say_levels(&each[i], s, &product[i], &w[i]);
@@ -344,15 +344,15 @@ static void depth_row(const writing *w, uint32_t row) {
 int texture_depth_write(const options *o, const texture_source *s) {
     image_type type;
     writing w = {0};
-    if (!image_file_of(o->output, &w.file))
+    if (!image_file_of(o->out.file, &w.file))
         return option_error(OPTION_OUTPUT,
                             "must end in .png, .pfm or .npy for the depths, got '%s'; --json or --csv writes "
                             "statistics",
-                            o->output);
+                            o->out.file);
     if (!depth_type(&s->setup.spec.format, w.file, &type))
         return option_error(OPTION_OUTPUT, "%s does not hold %s: .npy does, got '%s'", image_file_name(w.file),
-                            s->setup.spec.format.name, o->output);
-    const int status = writing_open(o, &w, o->output, s, type, 1);
+                            s->setup.spec.format.name, o->out.file);
+    const int status = writing_open(o, &w, o->out.file, s, type, 1);
     if (status != EXIT_FINE)
         return status;
     bool good = writing_begin(&w, NULL);
