@@ -132,6 +132,8 @@ int cmd_help(const options *o) {
             output_format(&out, "depthprec %s: %s\n\n%s\nUsage: depthprec %s%s%s [options]\n", v->name, v->summary,
                           v->example, v->name, *v->operand != '\0' ? " " : "", v->operand);
         list_options(&p, v);
+        if (v != NULL)
+            output_format(&out, "\n'man depthprec-%s' has more.\n", v->name);
     }
     return output_close(&out);
 }
