@@ -111,7 +111,6 @@ rendered() { # rendered TOOL PAGE: its lines that are too wide on a terminal of 
     col -bx <"$scratch/rendered" | awk 'length > 80 && !/^depthprec: /'
 }
 
-make --no-print-directory B="$B" man >"$scratch/log" 2>&1 || cat "$scratch/log"
 for page in README.md man/*.[0-9]; do
     rm -rf "$scratch/run" && mkdir "$scratch/run" && ln -s "$PWD/tests" "$scratch/run/tests" # models that examples read
     split "$page"
