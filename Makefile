@@ -215,7 +215,7 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 .PHONY: check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves and what clang makes for the web no sanitizer has a say.
-ONCE := $(patsubst %,tests/%.sh,layers headers install can_fail mutants aims web)
+ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims web)
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 
 check:
