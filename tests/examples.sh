@@ -219,8 +219,8 @@ check "depthprec-budget(1): every cause" documented -budget.1 aliases causes
 check "depthprec-budget(1): every composition" documented -budget.1 aliases transforms
 check "depthprec.3: every function" documented .3 functions
 check "depthprec.3: every status" documented .3 statuses
-check "depthprec.7: every test it names exists" sh -c '
-    grep -o "tests/[a-z_]*\.c" man/depthprec.7 | sort -u >"$1" && [ -s "$1" ] && while read -r file; do
-        [ -e "$file" ] || { echo "$file" && exit 1; }
+check "tests/README.md: every test it names exists" sh -c '
+    grep -oE "\btest_[a-z_]+[a-z]\b[*]?" tests/README.md | grep -v "[*]" | sort -u >"$1" && [ -s "$1" ] && while read -r name; do
+        [ -e "tests/$name.c" ] || { echo "$name" && exit 1; }
     done <"$1"' - "$scratch/named"
 finish
