@@ -72,7 +72,8 @@ record() { # record PAGE: with what its examples printed where that differs
     awk -v from="$scratch/run" -v man="${1##*.}" '
         function roff(s) {
             if (man != "md") {
-                gsub(/\\/, "\\e", s); sub(/^\./, "\\\&.", s)
+                gsub(/\\/, "\\e", s)
+                if (s ~ /^[.\047]/) s = "\\&" s
             }
             return s
         }
