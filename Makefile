@@ -428,6 +428,7 @@ help:
 ## make check-web       the page in Chromium, which it installs: a minute of it: what it shows against the program, bad
 ##                  addresses; DEPTHPREC_FULL=1 adds keyboard, speed and more
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
+## make man         the manual pages in build/man/, completed with what the program says of itself
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
 ##                  uninstall, installcheck
