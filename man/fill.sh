@@ -64,7 +64,7 @@ options() {
 # A name stands in the first column, a label in the third, what is said in the fifteenth.
 list() {
     awk "$words"'
-        BEGIN { print ".Bl -tag -width Ds" }
+        BEGIN { print ".Bl -tag -width 13n" }
         /^$/ { next }
         /^[^ ]/ { gsub(/, /, " , "); print ".It Cm " $0; label = ""; next }
         /^  [^ ]/ { label = $1 }
