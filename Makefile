@@ -220,7 +220,7 @@ RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(fil
 
 check:
 	@sh src/packages.sh check
-	@$(MAKE) $(PARALLEL) all man check-programs
+	@$(MAKE) $(PARALLEL) all check-programs
 	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh $(RUN_TESTS)
 
 check-programs: $(TEST_PROGRAMS)

@@ -112,6 +112,7 @@ rendered() { # rendered TOOL PAGE: its lines that are too wide on a terminal of 
     col -bx <"$scratch/rendered" | awk 'length > 80 && !/^depthprec: /'
 }
 
+manual "$scratch/man"
 for page in README.md man/*.[0-9]; do
     rm -rf "$scratch/run" && mkdir "$scratch/run" && ln -s "$PWD/tests" "$scratch/run/tests" # models that examples read
     split "$page"
@@ -126,7 +127,7 @@ for page in README.md man/*.[0-9]; do
     *.md) ;;
     *) for tool in mandoc groff; do
         if command -v $tool >/dev/null && command -v col >/dev/null; then
-            check "$page: 80 columns by $tool" empty rendered $tool "$B/$page"
+            check "$page: 80 columns by $tool" empty rendered $tool "$scratch/$page"
         else
             skip "$page: 80 columns by $tool" "$tool or col is not installed"
         fi
@@ -140,7 +141,7 @@ done
 # ---- The pages name what there is ----
 
 page() { # the text of a page without its macros
-    sed -e 's/^\.[A-Z][a-z] //' -e 's/\\-/-/g' "$B/man/depthprec$1" | tr -s ' ,' '\n\n'
+    sed -e 's/^\.[A-Z][a-z] //' -e 's/\\-/-/g' "$scratch/man/depthprec$1" | tr -s ' ,' '\n\n'
 }
 
 names_in() { # names_in PAGE: prints the names on stdin that the page does not have
@@ -154,19 +155,19 @@ verbs() { "$DEPTHPREC" help >"$scratch/help" && sed -n '/^Commands/,/^$/s/^  \([
 pages_of_verbs() { verbs | sed 's/^/depthprec-/'; }
 
 complete() { # complete COMMAND: its page, which `help COMMAND` names, has each option of its help
-    [ -s "$B/man/depthprec-$1.1" ] && "$DEPTHPREC" help "$1" >"$scratch/help" || return
+    [ -s "$scratch/man/depthprec-$1.1" ] && "$DEPTHPREC" help "$1" >"$scratch/help" || return
     grep -q "man depthprec-$1'" "$scratch/help" || return
     sed -n 's/^  ....\(--[a-z0-9-]*\).*/\1/p' "$scratch/help" >"$scratch/options" && [ -s "$scratch/options" ] || return
-    sed -n 's/^\.It.* Fl -\([a-z0-9-]*\).*/--\1/p' "$B/man/depthprec-$1.1" | diff "$scratch/options" -
+    sed -n 's/^\.It.* Fl -\([a-z0-9-]*\).*/--\1/p' "$scratch/man/depthprec-$1.1" | diff "$scratch/options" -
 }
 
 found() { # what of the pages `man -k depth` does not find, by the tools of mandoc
     rm -rf "$scratch/share"
-    for page in "$B"/man/*.[0-9]; do
+    for page in "$scratch"/man/*.[0-9]; do
         mkdir -p "$scratch/share/man${page##*.}" && cp "$page" "$scratch/share/man${page##*.}" || return
     done
     makewhatis "$scratch/share" && "$apropos" -M "$scratch/share" depth >"$scratch/known" || return
-    for page in "$B"/man/*.[0-9]; do
+    for page in "$scratch"/man/*.[0-9]; do
         name=$(basename "$page")
         grep -q "^${name%.*}(${name##*.}) - ..*" "$scratch/known" || echo "not found: $name"
     done

@@ -121,7 +121,7 @@ check "17. the slope's is at least that of snapping" agrees 'SlopeScaledDepthBia
 # ---- Words and widths ----
 
 everything() { # the text of README.md and the pages, of help and of every list, to the folder text
-    mkdir -p "$scratch/text" && cp README.md "$B"/man/*.[1357] "$scratch/text" || return
+    manual "$scratch/text" && cp README.md "$scratch/text" || return
     depthprec help >"$scratch/text/help" || return
     for verb in $(sed -n '/^Commands/,/^$/s/^  \([a-z]*\) .*/\1/p' "$scratch/text/help"); do
         depthprec help "$verb" >"$scratch/text/help.$verb" || return

@@ -19,7 +19,7 @@ missing_pages() { # the manual pages that it names and that are not made
     grep -oE 'man ([1-9] )?depthprec(-[a-z]+)?' README.md | sort -u >"$scratch/named" && [ -s "$scratch/named" ] || return
     while read -r man section name; do
         [ -n "$name" ] || { name=$section && section='[1-9]'; }
-        ls "$B/man/$name".$section >"$scratch/found" 2>&1 || echo "$man $name"
+        ls "man/$name".$section >"$scratch/found" 2>&1 || echo "$man $name"
     done <"$scratch/named"
 }
 one_command_each() { # the second command is what .ci/run calls
