@@ -161,6 +161,13 @@ complete() { # complete COMMAND: its page, which `help COMMAND` names, has each 
     sed -n 's/^\.It.* Fl -\([a-z0-9-]*\).*/--\1/p' "$scratch/man/depthprec-$1.1" | diff "$scratch/options" -
 }
 
+unknown_options() { # the options that README.md and the pages name and that no command has
+    "$DEPTHPREC" help options >"$scratch/help" && sed -n 's/^  ....\(--[a-z0-9-]*\).*/\1/p' "$scratch/help" |
+        sort -u >"$scratch/options" && [ -s "$scratch/options" ] || return
+    sed -e 's/\\-/-/g' -e 's/Fl -\([a-z]\)/Fl --\1/g' README.md "$scratch"/man/*.[157] |
+        grep -oE -e '(^|[^a-z-])--[a-z][a-z0-9-]*' | sed 's/^[^-]*//' | sort -u | comm -13 "$scratch/options" -
+}
+
 found() { # what of the pages `man -k depth` does not find, by the tools of mandoc
     rm -rf "$scratch/share"
     for page in "$scratch"/man/*.[0-9]; do
@@ -202,6 +209,7 @@ check "depthprec(1): the page of every command" documented .1 pages_of_verbs
 for verb in $(verbs); do
     check "depthprec-$verb(1): every option" complete "$verb"
 done
+check "the pages name no option that no command has" empty unknown_options
 PATH=$PATH:/usr/sbin
 apropos=$(command -v mapropos || command -v apropos) # Debian's name for that of mandoc
 if command -v makewhatis >/dev/null; then
