@@ -37,10 +37,11 @@ head() {
         }'
 }
 
-# A heading starts its line, an option is two blanks off or six, and what is said of it goes on far from the margin.
+# A heading starts its line, an option or a word is two blanks off or more, and what is said of it goes on in column 31.
 options() {
     awk "$words"'
         function flags(label,    n, word, i, out) { # "-n, --near Z" as macros
+            if (label !~ /^ *-/) { sub(/^ */, "", label); return " Cm " label }
             n = split(label, word, " ")
             for (i = 1; i <= n; i++)
                 if (word[i] ~ /^-.,$/) out = out " Fl " substr(word[i], 2, 1) " ,"
@@ -51,8 +52,8 @@ options() {
         /^Usage: / { options = 1; print ".Sh OPTIONS"; next }
         !options || /^$/ || /^'\''/ { next }
         /^[^ ]/ { if (begun) print ".El"; print ".Ss " $0 "\n.Bl -tag -width Ds"; begun = 1; next }
-        /^  (-|    --)/ {
-            both = substr($0, 30, 1) == " " # what is said of it begins in column 31, or on the next line
+        substr($0, 1, 30) ~ /[^ ]/ {
+            both = substr($0, 30, 1) == " " # else what is said of it begins on the next line
             print ".It" flags(both ? substr($0, 1, 30) : $0)
             if (both) text(substr($0, 31))
             next
