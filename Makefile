@@ -34,7 +34,7 @@ BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 WEB := $(wildcard tests/web/*.c)
-MAN := $(wildcard man/*.[1-9])
+MAN := $(patsubst %,$(B)/%,$(wildcard man/*.[1-9]))
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
 ALL_C := $(CORE) $(ROOMS) $(PAGE) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
@@ -88,7 +88,7 @@ PARALLEL = --no-print-directory --output-sync=target $(if $(findstring -j,$(MAKE
 # ---- Build -------------------------------------------------------------------------------------------------------
 
 .DELETE_ON_ERROR:
-.PHONY: all lib programs demo packages
+.PHONY: all lib programs man demo packages
 all: lib programs
 lib: $(B)/libdepthprec.a $(B)/libdepthprec.so.0
 programs: $(B)/depthprec
@@ -139,6 +139,13 @@ $(B)/%.a:
 $(B)/libdepthprec.so.0: $(CORE_O)
 	$(call say,LD)
 	$(Q)$(LINK) -shared -Wl,-soname,$(@F) -o $@ $^ -lm
+
+# What the program says of itself stands in its pages.
+man: $(MAN)
+$(B)/man/%: man/% man/fill.sh $(B)/depthprec
+	@mkdir -p $(@D)
+	$(call say,MAN)
+	$(Q)sh man/fill.sh $(B)/depthprec $< >$@
 
 $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 	$(call say,LD)
@@ -208,7 +215,7 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 .PHONY: check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves and what clang makes for the web no sanitizer has a say.
-ONCE := $(patsubst %,tests/%.sh,layers headers install can_fail mutants aims web)
+ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims web)
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 
 check:
@@ -332,8 +339,8 @@ lint-cppcheck:
 	$(Q)cppcheck -q --std=c11 --error-exitcode=1 --inline-suppr --enable=warning,performance,portability \
 	    --suppress=missingIncludeSystem -Iinclude -Isrc src
 
-lint-man:
-	$(Q)$(if $(MAN),mandoc -T lint -W warning $(MAN))
+lint-man: $(MAN)
+	$(Q)mandoc -T lint -W warning $(MAN)
 
 lint-spell:
 	$(Q)codespell -L nd,eror,arithmetics,positoin $(wildcard README.md) Makefile include src man tests/*.[ch] tests/*.sh
@@ -351,7 +358,7 @@ VERSION = $(shell sed -n 's/^.define DP_VERSION *"\(.*\)"/\1/p' include/depthpre
 D = $(DESTDIR)
 COMPLETIONS := bash-completion/completions/depthprec zsh/site-functions/_depthprec fish/vendor_completions.d/depthprec.fish
 
-install: all
+install: all man
 	$(Q)$(INSTALL) -d $(D)$(bindir) $(D)$(libdir)/pkgconfig $(D)$(includedir)/depthprec
 	$(Q)$(INSTALL_PROGRAM) $(B)/depthprec $(D)$(bindir)/depthprec
 	$(Q)$(INSTALL_PROGRAM) $(B)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so.0
@@ -421,6 +428,7 @@ help:
 ## make check-web       the page in Chromium, which it installs: a minute of it: what it shows against the program, bad
 ##                  addresses; DEPTHPREC_FULL=1 adds keyboard, speed and more
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
+## make man         the manual pages in build/man/, completed with what the program says of itself
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
 ##                  uninstall, installcheck

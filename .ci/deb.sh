@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds Debian's source package and its three packages into build/deb, from the tree as it lies here with .ci/debian at
-# its top, and lets lintian judge them. Then they are unpacked, and the README's example is compiled against them.
+# its top, and lets lintian judge them. Then they are unpacked, and the example of depthprec(3) is compiled against them.
 # DEB_BUILD_OPTIONS=nocheck is the default: the tests have run before; give another to run them in the package too.
 set -eu
 LC_ALL=C
@@ -43,7 +43,7 @@ mkdir "$out/example"
 PKG_CONFIG_SYSROOT_DIR=$root PKG_CONFIG_LIBDIR=$libraries/pkgconfig PKG_CONFIG_ALLOW_SYSTEM_LIBS=1 \
     PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 LD_LIBRARY_PATH=$libraries sh tests/linked.sh "$out/example"
 "$root/usr/bin/depthprec" --version
-for page in man1/depthprec.1 man3/depthprec.3 man5/depthprec.5 man7/depthprec.7; do
-    gzip -cd "$root/usr/share/man/$page.gz" | cmp - "man/${page#*/}"
+for page in "$tree"/build/man/*; do
+    gzip -cd "$root/usr/share/man/man${page##*.}/${page##*/}.gz" | cmp - "$page"
 done
 ls "$out"/*.deb "$out"/*.dsc

@@ -20,6 +20,7 @@ needs.sh                     | depthprec | 0 | 2
 install.sh                   | readelf nm | 0 | 4
 headers.sh                   | cc        | 1 | 10
 examples.sh                  | depthprec | 0 | 31
+readme.sh                    | depthprec | 0 | 6
 questions.sh                 | depthprec | 0 | all
 plots.sh                     | depthprec | 0 | 110
 same.sh                      | depthprec | 0 | 1

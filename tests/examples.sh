@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Every example of README.md and the manual pages runs, and must print what the page says, to the byte (but for the
 # carriage returns of CSV). An example is a block with lines that begin with "$ ": a command, "> " lines that go on with
-# it, then its output. A C block behind a comment "file: NAME" is written to NAME first. Then the pages themselves: each
-# option, format, mapping and public function must be in them.
+# it, then its output. A C block behind a comment "file: NAME" is written to NAME first. Then the pages themselves, as
+# they are installed: one for each command, of limited length, found by `man -k depth`; each option, format, mapping and
+# public function must be in them.
 # RECORD=1 sh tests/examples.sh writes what came out into the pages instead: judge that, and the words beside it, with git
 # diff.
 . tests/tap.sh
@@ -71,7 +72,8 @@ record() { # record PAGE: with what its examples printed where that differs
     awk -v from="$scratch/run" -v man="${1##*.}" '
         function roff(s) {
             if (man != "md") {
-                gsub(/\\/, "\\e", s); sub(/^\./, "\\\&.", s)
+                gsub(/\\/, "\\e", s)
+                if (s ~ /^[.\047]/) s = "\\&" s
             }
             return s
         }
@@ -110,6 +112,7 @@ rendered() { # rendered TOOL PAGE: its lines that are too wide on a terminal of 
     col -bx <"$scratch/rendered" | awk 'length > 80 && !/^depthprec: /'
 }
 
+manual "$scratch/man"
 for page in README.md man/*.[0-9]; do
     rm -rf "$scratch/run" && mkdir "$scratch/run" && ln -s "$PWD/tests" "$scratch/run/tests" # models that examples read
     split "$page"
@@ -124,7 +127,7 @@ for page in README.md man/*.[0-9]; do
     *.md) ;;
     *) for tool in mandoc groff; do
         if command -v $tool >/dev/null && command -v col >/dev/null; then
-            check "$page: 80 columns by $tool" empty rendered $tool "$page"
+            check "$page: 80 columns by $tool" empty rendered $tool "$scratch/$page"
         else
             skip "$page: 80 columns by $tool" "$tool or col is not installed"
         fi
@@ -138,20 +141,48 @@ done
 # ---- The pages name what there is ----
 
 page() { # the text of a page without its macros
-    sed -e 's/^\.[A-Z][a-z] //' -e 's/\\-/-/g' "man/depthprec.$1" | tr -s ' ,' '\n\n'
+    sed -e 's/^\.[A-Z][a-z] //' -e 's/\\-/-/g' "$scratch/man/depthprec$1" | tr -s ' ,' '\n\n'
 }
 
-names_in() { # names_in SECTION: prints the names on stdin that the page does not have
+names_in() { # names_in PAGE: prints the names on stdin that the page does not have
     page "$1" >"$scratch/words"
     while read -r word; do
-        grep -qxF -e "$word" -e "$word." "$scratch/words" || echo "not in depthprec.$1: $word"
+        grep -qxF -e "$word" -e "$word." "$scratch/words" || echo "not in depthprec$1: $word"
     done
 }
 
 verbs() { "$DEPTHPREC" help >"$scratch/help" && sed -n '/^Commands/,/^$/s/^  \([a-z]*\) .*/\1/p' "$scratch/help"; }
+pages_of_verbs() { verbs | sed 's/^/depthprec-/'; }
 
-options() { # what man/options.sh changes in the page
-    cp man/depthprec.1 "$scratch/page" && sh man/options.sh "$DEPTHPREC" "$scratch/page" && diff man/depthprec.1 "$scratch/page"
+complete() { # complete COMMAND: its page, which `help COMMAND` names, has each option of its help
+    [ -s "$scratch/man/depthprec-$1.1" ] && "$DEPTHPREC" help "$1" >"$scratch/help" || return
+    grep -q "man depthprec-$1'" "$scratch/help" || return
+    sed -n 's/^  ....\(--[a-z0-9-]*\).*/\1/p' "$scratch/help" >"$scratch/options" && [ -s "$scratch/options" ] || return
+    sed -n 's/^\.It.* Fl -\([a-z0-9-]*\).*/--\1/p' "$scratch/man/depthprec-$1.1" | diff "$scratch/options" -
+}
+
+unknown_options() { # the options that README.md and the pages name and that no command has
+    "$DEPTHPREC" help options >"$scratch/help" && sed -n 's/^  ....\(--[a-z0-9-]*\).*/\1/p' "$scratch/help" |
+        sort -u >"$scratch/options" && [ -s "$scratch/options" ] || return
+    sed -e 's/\\-/-/g' -e 's/Fl -\([a-z]\)/Fl --\1/g' README.md "$scratch"/man/*.[157] |
+        grep -oE -e '(^|[^a-z-])--[a-z][a-z0-9-]*' | sed 's/^[^-]*//' | sort -u | comm -13 "$scratch/options" -
+}
+
+found() { # what of the pages `man -k depth` does not find, by the tools of mandoc
+    rm -rf "$scratch/share"
+    for page in "$scratch"/man/*.[0-9]; do
+        mkdir -p "$scratch/share/man${page##*.}" && cp "$page" "$scratch/share/man${page##*.}" || return
+    done
+    makewhatis "$scratch/share" && "$apropos" -M "$scratch/share" depth >"$scratch/known" || return
+    for page in "$scratch"/man/*.[0-9]; do
+        name=$(basename "$page")
+        grep -q "^${name%.*}(${name##*.}) - ..*" "$scratch/known" || echo "not found: $name"
+    done
+}
+
+# The lengths of what is written by hand, in lines of the source.
+short() { # short MOST FILE
+    [ "$(wc -l <"$2")" -le "$1" ] || { wc -l "$2" && return 1; }
 }
 
 aliases() { # names and aliases of a table
@@ -167,25 +198,6 @@ statuses() {
     sed -n 's/^ *\(DP_\(OK\|ERROR_[A-Z_]*\)\)[, ].*/\1/p' include/depthprec/status.h
 }
 
-# What README.md says that a page gets, as "api browser: format", is what `list platforms` says, no more and no less.
-pages() {
-    awk -F ' *[|] *' '
-        /^## / { here = /What your page really gets/ }
-        !here || !/^[|]/ || /---/ { next }
-        !columns { columns = NF - 1; for (i = 3; i <= columns; i++) browser[i] = $i; next }
-        { for (i = 3; i <= columns; i++) if ($i != "") print $2, browser[i] ": " $i }' README.md | sort >"$scratch/said"
-    "$DEPTHPREC" list platforms --json >"$scratch/platforms" && jq -r '
-        {chrome: "WebGPU, Chrome", firefox: "WebGPU, Firefox", safari: "WebGPU, Safari", webgl: "WebGL (ANGLE)"} as $browsers |
-        {d3d: "Direct3D", vulkan: "Vulkan", metal: "Metal", gl: "OpenGL", null: "Metal"} as $apis |
-        .items[] | (.name | split("-")) as $name | select($browsers[$name[0]]) | (.stored | split("; ")) as $stored |
-        $apis[$name[1] // "null"] + " " + $browsers[$name[0]] + ": " + ($stored[0] | split(": ")[1]) +
-        if ($stored | any(startswith("[-1, 1] remapped"))) then ", remapped"
-        elif ($stored | any(startswith("[-1, 1] may be"))) then ", may be remapped"
-        elif ($stored | any(startswith("[0, 1] spread"))) then ", spread" else "" end' "$scratch/platforms" |
-        sort >"$scratch/stored"
-    [ -s "$scratch/stored" ] && diff "$scratch/stored" "$scratch/said"
-}
-
 documented() { # documented SECTION LIST...: no name of a list that is not empty is missing
     section=$1
     shift
@@ -193,23 +205,35 @@ documented() { # documented SECTION LIST...: no name of a list that is not empty
     empty names_in "$section" <"$scratch/names"
 }
 
-check "depthprec.1: every command" documented 1 verbs
-check "depthprec.1: the options are those of the program (sh man/options.sh build/depthprec man/depthprec.1)" options
-check "depthprec.1: every format" documented 1 aliases formats
-check "depthprec.1: every mapping" documented 1 aliases mappings
-check "depthprec.1: every figure" documented 1 aliases figures
-check "depthprec.1: every preset" documented 1 aliases presets
-check "depthprec.1: every platform" documented 1 aliases platforms
-check "depthprec.1: every API of depth bias" documented 1 aliases apis
-check "depthprec.1: every model" documented 1 aliases models
-check "depthprec.1: every arithmetic" documented 1 aliases arithmetic
-check "depthprec.1: every composition" documented 1 aliases transforms
-check "depthprec.1: every cause" documented 1 aliases causes
-check "README.md: what a page gets is what the platforms store" pages
-check "depthprec.3: every function" documented 3 functions
-check "depthprec.3: every status" documented 3 statuses
-check "depthprec.7: every test it names exists" sh -c '
-    grep -o "tests/[a-z_]*\.c" man/depthprec.7 | sort -u >"$1" && [ -s "$1" ] && while read -r file; do
-        [ -e "$file" ] || { echo "$file" && exit 1; }
+check "depthprec(1): the page of every command" documented .1 pages_of_verbs
+for verb in $(verbs); do
+    check "depthprec-$verb(1): every option" complete "$verb"
+done
+check "the pages name no option that no command has" empty unknown_options
+PATH=$PATH:/usr/sbin
+apropos=$(command -v mapropos || command -v apropos) # Debian's name for that of mandoc
+if command -v makewhatis >/dev/null; then
+    check "man -k depth finds the pages" empty found
+else
+    skip "man -k depth finds the pages" "makewhatis is not installed"
+fi
+check "README.md: at most 200 lines" short 200 README.md
+check "depthprec(1): at most 300 lines" short 300 man/depthprec.1
+check "depthprec(7): at most 2200 lines" short 2200 man/depthprec.7
+for page in man/depthprec-*.[17]; do
+    check "$page: at most 500 lines" short 500 "$page"
+done
+for what in formats mappings presets platforms models arithmetic; do
+    check "depthprec-camera(7): every name of $what" documented -camera.7 aliases $what
+done
+check "depthprec-plot(1): every figure" documented -plot.1 aliases figures
+check "depthprec-bias(1): every API" documented -bias.1 aliases apis
+check "depthprec-budget(1): every cause" documented -budget.1 aliases causes
+check "depthprec-budget(1): every composition" documented -budget.1 aliases transforms
+check "depthprec.3: every function" documented .3 functions
+check "depthprec.3: every status" documented .3 statuses
+check "tests/README.md: every test it names exists" sh -c '
+    grep -oE "\btest_[a-z_]+[a-z]\b[*]?" tests/README.md | grep -v "[*]" | sort -u >"$1" && [ -s "$1" ] && while read -r name; do
+        [ -e "tests/$name.c" ] || { echo "$name" && exit 1; }
     done <"$1"' - "$scratch/named"
 finish

@@ -62,7 +62,7 @@ check "the library exports exactly what the headers declare with DP_API" exports
 
 pages() {
     for page in man/*.[1-9]; do
-        [ ! -e "$page" ] || cmp "$page" "$stage/usr/share/man/man${page##*.}/${page##*/}" || return 1
+        cmp "$B/$page" "$stage/usr/share/man/man${page##*.}/${page##*/}" || return 1
     done
 }
 table() {
@@ -86,7 +86,7 @@ check "the page is installed if it has been made" page
 check "the installed program prints the right code" table
 check "and draws" figure
 
-# Without DESTDIR, where no loader looks: `make install` says so, and with what it says the README's example runs.
+# Without DESTDIR, where no loader looks: `make install` says so, and with what it says the example of depthprec(3) runs.
 own=$scratch/own
 install_own() { make --no-print-directory install PREFIX="$own" 2>"$scratch/said"; }
 says_how() {
@@ -96,11 +96,11 @@ says_how() {
 }
 example() { # as a stranger would: nothing but the two variables
     mkdir "$scratch/example" && env -u PKG_CONFIG_SYSROOT_DIR -u PKG_CONFIG_LIBDIR PKG_CONFIG_PATH="$own/lib/pkgconfig" \
-        LD_LIBRARY_PATH="$own/lib" sh tests/linked.sh "$scratch/example" && needs "$scratch/example/ten" 'libdepthprec\.so\.0'
+        LD_LIBRARY_PATH="$own/lib" sh tests/linked.sh "$scratch/example" && needs "$scratch/example/example" 'libdepthprec\.so\.0'
 }
 check "make install where no loader looks" install_own
 check "it says so, and what to do" says_how
-check "the README's example runs with what was installed" example
+check "the example of depthprec(3) runs with what was installed" example
 
 lacking() { # without the libraries `make` names them, and the command
     ! PKG_CONFIG_LIBDIR=$scratch make --no-print-directory B="$scratch/none" >"$scratch/said" 2>&1 || return

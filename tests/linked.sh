@@ -1,19 +1,20 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Compiles the README's example as the README says, against the library that pkg-config finds, runs it, and compares what
+# Compiles the first example of depthprec(3) as it says, against the library that pkg-config finds, runs it, and compares what
 # it prints:  linked.sh FOLDER
 set -eu
 cd "$(dirname "$0")/.."
 folder=$1
 
 awk -v folder="$folder" '
-    /^<!-- file: ten\.c -->/ { found = 1 }
+    /^\.\\" file: example\.c/ { found = 1 }
     !found { next }
-    /^```/ { fences++; next }
-    fences == 1 { print >(folder "/ten.c") }
-    fences == 3 && /^\$ / { print substr($0, 3) >(folder "/command"); next }
-    fences == 3 { print >(folder "/want") }
-    fences == 4 { exit }' README.md
+    /^\.(Bd|Ed)/ { ends++; next }
+    ends == 4 { exit }
+    { gsub(/\\e/, "\\") }
+    ends == 1 { print >(folder "/example.c") }
+    ends == 3 && /^[$>] / { print substr($0, 3) >(folder "/command"); next }
+    ends == 3 { print >(folder "/want") }' man/depthprec.3
 grep -q 'pkg-config --cflags --libs depthprec' "$folder/command"
 cd "$folder"
 sed "s|^cc |${CC:-cc} |" command >run

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The questions of README.md: each command stands there and answers at the first try, and the number in its answer agrees
+# The questions of depthprec-questions.7: each command stands there and works as typed, and the number in its answer agrees
 # with a formula that awk computes. Then the words of the text: those that the glossary of depthprec.7 replaced are gone.
 . tests/tap.sh
 
@@ -19,8 +19,12 @@ cameras = { game = { near = 0.1; far = 1000; mapping = "d3d"; format = "d24"; };
 requirements = { walls = { camera = "game"; at = "50 m"; separation = "1 mm"; }; };
 END
 
-answers() { # answers STATUS COMMAND WORDS: the README has the command, which exits so and prints a line with these words
-    grep -qxF -e "$2" README.md || { echo "not in README.md: $2" && return 1; }
+# The commands of the page, those that go on in the next line put together.
+sed -e 's/\\(aq/'"'"'/g' -e ':more' -e '/\\e$/{' -e 'N' -e 's/ *\\e\n */ /' -e 'b more' -e '}' \
+    man/depthprec-questions.7 >"$scratch/commands"
+
+answers() { # answers STATUS COMMAND WORDS: the page has the command, which exits so and prints a line with these words
+    grep -qxF -e "$2" "$scratch/commands" || { echo "not in depthprec-questions.7: $2" && return 1; }
     (cd "$scratch/work" && sh -c "$2" >"$scratch/answer" 2>"$scratch/errors" </dev/null)
     status=$?
     cat "$scratch/errors" "$scratch/answer"
@@ -117,7 +121,7 @@ check "17. the slope's is at least that of snapping" agrees 'SlopeScaledDepthBia
 # ---- Words and widths ----
 
 everything() { # the text of README.md and the pages, of help and of every list, to the folder text
-    mkdir -p "$scratch/text" && cp README.md man/depthprec.[1357] "$scratch/text" || return
+    manual "$scratch/text" && cp README.md "$scratch/text" || return
     depthprec help >"$scratch/text/help" || return
     for verb in $(sed -n '/^Commands/,/^$/s/^  \([a-z]*\) .*/\1/p' "$scratch/text/help"); do
         depthprec help "$verb" >"$scratch/text/help.$verb" || return

@@ -15,7 +15,7 @@
 
 /* ---- The set-up -------------------------------------------------------------------------------------------------- */
 
-/* What depthprec(1) says of each row. A row that is not here is taken by its public fields. */
+/* What depthprec-camera(7) says of each row. A row that is not here is taken by its public fields. */
 static const struct {
     const char *name;
     bool fused, reciprocal, remap;

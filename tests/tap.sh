@@ -35,6 +35,12 @@ check() { # check NAME COMMAND...: one test, passed when the command exits 0; wh
     fi
 }
 
+manual() { # manual FOLDER: the manual pages there, completed by the program
+    mkdir -p "$1" && for source in man/*.[1-9]; do
+        sh man/fill.sh "$DEPTHPREC" "$source" >"$1/${source##*/}" || return
+    done
+}
+
 skip() { # skip NAME REASON
     tests=$((tests + 1))
     echo "ok $tests - $1 # SKIP $2"

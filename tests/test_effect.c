@@ -628,7 +628,7 @@ static void test_rows(void **state) {
                                         "water-line",     "height-fog",     "edge",        "motion-blur",
                                         "depth-of-field", "soft-particles", "decal",       "ambient-occlusion",
                                         "contact-shadow", "shadow",         "water-depth", "outline"};
-    /* As depthprec(1) documents them: a command without --parameter is read with these in mind. */
+    /* As depthprec-texture(1) documents them: a command without --parameter is read with these in mind. */
     static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10, 1, 0, 0.01, 0.1, 0.01, 0.5, 1};
     (void)state;
     assert_int_equal(count(), sizeof names / sizeof names[0]);

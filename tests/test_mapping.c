@@ -27,7 +27,7 @@ static const known rows[DP_MAPPING_COUNT] = {
     [DP_MAPPING_OSGEARTH] = {"osgearth", DP_CURVE_LOG, 0, 1, 0, 0},
 };
 
-/* The names that depthprec(1) and the pages of APIs and libraries give them. */
+/* The names that depthprec-camera(7) and the pages of APIs and libraries give them. */
 static const struct {
     dp_mapping mapping;
     const char *names[14];

@@ -201,7 +201,7 @@ static void claims_beyond_the_walk(void **state) {
     assert_int_equal(verdict_where(beyond_all, METHOD_ORTHO), STABILITY_HOLDS);
 }
 
-/* As depthprec(1) has them. */
+/* As depthprec-methods(1) has them. */
 static void verdicts_have_their_names(void **state) {
     static const char *const names[STABILITY_VERDICTS] = {[STABILITY_HOLDS] = "holds",
                                                           [STABILITY_BROKEN] = "broken",

@@ -140,8 +140,10 @@ int cmd_help(const options *o) {
             output_format(&out, "depthprec %s: %s\n\n%s\nUsage: depthprec %s%s%s [options]\n", v->name, v->summary,
                           v->example, v->name, *v->operand != '\0' ? " " : "", v->operand);
         list_options(&p, v);
-        if (v != NULL)
+        if (v != NULL) {
             list_others(&p, v);
+            output_format(&out, "\n'man depthprec-%s' has more.\n", v->name);
+        }
     }
     return output_close(&out);
 }
