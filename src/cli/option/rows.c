@@ -157,7 +157,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "the arithmetic before the buffer: none, the lattice alone; NDC and window depth each rounded to binary32; "
         "every operation in binary32; or the simplest that is enough", WORD(model, models), .standard = "exact",
         .except = {BUT(CMD_SOLVE, "float", "the guarantee; staged for an error, and for linear and log", NULL),
-                   BUT(CMD_PLOT, "exact", "float in figures of its pipeline", NULL),
+                   BUT(CMD_PLOT, "exact", "float in figures of its pipeline; staged in distribution and share with gl "
+                       "and gl-reversed", NULL),
                    BUT(CMD_TABLE, "exact", "of several set-ups the fullest that each has", NULL)}},
     [OPTION_ARITH] = {"arith", 0, "NAME|FILE", CAMERA | CMD_SOLVE | CMD_BIAS | CMD_SHADOW,
         "the binary32 arithmetic: @; or as 'depthprec probe --json -o FILE' found it", .parse = parse_arith,
