@@ -219,6 +219,36 @@ static void share_of_signed_ndc(void **state) {
     }
 }
 
+/* Of 41 codes [-1, 1] reaches 25, if NDC has as few bits: whole 24ths of them are left behind a depth, those of all NDC
+ * that are rounded to be as far or farther. */
+static void share_of_a_small_float(void **state) {
+    (void)state;
+    double ndc[81];
+    dp_format f[2];
+    size_t seen = 0;
+    assert_int_equal(dp_format_parse("float3.3b5", f), 1);
+    for (uint32_t code = 0; code <= 40; code++) {
+        ndc[40 + code] = dp_format_value(&f[0], code);
+        ndc[40 - code] = -ndc[40 + code];
+    }
+    char *text = drawn_output("plot share -n 1 -f 20 -F float3.3b5 -m gl-reversed --csv");
+    for (char *line = strtok(strchr(text, '\n') + 1, "\n"); line != NULL; line = strtok(NULL, "\n")) {
+        double z, share, last = 0;
+        int left = 0;
+        assert_int_equal(sscanf(line, ",%*[^,],%lf,%lf", &z, &share), 2);
+        const double real = 2 * (20 - z) / (z * 19) - 1;
+        for (int i = 0; i < 80 && real >= (ndc[i] + ndc[i + 1]) / 2; i++) {
+            const double d = dp_format_value(&f[0], dp_format_encode(&f[0], DP_ROUND_NEAREST, 0.5 + 0.5 * ndc[i + 1]));
+            left += d != last;
+            last = d;
+        }
+        assert_relative(share, 100 * left / 24.0, 1e-9);
+        seen++;
+    }
+    assert_true(seen > 40);
+    free(text);
+}
+
 typedef struct data_case {
     const char *arguments;
     bool curves, map, second;
@@ -278,7 +308,7 @@ static void numbers_are_those_shown(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(share_counts_what_is_reached),
-                                       cmocka_unit_test(share_of_signed_ndc),
+                                       cmocka_unit_test(share_of_signed_ndc), cmocka_unit_test(share_of_a_small_float),
                                        cmocka_unit_test(numbers_are_those_shown)};
     return run_tap(tests);
 }

@@ -42,6 +42,15 @@ double figure_step(const dp_setup *setup) {
     return stepped ? ldexp(1, -2 - (figure_draws_codes(f) ? f->mantissa_bits : 23)) : 0;
 }
 
+uint32_t figure_code(const dp_setup *setup, double z) {
+    const dp_format *f = &setup->spec.format;
+    if (!(figure_step(setup) > 0) || !figure_draws_codes(f))
+        return dp_code(setup, z);
+    const double real = 2 * dp_window(setup, z) - 1;
+    const double ndc = dp_format_value(f, dp_format_encode(f, setup->spec.rounding, fabs(real)));
+    return dp_format_encode(f, setup->spec.rounding, 0.5 + 0.5 * copysign(ndc, real));
+}
+
 void figure_range(const figure_request *request, double *lo, double *hi) {
     const dp_spec *spec = &request->setups[0].spec;
     *lo = isnan(request->lo) ? spec->znear : request->lo;

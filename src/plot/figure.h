@@ -88,6 +88,9 @@ chart_style figure_style(const figure_request *request, size_t i);
  */
 double figure_step(const dp_setup *setup);
 
+/** dp_code(), through such an NDC. */
+uint32_t figure_code(const dp_setup *setup, double z);
+
 /** Whether a format has so few codes that each can be drawn. */
 bool figure_draws_codes(const dp_format *format);
 

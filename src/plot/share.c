@@ -30,7 +30,7 @@ typedef struct counted {
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const counted *c = context;
     (void)to;
-    const double left = distance(c->setup, dp_code(c->setup, from), c->last);
+    const double left = distance(c->setup, figure_code(c->setup, from), c->last);
     *out = (refine_sample){.y = {c->all > 0 ? 100 * left / c->all : 0}, .step = {left > 0 ? 1 / left : 0}};
 }
 
@@ -40,8 +40,8 @@ const char *share_build(const figure_request *request, chart *out) {
     chart_panel *panel = figure_panel(request, out, y);
     for (size_t i = 0; i < request->count; i++) {
         const dp_setup *setup = &request->setups[i];
-        const uint32_t last = dp_code(setup, setup->spec.zfar);
-        const counted c = {setup, last, distance(setup, dp_code(setup, setup->spec.znear), last)};
+        const uint32_t last = figure_code(setup, setup->spec.zfar);
+        const counted c = {setup, last, distance(setup, figure_code(setup, setup->spec.znear), last)};
         const refine_request q = envelope_request(request, setup, out, panel, sample, &c);
         chart_series *s = envelope_curve(out, panel, &q);
         if (s == NULL)
