@@ -203,11 +203,12 @@ static void warn_of(const texture_source *s, const char *what) {
 
 const char *texture_zeros_of(const options *o, const texture_source *s, char out[READINGS_SIZE]) {
     const dp_spec *planes = &s->setup.spec;
-    const double end = planes->zfar * (s->grain.rounding == GRAIN_ZERO ? 1 : 0.5) / s->grain.steps;
+    const double half = s->grain.rounding == GRAIN_ZERO ? 1 : 0.5;
+    const double end = planes->zfar * (half / s->grain.steps + s->grain.margin);
     snprintf(out, READINGS_SIZE, "%llu pixels hold 0, a clear to black or the far plane after frac",
              (unsigned long long)s->unpacked.zeros);
     if (planes->znear < end)
-        append(out, READINGS_SIZE, ", or depths up to %s", number_in(number_of(end, 3), options_unit(o)).text);
+        append(out, READINGS_SIZE, ", or depths up to %s", number_in(number_up(end, 3), options_unit(o)).text);
     append(out, READINGS_SIZE, o->sky > 0 ? ": they count as sky; --sky 0 makes them holes" : ": they are holes");
     return out;
 }
