@@ -394,7 +394,18 @@ static size_t pieces(const svg_mark *m) {
     return count;
 }
 
-static void check_codes(const drawn *d, const drawn_panel *p, const dp_setup *s, uint32_t colour) {
+/* Whether a code is stored behind some NDC of [-1, 1] in the format itself, each of which is tried: the window depth is
+ * half of it and a half. */
+static bool from_signed(const dp_format *f, uint32_t code) {
+    for (uint32_t ndc = 0; ndc <= f->code_max; ndc++)
+        for (int sign = -1; sign <= 1; sign += 2)
+            if (dp_format_encode(f, DP_ROUND_NEAREST, 0.5 + 0.5 * sign * dp_format_value(f, ndc)) == code)
+                return true;
+    return false;
+}
+
+static size_t check_codes(const drawn *d, const drawn_panel *p, const dp_setup *s, uint32_t colour) {
+    const bool ndc_signed = dp_mapping_get(s->spec.mapping)->ndc_signed;
     const svg_mark *thin = NULL, *thick = NULL;
     size_t codes = 0;
     for (size_t i = 0; i < d->svg->count; i++) {
@@ -409,7 +420,7 @@ static void check_codes(const drawn *d, const drawn_panel *p, const dp_setup *s,
     for (uint32_t code = 0; code <= s->spec.format.code_max; code++) {
         const double z = dp_stored(s, code), x = drawn_px(&p->x, z);
         const double y = drawn_px(&p->y, dp_format_value(&s->spec.format, code));
-        if (!(z >= s->spec.znear && z <= s->spec.zfar))
+        if (!(z >= s->spec.znear && z <= s->spec.zfar) || (ndc_signed && !from_signed(&s->spec.format, code)))
             continue;
         if (!has_step(thin, p, x, y) || !has_rug(thick, p, x, y))
             fail_msg("code %u is not drawn where it is in '%s'", code, p->heading);
@@ -417,6 +428,7 @@ static void check_codes(const drawn *d, const drawn_panel *p, const dp_setup *s,
     }
     assert_int_equal(pieces(thin), codes);
     assert_int_equal(pieces(thick), 2 * codes);
+    return codes;
 }
 
 static void staircases(void **state) {
@@ -449,6 +461,30 @@ static void staircases(void **state) {
     drawn_close(d);
 }
 
+/* Whatever way depth runs, [-1, 1] reaches 25 of 41 codes; the other mapping, and the model exact, have all. */
+static void staircases_behind_signed_ndc(void **state) {
+    (void)state;
+    static const struct {
+        const char *format, *mapping, *model;
+        size_t codes;
+    } cases[] = {{"float3.3b5", "gl-reversed", "", 25},      {"float3.3b5", "gl", " --model staged", 25},
+                 {"float3.3b5", "reversed", "", 41},         {"float3.2b2", "gl", "", 9},
+                 {"float2.4", "gl-reversed", "", 17},      {"unorm4", "gl", "", 16},
+                 {"float3.3b5", "d3d", " --model exact", 41}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        cameras c = cameras_of(drawn_camera(1, 20), cases[i].format, cases[i].mapping);
+        drawn *d = drawn_run(&drawn_light, "plot distribution -n 1 -f 20 -F %s -m %s,linear%s", cases[i].format,
+                             cases[i].mapping, cases[i].model);
+        char heading[96];
+        const uint32_t all = c.setups[0].spec.format.code_max + 1;
+        const size_t seen = check_codes(d, &d->panels[0], &c.setups[0], d->theme->palette[1]);
+        assert_int_equal(seen, cases[i].codes);
+        snprintf(heading, sizeof heading, seen < all ? "%s, %zu of %u codes" : "%s, %zu codes", c.names[0], seen, all);
+        assert_string_equal(d->panels[0].heading, heading);
+        drawn_close(d);
+    }
+}
+
 /* With an infinite far plane the picture ends a little behind the depth from which nothing is told apart. */
 static void staircase_without_end(void **state) {
     (void)state;
@@ -470,7 +506,7 @@ int main(void) {
         cmocka_unit_test(curves_show_the_library), cmocka_unit_test(blind_ends_in_an_arrow),
         cmocka_unit_test(guarantee_over_lattice),  cmocka_unit_test(hidden_points),
         cmocka_unit_test(guarantees_of_many),      cmocka_unit_test(staircases),
-        cmocka_unit_test(staircase_without_end),
+        cmocka_unit_test(staircase_without_end),   cmocka_unit_test(staircases_behind_signed_ndc),
     };
     return run_tap(tests);
 }

@@ -201,6 +201,54 @@ static void share_counts_what_is_reached(void **state) {
     }
 }
 
+/* Unless another model is asked for, [-1, 1] is rounded: 1.3 % of the codes are left beyond 10, not 94.7 %. */
+static void share_of_signed_ndc(void **state) {
+    (void)state;
+    static const char *const models[] = {"", "--model staged", "--model float", "--model exact"};
+    const double depth = 0.1 * 990 / (10 * 999.9), left = codes_up_to((float)(2 * depth - 1), 23);
+    for (size_t i = 0; i < sizeof models / sizeof models[0]; i++) {
+        char *text = drawn_output("plot share -F fp32 -m reversed,gl-reversed --range 10:1000 %s --csv", models[i]);
+        const char *const plain = strstr(text, ",fp32 reversed,10,"), *const line =
+                                                                          strstr(text, ",fp32 gl-reversed,10,");
+        double share[2];
+        assert_true(plain != NULL && sscanf(plain, ",fp32 reversed,10,%lf", &share[0]) == 1);
+        assert_true(line != NULL && sscanf(line, ",fp32 gl-reversed,10,%lf", &share[1]) == 1);
+        assert_relative(share[0], 94.69868, 1e-6);
+        assert_relative(share[1], i == 3 ? share[0] : 100 * left / codes_up_to(1.0f, 23), 1e-4);
+        free(text);
+    }
+}
+
+/* Of 41 codes [-1, 1] reaches 25, if NDC has as few bits: whole 24ths of them are left behind a depth, those of all NDC
+ * that are rounded to be as far or farther. */
+static void share_of_a_small_float(void **state) {
+    (void)state;
+    double ndc[81];
+    dp_format f[2];
+    size_t seen = 0;
+    assert_int_equal(dp_format_parse("float3.3b5", f), 1);
+    for (uint32_t code = 0; code <= 40; code++) {
+        ndc[40 + code] = dp_format_value(&f[0], code);
+        ndc[40 - code] = -ndc[40 + code];
+    }
+    char *text = drawn_output("plot share -n 1 -f 20 -F float3.3b5 -m gl-reversed --csv");
+    for (char *line = strtok(strchr(text, '\n') + 1, "\n"); line != NULL; line = strtok(NULL, "\n")) {
+        double z, share, last = 0;
+        int left = 0;
+        assert_int_equal(sscanf(line, ",%*[^,],%lf,%lf", &z, &share), 2);
+        const double real = 2 * (20 - z) / (z * 19) - 1;
+        for (int i = 0; i < 80 && real >= (ndc[i] + ndc[i + 1]) / 2; i++) {
+            const double d = dp_format_value(&f[0], dp_format_encode(&f[0], DP_ROUND_NEAREST, 0.5 + 0.5 * ndc[i + 1]));
+            left += d != last;
+            last = d;
+        }
+        assert_relative(share, 100 * left / 24.0, 1e-9);
+        seen++;
+    }
+    assert_true(seen > 40);
+    free(text);
+}
+
 typedef struct data_case {
     const char *arguments;
     bool curves, map, second;
@@ -260,6 +308,7 @@ static void numbers_are_those_shown(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(share_counts_what_is_reached),
+                                       cmocka_unit_test(share_of_signed_ndc), cmocka_unit_test(share_of_a_small_float),
                                        cmocka_unit_test(numbers_are_those_shown)};
     return run_tap(tests);
 }

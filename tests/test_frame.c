@@ -238,15 +238,19 @@ static void normals_do_not_know_of_strips(void **state) {
     synthetic_stage_set(&s, "sphere", "unorm16", "d3d", 1000, false, WIDTH, HEIGHT);
     s.frame.threads = 2;
     const frame_product eyes = {.kind = FRAME_EYE};
-    float *eye = frame_made(&s.frame, &eyes, false);
+    frame bare = s.frame;
+    bare.sky = 0;
+    float *eye = frame_made(&s.frame, &eyes, false), *seen = frame_made(&bare, &eyes, false);
+    for (size_t i = 0; i < PIXELS; i++)
+        seen[i] = isnan(seen[i]) ? 1000 : seen[i];
     for (size_t m = 0; normal_get(m) != NULL; m++) {
         const frame_product p = {.kind = FRAME_NORMAL, .normal = normal_get(m)};
         float *got = frame_made(&s.frame, &p, false), *want = calloc(3 * PIXELS, sizeof *want);
-        source all = {eye, want, WIDTH};
+        source all = {p.normal->sees_sky ? seen : eye, want, WIDTH};
         assert_true(normal_run(normal_get(m), &s.camera, 0, HEIGHT, give, keep, &all));
         size_t numbers = 0;
         for (size_t i = 0; i < 3 * PIXELS; i++) {
-            assert_true(same_bits(got[i], want[i]));
+            assert_true(same_bits(got[i], isnan(eye[i / 3]) ? (float)NAN : want[i]));
             numbers += isnan(got[i]) ? 0 : 1;
         }
         assert_true(numbers > 3 * PIXELS / 50);
@@ -254,6 +258,90 @@ static void normals_do_not_know_of_strips(void **state) {
         free(want);
     }
     free(eye);
+    free(seen);
+}
+
+/* ---- Beside the sky: ReconstructNormal as it stands, in double, whose depth texture holds the far plane there ---- */
+
+/* What the shader reads at a pixel: where it is, in view space. */
+static double shader_place(const synthetic_stage *s, uint32_t column, uint32_t row, double place[3]) {
+    uint32_t codes[96];
+    frame_codes(&s->frame, row, codes);
+    place[2] = dp_stored(&s->camera.setup, codes[column]);
+    const double along = s->camera.ortho ? 1 : place[2];
+    place[0] = (2 * (column + 0.5) / 96 - 1) * s->camera.half[0] * along;
+    place[1] = (1 - 2 * (row + 0.5) / 64) * s->camera.half[1] * along;
+    return place[2];
+}
+
+/* 1 towards larger columns or rows, else -1: of _SOURCE_DEPTH_LOW, MEDIUM and HIGH, for which `down` says that the
+ * second of two sides is the one above. */
+static int shader_side(const synthetic_stage *s, char method, uint32_t x, uint32_t y, bool down) {
+    double at[5], unused[3];
+    if (method == 'l')
+        return (down ? y : x) % 2 == 0 ? 1 : -1;
+    for (int k = -2; k <= 2; k++)
+        at[2 + k] = down ? shader_place(s, x, (uint32_t)((int)y - 2 * k), unused)
+                         : shader_place(s, (uint32_t)((int)x + 2 * k), y, unused);
+    const bool first =
+        method == 'm' ? at[1] > at[3] : fabs(2 * at[1] - at[0] - at[2]) < fabs(2 * at[3] - at[4] - at[2]);
+    return first == down ? 1 : -1;
+}
+
+static void shader_normal(const synthetic_stage *s, char method, uint32_t x, uint32_t y, double n[3]) {
+    const int step = method == 'l' ? 1 : 2;
+    const int across = shader_side(s, method, x, y, false), down = shader_side(s, method, x, y, true);
+    double p[3], a[3], b[3];
+    shader_place(s, x, y, p);
+    shader_place(s, (uint32_t)((int)x + step * across), y, a);
+    shader_place(s, x, (uint32_t)((int)y + step * down), b);
+    for (int k = 0; k < 3; k++) {
+        a[k] -= p[k];
+        b[k] -= p[k];
+    }
+    for (int k = 0; k < 3; k++)
+        n[k] = across * down * (a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+}
+
+/* A wall with a window to the sky. Beside it low and medium look through it and are most of a right angle off; high is
+ * not, but where the sky is on both sides. */
+static void beside_the_sky_normals_are_the_shaders(void **state) {
+    static const char *const names[] = {"low", "medium", "high"};
+    (void)state;
+    for (int ortho = 0; ortho < 2; ortho++)
+        for (size_t m = 0; m < 3; m++) {
+            synthetic_stage s;
+            synthetic_hit wall;
+            synthetic_stage_set(&s, "plane", "fp32", "reversed", 1000, ortho != 0, 96, 64);
+            image depths = synthetic_stage_image(&s);
+            uint32_t *codes = depths.data;
+            for (uint32_t i = 0; i < 96 * 64; i++)
+                codes[i] = i % 96 >= 37 && i % 96 < 60 && i / 96 >= 21 && i / 96 < 40 ? 0 : codes[i];
+            s.frame.synthetic->hit(&s.camera, s.parameters, 0, 0, &wall);
+            s.frame.image = &depths;
+            s.frame.synthetic = NULL;
+            const frame_product p = {.kind = FRAME_NORMAL, .normal = normal_find(names[m])};
+            float *got = frame_made(&s.frame, &p, false);
+            tally t = {.name = names[m]};
+            double worst = 0;
+            for (uint32_t i = 0; i < 96 * 64; i++) {
+                const double found[3] = {(double)got[3 * i], (double)got[3 * i + 1], (double)got[3 * i + 2]};
+                const uint32_t x = i % 96, y = i / 96;
+                double want[3];
+                TALLY(&t, codes[i] != 0 || isnan(found[0]), "sky at %u, %u has a normal", x, y);
+                if (codes[i] == 0 || x < 4 || x >= 92 || y < 4 || y >= 60)
+                    continue;
+                shader_normal(&s, *names[m], x, y, want);
+                TALLY(&t, normal_angle(want, found) < 2e-3, "%s at %u, %u: %g", names[m], x, y,
+                      normal_angle(want, found));
+                worst = fmax(worst, normal_angle(wall.normal, found));
+            }
+            print_message("# %s: %.1f degrees off\n", names[m], worst * 180 / M_PI);
+            assert_true(m < 2 ? worst > 1 : worst < 0.01);
+            tally_end(&t);
+            free(got);
+            free(codes);
+        }
 }
 
 static void an_image_gives_the_same_as_its_scene(void **state) {
@@ -351,6 +439,7 @@ int main(void) {
                                        cmocka_unit_test(products_of_one_pass_are_those_of_many),
                                        cmocka_unit_test(frames_equal_plain_pixels),
                                        cmocka_unit_test(normals_do_not_know_of_strips),
+                                       cmocka_unit_test(beside_the_sky_normals_are_the_shaders),
                                        cmocka_unit_test(an_image_gives_the_same_as_its_scene),
                                        cmocka_unit_test(an_edge_on_either_diagonal_is_one),
                                        cmocka_unit_test(the_smallest_images_and_a_stop)};

@@ -156,7 +156,7 @@ static float quotient(float x) {
 
 static void shader_rg(float v, uint8_t *t) { /* EncodeFloatRG */
     const float y = fraction(255.0F * v);
-    t[0] = stored(v - y * (1.0F / 255.0F));
+    t[0] = stored(fraction(v) - y * (1.0F / 255.0F));
     t[1] = stored(y);
 }
 static void shader_depth_normals(float v, uint8_t *t) {
@@ -597,6 +597,96 @@ static void holes(void **state) {
     }
 }
 
+static float decode_rg(const uint8_t *t) { /* DecodeFloatRG */
+    return (float)t[0] / 255.0F + (float)t[1] / 255.0F * (1.0F / 255.0F);
+}
+
+/* frac makes the camera of the far plane. --product pack writes what reads back as the far plane, and says so; of all
+ * depths before it, to the last binary32 number, both write the nearest number. */
+static void the_far_plane_wraps(void **state) {
+    (void)state;
+    uint8_t shader[2], ours[2];
+    float depths[PIXELS];
+    image img;
+    image_error error;
+    shader_rg(1, shader);
+    assert_true(shader[0] == 0 && shader[1] == 0 && decode_rg(shader) == 0);
+    for (int k = 0; k < 100000; k++) {
+        const float v = 1 - (float)(k + 1) * 0x1p-24F;
+        shader_rg(v, shader);
+        packing_texel(row_of("rg"), packing_nearest(row_of("rg"), (double)v), ours);
+        const double exact = 65025 * (double)v, off = 65025 * row_of("rg")->off;
+        assert_true(fabs(exact - (255 * shader[0] + shader[1])) <= 0.5 + off);
+        assert_true(fabs(exact - (255 * ours[0] + ours[1])) <= 0.5);
+    }
+    for (int i = 0; i < PIXELS; i++)
+        depths[i] = i < 5 ? 1 : 0.5F;
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, depths);
+    assert_int_equal(run((const char *const[]){truth_path("in.npy"), "-n", "1", "-f", "40", "-F", "fp32", "-m", "d3d",
+                                               "--product", "pack:rg", "-o", truth_path("eye.npy"), NULL}),
+                     0);
+    assert_true(was_said("eye.npy: 5 pixels at the far plane are written as 255, 0, which shaders read as 1; "
+                         "EncodeFloatRG writes 0, 0, which they read as 0, the camera"));
+    assert_true(image_read(truth_path("eye.npy"), &img, &error));
+    const uint8_t *texels = img.data;
+    assert_true(texels[8] == 255 && texels[9] == 0 && decode_rg(texels + 8) == 1 && decode_rg(texels + 10) < 1);
+    image_free(&img);
+    assert_int_equal(run((const char *const[]){truth_path("in.npy"), "-n", "1", "-f", "40", "-F", "fp32", "-m", "d3d",
+                                               "--product", "pack:rgba", "-o", truth_path("eye.npy"), NULL}),
+                     0);
+    assert_false(was_said("at the far plane"));
+}
+
+/* A target that was cleared to black, with a few depths; `cleared` pixels of it are still 0. */
+static void write_cleared(const packing *p, int cleared) {
+    uint8_t texels[4 * PIXELS] = {0};
+    for (int i = cleared; i < PIXELS; i++)
+        packing_texel(p, packing_nearest(p, 0.2 + 0.003 * i), texels + (size_t)i * p->channels);
+    FILE *f = fopen(truth_path("in.npy"), "wb");
+    assert_non_null(f);
+    image_writer *w = image_writer_open(f, IMAGE_NPY, IMAGE_U8, WIDTH, HEIGHT, p->channels, NULL);
+    assert_true(w != NULL && image_writer_rows(w, texels, HEIGHT) && image_writer_close(w));
+    assert_int_equal(fclose(f), 0);
+}
+
+/* What no surface writes is no depth: sky, or with --sky 0 a hole. Without frac a 0 is what it says. */
+static void cleared_to_black(void **state) {
+    (void)state;
+    static const struct {
+        const char *packing, *sky, *znear, *counts, *zeros, *said;
+    } rows[] = {
+        {"depth-normals", "0.0001", "1", "\"invalid\":0,\"sky\":{\"pixels\":7,", "\"zeros\":7},\"lo\":8.8",
+         "in.npy: 7 pixels hold 0, a clear to black or the far plane after frac: they count as sky; --sky 0 makes"},
+        {"rg", "0.0001", "1", "\"invalid\":0,\"sky\":{\"pixels\":7,", "\"zeros\":7},\"lo\":8.8",
+         "in.npy: 7 pixels hold 0, a clear to black or the far plane after frac: they count as sky; --sky 0 makes"},
+        {"rg", "0", "1", "\"invalid\":7,\"sky\":{\"pixels\":0,", "\"zeros\":7},\"lo\":8.8",
+         "in.npy: 7 pixels hold 0, a clear to black or the far plane after frac: they are holes"},
+        {"rg", "0.0001", "0.0003", "\"invalid\":0,\"sky\":{\"pixels\":7,", "\"zeros\":7},\"lo\":8.8",
+         "after frac, or depths up to 0.000313: they count"}, /* half of 40/65025, and binary32 */
+        {"r8-linear01", "0.0001", "1", "\"invalid\":0,\"sky\":{\"pixels\":0,", "\"zeros\":0},\"lo\":0,", NULL}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        float eyes[PIXELS], fog[PIXELS];
+        const char *const in = truth_path("in.npy");
+        const bool depth = rows[i].said == NULL;
+        write_cleared(row_of(rows[i].packing), 7);
+        assert_int_equal(
+            run((const char *const[]){in, "-n", rows[i].znear, "-f", "40", "--packing", rows[i].packing, "--sky",
+                                      rows[i].sky, "--json", "-o", truth_path("said.json"), NULL}),
+            0);
+        assert_true(depth ? !was_said("hold 0") : was_said(rows[i].said));
+        assert_true(holds("said.json", rows[i].counts) && holds("said.json", rows[i].zeros));
+        const command base = {.arguments = {in, "-q", "-n", rows[i].znear, "-f", "40", "--packing", rows[i].packing,
+                                            "--sky", rows[i].sky},
+                              .count = 10};
+        truth_product(&base, "eye.npy", "eye", NULL, false);
+        truth_floats("eye.npy", 1, eyes);
+        truth_product(&base, "map.npy", "effect", "fog", false);
+        truth_floats("map.npy", 1, fog);
+        for (int k = 0; k < PIXELS; k++)
+            assert_true(k < 7 && !depth ? isnan(eyes[k]) && isnan(fog[k]) : (eyes[k] > 0) == (k >= 7) && fog[k] < 1);
+    }
+}
+
 /* The packed normals of a wall that is seen head-on: towards the camera, which is against the view axis. */
 static void normals_come_back(void **state) {
     (void)state;
@@ -734,6 +824,8 @@ int main(void) {
         cmocka_unit_test(ranges_of_others),
         cmocka_unit_test(ranges_of_all_bits),
         cmocka_unit_test(holes),
+        cmocka_unit_test(the_far_plane_wraps),
+        cmocka_unit_test(cleared_to_black),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);

@@ -166,8 +166,8 @@ static bool packing_row(size_t i, listed *l) {
 }
 
 static bool product(size_t i, listed *l) {
-    static const char *const kinds[] = {"eye",      "radial", "linear01",      "raw",
-                                        "position", "normal", "packed-normal", "effect"};
+    static const char *const kinds[] = {"eye",    "radial",        "linear01", "raw",   "position",
+                                        "normal", "packed-normal", "pack",     "effect"};
     if (i >= sizeof kinds / sizeof kinds[0])
         return false;
     *l = (listed){kinds[i], "", NULL, NULL, {0}, 0};

@@ -423,6 +423,8 @@ static void want_image(values *v, const char *path, const image *shot, const rec
     want_count(v, "channels", 1);
     want_text(v, "packing", NULL); /* test_packing has it otherwise */
     want_text(v, "lossy", NULL);   /* and test_image_compressed this */
+    values_under(v, "sky.");
+    want_count(v, "zeros", 0); /* of packings, in test_packing */
     values_under(v, "recognised.");
     want_text(v, "format", found->depth ? found->format.name : NULL);
     want_bool(v, "certain", found->certain);

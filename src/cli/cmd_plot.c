@@ -101,9 +101,11 @@ static int choose_models(plotting *p) {
         setup_choose(p->o, &at, &p->all.items[i]);
     for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FLOAT) == 0; i++)
         if (p->all.items[i].spec.model == DP_MODEL_FLOAT)
-            return option_error(OPTION_MODEL,
-                                "float has no cells for the figure %s to show; interval and budget draw its separation",
-                                p->row->name);
+            return option_error(
+                OPTION_MODEL,
+                "float has no cells for the figure %s to show, staged has; interval and budget draw its "
+                "separation",
+                p->row->name);
     return EXIT_FINE;
 }
 
@@ -204,6 +206,9 @@ static int resolve_setups(plotting *p) {
     choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
         in_model.camera.model = DP_MODEL_FLOAT;
+    for (size_t i = 0; (p->row->takes & FIGURE_STAGED) != 0 && i < in_model.camera.mapping_count; i++)
+        if (!option_given(p->o, OPTION_MODEL) && dp_mapping_get(in_model.camera.mappings[i])->ndc_signed)
+            in_model.camera.model = DP_MODEL_STAGED;
     in_model.camera.budgeted = (p->row->takes & FIGURE_TERMS) != 0;
     if (status == EXIT_FINE)
         status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model) : EXIT_FINE;

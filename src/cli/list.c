@@ -18,6 +18,7 @@
 #include "report/number.h"
 #include "requirement/model.h"
 #include "scene/find.h"
+#include "shader/constants.h"
 #include "shader/pack.h"
 #include "shader/packing.h"
 #include "world/world.h"
@@ -233,6 +234,22 @@ static bool list_encoding(size_t index, list_item *item) {
     return true;
 }
 
+static bool list_trap(size_t index, list_item *item) {
+    const trap_row *row = trap_get(index);
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    if (row == NULL)
+        return false;
+    spec.znear = 0.3;
+    spec.ortho = row->ortho;
+    spec.mapping = row->ndc_signed ? DP_MAPPING_GL : DP_MAPPING_D3D;
+    *item = (list_item){.name = row->name, .note = row->formula, .source = row->source, .row = row};
+    if (dp_setup_init(&setup, &spec) == DP_OK)
+        append(item->bound, sizeof item->bound, "%s at 10, between %g and %g; right: %s",
+               number_of(trap_reads(row, &setup, 10), 6).text, spec.znear, spec.zfar, row->right);
+    return true;
+}
+
 bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
@@ -297,6 +314,7 @@ static const topic topics[] = {
      .bound = "bound"},
     {"packings", "textures with a depth in several channels, for texture --packing and --product pack", list_packing,
      .bound = "bound"},
+    {"traps", "formulas of depth that are found in shaders and are not right", list_trap, .bound = "reads"},
     {"products", "what texture makes of the depths, for --product", list_product, .bound = "methods"},
     {"effects", "effects for texture --product effect: formulas and parameters", list_effect, .bound = "parameters"},
     {"figures", "figures, for plot", list_figure, .bound = "bound"},

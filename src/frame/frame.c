@@ -89,9 +89,9 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
 /* A thread's room: what a strip is made from. AROUND/2 rows more lie on either side. */
 typedef struct desk {
     uint32_t *codes;
-    float *eyes, *scratch; /* scratch: four rows */
-    double *numbers;       /* of a row: see frame_row */
-    grain_memo *memo;      /* of normals' error maps; else null */
+    float *eyes, *seen, *scratch; /* seen: with sky, for normals that see it; scratch: four rows */
+    double *numbers;              /* of a row: see frame_row */
+    grain_memo *memo;             /* of normals' error maps; else null */
 } desk;
 
 /* Everything of a run. */
@@ -100,7 +100,7 @@ typedef struct run {
     const frame_product *products;
     size_t product_count, values; /* of all products in a pixel */
     uint32_t width, height, stride, sky, strip, count, margin;
-    bool bottom_up, depths, bounds; /* window depths; bounds of normals */
+    bool bottom_up, depths, bounds, sees_sky; /* window depths; bounds of normals; normals that see sky */
     dp_batch eye, depth, stored;
     position_state position;
     float *slope_x, *out; /* out: a strip in each slot, product by product */
@@ -119,6 +119,7 @@ static void run_free(run *r) {
     for (int i = 0; i < r->threads && r->desks != NULL; i++) {
         free(r->desks[i].codes);
         free(r->desks[i].eyes);
+        free(r->desks[i].seen);
         free(r->desks[i].scratch);
         free(r->desks[i].numbers);
         free(r->desks[i].memo);
@@ -156,11 +157,12 @@ static bool make_room(run *r) {
         desk *d = &r->desks[i];
         d->codes = malloc(rows * width * sizeof *d->codes);
         d->eyes = malloc(rows * r->stride * sizeof *d->eyes);
+        d->seen = r->sees_sky ? malloc(rows * r->stride * sizeof *d->seen) : NULL;
         d->scratch = malloc(4 * width * sizeof *d->scratch);
         d->numbers = malloc(FRAME_NUMBERS * width * sizeof *d->numbers);
         d->memo = r->bounds ? calloc(1, sizeof *d->memo) : NULL;
-        good = (d->memo != NULL || !r->bounds) && d->codes != NULL && d->eyes != NULL && d->scratch != NULL &&
-               d->numbers != NULL;
+        good = (d->memo != NULL || !r->bounds) && (d->seen != NULL || !r->sees_sky) && d->codes != NULL &&
+               d->eyes != NULL && d->scratch != NULL && d->numbers != NULL;
     }
     return good;
 }
@@ -185,6 +187,7 @@ static bool run_start(run *r, const frame *f) {
         r->values += (size_t)frame_channels(&r->products[i]);
         r->depths = r->depths || sees_window(r->products[i].kind);
         r->bounds = r->bounds || (r->products[i].kind == FRAME_NORMAL && r->products[i].error);
+        r->sees_sky = r->sees_sky || (r->products[i].kind == FRAME_NORMAL && r->products[i].normal->sees_sky);
         r->margin = looks_around(&r->products[i]) ? 0 : r->margin;
     }
     plan(r, f);
@@ -215,12 +218,16 @@ static void decode_row_of(const run *r, const desk *d, uint32_t first, uint32_t 
         else
             dp_batch_run(&r->eye, codes, eyes, r->width);
     }
-    for (uint32_t x = 0; x < r->width; x++) {
-        const uint32_t rank = flip != 0 ? flip - codes[x] : codes[x];
-        eyes[x] = !inside || codes[x] == UINT32_MAX || rank >= sky ? NAN : eyes[x];
-    }
+    for (uint32_t x = 0; x < r->width; x++)
+        eyes[x] = !inside || codes[x] == UINT32_MAX ? NAN : eyes[x];
     for (int k = 0; k < NORMAL_REACH; k++)
         eyes[-1 - k] = eyes[(int64_t)r->width + k] = NAN;
+    if (d->seen != NULL)
+        memcpy(d->seen + (size_t)i * r->stride, eyes - NORMAL_REACH, r->stride * sizeof *eyes);
+    for (uint32_t x = 0; x < r->width; x++) {
+        const uint32_t rank = flip != 0 ? flip - codes[x] : codes[x];
+        eyes[x] = rank >= sky ? NAN : eyes[x];
+    }
 }
 
 /* Where the rows of a product begin in a slot. */
@@ -250,8 +257,11 @@ static void make_row(const run *r, const desk *d, uint32_t first, uint32_t i, si
                     .stored = &r->stored,
                     .memo = d->memo,
                     .numbers = d->numbers};
-    for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++)
-        in.eyes[k + NORMAL_REACH] = d->eyes + (middle + (size_t)k) * r->stride + NORMAL_REACH;
+    for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++) {
+        const size_t at = (middle + (size_t)k) * r->stride + NORMAL_REACH;
+        in.eyes[k + NORMAL_REACH] = d->eyes + at;
+        in.seen[k + NORMAL_REACH] = r->sees_sky ? d->seen + at : NULL;
+    }
     if (r->depths) {
         dp_batch_run(&r->depth, in.codes, d->scratch, width);
         in.depth = d->scratch;

@@ -246,12 +246,20 @@ static void make_position_error(const frame_row *in) {
     }
 }
 
+/* What the method looks at. */
+static normal_rows rows_around(const frame_row *in) {
+    normal_rows rows = {.camera = camera_of(in), .row = in->row, .count = camera_of(in)->width, .slope_x = in->slope_x};
+    memcpy(rows.rows, in->product->normal->sees_sky ? in->seen : in->eyes, sizeof rows.rows);
+    return rows;
+}
+
 static void normals(const frame_row *in) {
     if (in->found)
         return;
-    normal_rows rows = {.camera = camera_of(in), .row = in->row, .count = camera_of(in)->width, .slope_x = in->slope_x};
-    memcpy(rows.rows, in->eyes, sizeof rows.rows);
+    const normal_rows rows = rows_around(in);
     in->product->normal->run(&rows, in->planes[0], in->planes[1], in->planes[2]);
+    for (int k = 0; k < 3 && in->product->normal->sees_sky; k++)
+        hide(eyes_of(in), in->planes[k], rows.count);
 }
 
 static void make_normal(const frame_row *in) {
@@ -282,8 +290,7 @@ static void corner_bounds(const frame_row *in) {
     grain_rows around[3];
     ranges_around(in, step, around);
     uint8_t *const sides = (uint8_t *)in->numbers;
-    normal_rows rows = {.camera = c, .row = in->row, .count = c->width, .slope_x = in->slope_x};
-    memcpy(rows.rows, in->eyes, sizeof rows.rows);
+    const normal_rows rows = rows_around(in);
     method->sides(&rows, sides);
     for (uint32_t x = 0; x < c->width; x++) {
         in->out[x] = NAN;

@@ -20,6 +20,7 @@ typedef struct frame_row {
     const uint32_t *codes;                   /**< rows beside it, as far as the image goes, lie a width apart */
     const float *depth;                      /**< window depth; of FRAME_RAW, FRAME_POSITION and FRAME_EFFECT only */
     const float *eyes[2 * NORMAL_REACH + 1]; /**< eye depths of this row and its neighbours, as in normal_rows */
+    const float *seen[2 * NORMAL_REACH + 1]; /**< the same with sky at far; null unless a product sees it */
     float *planes[3];                        /**< room for three times the width */
     bool found;                              /**< the planes hold this product, whose error is wanted */
     const dp_batch *stored;                  /**< codes to eye depths in double */

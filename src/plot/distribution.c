@@ -4,8 +4,6 @@
 
 #include "plot/envelope.h"
 
-enum { STAIRCASE_CODES = 128 /* the most lines that can be told apart in one frame */ };
-
 static double density(const dp_worst *worst) {
     return 1 / worst->interval;
 }
@@ -30,6 +28,18 @@ static void staircase_range(const figure_request *request, double *lo, double *h
         *hi = end * (scale_of(*lo, 1.15 * end) == CHART_LINEAR ? 1.15 : 2);
 }
 
+static bool is_reached(const dp_setup *setup, uint32_t code) {
+    const double step = figure_step(setup);
+    return !(step > 0) || fmod(dp_format_value(&setup->spec.format, code), step) == 0;
+}
+
+static uint32_t reached(const dp_setup *setup) {
+    uint32_t count = 0;
+    for (uint32_t code = 0; code <= setup->spec.format.code_max; code++)
+        count += is_reached(setup, code);
+    return count;
+}
+
 static void add_codes(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
     const dp_setup *setup = &request->setups[i];
     uint32_t a = dp_code(setup, panel->x.lo), b = dp_code(setup, panel->x.hi);
@@ -42,7 +52,7 @@ static void add_codes(const figure_request *request, chart *out, chart_panel *pa
     s->count = 0;
     for (uint32_t code = first; code <= last; code++) {
         double z = dp_stored(setup, code);
-        if (!(z >= panel->x.lo && z <= panel->x.hi))
+        if (!(z >= panel->x.lo && z <= panel->x.hi) || !is_reached(setup, code))
             continue;
         s->x[s->count] = z;
         s->y[s->count++] = dp_format_value(&setup->spec.format, code);
@@ -72,8 +82,11 @@ static void build_staircases(const figure_request *request, chart *out) {
         panel->x.scale = scale_of(lo, hi);
         panel->x.lo = lo;
         panel->x.hi = hi;
-        snprintf(panel->title, sizeof panel->title, "%s, %u codes", request->names[i],
-                 request->setups[i].spec.format.code_max + 1);
+        const uint32_t all = request->setups[i].spec.format.code_max + 1, met = reached(&request->setups[i]);
+        char of[24] = "";
+        if (met < all)
+            snprintf(of, sizeof of, "%u of ", met);
+        snprintf(panel->title, sizeof panel->title, "%s, %s%u codes", request->names[i], of, all);
         add_codes(request, out, panel, i);
         add_curve(request, out, panel, i);
     }
@@ -82,7 +95,7 @@ static void build_staircases(const figure_request *request, chart *out) {
 const char *distribution_build(const figure_request *request, chart *out) {
     size_t small = 0;
     for (size_t i = 0; i < request->count; i++)
-        small += request->setups[i].spec.format.code_max < STAIRCASE_CODES;
+        small += figure_draws_codes(&request->setups[i].spec.format);
     if (small == request->count) {
         if (small > CHART_PANELS)
             return "--format, --mapping: must make at most 8 set-ups for staircases";

@@ -31,6 +31,26 @@ chart_style figure_style(const figure_request *request, size_t i) {
     return (chart_style){format, mapping, format, false};
 }
 
+bool figure_draws_codes(const dp_format *format) {
+    return format->code_max < 128; /* the most lines that can be told apart in one frame */
+}
+
+double figure_step(const dp_setup *setup) {
+    const dp_format *f = &setup->spec.format;
+    const bool stepped = setup->spec.model != DP_MODEL_EXACT && dp_mapping_get(setup->spec.mapping)->ndc_signed &&
+                         f->kind == DP_FORMAT_FLOAT;
+    return stepped ? ldexp(1, -2 - (figure_draws_codes(f) ? f->mantissa_bits : 23)) : 0;
+}
+
+uint32_t figure_code(const dp_setup *setup, double z) {
+    const dp_format *f = &setup->spec.format;
+    if (!(figure_step(setup) > 0) || !figure_draws_codes(f))
+        return dp_code(setup, z);
+    const double real = 2 * dp_window(setup, z) - 1;
+    const double ndc = dp_format_value(f, dp_format_encode(f, setup->spec.rounding, fabs(real)));
+    return dp_format_encode(f, setup->spec.rounding, 0.5 + 0.5 * copysign(ndc, real));
+}
+
 void figure_range(const figure_request *request, double *lo, double *hi) {
     const dp_spec *spec = &request->setups[0].spec;
     *lo = isnan(request->lo) ? spec->znear : request->lo;

@@ -53,6 +53,7 @@ enum {
     FIGURE_MODEL = 1 << 10,    /**< a model and what was found in it; the camera is that of the command scene */
     FIGURE_SETUPS = 1 << 11,   /**< set-ups, as the options of a camera say them */
     FIGURE_SHADOW = 1 << 7,    /**< shadow maps, whose cameras are not that of the view */
+    FIGURE_STAGED = 1 << 11,   /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
 };
 
 /**
@@ -79,6 +80,20 @@ const figure_row *figure_get(size_t index);
 /** Colour, stroke and marker of set-up i: the format decides the colour and the marker, the mapping the stroke;
  *  where all share the one or the other, each set-up has its own of all three. */
 chart_style figure_style(const figure_request *request, size_t i);
+
+/**
+ * Behind NDC of [-1, 1] with p bits of mantissa depth is (1 + ndc)/2, which comes in steps of 2^-(p + 2) up to 1/4, and
+ * above in none that are wider than those of a float of p bits or fewer. So of such a format the multiples of 2^-(p +
+ * 2) are reached, and no others. p is 23; in formats so small that a figure draws code by code NDC is in the format.
+ * @return 0 where each code is reached: of other mappings and formats, and in the model exact
+ */
+double figure_step(const dp_setup *setup);
+
+/** dp_code(), through such an NDC. */
+uint32_t figure_code(const dp_setup *setup, double z);
+
+/** Whether a format has so few codes that each can be drawn. */
+bool figure_draws_codes(const dp_format *format);
 
 /** The range of a curve: what was asked, or near to far; to 1e6 near when far is infinite. */
 void figure_range(const figure_request *request, double *lo, double *hi);

@@ -5,9 +5,9 @@
 static const figure_row rows[] = {
     {"distribution", "Where the codes are",
      "the curve d(z) with every code carried over to z (up to 128 codes); codes per unit of depth for real formats",
-     CHART_SETUPS, FIGURE_SETUPS | FIGURE_SIGNED, NULL, NULL, distribution_build},
+     CHART_SETUPS, FIGURE_SETUPS | FIGURE_SIGNED | FIGURE_STAGED, NULL, NULL, distribution_build},
     {"share", "Share of the codes left between z and far", "share of the codes that are left between z and far",
-     CHART_SETUPS, FIGURE_SETUPS | FIGURE_FLOAT | FIGURE_SIGNED, NULL, NULL, share_build},
+     CHART_SETUPS, FIGURE_SETUPS | FIGURE_FLOAT | FIGURE_SIGNED | FIGURE_STAGED, NULL, NULL, share_build},
     {"error", "Worst error of the decoded depth", "certified envelope of |decoded depth - z| against z, log-log",
      CHART_SETUPS, FIGURE_SETUPS | FIGURE_SIGNED, NULL, NULL, error_build},
     {"interval", "Z-fighting interval",

@@ -4,19 +4,14 @@
 
 #include "plot/envelope.h"
 
-/*
- * The codes below one that are reached. Behind NDC of [-1, 1] in binary32 depth is (1 + ndc)/2, which comes in steps of
- * 2^-25 below 1/4 and in those of binary32 above, where -1/2 <= ndc: no code of a real format that is finer than that
- * is reached.
- */
+/* The codes below one that are reached: where they are finer than the steps of NDC, as many as there are steps. */
 static double reached(const dp_setup *setup, uint32_t code) {
     const dp_format *f = &setup->spec.format;
-    const bool stepped = setup->spec.model != DP_MODEL_EXACT && dp_mapping_get(setup->spec.mapping)->ndc_signed &&
-                         f->kind == DP_FORMAT_FLOAT;
-    if (!stepped)
+    const double step = figure_step(setup);
+    if (!(step > 0))
         return code;
-    const double from = ldexp(1.0, f->mantissa_bits - 25); /* where codes become as wide as steps */
-    const double depth = dp_format_value(f, code), steps = ldexp(fmin(depth, from), 25);
+    const double from = ldexp(step, f->mantissa_bits); /* where codes become as wide as steps */
+    const double depth = dp_format_value(f, code), steps = fmin(depth, from) / step;
     const uint32_t at = dp_format_encode(f, DP_ROUND_NEAREST, from);
     return fmin(code < at ? code : at, steps) + (code > at ? code - at : 0);
 }
@@ -35,7 +30,7 @@ typedef struct counted {
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const counted *c = context;
     (void)to;
-    const double left = distance(c->setup, dp_code(c->setup, from), c->last);
+    const double left = distance(c->setup, figure_code(c->setup, from), c->last);
     *out = (refine_sample){.y = {c->all > 0 ? 100 * left / c->all : 0}, .step = {left > 0 ? 1 / left : 0}};
 }
 
@@ -45,8 +40,8 @@ const char *share_build(const figure_request *request, chart *out) {
     chart_panel *panel = figure_panel(request, out, y);
     for (size_t i = 0; i < request->count; i++) {
         const dp_setup *setup = &request->setups[i];
-        const uint32_t last = dp_code(setup, setup->spec.zfar);
-        const counted c = {setup, last, distance(setup, dp_code(setup, setup->spec.znear), last)};
+        const uint32_t last = figure_code(setup, setup->spec.zfar);
+        const counted c = {setup, last, distance(setup, figure_code(setup, setup->spec.znear), last)};
         const refine_request q = envelope_request(request, setup, out, panel, sample, &c);
         chart_series *s = envelope_curve(out, panel, &q);
         if (s == NULL)

@@ -246,21 +246,26 @@ static const char urp[] = "Universal RP, SSAO.hlsl, ReconstructNormal";
 
 /* clang-format off */
 const normal_row normal_methods[] = {
-    [NORMAL_LOW] = {"low", "the 2 x 2 quad of the pixel, as ddx and ddy", 1, 1, urp, low_run, low_sides, false},
-    [NORMAL_MEDIUM] = {"medium", "on each axis the farther of the pixels 2 away",
-     2, 2, urp, medium_run, medium_sides, false},
-    [NORMAL_MEDIUM_1] = {"medium-1", "the same with the pixels next to it",
-     1, 1, "", medium_1_run, medium_1_sides, false},
-    [NORMAL_HIGH] = {"high", "on each axis the side, 2 pixels away, whose line through two pixels meets the depth best",
-     2, 4, urp, high_run, high_sides, false},
-    [NORMAL_HIGH_1] = {"high-1", "the same with the pixels next to it", 1, 2, "", high_1_run, high_1_sides, false},
+    [NORMAL_LOW] = {"low", "the 2 x 2 quad of the pixel, as ddx and ddy; sky is at far", 1, 1, urp, low_run, low_sides,
+     .sees_sky = true},
+    [NORMAL_MEDIUM] = {"medium", "on each axis the farther of the pixels 2 away, sky at far before all others",
+     2, 2, urp, medium_run, medium_sides, .sees_sky = true},
+    [NORMAL_MEDIUM_1] = {"medium-1", "of the pixels next to it the farther on each axis, but sky last",
+     1, 1, "", medium_1_run, medium_1_sides},
+    [NORMAL_HIGH] = {"high", "on each axis the side, 2 pixels away, whose line through two pixels meets the depth "
+     "best; sky is at far",
+     2, 4, urp, high_run, high_sides, .sees_sky = true},
+    [NORMAL_HIGH_1] = {"high-1", "the same with the pixels next to it, but sky last",
+     1, 2, "", high_1_run, high_1_sides},
     [NORMAL_PROJECTIVE] = {"projective",
-     "the pixels next to it, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
-     1, 2, "depthprec(7)", projective_run, projective_sides, false},
+     "as high-1, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
+     1, 2, "depthprec(7)", projective_run, projective_sides},
     [NORMAL_LOW_HALF] = {"low-half", "low of places in binary16, as half3 is; so is the normal",
-     1, 1, urp, low_half_run, low_half_sides, true},
-    [NORMAL_MEDIUM_HALF] = {"medium-half", "medium likewise", 2, 2, urp, medium_half_run, medium_half_sides, true},
-    [NORMAL_HIGH_HALF] = {"high-half", "high likewise", 2, 4, urp, high_half_run, high_half_sides, true},
+     1, 1, urp, low_half_run, low_half_sides, .half = true, .sees_sky = true},
+    [NORMAL_MEDIUM_HALF] = {"medium-half", "medium likewise", 2, 2, urp, medium_half_run, medium_half_sides,
+     .half = true, .sees_sky = true},
+    [NORMAL_HIGH_HALF] = {"high-half", "high likewise", 2, 4, urp, high_half_run, high_half_sides,
+     .half = true, .sees_sky = true},
 };
 /* clang-format on */
 

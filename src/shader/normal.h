@@ -4,8 +4,8 @@
  * shader.
  *
  * The methods differ in which neighbour they take on each axis, how many pixels away, and how they form the normal.
- * What is not there is NaN: sky, and whatever lies beyond the border of the image. A method that can choose takes the
- * other side then; where it cannot, or neither side is there, the normal is NaN.
+ * What is not there is NaN: holes, whatever lies beyond the border of the image, and sky, unless the method sees it.
+ * A method that can choose takes the other side then; where it cannot, or neither side is there, the normal is NaN.
  */
 #ifndef SHADER_NORMAL_H
 #define SHADER_NORMAL_H
@@ -40,7 +40,8 @@ typedef struct normal_row {
     void (*run)(const normal_rows *in, float *nx, float *ny, float *nz);
     /** The neighbours that run() takes. */
     void (*sides)(const normal_rows *in, uint8_t *sides);
-    bool half; /**< places and normals in binary16 */
+    bool half;     /**< places and normals in binary16 */
+    bool sees_sky; /**< as the shader does, whose depth texture holds the far plane there; the sky itself has none */
 } normal_row;
 
 enum {

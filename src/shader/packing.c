@@ -20,12 +20,12 @@ enum { BYTE = 255 };
 /* clang-format off */
 static const packing rows[] = {
     {.name = "depth-normals", .channels = 4, .weight = {0, 0, 255, 1}, .steps = 65025, .linear = true, .normals = true,
-     .format = "fp32", .off = 0x1p-23, .cut = 1.0 / 255,
+     .wraps = true, .format = "fp32", .off = 0x1p-23, .cut = 1.0 / 255,
      .note = "eye depth over far in zw, as rg; the view-space normal in xy, stereographic",
      .source = UNITY "EncodeDepthNormal, of _CameraDepthNormalsTexture"},
     {.name = "rg", .channels = 2, .weight = {255, 1}, .steps = 65025, .linear = true,
-     .format = "fp32", .off = 0x1p-23, .cut = 1.0 / 255,
-     .note = "eye depth over far, x + y/255: steps of 1/65025",
+     .wraps = true, .format = "fp32", .off = 0x1p-23, .cut = 1.0 / 255,
+     .note = "eye depth over far, x + y/255: steps of 1/65025; frac makes 1 a 0, which reads as the camera",
      .source = UNITY "EncodeFloatRG"},
     {.name = "rgba", .channels = 4, .weight = {65536 * 255, 256 * 255, 255, 1}, .steps = 0x1p24 * 255,
      .format = "fp32", .cut = 0x1.0101p-8,
@@ -110,6 +110,17 @@ double packing_normal_reach(const uint8_t *texel, bool truncated) {
     packing_normal(texel, normal);
     const double least = fmax(dp_hypot(normal[0], normal[1]) / (normal[2] + 1) - diagonal, 0);
     return M_SQRT2 * diagonal * 2 / (1 + least * least);
+}
+
+uint64_t packing_unwrap(const packing *p, image *depths, float zero) {
+    uint64_t count = 0;
+    float *const d = depths->data;
+    for (size_t i = 0; p->wraps && i < (size_t)depths->width * depths->height; i++)
+        if (d[i] == 0) {
+            d[i] = zero;
+            count++;
+        }
+    return count;
 }
 
 /* ---- Images ------------------------------------------------------------------------------------------------------ */

@@ -20,6 +20,7 @@ typedef struct packing {
     double steps;
     bool linear;        /**< eye depth over far; else window depth */
     bool normals;       /**< stereographic in the first two channels */
+    bool wraps;         /**< the shader's frac makes 0 of the far plane, which it reads back as the camera; of f4 */
     const char *format; /**< whose codes come nearest to the numbers: "fp32" where no format has them */
     double off;         /**< what the shader's binary32 arithmetic loses beside half a step, a share of 1 */
     double cut; /**< what truncated channels may lose, a share of 1, because x - y/255 came out just below a code */
@@ -52,6 +53,7 @@ double packing_normal_reach(const uint8_t *texel, bool truncated);
 typedef struct unpacked {
     grain grain;                  /**< the packing's own rounding: to nearest, as render targets store */
     uint8_t *normals;             /**< two channels a pixel, malloc'ed; null where the packing has none */
+    uint64_t zeros;               /**< pixels of packing_unwrap() */
     bool premultiplied;           /**< no channel is above alpha anywhere, which is not by chance */
     char wrong[IMAGE_ERROR_SIZE]; /**< why not: one sentence */
 } unpacked;
@@ -65,5 +67,8 @@ typedef struct unpacked {
  * @return false after the sentence; the image is then as it was
  */
 bool packing_convert(const packing *p, bool zero, image *img, unpacked *out);
+
+/** Replaces the zeros of such an image where the packing wraps: clears to black, or wrapped. @return how many */
+uint64_t packing_unwrap(const packing *p, image *depths, float zero);
 
 #endif

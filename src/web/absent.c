@@ -13,6 +13,7 @@
 #include "plot/figure.h"
 #include "requirement/check.h"
 #include "scene/find.h"
+#include "shader/constants.h"
 #include "shader/pack.h"
 
 static int absent(const options *o) {
@@ -62,6 +63,13 @@ ABSENT_ROWS(pack_row, pack_get)
 ABSENT_ROWS(packing, packing_get)
 ABSENT_ROWS(position_row, position_get)
 ABSENT_ROWS(synthetic_row, synthetic_get)
+ABSENT_ROWS(trap_row, trap_get)
+
+double trap_reads(const trap_row *row, const dp_setup *setup, double z) {
+    (void)row;
+    (void)setup;
+    return z;
+}
 
 /* Families of methods but interval, which figures are drawn by. */
 static const size_t none;

@@ -33,7 +33,7 @@ typedef struct packing_on {
     const packing *p;
     double *depths;
     uint8_t *texels;
-    uint64_t holes;
+    uint64_t holes, far;
     const uint8_t *normals; /* those that the image has, to be written as they are; else null */
 } packing_on;
 
@@ -72,7 +72,9 @@ static bool take_packed(void *context, uint32_t row, uint32_t count, const float
                 const bool drawn = !isnan(n[0]);
                 packing_normal_texel(drawn ? (const double[]){n[0], n[1], -n[2]} : (const double[]){0, 0, 1}, texel);
             }
-            packing_texel(p, packing_nearest(p, packed_depth(on, on->depths[x])), texel);
+            const double depth = packed_depth(on, on->depths[x]);
+            on->far += depth == 1;
+            packing_texel(p, packing_nearest(p, depth), texel);
         }
         if (!image_writer_rows(on->w.writer, on->texels, 1))
             return false;
@@ -119,6 +121,11 @@ int texture_pack_write(const options *o, const texture_source *s) {
     if (good && on.holes > 0 && !o->out.quiet)
         fprintf(stderr, "depthprec: %s: %llu pixels hold no depth and are written as the far plane\n", o->out.file,
                 (unsigned long long)on.holes);
+    if (good && on.p->wraps && on.far > 0 && !o->out.quiet)
+        fprintf(stderr,
+                "depthprec: %s: %llu pixels at the far plane are written as 255, 0, which shaders read as 1; "
+                "EncodeFloatRG writes 0, 0, which they read as 0, the camera\n",
+                o->out.file, (unsigned long long)on.far);
     return writing_close(&on.w, 1, good);
 }
 

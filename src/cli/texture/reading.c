@@ -203,9 +203,24 @@ static void warn_of(const texture_source *s, const char *what) {
         fprintf(stderr, "depthprec: %s: the %s is assumed: pixel %s; --%s sets it\n", s->path, what, text, what);
 }
 
+const char *texture_zeros_of(const options *o, const texture_source *s, char out[READINGS_SIZE]) {
+    const dp_spec *planes = &s->setup.spec;
+    const double half = s->grain.rounding == GRAIN_ZERO ? 1 : 0.5;
+    const double end = planes->zfar * (half / s->grain.steps + s->grain.margin);
+    snprintf(out, READINGS_SIZE, "%llu pixels hold 0, a clear to black or the far plane after frac",
+             (unsigned long long)s->unpacked.zeros);
+    if (planes->znear < end)
+        append(out, READINGS_SIZE, ", or depths up to %s", number_in(number_up(end, 3), options_unit(o)).text);
+    append(out, READINGS_SIZE, o->image.sky > 0 ? ": they count as sky; --sky 0 makes them holes" : ": they are holes");
+    return out;
+}
+
 static void warn(const options *o, const texture_source *s) {
+    char text[READINGS_SIZE];
     if (o->out.quiet)
         return;
+    if (s->unpacked.zeros > 0)
+        fprintf(stderr, "depthprec: %s: %s\n", s->path, texture_zeros_of(o, s, text));
     warn_of(s, "mapping");
     warn_of(s, "format");
     if (s->reading_count == 0 && o->image.metric == 0 && s->mapping_from == ORIGIN_ASSUMED)

@@ -96,6 +96,7 @@ static const column sky_columns[] = {{FIELD(statistics, survey.sky, "pixels", ""
                                      {FIELD(statistics, source.frame.sky, "limit", "")},
                                      {FIELD(statistics, survey.sky_from, "from", "scene")},
                                      {FIELD(statistics, named.hidden, "hidden", ""), .when = OF_SYNTHETIC},
+                                     {FIELD(statistics, source.unpacked.zeros, "zeros", ""), .when = OF_IMAGE},
                                      {.kind = COLUMN_END}};
 
 static const column found_columns[] = {

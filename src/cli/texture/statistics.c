@@ -118,6 +118,7 @@ void statistics_say_head(page *p, void *item) {
     statistics *r = item;
     const survey *v = &r->survey;
     const texture_camera *s = &r->source.camera;
+    char zeros[READINGS_SIZE];
     say_source(r, p);
     if (s->oblique.on)
         page_note(p, "sky", "%llu pixels, %s %%, within %s of the far end of window depth", (unsigned long long)v->sky,
@@ -128,6 +129,8 @@ void statistics_say_head(page *p, void *item) {
                   number_in(number_of(v->sky_from, 6), p->unit).text, number_of(r->o->image.sky, 3).text);
     if (!statistics_of_image(r) && r->named.hidden > 0)
         page_note(p, "hidden", "%llu pixels of the synthetic image count as sky", (unsigned long long)r->named.hidden);
+    if (r->source.unpacked.zeros > 0)
+        page_note(p, "zeros", "%s", texture_zeros_of(r->o, &r->source, zeros));
     if (v->invalid > 0)
         page_note(p, "holes", "%llu pixels, %s %%, hold no depth", (unsigned long long)v->invalid,
                   share(v->invalid, v->pixels).text);

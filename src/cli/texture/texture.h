@@ -81,6 +81,9 @@ void texture_read_on(const options *o, texture_source *s);
 /** Whether the samples are coarser than the format, and not by its own steps. */
 bool texture_coarser(const texture_source *s);
 
+/** What is said of the pixels of a packing that wraps which hold 0. @return out */
+const char *texture_zeros_of(const options *o, const texture_source *s, char out[READINGS_SIZE]);
+
 /** "320,180 is at z = 4.2 as d3d, 0.4 as reversed", of "mapping" or "format"; "" where it has none. @return out */
 const char *texture_readings_of(const texture_source *s, const char *what, char out[READINGS_SIZE]);
 

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "shader/constants.h"
+
+#include "depthprec/pipeline.h"
+
+shader_constants shader_constants_of(const dp_setup *setup) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    const bool ndc_signed = dp_mapping_get(setup->spec.mapping)->ndc_signed;
+    return (shader_constants){.zbuffer = zbuffer_params_of(setup),
+                              .projection = {1, (float)n, (float)f, (float)(1 / f)},
+                              .near_clip = setup->reversed ? 1.0f
+                                           : ndc_signed    ? -1.0f
+                                                           : 0.0f};
+}
+
+static float decoded(const dp_setup *setup, const decode_row *row, float d) {
+    float out = NAN;
+    if (decode_applies(row, setup))
+        decode_run(row, setup, &d, &out, 1);
+    return out;
+}
+
+bool shader_depth_of(const dp_setup *setup, double z, shader_depth *out) {
+    dp_pipeline p;
+    if (dp_pipeline_init(&p, setup) != DP_OK)
+        return false;
+    const float at = (float)z, w = p.ortho ? 1.0f : at, clip = dp_pipeline_clip(&p, at);
+    const float window = dp_pipeline_window(&p, at);
+    *out = (shader_depth){.clip_z = clip,
+                          .clip_w = w,
+                          .ndc = clip / w,
+                          .window = window,
+                          .eye = decoded(setup, decode_usual(setup), window),
+                          .linear01 = decoded(setup, &decode_rows[DECODE_LINEAR_01], window),
+                          .from_near = decoded(setup, &decode_rows[DECODE_LINEAR_01_NEAR], window)};
+    return true;
+}
+
+shader_corners shader_corners_of(const texture_camera *c) {
+    const double n = c->setup.spec.znear, scale = c->ortho ? 1 : n;
+    shader_corners out = {.to_right = c->half[0] * scale, .to_top = c->half[1] * scale};
+    for (int i = 0; i < 4; i++) {
+        out.ray[i][0] = ((i % 2 == 0 ? -1 : 1) - c->centre[0]) * c->half[0];
+        out.ray[i][1] = ((i < 2 ? 1 : -1) - c->centre[1]) * c->half[1];
+        out.ray[i][2] = c->ortho ? n : 1;
+    }
+    return out;
+}
+
+/* ---- Traps ------------------------------------------------------------------------------------------------------- */
+
+/* 1/((1 - n/f) d + f/n) f with d = f (z - n)/((f - n) z): the first product is (z - n)/z. */
+static double inverted_x(const dp_setup *s, double z) {
+    const double n = s->spec.znear, f = s->spec.zfar;
+    return f / ((z - n) / z + f / n);
+}
+
+static double doubled_product(const dp_setup *s, double z) {
+    (void)s;
+    return 2 * z;
+}
+
+/* 1/z is linear in d, and 2 d - 1 is as far before d as d is before 1: 2/z - 1/f. */
+static double ndc_as_depth(const dp_setup *s, double z) {
+    return 1 / (2 / z - 1 / s->spec.zfar);
+}
+
+static double other_direction(const dp_setup *s, double z) {
+    const double n = s->spec.znear, f = s->spec.zfar;
+    return 1 / ((z - n) / (n * z) + 1 / f);
+}
+
+/* 1/z is 1/n at near and 1/f at far; depth is as far from both. */
+static double perspective_of_ortho(const dp_setup *s, double z) {
+    const double n = s->spec.znear, f = s->spec.zfar, share = (z - n) / (f - n);
+    return 1 / ((1 - share) / n + share / f);
+}
+
+static double linear_of_perspective(const dp_setup *s, double z) {
+    const double n = s->spec.znear, f = s->spec.zfar;
+    return n + f * (z - n) / z;
+}
+
+static const char slip[] = "an article's slip";
+
+/* clang-format off */
+static const trap_row rows[] = {
+    {.name = "inverted-x", .formula = "_ZBufferParams.x = 1 - near/far", .right = "1 - far/near", .source = slip,
+     .standard = true, .reads = inverted_x},
+    {.name = "doubled-product", .formula = "d = f/(f - n) - 2 f n/((f - n) z)", .right = "f n in place of 2 f n",
+     .source = slip, .standard = true, .far_infinite = true, .reads = doubled_product},
+    {.name = "ndc-as-depth", .formula = "LinearEyeDepth(lerp(UNITY_NEAR_CLIP_VALUE, 1, d))",
+     .right = "LinearEyeDepth(d)",
+     .source = "shaders that need NDC for a position, and go on with it", .standard = true, .ndc_signed = true,
+     .far_infinite = true, .reads = ndc_as_depth},
+    {.name = "other-direction", .formula = "LinearEyeDepth(1 - d)", .right = "LinearEyeDepth(d)",
+     .source = "constants or a depth of the other direction, UNITY_REVERSED_Z mixed up",
+     .standard = true, .reversed = true, .far_infinite = true, .reads = other_direction},
+    {.name = "perspective-of-ortho", .formula = "LinearEyeDepth(d)", .right = "LinearDepthToEyeDepth(d)",
+     .source = "Common.hlsl: does not work with orthographic projection", .ortho = true, .reads = perspective_of_ortho},
+    {.name = "linear-of-perspective", .formula = "near + (far - near) d", .right = "LinearEyeDepth(d)",
+     .source = "a raw depth taken for a linear one", .standard = true, .reversed = true,
+     .reads = linear_of_perspective},
+};
+/* clang-format on */
+
+const trap_row *trap_get(size_t index) {
+    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+}
+
+double trap_reads(const trap_row *row, const dp_setup *setup, double z) {
+    const dp_mapping_row *mapping = dp_mapping_get(setup->spec.mapping);
+    const bool kind = setup->spec.ortho ? row->ortho : setup->reversed ? row->reversed : row->standard;
+    const bool far = !isinf(setup->spec.zfar) || row->far_infinite;
+    const bool is_trap = kind && far && mapping->curve == DP_CURVE_PERSPECTIVE && setup->spec.znear > 0 &&
+                         (mapping->ndc_signed || !row->ndc_signed);
+    return is_trap ? row->reads(setup, z) : (double)NAN;
+}

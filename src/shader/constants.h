@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file constants.h  What a shader is given of a camera, what it makes of a depth, and formulas that are nearly right.
+ */
+#ifndef SHADER_CONSTANTS_H
+#define SHADER_CONSTANTS_H
+
+#include "shader/camera.h"
+#include "shader/decode.h"
+
+/** Unity's, in binary32 as the shader sees them; what an infinite far plane makes infinite is. */
+typedef struct shader_constants {
+    zbuffer_params zbuffer; /**< _ZBufferParams */
+    struct {
+        float flip, znear, zfar, per_far;
+    } projection;    /**< _ProjectionParams; flip: 1, -1 in a flipped target */
+    float near_clip; /**< UNITY_NEAR_CLIP_VALUE: NDC depth of the near plane */
+} shader_constants;
+
+shader_constants shader_constants_of(const dp_setup *setup);
+
+/** A depth on its way into the buffer and back, each in binary32. */
+typedef struct shader_depth {
+    float clip_z, clip_w, ndc, window;
+    float eye;                 /**< LinearEyeDepth, orthographic LinearDepthToEyeDepth */
+    float linear01, from_near; /**< Linear01Depth, Linear01DepthFromNear; NaN where they are not defined */
+} shader_depth;
+
+/** @return false for a mapping without a matrix */
+bool shader_depth_of(const dp_setup *setup, double z, shader_depth *out);
+
+/** The frustum's corners in view space: top left, top right, bottom left, bottom right. */
+typedef struct shader_corners {
+    double ray[4][3];        /**< at eye depth 1, by which a depth is multiplied; orthographic: at near */
+    double to_right, to_top; /**< half the width and half the height of the near plane */
+} shader_corners;
+
+shader_corners shader_corners_of(const texture_camera *camera);
+
+/** A formula that is found in articles and shaders, and is not right: what it reads is an eye depth. */
+typedef struct trap_row {
+    const char *name, *formula, *right, *source;
+    bool standard, reversed, ortho; /**< which set-ups it is a trap of */
+    bool ndc_signed, far_infinite;  /**< of OpenGL's NDC alone; of an infinite far plane, too */
+    double (*reads)(const dp_setup *setup, double z);
+} trap_row;
+
+const trap_row *trap_get(size_t index); /**< null beyond the last */
+
+/** What it takes a surface at z for, within 2^-40 of exactly; NaN where it is no trap of the set-up. Between the
+ * planes, near above 0. */
+double trap_reads(const trap_row *row, const dp_setup *setup, double z);
+
+#endif

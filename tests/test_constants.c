@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Constants of a camera and depths as shaders have them, against their definitions in long double; the traps by doing
+ * what each of them does. */
+#include <math.h>
+#include <string.h>
+
+#include "shader/constants.h"
+#include "support.h"
+#include "views.h"
+
+static dp_setup setup_of(dp_mapping mapping, bool ortho, double znear, double zfar) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.mapping = mapping;
+    spec.ortho = ortho;
+    spec.znear = znear;
+    spec.zfar = zfar;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED, DP_MAPPING_GL_REVERSED};
+static const float near_clips[] = {0, -1, 1, 1};
+
+/* (1 - f/n, f/n, x/f, y/f), reversed (f/n - 1, 1, x/f, 1/f), and the limits of an infinite far plane. */
+static void constants_are_as_documented(void **state) {
+    (void)state;
+    rng r = rng_make("constants");
+    for (int i = 0; i < 4000; i++) {
+        const double n = rng_log(&r, 1e-3, 10), f = i % 5 == 0 ? INFINITY : n * (1 + rng_log(&r, 1e-3, 1e6));
+        const dp_setup setup = setup_of(mappings[i % 4], false, n, f);
+        const shader_constants c = shader_constants_of(&setup);
+        const long double ratio = (long double)f / n, per_far = 1 / (long double)f, per_near = 1 / (long double)n;
+        const bool reversed = i % 4 >= 2;
+        const long double want[4] = {reversed ? ratio - 1 : 1 - ratio, reversed ? 1 : ratio,
+                                     reversed ? per_near - per_far : per_far - per_near, reversed ? per_far : per_near};
+        const float got[4] = {c.zbuffer.x, c.zbuffer.y, c.zbuffer.z, c.zbuffer.w};
+        for (int k = 0; k < 4; k++)
+            assert_true(isinf(want[k]) ? (long double)got[k] == want[k]
+                                       : fabsl(got[k] - want[k]) <= 0x1.000002p-24L * fabsl(want[k]) + 0x1p-150L);
+        assert_true(c.projection.flip == 1 && c.projection.znear == (float)n && c.projection.zfar == (float)f &&
+                    c.projection.per_far == (float)(1 / f) && c.near_clip == near_clips[i % 4]);
+    }
+}
+
+/* Clip z of the projection matrix as documented, and what LinearEyeDepth and its kin are of a depth. */
+static void depths_are_as_documented(void **state) {
+    (void)state;
+    rng r = rng_make("depths");
+    tally t = {.name = "depths"};
+    for (int i = 0; i < 20000; i++) {
+        const bool ortho = i % 3 == 0, reversed = i % 4 >= 2, ndc_signed = i % 2 == 1;
+        const double n = rng_log(&r, 0.01, 10), f = n * rng_log(&r, 10, 1e4),
+                     z = (double)(float)rng_log(&r, n * 1.01, f);
+        const dp_setup setup = setup_of(mappings[i % 4], ortho, n, f);
+        const long double share = ((long double)z - n) / ((long double)f - n), ln = n, lf = f, lz = z;
+        const long double standard = ortho ? share : lf * share / lz, d = reversed ? 1 - standard : standard;
+        const long double ndc = ndc_signed ? 2 * d - 1 : d, w = ortho ? 1 : lz;
+        /* A z and B are rounded before they cancel, and so is the window depth */
+        const long double lost = 0x1p-21L * (ortho ? (lz + ln + lf) / (lf - ln) : 1 + ln / lz);
+        const long double back = ortho ? lf : lz * lz / ln; /* of eye depth, a unit of d */
+        shader_depth got;
+        assert_true(shader_depth_of(&setup, z, &got));
+        TALLY(&t, got.clip_w == (float)w && fabsl(got.clip_z - ndc * w) <= lost * w, "clip %g, %g", (double)got.clip_z,
+              (double)(ndc * w));
+        TALLY(&t, fabsl(got.ndc - ndc) <= lost && fabsl(got.window - d) <= lost, "NDC %g, window %g of %g",
+              (double)got.ndc, (double)got.window, (double)d);
+        TALLY(&t, fabsl(got.eye - lz) <= lost * back * 2 + 0x1p-20L * lz, "eye %.9g of %.9g", (double)got.eye, z);
+        TALLY(&t, ortho == isnan(got.linear01) && ortho == isnan(got.from_near), "01 of an orthographic depth");
+        TALLY(&t,
+              ortho || (fabsl(got.linear01 - lz / lf) <= (lost * back * 2 + 0x1p-20L * lz) / lf &&
+                        fabsl(got.from_near - share) <= (lost * back * 2 + 0x1p-20L * lz) / (lf - ln)),
+              "01 %g, from near %g, z %g", (double)got.linear01, (double)got.from_near, z);
+    }
+    tally_end(&t);
+    shader_depth none;
+    const dp_setup log = setup_of(DP_MAPPING_LOG, false, 0.1, 1000);
+    assert_false(shader_depth_of(&log, 10, &none));
+}
+
+/* A corner's ray, times a depth, is where the corner of the picture is at it: half a pixel beyond the last ones. */
+static void corners_are_those_of_the_picture(void **state) {
+    (void)state;
+    for (int ortho = 0; ortho < 2; ortho++) {
+        const texture_camera c = view_camera("fp32", DP_MAPPING_D3D, 0.5, 100, ortho != 0, 320, 180, ortho ? 5 : 60);
+        const shader_corners got = shader_corners_of(&c);
+        const double top = ortho ? 5 : tan(60 * 3.14159265358979323846 / 360), right = top * 320 / 180;
+        assert_relative(got.to_top, ortho ? top : 0.5 * top, 1e-14);
+        assert_relative(got.to_right, ortho ? right : 0.5 * right, 1e-14);
+        for (int i = 0; i < 4; i++) {
+            assert_relative(got.ray[i][0], i % 2 == 0 ? -right : right, 1e-14);
+            assert_relative(got.ray[i][1], i < 2 ? top : -top, 1e-14);
+            assert_true(got.ray[i][2] == (ortho ? 0.5 : 1));
+        }
+    }
+}
+
+/* ---- Traps ------------------------------------------------------------------------------------------------------- */
+
+static const trap_row *trap_find(const char *name) {
+    size_t i = 0;
+    while (trap_get(i) != NULL && strcmp(trap_get(i)->name, name) != 0)
+        i++;
+    assert_non_null(trap_get(i));
+    return trap_get(i);
+}
+
+/* The depth that is stored of z, and LinearEyeDepth, both of the direction that is asked for. */
+static long double stored(long double n, long double f, long double z, bool ortho, bool reversed) {
+    const long double d = ortho ? (z - n) / (f - n) : (1 - n / z) / (1 - n / f);
+    return reversed ? 1 - d : d;
+}
+static long double linear_eye(long double n, long double f, long double d, bool reversed) {
+    return reversed ? 1 / ((1 / n - 1 / f) * d + 1 / f) : 1 / ((1 / f - 1 / n) * d + 1 / n);
+}
+
+/* What each of them does, step by step. */
+static long double trapped(const char *name, long double n, long double f, long double z, bool ortho, bool reversed) {
+    const long double d = stored(n, f, z, ortho, reversed), infinite = isinf(f);
+    if (strcmp(name, "inverted-x") == 0)
+        return f / ((1 - n / f) * d + f / n);
+    if (strcmp(name, "doubled-product") == 0) /* solved for z */
+        return infinite ? 2 * n / (1 - d) : 2 * f * n / ((f - n) * (f / (f - n) - d));
+    if (strcmp(name, "ndc-as-depth") == 0)
+        return linear_eye(n, f, -1 + (1 - -1) * d, reversed);
+    if (strcmp(name, "other-direction") == 0)
+        return linear_eye(n, f, 1 - d, reversed);
+    if (strcmp(name, "perspective-of-ortho") == 0)
+        return linear_eye(n, f, d, reversed);
+    assert_string_equal(name, "linear-of-perspective");
+    return reversed ? f - (f - n) * d : n + (f - n) * d;
+}
+
+static void traps_read_what_they_read(void **state) {
+    (void)state;
+    rng r = rng_make("traps");
+    tally t = {.name = "traps"};
+    size_t seen[16] = {0}, count = 0;
+    for (int k = 0; k < 40000; k++) {
+        const dp_mapping mapping = mappings[k % 4];
+        const bool ortho = k % 7 == 0, reversed = k % 4 >= 2;
+        const double n = rng_log(&r, 0.01, 10), f = k % 5 == 0 && !ortho ? INFINITY : n * rng_log(&r, 2, 1e4);
+        const double z = rng_log(&r, n * 1.001, isinf(f) ? n * 1e4 : f);
+        const dp_setup setup = setup_of(mapping, ortho, n, f);
+        for (count = 0; trap_get(count) != NULL; count++) {
+            const trap_row *row = trap_get(count);
+            const double got = trap_reads(row, &setup, z);
+            if (isnan(got))
+                continue;
+            const long double want = trapped(row->name, n, f, z, ortho, reversed);
+            TALLY(&t, fabsl(got - want) <= 1e-9L * fabsl(want), "%s at %g between %g and %g: %.12g, not %.12Lg",
+                  row->name, z, n, f, got, want);
+            TALLY(&t, ortho == row->ortho && (!row->ndc_signed || k % 4 == 1), "%s is no trap here", row->name);
+            seen[count]++;
+        }
+    }
+    for (size_t i = 0; i < count; i++)
+        assert_true(seen[i] > 1000);
+    tally_end(&t);
+}
+
+/* What the articles' cameras show. */
+static void known_traps(void **state) {
+    (void)state;
+    const dp_setup gl = setup_of(DP_MAPPING_GL, false, 0.1, 1000), d3d = setup_of(DP_MAPPING_D3D, false, 0.3, 1000);
+    assert_scene(trap_reads(trap_find("ndc-as-depth"), &gl, 10), 5.0251256, 1e-6);
+    assert_scene(trap_reads(trap_find("inverted-x"), &d3d, 10), 0.2999127, 1e-6);
+    assert_scene(trap_reads(trap_find("doubled-product"), &d3d, 10), 20, 1e-12);
+    assert_true(isnan(trap_reads(trap_find("ndc-as-depth"), &d3d, 10)));
+}
+
+/* Each with its formula, and what it reads of a depth of 10. */
+static void traps_are_listed(void **state) {
+    (void)state;
+    printed p = print_of("list traps --full");
+    const char *at = p.out;
+    for (size_t i = 0; trap_get(i) != NULL; i++) {
+        const trap_row *row = trap_get(i);
+        double reads;
+        at = strstr(at, row->name);
+        assert_non_null(at);
+        assert_non_null(strstr(at, row->formula));
+        at = strstr(at, "  reads       ");
+        assert_true(at != NULL && sscanf(at, " reads %lf", &reads) == 1);
+        assert_relative(reads, (double)trapped(row->name, 0.3L, 1000, 10, row->ortho, false), 1e-5);
+    }
+    printed_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(constants_are_as_documented),
+        cmocka_unit_test(depths_are_as_documented),
+        cmocka_unit_test(corners_are_those_of_the_picture),
+        cmocka_unit_test(traps_read_what_they_read),
+        cmocka_unit_test(known_traps),
+        cmocka_unit_test(traps_are_listed),
+    };
+    return run_tap(tests);
+}
