@@ -51,6 +51,7 @@ web   | command wasm-ld                               | lld                   | 
 web   | file lib/wasm32-wasi/libc.a                   | wasi-libc             | -                  | -
 web   | file lib/llvm*/lib/clang/*/lib/wasi/*wasm32.a | libclang-rt-dev-wasm32 | -                 | -
 web   | command node                                  | nodejs                | nodejs             | nodejs
+web   | command zopfli                                | zopfli                | zopfli             | zopfli
 browser | command chromium                            | chromium              | chromium           | chromium
 browser | command npm                                 | npm                   | nodejs-npm         | npm
 cross | command aarch64-linux-gnu-gcc                 | gcc-aarch64-linux-gnu | -                  | -

@@ -40,17 +40,17 @@ enum { DESCRIPTION_SIZE = 1024 };
 /* "what it does (LEAST to MOST UNIT; default D: what that means)". */
 static const char *describe(const option_use *use, char out[DESCRIPTION_SIZE]) {
     const option_row *row = &option_rows[use->id];
-    const char *help = use->help != NULL ? use->help : row->help, *standard, *without;
+    const char *help = use->own->help != NULL ? use->own->help : row->help, *standard, *without;
     char text[OPTION_TEXT_SIZE];
     const int before = (int)strcspn(help, "@");
-    const bool named = help[before] != '\0', limited = row->least < row->most && use->parse == NULL;
+    const bool named = help[before] != '\0', limited = row->least < row->most && use->own->parse == NULL;
     option_default(use, &standard, &without);
     out[0] = '\0';
     append(out, DESCRIPTION_SIZE, "%.*s", before, help);
     if (named)
         append(out, DESCRIPTION_SIZE, "%s%s", names_join(row->names, ", ", ", ", text), help + before + 1);
-    if (use->also != NULL)
-        append(out, DESCRIPTION_SIZE, "; %s", use->also);
+    if (use->own->also != NULL)
+        append(out, DESCRIPTION_SIZE, "; %s", use->own->also);
     if (limited)
         append(out, DESCRIPTION_SIZE, " (%s", option_limits(row, text));
     if (standard != NULL || without != NULL)
@@ -80,7 +80,7 @@ static void list_options(page *p, const command_row *v) {
     const char *group = NULL, *shown = NULL;
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];
-        const option_use general = {.id = (option_id)id};
+        const option_use general = {.id = (option_id)id, .own = &option_plain};
         const option_use *use = v != NULL ? option_used(v, parts, (option_id)id) : &general;
         char label[128], text[DESCRIPTION_SIZE], takers[OPTION_TEXT_SIZE];
         group = row->group != NULL ? row->group : group;

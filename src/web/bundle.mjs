@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One file of all: bundle.mjs MODULE.wasm OUT.html. Style, script and the module (gzip, base64) go into page.html; the
 // policy allows just these by their hashes, and no network. Modules are joined because file:// cannot import.
+import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
-import { gzipSync } from "node:zlib";
 
 const [wasm, out] = process.argv.slice(2);
 const read = (name) => readFileSync(new URL(name, import.meta.url), "utf8");
@@ -30,7 +30,7 @@ const parts = {
         "worker-src blob:", "img-src data: blob:", "base-uri 'none'", "form-action 'none'"].join("; "),
     style,
     script: code,
-    module: gzipSync(readFileSync(wasm), { level: 9 }).toString("base64"),
+    module: execFileSync("zopfli", ["-c", wasm], { maxBuffer: 1 << 24 }).toString("base64"),
 };
 if (code.includes("</script") || style.includes("</style")) throw new Error("a part ends its element");
 const page = short(read("page.html").replaceAll(/<!--[^]*?-->/g, "")).replaceAll(/@(\w+)@/g, (_, name) => parts[name]);

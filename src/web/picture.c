@@ -29,22 +29,22 @@ static void let_go(void) {
 
 /* Of several cameras, mappings and depths the first; of formats the first that the rasterizer draws. */
 static int make(const options *all) {
-    options o;
+    const options *o = options_of(all, 0);
+    const options_camera *c = &o->camera;
     size_t format = 0;
-    options_of(all, 0, &o);
-    const raster_row *row = o.camera.raster != NULL ? o.camera.raster : raster_find("llvmpipe");
-    while (format + 1 < o.camera.format_count && !raster_draws(row, &o.camera.formats[format]))
+    const raster_row *row = c->raster != NULL ? c->raster : raster_find("llvmpipe");
+    while (format + 1 < c->format_count && !raster_draws(row, &c->formats[format]))
         format++;
-    const dp_spec spec = {.znear = o.camera.znear,
-                          .zfar = o.camera.zfar,
-                          .ortho = o.camera.ortho,
-                          .mapping = o.camera.mappings[0],
-                          .format = o.camera.formats[format],
-                          .rounding = o.camera.rounding,
-                          .log_c = o.camera.log_c};
-    const double z = o.camera.at.count > 0 ? depths_get(&o.camera.at, 0) : (double)NAN;
+    const dp_spec spec = {.znear = c->znear,
+                          .zfar = c->zfar,
+                          .ortho = c->ortho,
+                          .mapping = c->mappings[0],
+                          .format = c->formats[format],
+                          .rounding = c->rounding,
+                          .log_c = c->log_c};
+    const double z = c->at.count > 0 ? depths_get(&c->at, 0) : (double)NAN;
     const char *wrong = draw_picture_open(&picture, &spec, row, z);
-    unit = options_unit(&o);
+    unit = options_unit(o);
     return wrong == NULL ? EXIT_FINE : usage_error("%s: %s", row->name, wrong);
 }
 

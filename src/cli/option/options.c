@@ -39,14 +39,14 @@ static void set_defaults(options *o) {
 
 static int parse_use(options *o, const option_use *use, const char *argument) {
     const option_row *row = &option_rows[use->id];
-    return (use->parse != NULL ? use->parse : row->parse)(o, row, argument);
+    return (use->own->parse != NULL ? use->own->parse : row->parse)(o, row, argument);
 }
 
 static void set_own_defaults(options *o) {
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_use *use = option_used(o->command, o->parts, (option_id)id);
-        if (use != NULL && use->standard != NULL && !option_given(o, (option_id)id))
-            parse_use(o, use, use->standard);
+        if (use != NULL && use->own->standard != NULL && !option_given(o, (option_id)id))
+            parse_use(o, use, use->own->standard);
     }
 }
 
@@ -124,7 +124,7 @@ static int unknown_option(const options *o, int refused, const char *argument) {
 static int wrong_command(const options *o, option_id id) {
     const option_row *row = &option_rows[id];
     char takers[OPTION_TEXT_SIZE];
-    return option_error(id, "is not an option of %s, but of %s%s", o->command->name, command_takers(id, takers),
+    return option_error(id, "is not an option of %s, but of %s%s", o->command->name, command_takers((int)id, takers),
                         row->instead != NULL ? row->instead : "");
 }
 

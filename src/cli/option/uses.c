@@ -4,10 +4,12 @@
 #include "core/append.h"
 #include "plot/figure.h"
 
+const option_own option_plain = {0};
+
 /* clang-format off */
 /* An option as its row has it, or with a command's own words; a group of them, or a group for some parts alone. */
-#define TAKE(option)     {.id = OPTION_##option}
-#define OWN(option, ...) {.id = OPTION_##option, __VA_ARGS__}
+#define TAKE(option)     {.id = OPTION_##option, .own = &option_plain}
+#define OWN(option, ...) {.id = OPTION_##option, .own = &(const option_own){__VA_ARGS__}}
 #define GROUP(of)        {.group = (of)}
 #define FOR(these, of)   {.group = (of), .parts = (these)}
 #define END              {.id = OPTION_COUNT}
@@ -234,8 +236,8 @@ const option_use list_uses[] = {
 enum { SLANTED = FIGURE_SLANTED | FIGURE_MODEL, VIEWED = SLANTED | FIGURE_DRAWN | FIGURE_SHADOW };
 static const option_use of_cameras[] = {TAKE(NEAR), TAKE(FAR), TAKE(FORMAT), TAKE(MAPPING), END};
 static const option_use of_setups[] = {
-    OWN(NEAR, ALSO("with --ortho also 0 or negative")), TAKE(ORTHO), {.id = OPTION_TOLERANCE,
-        WITHOUT("5% for the model; intervals are as exact as the picture shows")},
+    OWN(NEAR, ALSO("with --ortho also 0 or negative")), TAKE(ORTHO), OWN(TOLERANCE,
+        WITHOUT("5% for the model; intervals are as exact as the picture shows")),
     OWN(MODEL, DEFAULT("exact"), WITHOUT("float in figures of its pipeline; staged in distribution and share with gl "
         "and gl-reversed")), END};
 static const option_use of_setups_and_models[] = {
@@ -365,19 +367,19 @@ int option_check_parts(const options *o) {
 
 void option_default(const option_use *use, const char **standard, const char **without) {
     const option_row *row = &option_rows[use->id];
-    const bool own = use->standard != NULL || use->without != NULL;
-    *standard = own ? use->standard : row->standard;
-    *without = own ? use->without : row->without;
+    const bool own = use->own->standard != NULL || use->own->without != NULL;
+    *standard = own ? use->own->standard : row->standard;
+    *without = own ? use->own->without : row->without;
     if (*without != NULL && **without == '\0')
         *without = NULL;
 }
 
 const char *option_use_argument(const option_use *use, char out[OPTION_TEXT_SIZE]) {
     out[0] = '\0';
-    append(out, OPTION_TEXT_SIZE, "%s", use->argument != NULL ? use->argument : "");
-    return use->argument != NULL ? out : option_argument(&option_rows[use->id], out);
+    append(out, OPTION_TEXT_SIZE, "%s", use->own->argument != NULL ? use->own->argument : "");
+    return use->own->argument != NULL ? out : option_argument(&option_rows[use->id], out);
 }
 
 const char *option_use_optional(const option_use *use) {
-    return use->optional != NULL ? use->optional : option_rows[use->id].optional;
+    return use->own->optional != NULL ? use->own->optional : option_rows[use->id].optional;
 }

@@ -11,18 +11,26 @@
 
 #include "cli/option/rows.h"
 
+/** What is a command's own of an option; null where it is as the row has it. */
+typedef struct option_own {
+    const char *argument; /**< how help writes the argument */
+    const char *optional; /**< an argument that may be left out, and is written behind "=" */
+    const char *help;     /**< what it does */
+    const char *also;     /**< what it does beside that */
+    const char *standard; /**< the default, which is read as if it were typed, */
+    const char *without;  /**< and what it means, or holds without the option; "": nothing is said of it */
+    option_parser *parse; /**< another language than the row's */
+} option_own;
+
 typedef struct option_use {
     option_id id;
-    const char *argument;           /**< how help writes the argument */
-    const char *optional;           /**< an argument that may be left out, and is written behind "=" */
-    const char *help;               /**< what it does */
-    const char *also;               /**< what it does beside that */
-    const char *standard;           /**< the default, which is read as if it were typed, */
-    const char *without;            /**< and what it means, or holds without the option; "": nothing is said of it */
-    option_parser *parse;           /**< another language than the row's */
-    unsigned parts;                 /**< the parts of the command that take it, see options.h; 0: all of them */
+    unsigned parts;                 /**< the parts of the command that take it, see commands.h; 0: all of them */
+    const option_own *own;          /**< not null */
     const struct option_use *group; /**< in place of an option: all of these */
 } option_use;
+
+/** Nothing of its own. */
+extern const option_own option_plain;
 
 /** The uses of each command, for commands.c; and what its parts are, which one is asked for. */
 extern const option_use table_uses[], budget_uses[], solve_uses[], check_uses[], zfight_uses[], prepass_uses[],

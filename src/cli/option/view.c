@@ -90,7 +90,7 @@ int slant_view(options *o) {
 
 /* From an eye in a model surfaces slant. */
 static bool is_slanted(const options *o, const option_use *viewport) {
-    return option_given(o, OPTION_VIEWPORT) || o->census.drawn || viewport->standard != NULL ||
+    return option_given(o, OPTION_VIEWPORT) || o->census.drawn || viewport->own->standard != NULL ||
            option_given(o, OPTION_EYE) || option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
 }
 
