@@ -23,7 +23,7 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"
      "  depthprec table -n 0.1 -f 1000 -F d24 -m d3d --link\n",
-     .group = "A camera", .part = table_part, .parts = table_parts},
+     .group = "A camera", .part = table_asked, .parts = table_parts},
     [CMD_BUDGET] = {"budget", CMD_BUDGET, budget_uses, "", 0, 0, NULL,
      .summary = "how much of the separation each cause takes",
      .example = "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
@@ -35,7 +35,7 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec solve -F unorm24 -m d3d -f 10000 --separation 0.01 --at 5000\n"
      "  depthprec solve -n 0.1 -f 4000 --separation 0.001 --range 0.1:100\n"
      "  depthprec solve --for far -n 0.1 -F d24 -m d3d --error 0.05 --at 500\n",
-     .part = solve_part, .parts = solve_parts},
+     .part = solve_asked, .parts = solve_parts},
     [CMD_CHECK] = {"check", CMD_CHECK, check_uses, "FILE...", 1, 1000, NULL,
      .summary = "cameras against requirement files; exit 1 if one is missed",
      .example = "  depthprec check engine.need\n"
@@ -77,14 +77,14 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
      "  depthprec texture depth.png -f 1000 --product normal:high -o normals.npy\n"
      "  depthprec texture --synthetic decals --parameter gap=0.01 -F d24 -m reversed\n",
-     .files_from = 1, .part = texture_part, .parts = texture_parts},
+     .files_from = 1, .part = texture_asked, .parts = texture_parts},
     [CMD_SHADOW] = {"shadow", CMD_SHADOW, shadow_uses, "", 0, 0, NULL,
      .summary = "shadow maps: the bias without acne, and its gap",
      .example = "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
      "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
      "  depthprec shadow -f 300 --cascades 3:0.8 --api all\n"
      "  depthprec plot shadow -f 150 -o shadow.svg\n",
-     .part = shadow_part, .parts = shadow_parts},
+     .part = shadow_asked, .parts = shadow_parts},
     [CMD_METHODS] = {"methods", CMD_METHODS, methods_uses, "FAMILY", 0, 1, &families,
      .summary = "ways to a quantity: time, worst error, where they fail",
      .example = "  depthprec methods\n"
@@ -107,7 +107,7 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec plot fight -F fp32 -m reversed --at 500 -o fight.svg\n"
      "  depthprec plot needs engine.need -o needs.svg\n"
      "  depthprec plot scene house.glb -F d24 -m d3d -o house.svg\n",
-     .files_from = 2, .group = "Figures, lists and help", .part = plot_part,
+     .files_from = 2, .group = "Figures, lists and help", .part = plot_asked,
      .shown = FIGURE_SETUPS | FIGURE_AT | FIGURE_SLANTED},
     [CMD_LIST] = {"list", CMD_LIST, list_uses, "WHAT", 0, 1, &topics,
      .summary = "formats, mappings, presets, methods: 'list' names all",

@@ -53,7 +53,7 @@ enum {
     FIGURE_MODEL = 1 << 10,    /**< a model and what was found in it; the camera is that of the command scene */
     FIGURE_SETUPS = 1 << 11,   /**< set-ups, as the options of a camera say them */
     FIGURE_SHADOW = 1 << 7,    /**< shadow maps, whose cameras are not that of the view */
-    FIGURE_STAGED = 1 << 11,   /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
+    FIGURE_STAGED = 1 << 12,   /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
 };
 
 /**

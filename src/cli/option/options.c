@@ -278,7 +278,7 @@ int options_parse(options *o, int argc, char **argv) {
         return status;
     o->parts = option_parts(o);
     set_own_defaults(o);
-    status = option_check_parts(o);
+    status = option_check_parts(o, o->command);
     return status == EXIT_FINE ? options_complete(o) : status;
 }
 

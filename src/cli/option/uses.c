@@ -287,26 +287,26 @@ const command_part texture_parts[] = {{"to an effect alone that needs no positio
                                       {"with FILE or --synthetic", TEXTURE_IMAGE},
                                       {NULL, 0}};
 
-size_t table_part(const options *o) {
+size_t table_asked(const options *o) {
     return o->wanted.looked_up.count > 0;
 }
 
-size_t solve_part(const options *o) {
+size_t solve_asked(const options *o) {
     return o->wanted.target == SOLVE_FOR_FRUSTA;
 }
 
-size_t shadow_part(const options *o) {
+size_t shadow_asked(const options *o) {
     return option_given(o, OPTION_LIGHT_BOX);
 }
 
-size_t texture_part(const options *o) {
+size_t texture_asked(const options *o) {
     if (o->image.effect == NULL || o->operand_count > 0 || o->image.synthetic != NULL)
         return 2;
     return (o->image.effect->needs & EFFECT_POSITION) != 0;
 }
 
 /* A figure is a part of plot. */
-size_t plot_part(const options *o) {
+size_t plot_asked(const options *o) {
     size_t i = 0;
     while (figure_get(i) != o->operand_row)
         i++;
@@ -344,23 +344,24 @@ const option_use *option_used(const command_row *v, unsigned parts, option_id id
 
 enum { OTHERS_NAMED = 6 }; /* more parts are no help */
 
-int option_check_parts(const options *o) {
+int option_check_parts(const options *o, const command_row *v) {
     char names[OPTION_TEXT_SIZE] = "";
     command_part now, part;
-    const char *lead = o->command->id == CMD_PLOT ? "to the figure " : "";
-    if (o->command->part == NULL || !option_part_get(o->command, o->command->part(o), &now))
+    const char *lead = v->id == CMD_PLOT ? "to the figure " : "";
+    if (v->part == NULL || !option_part_get(v, v->part(o), &now))
         return EXIT_FINE;
     for (int id = 0; id < OPTION_COUNT; id++) {
-        if (!option_given(o, (option_id)id) || option_used(o->command, now.bits, (option_id)id) != NULL)
-            continue;
         size_t others = 0;
-        for (size_t i = 0; option_part_get(o->command, i, &part); i++)
-            if (option_used(o->command, part.bits, (option_id)id) != NULL)
+        if (!option_given(o, (option_id)id) || option_used(v, now.bits, (option_id)id) != NULL)
+            continue;
+        for (size_t i = 0; option_part_get(v, i, &part); i++)
+            if (option_used(v, part.bits, (option_id)id) != NULL)
                 append(names, sizeof names, "%s%s", others++ > 0 ? ", " : "", part.words);
         if (others > OTHERS_NAMED)
             return option_refuse(&option_rows[id], "does not apply %s%s", lead, now.words);
-        return option_refuse(&option_rows[id], "does not apply %s%s, only %s%s%s", lead, now.words, lead, names,
-                             option_rows[id].instead != NULL ? option_rows[id].instead : "");
+        if (others > 0)
+            return option_refuse(&option_rows[id], "does not apply %s%s, only %s%s%s", lead, now.words, lead, names,
+                                 option_rows[id].instead != NULL ? option_rows[id].instead : "");
     }
     return EXIT_FINE;
 }

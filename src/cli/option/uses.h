@@ -37,8 +37,8 @@ extern const option_use table_uses[], budget_uses[], solve_uses[], check_uses[],
     bias_uses[], world_uses[], scene_uses[], texture_uses[], shadow_uses[], methods_uses[], probe_uses[], plot_uses[],
     list_uses[], no_uses[];
 extern const command_part table_parts[], solve_parts[], shadow_parts[], texture_parts[];
-size_t table_part(const options *o), solve_part(const options *o), shadow_part(const options *o),
-    texture_part(const options *o), plot_part(const options *o);
+size_t table_asked(const options *o), solve_asked(const options *o), shadow_asked(const options *o),
+    texture_asked(const options *o), plot_asked(const options *o);
 
 /** The use of an option by those parts of a command, ~0u for any; null where they do not take it. */
 const option_use *option_used(const command_row *v, unsigned parts, option_id id);
@@ -49,8 +49,9 @@ bool option_part_get(const command_row *v, size_t index, command_part *out);
 /** The bits of the part that is asked for, ~0u where the command has none. Operands are known. */
 unsigned option_parts(const options *o);
 
-/** Refuses an option that the part does not take. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-int option_check_parts(const options *o);
+/** Refuses an option of that command which the part of it that is asked for does not take. @return EXIT_FINE, or
+ * EXIT_USAGE after one line on stderr */
+int option_check_parts(const options *o, const command_row *v);
 
 /** The default of an option for a command, and what holds without it, each null where there is none. */
 void option_default(const option_use *use, const char **standard, const char **without);

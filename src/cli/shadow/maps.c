@@ -3,18 +3,18 @@
 
 #include <math.h>
 
-#include "cli/option/rows.h"
+#include "cli/option/uses.h"
 #include "cli/setups.h"
 #include "report/number.h"
 
 enum { SIDE_MAX = 32768 };
 
-/* A box has no view, and the depths of cascades follow from it. */
+/* A box has no view, and the depths of cascades follow from it: for the figure, too. */
 static int check_together(const options *o) {
     if (o->view.spec.width > SIDE_MAX || o->view.spec.height > SIDE_MAX)
         return option_error(OPTION_SIZE, "must be at most %d texels a side, got '%ux%u'", SIDE_MAX, o->view.spec.width,
                             o->view.spec.height);
-    return EXIT_FINE;
+    return option_check_parts(o, &command_rows[CMD_SHADOW]);
 }
 
 /*
