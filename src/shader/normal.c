@@ -130,9 +130,9 @@ DP_INLINE vector corner_cross(const corner *c) {
 /* The same of places in binary16, so narrow that nothing overflows; a place is at the depth times the slopes, or at the
  * slopes where `z`, `h` and `v` are 1. */
 DP_INLINE vector half_cross(const corner *c, float z, float h, float v) {
-    const float p[3] = {half_of(c->sx * z), half_of(c->sy * z), half_of(c->z)};
-    const vector a = {half_of(c->sx_h * h) - p[0], half_of(c->sy * h) - p[1], half_of(c->h) - p[2], 0};
-    const vector b = {half_of(c->sx * v) - p[0], half_of(c->sy_v * v) - p[1], half_of(c->v) - p[2], 0};
+    const float p[3] = {half_of(c->sx * z), half_of(c->sy * z), half_below(c->z)};
+    const vector a = {half_of(c->sx_h * h) - p[0], half_of(c->sy * h) - p[1], half_below(c->h) - p[2], 0};
+    const vector b = {half_of(c->sx * v) - p[0], half_of(c->sy_v * v) - p[1], half_below(c->v) - p[2], 0};
     return cross(a, b, c->opposed);
 }
 
@@ -244,7 +244,7 @@ DP_INLINE void sides_of(const normal_rows *in, uint8_t *sides, int step, side_ru
     }
 
 #define SINGLE(name, step, side) METHOD(name, step, side, side, corner_cross, corner_ortho, single_of)
-#define HALF(name, step, side)   METHOD(name, step, side, side, corner_half, corner_half_ortho, half_of)
+#define HALF(name, step, side)   METHOD(name, step, side, side, corner_half, corner_half_ortho, half_within)
 
 SINGLE(low, 1, side_quad)
 SINGLE(medium, 2, side_farther)
