@@ -32,17 +32,11 @@ static double plain_step(uint32_t bits) {
     return (double)dp_float32(bits + 1) - (double)dp_float32(bits);
 }
 
-/* The lesser guarantee at the ends of a block of depths. */
-static double plain_bound(const dp_setup *setup, uint32_t first) {
-    return fmin(dp_separation(setup, (double)dp_float32(first)),
-                dp_separation(setup, (double)dp_float32(first + PLAIN_BLOCK)));
-}
-
 /* d3d into fp32, one operation after the other. guaranteed: null where the guarantee is not asked for */
 PLAIN static plain_result plain_census(float a, float b, uint32_t first, size_t count, uint32_t *code, uint32_t *least,
                                        const dp_setup *guaranteed) {
     plain_result r = {0, 0, 0.0, 0.0};
-    double bound = HUGE_VAL;
+    double bound = HUGE_VAL, ahead = guaranteed != NULL ? dp_separation(guaranteed, (double)dp_float32(first)) : bound;
     for (size_t i = 0; i < count; i++) {
         const float z = dp_float32(first + (uint32_t)i);
         const float product = a * z;
@@ -62,8 +56,11 @@ PLAIN static plain_result plain_census(float a, float b, uint32_t first, size_t 
             end = i;
         while (end + 1 < count && least[end + 1] <= code[i])
             end++;
-        if (guaranteed != NULL && i % PLAIN_BLOCK == 0)
-            bound = plain_bound(guaranteed, first + (uint32_t)i);
+        if (guaranteed != NULL && i % PLAIN_BLOCK == 0) { /* the lesser one at both ends of a block */
+            const double here = ahead;
+            ahead = dp_separation(guaranteed, (double)dp_float32(first + (uint32_t)i + PLAIN_BLOCK));
+            bound = fmin(here, ahead);
+        }
         const double length = (double)dp_float32(first + (uint32_t)end) - (double)dp_float32(first + (uint32_t)i);
         if (least[end] > code[i] || code[end] > code[i] || end == i)
             continue;
