@@ -57,7 +57,7 @@ DP_INLINE mask side_farther(mask within, float z, float a, float a2, float b, fl
 
 /* Of numbers that are not negative, as their bits are ordered: NaN is greater than infinity. */
 DP_INLINE mask less(float a, float b) {
-    return (bits_of(a) - bits_of(b)) >> 31;
+    return -(mask)((dp_bits32(a) - dp_bits32(b)) >> 31);
 }
 
 DP_INLINE float missing_is_far(float x) {
