@@ -2,7 +2,8 @@
 /*
  * The census against a plain scalar one, as a ratio within one run: they take turns, and the least is shown with the
  * spread (largest over smallest). The plain one keeps all codes in one array and the least code from each depth on in
- * another, and is compiled at -O2 without vectors, as a first attempt would be.
+ * another, and is compiled at -O2 without vectors, as a first attempt would be. Each of the two answers with and
+ * without the guarantee: what zfight prints is how much of it the intervals use.
  */
 #include <math.h>
 #include <stdint.h>
@@ -11,9 +12,10 @@
 
 #include "aims.h"
 #include "census/census.h"
+#include "depthprec/depth.h"
 #include "timing.h"
 
-enum { RUNS = 5 };
+enum { RUNS = 5, PLAIN_BLOCK = 1024 };
 
 #if defined(__GNUC__) && !defined(__clang__)
 #define PLAIN __attribute__((optimize("O2", "no-tree-vectorize"), noinline))
@@ -23,13 +25,18 @@ enum { RUNS = 5 };
 
 typedef struct plain_result {
     uint64_t ties, swaps;
-    double longest;
+    double longest, used;
 } plain_result;
 
-/* d3d into fp32, one operation after the other. */
-PLAIN static plain_result plain_census(float a, float b, uint32_t first, size_t count, uint32_t *code,
-                                       uint32_t *least) {
-    plain_result r = {0, 0, 0.0};
+static double plain_step(uint32_t bits) {
+    return (double)dp_float32(bits + 1) - (double)dp_float32(bits);
+}
+
+/* d3d into fp32, one operation after the other. guaranteed: null where the guarantee is not asked for */
+PLAIN static plain_result plain_census(float a, float b, uint32_t first, size_t count, uint32_t *code, uint32_t *least,
+                                       const dp_setup *guaranteed) {
+    plain_result r = {0, 0, 0.0, 0.0};
+    double bound = HUGE_VAL, ahead = guaranteed != NULL ? dp_separation(guaranteed, (double)dp_float32(first)) : bound;
     for (size_t i = 0; i < count; i++) {
         const float z = dp_float32(first + (uint32_t)i);
         const float product = a * z;
@@ -49,9 +56,21 @@ PLAIN static plain_result plain_census(float a, float b, uint32_t first, size_t 
             end = i;
         while (end + 1 < count && least[end + 1] <= code[i])
             end++;
+        if (guaranteed != NULL && i % PLAIN_BLOCK == 0) { /* the lesser one at both ends of a block */
+            const double here = ahead;
+            ahead = dp_separation(guaranteed, (double)dp_float32(first + (uint32_t)i + PLAIN_BLOCK));
+            bound = fmin(here, ahead);
+        }
         const double length = (double)dp_float32(first + (uint32_t)end) - (double)dp_float32(first + (uint32_t)i);
-        if (least[end] <= code[i] && code[end] <= code[i] && length > r.longest)
+        if (least[end] > code[i] || code[end] > code[i] || end == i)
+            continue;
+        if (length > r.longest)
             r.longest = length;
+        if (guaranteed != NULL) {
+            const double halves = 0.5 * (plain_step(first + (uint32_t)i) + plain_step(first + (uint32_t)end));
+            const double used = (length + halves) / bound;
+            r.used = used > r.used ? used : r.used;
+        }
     }
     return r;
 }
@@ -93,36 +112,40 @@ static void against_plain(void) {
     uint32_t *code = malloc(count * sizeof *code);
     uint32_t *least = malloc(count * sizeof *least);
     static census_result result;
+    char text[64];
     dp_pipeline p;
-    timing plain = {0};
-    timing fast = {0};
-    timing zfight = {0};
-    const census_request q = {.setup = &setup, .lo = 256.0, .hi = 512.0, .threads = 1};
-    census_request asked = census_of_guarantee(&setup, 256.0, 512.0);
-    asked.threads = 1;
+    timing plain[2] = {{.count = 0}}, fast[2] = {{.count = 0}}; /* without the guarantee, and with it */
+    census_request q[2] = {{.setup = &setup, .lo = 256.0, .hi = 512.0}, census_of_guarantee(&setup, 256.0, 512.0)};
+    q[0].threads = q[1].threads = 1;
     if (code == NULL || least == NULL || dp_pipeline_init(&p, &setup) != DP_OK)
         exit(2);
-    plain_result r = plain_census(p.a, p.b, first, count, code, least); /* the first run brings the pages in */
-    timed(&q, &result);
-    if (r.ties != result.all.ties || r.swaps != result.all.swaps || r.longest > result.all.longest) {
-        fprintf(stderr, "bench_census: the two do not agree\n");
-        exit(2);
+    for (int run = -1; run < RUNS; run++) /* the first one brings the pages in */
+        for (int with = 0; with < 2; with++) {
+            const double start = timing_thread();
+            const plain_result r = plain_census(p.a, p.b, first, count, code, least, with ? &setup : NULL);
+            const double middle = timing_thread();
+            timed(&q[with], &result);
+            const double end = timing_thread();
+            if (run >= 0) {
+                timing_add(&plain[with], middle - start);
+                timing_add(&fast[with], end - middle);
+            }
+            if (r.ties != result.all.ties || r.swaps != result.all.swaps || r.longest > result.all.longest ||
+                fabs(r.used - result.all.slack) > 1e-3) {
+                fprintf(stderr, "bench_census: the two do not agree\n");
+                exit(2);
+            }
+        }
+    static const char *const names[] = {"census", "zfight"};
+    for (int with = 0; with < 2; with++) {
+        const double slow = timing_least(&plain[with]), quick = timing_least(&fast[with]);
+        snprintf(text, sizeof text, "%s, plain scalar two arrays, -O2", names[with]);
+        line(text, 1e9 * slow / (double)count, "ns/depth", &plain[with], AIM_COUNT);
+        snprintf(text, sizeof text, "%s, one thread", names[with]);
+        line(text, 1e9 * quick / (double)count, "ns/depth", &fast[with], AIM_COUNT);
+        snprintf(text, sizeof text, "plain / %s", names[with]);
+        line(text, slow / quick, "x", &fast[with], with ? AIM_ZFIGHT : AIM_CENSUS);
     }
-    for (int i = 0; i < RUNS; i++) {
-        const double start = timing_now();
-        plain_census(p.a, p.b, first, count, code, least);
-        timing_add(&plain, timing_now() - start);
-        timing_add(&fast, timed(&q, &result));
-        timing_add(&zfight, timed(&asked, &result));
-    }
-    const double slow = timing_least(&plain);
-    const double quick = timing_least(&fast);
-    line("census, plain scalar two arrays, -O2", 1e9 * slow / (double)count, "ns/depth", &plain, AIM_COUNT);
-    line("census, one thread", 1e9 * quick / (double)count, "ns/depth", &fast, AIM_COUNT);
-    line("plain / census", slow / quick, "x", &fast, AIM_CENSUS);
-    const double command = timing_least(&zfight);
-    line("zfight, one thread: what is used, too", 1e9 * command / (double)count, "ns/depth", &zfight, AIM_COUNT);
-    line("plain / zfight", slow / command, "x", &zfight, AIM_ZFIGHT);
     free(code);
     free(least);
 }

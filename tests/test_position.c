@@ -7,6 +7,7 @@
 #include <gmp.h>
 
 #include "named.h"
+#include "shader/half.h"
 #include "shader/position.h"
 #include "support.h"
 
@@ -286,6 +287,39 @@ static void half_overflows(void **state) {
     assert_true(position_bound(row, &c, 0, 0, 0.5f) < 2 * 0x1p-10);
 }
 
+static float binary16(int code) {
+    const int power = code >> 10, digits = code & 1023;
+    return power > 0 ? ldexpf((float)(1024 + digits), power - 25) : ldexpf((float)digits, -24);
+}
+
+static void expect_half(float x, float want) {
+    for (int sign = 0; sign < 2; sign++, x = -x, want = -want) {
+        assert_true(half_of(x) == want);
+        assert_true(fabsf(x) >= 0x1p115f || half_below(x) == want);
+        assert_true(fabsf(x) > 65504 || (half_within(x) == want && signbit(half_within(x)) == signbit(want)));
+    }
+}
+
+/* Every number of binary16 stays; between two the nearer one is taken, and in the middle the even one. */
+static void every_half_is_rounded_to(void **state) {
+    (void)state;
+    for (int code = 0; code <= 0x7bff; code++) {
+        const float here = binary16(code), middle = 0.5f * (here + binary16(code + 1));
+        const float next = code < 0x7bff ? binary16(code + 1) : (float)INFINITY;
+        expect_half(here, here);
+        expect_half(nextafterf(middle, 0), here);
+        expect_half(middle, code % 2 == 0 ? here : next);
+        expect_half(nextafterf(middle, INFINITY), next);
+    }
+    for (int power = 16; power < 128; power++) {
+        expect_half(ldexpf(1, power), INFINITY);
+        expect_half(nextafterf(ldexpf(2, power), 0), INFINITY);
+    }
+    expect_half(FLT_MIN, 0);
+    assert_true(isinf(half_of(INFINITY)) && half_of(-INFINITY) < 0);
+    assert_true(isnan(half_of(NAN)) && isnan(half_below(-NAN)) && isnan(half_within(NAN)));
+}
+
 /* At 0.1 to 1000 the usual rows are off by half a unit and more near the far plane, ours by less than a thousandth. */
 static void the_standard_direction_costs_digits(void **state) {
     (void)state;
@@ -435,6 +469,7 @@ int main(void) {
         cmocka_unit_test(view_keeps_its_promise),
         cmocka_unit_test(loops_have_no_edges),
         cmocka_unit_test(half_overflows),
+        cmocka_unit_test(every_half_is_rounded_to),
         cmocka_unit_test(the_standard_direction_costs_digits),
         cmocka_unit_test(far_from_the_origin),
         cmocka_unit_test(matrices_invert),

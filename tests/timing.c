@@ -19,6 +19,10 @@ double timing_cpu(void) {
     return of_clock(CLOCK_PROCESS_CPUTIME_ID);
 }
 
+double timing_thread(void) {
+    return of_clock(CLOCK_THREAD_CPUTIME_ID);
+}
+
 void timing_add(timing *t, double seconds) {
     if (t->count < TIMING_MAX)
         t->sample[t->count++] = seconds;

@@ -13,9 +13,10 @@ typedef struct timing {
     int count;
 } timing;
 
-/** Seconds, of the clock on the wall; of this process, on all cores. */
+/** Seconds, of the clock on the wall; of this process, on all cores; of this thread, which no other process adds to. */
 double timing_now(void);
 double timing_cpu(void);
+double timing_thread(void);
 
 /** Takes a sample; what is more than TIMING_MAX is dropped. */
 void timing_add(timing *t, double seconds);

@@ -27,7 +27,7 @@ typedef struct sweep {
     census_segment *s;
     uint32_t last;                    /* of the segment */
     uint32_t runs;                    /* with those that fill the last block up */
-    double step;                      /* of the segment */
+    double per_step;                  /* 1 over the step of the segment, a power of two */
     double halves;                    /* steps that the surfaces may be farther apart than the depths they round to */
     double steps_known;               /* what is not above it tells nothing new */
     double slack_known;               /* the same of shares; HUGE_VAL: they are not asked about */
@@ -52,14 +52,15 @@ static void run_keys(const sweep *w, uint32_t run, int32_t key[CENSUS_RUN]) {
     w->c->level->keys(&w->c->plan, z, CENSUS_RUN, key);
 }
 
-/* Only intervals of more than this many steps tell anything new. */
+/* Only intervals of more than this many steps tell anything new. Where the guarantee is infinite a share of it is NaN,
+ * which leaves nothing out. */
 static uint32_t known_steps(const sweep *w) {
-    double steps = fmax(w->s->found.longest / w->step, w->steps_known);
-    const double per_slack = w->bound / w->step;
-    const double by_slack =
-        fmax(fmax(w->s->found.slack * per_slack + 1e-6, w->slack_known * per_slack - 1e-6) - w->halves, 0.0);
-    if (by_slack < steps)
-        steps = floor(by_slack);
+    const double longest = w->s->found.longest * w->per_step, per_slack = w->bound * w->per_step;
+    const double found = w->s->found.slack * per_slack + 1e-6, known = w->slack_known * per_slack - 1e-6;
+    const double by_slack = (known > found || isnan(found) ? known : found) - w->halves;
+    double steps = longest > w->steps_known ? longest : w->steps_known;
+    if (!(by_slack >= steps))
+        steps = by_slack > 0.0 ? floor(by_slack) : 0.0;
     return steps < SEGMENT ? (uint32_t)steps : SEGMENT;
 }
 
@@ -168,9 +169,9 @@ static void sweep_segment(const census_parts *c, census_segment *s, const census
     w->s = s;
     w->last = s->first + s->count - 1;
     w->runs = blocks * CENSUS_RUNS;
-    w->step = census_step(s->first);
-    w->halves = 0.5 * (census_ulp(dp_ranked32(s->first)) + census_ulp(dp_ranked32(w->last))) / w->step;
-    w->steps_known = known->longest / w->step - 1.0;
+    w->per_step = 1.0 / census_step(s->first);
+    w->halves = 0.5 * (census_ulp(dp_ranked32(s->first)) + census_ulp(dp_ranked32(w->last))) * w->per_step;
+    w->steps_known = known->longest * w->per_step - 1.0;
     w->slack_known = c->request->bound == NULL ? HUGE_VAL : known->slack * (1.0 - 1e-9);
     w->ground = census_ground_make(c->request, s->first, w->last);
     w->bound = HUGE_VAL;

@@ -281,14 +281,26 @@ static void divide(const dp_chain *c, dp_span r, double q1, double q2, double er
     s->quotient.error = dp_result_error(result.least, result.most);
 }
 
-dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
+/* A z + B of the depths of a span, in clip depth. */
+typedef struct clip_steps {
+    dp_step product, sum;
+    magnitude before; /* before the sum is rounded */
+    double kept_lo, kept_hi;
+} clip_steps;
+
+static clip_steps clip_steps_of(const dp_chain *c, dp_span r) {
+    clip_steps s = {.product = product_of(c, r)};
+    s.before = clip_over(c, r, s.product.error);
+    s.sum = add_b(c, r, s.before, &s.kept_lo, &s.kept_hi);
+    return s;
+}
+
+static dp_steps steps_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
     const double w = w_of(c, r.lo);
-    dp_steps s = {.product = product_of(c, r)};
-    const magnitude clip = clip_over(c, r, s.product.error);
-    s.sum = add_b(c, r, clip, &s.kept_lo, &s.kept_hi);
+    dp_steps s = {.product = clip->product, .sum = clip->sum, .kept_lo = clip->kept_lo, .kept_hi = clip->kept_hi};
     double error = s.product.error + larger(s.kept_hi, -s.kept_lo);
     if (c->remap)
-        s.remap = add_w(c, r, clip, s.product.error);
+        s.remap = add_w(c, r, clip->before, s.product.error);
     error += s.remap.error;
     const double off = c->per_clip * error / w; /* of NDC */
     const double unknown = off + (c->run ? c->per_clip * ndc_more(c, r) : 0.0);
@@ -306,6 +318,11 @@ dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
     s.quotient = scaled(s.quotient, c->per_ndc);
     s.full = c->per_ndc * off + s.inverse.error + s.quotient.error + s.viewport.error;
     return s;
+}
+
+dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
+    const clip_steps clip = clip_steps_of(c, r);
+    return steps_of(c, r, &clip);
 }
 
 /* Errors relative to values over w: those run evenly to the far plane, so they are greatest at one of the two ends. */
@@ -368,12 +385,11 @@ static double on_lattice(double least, double granule) {
     return granule > 0.0 && least < 0x1p50 * granule ? ceil(least / granule) * granule : least;
 }
 
-dp_numerator dp_chain_numerator(const dp_chain *c, dp_span r) {
+static dp_numerator numerator_of(const dp_chain *c, dp_span r, const clip_steps *steps) {
     const int plain = c->pipeline.reversed && !c->pipeline.ndc_signed; /* t is the clip depth itself: A <= 0 */
-    const dp_step product = product_of(c, r);
-    const magnitude clip = clip_over(c, r, product.error);
-    double lo, hi;
-    add_b(c, r, clip, &lo, &hi);
+    const dp_step product = steps->product;
+    const magnitude clip = steps->before;
+    const double lo = steps->kept_lo, hi = steps->kept_hi;
     const double end = clip_of(c, r.hi);
     const double t = plain ? end : c->pipeline.reversed ? r.hi + end : r.hi - end;
     const double error = product.error + larger(hi, -lo) + (fabs(end) + r.hi) * 0x1p-52 + clip_more_over(c, r);
@@ -392,4 +408,16 @@ dp_numerator dp_chain_numerator(const dp_chain *c, dp_span r) {
         n.least = larger(n.least - sum.error, 0.0);
     }
     return n;
+}
+
+dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span r, dp_numerator *numerator) {
+    clip_steps clip = clip_steps_of(c, r);
+    const dp_steps s = steps_of(c, r, &clip);
+    const dp_span range = {from, r.hi};
+    if (c->pipeline.ortho)
+        return s;
+    if (from != r.lo)
+        clip = clip_steps_of(c, range);
+    *numerator = numerator_of(c, range, &clip);
+    return s;
 }

@@ -80,6 +80,8 @@ typedef struct dp_numerator {
     double rise;  /* a farther depth may have a greater one by this; INFINITY: nothing is known */
 } dp_numerator;
 
-dp_numerator dp_chain_numerator(const dp_chain *c, dp_span span);
+/* The operations at every depth of a span, and the numerator from a depth, before it or its nearest, to its end: they
+ * have the first operations in common. Orthographic: there is none. */
+dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span span, dp_numerator *numerator);
 
 #endif

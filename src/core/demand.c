@@ -65,15 +65,24 @@ static void keep_larger(dp_demand *d, double window, double slope) {
     }
 }
 
+/* Window depths of the ends of a span, and by how much more they may be in a run of cameras. */
+typedef struct windows {
+    double near, far, near_more, far_more;
+} windows;
+
+static windows windows_of(const dp_chain *c, double near, double far) {
+    return (windows){dp_chain_window(c, near), dp_chain_window(c, far), dp_chain_window_more(c, near),
+                     dp_chain_window_more(c, far)};
+}
+
 /*
  * Where the window depth of one of the two leaves [0, 1] it is clamped, and its own errors count no more: the other
  * one's do, all of them, and how far g itself goes beyond.
  */
-static void clamp_either(const dp_chain *c, dp_demand *d, double full1, double full2, dp_span at) {
-    const double g1 = dp_chain_window(c, at.lo);
-    const double g2 = dp_chain_window(c, at.hi);
-    const double off1 = full1 + dp_chain_window_more(c, at.lo);
-    const double off2 = full2 + dp_chain_window_more(c, at.hi);
+static void clamp_either(const dp_chain *c, dp_demand *d, double full1, double full2, const windows *at) {
+    const double g1 = at->near, g2 = at->far;
+    const double off1 = full1 + at->near_more;
+    const double off2 = full2 + at->far_more;
     const double slope = fabs(c->pipeline.ortho ? c->a : c->b);
     const int reversed = c->pipeline.reversed;
     if (reversed ? g2 - off2 <= 0.0 : g2 + off2 >= 1.0)
@@ -125,14 +134,13 @@ static dp_demand demand_free(const dp_chain *c, const dp_steps *s1, const dp_ste
  * Where t itself is multiplied with fl(1/w), the lattice of the reciprocals counts, t times as wide; else their errors
  * do.
  */
-static dp_demand demand_falling(const dp_chain *c, dp_span range, const dp_steps *s1, const dp_steps *s2,
-                                double quotient) {
-    const dp_numerator t = dp_chain_numerator(c, range);
+static dp_demand demand_falling(const dp_chain *c, double nearest, dp_numerator t, const dp_steps *s1,
+                                const dp_steps *s2, double quotient) {
     if (!(t.least > 0.0) || isinf(t.rise))
         return (dp_demand){.window = 1.0, .slope = 0.0};
     const int multiplied = c->pipeline.reversed && !c->two_stage;
     const double factor = multiplied && !c->run ? c->half * t.least : 0.0;
-    const double projection = c->half * t.rise / range.lo * (1.0 + DP_UNIT);
+    const double projection = c->half * t.rise / nearest * (1.0 + DP_UNIT);
     const double window =
         before_rounding((dp_step){s1->inverse.error, factor * s1->inverse.grid},
                         (dp_step){s2->inverse.error, factor * s2->inverse.grid}, quotient + projection);
@@ -140,17 +148,17 @@ static dp_demand demand_falling(const dp_chain *c, dp_span range, const dp_steps
 }
 
 /* What the format loses of depths of a span, whose window depths are off by so much. */
-static double format_of(const dp_chain *c, dp_span r, double error) {
-    const double g1 = dp_chain_window(c, r.lo);
-    const double g2 = dp_chain_window(c, r.hi);
-    error += larger(dp_chain_window_more(c, r.lo), dp_chain_window_more(c, r.hi));
-    return dp_format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
+static double format_of(const dp_chain *c, const windows *w, double error) {
+    error += larger(w->near_more, w->far_more);
+    return dp_format_loss(&c->pipeline, smaller(w->near, w->far) - error, larger(w->near, w->far) + error);
 }
 
 /* The demand of a depth of `first` and one of `second`, not nearer. */
 static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra) {
-    const dp_steps s2 = dp_chain_steps(c, second);
-    const double format = format_of(c, (dp_span){first.lo, second.hi}, larger(s1->full, s2.full));
+    dp_numerator t;
+    const dp_steps s2 = dp_chain_steps_behind(c, first.lo, second, &t);
+    const windows at = windows_of(c, first.lo, second.hi);
+    const double format = format_of(c, &at, larger(s1->full, s2.full));
     const double rest = format + extra;
     const double window = before_rounding(s1->viewport, s2.viewport, rest);
     const double quotient = before_rounding(s1->quotient, s2.quotient, window);
@@ -158,27 +166,28 @@ static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first,
     const double w = c->pipeline.ortho ? 1.0 : first.lo;
     dp_demand d = demand_free(c, s1, &s2, w, need);
     if (!c->pipeline.ortho) {
-        const dp_demand falling = demand_falling(c, (dp_span){first.lo, second.hi}, s1, &s2, quotient);
+        const dp_demand falling = demand_falling(c, first.lo, t, s1, &s2, quotient);
         if (falling.window * d.slope < d.window * falling.slope)
             d = falling;
     }
     d.format = format;
     d.rest = rest;
-    clamp_either(c, &d, s1->full, s2.full, (dp_span){first.lo, second.hi});
+    clamp_either(c, &d, s1->full, s2.full, &at);
     return d;
 }
 
 /* The demand of a depth of `first` and any depth behind it. */
 static dp_demand demand_beyond(const dp_chain *c, const dp_steps *s1, dp_span first, double extra) {
     const dp_steps s2 = dp_chain_steps_beyond(c, first.lo);
-    const double format = format_of(c, (dp_span){first.lo, c->reach.hi}, larger(s1->full, s2.full));
+    const windows at = windows_of(c, first.lo, c->reach.hi);
+    const double format = format_of(c, &at, larger(s1->full, s2.full));
     dp_demand d = {.projection =
                        s1->full - s1->inverse.error - s1->quotient.error - s1->viewport.error + s2.product.error,
                    .format = format,
                    .rest = format + extra,
                    .window = s1->full + s2.full + format + extra,
                    .slope = fabs(c->pipeline.ortho ? c->a : c->b)};
-    clamp_either(c, &d, s1->full, s2.full, (dp_span){first.lo, c->reach.hi});
+    clamp_either(c, &d, s1->full, s2.full, &at);
     return d;
 }
 

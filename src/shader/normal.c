@@ -55,11 +55,21 @@ DP_INLINE mask side_farther(mask within, float z, float a, float a2, float b, fl
     return -(a > b) | missing(b);
 }
 
-/* A side without a neighbour behind it is the last choice but for one without any. */
+/* Of numbers that are not negative, as their bits are ordered: NaN is greater than infinity. */
+DP_INLINE mask less(float a, float b) {
+    return -(mask)((dp_bits32(a) - dp_bits32(b)) >> 31);
+}
+
+DP_INLINE float missing_is_far(float x) {
+    const uint32_t bits = dp_bits32(x);
+    return dp_float32(bits < 0x7f800000u ? bits : 0x7f800000u);
+}
+
+/* A side without a neighbour behind it is the last choice but for one without any: infinitely far off, and beyond. */
 DP_INLINE mask side_straight(mask within, float z, float a, float a2, float b, float b2) {
     (void)within;
-    const float behind_a = select(missing(a2), INFINITY, a2), behind_b = select(missing(b2), INFINITY, b2);
-    return -(fabsf(2.0f * a - behind_a - z) < fabsf(2.0f * b - behind_b - z)) | missing(b);
+    const float off_a = fabsf(2.0f * a - a2 - z), off_b = fabsf(2.0f * b - missing_is_far(b2) - z);
+    return less(missing_is_far(off_a), off_b);
 }
 
 /* The same in w = 1/z, which is straight along a plane: |2/a - 1/a2 - 1/z| without a division. Depths of the second
@@ -78,6 +88,7 @@ DP_INLINE mask side_projective(mask within, float z, float a, float a2, float b,
 
 typedef struct vector {
     float x, y, z;
+    mask back; /* it points away from the camera */
 } vector;
 
 /* A pixel and the two neighbours: their depths and places, and the signs of the differences. */
@@ -103,23 +114,26 @@ DP_INLINE float unit_at(const corner *c, int lift) {
     return unit_of(zh > v ? zh : v, lift);
 }
 
+DP_INLINE vector cross(vector a, vector b, mask back) {
+    return (vector){a.z * b.y - a.y * b.z, a.x * b.z - a.z * b.x, a.y * b.x - a.x * b.y, back};
+}
+
 /* The cross product of two differences of places. */
 DP_INLINE vector corner_cross(const corner *c) {
     const float unit = unit_at(c, 20), z = c->z * unit, h = c->h * unit, v = c->v * unit;
     const float px = c->sx * z, py = c->sy * z;
-    const vector a = {c->sx_h * h - px, c->sy * h - py, h - z}, b = {c->sx * v - px, c->sy_v * v - py, v - z};
-    const vector n = {a.z * b.y - a.y * b.z, a.x * b.z - a.z * b.x, a.y * b.x - a.x * b.y};
-    return (vector){negate(c->opposed, n.x), negate(c->opposed, n.y), negate(c->opposed, n.z)};
+    const vector a = {c->sx_h * h - px, c->sy * h - py, h - z, 0};
+    const vector b = {c->sx * v - px, c->sy_v * v - py, v - z, 0};
+    return cross(a, b, c->opposed);
 }
 
 /* The same of places in binary16, so narrow that nothing overflows; a place is at the depth times the slopes, or at the
  * slopes where `z`, `h` and `v` are 1. */
 DP_INLINE vector half_cross(const corner *c, float z, float h, float v) {
-    const float p[3] = {half_of(c->sx * z), half_of(c->sy * z), half_of(c->z)};
-    const vector a = {half_of(c->sx_h * h) - p[0], half_of(c->sy * h) - p[1], half_of(c->h) - p[2]};
-    const vector b = {half_of(c->sx * v) - p[0], half_of(c->sy_v * v) - p[1], half_of(c->v) - p[2]};
-    const vector n = {a.z * b.y - a.y * b.z, a.x * b.z - a.z * b.x, a.y * b.x - a.x * b.y};
-    return (vector){negate(c->opposed, n.x), negate(c->opposed, n.y), negate(c->opposed, n.z)};
+    const float p[3] = {half_of(c->sx * z), half_of(c->sy * z), half_below(c->z)};
+    const vector a = {half_of(c->sx_h * h) - p[0], half_of(c->sy * h) - p[1], half_below(c->h) - p[2], 0};
+    const vector b = {half_of(c->sx * v) - p[0], half_of(c->sy_v * v) - p[1], half_below(c->v) - p[2], 0};
+    return cross(a, b, c->opposed);
 }
 
 DP_INLINE vector corner_half(const corner *c) {
@@ -135,7 +149,7 @@ DP_INLINE vector corner_half_ortho(const corner *c) {
 DP_INLINE vector corner_projective(const corner *c) {
     const float unit = unit_at(c, 0), z = c->z * unit, h = c->h * unit, v = c->v * unit;
     const float a = (z - h) * v * c->per_x, b = (z - v) * h * c->per_y;
-    return (vector){-a, -b, c->sx * a + c->sy * b - h * v};
+    return (vector){a, b, h * v - (c->sx * a + c->sy * b), -1};
 }
 
 DP_INLINE float within_1e18(float x) { /* whose square is a binary32 number; NaN stays */
@@ -145,7 +159,7 @@ DP_INLINE float within_1e18(float x) { /* whose square is a binary32 number; NaN
 
 /* Orthographic: the cross product, whose differences of places are multiples of the axes. */
 DP_INLINE vector corner_ortho(const corner *c) {
-    return (vector){within_1e18((c->h - c->z) * c->per_x), within_1e18((c->v - c->z) * c->per_y), -1.0f};
+    return (vector){within_1e18((c->h - c->z) * c->per_x), within_1e18((c->v - c->z) * c->per_y), -1.0f, 0};
 }
 
 /* ---- A row of pixels -------------------------------------------------------------------------------------------- */
@@ -195,7 +209,7 @@ DP_INLINE void normals(const normal_rows *in, float *restrict nx, float *restric
                           .per_y = negate(below, per_y),
                           .opposed = left ^ below};
         const vector n = rule(&c);
-        const float unit = 1.0f / sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
+        const float unit = negate(n.back, 1.0f) / sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
         nx[i] = kept(n.x * unit);
         ny[i] = kept(n.y * unit);
         nz[i] = kept(n.z * unit);
@@ -230,7 +244,7 @@ DP_INLINE void sides_of(const normal_rows *in, uint8_t *sides, int step, side_ru
     }
 
 #define SINGLE(name, step, side) METHOD(name, step, side, side, corner_cross, corner_ortho, single_of)
-#define HALF(name, step, side)   METHOD(name, step, side, side, corner_half, corner_half_ortho, half_of)
+#define HALF(name, step, side)   METHOD(name, step, side, side, corner_half, corner_half_ortho, half_within)
 
 SINGLE(low, 1, side_quad)
 SINGLE(medium, 2, side_farther)
