@@ -5,14 +5,14 @@
 
 #include "core/engine.h"
 
-enum { BOXES_MOST = 4000, STRETCHES_MOST = 1 << 15 };
+enum { BOXES_MOST = 4000, STRETCHES_MOST = 1 << 13 };
 
 static const double near_least = 1e-12, near_most = 1e12, far_most = 1e18, planes_apart = 1e-6;
 
 /* Shares: of boxes that are not divided, in the model exact, in others and there next to the inner end. */
 static const double finest = 0x1p-24, coarsest = 0x1p-4, fine = 0x1p-10;
 /* Where a bisection ends: next to the end of a code an error moves fast. */
-static const double settled[] = {[MEASURE_SEPARATION] = 1.0 + 0x1p-24, [MEASURE_ERROR] = 1.0 + 0x1p-36};
+static const double settled[] = {[MEASURE_SEPARATION] = 1.0 + 0x1p-32, [MEASURE_ERROR] = 1.0 + 0x1p-36};
 
 typedef struct search {
     const solve_problem *problem;
@@ -65,7 +65,7 @@ static double error_of_code(const dp_setup *outer, const dp_setup *inner, uint32
  * alignment may be met.
  */
 static bool is_aligned(const solve_problem *p, const dp_setup *outer, const dp_setup *inner) {
-    enum { CELLS = 16 };
+    enum { CELLS = 4 };
     const double rounding = p->hi * 0x1p-48;
     const uint32_t one = dp_code(outer, p->hi), other = dp_code(inner, p->hi);
     uint32_t code = (one > other) == outer->reversed ? other : one; /* the farther one */
@@ -194,26 +194,34 @@ static bool none_beyond(const search *s) {
     return value == s->outer || ratio_of(value, s->outer) <= 1.0 + 1e-9 || !plane_passes(&p, x);
 }
 
+/* Near has no influence at all: what one value does all do. */
+static bool is_inert(const solve_problem *p) {
+    const dp_mapping_row *mapping = dp_mapping_get(p->spec.mapping);
+    return p->unknown == SOLVE_NEAR && !p->spec.ortho && mapping->curve != DP_CURVE_PERSPECTIVE &&
+           !mapping->log_from_near;
+}
+
 static void search_planes(search *s) {
     plane_answer *a = s->out;
+    const bool inert = is_inert(s->problem);
     double box[2];
     a->reached.value = HUGE_VAL;
     a->value = s->inner;
     if (isinf(s->outer))
         offer(s, s->outer);
-    const bool found = !s->met && find(s, s->outer, s->inner, box);
+    const bool found = !s->met && !inert && find(s, s->outer, s->inner, box);
     if (!found && !s->met)
         offer(s, s->inner);
     a->possible = found || s->met;
     a->until = a->value;
-    a->certain = !s->open && s->problem->kind == MEASURE_SEPARATION;
+    a->certain = inert || (!s->open && s->problem->kind == MEASURE_SEPARATION);
     if (!a->possible)
         return;
     if (!found)
         box[0] = box[1] = a->value;
     s->aligned = s->problem->kind == MEASURE_ERROR;
-    a->until = reach_from(s, box[1], s->inner);
-    a->value = reach_from(s, box[0], s->outer);
+    a->until = inert ? s->inner : reach_from(s, box[1], s->inner);
+    a->value = inert ? s->outer : reach_from(s, box[0], s->outer);
     a->until = judged(s, a->until, a->value);
     a->value = judged(s, a->value, a->until);
     a->certain = none_beyond(s);

@@ -7,11 +7,10 @@
 #include "cli/slant.h"
 #include "cli/solve/report.h"
 
-/* All from `first`, the answer itself, to `until` pass: none is tried, and no others are looked for. */
+/* All from `first`, the answer itself, to `until` pass: none has to be tried for that, and no others are. */
 typedef struct plane_fields {
-    double until, first, fails_to;
+    double until, first, fails_to, tried, passed;
     bool proven, certain;
-    uint64_t tried, passed;
 } plane_fields;
 
 /* What was found about a candidate; parts that are not asked for or do not exist are null. */
@@ -47,12 +46,14 @@ static void take_candidate(solving *s, const solve_candidate *c) {
                      .distance = c->possible ? c->distance.value : (double)NAN,
                      .lattice_distance = c->lattice.possible ? c->lattice.value : (double)NAN,
                      .first = solved ? c->plane.value : (double)NAN};
-    x->fields = (plane_fields){.until = c->plane.until,
-                               .first = c->plane.value,
+    x->fields = (plane_fields){.until = solved ? c->plane.until : (double)NAN,
+                               .first = x->first,
                                .fails_to = (double)NAN,
-                               .proven = true,
+                               .tried = (double)NAN,
+                               .passed = (double)NAN,
+                               .proven = solved || c->plane.certain,
                                .certain = c->plane.certain};
-    x->plane = solved ? &x->fields : NULL;
+    x->plane = c->solved ? &x->fields : NULL;
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
     s->setup = (dp_setup){.spec = c->spec};
     x->setup = setup_fields_of(&s->setup, options_unit(s->report.o));
@@ -134,7 +135,7 @@ static void *next_line(void *of, size_t i) {
     take_candidate(s, &r->items[i]);
     x->role = i == 0 ? "answer" : "alternative";
     const bool holds = r->target == SOLVE_FOR_DISTANCE && x->found.possible;
-    const double a = x->plane != NULL ? solve_plane_of(&x->found) : holds ? r->lo : (double)NAN;
+    const double a = x->plane != NULL ? x->plane->first : holds ? r->lo : (double)NAN;
     const double b = x->plane != NULL ? x->plane->until : holds ? x->distance : a;
     x->from = fmin(a, b);
     x->to = fmax(a, b);
