@@ -122,7 +122,7 @@ static bool none_passes(const solve_problem *p, double outer, double inner, doub
            dp_lattice_least(&one, &other, fmax(reached_at(&exact, middle).z / wide, p->lo), half) > p->limit;
 }
 
-/* ---- The innermost interval -------------------------------------------------------------------------------------- */
+/* ---- The uppermost interval -------------------------------------------------------------------------------------- */
 
 static double ratio_of(double a, double b) {
     return fmax(a, b) / fmin(a, b);
@@ -147,7 +147,7 @@ static void offer(search *s, double value) {
     s->out->reached = j;
 }
 
-/* Between two values the innermost box of which all pass. One of which none passes is left, others are divided. */
+/* Between two values the uppermost box of which all pass. One of which none passes is left, others are divided. */
 static bool find(search *s, double outer, double inner, double box[2]) {
     const double middle = isinf(outer) ? 2.0 * inner : sqrt(outer) * sqrt(inner);
     box[0] = outer;

@@ -4,8 +4,7 @@
  *
  * What a plane needs is not monotone: the steps of a FLOAT double at powers of two, and in binary32 each plane is
  * rounded in its own way. So no single value is sought, but an interval of them, all of which are shown to do by a bound
- * over all cameras in between (core/engine.h): first a place where the bound holds, the nearest to the plane's inner
- * end, then its ends, by bisection.
+ * over all cameras in between (core/engine.h): first a place where the bound holds, then its ends, by bisection.
  */
 #ifndef REQUIREMENT_PLANE_H
 #define REQUIREMENT_PLANE_H
@@ -40,9 +39,10 @@ bool plane_passes(const solve_problem *problem, double value);
 /**
  * Solves a problem in the model of its set-up.
  *
- * Bound: every value from `value` to `until` passes; `value` is where the bound over cameras ends, to 2^-40 of itself.
- * Where values pass in several intervals it is the one nearest to the inner end, the depths asked about; narrow ones
- * may be missed, but in the model exact.
+ * Bound: every value from `value` to `until` passes; `value` is where the bound over cameras ends, to 2^-31 of itself.
+ * Where values pass in several intervals it is the uppermost: the one next to the depths for near, the farthest for far.
+ * Narrow ones may be missed, but in the model exact. A single plane, far infinite or one of few bits, is an answer where
+ * no interval is.
  *
  * @return DP_OK (also when impossible), DP_ERROR_NULL, DP_ERROR_RANGE (depths or limit), DP_ERROR_MODEL for an error in
  *         float, which has no stored depth, or what dp_setup_init() has against every value of the unknown
