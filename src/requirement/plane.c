@@ -5,14 +5,14 @@
 
 #include "core/engine.h"
 
-enum { BOXES_MOST = 4000, STRETCHES_MOST = 1 << 13 };
+enum { BOXES_MOST = 4000, STRETCHES_MOST = 1 << 17, STRETCHES_OF_RANGE = 1 << 12 };
 
 static const double near_least = 1e-12, near_most = 1e12, far_most = 1e18, planes_apart = 1e-6;
 
 /* Shares: of boxes that are not divided, in the model exact, in others and there next to the inner end. */
 static const double finest = 0x1p-24, coarsest = 0x1p-4, fine = 0x1p-10;
 /* Where a bisection ends: next to the end of a code an error moves fast. */
-static const double settled[] = {[MEASURE_SEPARATION] = 1.0 + 0x1p-32, [MEASURE_ERROR] = 1.0 + 0x1p-36};
+static const double settled[] = {[MEASURE_SEPARATION] = 1.0 + 0x1p-32, [MEASURE_ERROR] = 1.0 + 0x1p-38};
 
 typedef struct search {
     const solve_problem *problem;
@@ -96,8 +96,7 @@ static bool all_pass(const search *s, double outer, double inner) {
         return false;
     if (p->kind == MEASURE_SEPARATION)
         return dp_separation_within(&one, &other, p->lo, p->hi, p->limit);
-    return (s->aligned && !one.shader && is_aligned(p, &one, &other)) ||
-           dp_error_within(&one, &other, p->lo, p->hi, p->limit);
+    return s->aligned ? is_aligned(p, &one, &other) : dp_error_within(&one, &other, p->lo, p->hi, p->limit);
 }
 
 /* The same question in the model exact, of surfaces that face the camera: no model has a separation below that. */
@@ -167,14 +166,16 @@ static bool find(search *s, double outer, double inner, double box[2]) {
 /* From a value that passes towards an end, in stretches as long as can be shown to pass. */
 static double reach_from(const search *s, double start, double end) {
     const bool up = end > start, outwards = (end == s->outer);
-    double at = start;
-    double ratio = 2.0;
-    for (int i = 0; i < STRETCHES_MOST && at != end && ratio > settled[s->problem->kind]; i++) {
-        const double step = up ? fmin(at * ratio, end) : fmax(at / ratio, end);
-        const double x = step > far_most ? end : step;
+    const int most = s->problem->lo < s->problem->hi ? STRETCHES_OF_RANGE : STRETCHES_MOST;
+    double at = start, ratio = 2.0;
+    for (int i = 0; i < most && at != end && ratio > settled[s->problem->kind]; i++) {
+        const double step = up ? fmin(at * ratio, end) : fmax(isinf(at) ? far_most : at / ratio, end);
+        const double x = up && step > far_most ? end : step;
         const bool all = outwards ? all_pass(s, x, at) : all_pass(s, at, x);
         at = all ? x : at;
         ratio = all ? fmin(ratio * ratio, 0x1p64) : sqrt(ratio);
+        if (s->aligned) /* the end of each code is a narrow pass between wide ones */
+            ratio = all ? fmin(ratio * ratio * ratio * ratio, 0x1p64) : sqrt(ratio);
     }
     return at;
 }
@@ -215,13 +216,19 @@ static void search_planes(search *s) {
     a->possible = found || s->met;
     a->until = a->value;
     a->certain = inert || (!s->open && s->problem->kind == MEASURE_SEPARATION);
-    if (!a->possible)
+    if (!a->possible) {
+        a->reached = reached_at(s->problem, a->value);
         return;
+    }
     if (!found)
         box[0] = box[1] = a->value;
-    s->aligned = s->problem->kind == MEASURE_ERROR;
     a->until = inert ? s->inner : reach_from(s, box[1], s->inner);
     a->value = inert ? s->outer : reach_from(s, box[0], s->outer);
+    s->aligned = s->problem->kind == MEASURE_ERROR && s->problem->spec.model != DP_MODEL_FLOAT;
+    if (s->aligned && !inert) {
+        a->until = reach_from(s, a->until, s->inner);
+        a->value = reach_from(s, a->value, s->outer);
+    }
     a->until = judged(s, a->until, a->value);
     a->value = judged(s, a->value, a->until);
     a->certain = none_beyond(s);
