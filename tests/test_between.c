@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A bound over all cameras whose near or far lies between two: where it says that all of them tell surfaces apart, or
- * keep an error, no camera that is looked at fails, those among them whose planes have few bits and are rounded to even;
- * and where all that are looked at do, it mostly says so. Of the models exact and staged the codes are an oracle's.
+ * keep an error, no camera that is looked at fails, those among them whose planes have few bits and are rounded to
+ * even; and where all that are looked at do, it mostly says so. Of the models exact and staged the codes are an
+ * oracle's.
  */
 #include <math.h>
 #include <stdio.h>
@@ -154,12 +155,14 @@ static void test_shader_errors(void **state) {
             make(&c, c.to, DP_MODEL_FLOAT, &other) != DP_OK)
             continue;
         i++;
-        const double bound = dp_shader_error_between(c.far_moves ? &other : &one, c.far_moves ? &one : &other, c.lo, c.hi);
+        const double bound =
+            dp_shader_error_between(c.far_moves ? &other : &one, c.far_moves ? &one : &other, c.lo, c.hi);
         for (int k = 0; k < 20; k++)
             if (make(&c, k == 0 ? c.from : k == 1 ? c.to : between(&r, &c), DP_MODEL_FLOAT, &here) == DP_OK)
                 TALLY(&all, dp_shader_error_over(&here, c.lo, c.hi, &z) <= bound, "%s near %.17g far %.17g",
                       dp_mapping_get(c.spec.mapping)->name, here.spec.znear, here.spec.zfar);
-        const double ends = fmax(dp_shader_error_over(&one, c.lo, c.hi, &z), dp_shader_error_over(&other, c.lo, c.hi, &z));
+        const double ends =
+            fmax(dp_shader_error_over(&one, c.lo, c.hi, &z), dp_shader_error_over(&other, c.lo, c.hi, &z));
         if (c.to < c.from * (1.0 + 1e-5) && c.hi < 0.9 * fmin(one.spec.zfar, other.spec.zfar))
             TALLY(&tight, bound <= 1.3 * ends, "%s near %.17g far %.17g: %.17g above %.17g",
                   dp_mapping_get(c.spec.mapping)->name, one.spec.znear, one.spec.zfar, bound, ends);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The near or far plane in every model: the answer passes as `check` judges it, and so does all that is said to pass with
- * it; beyond it, where that is certain, nothing does; and where the answer has a closed form it is that.
+ * The near or far plane in every model: the answer passes as `check` judges it, and so does all that is said to pass
+ * with it; beyond it, where that is certain, nothing does; and where the answer has a closed form it is that.
  */
 #include <stdio.h>
 
@@ -104,11 +104,12 @@ static double share_beyond(const solve_problem *p, double x) {
 /* In the lattice an answer is tight: next beyond it there is nothing, and it says so. */
 static void judge_beyond(const solve_problem *p, const plane_answer *a, sides *s) {
     char text[320];
-    const double share = 2.0 * share_beyond(p, a->value), x = a->value * (p->unknown == SOLVE_NEAR ? 1 - share : 1 + share);
+    const double share = 2.0 * share_beyond(p, a->value),
+                 x = a->value * (p->unknown == SOLVE_NEAR ? 1 - share : 1 + share);
     if (isinf(a->value) || x < a->least || x > a->most || p->spec.model != DP_MODEL_EXACT || p->kind == MEASURE_ERROR)
         return;
-    TALLY(&s->beyond, !meets(p, x) && (a->certain || share > 2e-9), "%s: %.17g beyond %.17g passes", describe(p, text), x,
-          a->value);
+    TALLY(&s->beyond, !meets(p, x) && (a->certain || share > 2e-9), "%s: %.17g beyond %.17g passes", describe(p, text),
+          x, a->value);
 }
 
 static void judge_answer(const solve_problem *p, const plane_answer *a, rng *r, sides *s) {
@@ -221,8 +222,8 @@ static void test_error_by_hand(void **state) {
         char text[320];
         describe(&p, text);
         TALLY(&least,
-              a.possible && (a.value == a.least || plain_error(widths[k], reversed, a.value * (1.0 - 1e-9),
-                                                                     p.spec.zfar, p.hi) > (long double)p.limit),
+              a.possible && (a.value == a.least || plain_error(widths[k], reversed, a.value * (1.0 - 1e-9), p.spec.zfar,
+                                                               p.hi) > (long double)p.limit),
               "%s: below %.17g passes", text, a.value);
         for (int s = 0; s < 400; s++) {
             const double share = s < 200 ? 1e-9 + s * 1e-3 : 0.2 + (s - 200) * 0.05;

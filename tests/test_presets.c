@@ -139,9 +139,9 @@ static void test_cost(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cost),
-        cmocka_unit_test(test_required),     cmocka_unit_test(test_rows),         cmocka_unit_test(test_unconfirmed),
-        cmocka_unit_test(test_known_values), cmocka_unit_test(test_cesium_codes), cmocka_unit_test(test_view),
+        cmocka_unit_test(test_cost),        cmocka_unit_test(test_required),     cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_unconfirmed), cmocka_unit_test(test_known_values), cmocka_unit_test(test_cesium_codes),
+        cmocka_unit_test(test_view),
     };
     return run_tap(tests);
 }

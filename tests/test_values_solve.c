@@ -63,8 +63,8 @@ static const solve_case cases[] = {
      1000, true, 0.1, 1000, "float"},
     {"--for near -f 1e7 -F unorm24 -m three-webgpu --separation 1 --at 1e5", "near", MEASURE_SEPARATION, 1, 1e5, 1e5,
      true, NAN, 1e7, "float"},
-    {"--for near -f 1e4 -F unorm24 -m d3d --separation 0.0001 --at 5000", "near", MEASURE_SEPARATION, 0.0001, 5000, 5000,
-     false, NAN, 1e4, "float"},
+    {"--for near -f 1e4 -F unorm24 -m d3d --separation 0.0001 --at 5000", "near", MEASURE_SEPARATION, 0.0001, 5000,
+     5000, false, NAN, 1e4, "float"},
     {"--for distance -n 0.1 -f 1000 -F fp16 -m d3d --error 0.02 --range 0.2:900", "distance", MEASURE_ERROR, 0.02, 0.2,
      900, true, 0.1, 1000, "exact"},
 };
@@ -485,7 +485,8 @@ static void check_text_alternative(values *v, const solve_case *c, const char *t
     const bool ideal = value_at(v, at[3])->number != 0 || by_value || reached;
     values_under(v, "%s", under);
     snprintf(at[0], PATH_SIZE, "%.60sfails_to", under); /* there where a plane was solved for */
-    if (value_find(v, at[0]) != NULL && !isnan(value_at(v, (snprintf(at[1], PATH_SIZE, "%.60splane", under), at[1]))->number)) {
+    if (value_find(v, at[0]) != NULL &&
+        !isnan(value_at(v, (snprintf(at[1], PATH_SIZE, "%.60splane", under), at[1]))->number)) {
         snprintf(at[0], PATH_SIZE, "%.60splane", under);
         want_shown(v, c, "shown", value_at(v, at[0])->number, number_shown(text, label, 0));
         fields[0] = "shown";

@@ -46,14 +46,16 @@ double dp_lattice_above(const dp_setup *setup, double z);
  * with the shader's constants: scene units; *z is where. Of a set-up with a logarithmic curve.
  */
 double dp_shader_error_over(const dp_setup *setup, double lo, double hi, double *z);
-double dp_shader_error_between(const dp_setup *outer, const dp_setup *inner, double lo, double hi); /* of a run, below */
+double dp_shader_error_between(const dp_setup *outer, const dp_setup *inner, double lo,
+                               double hi); /* of a run, below */
 
 /*
- * A run of cameras is all whose near or far lies between those of two set-ups that are alike but for that plane: `outer`
- * has the smaller near or the larger far. What follows is a bound of each of them, not samples.
+ * A run of cameras is all whose near or far lies between those of two set-ups that are alike but for that plane:
+ * `outer` has the smaller near or the larger far. What follows is a bound of each of them, not samples.
  */
 
-/* Whether dp_separation() is at most `limit` at every depth of [lo, hi] in a run; 0 also where it could not be shown. */
+/* Whether dp_separation() is at most `limit` at every depth of [lo, hi] in a run; 0 also where it could not be shown.
+ */
 int dp_separation_within(const dp_setup *outer, const dp_setup *inner, double lo, double hi, double limit);
 
 /*

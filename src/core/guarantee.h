@@ -20,8 +20,8 @@ dp_guarantee dp_guarantee_make(const dp_setup *setup);
 
 /*
  * Of all cameras between two set-ups that are alike but for one plane: at every depth and over every run it is at least
- * each camera's own, but for what the lattice alone asks for. `outer` has the smaller near or the larger far. 0: nothing
- * is known of them together.
+ * each camera's own, but for what the lattice alone asks for. `outer` has the smaller near or the larger far. 0:
+ * nothing is known of them together.
  */
 int dp_guarantee_between(const dp_setup *outer, const dp_setup *inner, dp_guarantee *out);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The largest separation over a range: at binade ends in the model exact, by branch and bound in the others; and whether
- * a limit holds over a range in all cameras of a run, by branch and bound in all models.
+ * The largest separation over a range: at binade ends in the model exact, by branch and bound in the others; and
+ * whether a limit holds over a range in all cameras of a run, by branch and bound in all models.
  */
 #include "core/boundary.h"
 #include "core/curve.h"
@@ -49,8 +49,8 @@ static double with_eye(const dp_setup *setup, double lo, double hi, double ahead
 }
 
 /*
- * The most that any depth of the part may be off by, however it is aligned. Truncated codes are those of lower d, but the
- * stages before them round to nearest.
+ * The most that any depth of the part may be off by, however it is aligned. Truncated codes are those of lower d, but
+ * the stages before them round to nearest.
  */
 static double error_of(const dp_setup *setup, double hi, double step) {
     const double share = dp_error_share(setup);
@@ -261,8 +261,7 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     if (!(lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || isinf(lo))
         return DP_ERROR_RANGE;
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
-    search s = {
-        .setup = setup, .guarantee = dp_guarantee_make(setup), .lattice = lattice_of(setup), .worst = &worst};
+    search s = {.setup = setup, .guarantee = dp_guarantee_make(setup), .lattice = lattice_of(setup), .worst = &worst};
     note_separation(&s, hi);
     note_separation(&s, lo);
     const int exact =

@@ -60,9 +60,9 @@ static double error_of_code(const dp_setup *outer, const dp_setup *inner, uint32
 }
 
 /*
- * As the depths are aligned: where the last depth has one code in all of the run, or two. Its cell and those in front of
- * it are looked at one by one, each at most from where it begins to where it ends in any camera; in front of them any
- * alignment may be met.
+ * As the depths are aligned: where the last depth has one code in all of the run, or two. Its cell and those in front
+ * of it are looked at one by one, each at most from where it begins to where it ends in any camera; in front of them
+ * any alignment may be met.
  */
 static bool is_aligned(const solve_problem *p, const dp_setup *outer, const dp_setup *inner) {
     enum { CELLS = 4 };
