@@ -164,7 +164,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
 
 static void test_fp32(void **state) {
     (void)state;
-    in_model(DP_MODEL_FLOAT, MEASURE_SEPARATION, test_cases(100, 500, 20000));
+    in_model(DP_MODEL_FLOAT, MEASURE_SEPARATION, test_cases(60, 250, 20000));
 }
 
 static void test_staged(void **state) {
@@ -179,8 +179,8 @@ static void test_exact(void **state) {
 
 static void test_error(void **state) {
     (void)state;
-    in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(100, 250, 10000));
-    in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(50, 100, 3000));
+    in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(50, 120, 10000));
+    in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(30, 60, 3000));
 }
 
 /* |stored - z| of UNORM under an infinite or finite perspective, in long double, without the library. */
