@@ -89,14 +89,11 @@ static bool is_aligned(const solve_problem *p, const dp_setup *outer, const dp_s
     return p->lo == p->hi;
 }
 
-static bool all_pass(const search *s, double outer, double inner) {
+static bool all_pass(const search *s, const dp_setup *outer, const dp_setup *inner) {
     const solve_problem *p = s->problem;
-    dp_setup one, other;
-    if (solve_setup(p, outer, &one) != DP_OK || solve_setup(p, inner, &other) != DP_OK)
-        return false;
     if (p->kind == MEASURE_SEPARATION)
-        return dp_separation_within(&one, &other, p->lo, p->hi, p->limit);
-    return s->aligned ? is_aligned(p, &one, &other) : dp_error_within(&one, &other, p->lo, p->hi, p->limit);
+        return dp_separation_within(outer, inner, p->lo, p->hi, p->limit);
+    return s->aligned ? is_aligned(p, outer, inner) : dp_error_within(outer, inner, p->lo, p->hi, p->limit);
 }
 
 /* The same question in the model exact, of surfaces that face the camera: no model has a separation below that. */
@@ -149,11 +146,13 @@ static void offer(search *s, double value) {
 /* Between two values the uppermost box of which all pass. One of which none passes is left, others are divided. */
 static bool find(search *s, double outer, double inner, double box[2]) {
     const double middle = isinf(outer) ? 2.0 * inner : sqrt(outer) * sqrt(inner);
+    dp_setup one, other;
     box[0] = outer;
     box[1] = inner;
     if (s->boxes++ < BOXES_MOST && none_passes(s->problem, outer, inner, middle))
         return false;
-    if (s->boxes < BOXES_MOST && all_pass(s, outer, inner))
+    if (s->boxes < BOXES_MOST && solve_setup(s->problem, outer, &one) == DP_OK &&
+        solve_setup(s->problem, inner, &other) == DP_OK && all_pass(s, &one, &other))
         return true;
     if (s->boxes < BOXES_MOST && !is_smallest(s, outer, inner))
         return s->outer > s->inner ? find(s, outer, middle, box) || find(s, middle, inner, box)
@@ -168,11 +167,17 @@ static double reach_from(const search *s, double start, double end) {
     const bool up = end > start, outwards = (end == s->outer);
     const int most = s->problem->lo < s->problem->hi ? STRETCHES_OF_RANGE : STRETCHES_MOST;
     double at = start, ratio = 2.0;
+    dp_setup here, there;
+    if (solve_setup(s->problem, at, &here) != DP_OK)
+        return at;
     for (int i = 0; i < most && at != end && ratio > settled[s->problem->kind]; i++) {
         const double step = up ? fmin(at * ratio, end) : fmax(isinf(at) ? far_most : at / ratio, end);
         const double x = up && step > far_most ? end : step;
-        const bool all = outwards ? all_pass(s, x, at) : all_pass(s, at, x);
+        const bool all = solve_setup(s->problem, x, &there) == DP_OK &&
+                         (outwards ? all_pass(s, &there, &here) : all_pass(s, &here, &there));
         at = all ? x : at;
+        if (all)
+            here = there;
         ratio = all ? fmin(ratio * ratio, 0x1p64) : sqrt(ratio);
         if (s->aligned) /* the end of each code is a narrow pass between wide ones */
             ratio = all ? fmin(ratio * ratio * ratio * ratio, 0x1p64) : sqrt(ratio);
