@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A bound over all cameras whose near or far lies between two: where it says that all of them tell surfaces apart, no
- * camera that is looked at fails, those among them whose planes have few bits and are rounded to even; and where all
- * that are looked at do, it mostly says so.
+ * A bound over all cameras whose near or far lies between two: where it says that all of them tell surfaces apart, or
+ * keep an error, no camera that is looked at fails, those among them whose planes have few bits and are rounded to
+ * even; and where all that are looked at do, it mostly says so. Of the models exact and staged the codes are an
+ * oracle's.
  */
 #include <math.h>
 #include <stdio.h>
@@ -10,6 +11,7 @@
 #include "core/engine.h"
 #include "core/guarantee.h"
 #include "depthprec/bounds.h"
+#include "oracle.h"
 #include "support.h"
 
 typedef struct cameras {
@@ -22,9 +24,13 @@ typedef struct cameras {
 
 static dp_status make(const cameras *c, double plane, dp_model model, dp_setup *out) {
     dp_spec spec = c->spec;
-    spec.model = model;
+    const int shader = model == DP_MODEL_FLOAT && dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG;
+    spec.model = shader ? DP_MODEL_STAGED : model;
     *(c->far_moves ? &spec.zfar : &spec.znear) = plane;
-    return dp_setup_init(out, &spec);
+    const dp_status status = dp_setup_init(out, &spec);
+    if (status == DP_OK && shader)
+        *out = dp_setup_guaranteed(out);
+    return status;
 }
 
 static int passes(const cameras *c, double plane, dp_model model) {
@@ -37,7 +43,8 @@ static int passes(const cameras *c, double plane, dp_model model) {
     return dp_separation_over(&setup, c->lo, c->hi, c->limit, &worst) == DP_OK && worst.bound <= c->limit;
 }
 
-static int draw(rng *r, cameras *c) {
+/* Of a curve; where near is that of a shader, its camera begins at it more often than not. */
+static int draw(rng *r, cameras *c, int logarithm) {
     static const char *const formats[] = {"fp32", "unorm24", "unorm16", "fp16"};
     dp_format found[2];
     dp_setup setup;
@@ -47,14 +54,15 @@ static int draw(rng *r, cameras *c) {
     c->spec.format = found[0];
     do
         c->spec.mapping = (dp_mapping)rng_below(r, DP_MAPPING_COUNT);
-    while (dp_mapping_get(c->spec.mapping)->curve != DP_CURVE_PERSPECTIVE);
+    while (dp_mapping_get(c->spec.mapping)->curve != (logarithm ? DP_CURVE_LOG : DP_CURVE_PERSPECTIVE));
+    c->spec.log_c = rng_log(r, 1e-2, 1e2);
     c->spec.arith = (dp_arith)rng_below(r, dp_arith_count());
-    c->spec.ortho = rng_below(r, 5) == 0;
+    c->spec.ortho = !logarithm && rng_below(r, 5) == 0;
     c->spec.znear = rng_log(r, 1e-2, 1e2);
     c->spec.zfar = c->spec.znear * rng_log(r, 1.5, 1e5);
-    if (!c->spec.ortho && rng_below(r, 4) == 0)
+    if (!logarithm && !c->spec.ortho && rng_below(r, 4) == 0)
         c->spec.zfar = INFINITY;
-    if (!c->spec.ortho && rng_below(r, 4) == 0) {
+    if (!logarithm && !c->spec.ortho && rng_below(r, 4) == 0) {
         c->spec.triangles = dp_triangles_default();
         c->spec.triangles.slant_lo = rng_uniform(r, 0.0, 80.0);
     }
@@ -84,16 +92,15 @@ static double between(rng *r, const cameras *c) {
     return rng_below(r, 2) == 0 && coarse >= c->from && coarse <= end ? coarse : x;
 }
 
-static void test_all(void **state) {
-    (void)state;
-    rng r = rng_make("cameras between two");
+static void in_curve(int logarithm) {
+    rng r = rng_make(logarithm ? "shaders between two" : "cameras between two");
     tally all = {.name = "of cameras that are said to tell apart what lies `limit` apart none fails"};
     uint64_t said = 0, could = 0, narrow = 0, narrow_said = 0;
     const uint64_t count = test_cases(1500, 6000, 100000);
     for (uint64_t i = 0; i < count;) {
         cameras c;
         dp_setup one, other;
-        if (!draw(&r, &c) || make(&c, c.from, DP_MODEL_FLOAT, &one) != DP_OK ||
+        if (!draw(&r, &c, logarithm) || make(&c, c.from, DP_MODEL_FLOAT, &one) != DP_OK ||
             make(&c, c.to, DP_MODEL_FLOAT, &other) != DP_OK)
             continue;
         i++;
@@ -123,6 +130,178 @@ static void test_all(void **state) {
     assert_true(narrow_said * 10 > narrow * 9);
 }
 
+static void test_all(void **state) {
+    (void)state;
+    in_curve(0);
+}
+
+static void test_shaders(void **state) {
+    (void)state;
+    in_curve(1);
+}
+
+/* What a shader's stored depth is off by, in each camera of a run. */
+static void test_shader_errors(void **state) {
+    (void)state;
+    rng r = rng_make("errors of shaders between two");
+    tally all = {.name = "no shader's error is above that of its run"};
+    tally tight = {.name = "the error of a narrow run is nearly that of its ends"};
+    const uint64_t count = test_cases(500, 3000, 50000);
+    for (uint64_t i = 0; i < count;) {
+        cameras c;
+        dp_setup one, other, here;
+        double z;
+        if (!draw(&r, &c, 1) || make(&c, c.from, DP_MODEL_FLOAT, &one) != DP_OK ||
+            make(&c, c.to, DP_MODEL_FLOAT, &other) != DP_OK)
+            continue;
+        i++;
+        const double bound =
+            dp_shader_error_between(c.far_moves ? &other : &one, c.far_moves ? &one : &other, c.lo, c.hi);
+        for (int k = 0; k < 20; k++)
+            if (make(&c, k == 0 ? c.from : k == 1 ? c.to : between(&r, &c), DP_MODEL_FLOAT, &here) == DP_OK)
+                TALLY(&all, dp_shader_error_over(&here, c.lo, c.hi, &z) <= bound, "%s near %.17g far %.17g",
+                      dp_mapping_get(c.spec.mapping)->name, here.spec.znear, here.spec.zfar);
+        const double ends =
+            fmax(dp_shader_error_over(&one, c.lo, c.hi, &z), dp_shader_error_over(&other, c.lo, c.hi, &z));
+        if (c.to < c.from * (1.0 + 1e-5) && c.hi < 0.9 * fmin(one.spec.zfar, other.spec.zfar))
+            TALLY(&tight, bound <= 1.3 * ends, "%s near %.17g far %.17g: %.17g above %.17g",
+                  dp_mapping_get(c.spec.mapping)->name, one.spec.znear, one.spec.zfar, bound, ends);
+    }
+    tally_end(&all);
+    tally_end(&tight);
+}
+
+/* ---- The models exact and staged, by an oracle ------------------------------------------------------------------- */
+
+/* The code of a depth as the models are defined: rounded once, or as NDC depth, window depth and code. */
+static uint32_t code_by_oracle(oracle *o, double z) {
+    const dp_spec *spec = &o->spec;
+    mpq_t d;
+    if (spec->model == DP_MODEL_EXACT)
+        return oracle_code(o, z);
+    mpq_init(d);
+    oracle_window(o, d, z);
+    const int is_signed = dp_mapping_get(spec->mapping)->ndc_signed;
+    if (is_signed) {
+        mpz_mul_2exp(mpq_numref(d), mpq_numref(d), 1);
+        mpz_sub(mpq_numref(d), mpq_numref(d), mpq_denref(d));
+    }
+    const float x = (float)oracle_double(d), w = is_signed ? 0.5F * x + 0.5F : x;
+    mpq_clear(d);
+    return oracle_encode(&spec->format, spec->rounding, (double)w);
+}
+
+/* |stored - z|; INFINITY where no finite depth is stored so. */
+static double error_by_oracle(oracle *o, uint32_t code, double z) {
+    mpq_t value, stored;
+    mpq_inits(value, stored, NULL);
+    oracle_value(value, &o->spec.format, code);
+    const double error = oracle_eye(o, stored, value) ? oracle_distance(z, stored) : INFINITY;
+    mpq_clears(value, stored, NULL);
+    return error;
+}
+
+static int draw_lattice(rng *r, cameras *c) {
+    static const char *const formats[] = {"fp32", "fp16", "unorm8", "unorm16", "unorm24", "float4.6"};
+    dp_format found[2];
+    *c = (cameras){.spec = dp_spec_default(), .far_moves = (int)rng_below(r, 2)};
+    dp_format_parse(formats[rng_below(r, 6)], found);
+    c->spec.format = found[0];
+    c->spec.mapping = (dp_mapping)rng_below(r, DP_MAPPING_COUNT);
+    c->spec.ortho = dp_mapping_get(c->spec.mapping)->ortho && rng_below(r, 4) == 0;
+    c->spec.model = (dp_model)rng_below(r, 2);
+    c->spec.rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
+    c->spec.znear = rng_log(r, 1e-2, 1e2);
+    c->spec.zfar = c->spec.znear * rng_log(r, 3.0, 1e4);
+    if (dp_mapping_get(c->spec.mapping)->far_infinite && !c->spec.ortho && !c->far_moves && rng_below(r, 4) == 0)
+        c->spec.zfar = INFINITY;
+    c->from = c->far_moves ? c->spec.zfar : c->spec.znear;
+    c->to = c->from * (1.0 + rng_log(r, 1e-8, 1.0));
+    const double first = c->far_moves ? c->spec.znear : c->to;
+    const double last = c->far_moves ? c->from : fmin(c->spec.zfar, 1e4 * c->spec.znear);
+    if (first * 1.1 >= last)
+        return 0;
+    c->hi = rng_log(r, first, last);
+    c->lo = rng_below(r, 2) == 0 ? rng_log(r, first, c->hi) : c->hi;
+    return 1;
+}
+
+static int within(const cameras *c, int of_errors, double limit) {
+    dp_setup one, other;
+    if (make(c, c->from, c->spec.model, &one) != DP_OK || make(c, c->to, c->spec.model, &other) != DP_OK)
+        return 0;
+    const dp_setup *outer = c->far_moves ? &other : &one, *inner = c->far_moves ? &one : &other;
+    return (of_errors ? dp_error_within : dp_separation_within)(outer, inner, c->lo, c->hi, limit);
+}
+
+/* The least limit that a run is said to keep, to 2^-20. */
+static double kept_by(const cameras *c, int of_errors) {
+    double fails = 1e-12 * c->hi, holds = 1e3 * c->hi;
+    if (!within(c, of_errors, holds))
+        return INFINITY;
+    while (holds > fails * (1.0 + 0x1p-20)) {
+        const double middle = sqrt(fails) * sqrt(holds);
+        *(within(c, of_errors, middle) ? &holds : &fails) = middle;
+    }
+    return holds;
+}
+
+/* Nothing is looked at but the codes of an oracle: of surfaces that far apart, and of what a code is read back as. */
+static void test_lattice(void **state) {
+    (void)state;
+    rng r = rng_make("lattices between two");
+    tally apart = {.name = "surfaces that far apart have two codes in every camera of a run, by GMP"};
+    tally errors = {.name = "no code of a camera of a run is read back farther off, by GMP"};
+    uint64_t singles = 0, shared = 0, met = 0; /* of one camera: what shows that a bound is not slack */
+    const uint64_t count = test_cases(150, 800, 10000);
+    for (uint64_t i = 0; i < count;) {
+        cameras c;
+        oracle o;
+        char text[256];
+        if (!draw_lattice(&r, &c))
+            continue;
+        const int single = rng_below(&r, 3) == 0;
+        if (single)
+            c.to = c.from;
+        const double separation = kept_by(&c, 0), error = kept_by(&c, 1);
+        if (isinf(separation) || isinf(error))
+            continue;
+        i++;
+        double worst = 0.0, closest = 0.0;
+        for (int k = 0; k < 24; k++) {
+            dp_setup setup;
+            if (make(&c, k == 0 ? c.from : k == 1 ? c.to : between(&r, &c), c.spec.model, &setup) != DP_OK)
+                continue;
+            oracle_init(&o, &setup.spec);
+            for (int n = 0; n < 12; n++) {
+                const double z = n == 0 ? c.hi : n == 1 ? c.lo : rng_uniform(&r, c.lo, c.hi), behind = z + separation;
+                const uint32_t code = code_by_oracle(&o, z);
+                const double off = error_by_oracle(&o, code, z);
+                worst = fmax(worst, off);
+                TALLY(&errors, off <= error, "%s: %.17g at %.17g above %.17g",
+                      oracle_describe(&setup.spec, text, sizeof text), off, z, error);
+                if (behind <= setup.spec.zfar)
+                    TALLY(&apart, code_by_oracle(&o, behind) != code, "%s: %.17g and %.17g behind",
+                          oracle_describe(&setup.spec, text, sizeof text), z, separation);
+                const double nearer = z + 0.45 * separation;
+                if (nearer <= setup.spec.zfar && code_by_oracle(&o, nearer) == code)
+                    closest = 0.45 * separation;
+            }
+            oracle_clear(&o);
+        }
+        if (single && c.lo < c.hi && c.spec.model == DP_MODEL_EXACT && c.spec.format.kind == DP_FORMAT_UNORM) {
+            singles++;
+            shared += closest > 0.0;
+            met += worst > 0.5 * error;
+        }
+    }
+    tally_end(&apart);
+    tally_end(&errors);
+    printf("# of %llu single cameras %llu have surfaces 0.45 of that apart with one code, %llu half of the error\n",
+           (unsigned long long)singles, (unsigned long long)shared, (unsigned long long)met);
+    assert_true(shared * 10 > singles * 8 && met * 10 > singles * 8);
+}
+
 /* A run of depths of one binade: what is guaranteed of all of them is at least what is guaranteed of each. */
 static void test_depths(void **state) {
     (void)state;
@@ -132,7 +311,7 @@ static void test_depths(void **state) {
     for (uint64_t i = 0; i < count;) {
         cameras c;
         dp_setup setup;
-        if (!draw(&r, &c) || make(&c, c.to, DP_MODEL_FLOAT, &setup) != DP_OK)
+        if (!draw(&r, &c, 0) || make(&c, c.to, DP_MODEL_FLOAT, &setup) != DP_OK)
             continue;
         i++;
         const dp_guarantee g = dp_guarantee_make(&setup);
@@ -158,17 +337,15 @@ static void test_depths(void **state) {
     tally_end(&each);
 }
 
-/* What has no matrix, no entry of one sign, or another model: nothing is said. */
+/* What has no entry of one sign, and an error in float: nothing is said. */
 static void test_nothing(void **state) {
     (void)state;
     dp_spec spec = dp_spec_default();
     dp_setup one, other;
-    spec.model = DP_MODEL_STAGED;
-    assert_int_equal(dp_setup_init(&one, &spec), DP_OK);
-    assert_int_equal(dp_separation_within(&one, &one, 10.0, 10.0, 5.0), 0);
     spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&one, &spec), DP_OK);
     assert_int_equal(dp_separation_within(&one, &one, 10.0, 10.0, 5.0), 1);
+    assert_int_equal(dp_error_within(&one, &one, 10.0, 10.0, 5.0), 0);
     spec.ortho = 1;
     spec.znear = -1.0;
     assert_int_equal(dp_setup_init(&one, &spec), DP_OK);
@@ -178,7 +355,8 @@ static void test_nothing(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all), cmocka_unit_test(test_depths),
-                                       cmocka_unit_test(test_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all),           cmocka_unit_test(test_shaders),
+                                       cmocka_unit_test(test_shader_errors), cmocka_unit_test(test_lattice),
+                                       cmocka_unit_test(test_depths),        cmocka_unit_test(test_nothing)};
     return run_tap(tests);
 }

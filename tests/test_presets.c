@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "api/cost.h"
 #include "api/presets.h"
 #include "cli/option/names.h"
 #include "named.h"
@@ -117,10 +118,30 @@ static void test_view(void **state) {
     assert_string_equal(preset_find("unity")->raster, "spec-vulkan");
 }
 
+static dp_format format_of(const char *name) {
+    dp_format f[2];
+    assert_int_not_equal(dp_format_parse(name, f), 0);
+    return f[0];
+}
+
+static void test_cost(void **state) {
+    (void)state;
+    static const char *const order[] = {"unorm16", "fp32", "unorm24", "fp16", "float3.3"};
+    for (int i = 0; i < 5; i++)
+        for (int k = i + 1; k < 4; k++) {
+            const dp_format a = format_of(order[i]), b = format_of(order[k]);
+            const cost x = cost_of(&a, DP_MAPPING_D3D), y = cost_of(&b, DP_MAPPING_D3D);
+            assert_true(cost_compare(&x, &y) < 0 && cost_compare(&y, &x) > 0);
+        }
+    for (size_t i = 0; i < dp_format_count(); i++) /* every named format has its row */
+        assert_null(strstr(cost_of(&dp_format_get(i)->format, DP_MAPPING_GL).available, "study"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_required),     cmocka_unit_test(test_rows),         cmocka_unit_test(test_unconfirmed),
-        cmocka_unit_test(test_known_values), cmocka_unit_test(test_cesium_codes), cmocka_unit_test(test_view),
+        cmocka_unit_test(test_cost),        cmocka_unit_test(test_required),     cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_unconfirmed), cmocka_unit_test(test_known_values), cmocka_unit_test(test_cesium_codes),
+        cmocka_unit_test(test_view),
     };
     return run_tap(tests);
 }

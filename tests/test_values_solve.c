@@ -63,6 +63,8 @@ static const solve_case cases[] = {
      1000, true, 0.1, 1000, "float"},
     {"--for near -f 1e7 -F unorm24 -m three-webgpu --separation 1 --at 1e5", "near", MEASURE_SEPARATION, 1, 1e5, 1e5,
      true, NAN, 1e7, "float"},
+    {"--for near -f 1e4 -F unorm24 -m d3d --separation 0.0001 --at 5000", "near", MEASURE_SEPARATION, 0.0001, 5000,
+     5000, false, NAN, 1e4, "float"},
     {"--for distance -n 0.1 -f 1000 -F fp16 -m d3d --error 0.02 --range 0.2:900", "distance", MEASURE_ERROR, 0.02, 0.2,
      900, true, 0.1, 1000, "exact"},
 };
@@ -117,7 +119,7 @@ static double with_plane(const solve_case *c, const dp_setup *setup, bool near_a
     *(near_asked ? &spec.znear : &spec.zfar) = plane;
     if (spec.znear > c->lo || spec.zfar < c->hi || judge_setup(&spec, &other) != DP_OK)
         return INFINITY;
-    return measure_over(c->kind, &other, c->lo, c->hi).value;
+    return judge(c->kind, &other, c->lo, c->hi, NAN).value;
 }
 
 /* Both ends pass; outward of each nothing does, unless it is as far as a plane can go. */
@@ -125,6 +127,8 @@ static void check_island(const solve_case *c, const dp_setup *setup, bool near_a
     const double outward = 1e-7;
     assert_true(lo <= hi);
     assert_true(with_plane(c, setup, near_asked, lo) <= c->limit && with_plane(c, setup, near_asked, hi) <= c->limit);
+    if (c->kind == MEASURE_ERROR) /* which may pass again where it is aligned otherwise */
+        return;
     if (lo > 1e-12 && (near_asked || lo > c->hi))
         assert_true(with_plane(c, setup, near_asked, lo * (1 - outward)) > c->limit);
     if (near_asked ? hi < c->lo : hi < 1e18)
@@ -161,9 +165,7 @@ static dp_setup in_model(const dp_setup *setup, dp_model model) {
     return other;
 }
 
-static solve_result lattice; /* of the last one that was solved again */
-
-static plane_answer solve_again(const solve_case *c, const dp_setup *setup, bool is_answer) {
+static plane_answer solve_again(const solve_case *c, const dp_setup *setup) {
     plane_answer out;
     const solve_problem p = {.spec = spec_of(setup),
                              .unknown = near_is_asked(c) ? SOLVE_NEAR : SOLVE_FAR,
@@ -171,7 +173,7 @@ static plane_answer solve_again(const solve_case *c, const dp_setup *setup, bool
                              .limit = c->limit,
                              .lo = c->lo,
                              .hi = c->hi};
-    assert_int_equal(plane_solve(&p, is_answer ? PLANE_PROVE : PLANE_FIND, &lattice, &out), DP_OK);
+    assert_int_equal(plane_solve(&p, &out), DP_OK);
     return out;
 }
 
@@ -182,42 +184,41 @@ static bool passes_at(const solve_case *c, const dp_setup *setup, double plane) 
     return judge_setup(&spec, &other) == DP_OK && judge(c->kind, &other, c->lo, c->hi, c->limit).passed;
 }
 
-/*
- * Its own ends pass, as does all between them where that is proven, planes of few bits among them, and the first one;
- * what is said to fail does.
- */
+/* Its own ends pass, as does all between them, planes of few bits among them. */
 static void check_plane(const solve_case *c, const dp_setup *setup, double plane, const plane_answer *p) {
-    const double first = p->value;
-    assert_true(passes_at(c, setup, plane) && passes_at(c, setup, p->until) && passes_at(c, setup, first));
-    assert_true(p->passed <= p->tried && (near_is_asked(c) ? first <= plane : first >= plane));
-    if (p->tried == 0)
-        assert_true(p->proven && first == plane);
-    for (int i = 0; i < 2000 && p->proven && isfinite(plane) && isfinite(p->until); i++) {
+    assert_true(passes_at(c, setup, plane) && passes_at(c, setup, p->until));
+    for (int i = 0; i < 2000 && isfinite(plane) && isfinite(p->until); i++) {
         const double x = plane * pow(p->until / plane, i / 1999.0), grid = ldexp(1.0, ilogb(x) - i % 16);
         const double tried[] = {x, rint(x / grid) * grid};
         for (int k = 0; k < 2; k++)
             if (tried[k] >= fmin(plane, p->until) && tried[k] <= fmax(plane, p->until) && (k == 0 || c->lo == c->hi))
                 assert_true(passes_at(c, setup, tried[k]));
     }
-    for (int i = 0; i < 32; i++) {
-        const float outward = (float)(first + i / 31.0 * (p->fails_to - first));
-        if (!isnan(p->fails_to) && (near_is_asked(c) ? (double)outward < first : (double)outward > first))
-            assert_false(passes_at(c, setup, (double)outward));
-    }
 }
 
-static void want_plane(values *v, const solve_case *c, const dp_setup *setup, double plane, bool is_answer) {
-    const plane_answer p = solve_again(c, setup, is_answer);
-    want_number(v, "until", p.until);
-    want_number(v, "first", p.value);
-    want_bool(v, "proven", p.proven);
-    want_count(v, "tried", p.tried);
-    want_count(v, "passed", p.passed);
+/* None was found, for certain or not. */
+static void want_no_plane(values *v, const solve_case *c, const dp_setup *setup) {
+    static const char *const numbers[] = {"until", "first", "tried", "passed", "fails_to"};
+    const plane_answer p = solve_again(c, setup);
+    assert_false(p.possible);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        want_number(v, numbers[i], NAN);
+    want_bool(v, "proven", p.certain);
     want_bool(v, "certain", p.certain);
-    want_number(v, "fails_to", p.fails_to);
+}
+
+static void want_plane(values *v, const solve_case *c, const dp_setup *setup, double plane) {
+    const plane_answer p = solve_again(c, setup);
+    want_number(v, "until", p.until);
+    want_number(v, "first", plane);
+    want_bool(v, "proven", true);
+    want_number(v, "tried", NAN);
+    want_number(v, "passed", NAN);
+    want_bool(v, "certain", p.certain);
+    want_number(v, "fails_to", NAN);
     want_derived(v, "from", fmin(plane, p.until));
     want_derived(v, "to", fmax(plane, p.until));
-    assert_true(p.possible && p.chosen == plane);
+    assert_true(p.possible && p.value == plane);
     check_plane(c, setup, plane, &p);
     if (setup->spec.model == DP_MODEL_EXACT && c->kind == MEASURE_SEPARATION)
         check_island(c, setup, near_is_asked(c), fmin(plane, p.until), fmax(plane, p.until));
@@ -281,7 +282,7 @@ static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
 }
 
 /* What real arithmetic would need: the same question in the model exact. */
-static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, bool solved, bool is_answer) {
+static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, bool solved) {
     const dp_setup exact = in_model(setup, DP_MODEL_EXACT);
     judgement reached;
     double value = NAN;
@@ -291,11 +292,10 @@ static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, 
         reached = d.reached;
         value = d.possible ? d.value : NAN;
     } else if (solved) {
-        const plane_answer p = solve_again(c, &exact, is_answer);
-        const bool aligned = c->kind == MEASURE_ERROR; /* the error of depths as they are, not of any */
+        const plane_answer p = solve_again(c, &exact);
         want_bool(v, "possible", p.possible);
-        want_number(v, near_is_asked(c) ? "near" : "far", value = aligned ? p.value : lattice.value);
-        reached = aligned ? p.reached : (judgement){.value = lattice.worst.value, .z = lattice.worst.z};
+        want_number(v, near_is_asked(c) ? "near" : "far", value = p.value);
+        reached = p.reached;
     } else {
         reached = judge(c->kind, &exact, c->lo, c->hi, c->limit);
         want_bool(v, "possible", isnan(c->limit) || reached.passed);
@@ -306,7 +306,7 @@ static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, 
     want_derived(v, "value", reached.value);
 }
 
-static void want_candidate(values *v, const solve_case *c, const json_t *o, const char *under, bool is_answer) {
+static void want_candidate(values *v, const solve_case *c, const json_t *o, const char *under) {
     const dp_setup setup = setup_in(o);
     const cost price = cost_of(&setup.spec.format, setup.spec.mapping);
     const double plane = near_is_asked(c) ? setup.spec.znear : setup.spec.zfar;
@@ -328,19 +328,17 @@ static void want_candidate(values *v, const solve_case *c, const json_t *o, cons
     want_number(v, measure_of(c), worst.value);
     want_number(v, "z", worst.z);
     want_number(v, "guaranteed", in_binary32(c, &setup, worst.z));
-    if (c->kind == MEASURE_SEPARATION && setup.spec.model == DP_MODEL_EXACT && !is_distance(c)) {
-        const double whole = measure_over(c->kind, &setup, c->lo, c->hi).value; /* both to within 1e-12 */
-        assert_true(worst.value == whole || fabs(worst.value / whole - 1) <= 2e-12);
-    }
     const bool solved = !is_distance(c) && !isnan(c->limit) && is_solved(c, &setup);
     if (solved && passes)
-        want_plane(v, c, &setup, plane, is_answer);
+        want_plane(v, c, &setup, plane);
     else if (!is_distance(c)) {
+        if (solved && (isnan(c->znear) || isnan(c->zfar)))
+            want_no_plane(v, c, &setup);
         want_derived(v, "from", NAN);
         want_derived(v, "to", NAN);
     }
     values_under(v, "%s", under);
-    want_lattice(v, c, &setup, solved, is_answer);
+    want_lattice(v, c, &setup, solved);
     values_under(v, "%s", under);
     want_count(v, "bytes", (uint64_t)price.bytes);
     want_text(v, "available", price.available);
@@ -367,11 +365,6 @@ static void check_order(const solve_case *c, const json_t *alternatives) {
     }
 }
 
-/* The last island is the answer's own; its bound may keep a few ulps away from the ends. */
-static bool is_just_inside(double from, double to, double lo, double hi) {
-    return from >= lo && to <= hi && from <= lo * (1 + 0x1p-35) && to >= hi * (1 - 0x1p-35);
-}
-
 static void want_solve(values *v, const solve_case *c, line_places *lines) {
     const json_t *answer = json_object_get(root, "answer"), *islands = json_object_get(root, "islands");
     const json_t *others = json_object_get(root, "alternatives");
@@ -384,7 +377,7 @@ static void want_solve(values *v, const solve_case *c, line_places *lines) {
     want_number(v, "lo", c->lo);
     want_number(v, "hi", c->hi);
     want_bool(v, "possible", c->possible);
-    want_candidate(v, c, answer, "answer.", true);
+    want_candidate(v, c, answer, "answer.");
     if (is_distance(c))
         want_beyond(v, c, &own);
     place_add(lines, "", "answer.");
@@ -394,15 +387,14 @@ static void want_solve(values *v, const solve_case *c, line_places *lines) {
         want_number(v, "lo", lo);
         want_number(v, "hi", isnan(hi) ? INFINITY : hi);
         check_island(c, &setup, near_is_asked(c), lo, isnan(hi) ? INFINITY : hi);
-        if (i + 1 < json_array_size(islands))
-            place_add(lines, "", "islands[%zu].", i);
-        else if (c->possible && c->kind == MEASURE_SEPARATION && own.spec.model == DP_MODEL_EXACT)
-            assert_true(is_just_inside(value_at(v, "answer.from")->number, value_at(v, "answer.to")->number, lo,
-                                       isnan(hi) ? INFINITY : hi));
+        assert_true(i == 0);
+        if (c->possible && own.spec.model == DP_MODEL_EXACT)
+            assert_true(value_at(v, "answer.from")->number == lo &&
+                        value_at(v, "answer.to")->number == (isnan(hi) ? INFINITY : hi));
     }
     for (size_t i = 0; i < json_array_size(others); i++) {
         snprintf(under, sizeof under, "alternatives[%zu].", i);
-        want_candidate(v, c, json_array_get(others, i), under, false);
+        want_candidate(v, c, json_array_get(others, i), under);
         place_add(lines, "", "%s", under);
     }
     check_order(c, others);
@@ -410,8 +402,7 @@ static void want_solve(values *v, const solve_case *c, line_places *lines) {
 
 /* ---- CSV and text ------------------------------------------------------------------------------------------------ */
 
-/* An island's line is the answer's with the island's ends. */
-static void check_lines(values *v, int status, const char *arguments, line_places *lines, size_t islands) {
+static void check_lines(values *v, int status, const char *arguments, line_places *lines) {
     static const csv_column columns[] = {{"role", "role"},
                                          SETUP_COLUMNS,
                                          {"for", "/for"},
@@ -428,21 +419,13 @@ static void check_lines(values *v, int status, const char *arguments, line_place
                                          {"lattice [scene]", "^lattice.plane"},
                                          {"lattice value [scene]", "^lattice.value"}};
     for (size_t i = 0; i < lines->count; i++) {
-        line_place *p = &lines->items[i];
-        const bool island = i > 0 && i <= islands;
-        values_under(v, "%s", p->inner);
+        values_under(v, "%s", lines->items[i].inner);
         wanted role = {.kind = VALUE_TEXT, .derived = true};
         want_derived(v, "role", 0);
         role = v->items[v->count - 1];
         role.kind = VALUE_TEXT;
-        snprintf(role.text, sizeof role.text, "%s", i == 0 ? "answer" : island ? "island" : "alternative");
+        snprintf(role.text, sizeof role.text, "%s", i == 0 ? "answer" : "alternative");
         v->items[v->count - 1] = role;
-        if (island) {
-            want_derived(v, "from",
-                         value_at(v, (snprintf(p->outer, PATH_SIZE, "%.60slo", p->inner), p->outer))->number);
-            want_derived(v, "to", value_at(v, (snprintf(p->outer, PATH_SIZE, "%.60shi", p->inner), p->outer))->number);
-            snprintf(p->outer, PATH_SIZE, "answer.");
-        }
     }
     check_csv(v, status, arguments, columns, sizeof columns / sizeof columns[0], lines);
 }
@@ -502,7 +485,8 @@ static void check_text_alternative(values *v, const solve_case *c, const char *t
     const bool ideal = value_at(v, at[3])->number != 0 || by_value || reached;
     values_under(v, "%s", under);
     snprintf(at[0], PATH_SIZE, "%.60sfails_to", under); /* there where a plane was solved for */
-    if (value_find(v, at[0]) != NULL) {
+    if (value_find(v, at[0]) != NULL &&
+        !isnan(value_at(v, (snprintf(at[1], PATH_SIZE, "%.60splane", under), at[1]))->number)) {
         snprintf(at[0], PATH_SIZE, "%.60splane", under);
         want_shown(v, c, "shown", value_at(v, at[0])->number, number_shown(text, label, 0));
         fields[0] = "shown";
@@ -540,37 +524,19 @@ static void check_text_distance(values *v, const solve_case *c, const char *text
     assert_true((strstr(text, "  assumed  ") != NULL) == (strstr(c->arguments, "-f ") == NULL));
 }
 
-/* Which values pass: all, for certain or of those tried; and the first one that does, where others beside it do not. */
+/* Which values pass. */
 static void check_text_passing(values *v, const solve_case *c, const char *text) {
     static const char *const every[] = {"answer.shown_from", "answer.shown_to", NULL};
-    static const char *const some[] = {"answer.passed", "answer.tried", "answer.shown_from", "answer.shown_to", NULL};
-    static const char *const scattered[] = {"answer.shown_first", "answer.failed", "answer.tried", NULL};
-    static const char *const steady[] = {"answer.shown_first", "answer.tried", NULL};
-    const char *label = near_is_asked(c) ? "smaller" : "larger";
-    const double count = value_at(v, "answer.tried")->number, good = value_at(v, "answer.passed")->number;
-    const double first = value_at(v, "answer.first")->number;
-    const bool two = first != value_at(v, "answer.plane")->number;
-    const bool all = two || value_at(v, "answer.proven")->number != 0;
     values_under(v, "answer.");
-    want_shown(v, c, "shown_from", value_at(v, "answer.from")->number, number_shown(text, "passes ", all ? 0 : 2));
-    want_shown(v, c, "shown_to", value_at(v, "answer.to")->number, number_shown(text, "passes ", all ? 1 : 3));
-    check_text_numbers(v, text, "passes ", 6, all ? every : some);
-    assert_true((strstr(text, "that was tried from") != NULL) == (two && value_at(v, "answer.proven")->number == 0));
-    assert_true((strstr(text, two && near_is_asked(c) ? "\n  smaller " : "\n  larger ") != NULL) == two);
-    if (!two)
-        return;
-    const double shown = number_shown(text, label, 0);
-    const dp_setup setup = setup_again(v);
-    assert_true(fabs(shown / first - 1) < 9e-5 && passes_at(c, &setup, shown));
-    want_derived(v, "shown_first", shown);
-    want_derived(v, "failed", count - good);
-    check_text_numbers(v, text, label, 6, good < count ? scattered : steady);
+    want_shown(v, c, "shown_from", value_at(v, "answer.from")->number, number_shown(text, "passes ", 0));
+    want_shown(v, c, "shown_to", value_at(v, "answer.to")->number, number_shown(text, "passes ", 1));
+    check_text_numbers(v, text, "passes ", 6, every);
 }
 
 static void check_text(values *v, const solve_case *c, const char *arguments, const line_places *lines) {
     const char *const worst[] = {"answer.value", "answer.z", isnan(c->limit) ? NULL : "limit", NULL};
     static const char *const plane[] = {"answer.plane", NULL};
-    static const char *const fails[] = {"answer.fails_to", NULL}, *const ideal[] = {"answer.lattice.plane", NULL};
+    static const char *const ideal[] = {"answer.lattice.plane", NULL};
     static const char *const certain[] = {"answer.guaranteed", NULL};
     const bool in_float = strcmp(value_at(v, "answer.model")->text, "float") == 0;
     char label[128];
@@ -587,10 +553,8 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
         if (c->possible) {
             check_text_numbers(v, p.out, label, 15, plane);
             check_text_passing(v, c, p.out);
-            if (isfinite(value_at(v, "answer.fails_to")->number))
-                check_text_numbers(v, p.out, "fails ", 6, fails);
         }
-        if (in_float)
+        if (in_float && value_at(v, "answer.lattice.possible")->number != 0)
             check_text_numbers(v, p.out, "in the lattice", 6, ideal);
     }
     for (size_t i = 0; i < lines->count; i++)
@@ -613,10 +577,9 @@ static void test_solve(void **state) {
         printed p = print_of("%s --json", arguments);
         assert_int_equal(p.status, !c->possible);
         root = json_of(p.out);
-        const size_t islands = json_array_size(json_object_get(root, "islands"));
         want_solve(&v, c, &lines);
         check_json_text(&v, p.out);
-        check_lines(&v, !c->possible, arguments, &lines, islands > 0 ? islands - 1 : 0);
+        check_lines(&v, !c->possible, arguments, &lines);
         check_text(&v, c, arguments, &lines);
         json_decref(root);
         printed_free(&p);

@@ -284,15 +284,20 @@ static int are_alike(float x, float y) {
     return (x == 0.0F && y == 0.0F) || ((x < 0.0F) == (y < 0.0F) && fabsf(x) >= 0x1p-126F && fabsf(y) >= 0x1p-126F);
 }
 
-int dp_guarantee_between(const dp_setup *one, const dp_setup *other, dp_guarantee *out) {
+int dp_guarantee_between(const dp_setup *outer, const dp_setup *inner, dp_guarantee *out) {
     dp_pipeline pipeline;
-    const int infinite = isinf(one->spec.zfar) || isinf(other->spec.zfar);
-    if (dp_pipeline_init(&pipeline, one) != DP_OK || !are_alike(one->matrix[1], other->matrix[1]) ||
-        one->matrix[1] == 0.0F || !(infinite || are_alike(one->matrix[0], other->matrix[0])))
+    *out = (dp_guarantee){.setup = outer, .computed = dp_is_computed(outer)};
+    if (outer->shader)
+        out->shader = dp_log_shader_between(outer, inner, dp_log2_get(0));
+    if (outer->shader || !out->computed)
+        return 1;
+    const int infinite = isinf(outer->spec.zfar);
+    if (dp_pipeline_init(&pipeline, outer) != DP_OK || !are_alike(outer->matrix[1], inner->matrix[1]) ||
+        outer->matrix[1] == 0.0F || !(infinite || are_alike(outer->matrix[0], inner->matrix[0])))
         return 0;
-    *out = (dp_guarantee){.setup = one, .computed = 1, .chain = dp_chain_between(one, other, &pipeline)};
-    if (one->spec.triangles.width > 0)
-        out->slant = dp_slant_make(&one->spec.triangles);
+    out->chain = dp_chain_between(outer, inner, &pipeline);
+    if (outer->spec.triangles.width > 0)
+        out->slant = dp_slant_make(&outer->spec.triangles);
     return 1;
 }
 

@@ -46,16 +46,37 @@ double dp_lattice_above(const dp_setup *setup, double z);
  * with the shader's constants: scene units; *z is where. Of a set-up with a logarithmic curve.
  */
 double dp_shader_error_over(const dp_setup *setup, double lo, double hi, double *z);
+double dp_shader_error_between(const dp_setup *outer, const dp_setup *inner, double lo,
+                               double hi); /* of a run, below */
 
 /*
- * Whether dp_separation() is at most `limit` at every depth of [lo, hi] in every camera whose near and far lie between
- * those of two set-ups, which are alike but for one of the two, where that of the model exact is. Model float of a
- * mapping that has a matrix; 0 also where it could not be shown. A bound, not samples.
+ * A run of cameras is all whose near or far lies between those of two set-ups that are alike but for that plane:
+ * `outer` has the smaller near or the larger far. What follows is a bound of each of them, not samples.
  */
-int dp_separation_within(const dp_setup *one, const dp_setup *other, double lo, double hi, double limit);
 
-/* The models exact and staged: the steps of d that dp_separation() takes at the depths of [nearest, farthest], at most.
+/* Whether dp_separation() is at most `limit` at every depth of [lo, hi] in a run; 0 also where it could not be shown.
  */
-double dp_separation_step(const dp_setup *setup, double nearest, double farthest);
+int dp_separation_within(const dp_setup *outer, const dp_setup *inner, double lo, double hi, double limit);
+
+/*
+ * The same of the error of a stored depth, |stored - z|, however z is aligned to the codes: half a step of the format
+ * behind it; truncated, a step before it, or behind it when reversed. Models exact and staged; of a logarithm that a
+ * shader writes, whatever its log2.
+ */
+int dp_error_within(const dp_setup *outer, const dp_setup *inner, double lo, double hi, double limit);
+
+/* What the model exact needs at a depth in every camera of a run at least, as a separation or as such an error. */
+double dp_lattice_least(const dp_setup *outer, const dp_setup *inner, double z, int half);
+
+/* The step of d, as a share of one of the format, at which the depth lies whose distance from z is that error. */
+static inline double dp_error_share(const dp_setup *setup) {
+    return setup->spec.rounding != DP_ROUND_ZERO ? 0.5 : setup->reversed ? 1.0 : -1.0;
+}
+
+/*
+ * The models exact and staged: the steps of d that dp_separation(), or such an error, takes at the depths of [nearest,
+ * farthest] in any camera of a run, at most.
+ */
+double dp_separation_step(const dp_setup *setup, const dp_setup *other, double nearest, double farthest, int half);
 
 #endif

@@ -19,10 +19,11 @@ typedef struct dp_guarantee {
 dp_guarantee dp_guarantee_make(const dp_setup *setup);
 
 /*
- * Of all cameras between two set-ups that have a matrix and are alike but for one plane: at every depth and over every
- * run it is at least each camera's own, but for what the lattice alone asks for. 0: nothing is known of them together.
+ * Of all cameras between two set-ups that are alike but for one plane: at every depth and over every run it is at least
+ * each camera's own, but for what the lattice alone asks for. `outer` has the smaller near or the larger far. 0:
+ * nothing is known of them together.
  */
-int dp_guarantee_between(const dp_setup *one, const dp_setup *other, dp_guarantee *out);
+int dp_guarantee_between(const dp_setup *outer, const dp_setup *inner, dp_guarantee *out);
 
 /* The separation at a depth; INFINITY: there is none. Of slanted triangles a shader's knows as little as a lattice's.
  */

@@ -22,13 +22,13 @@ static double ulp_of(double x) {
     return 2.0 * dp_half_ulp(x);
 }
 
-/* The argument of the logarithm, and the logarithm. */
-static double argument_of(const dp_log_shader *s, double z) {
-    return s->by > 0.0 ? 1.0 + s->by * (z - s->from) : z / s->from;
+/* The argument of the logarithm, and the logarithm, where that begins at `from`. */
+static double argument_of(const dp_log_shader *s, double from, double z) {
+    return s->by > 0.0 ? 1.0 + s->by * (z - from) : z / from;
 }
 
-static double log2_at(const dp_log_shader *s, double z) {
-    return s->by > 0.0 ? dp_log1p(s->by * (z - s->from)) / ln2 : dp_log2(z / s->from);
+static double log2_at(const dp_log_shader *s, double from, double z) {
+    return s->by > 0.0 ? dp_log1p(s->by * (z - from)) / ln2 : dp_log2(z / from);
 }
 
 /* ---- log2 -------------------------------------------------------------------------------------------------------- */
@@ -61,15 +61,15 @@ static int sum_is_exact(double y_lo, double y_hi) {
  * part of the argument changes that by DP_UNIT of it at most, however long the span.
  */
 static double argument_error(const dp_log_shader *s, dp_span r) {
-    const double lo = argument_of(s, r.lo);
-    const double hi = argument_of(s, r.hi);
+    const double lo = argument_of(s, s->from_hi, r.lo);
+    const double hi = argument_of(s, s->from, r.hi);
     if (s->by == 0.0)
         return division * 2.0 * relative_error(lo * (1.0 - beside), hi * (1.0 + beside)) / ln2 * (1.0 + beside);
     const double x = (r.hi - s->from) * (1.0 + beside);
     const double left = larger(lo * (1.0 - beside), 1.0 - beside);
     const double taken = r.hi <= 2.0 * s->from || s->from == 0.0 ? 0.0 : s->by * dp_half_ulp(x);
     const double product = s->by_exact ? 0.0 : dp_half_ulp(s->by * x);
-    const double sum = sum_is_exact(s->by * (r.lo - s->from), s->by * (r.hi - s->from))
+    const double sum = sum_is_exact(s->by * (r.lo - s->from_hi), s->by * (r.hi - s->from))
                            ? 0.0
                            : smaller(relative_error(left, hi * (1.0 + beside)), 1.0 / left);
     return (smaller(taken / left, DP_UNIT) + smaller(product / left, DP_UNIT) + sum) / ln2 * (1.0 + beside);
@@ -90,14 +90,19 @@ static void vertex_steps(const dp_log_shader *s, double lo, double hi, dp_log_st
     out->ndc = (product + remap + inverse + last) * (1.0 + beside);
 }
 
+/* The least window depth of a logarithm. */
+static double window_below(const dp_log_shader *s, double logarithm) {
+    return smaller(logarithm * s->k_lo, logarithm * s->k_hi);
+}
+
 dp_log_steps dp_log_shader_steps(const dp_log_shader *s, dp_span r) {
-    dp_log_steps out = {.lo = log2_at(s, r.lo), .hi = log2_at(s, r.hi)};
+    dp_log_steps out = {.lo = log2_at(s, s->from_hi, r.lo), .hi = log2_at(s, s->from, r.hi)};
     out.argument = argument_error(s, r) * outward;
     out.log2 = log2_error(s->log2, out.lo, out.hi) * outward;
     const double off = out.argument + out.log2;
     const double hi = larger((out.hi + off) * s->k_hi * outward, 0.0);
     if (s->vertex)
-        vertex_steps(s, (out.lo - off) * s->k_lo, hi, &out);
+        vertex_steps(s, window_below(s, out.lo - off), hi, &out);
     else if (s->by == 0.0)
         out.scale = division * ulp_of(hi);
     else
@@ -106,6 +111,15 @@ dp_log_steps dp_log_shader_steps(const dp_log_shader *s, dp_span r) {
 }
 
 /* ---- A shader ---------------------------------------------------------------------------------------------------- */
+
+/* Where the scale is 1/log2(far/near) of the shader's own: by how much that is off; it is from `least` to `most`. */
+static double scale_over_near(dp_log_shader *s, double least, double most) {
+    const double off = division * 2.0 * DP_UNIT / ln2 * (1.0 + beside) + log2_error(s->log2, least, most);
+    s->k_lo = 1.0 / ((most + off) * outward);
+    s->k_hi = 1.0 / ((least - off) * (2.0 - outward));
+    s->decoded = s->k_hi / (1.0 / ((least + off) * outward)) - 1.0;
+    return off;
+}
 
 dp_log_shader dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2) {
     const dp_spec *spec = &setup->spec;
@@ -118,20 +132,44 @@ dp_log_shader dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2)
                                     .ndc_signed = row->ndc_signed},
                        .log2 = log2,
                        .from = row->log_from_near ? n : 0.0,
+                       .from_hi = row->log_from_near ? n : 0.0,
                        .by = row->log_over_near ? 0.0 : (double)(float)spec->log_c,
                        .zfar = f,
                        .vertex = row->ndc_signed};
     if (row->log_over_near) {
         const double top = dp_log2(f / n);
-        const double off = division * 2.0 * DP_UNIT / ln2 * (1.0 + beside) + log2_error(log2, top, top);
-        s.k_lo = 1.0 / ((top + off) * outward);
-        s.k_hi = 1.0 / ((top - off) * (2.0 - outward));
+        scale_over_near(&s, top, top);
     } else {
         s.k_lo = s.k_hi = (double)(float)(ln2 / setup->kappa);
         s.by_exact = dp_granule((float)s.by) == s.by;
     }
-    s.below = larger(-log2_at(&s, n), 0.0);
-    s.above = larger(log2_at(&s, f) - 1.0 / s.k_hi, 0.0);
+    s.below = larger(-log2_at(&s, s.from, n), 0.0);
+    s.above = larger(log2_at(&s, s.from, f) - 1.0 / s.k_hi, 0.0);
+    return s;
+}
+
+/*
+ * How far the logarithm of far may lie above 1/k, whatever the bits of C, n, f and k: k is off by DP_UNIT of itself, C
+ * and f - n by as much of what they are and of f + n.
+ */
+static double most_above(const dp_log_shader *s, double n, double f, double nearest_far) {
+    const double argument = argument_of(s, s->from_hi, nearest_far);
+    return DP_UNIT * (log2_at(s, s->from, f) + (1.0 + s->by * (f + n) / argument) / ln2) * (1.0 + beside);
+}
+
+dp_log_shader dp_log_shader_between(const dp_setup *outer, const dp_setup *inner, const dp_log2_row *log2) {
+    dp_log_shader s = dp_log_shader_make(outer, log2);
+    const dp_log_shader other = dp_log_shader_make(inner, log2);
+    s.run = 1;
+    s.from_hi = other.from;
+    if (s.by > 0.0) {
+        s.k_lo = (double)(float)(ln2 / outer->kappa * (1.0 - 0x1p-50));
+        s.k_hi = (double)(float)(ln2 / inner->kappa * (1.0 + 0x1p-50));
+        s.above = most_above(&s, s.from_hi, s.zfar, other.zfar);
+    } else {
+        const double most = dp_log2(s.zfar / s.from);
+        s.above = scale_over_near(&s, dp_log2(other.zfar / other.from), most) + most * 0x1p-39;
+    }
     return s;
 }
 
@@ -139,7 +177,7 @@ dp_log_shader dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2)
 
 /* The distance behind z at which the logarithm has grown by so much. */
 static double distance(const dp_log_shader *s, double z, double growth) {
-    return argument_of(s, z) / (s->by > 0.0 ? s->by : 1.0 / s->from) * dp_expm1(growth * ln2) * outward;
+    return argument_of(s, s->from, z) / (s->by > 0.0 ? s->by : 1.0 / s->from) * dp_expm1(growth * ln2) * outward;
 }
 
 /*
@@ -151,7 +189,7 @@ static double demand_of(const dp_log_shader *s, dp_span run, double hi, double e
     const dp_log_steps b = dp_log_shader_steps(s, (dp_span){run.lo, hi});
     const double off[2] = {a.argument + a.log2, b.argument + b.log2};
     const double ends[2] = {a.scale + a.ndc, b.scale + b.ndc};
-    const double low = smaller((a.lo - off[0]) * s->k_lo, (a.lo - off[0]) * s->k_hi) - ends[0];
+    const double low = window_below(s, a.lo - off[0]) - ends[0];
     const double high = (b.hi + off[1]) * s->k_hi + ends[1];
     const double format = dp_format_loss(&s->pipeline, low, high);
     const double rest = format + extra;
@@ -183,6 +221,8 @@ double dp_log_longest(const dp_log_shader *s, dp_span run, double extra, dp_log_
         *out = d;
         if (run.hi + next >= hi || gain <= 0x1p-6 * next)
             break;
+        if (i > 0 && s->run) /* a camera of the run may end here, where it gains little */
+            break;
         hi = run.hi + next;
     }
     return longest;
@@ -210,30 +250,40 @@ static double stored_error(const dp_pipeline *p, double high) {
 static double error_in(const dp_log_shader *s, dp_span span) {
     const dp_log_steps a = dp_log_shader_steps(s, span);
     const double off = a.argument + a.log2, ends = a.scale + a.ndc;
-    const double low = smaller((a.lo - off) * s->k_lo, (a.lo - off) * s->k_hi) - ends;
+    const double low = window_below(s, a.lo - off) - ends;
     const double high = (a.hi + off) * s->k_hi + ends;
     double growth = off + (ends + stored_error(&s->pipeline, high)) / s->k_lo;
-    growth += fabs(a.hi) * (s->k_hi / s->k_lo - 1.0); /* who decodes has a k of his own */
+    growth += fabs(a.hi) * s->decoded; /* who decodes has a k of his own */
     growth += larger(low <= 0.0 ? s->below : 0.0, high >= 1.0 ? s->above : 0.0);
     return distance(s, span.hi, growth) + dp_half_ulp(span.hi); /* the depth enters as a binary32 number */
 }
 
 /* Errors grow with z but for steps in what rounds, so the search goes down from hi until nothing nearer can be worse.
  */
-double dp_shader_error_over(const dp_setup *setup, double lo, double hi, double *z) {
+static double error_over(const dp_log_shader *s, double lo, double hi, double *z) {
     static const double stretch = 1.0 + 0x1p-5;
-    const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(0));
     double worst = 0.0;
     *z = hi;
     for (double top = hi;;) {
         const double bottom = larger(top / stretch, lo);
-        const double error = error_in(&s, (dp_span){(double)(float)bottom, (double)(float)top});
+        const double error = error_in(s, (dp_span){(double)(float)bottom, (double)(float)top});
         if (error > worst) {
             worst = error;
             *z = top;
         }
-        if (bottom <= lo || error_in(&s, (dp_span){(double)(float)lo, (double)(float)bottom}) <= worst)
+        if (bottom <= lo || error_in(s, (dp_span){(double)(float)lo, (double)(float)bottom}) <= worst)
             return worst;
         top = bottom;
     }
+}
+
+double dp_shader_error_over(const dp_setup *setup, double lo, double hi, double *z) {
+    const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(0));
+    return error_over(&s, lo, hi, z);
+}
+
+double dp_shader_error_between(const dp_setup *outer, const dp_setup *inner, double lo, double hi) {
+    const dp_log_shader s = dp_log_shader_between(outer, inner, dp_log2_get(0));
+    double z;
+    return error_over(&s, lo, hi, &z);
 }

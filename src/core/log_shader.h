@@ -21,15 +21,24 @@ typedef struct dp_log_shader {
     dp_pipeline pipeline; /* format and conversion; no matrix */
     const dp_log2_row *log2;
     double from, by;   /* the argument is 1 + by (w - from); by is 0 where it is w/from */
+    double from_hi;    /* of a run of cameras: the greatest, and `from` the least; else the same */
     double k_lo, k_hi; /* window depth per unit of the logarithm: all surfaces share one k in between */
+    double decoded;    /* by how much, relative, the k that decodes may differ from that */
     double zfar;
     double below, above; /* how far the logarithm leaves that of [0, 1] inside the planes */
     int by_exact;        /* C w is exact */
     int vertex;          /* written by a vertex shader */
+    int run;             /* of cameras */
 } dp_log_shader;
 
 /* Of a set-up with a logarithmic curve. */
 dp_log_shader dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2);
+
+/*
+ * Of all cameras whose planes lie between those of two set-ups that are alike but for near or far: `outer` has the
+ * smaller near or the larger far. Every distance that follows is at least that of each camera's own.
+ */
+dp_log_shader dp_log_shader_between(const dp_setup *outer, const dp_setup *inner, const dp_log2_row *log2);
 
 /* The most that each step changes a depth by, at every depth of a span. */
 typedef struct dp_log_steps {

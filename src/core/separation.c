@@ -62,12 +62,25 @@ static double largest_code_step(const dp_setup *setup, double d) {
     return setup->reversed ? step : dp_step_num(format, dp_binade(format, d + step));
 }
 
+/* The least and the greatest window depth of any depth of a range in any camera of a run: at two of the corners. */
+static void window_range(const dp_setup *one, const dp_setup *other, double nearest, double farthest, double *low,
+                         double *high) {
+    const double a = dp_window(one, nearest), b = dp_window(one, farthest);
+    *low = smaller(a, b);
+    *high = larger(a, b);
+    if (other != one) {
+        const double c = dp_window(other, nearest), d = dp_window(other, farthest);
+        *low = smaller(*low, smaller(c, d));
+        *high = larger(*high, larger(c, d));
+    }
+    *low *= 1.0 - 2.0 * DP_WINDOW_ERROR;
+    *high *= 1.0 + 2.0 * DP_WINDOW_ERROR;
+}
+
 /* Every term of staged_step() at the end of the range where it is largest. */
-double dp_separation_step(const dp_setup *setup, double nearest, double farthest) {
-    const double a = dp_window(setup, nearest);
-    const double b = dp_window(setup, farthest);
-    double high = larger(a, b) * (1.0 + 2.0 * DP_WINDOW_ERROR);
-    double low = (a < b ? a : b) * (1.0 - 2.0 * DP_WINDOW_ERROR);
+double dp_separation_step(const dp_setup *setup, const dp_setup *other, double nearest, double farthest, int half) {
+    double low, high;
+    window_range(setup, other, nearest, farthest, &low, &high);
     const double code = largest_code_step(setup, high);
     if (setup->spec.model == DP_MODEL_EXACT || dp_staged_is_exact(setup))
         return code;
@@ -76,14 +89,23 @@ double dp_separation_step(const dp_setup *setup, double nearest, double farthest
     if (setup->reversed)
         low -= 4.0 * first;
     else
-        high += 4.0 * first;
+        high = half ? smaller(high + 4.0 * first, 1.0 - 0x1p-24) : high + 4.0 * first; /* no stored depth is beyond */
     const dp_format *format = &setup->spec.format;
     const double wide = setup->reversed || format->kind == DP_FORMAT_UNORM
                             ? code
                             : larger(code, dp_step_num(format, dp_binade(format, high)));
     const double ndc = larger(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
     const double window = larger(dp_staged_window_step(fabs(low)), dp_staged_window_step(high));
-    return wide + ndc + (dp_mapping_get(setup->spec.mapping)->ndc_signed ? window : 0.0);
+    const double finest = smaller(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
+    const int whole = half && window <= finest && (low > 0.5 || high < 0.5); /* x/2 + 1/2 is exact */
+    return wide + ndc + (dp_mapping_get(setup->spec.mapping)->ndc_signed && !whole ? window : 0.0);
+}
+
+double dp_lattice_least(const dp_setup *outer, const dp_setup *inner, double z, int half) {
+    double low, high;
+    window_range(outer, inner, z, z, &low, &high);
+    const double step = dp_step_num(&outer->spec.format, dp_binade(&outer->spec.format, low)) / outer->den;
+    return fabs(dp_curve_ahead(inner, half ? step * dp_error_share(outer) : step, 1.0, z)) * (1.0 - 0x1p-40);
 }
 
 double dp_lattice_exact(const dp_setup *setup, double z) {

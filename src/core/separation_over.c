@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The largest separation over a range: at binade ends in the model exact, by branch and bound in the others. */
+/*
+ * The largest separation over a range: at binade ends in the model exact, by branch and bound in the others; and
+ * whether a limit holds over a range in all cameras of a run, by branch and bound in all models.
+ */
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
@@ -9,7 +12,7 @@
 #include "depthprec/bounds.h"
 #include "depthprec/depth.h"
 
-enum { PARTS_MAX = 512, EVALUATIONS_MAX = 1 << 16 };
+enum { PARTS_MAX = 512, EVALUATIONS_MAX = 1 << 16, EVALUATIONS_OF_RUN = 1 << 9 };
 
 /* The search stops refining what is no more than this above what was found. */
 static const double slack = 1.0 + 0x1p-10;
@@ -22,6 +25,8 @@ typedef struct part {
 
 typedef struct search {
     const dp_setup *setup;
+    const dp_setup *inner; /* the other end of a run of cameras, of which `setup` is the outer one; else null */
+    int half;              /* half a step, or what a truncated depth is off by, in place of a separation */
     dp_guarantee guarantee;
     dp_setup lattice;
     dp_separation_worst *worst;
@@ -30,17 +35,6 @@ typedef struct search {
     int count;
     part parts[PARTS_MAX]; /* a stack */
 } search;
-
-/* In binary32 the depth nearest to an end of the range may lie just outside, and is meant by that end. */
-static void note_separation(const search *s, double depth) {
-    dp_separation_worst *worst = s->worst;
-    const double z = smaller(larger(depth, worst->lo), worst->hi);
-    const double separation = dp_guarantee_at(&s->guarantee, z);
-    if (separation > worst->separation) {
-        worst->separation = separation;
-        worst->z = z;
-    }
-}
 
 /*
  * What lies ahead at any depth from lo to hi, with what rounding the eye depths adds: most at one of the two. As
@@ -55,13 +49,48 @@ static double with_eye(const dp_setup *setup, double lo, double hi, double ahead
 }
 
 /*
+ * The most that any depth of the part may be off by, however it is aligned. Truncated codes are those of lower d, but
+ * the stages before them round to nearest.
+ */
+static double error_of(const dp_setup *setup, double hi, double step) {
+    const double share = dp_error_share(setup);
+    return fabs(dp_curve_ahead(setup, (setup->spec.model == DP_MODEL_EXACT ? share : fabs(share)) * step, 1.0, hi)) *
+           dp_curve_outward(setup) * (1.0 + 0x1p-50);
+}
+
+/* The same as a bound of the lattice: in a run its steps are the largest of any camera, and as long as in the outer. */
+static double lattice_bound(const search *s, double lo, double hi) {
+    const dp_setup *inner = s->inner != NULL ? s->inner : &s->lattice;
+    const double step = dp_separation_step(&s->lattice, inner, lo, hi, s->half) * (1.0 + 0x1p-50);
+    return s->half ? error_of(&s->lattice, hi, step)
+                   : with_eye(&s->lattice, lo, hi, dp_curve_ahead(&s->lattice, step, 1.0, hi));
+}
+
+/*
  * An upper bound of the separation at every depth of the part. In binary32 that of the lattice is a floor: its bound is
  * that of the same part in the model exact.
  */
 static double bound_of(const search *s, double lo, double hi) {
-    const double step = dp_separation_step(&s->lattice, lo, hi) * (1.0 + 0x1p-50);
-    const double bound = with_eye(&s->lattice, lo, hi, dp_curve_ahead(&s->lattice, step, 1.0, hi));
+    const double bound = lattice_bound(s, lo, hi);
     return s->guarantee.computed ? larger(dp_guarantee_bound(&s->guarantee, (float)lo, (float)hi), bound) : bound;
+}
+
+static double separation_at(const search *s, double z) {
+    if (s->inner == NULL)
+        return dp_guarantee_at(&s->guarantee, z);
+    const double bound = lattice_bound(s, z, z);
+    return s->guarantee.computed ? larger(dp_guarantee_at(&s->guarantee, z), bound) : bound;
+}
+
+/* In binary32 the depth nearest to an end of the range may lie just outside, and is meant by that end. */
+static void note_separation(const search *s, double depth) {
+    dp_separation_worst *worst = s->worst;
+    const double z = smaller(larger(depth, worst->lo), worst->hi);
+    const double separation = separation_at(s, z);
+    if (separation > worst->separation) {
+        worst->separation = separation;
+        worst->z = z;
+    }
 }
 
 /* Nothing lies between the ends of the part. */
@@ -117,11 +146,12 @@ static void divide(search *s, const part *p) {
 }
 
 static void refine(search *s) {
+    const int most = s->inner != NULL ? EVALUATIONS_OF_RUN : EVALUATIONS_MAX;
     while (s->count > 0) {
         const part p = s->parts[--s->count];
         const double enough = s->limit > 0.0 ? s->limit : slack * s->worst->separation;
         const int exceeded = s->limit > 0.0 && s->worst->separation > s->limit;
-        if (p.bound <= enough || exceeded || s->evaluations >= EVALUATIONS_MAX || isinf(s->worst->separation))
+        if (p.bound <= enough || exceeded || s->evaluations >= most || isinf(s->worst->separation))
             raise_bound(s->worst, p.bound);
         else
             divide(s, &p);
@@ -187,17 +217,42 @@ static void over_binades(const search *s) {
     }
 }
 
-int dp_separation_within(const dp_setup *one, const dp_setup *other, double lo, double hi, double limit) {
+/* What its bounds are of: the model exact, where depths are computed. */
+static dp_setup lattice_of(const dp_setup *setup) {
+    dp_setup lattice = *setup;
+    if (dp_is_computed(setup)) {
+        lattice.spec.model = DP_MODEL_EXACT;
+        lattice.shader = 0;
+    }
+    return lattice;
+}
+
+/* In a run, over the range of `s->worst`. */
+static int is_within(search *s, double limit) {
+    dp_separation_worst *worst = s->worst;
+    note_separation(s, worst->hi);
+    note_separation(s, worst->lo);
+    if (worst->separation <= limit && worst->lo < worst->hi)
+        branch_and_bound(s, limit);
+    return larger(worst->separation, worst->bound) <= limit;
+}
+
+int dp_separation_within(const dp_setup *outer, const dp_setup *inner, double lo, double hi, double limit) {
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
-    search s = {.setup = one, .lattice = *one, .worst = &worst};
-    s.lattice.spec.model = DP_MODEL_EXACT;
-    if (one->spec.model != DP_MODEL_FLOAT || !dp_guarantee_between(one, other, &s.guarantee))
+    search s = {.setup = outer, .inner = inner, .worst = &worst};
+    if (!dp_guarantee_between(outer, inner, &s.guarantee))
         return 0;
-    note_separation(&s, hi);
-    note_separation(&s, lo);
-    if (worst.separation <= limit && lo < hi)
-        branch_and_bound(&s, limit);
-    return larger(worst.separation, worst.bound) <= limit;
+    s.lattice = lattice_of(outer);
+    return is_within(&s, limit);
+}
+
+int dp_error_within(const dp_setup *outer, const dp_setup *inner, double lo, double hi, double limit) {
+    dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
+    search s = {.setup = outer, .inner = inner, .half = 1, .lattice = *outer, .worst = &worst};
+    s.guarantee = (dp_guarantee){.setup = outer};
+    if (outer->shader)
+        return dp_shader_error_between(outer, inner, lo, hi) <= limit;
+    return outer->spec.model != DP_MODEL_FLOAT && is_within(&s, limit);
 }
 
 dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double limit, dp_separation_worst *out) {
@@ -206,11 +261,7 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     if (!(lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || isinf(lo))
         return DP_ERROR_RANGE;
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
-    search s = {.setup = setup, .guarantee = dp_guarantee_make(setup), .lattice = *setup, .worst = &worst};
-    if (s.guarantee.computed) {
-        s.lattice.spec.model = DP_MODEL_EXACT;
-        s.lattice.shader = 0;
-    }
+    search s = {.setup = setup, .guarantee = dp_guarantee_make(setup), .lattice = lattice_of(setup), .worst = &worst};
     note_separation(&s, hi);
     note_separation(&s, lo);
     const int exact =

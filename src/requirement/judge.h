@@ -7,7 +7,12 @@
 
 #include <stdbool.h>
 
-#include "requirement/measure.h"
+#include "depthprec/depthprec.h"
+
+typedef enum measure_kind {
+    MEASURE_SEPARATION = 0, /**< dp_separation(): how far behind z a surface must lie to be told apart */
+    MEASURE_ERROR           /**< |stored - z| */
+} measure_kind;
 
 typedef struct judgement {
     double value;  /**< scene units: the separation or error at z; the bound where only that is above the limit */

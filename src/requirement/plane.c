@@ -3,35 +3,35 @@
 
 #include <math.h>
 
-#include "core/elementary.h"
 #include "core/engine.h"
 
-/*
- * RUN binary32 values in a row stand for a place: one of them passes where about every RUNth does. REGION of them are
- * a part in a thousand; LOOKS bounds how often it is begun again because a value in it passes.
- */
-enum {
-    RUN = 32,
-    PLACES = 64,
-    PLACES_FEW = 12,
-    RUN_OF_PLACE = 8,
-    RUN_FEW = 4,
-    PER_OCTAVE = 16,
-    LOOKS = 60000,
-    LOOKS_OF_RANGE = 256
-};
+enum { BOXES_MOST = 4000, STRETCHES_MOST = 1 << 17, STRETCHES_OF_RANGE = 1 << 12 };
 
-static const double region = 0x1p-10 + 0x1p-20;
-static const double farthest = 1e18; /* of the finite fars */
+static const double near_least = 1e-12, near_most = 1e12, far_most = 1e18, planes_apart = 1e-6;
 
-typedef struct hunt {
+/* Shares: of boxes that are not divided, in the model exact, in others and there next to the inner end. */
+static const double finest = 0x1p-24, coarsest = 0x1p-4, fine = 0x1p-10;
+/* Where a bisection ends: next to the end of a code an error moves fast. */
+static const double settled[] = {[MEASURE_SEPARATION] = 1.0 + 0x1p-32, [MEASURE_ERROR] = 1.0 + 0x1p-38};
+
+typedef struct search {
     const solve_problem *problem;
     plane_answer *out;
-    double outer, inner; /* the ends of the island looked at: the answer is as near to `outer` as can be */
-    bool inward_is_up;
-    plane_effort effort;
-    double failed; /* the innermost value tried that failed; NaN while there is none */
-} hunt;
+    double outer, inner; /* the ends of the values looked at: the answer is as near to `outer` as can be */
+    double shortest;     /* share of a box that is not divided */
+    int boxes;           /* looked at */
+    bool open;           /* of some of them it is not certain that none passes */
+    bool met;            /* out->value passes, though the bound shows nothing about others beside it */
+    bool aligned;        /* errors as the depths are aligned; else however they are */
+} search;
+
+/* ---- One camera -------------------------------------------------------------------------------------------------- */
+
+dp_status solve_setup(const solve_problem *p, double value, dp_setup *out) {
+    dp_spec spec = p->spec;
+    *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = value;
+    return judge_setup(&spec, out);
+}
 
 static judgement reached_at(const solve_problem *p, double value) {
     dp_setup setup;
@@ -40,328 +40,246 @@ static judgement reached_at(const solve_problem *p, double value) {
     return judge(p->kind, &setup, p->lo, p->hi, p->limit);
 }
 
-/* ---- Binary32 values between the ends ---------------------------------------------------------------------------- */
-
-static bool is_inside(const hunt *h, double x) {
-    return x >= fmin(h->outer, h->inner) && x <= fmax(h->outer, h->inner);
-}
-
-static double step(const hunt *h, double x, bool inward) {
-    const bool up = inward == h->inward_is_up;
-    const float next = (float)x;
-    if (up ? (double)next > x : (double)next < x)
-        return (double)next;
-    return (double)nextafterf(next, up ? HUGE_VALF : 0.0F);
-}
-
-/* The first of `count` values from x inwards that passes, x itself among them; NaN when none does. */
-static double first_of_run(const hunt *h, double x, int count) {
-    for (int i = 0; i < count && is_inside(h, x); i++, x = step(h, x, true))
-        if (plane_passes(h->problem, x))
-            return x;
-    return (double)NAN;
-}
-
-/* ---- A bracket: a place where none passes, and a value farther in that does -------------------------------------- */
-
-/* From the outer end inwards, at distances that grow: 1 %, 2 %, 4 %, ... */
-static double gallop(const hunt *h, double *fails) {
-    double ratio = 1.01;
-    for (double x = h->outer;;) {
-        *fails = x;
-        x = h->inward_is_up ? fmin(x * ratio, h->inner) : fmax(x / ratio, h->inner);
-        const double found = first_of_run(h, x, RUN);
-        if (!isnan(found) || x == h->inner)
-            return isnan(found) && plane_passes(h->problem, h->inner) ? h->inner : found;
-        ratio = fmin(ratio * ratio, 0x1p64);
-    }
-}
-
-/* What that leapt over: from the inner end outwards, in small steps. */
-static double comb(const hunt *h, double *fails) {
-    const double ratio = dp_exp2(h->inward_is_up ? -1.0 / PER_OCTAVE : 1.0 / PER_OCTAVE);
-    double found = (double)NAN;
-    for (double x = h->inner; is_inside(h, x); x *= ratio) {
-        const double here = first_of_run(h, x, RUN_OF_PLACE);
-        *fails = x;
-        if (isnan(here) && !isnan(found))
-            return found;
-        if (!isnan(here))
-            found = here;
-    }
-    *fails = h->outer;
-    return found;
-}
-
-/* Between a place where none passes and a value that does: where the passing begin. */
-static double narrow(const hunt *h, double fails, double passes, int run) {
-    const double least = RUN * 0x1p-23;
-    while (fabs(passes / fails - 1.0) > least) {
-        const double middle = sqrt(passes) * sqrt(fails);
-        const double found = first_of_run(h, (double)(float)middle, run);
-        if (isnan(found))
-            fails = middle;
-        else if (fabs(found - fails) < fabs(passes - fails))
-            passes = found;
-        else
-            break;
-    }
-    return passes;
-}
-
-/* ---- The values beyond the answer, and on its safe side ---------------------------------------------------------- */
-
-/* Every binary32 value for a part in a thousand outwards. One that passes is the better answer: then again from it. */
-static void look_beyond(hunt *h) {
-    plane_answer *a = h->out;
-    double x = a->value;
-    double last = x;
+/* Over a range the ends are judged first: they are looked at anyhow, and where one fails so does the range. */
+bool plane_passes(const solve_problem *p, double value) {
     dp_setup setup;
-    for (int looks = 0, ranges = 0; looks < LOOKS && ranges < LOOKS_OF_RANGE; looks++) {
-        x = step(h, x, false);
-        if (h->problem->lo < h->problem->hi && solve_setup(h->problem, x, &setup) == DP_OK)
-            ranges += !plane_fails_at_ends(h->problem, &setup); /* decided inside: thousands of these are too many */
-        if (!is_inside(h, x)) {                                 /* the lattice fails from there on */
-            a->certain = true;
-            a->fails_to = last < a->value || last > a->value ? last : (double)NAN;
-            return;
-        }
-        if (plane_passes(h->problem, x)) {
-            a->value = x;
-        } else if (fabs(x - a->value) >= region * a->value) {
-            a->certain = true;
-            a->fails_to = x;
-            return;
-        }
-        last = x;
+    if (solve_setup(p, value, &setup) != DP_OK)
+        return false;
+    if (p->lo < p->hi && p->kind == MEASURE_SEPARATION &&
+        (dp_separation(&setup, p->hi) > p->limit || dp_separation(&setup, p->lo) > p->limit))
+        return false;
+    return judge(p->kind, &setup, p->lo, p->hi, p->limit).passed;
+}
+
+/* ---- All cameras between two ------------------------------------------------------------------------------------- */
+
+/* The largest of the errors that one code has at a depth in any camera of a run: a stored depth moves one way. */
+static double error_of_code(const dp_setup *outer, const dp_setup *inner, uint32_t code, double z) {
+    const double a = fabs(dp_error(outer, code, z)), b = fabs(dp_error(inner, code, z));
+    return fmax(a, b) * (1.0 + 0x1p-44);
+}
+
+/*
+ * As the depths are aligned: where the last depth has one code in all of the run, or two. Its cell and those in front
+ * of it are looked at one by one, each at most from where it begins to where it ends in any camera; in front of them
+ * any alignment may be met.
+ */
+static bool is_aligned(const solve_problem *p, const dp_setup *outer, const dp_setup *inner) {
+    enum { CELLS = 4 };
+    const double rounding = p->hi * 0x1p-48;
+    const uint32_t one = dp_code(outer, p->hi), other = dp_code(inner, p->hi);
+    uint32_t code = (one > other) == outer->reversed ? other : one; /* the farther one */
+    double end = p->hi;
+    if ((one < other ? other - one : one - other) > 1 || error_of_code(outer, inner, one, end) > p->limit ||
+        error_of_code(outer, inner, other, end) > p->limit)
+        return false;
+    for (int i = 0; i < CELLS && p->lo < p->hi; i++) {
+        const dp_cell a = dp_cell_of(outer, code), b = dp_cell_of(inner, code);
+        if (i > 0 && end - fmin(a.stored, b.stored) + rounding > p->limit)
+            return false;
+        end = fmin(fmax(a.lo, b.lo), p->hi);
+        if (end > p->lo && dp_error_within(outer, inner, p->lo, end, p->limit))
+            return true;
+        if (fmax(a.stored, b.stored) - fmax(fmin(a.lo, b.lo), p->lo) + rounding > p->limit)
+            return false;
+        code = dp_code(outer, a.lo * (1.0 - 0x1p-50));
+        if (end <= p->lo || dp_code(inner, b.lo * (1.0 - 0x1p-50)) != code)
+            return end <= p->lo;
     }
+    return p->lo == p->hi;
 }
 
-/* The passing end of the values around the inner end: where places begin to have none that passes. */
-static double other_end(const hunt *h, double passes, double fails) {
-    hunt outwards = *h;
-    outwards.inward_is_up = !h->inward_is_up;
-    return narrow(&outwards, fails, passes, RUN_OF_PLACE);
+static bool all_pass(const search *s, const dp_setup *outer, const dp_setup *inner) {
+    const solve_problem *p = s->problem;
+    if (p->kind == MEASURE_SEPARATION)
+        return dp_separation_within(outer, inner, p->lo, p->hi, p->limit);
+    return s->aligned ? is_aligned(p, outer, inner) : dp_error_within(outer, inner, p->lo, p->hi, p->limit);
 }
 
-/* @return whether any of them passes */
-static bool try_run(hunt *h, double x, int count) {
-    plane_answer *a = h->out;
-    bool any = false;
-    for (int i = 0; i < count && is_inside(h, x); i++, x = step(h, x, true)) {
-        const bool good = plane_passes(h->problem, x);
-        a->tried++;
-        a->passed += good;
-        any = any || good;
-        if (!good)
-            h->failed = x;
-        if (!good)
-            a->steady = (double)NAN;
-        else if (isnan(a->steady))
-            a->steady = x;
+/* The same question in the model exact, of surfaces that face the camera: no model has a separation below that. */
+static solve_problem in_lattice(const solve_problem *p) {
+    solve_problem exact = *p;
+    exact.spec.model = DP_MODEL_EXACT;
+    exact.spec.triangles.width = 0;
+    return exact;
+}
+
+/* At the far end of the range, or a little before the depth that is worst in the middle: there binades end. */
+static bool none_passes(const solve_problem *p, double outer, double inner, double middle) {
+    const solve_problem exact = in_lattice(p);
+    const int half = p->kind == MEASURE_ERROR;
+    dp_setup one, other;
+    if (solve_setup(&exact, outer, &one) != DP_OK || solve_setup(&exact, inner, &other) != DP_OK)
+        return false;
+    if (dp_lattice_least(&one, &other, p->hi, half) > p->limit)
+        return true;
+    const double wide = isinf(outer) ? 2.0 : fmax(outer, inner) / fmin(outer, inner);
+    return p->lo < p->hi &&
+           dp_lattice_least(&one, &other, fmax(reached_at(&exact, middle).z / wide, p->lo), half) > p->limit;
+}
+
+/* ---- The uppermost interval -------------------------------------------------------------------------------------- */
+
+static double ratio_of(double a, double b) {
+    return fmax(a, b) / fmin(a, b);
+}
+
+/* Next to the inner end finer than elsewhere; infinity is not divided from the greatest far. */
+static bool is_smallest(const search *s, double outer, double inner) {
+    const double distance = 0.25 * (ratio_of(inner, s->inner) - 1.0);
+    return ratio_of(outer, inner) - 1.0 <= fmin(s->shortest, fmax(distance, fine)) ||
+           (isinf(outer) && inner > 0.5 * far_most);
+}
+
+/* Where nothing is found: the outermost plane that passes alone, or what comes near. */
+static void offer(search *s, double value) {
+    const bool by_chance = s->problem->kind == MEASURE_ERROR && value != s->inner;
+    const judgement j = reached_at(s->problem, value);
+    if ((j.passed && by_chance) ||
+        (s->met ? !j.passed || s->outer > s->inner : !(j.passed || j.value < s->out->reached.value)))
+        return;
+    s->met = j.passed;
+    s->out->value = value;
+    s->out->reached = j;
+}
+
+/* Between two values the uppermost box of which all pass. One of which none passes is left, others are divided. */
+static bool find(search *s, double outer, double inner, double box[2]) {
+    const double middle = isinf(outer) ? 2.0 * inner : sqrt(outer) * sqrt(inner);
+    dp_setup one, other;
+    box[0] = outer;
+    box[1] = inner;
+    if (s->boxes++ < BOXES_MOST && none_passes(s->problem, outer, inner, middle))
+        return false;
+    if (s->boxes < BOXES_MOST && solve_setup(s->problem, outer, &one) == DP_OK &&
+        solve_setup(s->problem, inner, &other) == DP_OK && all_pass(s, &one, &other))
+        return true;
+    if (s->boxes < BOXES_MOST && !is_smallest(s, outer, inner))
+        return s->outer > s->inner ? find(s, outer, middle, box) || find(s, middle, inner, box)
+                                   : find(s, middle, inner, box) || find(s, outer, middle, box);
+    s->open = true;
+    offer(s, inner);
+    return false;
+}
+
+/* From a value that passes towards an end, in stretches as long as can be shown to pass. */
+static double reach_from(const search *s, double start, double end) {
+    const bool up = end > start, outwards = (end == s->outer);
+    const int most = s->problem->lo < s->problem->hi ? STRETCHES_OF_RANGE : STRETCHES_MOST;
+    double at = start, ratio = 2.0;
+    dp_setup here, there;
+    if (solve_setup(s->problem, at, &here) != DP_OK)
+        return at;
+    for (int i = 0; i < most && at != end && ratio > settled[s->problem->kind]; i++) {
+        const double step = up ? fmin(at * ratio, end) : fmax(isinf(at) ? far_most : at / ratio, end);
+        const double x = up && step > far_most ? end : step;
+        const bool all = solve_setup(s->problem, x, &there) == DP_OK &&
+                         (outwards ? all_pass(s, &there, &here) : all_pass(s, &here, &there));
+        at = all ? x : at;
+        if (all)
+            here = there;
+        ratio = all ? fmin(ratio * ratio, 0x1p64) : sqrt(ratio);
+        if (s->aligned) /* the end of each code is a narrow pass between wide ones */
+            ratio = all ? fmin(ratio * ratio * ratio * ratio, 0x1p64) : sqrt(ratio);
     }
-    return any;
+    return at;
 }
 
-/* Between the innermost value that failed and the next one tried that passes, with all beyond it. */
-static void refine_steady(const hunt *h, double failed) {
-    plane_answer *a = h->out;
-    while (fabs(a->steady / failed - 1.0) > 0.001) {
-        double x = (double)(float)(sqrt(a->steady) * sqrt(failed));
-        const double middle = x;
-        int i = 0;
-        for (; i < RUN && plane_passes(h->problem, x); i++)
-            x = step(h, x, true);
-        if (i == RUN)
-            a->steady = middle;
-        else
-            failed = x;
-    }
+/* What is reported passes as `check` judges, whose bound over a range may be a little larger. */
+static double judged(const search *s, double value, double towards) {
+    for (double share = 0x1p-52; share < 0.5 && !plane_passes(s->problem, value); share *= 2.0)
+        value = isinf(value) ? far_most : value + (towards - value) * share;
+    return value;
 }
 
-/* Places from the answer to the inner end: where the passing values end, and from where on none fails. */
-static void survey(hunt *h) {
-    plane_answer *a = h->out;
-    const bool range = h->problem->lo < h->problem->hi;
-    const bool find = h->effort == PLANE_FIND;
-    const int places = (find || range ? PLACES_FEW : PLACES) / (find && range ? 2 : 1);
-    const int run = find && range ? 1 : find || range ? RUN_FEW : RUN_OF_PLACE;
-    const double from = isinf(a->value) ? farthest : a->value;
-    a->steady = a->value;
-    try_run(h, from, places);
-    plane_answer kept = *a;
-    double failed = h->failed;
-    double good = from;
-    double bad = (double)NAN; /* the first place behind `good` where none passes */
-    for (int i = 1; i <= places; i++) {
-        const double x = i == places ? h->inner : (double)(float)(from * dp_pow(h->inner / from, (double)i / places));
-        if (try_run(h, x, i == places ? 1 : run)) {
-            kept = *a;
-            failed = h->failed;
-            good = x;
-            bad = (double)NAN;
-        } else if (isnan(bad)) {
-            bad = x;
-        }
-    }
-    *a = kept;
-    if (!find && !isnan(failed) && !isnan(a->steady) && isfinite(a->steady))
-        refine_steady(h, failed);
-    a->until = isnan(bad) ? h->inner : other_end(h, good, bad);
+/* Whether none passes next beyond the answer. Of a separation the lattice tells; an error jumps with its code. */
+static bool none_beyond(const search *s) {
+    const double value = s->out->value;
+    const double x = s->inner > s->outer ? value * (1.0 - 1e-9) : value * (1.0 + 1e-9);
+    const solve_problem p = s->problem->kind == MEASURE_SEPARATION ? in_lattice(s->problem) : *s->problem;
+    return value == s->outer || ratio_of(value, s->outer) <= 1.0 + 1e-9 || !plane_passes(&p, x);
 }
-
-/* ---- The value from which on all pass for certain ---------------------------------------------------------------- */
 
 /* Near has no influence at all: what one value does all do. */
 static bool is_inert(const solve_problem *p) {
     const dp_mapping_row *mapping = dp_mapping_get(p->spec.mapping);
     return p->unknown == SOLVE_NEAR && !p->spec.ortho && mapping->curve != DP_CURVE_PERSPECTIVE &&
-           !mapping->log_from_near && !mapping->log_over_near;
+           !mapping->log_from_near;
 }
 
-/* Whether all values between two that pass in the lattice do, the outer one first. */
-static bool all_pass(const solve_problem *p, double outer, double inner) {
-    dp_setup one, other;
-    return solve_setup(p, outer, &one) == DP_OK && solve_setup(p, inner, &other) == DP_OK &&
-           dp_separation_within(&one, &other, p->lo, p->hi, p->limit);
-}
-
-/* A value moved outwards by a ratio, at most to the answer; of fars, past the finite ones. */
-static double outwards(const hunt *h, double x, double ratio) {
-    const double end = h->out->value;
-    if (h->inward_is_up)
-        return fmax(x / ratio, end);
-    return x * ratio > farthest ? end : fmin(x * ratio, end);
-}
-
-/* From a value outwards, in stretches as long as can be shown to pass, to where the shortest cannot. */
-static double reach_from(const hunt *h, double start) {
-    static const double shortest = 1.0 + 0x1p-13;
-    double end = start;
-    for (double ratio = 2.0; end != h->out->value && ratio > shortest;) {
-        const double x = outwards(h, end, ratio);
-        const bool all = all_pass(h->problem, x, end);
-        end = all ? x : end;
-        ratio = all ? fmin(ratio * ratio, 0x1p64) : sqrt(ratio);
+static void search_planes(search *s) {
+    plane_answer *a = s->out;
+    const bool inert = is_inert(s->problem);
+    double box[2];
+    a->reached.value = HUGE_VAL;
+    a->value = s->inner;
+    if (isinf(s->outer))
+        offer(s, s->outer);
+    const bool found = !s->met && !inert && find(s, s->outer, s->inner, box);
+    if (!found && !s->met)
+        offer(s, s->inner);
+    a->possible = found || s->met;
+    a->until = a->value;
+    a->certain = inert || (!s->open && s->problem->kind == MEASURE_SEPARATION);
+    if (!a->possible) {
+        a->reached = reached_at(s->problem, a->value);
+        return;
     }
-    return end;
-}
-
-/* The inner end is where values begin to fail, too, so the bound may begin to hold a little before it. */
-static void prove(const hunt *h) {
-    enum { HOPS = 12 };
-    plane_answer *a = h->out;
-    double start = a->until;
-    for (int hop = 0; hop < HOPS && !a->proven; hop++) {
-        const double end = reach_from(h, start);
-        a->proven = end != start || a->until == a->value;
-        if (a->proven) {
-            a->chosen = end;
-            a->until = start;
-        }
-        start = outwards(h, start, 1.0 + dp_power2(hop - 10));
+    if (!found)
+        box[0] = box[1] = a->value;
+    a->until = inert ? s->inner : reach_from(s, box[1], s->inner);
+    a->value = inert ? s->outer : reach_from(s, box[0], s->outer);
+    s->aligned = s->problem->kind == MEASURE_ERROR && s->problem->spec.model != DP_MODEL_FLOAT;
+    if (s->aligned && !inert) {
+        a->until = reach_from(s, a->until, s->inner);
+        a->value = reach_from(s, a->value, s->outer);
     }
+    a->until = judged(s, a->until, a->value);
+    a->value = judged(s, a->value, a->until);
+    a->certain = none_beyond(s);
+    a->reached = reached_at(s->problem, a->value);
 }
 
-static void choose(const hunt *h) {
-    plane_answer *a = h->out;
-    a->chosen = isnan(a->steady) ? a->value : a->steady;
-    if (is_inert(h->problem))
-        a->proven = true;
-    else
-        prove(h);
-    if (a->proven && a->chosen == a->value)
-        a->tried = a->passed = 0;
-}
+/* ---- The door ---------------------------------------------------------------------------------------------------- */
 
-/* ---- The model's answer, inside the lattice's -------------------------------------------------------------------- */
-
-static bool hunt_island(hunt *h, const solve_island *island) {
-    plane_answer *a = h->out;
-    h->outer = h->inward_is_up ? island->lo : island->hi;
-    h->inner = h->inward_is_up ? island->hi : island->lo;
-    if (plane_passes(h->problem, h->outer)) { /* nothing beyond it passes even in the lattice */
-        a->value = h->outer;
-        a->certain = true;
-    }
-    if (isinf(h->outer))
-        h->outer = farthest;
-    if (!a->certain) {
-        double fails;
-        double passes = gallop(h, &fails);
-        if (isnan(passes))
-            passes = comb(h, &fails);
-        if (isnan(passes))
-            return false;
-        a->value = narrow(h, fails, passes, RUN);
-        if (h->effort == PLANE_PROVE)
-            look_beyond(h);
-    }
-    a->possible = true;
-    a->until = h->inner;
-    survey(h);
-    choose(h);
-    return true;
-}
-
-/* The lattice's answer in the model exact: all from `value` to `until` pass, and the next double fails. */
-static void answer_of_lattice(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
-    a->possible = lattice->possible;
-    a->value = a->steady = lattice->value;
-    a->until = lattice->until;
-    a->certain = lattice->possible;
-    const double sign = a->until >= a->value ? 1.0 : -1.0;
-    for (double share = 0x1p-52; a->possible && share < 0x1p-36; share *= 2.0) {
-        const bool passes = plane_passes(p, a->value);
-        if (passes && plane_passes(p, a->until))
-            break;
-        *(passes ? &a->until : &a->value) *=
-            1.0 + (passes ? -sign : sign) * share; /* the bound over a range is outward */
-    }
-    a->steady = a->value;
-}
-
-/* Nothing was found although the lattice has an answer: the inner end of its answer comes near. */
-static void nearest_miss(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
-    a->value = a->until = a->steady = lattice->possible ? lattice->until : lattice->value;
-    a->certain = !lattice->possible || is_inert(p);
-}
-
-dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_result *lattice, plane_answer *out) {
-    if (problem == NULL || lattice == NULL || out == NULL)
-        return DP_ERROR_NULL;
-    if (problem->kind == MEASURE_ERROR && problem->spec.model == DP_MODEL_FLOAT &&
-        dp_mapping_get(problem->spec.mapping)->curve != DP_CURVE_LOG)
-        return DP_ERROR_MODEL;
-    solve_problem exact = *problem;
-    exact.spec.model = DP_MODEL_EXACT;
-    dp_status status = solve(&exact, lattice);
-    if (status != DP_OK)
-        return status;
+/* The least and the greatest value that make a set-up and leave the depths inside it. */
+static dp_status limits(const solve_problem *p, double *least, double *most) {
     dp_setup setup;
-    status = solve_setup(problem, lattice->value, &setup);
+    const bool znear = p->unknown == SOLVE_NEAR;
+    *least = znear ? near_least : fmax(fmax(p->hi, p->spec.znear * (1.0 + planes_apart)), near_least);
+    *most = znear ? fmin(fmin(p->lo, near_most), p->spec.zfar / (1.0 + planes_apart)) : far_most;
+    if (!(*least <= *most) || (znear ? p->hi > p->spec.zfar : p->lo < p->spec.znear))
+        return DP_ERROR_RANGE;
+    double *inner = znear ? most : least;
+    for (int i = 0; i < 8 && solve_setup(p, *inner, &setup) == DP_ERROR_PLANES; i++)
+        *inner = nextafter(*inner, znear ? 0.0 : HUGE_VAL);
+    const dp_status status = solve_setup(p, *inner, &setup);
+    if (!znear && solve_setup(p, HUGE_VAL, &setup) == DP_OK)
+        *most = HUGE_VAL;
+    return status;
+}
+
+dp_status plane_solve(const solve_problem *p, plane_answer *out) {
+    if (p == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    const bool logarithm = dp_mapping_get(p->spec.mapping)->curve == DP_CURVE_LOG;
+    if (p->kind == MEASURE_ERROR && p->spec.model == DP_MODEL_FLOAT && !logarithm)
+        return DP_ERROR_MODEL;
+    /* A near plane is looked for among the positive ones; a far one behind the depths, which may begin anywhere. */
+    const double first = p->unknown == SOLVE_FAR && p->spec.ortho ? p->hi : p->lo;
+    if (!(p->limit > 0.0 && first > 0.0 && p->lo <= p->hi && p->hi < HUGE_VAL))
+        return DP_ERROR_RANGE;
+    double least, most;
+    const dp_status status = limits(p, &least, &most);
     if (status != DP_OK)
         return status;
-    *out = (plane_answer){.fails_to = (double)NAN};
-    hunt h = {.problem = problem,
-              .out = out,
-              .inward_is_up = problem->unknown == SOLVE_NEAR,
-              .effort = effort,
-              .failed = (double)NAN};
-    if (problem->kind == MEASURE_ERROR) {
-        plane_error_solve(problem, lattice, out);
-    } else if (problem->spec.model == DP_MODEL_EXACT) {
-        answer_of_lattice(problem, lattice, out);
-    } else {
-        for (int i = lattice->island_count; i-- > 0 && !out->possible;)
-            hunt_island(&h, &lattice->islands[i]);
-        if (!out->possible)
-            nearest_miss(problem, lattice, out);
-    }
-    if (!out->possible || problem->kind == MEASURE_ERROR || problem->spec.model == DP_MODEL_EXACT) {
-        out->chosen = out->value;
-        out->proven = out->possible && out->tried == 0;
-    }
-    out->reached = reached_at(problem, out->chosen);
+    const bool znear = p->unknown == SOLVE_NEAR;
+    *out = (plane_answer){.least = least, .most = most};
+    search s = {.problem = p,
+                .out = out,
+                .outer = znear ? least : most,
+                .inner = znear ? most : least,
+                .shortest = p->spec.model == DP_MODEL_EXACT ? finest : coarsest};
+    search_planes(&s);
     return DP_OK;
 }

@@ -1,59 +1,52 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file plane.h  The near or far plane that meets a requirement in any model, judged as `check` judges.
+ * @file plane.h  The near or far plane from which on a requirement holds, in any model, judged as `check` judges.
  *
- * No model has a separation below that of the lattice, so the lattice's answer (solve.h) bounds all others. In float
- * the measure is not monotone: whether a plane will do hangs on how its matrix entries are rounded to binary32. So
- * there are two answers: the first value that passes, beyond which every binary32 value fails for 2^-10 of itself at
- * least; and the one to use, on whose safe side all pass, which a bound over all cameras in between proves.
+ * What a plane needs is not monotone: the steps of a FLOAT double at powers of two, and in binary32 each plane is
+ * rounded in its own way. So no single value is sought, but an interval of them, all of which are shown to do by a
+ * bound over all cameras in between (core/engine.h): first a place where the bound holds, then its ends, by bisection.
  */
 #ifndef REQUIREMENT_PLANE_H
 #define REQUIREMENT_PLANE_H
 
 #include "requirement/judge.h"
-#include "requirement/solve.h"
 
-/** How much work: alternatives are only found, the answer is also surrounded. */
-typedef enum plane_effort { PLANE_FIND = 0, PLANE_PROVE } plane_effort;
+typedef enum solve_unknown { SOLVE_NEAR = 0, SOLVE_FAR } solve_unknown;
+
+typedef struct solve_problem {
+    dp_spec spec; /**< all but the unknown, whose value in it is not read */
+    solve_unknown unknown;
+    measure_kind kind;
+    double limit;  /**< the measure may be at most this, scene units, positive */
+    double lo, hi; /**< at these depths, lo <= hi, finite; lo = hi for one depth */
+} solve_problem;
 
 typedef struct plane_answer {
     bool possible;
-    double value;      /**< the least near, or the largest far; impossible: one that comes near */
-    double chosen;     /**< the one to use: from here to `until` all pass, or all that were tried */
-    bool proven;       /**< all of them do, not only those that were tried */
-    double until;      /**< the other end of the values that pass; between the two some may fail */
-    double steady;     /**< from here to `until` all that were tried pass; NaN where the last that was tried fails */
-    uint64_t tried;    /**< values tried from `value` to `until`; 0 where all of them pass for certain */
-    uint64_t passed;   /**< of these */
-    bool certain;      /**< nothing passes next beyond `value`: see `fails_to` */
-    double fails_to;   /**< every binary32 value from here to `value` fails; NaN: the very next double does, or none is
-                            left to look at */
-    judgement reached; /**< at `chosen`, in the model asked about */
+    double value;       /**< the least near, or the largest far, from which on all pass; else one that comes near */
+    double until;       /**< the other end of the values that pass with it */
+    bool certain;       /**< a part in 10^9 beyond `value` none passes, or there is none; impossible: that is certain */
+    judgement reached;  /**< at `value` */
+    double least, most; /**< the values looked at: near from 1e-12 to lo, far from hi to 1e18 or INFINITY */
 } plane_answer;
 
-/**
- * Solves a problem in the model of its set-up.
- *
- * @param lattice  receives the answer of the lattice, model exact, whatever the model asked about; its islands hold in
- *                 that model, and for an error however the depths are aligned
- * @return DP_OK (also when impossible), or what solve() and dp_setup_init() have against it; DP_ERROR_MODEL for an
- *         error in float, which has no stored depth
- */
-dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_result *lattice, plane_answer *out);
+/** The set-up of a problem with its unknown filled in. */
+dp_status solve_setup(const solve_problem *problem, double value, dp_setup *out);
 
 /** Whether a value of the unknown passes, as `check` judges it. */
 bool plane_passes(const solve_problem *problem, double value);
 
-/** Over a range the ends are judged first: they are looked at anyhow, and where one fails so does the range. */
-bool plane_fails_at_ends(const solve_problem *problem, const dp_setup *setup);
-
 /**
- * The plane that an error needs, |stored - z| of the codes that the depths really have. From the plane that will do
- * however the depths are aligned to the codes, on through the codes that the deciding depth takes, to the first value
- * that fails: all from there to `until` pass. Models exact and staged.
+ * Solves a problem in the model of its set-up.
  *
- * @param lattice  what solve() found in the model exact
+ * Bound: every value from `value` to `until` passes; `value` is where the bound over cameras ends, to 2^-31 of itself.
+ * Where values pass in several intervals it is the uppermost: the one next to the depths for near, the farthest for
+ * far. Narrow ones may be missed, but in the model exact. A single plane, far infinite or one of few bits, is an answer
+ * where no interval is.
+ *
+ * @return DP_OK (also when impossible), DP_ERROR_NULL, DP_ERROR_RANGE (depths or limit), DP_ERROR_MODEL for an error in
+ *         float, which has no stored depth, or what dp_setup_init() has against every value of the unknown
  */
-void plane_error_solve(const solve_problem *problem, const solve_result *lattice, plane_answer *out);
+dp_status plane_solve(const solve_problem *problem, plane_answer *out);
 
 #endif

@@ -122,31 +122,25 @@ static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) 
     return has_fp32 ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
 }
 
-static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_unknown unknown, plane_effort effort,
-                             solve_result *result) {
+static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_unknown unknown) {
     const solve_problem p = {
         .spec = c->spec, .unknown = unknown, .kind = r->kind, .limit = r->limit, .lo = r->lo, .hi = r->hi};
-    const dp_status status = plane_solve(&p, effort, result, &c->plane);
+    solve_problem exact = p;
+    plane_answer ideal;
+    exact.spec.model = DP_MODEL_EXACT;
+    exact.spec.triangles.width = 0;
+    dp_status status = plane_solve(&p, &c->plane);
+    if (status == DP_OK)
+        status = plane_solve(&exact, &ideal);
     if (status != DP_OK)
         return status;
-    *(unknown == SOLVE_NEAR ? &c->spec.znear : &c->spec.zfar) = c->plane.chosen;
+    *(unknown == SOLVE_NEAR ? &c->spec.znear : &c->spec.zfar) = c->plane.value;
     c->solved = true;
     c->unknown = unknown;
     c->possible = c->plane.possible;
     c->reached = c->plane.reached;
-    c->least = result->least;
-    c->most = result->most;
-    c->island_count = result->island_count;
-    c->lattice = (solve_lattice){.possible = result->possible,
-                                 .value = result->value,
-                                 .reached = {.value = result->worst.value, .z = result->worst.z}};
-    if (r->kind == MEASURE_ERROR) { /* the depths as they are aligned */
-        solve_problem exact = p;
-        plane_answer ideal;
-        exact.spec.model = DP_MODEL_EXACT;
-        if (plane_solve(&exact, effort, result, &ideal) == DP_OK)
-            c->lattice = (solve_lattice){ideal.possible, ideal.value, ideal.reached};
-    }
+    c->lattice = (solve_lattice){ideal.possible, ideal.value, ideal.reached};
+    c->island = (distance_span){fmin(ideal.value, ideal.until), fmax(ideal.value, ideal.until)};
     return DP_OK;
 }
 
@@ -177,19 +171,18 @@ static dp_status evaluate(const solve_report *r, solve_candidate *c) {
 }
 
 /* Fills in what is missing. */
-static dp_status try_candidate(const solve_report *r, solve_candidate *c, solve_result *result) {
+static dp_status try_candidate(const solve_report *r, solve_candidate *c) {
     if (r->target == SOLVE_FOR_NEAR)
-        return solve_plane(r, c, SOLVE_NEAR, PLANE_FIND, result);
+        return solve_plane(r, c, SOLVE_NEAR);
     if (r->target == SOLVE_FOR_FAR)
-        return solve_plane(r, c, SOLVE_FAR, PLANE_FIND, result);
+        return solve_plane(r, c, SOLVE_FAR);
     return evaluate(r, c);
 }
 
 /* Where the planes are given and do not do, the near plane that this format and mapping would need. */
-static void try_other_near(const solve_report *r, solve_candidate *c, solve_result *result) {
+static void try_other_near(const solve_report *r, solve_candidate *c) {
     solve_candidate other = *c;
-    if (c->possible || isnan(r->limit) || solve_plane(r, &other, SOLVE_NEAR, PLANE_FIND, result) != DP_OK ||
-        !other.possible)
+    if (c->possible || isnan(r->limit) || solve_plane(r, &other, SOLVE_NEAR) != DP_OK || !other.possible)
         return;
     *c = other;
 }
@@ -224,7 +217,7 @@ static solve_candidate *add_candidate(solve_report *r, const dp_spec *spec, bool
     return c;
 }
 
-static int add_asked(solve_report *r, solve_result *result) {
+static int add_asked(solve_report *r) {
     const options *o = r->o;
     dp_spec spec = spec_of(o);
     for (size_t f = 0; f < o->camera.format_count; f++)
@@ -235,7 +228,7 @@ static int add_asked(solve_report *r, solve_result *result) {
             if (setup_undrawn(o, &spec.format) != EXIT_FINE)
                 return EXIT_USAGE;
             solve_candidate *c = add_candidate(r, &spec, true);
-            const dp_status status = try_candidate(r, c, result);
+            const dp_status status = try_candidate(r, c);
             if (status != DP_OK)
                 return refused(r, c, status);
         }
@@ -263,7 +256,7 @@ static bool leaves_open(const solve_report *r, const dp_format *format) {
  * What else there is: the real depth buffers with the mappings that an engine can choose. Of the logarithms it is the
  * one that was asked about: the others are those of other renderers, and `log` stands for what a shader may write.
  */
-static void add_others(solve_report *r, solve_result *result) {
+static void add_others(solve_report *r) {
     const dp_mapping asked = r->o->camera.mappings[0];
     const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, is_logarithm(asked) ? asked : DP_MAPPING_LOG};
     dp_spec spec = spec_of(r->o);
@@ -274,7 +267,7 @@ static void add_others(solve_report *r, solve_result *result) {
             spec.model = model_of(r, spec.mapping, false);
             if (listed(r, &spec) || !is_covered(r, &spec) || (spec.mapping == DP_MAPPING_D3D && asked == DP_MAPPING_GL))
                 continue;
-            if (try_candidate(r, add_candidate(r, &spec, leaves_open(r, &spec.format)), result) != DP_OK)
+            if (try_candidate(r, add_candidate(r, &spec, leaves_open(r, &spec.format))) != DP_OK)
                 r->count--;
         }
 }
@@ -322,8 +315,8 @@ static int compare_answers(const solve_report *r, const solve_candidate *x, cons
     return room != 0 ? room : compare_alternatives(x, y);
 }
 
-/* Puts the answer first, the rest behind it in order, and its islands where the report finds them. */
-static void arrange(solve_report *r, solve_result *result) {
+/* Puts the answer first and the rest behind it in order. */
+static void arrange(solve_report *r) {
     size_t best = 0;
     for (size_t i = 1; i < r->count; i++)
         if (compare_answers(r, &r->items[i], &r->items[best]) < 0)
@@ -333,20 +326,15 @@ static void arrange(solve_report *r, solve_result *result) {
     r->items[0] = answer;
     for (size_t i = 1; i < r->count; i++)
         if (asks_for_choice(r->target))
-            try_other_near(r, &r->items[i], result);
+            try_other_near(r, &r->items[i]);
     for (size_t i = 0; i < r->count; i++)
         r->items[i].place = i;
     if (r->count > 1)
         qsort(r->items + 1, r->count - 1, sizeof r->items[0], compare_alternatives);
-    if (!answer.solved)
-        return;
-    solve_plane(r, &r->items[0], answer.unknown, PLANE_PROVE, result);
-    r->islands = result->islands;
 }
 
 int cmd_solve(const options *o) {
     output out;
-    solve_result result;
     solve_candidate items[SOLVE_CANDIDATES_MAX];
     solve_report r = {.o = o, .items = items};
     if (o->wanted.target == SOLVE_FOR_FRUSTA)
@@ -357,12 +345,12 @@ int cmd_solve(const options *o) {
     if (status == EXIT_FINE)
         status = check_depths(o, &r);
     if (status == EXIT_FINE)
-        status = add_asked(&r, &result);
+        status = add_asked(&r);
     if (status != EXIT_FINE)
         return status;
     if (!isnan(r.limit))
-        add_others(&r, &result);
-    arrange(&r, &result);
+        add_others(&r);
+    arrange(&r);
     solve_look_beyond(&r);
     status = options_open(o, &out);
     if (status != EXIT_FINE)

@@ -7,13 +7,20 @@
 #include "cli/slant.h"
 #include "cli/solve/report.h"
 
+/* All from `first`, the answer itself, to `until` pass: none has to be tried for that, and no others are. */
+typedef struct plane_fields {
+    double until, first, fails_to, tried, passed;
+    bool proven, certain;
+} plane_fields;
+
 /* What was found about a candidate; parts that are not asked for or do not exist are null. */
 typedef struct candidate {
     solve_candidate found;
     setup_fields setup;
     const char *model;
     double guaranteed, slanted;
-    const plane_answer *plane;                /* where one was found */
+    plane_fields fields;
+    const plane_fields *plane;                /* where one was found */
     const double *lattice_near, *lattice_far; /* where it was solved for */
     double distance, lattice_distance;        /* NaN where it does not hold at all */
     char plane_text[NUMBER_SIZE], ideal_text[NUMBER_SIZE];
@@ -39,7 +46,14 @@ static void take_candidate(solving *s, const solve_candidate *c) {
                      .distance = c->possible ? c->distance.value : (double)NAN,
                      .lattice_distance = c->lattice.possible ? c->lattice.value : (double)NAN,
                      .first = solved ? c->plane.value : (double)NAN};
-    x->plane = solved ? &x->found.plane : NULL;
+    x->fields = (plane_fields){.until = solved ? c->plane.until : (double)NAN,
+                               .first = x->first,
+                               .fails_to = (double)NAN,
+                               .tried = (double)NAN,
+                               .passed = (double)NAN,
+                               .proven = solved || c->plane.certain,
+                               .certain = c->plane.certain};
+    x->plane = c->solved ? &x->fields : NULL;
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
     s->setup = (dp_setup){.spec = c->spec};
     x->setup = setup_fields_of(&s->setup, options_unit(s->report.o));
@@ -108,31 +122,20 @@ static void *next_again(void *of, size_t i) {
 /* ---- CSV --------------------------------------------------------------------------------------------------------- */
 
 static void *next_island(void *of, size_t i) {
-    const solve_report *r = of;
-    return i < (size_t)r->items[0].island_count ? &r->islands[i] : NULL;
+    solve_candidate *c = &((solve_report *)of)->items[0];
+    return i == 0 && c->solved && c->lattice.possible ? &c->island : NULL;
 }
 
-/* The last island is that of the answer itself. */
 static void *next_line(void *of, size_t i) {
     solving *s = of;
     const solve_report *r = &s->report;
     candidate *x = &s->candidate;
-    const size_t islands = r->items[0].island_count > 0 ? (size_t)r->items[0].island_count - 1 : 0;
-    const bool is_island = i > 0 && i <= islands;
-    if (i == r->count + islands)
+    if (i == r->count)
         return NULL;
-    take_candidate(s, &r->items[i > islands ? i - islands : 0]);
-    x->role = i == 0 ? "answer" : is_island ? "island" : "alternative";
-    if (is_island) { /* of the lattice */
-        s->setup.spec.model = DP_MODEL_EXACT;
-        x->setup = setup_fields_of(&s->setup, options_unit(r->o));
-        x->from = r->islands[i - 1].lo;
-        x->to = r->islands[i - 1].hi;
-        x->first = (double)NAN;
-        return s;
-    }
+    take_candidate(s, &r->items[i]);
+    x->role = i == 0 ? "answer" : "alternative";
     const bool holds = r->target == SOLVE_FOR_DISTANCE && x->found.possible;
-    const double a = x->plane != NULL ? solve_plane_of(&x->found) : holds ? r->lo : (double)NAN;
+    const double a = x->plane != NULL ? x->plane->first : holds ? r->lo : (double)NAN;
     const double b = x->plane != NULL ? x->plane->until : holds ? x->distance : a;
     x->from = fmin(a, b);
     x->to = fmax(a, b);
@@ -144,13 +147,10 @@ static void *next_line(void *of, size_t i) {
 enum { OF_SEPARATION = 1, OF_OTHERS = 2, OF_DISTANCE = 4, WITH_TRIANGLES = 8 };
 
 static const column plane_columns[] = {
-    {FIELD(plane_answer, until, "until", "scene")},       {FIELD(plane_answer, proven, "proven", "")},
-    {FIELD(plane_answer, value, "first", "scene")},       {FIELD(plane_answer, tried, "tried", "")},
-    {FIELD(plane_answer, passed, "passed", "")},          {FIELD(plane_answer, certain, "certain", "")},
-    {FIELD(plane_answer, fails_to, "fails_to", "scene")}, {.kind = COLUMN_END}};
-
-static const column island_columns[] = {
-    {FIELD(solve_island, lo, "lo", "scene")}, {FIELD(solve_island, hi, "hi", "scene")}, {.kind = COLUMN_END}};
+    {FIELD(plane_fields, until, "until", "scene")},       {FIELD(plane_fields, proven, "proven", "")},
+    {FIELD(plane_fields, first, "first", "scene")},       {FIELD(plane_fields, tried, "tried", "")},
+    {FIELD(plane_fields, passed, "passed", "")},          {FIELD(plane_fields, certain, "certain", "")},
+    {FIELD(plane_fields, fails_to, "fails_to", "scene")}, {.kind = COLUMN_END}};
 
 static const column line_columns[] = {
     {FIELD(solving, candidate.role, "role", "")},
@@ -172,7 +172,7 @@ static const column line_columns[] = {
     {FIELD(solving, candidate.slanted, "guarantee_slanted", "scene"), .when = WITH_TRIANGLES},
     {.kind = COLUMN_END}};
 
-static const column again_columns[] = {
+static const column span_columns[] = {
     {FIELD(distance_span, lo, "lo", "scene")}, {FIELD(distance_span, hi, "hi", "scene")}, {.kind = COLUMN_END}};
 
 static const column fight_columns[] = {{FIELD(solve_fight, first, "first", "scene")},
@@ -234,8 +234,8 @@ void solve_report_write(const solve_report *r, output *out) {
         {PART(solving, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
         {PART(solving, candidate, "answer", about), .only = AS_JSON},
         {PART(solving, report.fight, "fight", fight_columns), .only = AS_JSON, .when = OF_DISTANCE},
-        {LIST("again", again_columns, next_again), .only = AS_JSON, .when = OF_DISTANCE},
-        {LIST("islands", island_columns, next_island), .only = AS_JSON},
+        {LIST("again", span_columns, next_again), .only = AS_JSON, .when = OF_DISTANCE},
+        {LIST("islands", span_columns, next_island), .only = AS_JSON},
         {LIST("alternatives", about, next_alternative), .only = AS_JSON},
         {LIST(NULL, beside, next_alternative), .only = AS_TEXT, .indent = 2, .head = say_others, .notes = say_cautions},
         {LIST(NULL, line_columns, next_line), .only = AS_CSV},

@@ -26,7 +26,7 @@ double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool s
                : (double)NAN;
 }
 
-enum { DIGITS_MOST = 17, UNITS = 8, ISLANDS_SHOWN = 6, PHRASE_SIZE = 256 };
+enum { DIGITS_MOST = 17, UNITS = 8, PHRASE_SIZE = 256 };
 
 /* A part of a sentence; lives until the statement ends. */
 typedef struct phrase {
@@ -176,12 +176,10 @@ static void sentence_of_nothing(const solve_report *r, const solve_candidate *c,
     else if (!c->solved)
         output_format(out, "Impossible: no %s with near and far as they are %s; %s comes nearest, with %s.\n", what,
                       goal.text, given.text, best.text);
-    else if (c->plane.certain)
-        output_format(out, "Impossible: no %s of %s %s; %s %s comes nearest, with %s.\n", what, given.text, goal.text,
-                      what, plane.text, best.text);
     else
-        output_format(out, "No %s of %s was found that %s; %s %s comes near, with %s.\n", what, given.text, goal.text,
-                      what, plane.text, best.text);
+        output_format(out, "%s %s of %s %s%s; %s %s comes near, with %s.\n", c->plane.certain ? "Impossible: no" : "No",
+                      what, given.text, c->plane.certain ? "" : "was found that ", goal.text, what, plane.text,
+                      best.text);
 }
 
 /* "larger one up to 5000", on the safe side of the answer */
@@ -198,12 +196,10 @@ static void sentence_of_plane(const solve_report *r, const solve_candidate *c, o
     const double value = solve_plane_of(c);
     const number_text safe = safe_digits(r, c, value, p->until);
     const char *name = is_near(c) ? "Near" : "Far";
-    if (p->chosen != p->value)
-        output_format(out, "%s %s is enough for %s to %s, and so %s %s.\n", name, safe.text, given.text, goal.text,
-                      p->proven ? "is any" : "was any tried", beyond_phrase(r, c).text);
-    else if (p->passed < p->tried || !p->certain)
-        output_format(out, "%s %s is enough for %s to %s.\n", name, safe.text, given.text, goal.text);
-    else if (value == (is_near(c) ? c->least : c->most))
+    if (!p->certain)
+        output_format(out, "%s %s is enough for %s to %s, and so is any %s.\n", name, safe.text, given.text, goal.text,
+                      beyond_phrase(r, c).text);
+    else if (value == (is_near(c) ? p->least : p->most))
         output_format(out, "Any %s from %s to %s will do for %s to %s.\n", target_name(r), passing(r, c, true).text,
                       passing(r, c, false).text, given.text, goal.text);
     else
@@ -227,62 +223,13 @@ static void say_sentence(const solve_report *r, const solve_candidate *c, output
 
 /* ---- What stands behind it --------------------------------------------------------------------------------------- */
 
-static void say_islands(const solve_report *r, const solve_candidate *c, page *p) {
-    const int before = c->island_count - 1;
-    if (c->spec.model != DP_MODEL_EXACT)
-        return; /* the lattice's */
-    for (int i = before - 1; i >= 0 && before - 1 - i < ISLANDS_SHOWN; i--)
-        page_note(p, i == before - 1 ? "also" : "", "from %s to %s",
-                  safe_digits(r, c, r->islands[i].lo, r->islands[i].hi).text,
-                  safe_digits(r, c, r->islands[i].hi, r->islands[i].lo).text);
-    if (before > ISLANDS_SHOWN)
-        page_note(p, "", "and %d more ranges further down; --json lists them", before - ISLANDS_SHOWN);
-}
-
-/* Which values pass with the answer: all of them, or those that were tried. */
-static void say_passing(const solve_report *r, const solve_candidate *c, page *p) {
-    const plane_answer *a = &c->plane;
-    const number_text lo = passing(r, c, true), hi = passing(r, c, false);
-    const unsigned long long tried = a->tried, passed = a->passed;
-    if (a->proven || a->chosen != a->value)
-        page_note(p, "passes", "every %s %sfrom %s to %s", target_name(r), a->proven ? "" : "that was tried ", lo.text,
-                  hi.text);
-    else
-        page_note(p, "passes", "%llu of %llu tried from %s to %s%s", passed, tried, lo.text, hi.text,
-                  passed < tried ? ": each is rounded in its own way" : "");
-}
-
-/* A value that passes beyond the answer, and those in between of which some may not. */
-static void say_first(const solve_report *r, const solve_candidate *c, page *p) {
-    const plane_answer *a = &c->plane;
-    const number_text first = safe_digits(r, c, a->value, a->chosen);
-    const unsigned long long tried = a->tried, passed = a->passed;
-    const char *label = is_near(c) ? "smaller" : "larger";
-    if (passed == tried)
-        page_note(p, label, "%s passes, too, and so do all %llu tried from there on; others may not", first.text,
-                  tried);
-    else
-        page_note(p, label,
-                  "%s passes, too, but %llu of %llu tried from there on do not: each is rounded in its own way",
-                  first.text, tried - passed, tried);
-}
-
-/* The answer and what is beside it. */
 static void say_plane(const solve_report *r, const solve_candidate *c, page *p) {
     const char *what = target_name(r);
-    const plane_answer *a = &c->plane;
-    const bool two = a->chosen != a->value;
     page_note(p, what, "%s exactly%s", whole(r, solve_plane_of(c)).text,
-              a->certain || two ? ""
-              : is_near(c)      ? "; a smaller one may be enough"
-                                : "; a larger one may be enough");
-    say_passing(r, c, p);
-    if (two)
-        say_first(r, c, p);
-    if (!isnan(a->fails_to))
-        page_note(p, "fails", "every binary32 %s from there %s to %s", what, is_near(c) ? "down" : "up",
-                  bound(r, a->fails_to, is_near(c)).text);
-    say_islands(r, c, p);
+              c->plane.certain ? ""
+              : is_near(c)     ? "; a smaller one may be enough"
+                               : "; a larger one may be enough");
+    page_note(p, "passes", "every %s from %s to %s", what, passing(r, c, true).text, passing(r, c, false).text);
 }
 
 /* The model, and why it is not the fullest that there is. */

@@ -27,9 +27,8 @@ typedef struct solve_candidate {
     size_t place;          /**< before they are put in order: which of two that are alike comes first */
     solve_unknown unknown; /**< the plane that was solved for, where one was */
     bool solved;           /**< one was */
-    double least, most;    /**< see solve_result */
     plane_answer plane;    /**< where one was solved for */
-    int island_count;      /**< of the lattice; 0 where neither plane was solved for */
+    distance_span island;  /**< and one was found in the lattice: the values that pass there */
     distance_answer distance;
     solve_lattice lattice;
 } solve_candidate;
@@ -51,7 +50,6 @@ typedef struct solve_report {
     double lo, hi;
     size_t count;           /**< at least 1 */
     solve_candidate *items; /**< the answer first, then the alternatives, best first */
-    solve_island *islands;  /**< of the answer, in the lattice */
     solve_fight fight;      /**< of the answer, where a distance is solved for */
     size_t again_count;
     distance_span again[SOLVE_AGAIN_MAX]; /**< where it holds again beyond that distance */
