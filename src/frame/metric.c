@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "frame/image_depths.h"
 #include "frame/recognise.h"
 #include "frame/recognise_lattice.h"
@@ -47,26 +48,35 @@ static void add_all(const image *img, look *l, double scale) {
             distinct_add(&l->seen, image_sample(img, i) * scale);
 }
 
+/* How many bits hold the most. */
+static int bits_for(double most, int bits) {
+    while (bits <= BITS_MAX && ldexp(1, bits) - 1 < most)
+        bits++;
+    return bits;
+}
+
 static const char *of_integers(const image *img, double scale, look *l, metric *out) {
     static const int bits_of[] = {[IMAGE_U8] = 8, [IMAGE_U16] = 16, [IMAGE_U32] = 16};
-    int bits = bits_of[img->type];
-    while (bits <= BITS_MAX && ldexp(1, bits) - 1 < l->most)
-        bits++;
+    int bits = bits_for(l->most, bits_of[img->type]);
     if (bits > BITS_MAX)
         return "an integer is larger than 2147483647";
-    const double top = ldexp(1, bits) - 1;
     add_all(img, l, 1);
     /* A few values have a divisor by chance. */
     const double divisor = l->seen.count >= VALUES_LEAST ? l->divisor : 1;
+    const double chance = divisor > 1 ? (double)l->seen.count * dp_log2(divisor) - BITS_MAX : 0;
+    sensor_find(img, &(sensor_file){.step = divisor * scale, .bits = chance, .digits = 53, .scale = scale},
+                &out->sensor);
+    bits = bits_for(fmin(sensor_end(&out->sensor, (l->most + divisor) * scale) / scale, ldexp(1, BITS_MAX) - 1), bits);
+    const double top = ldexp(1, bits) - 1;
     dp_format formats[2];
     char name[24];
     snprintf(name, sizeof name, "unorm%d", bits);
     dp_format_parse(name, formats);
-    *out = (metric){.format = formats[0],
-                    .znear = 0.5 * l->least * scale,
-                    .zfar = top * scale,
-                    .step = divisor * scale,
-                    .grain = {.kind = GRAIN_STEPS, .steps = top / divisor}};
+    out->format = formats[0];
+    out->znear = 0.5 * l->least * scale;
+    out->zfar = top * scale;
+    out->step = divisor * scale;
+    out->grain = (grain){.kind = GRAIN_STEPS, .steps = top / divisor};
     return NULL;
 }
 
@@ -87,24 +97,29 @@ static double find_step(const image *img, look *l, int exponent) {
 }
 
 static const char *of_numbers(const image *img, double scale, look *l, metric *out) {
+    static const int digits[] = {[IMAGE_F16] = 11, [IMAGE_F32] = 24, [IMAGE_F64] = 53};
     int exponent;
     dp_format formats[2];
     if (frexp(l->most, &exponent) == 0.5)
         exponent--; /* the least power of two that is not below */
-    const double zfar = ldexp(scale, exponent);
-    if (!(zfar >= 1e-9 && zfar <= 1e18))
+    if (!(ldexp(scale, exponent) >= 1e-9 && ldexp(scale, exponent) <= 1e18))
         return "its depths leave the possible range, 1e-9 to 1e18 scene units";
     dp_format_parse("fp32", formats);
     const double step = find_step(img, l, exponent);
-    *out = (metric){.format = formats[0],
-                    .znear = fmax(0.5 * l->least * scale, 1e-12),
-                    .zfar = zfar,
-                    .step = step * scale,
-                    .grain = {.kind = step > 0 ? GRAIN_STEPS : GRAIN_FLOATS,
-                              .steps = step > 0 ? ldexp(1, exponent) / step : 0,
-                              .rounding = img->type == IMAGE_F64 && step == 0 ? GRAIN_NEAREST : GRAIN_ANY,
-                              .bits = img->type == IMAGE_F16 ? 11 : 24,
-                              .least = img->type == IMAGE_F16 ? ldexp(1, -24 - exponent) : 0x1p-149}};
+    sensor_find(img, &(sensor_file){.step = step * scale, .digits = digits[img->type], .scale = scale}, &out->sensor);
+    const double end = sensor_end(&out->sensor, (l->most * (1 + 0x1p-10) + step) * scale);
+    while (out->sensor.row->levels != GRAIN_FINE && ldexp(scale, exponent) < fmin(end, 5e17))
+        exponent++;
+    const bool alone = step == 0 && out->sensor.row->levels == GRAIN_FINE;
+    out->format = formats[0];
+    out->znear = fmax(0.5 * l->least * scale, 1e-12);
+    out->zfar = ldexp(scale, exponent);
+    out->step = step * scale;
+    out->grain = (grain){.kind = step > 0 ? GRAIN_STEPS : GRAIN_FLOATS,
+                         .steps = step > 0 ? ldexp(1, exponent) / step : 0,
+                         .rounding = img->type == IMAGE_F64 && alone ? GRAIN_NEAREST : GRAIN_ANY,
+                         .bits = img->type == IMAGE_F16 ? 11 : 24,
+                         .least = img->type == IMAGE_F16 ? ldexp(1, -24 - exponent) : 0x1p-149};
     return NULL;
 }
 
@@ -137,6 +152,8 @@ const char *metric_convert(image *img, double scale, metric *out) {
                         : img->type < IMAGE_F16 ? of_integers(img, scale, &l, out)
                                                 : of_numbers(img, scale, &l, out);
     distinct_free(&l.seen);
+    if (wrong == NULL)
+        sensor_into(&out->sensor, out->zfar, &out->grain);
     if (wrong == NULL && !replace(img, out, scale))
         wrong = "no memory";
     return wrong;

@@ -11,7 +11,7 @@
 #define FRAME_METRIC_H
 
 #include "image/image.h"
-#include "shader/sample_rounding.h"
+#include "frame/sensor.h"
 
 /** Scene units of 1 in a sample, at least and at most. */
 #define METRIC_SCALE_MIN 1e-9
@@ -19,10 +19,12 @@
 
 typedef struct metric {
     dp_format format;
-    double znear, zfar; /**< half the nearest depth or less; the end of the lattice, scene units */
+    double znear, zfar; /**< half the nearest depth or less; the end of the lattice, scene units: beyond what the
+                             farthest depth may have been, where that has an end */
     double step;        /**< scene units between neighbouring samples: integers, or numbers that all are multiples of
                              it; 0: numbers of their own precision */
-    grain grain;        /**< how far the depth can be beside its sample, which was rounded or truncated */
+    sensor sensor;      /**< what it was rounded to before */
+    grain grain;        /**< how far the depth can be beside its sample, with both roundings */
 } metric;
 
 /**

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file sensor.h  What a depth was rounded to before it became a sample of metric depth: the lattice of the sensor, of a
+ * format or of a depth buffer, which is what the image resolves. The file's own step says nothing about that.
+ *
+ * Quantization alone is looked at: noise is not.
+ */
+#ifndef FRAME_SENSOR_H
+#define FRAME_SENSOR_H
+
+#include "image/image.h"
+#include "shader/sample_rounding.h"
+
+/** A lattice is found by fewer than 2^-20 random sets of values that fit as well, at least so many different levels,
+ *  and this share of the pixels on it. */
+enum { SENSOR_BITS = 20, SENSOR_LEVELS = 24 };
+#define SENSOR_SHARE 0.875
+
+typedef struct sensor_row {
+    const char *name; /**< "file", "inverse", "even", "binary16" */
+    const char *note;
+    const char *step;   /**< unit of the step: "1/scene", "scene", "" */
+    const char *source; /**< who makes such depths, and where that is written */
+    grain_levels levels;
+} sensor_row;
+
+const sensor_row *sensor_get(size_t index); /**< null beyond the last */
+
+/** How the file itself rounded. */
+typedef struct sensor_file {
+    double step;  /**< samples are multiples of it, in scene units; 0: numbers */
+    double bits;  /**< -log2 of the chance that they all are of a coarser step than the file's own; 0: it is that */
+    int digits;   /**< numbers: significant bits, 11, 24 or 53 */
+    double scale; /**< scene units of 1 in a sample */
+} sensor_file;
+
+/** What was found. What there is not is NaN. */
+typedef struct sensor {
+    const sensor_row *row;
+    bool found;                 /**< by the rule above, and no other row explains the values as well; else assumed */
+    double step, step_off;      /**< of row->step, and how far off it is at most */
+    double offset, offset_off;  /**< the level nearest to 0, in the unit of the step */
+    double levels;              /**< from the nearest to the farthest depth, whether used or not */
+    double bits;                /**< -log2 of the chance of random values, less that of all lattices tried */
+    double off_pixels;          /**< on no level: interpolated, or of something else */
+    double residual;            /**< of all others: how far the farthest is from its level, scene units */
+    const sensor_row *other;    /**< explains the values, too; null: none does */
+    double near, far;           /**< a decoded depth buffer's planes; NaN where nothing shows one */
+    const char *buffer;         /**< its format; null */
+    const char *like;           /**< a standard lattice with such a step; null: none is known */
+} sensor;
+
+/** Looks at all depths. Never fails: what cannot be found is assumed to be the file's own. */
+void sensor_find(const image *img, const sensor_file *file, sensor *out);
+
+/** How far apart the levels near z are, scene units; NaN where the row is "file" and its samples are numbers. */
+double sensor_gap(const sensor *s, double z);
+
+/** How many levels there are from lo on and below hi; NaN as above. */
+double sensor_levels(const sensor *s, double lo, double hi);
+
+/** Beyond which nothing lies that was rounded to a depth up to z; z where that has no end. */
+double sensor_end(const sensor *s, double z);
+
+/** What ranges are made of: for window depths of a linear mapping that ends at zfar. */
+void sensor_into(const sensor *s, double zfar, grain *g);
+
+#endif
