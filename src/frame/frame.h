@@ -9,6 +9,7 @@
 #ifndef FRAME_FRAME_H
 #define FRAME_FRAME_H
 
+#include "frame/sensor.h"
 #include "frame/synthetic.h"
 #include "image/image.h"
 #include "shader/camera.h"
@@ -41,6 +42,7 @@ typedef struct frame {
     const double *parameters; /**< of the synthetic image */
     const grain *grain;       /**< of an image: how it was rounded; null: its samples are codes */
     bool metric;              /**< the samples are eye depths, none of them sky; the camera's set-up is their lattice */
+    const sensor *sensor;     /**< metric: what was rounded to its samples; else null */
     const dp_setup *planes;   /**< metric: the planes that effects use; else null: the camera's */
     const frame_normals *normals; /**< for effects; null: those of the synthetic image, or none */
     double sky;                   /**< window depths this close to the far plane's are sky, [0, 0.5] */

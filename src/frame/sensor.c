@@ -15,15 +15,16 @@ enum {
 
 static const sensor_row rows[] = {
     {"inverse", "levels even in 1/z: disparity, structured light, ROS's compressedDepth, a decoded depth buffer",
-     "1/scene",
+     "grows as z^2: step z^2 / (1 - step z)",
      "Khoshelham and Elberink, Accuracy and resolution of Kinect depth data for indoor mapping applications, "
      "Sensors 12(2), 2012, doi:10.3390/s120201437; compressed_depth_image_transport of ROS, codec.cpp",
      GRAIN_INVERSE},
-    {"even", "levels even in z: time of flight, bits between two planes, an orthographic depth buffer", "scene",
+    {"even", "levels even in z: time of flight, bits between two planes, an orthographic depth buffer", "the step",
      "depthprec(7)", GRAIN_EVEN},
-    {"binary16", "eleven significant bits, rounded or cut, in numbers that hold more", "",
+    {"binary16", "eleven significant bits, rounded or cut, in numbers that hold more",
+     "doubles at powers of two: 2^-10 of them",
      "OpenEXR, Technical Introduction, HALF; IEEE 754-2019, 3.6", GRAIN_HALF},
-    {"file", "none of these: what the file's own samples can hold, which the sensor need not resolve", "scene",
+    {"file", "none of these: what the file's own samples can hold, which the sensor need not resolve", "the file's own step",
      "depthprec(7)", GRAIN_FINE},
 };
 enum { ROWS = sizeof rows / sizeof rows[0], FITTED = ROWS - 1 };
@@ -178,7 +179,7 @@ static bool holds(const sensor *s, const sensor_file *file, double x) {
 double sensor_gap(const sensor *s, double z) {
     switch (s->row->levels) {
     case GRAIN_INVERSE:
-        return z * z * s->step / (1 + z * s->step);
+        return z * s->step < 1 ? z * z * s->step / (1 - z * s->step) : (double)INFINITY;
     case GRAIN_HALF:
         return half_gap(z);
     default:
@@ -271,9 +272,7 @@ static sensor of_fit(const sensor_row *row, const fit *f) {
                     .bits = f->bits,
                     .levels = none,
                     .off_pixels = none,
-                    .residual = none,
-                    .near = none,
-                    .far = none};
+                    .residual = none};
 }
 
 static bool explains(const fit *f) {
@@ -282,8 +281,8 @@ static bool explains(const fit *f) {
 
 /* How many pixels are on no level, and how far the others are from theirs. */
 static void count_all(const image *img, const sensor_file *file, sensor *s) {
-    double least = (double)INFINITY, most = 0;
-    s->off_pixels = s->residual = 0;
+    double least = (double)INFINITY, most = 0, below = (double)INFINITY, above = -(double)INFINITY;
+    s->off_pixels = 0;
     for (size_t i = 0; i < (size_t)img->width * img->height; i++) {
         const double x = image_sample(img, i), z = x * file->scale;
         if (!is_depth(x))
@@ -296,8 +295,10 @@ static void count_all(const image *img, const sensor_file *file, sensor *s) {
         most = fmax(most, z);
         const double gap = s->row->levels == GRAIN_HALF ? half_gap(z) : 0;
         const double level = gap > 0 ? rint(z / gap) * gap : depth_of(s, rint(level_of(s, z)));
-        s->residual = fmax(s->residual, fabs(level - z));
+        below = fmin(below, z - level);
+        above = fmax(above, z - level);
     }
+    s->residual = most > 0 ? 0.5 * (above - below) : 0;
     s->levels = most > 0 ? 1 + rint(sensor_levels(s, least, most)) : 0;
 }
 

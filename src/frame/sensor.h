@@ -19,7 +19,7 @@ enum { SENSOR_BITS = 20, SENSOR_LEVELS = 24 };
 typedef struct sensor_row {
     const char *name; /**< "file", "inverse", "even", "binary16" */
     const char *note;
-    const char *step;   /**< unit of the step: "1/scene", "scene", "" */
+    const char *gap;    /**< between levels */
     const char *source; /**< who makes such depths, and where that is written */
     grain_levels levels;
 } sensor_row;
@@ -38,25 +38,24 @@ typedef struct sensor_file {
 typedef struct sensor {
     const sensor_row *row;
     bool found;                 /**< by the rule above, and no other row explains the values as well; else assumed */
-    double step, step_off;      /**< of row->step, and how far off it is at most */
+    double step, step_off;      /**< of 1/z, or of z, and how far off it is at most */
     double offset, offset_off;  /**< the level nearest to 0, in the unit of the step */
     double levels;              /**< from the nearest to the farthest depth, whether used or not */
     double bits;                /**< -log2 of the chance of random values, less that of all lattices tried */
     double off_pixels;          /**< on no level: interpolated, or of something else */
-    double residual;            /**< of all others: how far the farthest is from its level, scene units */
+    double residual;            /**< of all others: how far the farthest is from its level, scene units, where all are
+                                     shifted alike so that this is least */
     const sensor_row *other;    /**< explains the values, too; null: none does */
-    double near, far;           /**< a decoded depth buffer's planes; NaN where nothing shows one */
-    const char *buffer;         /**< its format; null */
     const char *like;           /**< a standard lattice with such a step; null: none is known */
 } sensor;
 
 /** Looks at all depths. Never fails: what cannot be found is assumed to be the file's own. */
 void sensor_find(const image *img, const sensor_file *file, sensor *out);
 
-/** How far apart the levels near z are, scene units; NaN where the row is "file" and its samples are numbers. */
+/** From a level at z to the next farther one, scene units, INFINITY where there is none; NaN where the row is "file" and its samples are numbers. */
 double sensor_gap(const sensor *s, double z);
 
-/** How many levels there are from lo on and below hi; NaN as above. */
+/** How many levels there are from lo on and below hi; NaN as above */
 double sensor_levels(const sensor *s, double lo, double hi);
 
 /** Beyond which nothing lies that was rounded to a depth up to z; z where that has no end. */

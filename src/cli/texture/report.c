@@ -39,13 +39,13 @@ static void *next_error(void *of, size_t i) {
     return e;
 }
 
-/* Window depth is what an image holds without --metric. */
-enum { OF_SYNTHETIC = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8 };
+/* Of an image window depth without --metric, and levels with it. */
+enum { OF_SYNTHETIC = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8, OF_METRIC = 16 };
 
 static unsigned conditions(const statistics *r) {
     const unsigned source = !statistics_of_image(r) ? OF_SYNTHETIC
                             : r->o->metric == 0     ? OF_IMAGE | OF_WINDOW
-                                                    : OF_IMAGE;
+                                                    : OF_IMAGE | OF_METRIC;
     return source | (r->source.matrix.path != NULL ? OF_MATRIX : 0);
 }
 
@@ -67,6 +67,25 @@ static const column recognised_columns[] = {{FIELD(statistics, named.format, "fo
                                             {FIELD(statistics, source.found.why, "why", "")},
                                             {.kind = COLUMN_END}};
 
+static const column gap_columns[] = {
+    {FIELD(statistics, gap.z, "z", "scene")}, {FIELD(statistics, gap.gap, "gap", "scene")}, {.kind = COLUMN_END}};
+
+static const column lattice_columns[] = {{FIELD(statistics, lattice.name, "name", "")},
+                                         {FIELD(statistics, lattice.from, "from", "")},
+                                         {FIELD(statistics, lattice.other, "other", "")},
+                                         {FIELD(statistics, lattice.like, "like", "")},
+                                         {FIELD(statistics, lattice.step, "step", "")},
+                                         {FIELD(statistics, lattice.step_error, "step_error", "")},
+                                         {FIELD(statistics, lattice.offset, "offset", "")},
+                                         {FIELD(statistics, lattice.offset_error, "offset_error", "")},
+                                         {FIELD(statistics, lattice.constant, "constant", "scene")},
+                                         {FIELD(statistics, lattice.levels, "levels", "")},
+                                         {FIELD(statistics, lattice.bits, "bits", "")},
+                                         {FIELD(statistics, lattice.off_pixels, "off_pixels", "")},
+                                         {FIELD(statistics, lattice.residual, "residual", "scene")},
+                                         {LIST("gaps", gap_columns, statistics_next_gap)},
+                                         {.kind = COLUMN_END}};
+
 static const column source_columns[] = {{FIELD(statistics, source.path, "file", "")},
                                         {FIELD(statistics, named.synthetic, "synthetic", "")},
                                         {LIST("parameters", parameter_columns, statistics_next_parameter)},
@@ -78,6 +97,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
                                         {GROUP("samples", sample_columns), .when = OF_IMAGE},
+                                        {GROUP("lattice", lattice_columns), .when = OF_METRIC},
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
                                         {.kind = COLUMN_END}};
 
@@ -199,6 +219,8 @@ static void name_all(statistics *r) {
     r->named.coarser = !is_metric && texture_coarser(s);
     r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;
     name_zbuffer(r);
+    if (is_metric)
+        statistics_name_lattice(r);
     r->named.hidden = r->survey.sky - r->survey.true_sky;
 }
 

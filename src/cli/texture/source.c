@@ -349,6 +349,7 @@ int texture_source_open(options *o, texture_source *s) {
                        .parameters = s->parameters,
                        .grain = s->path != NULL ? &s->grain : NULL,
                        .metric = o->metric > 0,
+                       .sensor = o->metric > 0 ? &s->metric.sensor : NULL,
                        .planes = o->metric > 0 ? &s->planes : NULL,
                        .sky = o->sky,
                        .threads = o->threads};
