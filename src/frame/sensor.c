@@ -9,9 +9,12 @@
 
 enum {
     LOOKED_AT = 1 << 19, /* pixels that lattices are looked for in; on the one that is found all are counted */
+    DIGITS_MOST = 40,    /* of a number: the fit itself is made of doubles */
     RUN = 5,             /* neighbours that tell a surface from a lattice */
     RUNS_LEAST = 16
 };
+
+static const double RARE = 0.1;
 
 static const sensor_row rows[] = {
     {"inverse", "levels even in 1/z: disparity, structured light, ROS's compressedDepth, a decoded depth buffer",
@@ -56,7 +59,7 @@ static interval interval_of(const sensor_file *file, double x) {
     if (file->step > 0)
         return (interval){z - 0.5 * file->step, z + file->step};
     frexp(z, &exponent);
-    const double unit = ldexp(1, exponent - file->digits);
+    const double unit = ldexp(1, exponent - (file->digits < DIGITS_MOST ? file->digits : DIGITS_MOST));
     /* what was computed in numbers of so many bits; of binary16 itself it was only stored */
     return file->digits == 11 ? (interval){z - 0.5 * unit, z + unit} : (interval){z - 2 * unit, z + 2 * unit};
 }
@@ -82,6 +85,25 @@ static int compare_doubles(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
+/* Averages of neighbours lie between levels, many different ones of few pixels each: the rarest values say nothing, as
+ * long as no more than a tenth of the pixels has them. */
+static void drop_rare(depths *d, size_t pixels) {
+    enum { MOST = 256 };
+    double with[MOST] = {0}, dropped = 0;
+    size_t count = 0, rare = 1;
+    for (size_t i = 0; i < d->count; i++)
+        if (d->pixels[i] < MOST)
+            with[(size_t)d->pixels[i]] += d->pixels[i];
+    while (rare < MOST && dropped + with[rare] <= RARE * (double)pixels)
+        dropped += with[rare++];
+    for (size_t i = 0; i < d->count; i++)
+        if (d->pixels[i] >= (double)rare) {
+            d->samples[count] = d->samples[i];
+            d->pixels[count++] = d->pixels[i];
+        }
+    d->count = count;
+}
+
 static bool gather(const image *img, depths *d) {
     const size_t all = (size_t)img->width * img->height;
     const size_t stride = (1 + (all - 1) / LOOKED_AT) | 1U, some = (all - 1) / stride + 1;
@@ -100,6 +122,7 @@ static bool gather(const image *img, depths *d) {
         }
         d->pixels[d->count - 1]++;
     }
+    drop_rare(d, count);
     return true;
 }
 
@@ -138,6 +161,7 @@ static bool find_halves(const depths *d, const sensor_file *file, fit *out) {
         }
     }
     out->levels = on;
+    out->whole = FIT_BITS; /* nothing is halved */
     out->pixels = all > 0 ? on_pixels / all : 0;
     out->bits = told > 0 ? fit_chance(chances, told, on) : 0;
     free(chances);
@@ -275,13 +299,10 @@ static sensor of_fit(const sensor_row *row, const fit *f) {
                     .residual = none};
 }
 
-static bool explains(const fit *f) {
-    return f->bits >= SENSOR_BITS && f->levels >= SENSOR_LEVELS && f->pixels >= SENSOR_SHARE;
-}
-
-/* How many pixels are on no level, and how far the others are from theirs. */
-static void count_all(const image *img, const sensor_file *file, sensor *s) {
+/* How many pixels are on no level, and how far the others are from theirs. @return whether they are few */
+static bool count_all(const image *img, const sensor_file *file, sensor *s) {
     double least = (double)INFINITY, most = 0, below = (double)INFINITY, above = -(double)INFINITY;
+    double on = 0;
     s->off_pixels = 0;
     for (size_t i = 0; i < (size_t)img->width * img->height; i++) {
         const double x = image_sample(img, i), z = x * file->scale;
@@ -291,6 +312,7 @@ static void count_all(const image *img, const sensor_file *file, sensor *s) {
             s->off_pixels++;
             continue;
         }
+        on++;
         least = fmin(least, z);
         most = fmax(most, z);
         const double gap = s->row->levels == GRAIN_HALF ? half_gap(z) : 0;
@@ -300,6 +322,7 @@ static void count_all(const image *img, const sensor_file *file, sensor *s) {
     }
     s->residual = most > 0 ? 0.5 * (above - below) : 0;
     s->levels = most > 0 ? 1 + rint(sensor_levels(s, least, most)) : 0;
+    return on >= SENSOR_SHARE * (on + s->off_pixels);
 }
 
 static void name_like(sensor *s) {
@@ -311,11 +334,13 @@ static void name_like(sensor *s) {
 }
 
 /* Of the samples' own step, which all of them may be multiples of by more than chance. */
-static sensor of_file(const sensor_file *file) {
-    const bool coarser = file->bits >= SENSOR_BITS;
+static sensor of_file(const image *img, const sensor_file *file) {
+    const bool coarser = file->bits >= FIT_BITS;
     const fit own = {.step = file->step > 0 ? file->step : (double)NAN, .bits = file->bits};
     sensor s = of_fit(&rows[coarser ? ROWS - 3 : ROWS - 1], &own);
     s.found = coarser;
+    if (coarser)
+        count_all(img, file, &s);
     return s;
 }
 
@@ -327,7 +352,7 @@ static const sensor_row *choose(const depths *d, const sensor_file *file, fit *c
         fit f;
         const bool half = row->levels == GRAIN_HALF;
         if ((half && file->digits == 11) /* they are so by themselves */
-            || !(half ? find_halves(d, file, &f) : find_even(d, file, row->levels, &f)) || !explains(&f))
+            || !(half ? find_halves(d, file, &f) : find_even(d, file, row->levels, &f)) || !fit_explains(&f))
             continue;
         const bool better = best == NULL || f.bits > chosen->bits;
         if (better ? best != NULL : f.bits > next) {
@@ -339,7 +364,7 @@ static const sensor_row *choose(const depths *d, const sensor_file *file, fit *c
             *chosen = f;
         }
     }
-    *other = second != NULL && next > chosen->bits - SENSOR_BITS ? second : NULL;
+    *other = second != NULL && next > chosen->bits - FIT_BITS ? second : NULL;
     return best;
 }
 
@@ -348,15 +373,13 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
     fit chosen = {0};
     const sensor_row *other = NULL, *row = gather(img, &d) ? choose(&d, file, &chosen, &other) : NULL;
     depths_free(&d);
-    *out = of_file(file);
+    *out = of_file(img, file);
     if (row != NULL) {
         sensor s = of_fit(row, &chosen);
         s.other = other;
         s.found = other == NULL;
-        if (!is_surface(img, &s, file->scale))
+        if (count_all(img, file, &s) && !is_surface(img, &s, file->scale))
             *out = s;
         name_like(out);
     }
-    if (out->row->levels != GRAIN_FINE)
-        count_all(img, file, out);
 }

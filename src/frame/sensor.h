@@ -11,9 +11,7 @@
 #include "image/image.h"
 #include "shader/sample_rounding.h"
 
-/** A lattice is found by fewer than 2^-20 random sets of values that fit as well, at least so many different levels,
- *  and this share of the pixels on it. */
-enum { SENSOR_BITS = 20, SENSOR_LEVELS = 24 };
+/** The share of the pixels that lie on a lattice that is found. */
 #define SENSOR_SHARE 0.875
 
 typedef struct sensor_row {

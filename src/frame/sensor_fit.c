@@ -54,7 +54,7 @@ static bool can_tell(const fit *f, const fit_value *value) {
 }
 
 static void weigh(const fit_value *values, size_t count, fit *f) {
-    double chances[TOLD], least = (double)INFINITY, last = (double)NAN, pixels = 0, all = 0;
+    double chances[TOLD], halves[TOLD], least = (double)INFINITY, last = (double)NAN, pixels = 0, all = 0;
     const size_t stride = 1 + (count - 1) / TOLD;
     size_t told = 0, on = 0;
     f->levels = 0;
@@ -70,6 +70,7 @@ static void weigh(const fit_value *values, size_t count, fit *f) {
             last = k;
         }
         if (tells && i % stride == 0) {
+            halves[told] = 0.5;
             chances[told++] = 2 * (1 + 2 * COVER) * values[i].off / f->step;
             on += held;
         }
@@ -78,6 +79,21 @@ static void weigh(const fit_value *values, size_t count, fit *f) {
     const double lattices = dp_log2(fmax(span / unit, 1)) + dp_log2(fmax(f->step / unit, 1)) + OCTAVES;
     f->pixels = pixels / all;
     f->bits = told > 0 ? fit_chance(chances, told, on) - lattices : 0;
+    f->whole = told > 0 ? fit_chance(halves, told, on) : 0;
+}
+
+bool fit_explains(const fit *f) {
+    return f->bits >= FIT_BITS && f->whole >= FIT_BITS && f->levels >= FIT_LEVELS;
+}
+
+/* A half or a third of a step holds values, too, and averages of neighbours besides: the coarsest that explains them is
+ * meant. */
+static bool is_better(const fit *f, const fit *than) {
+    const bool explains = fit_explains(f);
+    if (explains != fit_explains(than))
+        return explains;
+    return explains && fmax(f->step, than->step) > 1.5 * fmin(f->step, than->step) ? f->step > than->step
+                                                                                     : f->bits > than->bits;
 }
 
 /* ---- From a step that is nearly right to all values -------------------------------------------------------------- */
@@ -217,7 +233,7 @@ static bool try_origin(const fit_value *values, size_t count, comb *c, double or
         if (!extend(values, count, c->first, c->end, &f))
             continue;
         weigh(values, count, &f);
-        if (f.bits > best->bits) {
+        if (is_better(&f, best)) {
             *best = f;
             found = true;
         }

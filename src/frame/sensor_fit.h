@@ -11,6 +11,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/** What makes a lattice found: fewer than 2^-FIT_BITS random sets of values fit as well, and so many levels. */
+enum { FIT_BITS = 20, FIT_LEVELS = 24 };
+
 /** A value whose true one lies within `off` of it, and how many pixels have it. */
 typedef struct fit_value {
     double at, off, pixels;
@@ -21,9 +24,12 @@ typedef struct fit {
     double step_off, offset_off; /**< every lattice that explains the same values is within so much */
     size_t levels;               /**< different k of values that can tell: those that are off by less than a third */
     double pixels;               /**< of the values on it */
+    double whole;                /**< -log2 of the chance that so many of them lie on it, were its step twice the true */
     double bits;                 /**< -log2 of the chance that some lattice as coarse or coarser fits values at random
                                       as well */
 } fit;
+
+bool fit_explains(const fit *f);
 
 /** Whether the value is on the lattice, as far as its rounding tells. */
 bool fit_holds(const fit *f, const fit_value *value);

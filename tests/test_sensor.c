@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What metric depth was rounded to before it was stored: lattices made here, of random steps and offsets, are found
+ * within the uncertainty that is printed, or assumed; none is named wrongly, and none is found of what was not rounded.
+ */
+#include <stdio.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame/metric.h"
+#include "support.h"
+
+enum { W = 96, H = 72, N = W * H, BLOCKS = 8 };
+
+/* ---- Scenes ------------------------------------------------------------------------------------------------------ */
+
+/* A slanted surface. */
+typedef struct patch {
+    int x0, y0, x1, y1;
+    double w, dx, dy, wave, phase;
+} patch;
+
+static patch patch_of(rng *r, double lo, double hi, bool all) {
+    const double w = 1 / rng_log(r, lo, hi), most = w - 1 / hi < 1 / lo - w ? w - 1 / hi : 1 / lo - w;
+    patch p = {0, 0, W, H, w, most * rng_uniform(r, -1, 1) / W, most * rng_uniform(r, -1, 1) / H, 0, 0};
+    p.wave = most * rng_uniform(r, 0, 0.4);
+    p.phase = rng_uniform(r, 0.02, 0.3);
+    if (all)
+        return p;
+    p.x0 = (int)rng_below(r, W - 8);
+    p.y0 = (int)rng_below(r, H - 8);
+    p.x1 = p.x0 + 8 + (int)rng_below(r, W / 2);
+    p.y1 = p.y0 + 8 + (int)rng_below(r, H / 2);
+    return p;
+}
+
+/* Surfaces before others, from lo to hi, with the noise of a sensor. */
+static void scene(rng *r, double lo, double hi, double noise, double *z) {
+    for (int i = 0; i <= BLOCKS; i++) {
+        const patch p = patch_of(r, lo, hi, i == 0);
+        for (int y = p.y0; y < p.y1 && y < H; y++)
+            for (int x = p.x0; x < p.x1 && x < W; x++) {
+                double w = p.w + 0.5 * (p.dx * (x - W / 2) + p.dy * (y - H / 2)) + p.wave * sin(p.phase * (x + 2 * y));
+                w *= 1 + noise * (rng_unit(r) + rng_unit(r) - 1);
+                z[y * W + x] = fmin(fmax(1 / w, lo), hi);
+            }
+    }
+}
+
+/* ---- Lattices and files ------------------------------------------------------------------------------------------ */
+
+typedef enum lattice { INVERSE, EVEN, HALF, NONE } lattice;
+
+static const char *const names[] = {"inverse", "even", "binary16", "file"};
+
+typedef struct kind {
+    const char *name;
+    lattice lattice;
+    bool offset;           /* levels begin anywhere, else at 0 */
+    double coarse, finest; /* the step as a share of 1/lo - 1/hi or hi - lo */
+    int bits;              /* instead: so many between lo and hi */
+    bool computed;         /* in binary32 */
+} kind;
+
+static const kind kinds[] = {
+    {"disparity", INVERSE, false, 1.0 / 60, 1.0 / 1500, 0, true},
+    {"structured light", INVERSE, true, 1.0 / 60, 1.0 / 1500, 0, false},
+    {"time of flight", EVEN, true, 1.0 / 60, 1.0 / 1500, 0, false},
+    {"multiples", EVEN, false, 1.0 / 60, 1.0 / 1000, 0, false},
+    {"8 bits of 1/z", INVERSE, true, 0, 0, 8, true},
+    {"8 bits of z", EVEN, true, 0, 0, 8, true},
+    {"10 bits of 1/z", INVERSE, true, 0, 0, 10, false},
+    {"12 bits of z", EVEN, true, 0, 0, 12, false},
+    {"a buffer of 16 bits", INVERSE, true, 0, 0, 16, true},
+    {"compressedDepth", INVERSE, true, 1.0 / 2000, 1.0 / 20000, 0, true},
+    {"binary16", HALF, false, 0, 0, 0, false},
+    {"nothing", NONE, false, 0, 0, 0, false},
+};
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
+
+typedef struct made {
+    double lo, hi, step, offset;
+    bool cut, file_cut;
+    image_type type;
+    double unit; /* of the file's samples; 0: numbers */
+} made;
+
+static double rounded(double x, bool cut) {
+    return cut ? floor(x) : floor(x + 0.5);
+}
+
+static double half_of(double z, bool cut) {
+    int e;
+    frexp(z, &e);
+    return ldexp(rounded(ldexp(z, 11 - e), cut), e - 11);
+}
+
+static double level_of(const kind *k, const made *m, double z) {
+    if (k->lattice == NONE)
+        return z;
+    if (k->lattice == HALF)
+        return half_of(z, m->cut);
+    const double at = k->lattice == INVERSE ? 1 / z : z, level = rounded((at - m->offset) / m->step, m->cut);
+    if (k->computed) { /* as in the shaders and scripts of others */
+        const float w = (float)m->offset + (float)level * (float)m->step;
+        return k->lattice == INVERSE ? (double)(1 / w) : (double)w;
+    }
+    const double w = m->offset + level * m->step;
+    return k->lattice == INVERSE ? 1 / w : w;
+}
+
+static made draw(rng *r, const kind *k) {
+    made m = {.lo = rng_log(r, 0.3, 2)};
+    m.hi = m.lo * rng_log(r, 3, 12);
+    const double least = k->lattice == INVERSE ? 1 / m.hi : m.lo;
+    const double range = k->lattice == INVERSE ? 1 / m.lo - 1 / m.hi : m.hi - m.lo;
+    m.step = k->bits > 0 ? range / (ldexp(1, k->bits) - 1) : range * rng_log(r, k->finest, k->coarse);
+    m.offset = !k->offset ? 0 : k->bits > 0 ? least : m.step * rng_unit(r);
+    if (k->computed) {
+        m.step = (double)(float)m.step;
+        m.offset = (double)(float)m.offset;
+    }
+    m.cut = rng_below(r, 2) == 0;
+    m.file_cut = rng_below(r, 2) == 0;
+    static const struct {
+        image_type type;
+        double unit;
+    } files[] = {{IMAGE_U16, 0.001}, {IMAGE_U16, 0.0002}, {IMAGE_F32, 0}, {IMAGE_F64, 0}};
+    const size_t file = rng_below(r, 4);
+    m.type = files[file].type;
+    m.unit = m.type == IMAGE_U16 && m.hi > 13 ? 0.001 : files[file].unit;
+    return m;
+}
+
+static image image_of(const made *m, const double *z) {
+    image img = {.width = W, .height = H, .channels = 1, .type = m->type};
+    img.data = calloc(N, sizeof(double));
+    for (int i = 0; i < N; i++) {
+        const double x = isnan(z[i]) ? 0 : m->unit > 0 ? rounded(z[i] / m->unit, m->file_cut) : z[i];
+        if (m->type == IMAGE_U16)
+            ((uint16_t *)img.data)[i] = (uint16_t)x;
+        else if (m->type == IMAGE_F32)
+            ((float *)img.data)[i] = (float)x;
+        else
+            ((double *)img.data)[i] = x;
+    }
+    return img;
+}
+
+static sensor found_in(const made *m, const double *z) {
+    image img = image_of(m, z);
+    metric out;
+    assert_null(metric_convert(&img, m->unit > 0 ? m->unit : 1, &out));
+    image_free(&img);
+    return out.sensor;
+}
+
+/* Holes, and averages of neighbours where edges are. */
+static void spoil(rng *r, double holes, double averages, double *z) {
+    for (int i = 0; i + 1 < N; i++)
+        if (rng_unit(r) < averages)
+            z[i] = 0.5 * (z[i] + z[i + 1]);
+    for (int i = 0; i < N; i++)
+        if (rng_unit(r) < holes)
+            z[i] = NAN;
+}
+
+/* ---- Found, or assumed ------------------------------------------------------------------------------------------- */
+
+/* 1: found; 0: assumed. */
+static int one(tally *t, rng *r, const kind *k) {
+    static double z[N];
+    const made m = draw(r, k);
+    const bool spoiled = rng_below(r, 2) == 0;
+    scene(r, m.lo, m.hi, rng_below(r, 2) == 0 ? 0 : rng_log(r, 1e-4, 1e-2), z);
+    for (int i = 0; i < N; i++)
+        z[i] = level_of(k, &m, z[i]);
+    if (spoiled)
+        spoil(r, rng_uniform(r, 0, 0.5), rng_uniform(r, 0, 0.08), z);
+    const sensor s = found_in(&m, z);
+    const char *what = k->name, *got = s.row->name;
+    if (!s.found) {
+        TALLY(t, true, "-");
+        return 0;
+    }
+    TALLY(t, strcmp(got, names[k->lattice]) == 0, "%s, step %.9g of %.9g to %.9g, file %d of %g: found %s of step %.9g",
+          what, m.step, m.lo, m.hi, (int)m.type, m.unit, got, s.step);
+    if (k->lattice >= HALF || strcmp(got, names[k->lattice]) != 0)
+        return 1;
+    TALLY(t, fabs(s.step - m.step) <= s.step_off + 1e-15, "%s: step %.12g, file %d of %g, found %.12g within %.3g", what,
+          m.step, (int)m.type, m.unit, s.step, s.step_off);
+    const double beside = (s.offset - m.offset) / m.step;
+    TALLY(t, fabs(beside - rint(beside)) * m.step <= s.offset_off + 1e-14,
+          "%s: levels from %.9g in steps of %.9g, found from %.9g within %.3g", what, m.offset, m.step, s.offset,
+          s.offset_off);
+    return 1;
+}
+
+static void lattices_are_found_or_assumed(void **state) {
+    (void)state;
+    const uint64_t rounds = test_cases(2, 20, 850);
+    tally t = {.name = "lattices"};
+    rng r = rng_make("sensor");
+    for (size_t k = 0; k < KINDS; k++) {
+        int found = 0;
+        for (uint64_t i = 0; i < rounds; i++)
+            found += one(&t, &r, &kinds[k]);
+        print_message("# %s: %d of %d found\n", kinds[k].name, found, (int)rounds);
+    }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lattices_are_found_or_assumed),
+    };
+    return run_tap(tests);
+}
