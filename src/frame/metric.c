@@ -20,7 +20,7 @@ static bool is_depth(double x) {
 typedef struct look {
     double least, most;
     uint32_t divisor; /* integers: of all */
-    size_t depths;
+    size_t depths, single; /* single: are binary32 */
     distinct_set seen;
 } look;
 
@@ -35,6 +35,7 @@ static void look_at(const image *img, look *l) {
         l->depths++;
         l->least = fmin(l->least, x);
         l->most = fmax(l->most, x);
+        l->single += (double)(float)x == x;
         if (img->type < IMAGE_F16)
             l->divisor = common_divisor(l->divisor, (uint32_t)x);
     }
@@ -97,7 +98,7 @@ static double find_step(const image *img, look *l, int exponent) {
 }
 
 static const char *of_numbers(const image *img, double scale, look *l, metric *out) {
-    static const int digits[] = {[IMAGE_F16] = 11, [IMAGE_F32] = 24, [IMAGE_F64] = 53};
+    const int own = img->type == IMAGE_F16 ? 11 : 24;
     int exponent;
     dp_format formats[2];
     if (frexp(l->most, &exponent) == 0.5)
@@ -106,7 +107,8 @@ static const char *of_numbers(const image *img, double scale, look *l, metric *o
         return "its depths leave the possible range, 1e-9 to 1e18 scene units";
     dp_format_parse("fp32", formats);
     const double step = find_step(img, l, exponent);
-    sensor_find(img, &(sensor_file){.step = step * scale, .digits = digits[img->type], .scale = scale}, &out->sensor);
+    const sensor_file file = {.step = step * scale, .digits = (double)l->single >= SENSOR_SHARE * (double)l->depths ? own : 53, .scale = scale};
+    sensor_find(img, &file, &out->sensor);
     const double end = sensor_end(&out->sensor, (l->most * (1 + 0x1p-10) + step) * scale);
     while (out->sensor.row->levels != GRAIN_FINE && ldexp(scale, exponent) < fmin(end, 5e17))
         exponent++;
@@ -118,7 +120,7 @@ static const char *of_numbers(const image *img, double scale, look *l, metric *o
     out->grain = (grain){.kind = step > 0 ? GRAIN_STEPS : GRAIN_FLOATS,
                          .steps = step > 0 ? ldexp(1, exponent) / step : 0,
                          .rounding = img->type == IMAGE_F64 && alone ? GRAIN_NEAREST : GRAIN_ANY,
-                         .bits = img->type == IMAGE_F16 ? 11 : 24,
+                         .bits = own,
                          .least = img->type == IMAGE_F16 ? ldexp(1, -24 - exponent) : 0x1p-149};
     return NULL;
 }

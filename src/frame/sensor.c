@@ -2,6 +2,7 @@
 #include "frame/sensor.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "frame/image_depths.h"
@@ -351,6 +352,7 @@ static const sensor_row *choose(const depths *d, const sensor_file *file, fit *c
     for (const sensor_row *row = rows; row < rows + FITTED; row++) {
         fit f;
         const bool half = row->levels == GRAIN_HALF;
+        f=(fit){0}; bool zz=half?find_halves(d,file,&f):find_even(d,file,row->levels,&f); if(getenv("ZDBG")) fprintf(stderr,"   try %s: %d step %g bits %.1f whole %.1f levels %zu pix %.3f of %zu values\n",row->name,zz,f.step,f.bits,f.whole,f.levels,f.pixels,d->count);
         if ((half && file->digits == 11) /* they are so by themselves */
             || !(half ? find_halves(d, file, &f) : find_even(d, file, row->levels, &f)) || !fit_explains(&f))
             continue;
@@ -378,6 +380,7 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
         sensor s = of_fit(row, &chosen);
         s.other = other;
         s.found = other == NULL;
+        bool z1=count_all(img,file,&s), z2=is_surface(img,&s,file->scale); if(getenv("ZDBG")) fprintf(stderr,"   %s other %s few off %d (%g) surface %d\n",row->name,other?other->name:"-",z1,s.off_pixels,z2);
         if (count_all(img, file, &s) && !is_surface(img, &s, file->scale))
             *out = s;
         name_like(out);

@@ -2,6 +2,7 @@
 #include "frame/sensor_fit.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 
 #include "core/elementary.h"
@@ -12,7 +13,8 @@ enum {
     NEIGHBOURS = 96,     /* the commonest of so many */
     WINDOWS = 6,         /* windows and, in each, values that may be the comb's origin */
     ORIGINS = 3,         /* ... as one may be off */
-    TEETH_MAX = 1 << 16, /* frequencies */
+    TEETH_MAX = 1 << 16, /* frequencies, */
+    BLOCK = 256,         /* ... so many at a time */
     PEAKS = 12,
     ENDS = 64,      /* values at either end that bound the step */
     TOLD = 4096,    /* values that the chance is of, at most: any choice of them proves it */
@@ -191,7 +193,7 @@ static bool choose_teeth(const fit_value *values, comb *c) {
         gaps[i] = sorted[i + 1] - sorted[i];
     qsort(gaps, c->count - 1, sizeof *gaps, compare_doubles);
     for (size_t i = c->first; i < c->end; i++)
-        off = fmax(off, values[i].off);
+        off += values[i].off / (double)(c->end - c->first);
     const double range = sorted[c->count - 1] - sorted[0];
     const double hi = fmin(1 / (3 * off), 16 / gaps[c->count / 4]);
     c->lo = 4 / range;
@@ -205,13 +207,18 @@ static bool choose_teeth(const fit_value *values, comb *c) {
 /* 1 - 12 x^2 of how far values are from a tooth: of values at random it is 0 on average, on the teeth 1. */
 CLONES static void comb_scores(const double *restrict distance, size_t count, double lo, double spacing, size_t teeth,
                                double *restrict scores) {
-    for (size_t i = 0; i < teeth; i++)
-        scores[i] = 0;
-    for (size_t k = 0; k < count; k++)
-        for (size_t i = 0; i < teeth; i++) {
-            const double x = distance[k] * (lo + spacing * (double)i), off = x - rint(x);
-            scores[i] += 1 - 12 * off * off;
-        }
+    for (size_t first = 0; first < teeth; first += BLOCK) {
+        double sums[BLOCK];
+        for (size_t i = 0; i < BLOCK; i++)
+            sums[i] = 0;
+        for (size_t k = 0; k < count; k++)
+            for (size_t i = 0; i < BLOCK; i++) {
+                const double x = distance[k] * (lo + spacing * (double)(int32_t)(first + i)), off = x - rint(x);
+                sums[i] += 1 - 12 * off * off;
+            }
+        for (size_t i = 0; i < BLOCK && first + i < teeth; i++)
+            scores[first + i] = sums[i];
+    }
 }
 
 /* The coarsest of those that stand out, extended; what says most is kept. */
@@ -277,12 +284,36 @@ static void bound(const fit_value *values, size_t count, fit *f) {
         }
 }
 
+/*
+ * Two lattices that were put together lie on a finer one, but on few of its residues: of one lattice levels are missing
+ * without regard to them. By chi squared, with room for 2^-20.
+ */
+static bool is_mixed(const fit_value *values, size_t count, const fit *f) {
+    enum { MOST = 64 };
+    for (int q = 2; q <= MOST; q++) {
+        double of[MOST] = {0}, all = 0, last = (double)NAN, squares = 0;
+        for (size_t i = 0; i < count; i++) {
+            const double k = rint((values[i].at - f->offset) / f->step);
+            if (!can_tell(f, &values[i]) || !fit_holds(f, &values[i]) || k == last)
+                continue;
+            of[(int)(k - q * floor(k / q))]++;
+            all++;
+            last = k;
+        }
+        for (int i = 0; i < q; i++)
+            squares += of[i] * of[i];
+        if (q / all * squares - all > q - 1 + 7 * sqrt(2.0 * (q - 1)) + 30)
+            return true;
+    }
+    return false;
+}
+
 bool fit_find(const fit_value *values, size_t count, fit *out) {
     comb c = {.scores = malloc(TEETH_MAX * sizeof(double))};
     bool found = false;
     *out = (fit){0};
     const size_t last = count > NEIGHBOURS ? count - NEIGHBOURS : 0;
-    for (size_t w = 0; w < WINDOWS && c.scores != NULL && count >= 4; w++) {
+    for (size_t w = 0; w < WINDOWS && !fit_explains(out) && c.scores != NULL && count >= 4; w++) {
         if (w > 0 && last == 0)
             break;
         lay(values, count, last * w / (WINDOWS - 1), &c);
@@ -290,7 +321,8 @@ bool fit_find(const fit_value *values, size_t count, fit *out) {
             found = try_origin(values, count, &c, c.at[k], out) || found;
     }
     free(c.scores);
-    if (found)
-        bound(values, count, out);
-    return found && out->step > 0;
+    if (!found || is_mixed(values, count, out))
+        return false;
+    bound(values, count, out);
+    return true;
 }
