@@ -3,7 +3,6 @@
  * What metric depth was rounded to before it was stored: lattices made here, of random steps and offsets, are found
  * within the uncertainty that is printed, or assumed; none is named wrongly, and none is found of what was not rounded.
  */
-#include <stdio.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -179,7 +178,6 @@ static int one(tally *t, rng *r, const kind *k) {
     if (spoiled)
         spoil(r, rng_uniform(r, 0, 0.5), rng_uniform(r, 0, 0.08), z);
     const sensor s = found_in(&m, z);
-    if(getenv("ZDBG")) fprintf(stderr,"^^ %s step %g lo %g hi %g type %d unit %g spoiled %d -> %s %d\n",k->name,m.step,m.lo,m.hi,m.type,m.unit,spoiled,s.row->name,s.found);
     const char *what = k->name, *got = s.row->name;
     if (!s.found) {
         TALLY(t, true, "-");

@@ -2,7 +2,6 @@
 #include "frame/sensor.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "frame/image_depths.h"
@@ -15,7 +14,7 @@ enum {
     RUNS_LEAST = 16
 };
 
-static const double RARE = 0.1;
+static const double RARE = 0.1, RARER = 0.125;
 
 static const sensor_row rows[] = {
     {"inverse", "levels even in 1/z: disparity, structured light, ROS's compressedDepth, a decoded depth buffer",
@@ -86,11 +85,17 @@ static int compare_doubles(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-/* Averages of neighbours lie between levels, many different ones of few pixels each: the rarest values say nothing, as
- * long as no more than a tenth of the pixels has them. */
+static size_t keep(depths *d, size_t to, size_t i) {
+    d->samples[to] = d->samples[i];
+    d->pixels[to] = d->pixels[i];
+    return to + 1;
+}
+
+/* Averages of neighbours lie between levels, and few pixels have them: the rarest values say nothing, as long as no more
+ * than a tenth of the pixels has them, nor do those that are much rarer than the values on both sides. */
 static void drop_rare(depths *d, size_t pixels) {
     enum { MOST = 256 };
-    double with[MOST] = {0}, dropped = 0;
+    double with[MOST] = {0}, dropped = 0, before = 0;
     size_t count = 0, rare = 1;
     for (size_t i = 0; i < d->count; i++)
         if (d->pixels[i] < MOST)
@@ -98,10 +103,16 @@ static void drop_rare(depths *d, size_t pixels) {
     while (rare < MOST && dropped + with[rare] <= RARE * (double)pixels)
         dropped += with[rare++];
     for (size_t i = 0; i < d->count; i++)
-        if (d->pixels[i] >= (double)rare) {
-            d->samples[count] = d->samples[i];
-            d->pixels[count++] = d->pixels[i];
-        }
+        if (d->pixels[i] >= (double)rare)
+            count = keep(d, count, i);
+    d->count = count;
+    count = 0;
+    for (size_t i = 0; i < d->count; i++) {
+        const double own = d->pixels[i], after = i + 1 < d->count ? d->pixels[i + 1] : 0;
+        if (own >= RARER * fmin(before, after))
+            count = keep(d, count, i);
+        before = own;
+    }
     d->count = count;
 }
 
@@ -352,7 +363,6 @@ static const sensor_row *choose(const depths *d, const sensor_file *file, fit *c
     for (const sensor_row *row = rows; row < rows + FITTED; row++) {
         fit f;
         const bool half = row->levels == GRAIN_HALF;
-        f=(fit){0}; bool zz=half?find_halves(d,file,&f):find_even(d,file,row->levels,&f); if(getenv("ZDBG")) fprintf(stderr,"   try %s: %d step %g bits %.1f whole %.1f levels %zu pix %.3f of %zu values\n",row->name,zz,f.step,f.bits,f.whole,f.levels,f.pixels,d->count);
         if ((half && file->digits == 11) /* they are so by themselves */
             || !(half ? find_halves(d, file, &f) : find_even(d, file, row->levels, &f)) || !fit_explains(&f))
             continue;
@@ -380,7 +390,6 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
         sensor s = of_fit(row, &chosen);
         s.other = other;
         s.found = other == NULL;
-        bool z1=count_all(img,file,&s), z2=is_surface(img,&s,file->scale); if(getenv("ZDBG")) fprintf(stderr,"   %s other %s few off %d (%g) surface %d\n",row->name,other?other->name:"-",z1,s.off_pixels,z2);
         if (count_all(img, file, &s) && !is_surface(img, &s, file->scale))
             *out = s;
         name_like(out);
