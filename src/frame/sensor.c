@@ -17,18 +17,16 @@ enum {
 static const double RARE = 0.1, RARER = 0.125;
 
 static const sensor_row rows[] = {
-    {"inverse", "levels even in 1/z: disparity, structured light, ROS's compressedDepth, a decoded depth buffer",
-     "grows as z^2: step z^2 / (1 - step z)",
+    {"inverse", "even in 1/z: disparity, structured light, compressedDepth of ROS, a decoded depth buffer",
+     "grows as z^2: z^2 step / (1 - z step)",
      "Khoshelham and Elberink, Accuracy and resolution of Kinect depth data for indoor mapping applications, "
      "Sensors 12(2), 2012, doi:10.3390/s120201437; compressed_depth_image_transport of ROS, codec.cpp",
      GRAIN_INVERSE},
-    {"even", "levels even in z: time of flight, bits between two planes, an orthographic depth buffer", "the step",
+    {"even", "even in z: time of flight, bits between two planes, an orthographic depth buffer", "the step",
      "depthprec(7)", GRAIN_EVEN},
-    {"binary16", "eleven significant bits, rounded or cut, in numbers that hold more",
-     "doubles at powers of two: 2^-10 of them",
-     "OpenEXR, Technical Introduction, HALF; IEEE 754-2019, 3.6", GRAIN_HALF},
-    {"file", "none of these: what the file's own samples can hold, which the sensor need not resolve", "the file's own step",
-     "depthprec(7)", GRAIN_FINE},
+    {"binary16", "eleven significant bits, rounded or cut, in numbers that hold more", "doubles at powers of two, 2^-10 of them",
+     "OpenEXR, Technical Introduction, HALF; IEEE Std 754-2019, 3.6", GRAIN_HALF},
+    {"file", "the file's own samples; a sensor may resolve less", "the file's own step", "depthprec(7)", GRAIN_FINE},
 };
 enum { ROWS = sizeof rows / sizeof rows[0], FITTED = ROWS - 1 };
 

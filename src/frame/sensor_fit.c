@@ -286,7 +286,7 @@ static void bound(const fit_value *values, size_t count, fit *f) {
 
 /*
  * Two lattices that were put together lie on a finer one, but on few of its residues: of one lattice levels are missing
- * without regard to them. By chi squared, with room for 2^-20.
+ * without regard to them. By chi squared and its bound for a chance of e^-15.
  */
 static bool is_mixed(const fit_value *values, size_t count, const fit *f) {
     enum { MOST = 64 };
@@ -302,7 +302,7 @@ static bool is_mixed(const fit_value *values, size_t count, const fit *f) {
         }
         for (int i = 0; i < q; i++)
             squares += of[i] * of[i];
-        if (q / all * squares - all > q - 1 + 7 * sqrt(2.0 * (q - 1)) + 30)
+        if (q / all * squares - all > q - 1 + 2 * sqrt(15.0 * (q - 1)) + 30)
             return true;
     }
     return false;
