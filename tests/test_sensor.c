@@ -198,7 +198,7 @@ static int one(tally *t, rng *r, const kind *k) {
 
 static void lattices_are_found_or_assumed(void **state) {
     (void)state;
-    const uint64_t rounds = test_cases(1, 8, 850);
+    const uint64_t rounds = test_cases(1, 20, 850);
     tally t = {.name = "lattices"};
     rng r = rng_make("sensor");
     for (size_t k = 0; k < KINDS; k++) {

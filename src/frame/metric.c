@@ -65,8 +65,12 @@ static const char *of_integers(const image *img, double scale, look *l, metric *
     /* A few values have a divisor by chance. */
     const double divisor = l->seen.count >= VALUES_LEAST ? l->divisor : 1;
     const double chance = divisor > 1 ? (double)l->seen.count * dp_log2(divisor) - BITS_MAX : 0;
-    sensor_find(img, &(sensor_file){.step = divisor * scale, .bits = chance, .digits = 53, .scale = scale},
-                &out->sensor);
+    const sensor_file file = {.step = divisor * scale,
+                              .unit = scale,
+                              .step_off = divisor * scale / l->most,
+                              .bits = chance,
+                              .scale = scale};
+    sensor_find(img, &file, &out->sensor);
     bits = bits_for(fmin(sensor_end(&out->sensor, (l->most + divisor) * scale) / scale, ldexp(1, BITS_MAX) - 1), bits);
     const double top = ldexp(1, bits) - 1;
     dp_format formats[2];
@@ -77,7 +81,7 @@ static const char *of_integers(const image *img, double scale, look *l, metric *
     out->znear = 0.5 * l->least * scale;
     out->zfar = top * scale;
     out->step = divisor * scale;
-    out->grain = (grain){.kind = GRAIN_STEPS, .steps = top / divisor};
+    out->grain = (grain){.kind = GRAIN_STEPS, .steps = top * scale / out->sensor.file_step};
     return NULL;
 }
 
@@ -107,7 +111,9 @@ static const char *of_numbers(const image *img, double scale, look *l, metric *o
         return "its depths leave the possible range, 1e-9 to 1e18 scene units";
     dp_format_parse("fp32", formats);
     const double step = find_step(img, l, exponent);
-    const sensor_file file = {.step = step * scale, .digits = (double)l->single >= SENSOR_SHARE * (double)l->depths ? own : 53, .scale = scale};
+    const bool single = (double)l->single >= SENSOR_SHARE * (double)l->depths;
+    const sensor_file file = {
+        .step = step * scale, .unit = step * scale, .digits = single ? own : 53, .scale = scale};
     sensor_find(img, &file, &out->sensor);
     const double end = sensor_end(&out->sensor, (l->most * (1 + 0x1p-10) + step) * scale);
     while (out->sensor.row->levels != GRAIN_FINE && ldexp(scale, exponent) < fmin(end, 5e17))

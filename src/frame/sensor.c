@@ -349,6 +349,8 @@ static sensor of_file(const image *img, const sensor_file *file) {
     const fit own = {.step = file->step > 0 ? file->step : (double)NAN, .bits = file->bits};
     sensor s = of_fit(&rows[coarser ? ROWS - 3 : ROWS - 1], &own);
     s.found = coarser;
+    s.file_step = coarser ? file->unit : file->step;
+    s.step_off = coarser ? file->step_off : 0;
     if (coarser)
         count_all(img, file, &s);
     return s;
@@ -378,17 +380,26 @@ static const sensor_row *choose(const depths *d, const sensor_file *file, fit *c
     return best;
 }
 
+/* Multiples of a step may have been rounded to it, or be the levels that are looked for. */
 void sensor_find(const image *img, const sensor_file *file, sensor *out) {
     depths d;
     fit chosen = {0};
-    const sensor_row *other = NULL, *row = gather(img, &d) ? choose(&d, file, &chosen, &other) : NULL;
+    const sensor_row *other = NULL;
+    sensor_file tried = *file;
+    const bool good = gather(img, &d);
+    const sensor_row *row = good ? choose(&d, &tried, &chosen, &other) : NULL;
+    if (good && row == NULL && file->unit < file->step) {
+        tried.step = file->unit;
+        row = choose(&d, &tried, &chosen, &other);
+    }
     depths_free(&d);
     *out = of_file(img, file);
     if (row != NULL) {
         sensor s = of_fit(row, &chosen);
         s.other = other;
         s.found = other == NULL;
-        if (count_all(img, file, &s) && !is_surface(img, &s, file->scale))
+        s.file_step = tried.step;
+        if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale))
             *out = s;
         name_like(out);
     }

@@ -26,16 +26,19 @@ const sensor_row *sensor_get(size_t index); /**< null beyond the last */
 
 /** How the file itself rounded. */
 typedef struct sensor_file {
-    double step;  /**< samples are multiples of it, in scene units; 0: numbers */
-    double bits;  /**< -log2 of the chance that they all are of a coarser step than the file's own; 0: it is that */
-    int digits;   /**< numbers: significant bits, 11, 24 or 53 */
-    double scale; /**< scene units of 1 in a sample */
+    double step;     /**< samples are multiples of it, in scene units; 0: numbers */
+    double unit;     /**< of an integer; at most the step */
+    double step_off; /**< how far the step may be from that of depths which were only rounded to units */
+    double bits;     /**< -log2 of the chance that they all are multiples of the step and not of the unit alone */
+    int digits;      /**< numbers: significant bits, 11, 24 or 53 */
+    double scale;    /**< scene units of 1 in a sample */
 } sensor_file;
 
 /** What was found. What there is not is NaN. */
 typedef struct sensor {
     const sensor_row *row;
     bool found;                 /**< by the rule above, and no other row explains the values as well; else assumed */
+    double file_step;           /**< what the file itself rounded to, step or unit of it */
     double step, step_off;      /**< of 1/z, or of z, and how far off it is at most */
     double offset, offset_off;  /**< the level nearest to 0, in the unit of the step */
     double levels;              /**< from the nearest to the farthest depth, whether used or not */

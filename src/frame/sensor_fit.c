@@ -313,7 +313,7 @@ bool fit_find(const fit_value *values, size_t count, fit *out) {
     bool found = false;
     *out = (fit){0};
     const size_t last = count > NEIGHBOURS ? count - NEIGHBOURS : 0;
-    for (size_t w = 0; w < WINDOWS && !fit_explains(out) && c.scores != NULL && count >= 4; w++) {
+    for (size_t w = 0; w < WINDOWS && !(fit_explains(out) && out->pixels == 1) && c.scores != NULL && count >= 4; w++) {
         if (w > 0 && last == 0)
             break;
         lay(values, count, last * w / (WINDOWS - 1), &c);
