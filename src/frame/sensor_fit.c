@@ -65,16 +65,16 @@ static void weigh(const fit_value *values, size_t count, fit *f) {
         const double k = rint((values[i].at - f->offset) / f->step);
         pixels += held ? values[i].pixels : 0;
         all += values[i].pixels;
-        if (tells)
-            least = fmin(least, values[i].off);
-        if (tells && held && k != last) {
-            f->levels++;
-            last = k;
-        }
-        if (tells && i % stride == 0) {
+        if (!tells)
+            continue;
+        const bool alone = held && k != last; /* a level becomes one sample: a second one is on none */
+        least = fmin(least, values[i].off);
+        last = held ? k : last;
+        f->levels += alone;
+        if (i % stride == 0) {
             halves[told] = 0.5;
             chances[told++] = 2 * (1 + 2 * COVER) * values[i].off / f->step;
-            on += held;
+            on += alone;
         }
     }
     const double span = values[count - 1].at - values[0].at, unit = COVER * least;
