@@ -211,6 +211,97 @@ static bool was_said(const char *words) {
     return found;
 }
 
+/* What --lattice says is taken: its step, and the error of each pixel by a formula. */
+static void a_lattice_is_said(void **state) {
+    (void)state;
+    static const struct said {
+        const char *words;
+        bool inverse, half;
+        double step; /* 0: as many from the nearest to the farthest depth */
+        double levels;
+    } said[] = {
+        {"stereo:600,0.08,0.125", true, false, 0.125 / 48, 0}, {"stereo:500,0.1", true, false, 0.02, 0},
+        {"inverse:200", true, false, 0.005, 0},                {"inverse:200,0.3", true, false, 0.005, 0},
+        {"even:0.025", false, false, 0.025, 0},                {"even:0.025,0.01", false, false, 0.025, 0},
+        {"levels:256", false, false, 0, 256},                  {"inverse-levels:1024", true, false, 0, 1024},
+        {"binary16", false, true, 0, 0},                       {"file", false, false, 0, 0},
+    };
+    rng r = rng_make("said");
+    static double data[PIXELS];
+    double z[PIXELS], least = INFINITY, most = 0;
+    float map[PIXELS];
+    for (int i = 0; i < PIXELS; i++) {
+        z[i] = 0.001 * floor(1000 * rng_log(&r, 0.5, 9));
+        truth_store(data, IMAGE_U16, (size_t)i, rint(1000 * z[i]));
+        least = fmin(least, z[i]);
+        most = fmax(most, z[i]);
+    }
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+    for (size_t k = 0; k < sizeof said / sizeof said[0]; k++) {
+        command c = {.count = 0};
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 0.001);
+        truth_add(&c, "--lattice");
+        truth_add(&c, said[k].words);
+        json_t *root = statistics(&c), *lattice = json_object_get(root, "lattice");
+        const double step = said[k].levels == 0 ? said[k].step
+                            : said[k].inverse   ? (1 / least - 1 / most) / (said[k].levels - 1)
+                                                : (most - least) / (said[k].levels - 1);
+        assert_string_equal(json_string_value(json_object_get(lattice, "from")), "given");
+        if (step > 0)
+            assert_relative(number_in(lattice, "step"), step, 1e-9);
+        json_decref(root);
+        truth_product(&c, "map.npy", "eye", NULL, true);
+        truth_floats("map.npy", 1, map);
+        for (int i = 0; i < PIXELS; i++) {
+            const double end = z[i] + 0.001, half = ldexp(1, ilogb(end) - 10);
+            const double far = said[k].inverse ? 1 / (1 / end - step) - z[i]
+                               : 0.001 + (said[k].half ? half : step);
+            assert_scene((double)map[i], far, 1e-5 * far + 2e-7 * z[i]);
+            assert_true((double)map[i] >= far);
+        }
+    }
+    command c = {.count = 0};
+    truth_add(&c, truth_path("in.npy"));
+    truth_add_number(&c, 0, "--metric", 0.001);
+    truth_add(&c, "--lattice");
+    for (const char *const *bad = (const char *const[]){"", "stereo", "stereo:500", "stereo:500,0.1,1,2", "even:0",
+                                                        "even:-1", "even:", "even:1,", "levels:1", "file:1", "halves",
+                                                        NULL};
+         *bad != NULL; bad++) {
+        command d = c;
+        truth_add(&d, *bad);
+        assert_int_equal(truth_run(d.arguments, d.count), 2);
+        assert_true(was_said("--lattice: must be stereo:"));
+    }
+}
+
+/* Where the image shows another, or is on no level of it, that is named. */
+static void contradictions_are_named(void **state) {
+    (void)state;
+    rng r = rng_make("contradictions");
+    double z[PIXELS];
+    const metric_kind seen = {"disparity", IMAGE_U16, 0.001, 6, 1, "inverse", 0.02}, none = {"none", IMAGE_U16, 0.001, 6, 1, NULL, 0};
+    static const struct {
+        bool seen;
+        const char *lattice, *words;
+    } cases[] = {{true, "inverse:50", NULL},
+                 {true, "inverse:51", "the samples lie on another: inverse, in steps of 0.0"},
+                 {true, "even:0.01", "the samples lie on another: inverse"},
+                 {false, "even:0.02", "pixels are on none of its levels"},
+                 {false, "file", NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        command c = {.count = 0};
+        picture(&r, cases[i].seen ? &seen : &none, z);
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 0.001);
+        truth_add(&c, "--lattice");
+        truth_add(&c, cases[i].lattice);
+        json_decref(statistics(&c));
+        assert_true(was_said(cases[i].words != NULL ? cases[i].words : "--lattice") == (cases[i].words != NULL));
+    }
+}
+
 /* Without --metric: numbers above 1 are refused, integers with holes are doubted; and what has no depth is refused. */
 static void it_is_suspected(void **state) {
     (void)state;
@@ -273,6 +364,8 @@ static void holes_are_counted(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(metric_depth_is_within_what_is_said),
+        cmocka_unit_test(a_lattice_is_said),
+        cmocka_unit_test(contradictions_are_named),
         cmocka_unit_test(it_is_suspected),
         cmocka_unit_test(holes_are_counted),
     };

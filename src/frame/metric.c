@@ -41,6 +41,16 @@ static void look_at(const image *img, look *l) {
     }
 }
 
+static void look_through(const image *img, const sensor_file *file, const sensor *given, const look *l, metric *out) {
+    sensor_find(img, file, &out->seen);
+    out->depths = (double)l->depths;
+    out->sensor = out->seen;
+    if (given != NULL) {
+        out->sensor = *given;
+        sensor_complete(img, file, l->least * file->scale, l->most * file->scale, &out->sensor);
+    }
+}
+
 /* ---- Integers ---------------------------------------------------------------------------------------------------- */
 
 static void add_all(const image *img, look *l, double scale) {
@@ -56,7 +66,7 @@ static int bits_for(double most, int bits) {
     return bits;
 }
 
-static const char *of_integers(const image *img, double scale, look *l, metric *out) {
+static const char *of_integers(const image *img, double scale, look *l, const sensor *given, metric *out) {
     static const int bits_of[] = {[IMAGE_U8] = 8, [IMAGE_U16] = 16, [IMAGE_U32] = 16};
     int bits = bits_for(l->most, bits_of[img->type]);
     if (bits > BITS_MAX)
@@ -70,7 +80,7 @@ static const char *of_integers(const image *img, double scale, look *l, metric *
                               .step_off = divisor * scale / l->most,
                               .bits = chance,
                               .scale = scale};
-    sensor_find(img, &file, &out->sensor);
+    look_through(img, &file, given, l, out);
     bits = bits_for(fmin(sensor_end(&out->sensor, (l->most + divisor) * scale) / scale, ldexp(1, BITS_MAX) - 1), bits);
     const double top = ldexp(1, bits) - 1;
     dp_format formats[2];
@@ -101,7 +111,7 @@ static double find_step(const image *img, look *l, int exponent) {
     return 0;
 }
 
-static const char *of_numbers(const image *img, double scale, look *l, metric *out) {
+static const char *of_numbers(const image *img, double scale, look *l, const sensor *given, metric *out) {
     const int own = img->type == IMAGE_F16 ? 11 : 24;
     int exponent;
     dp_format formats[2];
@@ -114,7 +124,7 @@ static const char *of_numbers(const image *img, double scale, look *l, metric *o
     const bool single = (double)l->single >= SENSOR_SHARE * (double)l->depths;
     const sensor_file file = {
         .step = step * scale, .unit = step * scale, .digits = single ? own : 53, .scale = scale};
-    sensor_find(img, &file, &out->sensor);
+    look_through(img, &file, given, l, out);
     const double end = sensor_end(&out->sensor, (l->most * (1 + 0x1p-10) + step) * scale);
     while (out->sensor.row->levels != GRAIN_FINE && ldexp(scale, exponent) < fmin(end, 5e17))
         exponent++;
@@ -153,12 +163,12 @@ static bool replace(image *img, const metric *m, double scale) {
     return true;
 }
 
-const char *metric_convert(image *img, double scale, metric *out) {
+const char *metric_convert(image *img, double scale, const sensor *given, metric *out) {
     look l;
     look_at(img, &l);
     const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"
-                        : img->type < IMAGE_F16 ? of_integers(img, scale, &l, out)
-                                                : of_numbers(img, scale, &l, out);
+                        : img->type < IMAGE_F16 ? of_integers(img, scale, &l, given, out)
+                                                : of_numbers(img, scale, &l, given, out);
     distinct_free(&l.seen);
     if (wrong == NULL)
         sensor_into(&out->sensor, out->zfar, &out->grain);

@@ -23,15 +23,18 @@ typedef struct metric {
                              farthest depth may have been, where that has an end */
     double step;        /**< scene units between neighbouring samples: integers, or numbers that all are multiples of
                              it; 0: numbers of their own precision */
-    sensor sensor;      /**< what it was rounded to before */
+    sensor sensor;      /**< what it was rounded to before: as given, else as seen */
+    sensor seen;        /**< as the samples show it */
+    double depths;      /**< pixels that hold one */
     grain grain;        /**< how far the depth can be beside its sample, with both roundings */
 } metric;
 
 /**
  * Converts the image, which becomes one channel of u4 or f4; holes become UINT32_MAX or NaN.
  * @param scale  from METRIC_SCALE_MIN to METRIC_SCALE_MAX
+ * @param given  what sensor_given() takes, or null
  * @return null, or why not: one sentence; the image is then as it was
  */
-const char *metric_convert(image *img, double scale, metric *out);
+const char *metric_convert(image *img, double scale, const sensor *given, metric *out);
 
 #endif

@@ -404,3 +404,42 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
         name_like(out);
     }
 }
+
+/* The offset that most pixels are on. */
+static double best_offset(const image *img, const sensor_file *file, sensor *s) {
+    enum { TRIED = 64 };
+    double best = 0, fewest = (double)INFINITY;
+    for (int i = 0; i < TRIED; i++) {
+        s->offset = s->step * i / TRIED;
+        count_all(img, file, s);
+        if (s->off_pixels < fewest) {
+            fewest = s->off_pixels;
+            best = s->offset;
+        }
+    }
+    return best;
+}
+
+void sensor_complete(const image *img, const sensor_file *file, double lo, double hi, sensor *s) {
+    const sensor known = *s;
+    const bool inverse = known.row->levels == GRAIN_INVERSE;
+    const bool coarser = file->step > file->unit && file->bits >= FIT_BITS && known.row->levels != GRAIN_FINE;
+    sensor_file as = *file;
+    as.step = coarser ? file->unit : file->step;
+    *s = of_fit(known.row, &(fit){.step = known.step, .offset = known.offset, .bits = NAN});
+    s->given = true;
+    s->file_step = as.step;
+    s->offset_off = s->step_off = known.row->levels == GRAIN_HALF ? (double)NAN : 0;
+    if (!isnan(known.levels)) {
+        s->offset = inverse ? 1 / hi : lo;
+        s->step = (inverse ? 1 / lo - 1 / hi : hi - lo) / (known.levels - 1);
+    }
+    if (known.row->levels == GRAIN_FINE) {
+        s->step = file->step > 0 ? file->step : (double)NAN;
+        s->offset = 0;
+        return;
+    }
+    if (known.row->levels != GRAIN_HALF && isnan(s->offset))
+        s->offset = best_offset(img, &as, s);
+    count_all(img, &as, s);
+}

@@ -37,6 +37,7 @@ typedef struct sensor_file {
 /** What was found. What there is not is NaN. */
 typedef struct sensor {
     const sensor_row *row;
+    bool given;                 /**< by somebody who knows */
     bool found;                 /**< by the rule above, and no other row explains the values as well; else assumed */
     double file_step;           /**< what the file itself rounded to, step or unit of it */
     double step, step_off;      /**< of 1/z, or of z, and how far off it is at most */
@@ -52,6 +53,12 @@ typedef struct sensor {
 
 /** Looks at all depths. Never fails: what cannot be found is assumed to be the file's own. */
 void sensor_find(const image *img, const sensor_file *file, sensor *out);
+
+/**
+ * What somebody knows: a row, and of its levels the step and the offset, or how many there are from lo to hi. NaN stands
+ * for what is not known; an offset is then where most values are. Fills in the rest.
+ */
+void sensor_complete(const image *img, const sensor_file *file, double lo, double hi, sensor *s);
 
 /** From a level at z to the next farther one, scene units, INFINITY where there is none; NaN where the row is "file" and its samples are numbers. */
 double sensor_gap(const sensor *s, double z);

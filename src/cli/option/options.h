@@ -110,6 +110,7 @@ typedef enum option_id {
     OPTION_PARAMETER,
     OPTION_SKY,
     OPTION_METRIC,
+    OPTION_LATTICE,
     OPTION_PACKING,
     OPTION_CHANNEL,
     OPTION_PIXEL,
@@ -256,6 +257,7 @@ typedef struct options {
     size_t parameter_count;
     double sky;    /**< window depth */
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    const char *lattice; /**< what it was rounded to before; null when not given */
     depths pixels; /**< column and row of each in turn; count is 0 when not given */
     const product_row *product;
     const position_row *position;   /**< of --product position; null for exact as well */

@@ -407,6 +407,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity "
         "are holes",
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_LATTICE] = {"lattice", 0, "NAME[:NUMBERS]", CMD_TEXTURE,
+        "what metric depth was rounded to before, in place of what the image shows: stereo:FOCAL,BASELINE[,PIXELS] "
+        "with the step of disparity in pixels, inverse:A[,B] with steps of 1/A in 1/z, even:STEP[,FROM] in z, "
+        "inverse-levels:N or levels:N from the nearest to the farthest depth, binary16, file",
+        TEXT(lattice), .without = "as found"},
     [OPTION_PACKING] = {"packing", 0, "NAME", CMD_TEXTURE,
         "the channels of FILE hold the depth together: @; 'depthprec list packings'", ROW(packing, packings)},
     [OPTION_CHANNEL] = {"channel", 0, "NAME", CMD_TEXTURE,

@@ -89,6 +89,8 @@ static int check_together(const options *o) {
         return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
     if (o->metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
+    if (o->lattice != NULL && o->metric == 0)
+        return option_error(OPTION_LATTICE, "needs --metric");
     if (o->channel != NULL && !file)
         return option_error(OPTION_CHANNEL, "needs FILE");
     if (o->packing != NULL && !file)
@@ -223,8 +225,15 @@ static int read_image(options *o, texture_source *s) {
         recognise(&s->picture, &s->found);
         return EXIT_FINE;
     }
-    const char *wrong = metric_convert(&s->picture, o->metric, &s->metric);
-    return wrong == NULL ? EXIT_FINE : usage_error("%s: no metric depth: %s", s->path, wrong);
+    sensor given;
+    status = texture_lattice(o, &given);
+    if (status != EXIT_FINE)
+        return status;
+    const char *wrong = metric_convert(&s->picture, o->metric, given.row != NULL ? &given : NULL, &s->metric);
+    if (wrong != NULL)
+        return usage_error("%s: no metric depth: %s", s->path, wrong);
+    texture_lattice_warn(o, s);
+    return EXIT_FINE;
 }
 
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */

@@ -68,10 +68,14 @@ static number_text in_scene(const page *p, double length) {
     return number_in(number_of(length, 6), p->unit != NULL ? p->unit : "scene units");
 }
 
+static const char *origin_of(const sensor *s) {
+    return texture_origin_name(s->given ? ORIGIN_GIVEN : s->found ? ORIGIN_FOUND : ORIGIN_ASSUMED);
+}
+
 void statistics_name_lattice(statistics *r) {
     const sensor *s = &r->source.metric.sensor;
     r->lattice = (lattice_fields){.name = s->row->name,
-                                  .from = texture_origin_name(s->found ? ORIGIN_FOUND : ORIGIN_ASSUMED),
+                                  .from = origin_of(s),
                                   .other = s->other != NULL ? s->other->name : NULL,
                                   .like = s->like,
                                   .step = s->step,
@@ -98,12 +102,14 @@ void *statistics_next_gap(void *of, size_t i) {
 static void say_levels(statistics *r, page *p) {
     const sensor *s = &r->source.metric.sensor;
     char gaps[256] = "";
+    char off[64] = "";
+    if (s->step_off > 0)
+        snprintf(off, sizeof off, ", off by at most %s", number_up(s->step_off, 2).text);
     if (s->row->levels == GRAIN_INVERSE)
-        page_note(p, "", "1/z in steps of %s, off by at most %s; baseline times focal length over a step %s",
-                  number_of(s->step, 6).text, number_up(s->step_off, 2).text, number_of(1 / s->step, 6).text);
+        page_note(p, "", "1/z in steps of %s%s; baseline times focal length over a step %s",
+                  number_of(s->step, 6).text, off, number_of(1 / s->step, 6).text);
     else if (s->row->levels == GRAIN_EVEN)
-        page_note(p, "", "z in steps of %s, off by at most %s", in_scene(p, s->step).text,
-                  number_up(s->step_off, 2).text);
+        page_note(p, "", "z in steps of %s%s", in_scene(p, s->step).text, off);
     for (size_t i = 0; statistics_next_gap(r, i) != NULL; i++)
         append(gaps, sizeof gaps, "%s%s at %s", i > 0 ? ", " : "", number_of(r->gap.gap, 4).text,
                number_of(r->gap.z, 4).text);
@@ -123,8 +129,8 @@ static void say_metric(statistics *r, page *p) {
         page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);
     else
         page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
-    page_note(p, "lattice", "%s %s: %s%s%s", s->row->name, s->found ? "found" : "assumed", s->row->note,
-              s->other != NULL ? "; as well explained by " : "", s->other != NULL ? s->other->name : "");
+    page_note(p, "lattice", "%s %s%s%s%s%s", s->row->name, origin_of(s), s->given ? "" : ": ",
+              s->given ? "" : s->row->note, s->other != NULL ? "; as well explained by " : "", s->other != NULL ? s->other->name : "");
     if (s->row->levels != GRAIN_FINE)
         say_levels(r, p);
 }

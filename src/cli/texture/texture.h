@@ -66,6 +66,13 @@ const char *texture_origin_name(texture_origin origin);
 int texture_source_open(options *o, texture_source *out);
 void texture_source_close(texture_source *s);
 
+/** What --lattice says, of which some is found in the image; without a row where it is not given. @return an exit
+ * status, after one line on stderr */
+int texture_lattice(const options *o, sensor *out);
+
+/** One line on stderr where the image contradicts it. */
+void texture_lattice_warn(const options *o, const texture_source *s);
+
 /** Whether something says where far is, which metric depth does not need. */
 bool texture_far_known(const options *o);
 
