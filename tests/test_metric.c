@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Metric depth, as sensors and simulators write it: read with --metric it is within what the error map says of the
- * depth that was rounded or truncated, for eye depth, places and effects; holes are counted and never averaged. So it is
- * where a sensor rounded the depth before, on a lattice that the file does not name.
+ * depth that was rounded or truncated, for eye depth, places and effects; holes are counted and never averaged. So it
+ * is where a sensor rounded the depth before, on a lattice that the file does not name.
  */
 #include <jansson.h>
 #include <stdbool.h>
@@ -16,10 +16,10 @@
 typedef struct metric_kind {
     const char *name;
     image_type type;
-    double scale, most; /**< scene units a unit, and the farthest depth */
-    double step;        /**< in units, that depths are rounded to before they are stored; 0: none */
+    double scale, most;  /**< scene units a unit, and the farthest depth */
+    double step;         /**< in units, that depths are rounded to before they are stored; 0: none */
     const char *lattice; /**< what they were rounded to before that; null: nothing */
-    double level;       /**< its step, of z or 1/z */
+    double level;        /**< its step, of z or 1/z */
 } metric_kind;
 
 static const metric_kind kinds[] = {
@@ -55,8 +55,8 @@ static double half_of(double x, int mode) {
 
 /* What the sensor makes of a depth. */
 static double level_of(const metric_kind *k, double z, int mode) {
-    return k->lattice == NULL          ? z
-           : *k->lattice == 'b'        ? half_of(z, mode)
+    return k->lattice == NULL                ? z
+           : *k->lattice == 'b'              ? half_of(z, mode)
            : strcmp(k->lattice, "even") == 0 ? k->level * cut(z / k->level + 0.3, mode) - 0.3 * k->level
                                              : 1 / (k->level * cut(1 / z / k->level, mode));
 }
@@ -64,8 +64,11 @@ static double level_of(const metric_kind *k, double z, int mode) {
 /* How far the next level is at most. */
 static double gap_of(const metric_kind *k, double z) {
     const double w = 1 / z - k->level;
-    return k->lattice == NULL ? 0 : *k->lattice == 'b' ? z * 0x1p-10 : *k->lattice == 'e' ? k->level
-           : w > 0 ? 1 / w - z : INFINITY;
+    return k->lattice == NULL   ? 0
+           : *k->lattice == 'b' ? z * 0x1p-10
+           : *k->lattice == 'e' ? k->level
+           : w > 0              ? 1 / w - z
+                                : INFINITY;
 }
 
 static double sample_of(const metric_kind *k, double z, int mode) {
@@ -118,7 +121,8 @@ static void check_statistics(const metric_kind *k, const command *base, size_t h
     assert_true(number_in(root, "metric") == k->scale);
     assert_true(number_in(root, "invalid") == (double)holes);
     assert_true(number_in(json_object_get(root, "sky"), "pixels") == 0);
-    assert_true(number_in(eye, "masked") == (double)holes && number_in(eye, "pixels") + unbounded == (double)(PIXELS - holes));
+    assert_true(number_in(eye, "masked") == (double)holes &&
+                number_in(eye, "pixels") + unbounded == (double)(PIXELS - holes));
     assert_true(unbounded > 0 || number_in(eye, "max") >= worst);
     assert_string_equal(json_string_value(json_object_get(root, "format_from")), "given");
     assert_string_equal(json_string_value(json_object_get(root, "direction_from")), "given");
@@ -156,7 +160,8 @@ static double one_picture(tally *t, rng *r, const metric_kind *k) {
         /* A whole step where it is not known how depths were rounded, and what binary32 adds. */
         const double step = k->step > 0 ? k->step * k->scale : k->type == IMAGE_F16 ? z[i] * 0x1p-10 : z[i] * 0x1p-23;
         const double most = 1.1 * gap_of(k, (double)eye[i] + 2 * step) + 3 * step;
-        TALLY(t, (double)map[i] <= (k->lattice != NULL ? most : 1.01 * step) + 4e-7 * z[i], "%s: %.9g may be %g off", k->name, z[i], (double)map[i]);
+        TALLY(t, (double)map[i] <= (k->lattice != NULL ? most : 1.01 * step) + 4e-7 * z[i], "%s: %.9g may be %g off",
+              k->name, z[i], (double)map[i]);
     }
     check_statistics(k, &base, holes, worst);
     truth_product(&base, "place.npy", "position", "view", false);
@@ -220,11 +225,16 @@ static void a_lattice_is_said(void **state) {
         double step; /* 0: as many from the nearest to the farthest depth */
         double levels;
     } said[] = {
-        {"stereo:600,0.08,0.125", true, false, 0.125 / 48, 0}, {"stereo:500,0.1", true, false, 0.02, 0},
-        {"inverse:200", true, false, 0.005, 0},                {"inverse:200,0.3", true, false, 0.005, 0},
-        {"even:0.025", false, false, 0.025, 0},                {"even:0.025,0.01", false, false, 0.025, 0},
-        {"levels:256", false, false, 0, 256},                  {"inverse-levels:1024", true, false, 0, 1024},
-        {"binary16", false, true, 0, 0},                       {"file", false, false, 0, 0},
+        {"stereo:600,0.08,0.125", true, false, 0.125 / 48, 0},
+        {"stereo:500,0.1", true, false, 0.02, 0},
+        {"inverse:200", true, false, 0.005, 0},
+        {"inverse:200,0.3", true, false, 0.005, 0},
+        {"even:0.025", false, false, 0.025, 0},
+        {"even:0.025,0.01", false, false, 0.025, 0},
+        {"levels:256", false, false, 0, 256},
+        {"inverse-levels:1024", true, false, 0, 1024},
+        {"binary16", false, true, 0, 0},
+        {"file", false, false, 0, 0},
     };
     rng r = rng_make("said");
     static double data[PIXELS];
@@ -255,22 +265,25 @@ static void a_lattice_is_said(void **state) {
         truth_floats("map.npy", 1, map);
         for (int i = 0; i < PIXELS; i++) {
             const double end = z[i] + 0.001, half = ldexp(1, ilogb(end) - 10);
-            const double far = said[k].inverse ? 1 / (1 / end - step) - z[i]
-                               : 0.001 + (said[k].half ? half : step);
+            const double far = said[k].inverse ? 1 / (1 / end - step) - z[i] : 0.001 + (said[k].half ? half : step);
             assert_scene((double)map[i], far, 1e-5 * far + 2e-7 * z[i]);
             assert_true((double)map[i] >= far);
         }
     }
+}
+
+static void what_is_no_lattice_is_refused(void **state) {
+    (void)state;
+    static const char *const bad[] = {"",         "stereo",  "stereo:500", "stereo:500,0.1,1,2",
+                                      "even:0",   "even:-1", "even:",      "even:1,",
+                                      "levels:1", "file:1",  "halves"};
     command c = {.count = 0};
     truth_add(&c, truth_path("in.npy"));
     truth_add_number(&c, 0, "--metric", 0.001);
     truth_add(&c, "--lattice");
-    for (const char *const *bad = (const char *const[]){"", "stereo", "stereo:500", "stereo:500,0.1,1,2", "even:0",
-                                                        "even:-1", "even:", "even:1,", "levels:1", "file:1", "halves",
-                                                        NULL};
-         *bad != NULL; bad++) {
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         command d = c;
-        truth_add(&d, *bad);
+        truth_add(&d, bad[i]);
         assert_int_equal(truth_run(d.arguments, d.count), 2);
         assert_true(was_said("--lattice: must be stereo:"));
     }
@@ -281,7 +294,8 @@ static void contradictions_are_named(void **state) {
     (void)state;
     rng r = rng_make("contradictions");
     double z[PIXELS];
-    const metric_kind seen = {"disparity", IMAGE_U16, 0.001, 6, 1, "inverse", 0.02}, none = {"none", IMAGE_U16, 0.001, 6, 1, NULL, 0};
+    const metric_kind seen = {"disparity", IMAGE_U16, 0.001, 6, 1, "inverse", 0.02},
+                      none = {"none", IMAGE_U16, 0.001, 6, 1, NULL, 0};
     static const struct {
         bool seen;
         const char *lattice, *words;
@@ -365,6 +379,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(metric_depth_is_within_what_is_said),
         cmocka_unit_test(a_lattice_is_said),
+        cmocka_unit_test(what_is_no_lattice_is_refused),
         cmocka_unit_test(contradictions_are_named),
         cmocka_unit_test(it_is_suspected),
         cmocka_unit_test(holes_are_counted),

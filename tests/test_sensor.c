@@ -187,8 +187,8 @@ static int one(tally *t, rng *r, const kind *k) {
           what, m.step, m.lo, m.hi, (int)m.type, m.unit, got, s.step);
     if (k->lattice >= HALF || strcmp(got, names[k->lattice]) != 0)
         return 1;
-    TALLY(t, fabs(s.step - m.step) <= s.step_off + 1e-15, "%s: step %.12g, file %d of %g, found %.12g within %.3g", what,
-          m.step, (int)m.type, m.unit, s.step, s.step_off);
+    TALLY(t, fabs(s.step - m.step) <= s.step_off + 1e-15, "%s: step %.12g, file %d of %g, found %.12g within %.3g",
+          what, m.step, (int)m.type, m.unit, s.step, s.step_off);
     const double beside = (s.offset - m.offset) / m.step;
     TALLY(t, fabs(beside - rint(beside)) * m.step <= s.offset_off + 1e-14,
           "%s: levels from %.9g in steps of %.9g, found from %.9g within %.3g", what, m.offset, m.step, s.offset,
@@ -292,9 +292,15 @@ static const struct {
     const char *name;
     making *make;
 } nothings[] = {
-    {"random numbers", random_numbers}, {"few numbers", random_of_few}, {"one number", constant},
-    {"a level floor", level_floor},     {"a floor", slanted_floor},     {"a ramp", ramp},
-    {"a bowl", bowl},                   {"surfaces", smooth},           {"two lattices", two_lattices},
+    {"random numbers", random_numbers},
+    {"few numbers", random_of_few},
+    {"one number", constant},
+    {"a level floor", level_floor},
+    {"a floor", slanted_floor},
+    {"a ramp", ramp},
+    {"a bowl", bowl},
+    {"surfaces", smooth},
+    {"two lattices", two_lattices},
     {"four lattices", quarters},
 };
 

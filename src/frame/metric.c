@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/elementary.h"
 #include "frame/image_depths.h"
 #include "frame/recognise.h"
 #include "frame/recognise_lattice.h"
@@ -19,7 +18,7 @@ static bool is_depth(double x) {
 /* What is looked at before anything is changed. */
 typedef struct look {
     double least, most;
-    uint32_t divisor; /* integers: of all */
+    uint32_t divisor;      /* integers: of all */
     size_t depths, single; /* single: are binary32 */
     distinct_set seen;
 } look;
@@ -74,12 +73,7 @@ static const char *of_integers(const image *img, double scale, look *l, const se
     add_all(img, l, 1);
     /* A few values have a divisor by chance. */
     const double divisor = l->seen.count >= VALUES_LEAST ? l->divisor : 1;
-    const double chance = divisor > 1 ? (double)l->seen.count * dp_log2(divisor) - BITS_MAX : 0;
-    const sensor_file file = {.step = divisor * scale,
-                              .unit = scale,
-                              .step_off = divisor * scale / l->most,
-                              .bits = chance,
-                              .scale = scale};
+    const sensor_file file = {.step = divisor * scale, .unit = scale, .scale = scale};
     look_through(img, &file, given, l, out);
     bits = bits_for(fmin(sensor_end(&out->sensor, (l->most + divisor) * scale) / scale, ldexp(1, BITS_MAX) - 1), bits);
     const double top = ldexp(1, bits) - 1;
@@ -122,8 +116,7 @@ static const char *of_numbers(const image *img, double scale, look *l, const sen
     dp_format_parse("fp32", formats);
     const double step = find_step(img, l, exponent);
     const bool single = (double)l->single >= SENSOR_SHARE * (double)l->depths;
-    const sensor_file file = {
-        .step = step * scale, .unit = step * scale, .digits = single ? own : 53, .scale = scale};
+    const sensor_file file = {.step = step * scale, .unit = step * scale, .digits = single ? own : 53, .scale = scale};
     look_through(img, &file, given, l, out);
     const double end = sensor_end(&out->sensor, (l->most * (1 + 0x1p-10) + step) * scale);
     while (out->sensor.row->levels != GRAIN_FINE && ldexp(scale, exponent) < fmin(end, 5e17))

@@ -10,8 +10,8 @@
 #ifndef FRAME_METRIC_H
 #define FRAME_METRIC_H
 
-#include "image/image.h"
 #include "frame/sensor.h"
+#include "image/image.h"
 
 /** Scene units of 1 in a sample, at least and at most. */
 #define METRIC_SCALE_MIN 1e-9

@@ -4,13 +4,16 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "frame/image_depths.h"
+#include "frame/recognise_lattice.h"
 #include "frame/sensor_fit.h"
 
 enum {
     LOOKED_AT = 1 << 19, /* pixels that lattices are looked for in; on the one that is found all are counted */
     DIGITS_MOST = 40,    /* of a number: the fit itself is made of doubles */
-    RUN = 5,             /* neighbours that tell a surface from a lattice */
+    INTEGER_BITS = 31,
+    RUN = 5, /* neighbours that tell a surface from a lattice */
     RUNS_LEAST = 16
 };
 
@@ -24,8 +27,9 @@ static const sensor_row rows[] = {
      GRAIN_INVERSE},
     {"even", "even in z: time of flight, bits between two planes, an orthographic depth buffer", "the step",
      "depthprec(7)", GRAIN_EVEN},
-    {"binary16", "eleven significant bits, rounded or cut, in numbers that hold more", "doubles at powers of two, 2^-10 of them",
-     "OpenEXR, Technical Introduction, HALF; IEEE Std 754-2019, 3.6", GRAIN_HALF},
+    {"binary16", "eleven significant bits, rounded or cut, in numbers that hold more",
+     "doubles at powers of two, 2^-10 of them", "OpenEXR, Technical Introduction, HALF; IEEE Std 754-2019, 3.6",
+     GRAIN_HALF},
     {"file", "the file's own samples; a sensor may resolve less", "the file's own step", "depthprec(7)", GRAIN_FINE},
 };
 enum { ROWS = sizeof rows / sizeof rows[0], FITTED = ROWS - 1 };
@@ -89,8 +93,8 @@ static size_t keep(depths *d, size_t to, size_t i) {
     return to + 1;
 }
 
-/* Averages of neighbours lie between levels, and few pixels have them: the rarest values say nothing, as long as no more
- * than a tenth of the pixels has them, nor do those that are much rarer than the values on both sides. */
+/* Averages of neighbours lie between levels, and few pixels have them: the rarest values say nothing, as long as no
+ * more than a tenth of the pixels has them, nor do those that are much rarer than the values on both sides. */
 static void drop_rare(depths *d, size_t pixels) {
     enum { MOST = 256 };
     double with[MOST] = {0}, dropped = 0, before = 0;
@@ -165,13 +169,13 @@ static bool find_halves(const depths *d, const sensor_file *file, fit *out) {
         const bool held = holds_half(z);
         all += d->pixels[i];
         on_pixels += held ? d->pixels[i] : 0;
-        if (chance < 1) {
+        if (chance < 0.5) { /* others tell hardly anything */
             chances[told++] = chance;
             on += held;
         }
     }
     out->levels = on;
-    out->whole = FIT_BITS; /* nothing is halved */
+    out->whole = FIT_WHOLE; /* nothing is halved */
     out->pixels = all > 0 ? on_pixels / all : 0;
     out->bits = told > 0 ? fit_chance(chances, told, on) : 0;
     free(chances);
@@ -343,66 +347,91 @@ static void name_like(sensor *s) {
     }
 }
 
-/* Of the samples' own step, which all of them may be multiples of by more than chance. */
-static sensor of_file(const image *img, const sensor_file *file) {
-    const bool coarser = file->bits >= FIT_BITS;
-    const fit own = {.step = file->step > 0 ? file->step : (double)NAN, .bits = file->bits};
-    sensor s = of_fit(&rows[coarser ? ROWS - 3 : ROWS - 1], &own);
-    s.found = coarser;
-    s.file_step = coarser ? file->unit : file->step;
-    s.step_off = coarser ? file->step_off : 0;
-    if (coarser)
-        count_all(img, file, &s);
-    return s;
+/* Integers: what all of the values that are not rare are multiples of, and -log2 of the chance that they are. */
+static double common_step(const depths *d, double *bits) {
+    uint32_t divisor = 0;
+    for (size_t i = 0; i < d->count; i++)
+        divisor = common_divisor(divisor, (uint32_t)d->samples[i]);
+    *bits = divisor > 1 ? (double)d->count * dp_log2(divisor) - INTEGER_BITS : 0;
+    return divisor;
 }
 
-/* The row that says most; the next one, where it explains the values nearly as well. @return null: none does */
-static const sensor_row *choose(const depths *d, const sensor_file *file, fit *chosen, const sensor_row **other) {
-    const sensor_row *best = NULL, *second = NULL;
-    double next = 0;
-    for (const sensor_row *row = rows; row < rows + FITTED; row++) {
-        fit f;
-        const bool half = row->levels == GRAIN_HALF;
-        if ((half && file->digits == 11) /* they are so by themselves */
-            || !(half ? find_halves(d, file, &f) : find_even(d, file, row->levels, &f)) || !fit_explains(&f))
-            continue;
-        const bool better = best == NULL || f.bits > chosen->bits;
-        if (better ? best != NULL : f.bits > next) {
-            second = better ? best : row;
-            next = better ? chosen->bits : f.bits;
-        }
-        if (better) {
-            best = row;
-            *chosen = f;
-        }
+/* Of the samples' own step, which all of them may be multiples of by more than chance. */
+static sensor of_file(const image *img, const sensor_file *file, const depths *d) {
+    double bits = 0;
+    const double divisor = file->unit > 0 && file->digits == 0 && d->count > 0 ? common_step(d, &bits) : 0;
+    const bool coarser = bits >= FIT_BITS && d->count >= FIT_LEVELS;
+    const fit own = {.step = coarser ? divisor * file->unit : file->step > 0 ? file->step : (double)NAN, .bits = bits};
+    sensor s = of_fit(&rows[coarser ? ROWS - 3 : ROWS - 1], &own);
+    s.file_step = file->step;
+    if (!coarser)
+        return s;
+    s.found = true;
+    s.file_step = file->unit;
+    s.step_off = file->unit * divisor / d->samples[d->count - 1];
+    const sensor_file units = {.step = file->unit, .scale = file->scale};
+    return count_all(img, &units, &s) ? s : of_file(img, file, &(depths){0});
+}
+
+/* What was chosen; the next row, where it explains the values nearly as well. */
+typedef struct choice {
+    const sensor_row *row, *other; /* null: none does */
+    fit fit;
+    double next;  /* bits of the next one */
+    bool unclear; /* what explains them is more than one lattice */
+} choice;
+
+static void consider(choice *c, const sensor_row *row, const fit *f) {
+    const bool better = c->row == NULL || f->bits > c->fit.bits;
+    if (better ? c->row != NULL : f->bits > c->next) {
+        c->other = better ? c->row : row;
+        c->next = better ? c->fit.bits : f->bits;
     }
-    *other = second != NULL && next > chosen->bits - FIT_BITS ? second : NULL;
-    return best;
+    if (better) {
+        c->row = row;
+        c->fit = *f;
+    }
+}
+
+static void choose(const depths *d, const sensor_file *file, choice *c) {
+    for (const sensor_row *row = rows; row < rows + FITTED; row++) {
+        fit f = {0};
+        const bool half = row->levels == GRAIN_HALF;
+        if (half && file->digits == 11)
+            continue; /* they are so by themselves */
+        const bool found = half ? find_halves(d, file, &f) : find_even(d, file, row->levels, &f);
+        if (found && fit_explains(&f))
+            consider(c, row, &f);
+        c->unclear = c->unclear || (!found && fit_explains(&f));
+    }
+    if (c->next <= c->fit.bits - FIT_BITS)
+        c->other = NULL;
 }
 
 /* Multiples of a step may have been rounded to it, or be the levels that are looked for. */
 void sensor_find(const image *img, const sensor_file *file, sensor *out) {
     depths d;
-    fit chosen = {0};
-    const sensor_row *other = NULL;
+    choice c = {0};
     sensor_file tried = *file;
     const bool good = gather(img, &d);
-    const sensor_row *row = good ? choose(&d, &tried, &chosen, &other) : NULL;
-    if (good && row == NULL && file->unit < file->step) {
+    if (good)
+        choose(&d, &tried, &c);
+    if (good && c.row == NULL && file->unit < file->step) {
         tried.step = file->unit;
-        row = choose(&d, &tried, &chosen, &other);
+        choose(&d, &tried, &c);
     }
+    *out = of_file(img, file, &d);
+    out->found = out->found && !c.unclear;
     depths_free(&d);
-    *out = of_file(img, file);
-    if (row != NULL) {
-        sensor s = of_fit(row, &chosen);
-        s.other = other;
-        s.found = other == NULL;
-        s.file_step = tried.step;
-        if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale))
-            *out = s;
-        name_like(out);
-    }
+    if (c.row == NULL)
+        return;
+    sensor s = of_fit(c.row, &c.fit);
+    s.other = c.other;
+    s.found = c.other == NULL;
+    s.file_step = tried.step;
+    if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale))
+        *out = s;
+    name_like(out);
 }
 
 /* The offset that most pixels are on. */
@@ -423,9 +452,9 @@ static double best_offset(const image *img, const sensor_file *file, sensor *s) 
 void sensor_complete(const image *img, const sensor_file *file, double lo, double hi, sensor *s) {
     const sensor known = *s;
     const bool inverse = known.row->levels == GRAIN_INVERSE;
-    const bool coarser = file->step > file->unit && file->bits >= FIT_BITS && known.row->levels != GRAIN_FINE;
     sensor_file as = *file;
-    as.step = coarser ? file->unit : file->step;
+    if (known.row->levels != GRAIN_FINE && known.step < 4 * file->step)
+        as.step = file->unit; /* the levels themselves are the multiples */
     *s = of_fit(known.row, &(fit){.step = known.step, .offset = known.offset, .bits = NAN});
     s->given = true;
     s->file_step = as.step;

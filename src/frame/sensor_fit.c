@@ -16,6 +16,8 @@ enum {
     TEETH_MAX = 1 << 16, /* frequencies, */
     BLOCK = 256,         /* ... so many at a time */
     PEAKS = 12,
+    TELLING = 6, /* of a step, the share that a value may be off by to count, or to be fitted */
+    FITTING = 5,
     ENDS = 64,      /* values at either end that bound the step */
     TOLD = 4096,    /* values that the chance is of, at most: any choice of them proves it */
     EXPONENTS = 48, /* of Chernoff's base */
@@ -41,27 +43,32 @@ double fit_chance(const double *probabilities, size_t count, size_t on) {
     return most;
 }
 
-static double residual(const fit *f, double at) {
+/* From the nearest level. */
+static double residual_of(const fit *f, double at) {
     const double k = (at - f->offset) / f->step;
-    return fabs(k - rint(k)) * f->step;
+    return (k - rint(k)) * f->step;
+}
+
+static double residual(const fit *f, double at) {
+    return fabs(residual_of(f, at));
 }
 
 bool fit_holds(const fit *f, const fit_value *value) {
     return residual(f, value->at) <= value->off * (1 + 0x1p-20);
 }
 
-/* Values that can tell at all. */
-static bool can_tell(const fit *f, const fit_value *value) {
-    return value->off < f->step / 3;
+/* Values that can tell: a comb of random phase meets them with a chance of half or less; somewhat more for a fit. */
+static bool can_tell(const fit *f, const fit_value *value, double telling) {
+    return value->off < f->step / telling;
 }
 
-static void weigh(const fit_value *values, size_t count, fit *f) {
+static void weigh(const fit_value *values, size_t count, double telling, fit *f) {
     double chances[TOLD], halves[TOLD], least = (double)INFINITY, last = (double)NAN, pixels = 0, all = 0;
     const size_t stride = 1 + (count - 1) / TOLD;
     size_t told = 0, on = 0;
     f->levels = 0;
     for (size_t i = 0; i < count; i++) {
-        const bool held = fit_holds(f, &values[i]), tells = can_tell(f, &values[i]);
+        const bool held = fit_holds(f, &values[i]), tells = can_tell(f, &values[i], telling);
         const double k = rint((values[i].at - f->offset) / f->step);
         pixels += held ? values[i].pixels : 0;
         all += values[i].pixels;
@@ -85,7 +92,7 @@ static void weigh(const fit_value *values, size_t count, fit *f) {
 }
 
 bool fit_explains(const fit *f) {
-    return f->bits >= FIT_BITS && f->whole >= FIT_BITS && f->levels >= FIT_LEVELS;
+    return f->bits >= FIT_BITS && f->whole >= FIT_WHOLE && f->levels >= FIT_LEVELS;
 }
 
 /* A half or a third of a step holds values, too, and averages of neighbours besides: the coarsest that explains them is
@@ -95,7 +102,7 @@ static bool is_better(const fit *f, const fit *than) {
     if (explains != fit_explains(than))
         return explains;
     return explains && fmax(f->step, than->step) > 1.5 * fmin(f->step, than->step) ? f->step > than->step
-                                                                                     : f->bits > than->bits;
+                                                                                   : f->bits > than->bits;
 }
 
 /* ---- From a step that is nearly right to all values -------------------------------------------------------------- */
@@ -107,7 +114,7 @@ static bool regress(const fit_value *values, size_t a, size_t b, double slack, f
     double sum = 0, sk = 0, su = 0, skk = 0, sku = 0, pixels = 0, all = 0;
     for (size_t i = a; i < b; i++) {
         const fit_value *v = &values[i];
-        if (!can_tell(f, v))
+        if (!can_tell(f, v, FITTING))
             continue;
         all += v->pixels;
         if (residual(f, v->at) > fmin(v->off + slack * f->step, 0.375 * f->step))
@@ -239,13 +246,33 @@ static bool try_origin(const fit_value *values, size_t count, comb *c, double or
         fit f = {.step = 1 / (c->lo + c->spacing * (double)i), .offset = origin};
         if (!extend(values, count, c->first, c->end, &f))
             continue;
-        weigh(values, count, &f);
+        weigh(values, count, TELLING, &f);
         if (is_better(&f, best)) {
             *best = f;
             found = true;
         }
     }
     return found;
+}
+
+/* Over a gap a level may have been skipped, or been counted twice. @return whether another number of levels fits nearly
+ * as well, so that the values do not tell */
+static bool may_have_slipped(const fit_value *values, size_t count, const fit *best) {
+    enum { MOST = 16, QUARTERS = 4, ANCHORS = 8 };
+    const double range = values[count - 1].at - values[0].at, levels = range / best->step;
+    for (int quarters = -MOST; quarters <= MOST; quarters++)
+        for (size_t i = 0; i < ANCHORS && levels > MOST; i++) {
+            fit f = {.step = range / (levels + (double)quarters / QUARTERS),
+                     .offset = values[(count - 1) * i / (ANCHORS - 1)].at};
+            f.offset -= residual_of(best, f.offset);
+            if (quarters == 0 || !regress(values, 0, count, 0.125, &f) || !regress(values, 0, count, 0.03125, &f) ||
+                !regress(values, 0, count, 0, &f) || fabs(range / f.step - levels) < 0.5)
+                continue;
+            weigh(values, count, FITTING, &f);
+            if (f.bits > best->bits - FIT_BITS)
+                return true;
+        }
+    return false;
 }
 
 /* ---- What it leaves open ------------------------------------------------------------------------------------------*/
@@ -259,10 +286,10 @@ static void bound(const fit_value *values, size_t count, fit *f) {
     size_t filled[2] = {0, 0};
     f->offset -= f->step * rint(f->offset / f->step);
     for (size_t i = 0; i < count && filled[0] < ENDS; i++)
-        if (can_tell(f, &values[i]) && fit_holds(f, &values[i]))
+        if (can_tell(f, &values[i], FITTING) && fit_holds(f, &values[i]))
             ends[0][filled[0]++] = &values[i];
     for (size_t i = count; i-- > 0 && filled[1] < ENDS;)
-        if (can_tell(f, &values[i]) && fit_holds(f, &values[i]))
+        if (can_tell(f, &values[i], FITTING) && fit_holds(f, &values[i]))
             ends[1][filled[1]++] = &values[i];
     double lo = 0, hi = (double)INFINITY;
     for (size_t i = 0; i < filled[0]; i++)
@@ -294,7 +321,7 @@ static bool is_mixed(const fit_value *values, size_t count, const fit *f) {
         double of[MOST] = {0}, all = 0, last = (double)NAN, squares = 0;
         for (size_t i = 0; i < count; i++) {
             const double k = rint((values[i].at - f->offset) / f->step);
-            if (!can_tell(f, &values[i]) || !fit_holds(f, &values[i]) || k == last)
+            if (!can_tell(f, &values[i], FITTING) || !fit_holds(f, &values[i]) || k == last)
                 continue;
             of[(int)(k - q * floor(k / q))]++;
             all++;
@@ -321,7 +348,7 @@ bool fit_find(const fit_value *values, size_t count, fit *out) {
             found = try_origin(values, count, &c, c.at[k], out) || found;
     }
     free(c.scores);
-    if (!found || is_mixed(values, count, out))
+    if (!found || may_have_slipped(values, count, out) || is_mixed(values, count, out))
         return false;
     bound(values, count, out);
     return true;

@@ -11,8 +11,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/** What makes a lattice found: fewer than 2^-FIT_BITS random sets of values fit as well, and so many levels. */
-enum { FIT_BITS = 20, FIT_LEVELS = 24 };
+/** What makes a lattice found: fewer than 2^-FIT_BITS random sets of values fit as well, fewer than 2^-FIT_WHOLE were
+ * its step half as large, and so many levels. */
+enum { FIT_BITS = 32, FIT_WHOLE = 20, FIT_LEVELS = 24 };
 
 /** A value whose true one lies within `off` of it, and how many pixels have it. */
 typedef struct fit_value {
@@ -22,9 +23,9 @@ typedef struct fit_value {
 typedef struct fit {
     double step, offset;         /**< of k = 0; within half a step of 0 */
     double step_off, offset_off; /**< every lattice that explains the same values is within so much */
-    size_t levels;               /**< different k of values that can tell: those that are off by less than a third */
+    size_t levels;               /**< different k of values that can tell: off by less than a sixth */
     double pixels;               /**< of the values on it */
-    double whole;                /**< -log2 of the chance that so many of them lie on it, were its step twice the true */
+    double whole;                /**< -log2 of the chance that so many of them are on it, if half its step is true */
     double bits;                 /**< -log2 of the chance that some lattice as coarse or coarser fits values at random
                                       as well */
 } fit;

@@ -44,9 +44,9 @@ typedef struct grain {
     bool buffer;   /**< behind the image lies a buffer of the set-up's format; else the depth itself, or */
     double margin; /**< ... a finer buffer, whose cells reach so far beyond its numbers, window depth */
     int bits; /**< GRAIN_FLOATS: significant bits, 11, 24 or 53; GRAIN_STEPS: 0, or those that steps were rounded to */
-    double least; /**< the least subnormal */
-    grain_levels levels; /**< of a linear mapping from the eye on alone: what was rounded before, by the same rounding */
-    double level; /**< its step, of window depth or of the inverse of that; GRAIN_HALF: 1 as window depth */
+    double least;        /**< the least subnormal */
+    grain_levels levels; /**< of a linear mapping from the eye on alone: what was rounded before, in the same way */
+    double level;        /**< its step, of window depth or of the inverse of that; GRAIN_HALF: 1 as window depth */
 } grain;
 
 /** How far apart levels near v are, in what they are even in; GRAIN_HALF: in window depth. */

@@ -255,10 +255,10 @@ typedef struct options {
     const synthetic_row *synthetic;   /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
-    double sky;    /**< window depth */
-    double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    double sky;          /**< window depth */
+    double metric;       /**< scene units of 1 in a sample of metric depth; 0 when not given */
     const char *lattice; /**< what it was rounded to before; null when not given */
-    depths pixels; /**< column and row of each in turn; count is 0 when not given */
+    depths pixels;       /**< column and row of each in turn; count is 0 when not given */
     const product_row *product;
     const position_row *position;   /**< of --product position; null for exact as well */
     const normal_row *normal;       /**< of --product normal */

@@ -77,7 +77,7 @@ int texture_lattice(const options *o, sensor *out) {
         if (!read_numbers(o->lattice[length] == ':' ? o->lattice + length + 1 : NULL, way, numbers))
             break;
         way->make(numbers, out);
-        const bool good = way->make == make_levels ? out->levels >= 2 && out->levels <= 0x1p32
+        const bool good = way->make == make_levels  ? out->levels >= 2 && out->levels <= 0x1p32
                           : way->make == make_alone ? true
                                                     : out->step >= 1e-12 && out->step <= 1e12;
         if (!good)
@@ -89,11 +89,14 @@ int texture_lattice(const options *o, sensor *out) {
     }
     char known[256] = "";
     for (size_t i = 0; i < WAYS; i++)
-        append(known, sizeof known, "%s%s%s", i == 0 ? "" : i + 1 < WAYS ? ", " : " or ", ways[i].name,
-               ways[i].numbers);
-    return o->lattice == NULL ? EXIT_FINE
-                              : option_error(OPTION_LATTICE, "must be %s, of numbers above 0, got '%s'", known,
-                                             o->lattice);
+        append(known, sizeof known, "%s%s%s",
+               i == 0         ? ""
+               : i + 1 < WAYS ? ", "
+                              : " or ",
+               ways[i].name, ways[i].numbers);
+    return o->lattice == NULL
+               ? EXIT_FINE
+               : option_error(OPTION_LATTICE, "must be %s, of numbers above 0, got '%s'", known, o->lattice);
 }
 
 void texture_lattice_warn(const options *o, const texture_source *s) {

@@ -106,8 +106,8 @@ static void say_levels(statistics *r, page *p) {
     if (s->step_off > 0)
         snprintf(off, sizeof off, ", off by at most %s", number_up(s->step_off, 2).text);
     if (s->row->levels == GRAIN_INVERSE)
-        page_note(p, "", "1/z in steps of %s%s; baseline times focal length over a step %s",
-                  number_of(s->step, 6).text, off, number_of(1 / s->step, 6).text);
+        page_note(p, "", "1/z in steps of %s%s; baseline times focal length over a step %s", number_of(s->step, 6).text,
+                  off, number_of(1 / s->step, 6).text);
     else if (s->row->levels == GRAIN_EVEN)
         page_note(p, "", "z in steps of %s%s", in_scene(p, s->step).text, off);
     for (size_t i = 0; statistics_next_gap(r, i) != NULL; i++)
@@ -130,7 +130,8 @@ static void say_metric(statistics *r, page *p) {
     else
         page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
     page_note(p, "lattice", "%s %s%s%s%s%s", s->row->name, origin_of(s), s->given ? "" : ": ",
-              s->given ? "" : s->row->note, s->other != NULL ? "; as well explained by " : "", s->other != NULL ? s->other->name : "");
+              s->given ? "" : s->row->note, s->other != NULL ? "; as well explained by " : "",
+              s->other != NULL ? s->other->name : "");
     if (s->row->levels != GRAIN_FINE)
         say_levels(r, p);
 }
