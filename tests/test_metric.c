@@ -289,6 +289,30 @@ static void what_is_no_lattice_is_refused(void **state) {
     }
 }
 
+/* 65535 is what some sensors write where they saw nothing: a hole, if nothing else is far. */
+static void the_largest_word_may_be_a_hole(void **state) {
+    (void)state;
+    rng r = rng_make("top");
+    for (int far = 0; far < 2; far++) {
+        static double data[PIXELS];
+        size_t holes = 0;
+        command c = {.count = 0};
+        for (int i = 0; i < PIXELS; i++) {
+            const double top = far ? 65534 : 30000;
+            const double x = i == 0 ? top : i == 1 || rng_below(&r, 9) == 0 ? 65535 : floor(rng_log(&r, 500, top));
+            truth_store(data, IMAGE_U16, (size_t)i, x);
+            holes += x == 65535;
+        }
+        truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 0.001);
+        json_t *root = statistics(&c);
+        assert_true(number_in(root, "invalid") == (far ? 0 : (double)holes));
+        assert_relative(number_in(root, "hi"), far ? 65.535 : 30, 1e-9);
+        json_decref(root);
+    }
+}
+
 /* Where the image shows another, or is on no level of it, that is named. */
 static void contradictions_are_named(void **state) {
     (void)state;
@@ -381,6 +405,7 @@ int main(void) {
         cmocka_unit_test(a_lattice_is_said),
         cmocka_unit_test(what_is_no_lattice_is_refused),
         cmocka_unit_test(contradictions_are_named),
+        cmocka_unit_test(the_largest_word_may_be_a_hole),
         cmocka_unit_test(it_is_suspected),
         cmocka_unit_test(holes_are_counted),
     };

@@ -23,6 +23,24 @@ typedef struct look {
     distinct_set seen;
 } look;
 
+/* Some sensors write 65535 where they saw nothing; it is that where nothing else is far. Such samples become 0. */
+static bool clear_top(image *img) {
+    enum { TOP = 65535, FAR = 30000 };
+    uint16_t *samples = img->data;
+    const size_t count = (size_t)img->width * img->height * img->channels;
+    uint16_t most = 0;
+    bool any = false;
+    for (size_t i = 0; i < count && img->type == IMAGE_U16; i += img->channels) {
+        any = any || samples[i] == TOP;
+        most = samples[i] < TOP && samples[i] > most ? samples[i] : most;
+    }
+    if (!any || most == 0 || most > FAR)
+        return false;
+    for (size_t i = 0; i < count; i += img->channels)
+        samples[i] = samples[i] == TOP ? 0 : samples[i];
+    return true;
+}
+
 static void look_at(const image *img, look *l) {
     const size_t count = (size_t)img->width * img->height;
     *l = (look){.least = (double)INFINITY};
@@ -158,6 +176,7 @@ static bool replace(image *img, const metric *m, double scale) {
 
 const char *metric_convert(image *img, double scale, const sensor *given, metric *out) {
     look l;
+    *out = (metric){.top_is_hole = clear_top(img)};
     look_at(img, &l);
     const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"
                         : img->type < IMAGE_F16 ? of_integers(img, scale, &l, given, out)

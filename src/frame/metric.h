@@ -26,6 +26,7 @@ typedef struct metric {
     sensor sensor;      /**< what it was rounded to before: as given, else as seen */
     sensor seen;        /**< as the samples show it */
     double depths;      /**< pixels that hold one */
+    bool top_is_hole;   /**< of 16 bits: 65535 is no depth, because no other is above 30000 */
     grain grain;        /**< how far the depth can be beside its sample, with both roundings */
 } metric;
 
@@ -33,7 +34,7 @@ typedef struct metric {
  * Converts the image, which becomes one channel of u4 or f4; holes become UINT32_MAX or NaN.
  * @param scale  from METRIC_SCALE_MIN to METRIC_SCALE_MAX
  * @param given  what sensor_given() takes, or null
- * @return null, or why not: one sentence; the image is then as it was
+ * @return null, or why not: one sentence; the image is then as it was, but for such holes
  */
 const char *metric_convert(image *img, double scale, const sensor *given, metric *out);
 

@@ -187,8 +187,9 @@ void statistics_say_head(page *p, void *item) {
     if (!statistics_of_image(r) && r->named.hidden > 0)
         page_note(p, "hidden", "%llu pixels of the synthetic image count as sky", (unsigned long long)r->named.hidden);
     if (v->invalid > 0)
-        page_note(p, "holes", "%llu pixels, %s %%, hold no depth", (unsigned long long)v->invalid,
-                  share(v->invalid, v->pixels).text);
+        page_note(p, "holes", "%llu pixels, %s %%, hold no depth%s", (unsigned long long)v->invalid,
+                  share(v->invalid, v->pixels).text,
+                  r->source.metric.top_is_hole ? "; 65535 counts as none, others end at 30000" : "");
     if (isnan(v->lo))
         page_note(p, "depths", "none");
     else
