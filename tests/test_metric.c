@@ -272,6 +272,64 @@ static void a_lattice_is_said(void **state) {
     }
 }
 
+/* Multiples of a centimetre in millimetres: a centimetre for what was rounded to it, a millimetre for the file. */
+static void multiples_are_levels(void **state) {
+    (void)state;
+    rng r = rng_make("multiples");
+    static double data[PIXELS];
+    float map[PIXELS];
+    command c = {.count = 0};
+    for (int i = 0; i < PIXELS; i++)
+        truth_store(data, IMAGE_U16, (size_t)i, 10 * floor(rng_uniform(&r, 100, 400)));
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+    truth_add(&c, truth_path("in.npy"));
+    truth_add_number(&c, 0, "--metric", 0.001);
+    json_t *root = statistics(&c);
+    const json_t *lattice = json_object_get(root, "lattice");
+    assert_string_equal(json_string_value(json_object_get(lattice, "name")), "even");
+    assert_string_equal(json_string_value(json_object_get(lattice, "from")), "found");
+    assert_scene(number_in(lattice, "step"), 0.01, number_in(lattice, "step_error"));
+    json_decref(root);
+    truth_product(&c, "map.npy", "eye", NULL, true);
+    truth_floats("map.npy", 1, map);
+    for (int i = 0; i < PIXELS; i++)
+        assert_scene((double)map[i], 0.011, 3e-5);
+}
+
+/* The levels of each band, counted, and how far the nearest in use is from the next. */
+static void bands_count_levels(void **state) {
+    (void)state;
+    static const char *const said[] = {"inverse:200,0.3", "even:0.025,0.01", "binary16"};
+    rng r = rng_make("bands");
+    static double data[PIXELS];
+    for (int i = 0; i < PIXELS; i++)
+        truth_store(data, IMAGE_U16, (size_t)i, rint(rng_log(&r, 500, 9000)));
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+    for (size_t kind = 0; kind < 3; kind++) {
+        command c = {.count = 0};
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 0.001);
+        truth_add(&c, "--lattice");
+        truth_add(&c, said[kind]);
+        json_t *root = statistics(&c);
+        for (size_t i = 0; i < json_array_size(json_object_get(root, "bands")); i++) {
+            const json_t *band = json_array_get(json_object_get(root, "bands"), i);
+            const double lo = number_in(band, "lo"), hi = number_in(band, "hi"), at = number_in(band, "gap_z");
+            double count = 0;
+            for (int k = 0; k < 40000; k++) {
+                const double z = kind == 0   ? 200 / (k - 0.3)
+                                 : kind == 1 ? 0.01 + 0.025 * k
+                                             : ldexp(1024 + k % 1024, k / 1024 - 24);
+                count += z >= lo && z < hi;
+            }
+            const double gap = kind == 0 ? 1 / (1 / at - 0.005) - at : kind == 1 ? 0.025 : ldexp(1, ilogb(at) - 10);
+            assert_true(number_in(band, "available") == count);
+            assert_relative(number_in(band, "interval"), gap, 1e-9);
+        }
+        json_decref(root);
+    }
+}
+
 static void what_is_no_lattice_is_refused(void **state) {
     (void)state;
     static const char *const bad[] = {"",         "stereo",  "stereo:500", "stereo:500,0.1,1,2",
@@ -403,6 +461,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(metric_depth_is_within_what_is_said),
         cmocka_unit_test(a_lattice_is_said),
+        cmocka_unit_test(multiples_are_levels),
+        cmocka_unit_test(bands_count_levels),
         cmocka_unit_test(what_is_no_lattice_is_refused),
         cmocka_unit_test(contradictions_are_named),
         cmocka_unit_test(the_largest_word_may_be_a_hole),

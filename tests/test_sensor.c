@@ -324,10 +324,60 @@ static void nothing_is_found_where_nothing_is(void **state) {
     tally_end(&t);
 }
 
+/* ---- Where values do not tell all -------------------------------------------------------------------------------- */
+
+/* Two narrow ranges far apart, whose levels can be counted within each, but not from one to the other. */
+static void levels_are_not_counted_over_gaps(void **state) {
+    (void)state;
+    const uint64_t rounds = test_cases(4, 60, 2000);
+    static double z[N];
+    tally t = {.name = "gaps"};
+    rng r = rng_make("gaps");
+    int found = 0;
+    for (uint64_t i = 0; i < rounds; i++) {
+        const made m = {.type = IMAGE_U16, .unit = 0.001, .file_cut = rng_below(&r, 2) == 0};
+        const double step = 0.001 * rng_uniform(&r, 4.6, 9), from = rng_uniform(&r, 0.5, 1);
+        const double levels = rng_uniform(&r, 20, 80), gap = rng_uniform(&r, 100, 1000);
+        for (int k = 0; k < N; k++)
+            z[k] = step * rint((from + step * (rng_below(&r, 2) == 0 ? gap : 0) + step * levels * rng_unit(&r)) / step);
+        const sensor s = found_in(&m, z);
+        found += s.found;
+        TALLY(&t, !s.found || fabs(s.step - step) <= s.step_off + 1e-15,
+              "%g levels of %.9g, a gap of %g: found %s of %.9g within %.3g", levels, step, gap, s.row->name, s.step,
+              s.step_off);
+    }
+    print_message("# over gaps: %d of %d found\n", found, (int)rounds);
+    tally_end(&t);
+}
+
+/* Of a narrow range 1/z is nearly as even as z: both are named, unless the samples tell. */
+static void two_kinds_that_fit_are_both_named(void **state) {
+    (void)state;
+    const uint64_t rounds = test_cases(4, 40, 1000);
+    static double z[N];
+    tally t = {.name = "narrow"};
+    rng r = rng_make("narrow");
+    uint64_t both = 0;
+    for (uint64_t i = 0; i < rounds; i++) {
+        const made m = {.type = IMAGE_U16, .unit = 0.0001};
+        const double at = rng_uniform(&r, 5, 6), step = 0.0001 * rng_uniform(&r, 10, 12) / at / at;
+        for (int k = 0; k < N; k++)
+            z[k] = 1 / (step * rint((1 / at + 30 * step * rng_unit(&r)) / step));
+        const sensor s = found_in(&m, z);
+        both += s.other != NULL && s.other != s.row;
+        TALLY(&t, s.found ? strcmp(s.row->name, "inverse") == 0 : s.other != NULL,
+              "1/z of %g in steps of %.9g: found %d, %s", at, step, s.found, s.row->name);
+    }
+    tally_end(&t);
+    assert_true(2 * both > rounds);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lattices_are_found_or_assumed),
         cmocka_unit_test(nothing_is_found_where_nothing_is),
+        cmocka_unit_test(levels_are_not_counted_over_gaps),
+        cmocka_unit_test(two_kinds_that_fit_are_both_named),
     };
     return run_tap(tests);
 }
