@@ -347,6 +347,63 @@ static void what_is_no_lattice_is_refused(void **state) {
     }
 }
 
+/* --as rounds to levels: those of the formula, with an error map that holds, and they are found again. */
+static void levels_are_written_and_found(void **state) {
+    (void)state;
+    static const struct {
+        const char *words, *name;
+        double step, offset; /* 0: of 200 levels between the ends */
+    } cases[] = {{"stereo:400,0.1,0.5", "inverse", 0.0125, 0},
+                 {"inverse:200,0.4", "inverse", 0.005, -0.002},
+                 {"even:0.03,0.01", "even", 0.03, 0.01},
+                 {"inverse-levels:200", "inverse", 0, 0},
+                 {"levels:200", "even", 0, 0},
+                 {"binary16", "binary16", 0, 0}};
+    rng r = rng_make("as");
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        static double data[PIXELS];
+        double z[PIXELS], least = INFINITY, most = 0;
+        float out[PIXELS], map[PIXELS];
+        for (int i = 0; i < PIXELS; i++) {
+            z[i] = (double)(float)rng_log(&r, 0.5, 9);
+            least = fmin(least, z[i]);
+            most = fmax(most, z[i]);
+            truth_store(data, IMAGE_F32, (size_t)i, z[i]);
+        }
+        const bool inverse = *cases[k].name == 'i', half = *cases[k].name == 'b';
+        const double range = inverse ? 1 / least - 1 / most : most - least;
+        const double step = cases[k].step > 0 ? cases[k].step : range / 199;
+        const double offset = cases[k].step > 0 ? cases[k].offset : inverse ? 1 / most : least;
+        truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, data);
+        command c = {.count = 0};
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 1);
+        truth_add(&c, "--as");
+        truth_add(&c, cases[k].words);
+        truth_product(&c, "eye.npy", "eye", NULL, false);
+        truth_product(&c, "map.npy", "eye", NULL, true);
+        truth_floats("eye.npy", 1, out);
+        truth_floats("map.npy", 1, map);
+        for (int i = 0; i < PIXELS; i++) {
+            const double at = inverse ? 1 / z[i] : z[i], level = offset + step * floor((at - offset) / step + 0.5);
+            const double expected = half ? half_of(z[i], 0) : inverse ? 1 / level : level;
+            assert_relative((double)out[i], expected, 1e-6);
+            assert_true((double)map[i] >= fabs((double)out[i] - z[i]));
+            assert_true((double)map[i] <= fabs((double)out[i] - z[i]) + 1e-6 * z[i]);
+        }
+        command back = {.count = 0};
+        truth_add(&back, truth_path("eye.npy"));
+        truth_add_number(&back, 0, "--metric", 1);
+        json_t *root = statistics(&back);
+        const json_t *lattice = json_object_get(root, "lattice");
+        assert_string_equal(json_string_value(json_object_get(lattice, "name")), cases[k].name);
+        assert_string_equal(json_string_value(json_object_get(lattice, "from")), "found");
+        if (!half)
+            assert_scene(number_in(lattice, "step"), step, number_in(lattice, "step_error"));
+        json_decref(root);
+    }
+}
+
 /* 65535 is what some sensors write where they saw nothing: a hole, if nothing else is far. */
 static void the_largest_word_may_be_a_hole(void **state) {
     (void)state;
@@ -465,6 +522,7 @@ int main(void) {
         cmocka_unit_test(bands_count_levels),
         cmocka_unit_test(what_is_no_lattice_is_refused),
         cmocka_unit_test(contradictions_are_named),
+        cmocka_unit_test(levels_are_written_and_found),
         cmocka_unit_test(the_largest_word_may_be_a_hole),
         cmocka_unit_test(it_is_suspected),
         cmocka_unit_test(holes_are_counted),

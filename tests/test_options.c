@@ -453,6 +453,7 @@ static void test_texts(void **state) {
     } texts[] = {{"texture", OPTION_TITLE, AT(title), false},
                  {"texture", OPTION_CHANNEL, AT(channel), false},
                  {"texture", OPTION_LATTICE, AT(lattice), false},
+                 {"texture", OPTION_AS, AT(as), false},
                  {"table", OPTION_OUTPUT, AT(output), true},
                  {"texture", OPTION_MATRIX, AT(matrix), true},
                  {"texture", OPTION_FIGURE, AT(figure), true},

@@ -102,8 +102,9 @@ typedef struct frame_product {
      * Ranges are those of grain_range_of(). Errors are rounded up to binary32.
      */
     bool error;
-    bool lost;   /**< FRAME_EFFECT: what binary32 has added to the output that is exact for what is stored, instead */
-    bool radial; /**< FRAME_EYE: distance from the camera in place of eye depth */
+    bool lost; /**< FRAME_EFFECT: what binary32 has added to the output that is exact for what is stored, instead */
+    const sensor *as;              /**< FRAME_EYE: rounded to its levels, and NaN beyond them; null: not */
+    bool radial;                   /**< FRAME_EYE: distance from the camera in place of eye depth */
     const position_row *position;  /**< FRAME_POSITION; null: exact, rounded to binary32 */
     const normal_row *normal;      /**< FRAME_NORMAL */
     const effect_row *effect;      /**< FRAME_EFFECT */

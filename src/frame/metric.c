@@ -134,7 +134,7 @@ static const char *of_numbers(const image *img, double scale, look *l, const sen
     dp_format_parse("fp32", formats);
     const double step = find_step(img, l, exponent);
     const bool single = (double)l->single >= SENSOR_SHARE * (double)l->depths;
-    const sensor_file file = {.step = step * scale, .unit = step * scale, .digits = single ? own : 53, .scale = scale};
+    const sensor_file file = {.step = step * scale, .digits = single ? own : 53, .scale = scale};
     look_through(img, &file, given, l, out);
     const double end = sensor_end(&out->sensor, (l->most * (1 + 0x1p-10) + step) * scale);
     while (out->sensor.row->levels != GRAIN_FINE && ldexp(scale, exponent) < fmin(end, 5e17))
@@ -144,8 +144,9 @@ static const char *of_numbers(const image *img, double scale, look *l, const sen
     out->znear = fmax(0.5 * l->least * scale, 1e-12);
     out->zfar = ldexp(scale, exponent);
     out->step = step * scale;
-    out->grain = (grain){.kind = step > 0 ? GRAIN_STEPS : GRAIN_FLOATS,
-                         .steps = step > 0 ? ldexp(1, exponent) / step : 0,
+    const double rounded = out->sensor.file_step / scale;
+    out->grain = (grain){.kind = rounded > 0 ? GRAIN_STEPS : GRAIN_FLOATS,
+                         .steps = rounded > 0 ? ldexp(1, exponent) / rounded : 0,
                          .rounding = img->type == IMAGE_F64 && alone ? GRAIN_NEAREST : GRAIN_ANY,
                          .bits = own,
                          .least = img->type == IMAGE_F16 ? ldexp(1, -24 - exponent) : 0x1p-149};

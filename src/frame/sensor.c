@@ -214,6 +214,12 @@ static bool holds(const sensor *s, const sensor_file *file, double x) {
     return fit_holds(&f, &v);
 }
 
+double sensor_round(const sensor *s, double z) {
+    const double gap = s->row->levels == GRAIN_HALF ? half_gap(z) : 0;
+    const double level = gap > 0 ? rint(z / gap) * gap : depth_of(s, rint(level_of(s, z)));
+    return s->row->levels == GRAIN_FINE ? z : level > 0 && isfinite(level) ? level : (double)NAN;
+}
+
 double sensor_gap(const sensor *s, double z) {
     switch (s->row->levels) {
     case GRAIN_INVERSE:
@@ -329,8 +335,7 @@ static bool count_all(const image *img, const sensor_file *file, sensor *s) {
         on++;
         least = fmin(least, z);
         most = fmax(most, z);
-        const double gap = s->row->levels == GRAIN_HALF ? half_gap(z) : 0;
-        const double level = gap > 0 ? rint(z / gap) * gap : depth_of(s, rint(level_of(s, z)));
+        const double level = sensor_round(s, z);
         below = fmin(below, z - level);
         above = fmax(above, z - level);
     }
@@ -359,7 +364,7 @@ static double common_step(const depths *d, double *bits) {
 /* Of the samples' own step, which all of them may be multiples of by more than chance. */
 static sensor of_file(const image *img, const sensor_file *file, const depths *d) {
     double bits = 0;
-    const double divisor = file->unit > 0 && file->digits == 0 && d->count > 0 ? common_step(d, &bits) : 0;
+    const double divisor = file->digits == 0 && d->count > 0 ? common_step(d, &bits) : 0;
     const bool coarser = bits >= FIT_BITS && d->count >= FIT_LEVELS;
     const fit own = {.step = coarser ? divisor * file->unit : file->step > 0 ? file->step : (double)NAN, .bits = bits};
     sensor s = of_fit(&rows[coarser ? ROWS - 3 : ROWS - 1], &own);
@@ -419,6 +424,8 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
     if (good && c.row == NULL && file->unit < file->step) {
         tried.step = file->unit;
         choose(&d, &tried, &c);
+        if (file->unit == 0 && !(c.fit.step > 1.5 * file->step))
+            c.row = NULL; /* the step itself: millimetres in metres */
     }
     *out = of_file(img, file, &d);
     out->found = out->found && !c.unclear;
@@ -449,9 +456,17 @@ static double best_offset(const image *img, const sensor_file *file, sensor *s) 
     return best;
 }
 
+void sensor_between(double lo, double hi, sensor *s) {
+    const bool inverse = s->row->levels == GRAIN_INVERSE;
+    if (isnan(s->levels))
+        return;
+    s->offset = inverse ? 1 / hi : lo;
+    s->step = (inverse ? 1 / lo - 1 / hi : hi - lo) / (s->levels - 1);
+}
+
 void sensor_complete(const image *img, const sensor_file *file, double lo, double hi, sensor *s) {
+    sensor_between(lo, hi, s);
     const sensor known = *s;
-    const bool inverse = known.row->levels == GRAIN_INVERSE;
     sensor_file as = *file;
     if (known.row->levels != GRAIN_FINE && known.step < 4 * file->step)
         as.step = file->unit; /* the levels themselves are the multiples */
@@ -459,10 +474,6 @@ void sensor_complete(const image *img, const sensor_file *file, double lo, doubl
     s->given = true;
     s->file_step = as.step;
     s->offset_off = s->step_off = known.row->levels == GRAIN_HALF ? (double)NAN : 0;
-    if (!isnan(known.levels)) {
-        s->offset = inverse ? 1 / hi : lo;
-        s->step = (inverse ? 1 / lo - 1 / hi : hi - lo) / (known.levels - 1);
-    }
     if (known.row->levels == GRAIN_FINE) {
         s->step = file->step > 0 ? file->step : (double)NAN;
         s->offset = 0;

@@ -27,7 +27,7 @@ const sensor_row *sensor_get(size_t index); /**< null beyond the last */
 /** How the file itself rounded. */
 typedef struct sensor_file {
     double step;  /**< samples are multiples of it, in scene units; 0: numbers */
-    double unit;  /**< of an integer; at most the step */
+    double unit;  /**< of an integer, at most the step; 0: numbers */
     int digits;   /**< numbers: significant bits, 11, 24 or 53; 0: integers */
     double scale; /**< scene units of 1 in a sample */
 } sensor_file;
@@ -58,12 +58,18 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out);
  */
 void sensor_complete(const image *img, const sensor_file *file, double lo, double hi, sensor *s);
 
+/** Where it is known how many levels there are from lo to hi: their step and offset. */
+void sensor_between(double lo, double hi, sensor *s);
+
 /** From a level at z to the next farther one, scene units, INFINITY where there is none; NaN where the row is "file"
  * and its samples are numbers. */
 double sensor_gap(const sensor *s, double z);
 
 /** How many levels there are from lo on and below hi; NaN as above */
 double sensor_levels(const sensor *s, double lo, double hi);
+
+/** The nearest level; NaN beyond the farthest one. */
+double sensor_round(const sensor *s, double z);
 
 /** Beyond which nothing lies that was rounded to a depth up to z; z where that has no end. */
 double sensor_end(const sensor *s, double z);

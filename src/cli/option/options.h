@@ -115,6 +115,7 @@ typedef enum option_id {
     OPTION_CHANNEL,
     OPTION_PIXEL,
     OPTION_PRODUCT,
+    OPTION_AS,
     OPTION_NORMALS_BY,
     OPTION_NORMAL_FORMAT,
     OPTION_PACK,
@@ -257,6 +258,7 @@ typedef struct options {
     size_t parameter_count;
     double sky;          /**< window depth */
     double metric;       /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    const char *as;      /**< what eye depth is rounded to; null when not given */
     const char *lattice; /**< what it was rounded to before; null when not given */
     depths pixels;       /**< column and row of each in turn; count is 0 when not given */
     const product_row *product;

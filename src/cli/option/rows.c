@@ -424,6 +424,10 @@ const option_row option_rows[OPTION_COUNT] = {
         "what is made of the depths: @; position:METHOD and normal:METHOD say how, effect:NAME which; see 'depthprec "
         "list products'. An effect without an image: the usable values of its parameter",
         .parse = parse_product, FIELD(const product_row *, product), .names = &products},
+    [OPTION_AS] = {"as", 0, "NAME[:NUMBERS]", CMD_TEXTURE,
+        "eye depths as another sensor or format would have stored them: the nearest levels of what --lattice has names "
+        "for, which begin at 0 where nothing else is said",
+        TEXT(as), .without = "not rounded"},
     [OPTION_NORMALS_BY] = {"normals-by", 0, "METHOD", CMD_TEXTURE,
         "the normals that effect:outline compares, and those of --pack depth-normals: @", ROW(normals_by, normals),
         .without = "those that FILE holds or, for effect:outline, the scene has; else projective"},

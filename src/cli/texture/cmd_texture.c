@@ -13,6 +13,8 @@ static int check_alone(const options *o) {
         return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --product");
+    if (o->as != NULL && !texture_product_wanted(o))
+        return option_error(OPTION_AS, "needs --product eye");
     if (option_given(o, OPTION_AT))
         return option_error(OPTION_AT, "is for the table of an effect without an image");
     if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
@@ -39,11 +41,11 @@ static int check_alone(const options *o) {
 
 /* The table of an effect sees depths, and at most one pixel. */
 static int check_table(const options *o) {
-    static const option_id images[] = {OPTION_SKY,           OPTION_METRIC,     OPTION_LATTICE, OPTION_ERROR_MAP,
-                                       OPTION_FIGURE,        OPTION_THEME,      OPTION_WIDTH,   OPTION_HEIGHT,
-                                       OPTION_TITLE,         OPTION_THREADS,    OPTION_TYPE,    OPTION_PACKING,
-                                       OPTION_NORMAL_FORMAT, OPTION_NORMALS_BY, OPTION_CHANNEL, OPTION_PACK,
-                                       OPTION_OVERLAY,       OPTION_HISTOGRAM,  OPTION_MATRIX};
+    static const option_id images[] = {OPTION_SKY,       OPTION_METRIC,        OPTION_LATTICE,    OPTION_AS,
+                                       OPTION_ERROR_MAP, OPTION_FIGURE,        OPTION_THEME,      OPTION_WIDTH,
+                                       OPTION_HEIGHT,    OPTION_TITLE,         OPTION_THREADS,    OPTION_TYPE,
+                                       OPTION_PACKING,   OPTION_NORMAL_FORMAT, OPTION_NORMALS_BY, OPTION_CHANNEL,
+                                       OPTION_PACK,      OPTION_OVERLAY,       OPTION_HISTOGRAM,  OPTION_MATRIX};
     static const option_id cameras[] = {OPTION_FOV,  OPTION_HFOV, OPTION_HALF_HEIGHT, OPTION_EYE,
                                         OPTION_LOOK, OPTION_SIZE, OPTION_PIXEL};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)

@@ -66,15 +66,15 @@ static bool read_numbers(const char *text, const struct way *way, double out[NUM
     return count >= way->least && count <= way->most;
 }
 
-int texture_lattice(const options *o, sensor *out) {
-    const size_t length = o->lattice != NULL ? strcspn(o->lattice, ":") : 0;
+int texture_lattice(option_id id, const char *text, sensor *out) {
+    const size_t length = text != NULL ? strcspn(text, ":") : 0;
     const double none = (double)NAN;
     *out = (sensor){.step = none, .offset = none, .levels = none};
-    for (const struct way *way = ways; o->lattice != NULL && way < ways + WAYS; way++) {
+    for (const struct way *way = ways; text != NULL && way < ways + WAYS; way++) {
         double numbers[NUMBERS];
-        if (strlen(way->name) != length || strncmp(way->name, o->lattice, length) != 0)
+        if (strlen(way->name) != length || strncmp(way->name, text, length) != 0)
             continue;
-        if (!read_numbers(o->lattice[length] == ':' ? o->lattice + length + 1 : NULL, way, numbers))
+        if (!read_numbers(text[length] == ':' ? text + length + 1 : NULL, way, numbers))
             break;
         way->make(numbers, out);
         const bool good = way->make == make_levels  ? out->levels >= 2 && out->levels <= 0x1p32
@@ -94,9 +94,7 @@ int texture_lattice(const options *o, sensor *out) {
                : i + 1 < WAYS ? ", "
                               : " or ",
                ways[i].name, ways[i].numbers);
-    return o->lattice == NULL
-               ? EXIT_FINE
-               : option_error(OPTION_LATTICE, "must be %s, of numbers above 0, got '%s'", known, o->lattice);
+    return text == NULL ? EXIT_FINE : option_error(id, "must be %s, of numbers above 0, got '%s'", known, text);
 }
 
 void texture_lattice_warn(const options *o, const texture_source *s) {

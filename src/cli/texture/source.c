@@ -226,7 +226,7 @@ static int read_image(options *o, texture_source *s) {
         return EXIT_FINE;
     }
     sensor given;
-    status = texture_lattice(o, &given);
+    status = texture_lattice(OPTION_LATTICE, o->lattice, &given);
     if (status != EXIT_FINE)
         return status;
     const char *wrong = metric_convert(&s->picture, o->metric, given.row != NULL ? &given : NULL, &s->metric);
