@@ -34,7 +34,7 @@ static const metric_kind kinds[] = {
     {"millimetres in metres", IMAGE_F32, 1, 9, 0.001, NULL, 0},
     {"disparity in millimetres", IMAGE_U16, 0.001, 6, 1, "inverse", 0.02},
     {"disparity in metres", IMAGE_F32, 1, 6, 0, "inverse", 0.03},
-    {"the last disparity", IMAGE_F32, 1, 60, 0, "inverse", 0.017},
+    {"the last disparity", IMAGE_F32, 1, 70, 0, "inverse", 0.01666},
     {"time of flight", IMAGE_U16, 0.001, 6, 1, "even", 0.0437},
     {"time of flight in metres", IMAGE_F64, 1, 6, 0, "even", 0.0437},
     {"halves in metres", IMAGE_F32, 1, 100, 0, "binary16", 0},
@@ -87,7 +87,7 @@ static size_t picture(rng *r, const metric_kind *k, double z[PIXELS]) {
     for (int i = 0; i < PIXELS; i++) {
         const bool hole = rng_below(r, 8) == 0;
         do
-            z[i] = hole ? NAN : rng_log(r, k->most / 50, k->most);
+            z[i] = hole ? NAN : rng_log(r, k->most / (k->level > 0 && k->most > 60 ? 150 : 50), k->most);
         while (!hole && isinf(level_of(k, z[i], mode))); /* nearer than none of a disparity */
         count += hole;
         const size_t which = k->type == IMAGE_F32 || k->type == IMAGE_F64 ? rng_below(r, 4) : 0;
