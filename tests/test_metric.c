@@ -34,7 +34,7 @@ static const metric_kind kinds[] = {
     {"millimetres in metres", IMAGE_F32, 1, 9, 0.001, NULL, 0},
     {"disparity in millimetres", IMAGE_U16, 0.001, 6, 1, "inverse", 0.02},
     {"disparity in metres", IMAGE_F32, 1, 6, 0, "inverse", 0.03},
-    {"the last disparity", IMAGE_F32, 1, 70, 0, "inverse", 0.01666},
+    {"the last disparity", IMAGE_F32, 1, 118, 0, "inverse", 0.01666},
     {"time of flight", IMAGE_U16, 0.001, 6, 1, "even", 0.0437},
     {"time of flight in metres", IMAGE_F64, 1, 6, 0, "even", 0.0437},
     {"halves in metres", IMAGE_F32, 1, 100, 0, "binary16", 0},
