@@ -32,7 +32,10 @@ static void *next_error(void *of, size_t i) {
     if (i == r->error_count)
         return NULL;
     e->masked = r->survey.pixels - e->sum.count - e->sum.infinite;
-    if (e->sum.count > 0)
+    e->most = e->sum.infinite > 0 ? (double)INFINITY : e->sum.hi;
+    if (e->sum.infinite > 0)
+        snprintf(e->at, sizeof e->at, "%llu pixels (%s)", (unsigned long long)e->sum.infinite, e->unit);
+    else if (e->sum.count > 0)
         snprintf(e->at, sizeof e->at, "%u,%u (%s)", e->sum.hi_column, e->sum.hi_row, e->unit);
     else
         snprintf(e->at, sizeof e->at, "- (%s)", e->unit);
@@ -167,7 +170,8 @@ static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
                                        {FIELD(error_line, masked, "masked", "")},
                                        {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 11, 4)},
                                        {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4), .upward = true},
-                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4), .upward = true},
+                                       {FIELD(error_line, sum.hi, "max", "")},
+                                       {TEXT_FIELD(error_line, most, "at most", 10, 4), .upward = true},
                                        {FIELD(error_line, sum.hi_column, "column", "")},
                                        {FIELD(error_line, sum.hi_row, "row", "")},
                                        {TEXT_FIELD(error_line, at, "at pixel", -1, 0)},

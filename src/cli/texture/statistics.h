@@ -15,7 +15,8 @@ typedef struct error_line {
     const char *unit;
     frame_summary sum;
     uint64_t masked;
-    char at[64]; /* the pixel, and the unit */
+    double most; /* of all: INFINITY where some have no bound, */
+    char at[64]; /* and the pixel, or how many these are, and the unit */
 } error_line;
 
 /** As the shader sees them: binary32. */
