@@ -181,7 +181,39 @@ static void metric_depth(void **state) {
     drawn_close(d);
 }
 
+/* Where it was rounded before, its levels: on no edge of a bin. */
+static void metric_levels(void **state) {
+    (void)state;
+    char path[320], arguments[400];
+    snprintf(path, sizeof path, "%s/metres.npy", drawn_folder());
+    free(drawn_output("texture --synthetic steps --parameter to=290 --size 96x8 -F fp32 -m reversed --product eye -q "
+                      "-o %s",
+                      path));
+    snprintf(arguments, sizeof arguments, "%s --metric 1 --lattice inverse:500,0.3", path);
+    const image depths = depths_of(arguments);
+    const float *z = depths.data;
+    double ends[2] = {INFINITY, -INFINITY};
+    for (size_t i = 0; i < (size_t)depths.width * depths.height; i++) {
+        ends[0] = fmin(ends[0], (double)z[i]);
+        ends[1] = fmax(ends[1], (double)z[i]);
+    }
+    drawn *d = drawn_run(&drawn_light, "texture %s -q --histogram", arguments);
+    drawn_legend_is(d, 2, (const char *const[]){"pixels", "levels available"});
+    const drawn_panel *p = &d->panels[0];
+    const svg_mark *levels = drawn_curve(d, p, &d->entries[1]);
+    for (int i = 0; i < BINS; i++) {
+        const double from = (double)edge_of(ends, p->x.log, i), to = (double)edge_of(ends, p->x.log, i + 1);
+        double count = 0;
+        for (int k = 1; k < 1000; k++)
+            count += 500 / (k - 0.3) >= from && 500 / (k - 0.3) < to;
+        check_step(p, levels, from, to, count);
+    }
+    free(depths.data);
+    drawn_close(d);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_counts), cmocka_unit_test(metric_depth)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_counts), cmocka_unit_test(metric_depth),
+                                       cmocka_unit_test(metric_levels)};
     return run_tap(tests);
 }

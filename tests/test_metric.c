@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Metric depth, as sensors and simulators write it: read with --metric it is within what the error map says of the
- * depth that was rounded or truncated, for eye depth, places and effects; holes are counted and never averaged.
+ * depth that was rounded or truncated, for eye depth, places and effects; holes are counted and never averaged. So it
+ * is where a sensor rounded the depth before, on a lattice that the file does not name.
  */
 #include <jansson.h>
 #include <stdbool.h>
@@ -15,20 +16,29 @@
 typedef struct metric_kind {
     const char *name;
     image_type type;
-    double scale, most; /**< scene units a unit, and the farthest depth */
-    double step;        /**< in units, that depths are rounded to before they are stored; 0: none */
+    double scale, most;  /**< scene units a unit, and the farthest depth */
+    double step;         /**< in units, that depths are rounded to before they are stored; 0: none */
+    const char *lattice; /**< what they were rounded to before that; null: nothing */
+    double level;        /**< its step, of z or 1/z */
 } metric_kind;
 
 static const metric_kind kinds[] = {
-    {"millimetres", IMAGE_U16, 0.001, 60, 1},
-    {"5000 a metre", IMAGE_U16, 1.0 / 5000, 13, 1},
-    {"bytes", IMAGE_U8, 0.04, 10, 1},
-    {"micrometres", IMAGE_U32, 1e-6, 300, 1},
-    {"metres", IMAGE_F32, 1, 500, 0},
-    {"centimetres", IMAGE_F32, 0.01, 90, 0},
-    {"halves", IMAGE_F16, 1, 100, 0},
-    {"doubles", IMAGE_F64, 1, 1000, 0},
-    {"millimetres in metres", IMAGE_F32, 1, 9, 0.001},
+    {"millimetres", IMAGE_U16, 0.001, 60, 1, NULL, 0},
+    {"5000 a metre", IMAGE_U16, 1.0 / 5000, 13, 1, NULL, 0},
+    {"bytes", IMAGE_U8, 0.04, 10, 1, NULL, 0},
+    {"micrometres", IMAGE_U32, 1e-6, 300, 1, NULL, 0},
+    {"metres", IMAGE_F32, 1, 500, 0, NULL, 0},
+    {"centimetres", IMAGE_F32, 0.01, 90, 0, NULL, 0},
+    {"halves", IMAGE_F16, 1, 100, 0, NULL, 0},
+    {"doubles", IMAGE_F64, 1, 1000, 0, NULL, 0},
+    {"millimetres in metres", IMAGE_F32, 1, 9, 0.001, NULL, 0},
+    {"disparity in millimetres", IMAGE_U16, 0.001, 6, 1, "inverse", 0.02},
+    {"disparity in metres", IMAGE_F32, 1, 6, 0, "inverse", 0.03},
+    {"the last disparity", IMAGE_F32, 1, 118, 0, "inverse", 0.01666},
+    {"time of flight", IMAGE_U16, 0.001, 6, 1, "even", 0.0437},
+    {"time of flight in metres", IMAGE_F64, 1, 6, 0, "even", 0.0437},
+    {"halves in metres", IMAGE_F32, 1, 100, 0, "binary16", 0},
+    {"halves in millimetres", IMAGE_U16, 0.001, 60, 1, "binary16", 0},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
@@ -43,8 +53,26 @@ static double half_of(double x, int mode) {
     return ldexp(mode == 0 ? rint(ldexp(x, -shift)) : floor(ldexp(x, -shift)), shift);
 }
 
+/* What the sensor makes of a depth. */
+static double level_of(const metric_kind *k, double z, int mode) {
+    return k->lattice == NULL                ? z
+           : *k->lattice == 'b'              ? half_of(z, mode)
+           : strcmp(k->lattice, "even") == 0 ? k->level * cut(z / k->level + 0.3, mode) - 0.3 * k->level
+                                             : 1 / (k->level * cut(1 / z / k->level, mode));
+}
+
+/* How far the next level is at most. */
+static double gap_of(const metric_kind *k, double z) {
+    const double w = 1 / z - k->level;
+    return k->lattice == NULL   ? 0
+           : *k->lattice == 'b' ? z * 0x1p-10
+           : *k->lattice == 'e' ? k->level
+           : w > 0              ? 1 / w - z
+                                : INFINITY;
+}
+
 static double sample_of(const metric_kind *k, double z, int mode) {
-    const double x = z / k->scale;
+    const double x = level_of(k, z, mode) / k->scale;
     if (k->step > 0)
         return k->type < IMAGE_F16 ? cut(x / k->step, mode) : cut(x / k->step, mode) * k->step;
     return k->type == IMAGE_F16 ? half_of(x, mode) : x;
@@ -58,7 +86,9 @@ static size_t picture(rng *r, const metric_kind *k, double z[PIXELS]) {
     size_t count = 0;
     for (int i = 0; i < PIXELS; i++) {
         const bool hole = rng_below(r, 8) == 0;
-        z[i] = hole ? NAN : rng_log(r, k->most / 50, k->most);
+        do
+            z[i] = hole ? NAN : rng_log(r, k->most / (k->level > 0 && k->most > 60 ? 150 : 50), k->most);
+        while (!hole && isinf(level_of(k, z[i], mode))); /* nearer than none of a disparity */
         count += hole;
         const size_t which = k->type == IMAGE_F32 || k->type == IMAGE_F64 ? rng_below(r, 4) : 0;
         truth_store(data, k->type, (size_t)i, hole ? holes[which] : sample_of(k, z[i], mode));
@@ -87,11 +117,13 @@ static double number_in(const json_t *object, const char *name) {
 static void check_statistics(const metric_kind *k, const command *base, size_t holes, double worst) {
     json_t *root = statistics(base);
     const json_t *eye = json_array_get(json_object_get(root, "errors"), 0);
+    const double unbounded = number_in(eye, "unbounded");
     assert_true(number_in(root, "metric") == k->scale);
     assert_true(number_in(root, "invalid") == (double)holes);
     assert_true(number_in(json_object_get(root, "sky"), "pixels") == 0);
-    assert_true(number_in(eye, "masked") == (double)holes && number_in(eye, "pixels") == (double)(PIXELS - holes));
-    assert_true(number_in(eye, "max") >= worst);
+    assert_true(number_in(eye, "masked") == (double)holes &&
+                number_in(eye, "pixels") + unbounded == (double)(PIXELS - holes));
+    assert_true(unbounded > 0 || number_in(eye, "max") >= worst);
     assert_string_equal(json_string_value(json_object_get(root, "format_from")), "given");
     assert_string_equal(json_string_value(json_object_get(root, "direction_from")), "given");
     double pixels = 0;
@@ -100,6 +132,9 @@ static void check_statistics(const metric_kind *k, const command *base, size_t h
     assert_true(pixels == (double)(PIXELS - holes));
     if (k->step > 0)
         assert_relative(number_in(json_object_get(root, "samples"), "step"), k->step * k->scale, 1e-12);
+    const json_t *lattice = json_object_get(root, "lattice");
+    assert_string_equal(json_string_value(json_object_get(lattice, "name")), k->lattice != NULL ? k->lattice : "file");
+    assert_string_equal(json_string_value(json_object_get(lattice, "from")), k->lattice != NULL ? "found" : "assumed");
     json_decref(root);
 }
 
@@ -124,7 +159,9 @@ static double one_picture(tally *t, rng *r, const metric_kind *k) {
         used = fmax(used, off / (double)map[i]);
         /* A whole step where it is not known how depths were rounded, and what binary32 adds. */
         const double step = k->step > 0 ? k->step * k->scale : k->type == IMAGE_F16 ? z[i] * 0x1p-10 : z[i] * 0x1p-23;
-        TALLY(t, (double)map[i] <= 1.01 * step + 4e-7 * z[i], "%s: %.9g may be %g off", k->name, z[i], (double)map[i]);
+        const double most = 1.1 * gap_of(k, (double)eye[i] + 2 * step) + 3 * step;
+        TALLY(t, (double)map[i] <= (k->lattice != NULL ? most : 1.01 * step) + 4e-7 * z[i], "%s: %.9g may be %g off",
+              k->name, z[i], (double)map[i]);
     }
     check_statistics(k, &base, holes, worst);
     truth_product(&base, "place.npy", "position", "view", false);
@@ -179,6 +216,245 @@ static bool was_said(const char *words) {
     return found;
 }
 
+/* What --lattice says is taken: its step, and the error of each pixel by a formula. */
+static void a_lattice_is_said(void **state) {
+    (void)state;
+    static const struct said {
+        const char *words;
+        bool inverse, half;
+        double step; /* 0: as many from the nearest to the farthest depth */
+        double levels;
+    } said[] = {
+        {"stereo:600,0.08,0.125", true, false, 0.125 / 48, 0},
+        {"stereo:500,0.1", true, false, 0.02, 0},
+        {"inverse:200", true, false, 0.005, 0},
+        {"inverse:200,0.3", true, false, 0.005, 0},
+        {"even:0.025", false, false, 0.025, 0},
+        {"even:0.025,0.01", false, false, 0.025, 0},
+        {"levels:256", false, false, 0, 256},
+        {"inverse-levels:1024", true, false, 0, 1024},
+        {"binary16", false, true, 0, 0},
+        {"file", false, false, 0, 0},
+    };
+    rng r = rng_make("said");
+    static double data[PIXELS];
+    double z[PIXELS], least = INFINITY, most = 0;
+    float map[PIXELS];
+    for (int i = 0; i < PIXELS; i++) {
+        z[i] = 0.001 * floor(1000 * rng_log(&r, 0.5, 9));
+        truth_store(data, IMAGE_U16, (size_t)i, rint(1000 * z[i]));
+        least = fmin(least, z[i]);
+        most = fmax(most, z[i]);
+    }
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+    for (size_t k = 0; k < sizeof said / sizeof said[0]; k++) {
+        command c = {.count = 0};
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 0.001);
+        truth_add(&c, "--lattice");
+        truth_add(&c, said[k].words);
+        json_t *root = statistics(&c), *lattice = json_object_get(root, "lattice");
+        const double step = said[k].levels == 0 ? said[k].step
+                            : said[k].inverse   ? (1 / least - 1 / most) / (said[k].levels - 1)
+                                                : (most - least) / (said[k].levels - 1);
+        assert_string_equal(json_string_value(json_object_get(lattice, "from")), "given");
+        if (step > 0)
+            assert_relative(number_in(lattice, "step"), step, 1e-9);
+        json_decref(root);
+        truth_product(&c, "map.npy", "eye", NULL, true);
+        truth_floats("map.npy", 1, map);
+        for (int i = 0; i < PIXELS; i++) {
+            const double end = z[i] + 0.001, half = ldexp(1, ilogb(end) - 10);
+            const double far = said[k].inverse ? 1 / (1 / end - step) - z[i] : 0.001 + (said[k].half ? half : step);
+            assert_scene((double)map[i], far, 1e-5 * far + 2e-7 * z[i]);
+            assert_true((double)map[i] >= far);
+        }
+    }
+}
+
+/* Multiples of a centimetre in millimetres: a centimetre for what was rounded to it, a millimetre for the file. */
+static void multiples_are_levels(void **state) {
+    (void)state;
+    rng r = rng_make("multiples");
+    static double data[PIXELS];
+    float map[PIXELS];
+    command c = {.count = 0};
+    for (int i = 0; i < PIXELS; i++)
+        truth_store(data, IMAGE_U16, (size_t)i, 10 * floor(rng_uniform(&r, 100, 400)));
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+    truth_add(&c, truth_path("in.npy"));
+    truth_add_number(&c, 0, "--metric", 0.001);
+    json_t *root = statistics(&c);
+    const json_t *lattice = json_object_get(root, "lattice");
+    assert_string_equal(json_string_value(json_object_get(lattice, "name")), "even");
+    assert_string_equal(json_string_value(json_object_get(lattice, "from")), "found");
+    assert_scene(number_in(lattice, "step"), 0.01, number_in(lattice, "step_error"));
+    json_decref(root);
+    truth_product(&c, "map.npy", "eye", NULL, true);
+    truth_floats("map.npy", 1, map);
+    for (int i = 0; i < PIXELS; i++)
+        assert_scene((double)map[i], 0.011, 3e-5);
+}
+
+/* The levels of each band, counted, and how far the nearest in use is from the next. */
+static void bands_count_levels(void **state) {
+    (void)state;
+    static const char *const said[] = {"inverse:200,0.3", "even:0.025,0.01", "binary16"};
+    rng r = rng_make("bands");
+    static double data[PIXELS];
+    for (int i = 0; i < PIXELS; i++)
+        truth_store(data, IMAGE_U16, (size_t)i, rint(rng_log(&r, 500, 9000)));
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+    for (size_t kind = 0; kind < 3; kind++) {
+        command c = {.count = 0};
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 0.001);
+        truth_add(&c, "--lattice");
+        truth_add(&c, said[kind]);
+        json_t *root = statistics(&c);
+        for (size_t i = 0; i < json_array_size(json_object_get(root, "bands")); i++) {
+            const json_t *band = json_array_get(json_object_get(root, "bands"), i);
+            const double lo = number_in(band, "lo"), hi = number_in(band, "hi"), at = number_in(band, "gap_z");
+            double count = 0;
+            for (int k = 0; k < 40000; k++) {
+                const double z = kind == 0   ? 200 / (k - 0.3)
+                                 : kind == 1 ? 0.01 + 0.025 * k
+                                             : ldexp(1024 + k % 1024, k / 1024 - 24);
+                count += z >= lo && z < hi;
+            }
+            const double gap = kind == 0 ? 1 / (1 / at - 0.005) - at : kind == 1 ? 0.025 : ldexp(1, ilogb(at) - 10);
+            assert_true(number_in(band, "available") == count);
+            assert_relative(number_in(band, "interval"), gap, 1e-9);
+        }
+        json_decref(root);
+    }
+}
+
+static void what_is_no_lattice_is_refused(void **state) {
+    (void)state;
+    static const char *const bad[] = {"",         "stereo",  "stereo:500", "stereo:500,0.1,1,2",
+                                      "even:0",   "even:-1", "even:",      "even:1,",
+                                      "levels:1", "file:1",  "halves"};
+    command c = {.count = 0};
+    truth_add(&c, truth_path("in.npy"));
+    truth_add_number(&c, 0, "--metric", 0.001);
+    truth_add(&c, "--lattice");
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        command d = c;
+        truth_add(&d, bad[i]);
+        assert_int_equal(truth_run(d.arguments, d.count), 2);
+        assert_true(was_said("--lattice: must be stereo:"));
+    }
+}
+
+/* --as rounds to levels: those of the formula, with an error map that holds, and they are found again. */
+static void levels_are_written_and_found(void **state) {
+    (void)state;
+    static const struct {
+        const char *words, *name;
+        double step, offset; /* 0: of 200 levels between the ends */
+    } cases[] = {{"stereo:400,0.1,0.5", "inverse", 0.0125, 0},
+                 {"inverse:200,0.4", "inverse", 0.005, -0.002},
+                 {"even:0.03,0.01", "even", 0.03, 0.01},
+                 {"inverse-levels:200", "inverse", 0, 0},
+                 {"levels:200", "even", 0, 0},
+                 {"binary16", "binary16", 0, 0}};
+    rng r = rng_make("as");
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        static double data[PIXELS];
+        double z[PIXELS], least = INFINITY, most = 0;
+        float out[PIXELS], map[PIXELS];
+        for (int i = 0; i < PIXELS; i++) {
+            z[i] = (double)(float)rng_log(&r, 0.5, 9);
+            least = fmin(least, z[i]);
+            most = fmax(most, z[i]);
+            truth_store(data, IMAGE_F32, (size_t)i, z[i]);
+        }
+        const bool inverse = *cases[k].name == 'i', half = *cases[k].name == 'b';
+        const double range = inverse ? 1 / least - 1 / most : most - least;
+        const double step = cases[k].step > 0 ? cases[k].step : range / 199;
+        const double offset = cases[k].step > 0 ? cases[k].offset : inverse ? 1 / most : least;
+        truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, data);
+        command c = {.count = 0};
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 1);
+        truth_add(&c, "--as");
+        truth_add(&c, cases[k].words);
+        truth_product(&c, "eye.npy", "eye", NULL, false);
+        truth_product(&c, "map.npy", "eye", NULL, true);
+        truth_floats("eye.npy", 1, out);
+        truth_floats("map.npy", 1, map);
+        for (int i = 0; i < PIXELS; i++) {
+            const double at = inverse ? 1 / z[i] : z[i], level = offset + step * floor((at - offset) / step + 0.5);
+            const double expected = half ? half_of(z[i], 0) : inverse ? 1 / level : level;
+            assert_relative((double)out[i], expected, 1e-6);
+            assert_true((double)map[i] >= fabs((double)out[i] - z[i]));
+            assert_true((double)map[i] <= fabs((double)out[i] - z[i]) + 1e-6 * z[i]);
+        }
+        command back = {.count = 0};
+        truth_add(&back, truth_path("eye.npy"));
+        truth_add_number(&back, 0, "--metric", 1);
+        json_t *root = statistics(&back);
+        const json_t *lattice = json_object_get(root, "lattice");
+        assert_string_equal(json_string_value(json_object_get(lattice, "name")), cases[k].name);
+        assert_string_equal(json_string_value(json_object_get(lattice, "from")), "found");
+        if (!half)
+            assert_scene(number_in(lattice, "step"), step, number_in(lattice, "step_error"));
+        json_decref(root);
+    }
+}
+
+/* 65535 is what some sensors write where they saw nothing: a hole, if nothing else is far. */
+static void the_largest_word_may_be_a_hole(void **state) {
+    (void)state;
+    rng r = rng_make("top");
+    for (int far = 0; far < 2; far++) {
+        static double data[PIXELS];
+        size_t holes = 0;
+        command c = {.count = 0};
+        for (int i = 0; i < PIXELS; i++) {
+            const double top = far ? 65534 : 30000;
+            const double x = i == 0 ? top : i == 1 || rng_below(&r, 9) == 0 ? 65535 : floor(rng_log(&r, 500, top));
+            truth_store(data, IMAGE_U16, (size_t)i, x);
+            holes += x == 65535;
+        }
+        truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 0.001);
+        json_t *root = statistics(&c);
+        assert_true(number_in(root, "invalid") == (far ? 0 : (double)holes));
+        assert_relative(number_in(root, "hi"), far ? 65.535 : 30, 1e-9);
+        json_decref(root);
+    }
+}
+
+/* Where the image shows another, or is on no level of it, that is named. */
+static void contradictions_are_named(void **state) {
+    (void)state;
+    rng r = rng_make("contradictions");
+    double z[PIXELS];
+    const metric_kind seen = {"disparity", IMAGE_U16, 0.001, 6, 1, "inverse", 0.02},
+                      none = {"none", IMAGE_U16, 0.001, 6, 1, NULL, 0};
+    static const struct {
+        bool seen;
+        const char *lattice, *words;
+    } cases[] = {{true, "inverse:50", NULL},
+                 {true, "inverse:51", "the samples lie on another: inverse, in steps of 0.0"},
+                 {true, "even:0.01", "the samples lie on another: inverse"},
+                 {false, "even:0.02", "pixels are on none of its levels"},
+                 {false, "file", NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        command c = {.count = 0};
+        picture(&r, cases[i].seen ? &seen : &none, z);
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 0.001);
+        truth_add(&c, "--lattice");
+        truth_add(&c, cases[i].lattice);
+        json_decref(statistics(&c));
+        assert_true(was_said(cases[i].words != NULL ? cases[i].words : "--lattice") == (cases[i].words != NULL));
+    }
+}
+
 /* Without --metric: numbers above 1 are refused, integers with holes are doubted; and what has no depth is refused. */
 static void it_is_suspected(void **state) {
     (void)state;
@@ -190,7 +466,7 @@ static void it_is_suspected(void **state) {
     picture(&r, &kinds[4], z);
     assert_int_equal(truth_run(c.arguments, c.count), 2);
     assert_true(was_said("--metric"));
-    picture(&r, &(metric_kind){"millimetres", IMAGE_U16, 0.001, 20, 1}, z);
+    picture(&r, &(metric_kind){"millimetres", IMAGE_U16, 0.001, 20, 1, NULL, 0}, z);
     json_t *root = statistics(&c);
     assert_string_equal(json_string_value(json_object_get(root, "direction_from")), "assumed"); /* no sky, but holes */
     json_decref(root);
@@ -241,6 +517,13 @@ static void holes_are_counted(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(metric_depth_is_within_what_is_said),
+        cmocka_unit_test(a_lattice_is_said),
+        cmocka_unit_test(multiples_are_levels),
+        cmocka_unit_test(bands_count_levels),
+        cmocka_unit_test(what_is_no_lattice_is_refused),
+        cmocka_unit_test(contradictions_are_named),
+        cmocka_unit_test(levels_are_written_and_found),
+        cmocka_unit_test(the_largest_word_may_be_a_hole),
         cmocka_unit_test(it_is_suspected),
         cmocka_unit_test(holes_are_counted),
     };

@@ -469,6 +469,8 @@ static void test_texts(void **state) {
         bool file;
     } texts[] = {{"texture", OPTION_TITLE, AT(figure.title), false},
                  {"texture", OPTION_CHANNEL, AT(image.channel), false},
+                 {"texture", OPTION_LATTICE, AT(image.lattice), false},
+                 {"texture", OPTION_AS, AT(image.as), false},
                  {"table", OPTION_OUTPUT, AT(out.file), true},
                  {"texture", OPTION_MATRIX, AT(image.matrix), true},
                  {"texture", OPTION_FIGURE, AT(image.figure), true},

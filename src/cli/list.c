@@ -10,6 +10,7 @@
 #include "api/unit.h"
 #include "api/upscaler.h"
 #include "core/append.h"
+#include "frame/sensor.h"
 #include "frame/synthetic.h"
 #include "method/method.h"
 #include "plot/figure.h"
@@ -250,6 +251,15 @@ static bool list_trap(size_t index, list_item *item) {
     return true;
 }
 
+bool list_lattice(size_t index, list_item *item) {
+    const sensor_row *row = sensor_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
+    append(item->bound, sizeof item->bound, "%s", row->gap);
+    return true;
+}
+
 bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
@@ -315,6 +325,7 @@ static const topic topics[] = {
     {"packings", "textures with a depth in several channels, for texture --packing and --product pack", list_packing,
      .bound = "bound"},
     {"traps", "formulas of depth that are found in shaders and are not right", list_trap, .bound = "reads"},
+    {"lattices", "what metric depth was rounded to, for texture --metric", list_lattice, .bound = "gap"},
     {"products", "what texture makes of the depths, for --product", list_product, .bound = "methods"},
     {"effects", "effects for texture --product effect: formulas and parameters", list_effect, .bound = "parameters"},
     {"figures", "figures, for plot", list_figure, .bound = "bound"},

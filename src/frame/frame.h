@@ -9,6 +9,7 @@
 #ifndef FRAME_FRAME_H
 #define FRAME_FRAME_H
 
+#include "frame/sensor.h"
 #include "frame/synthetic.h"
 #include "image/image.h"
 #include "shader/camera.h"
@@ -41,6 +42,7 @@ typedef struct frame {
     const double *parameters; /**< of the synthetic image */
     const grain *grain;       /**< of an image: how it was rounded; null: its samples are codes */
     bool metric;              /**< the samples are eye depths, none of them sky; the camera's set-up is their lattice */
+    const sensor *sensor;     /**< metric: what was rounded to its samples; else null */
     const dp_setup *planes;   /**< metric: the planes that effects use; else null: the camera's */
     const frame_normals *normals; /**< for effects; null: those of the synthetic image, or none */
     double sky;                   /**< window depths this close to the far plane's are sky, [0, 0.5] */
@@ -100,8 +102,9 @@ typedef struct frame_product {
      * Ranges are those of grain_range_of(). Errors are rounded up to binary32.
      */
     bool error;
-    bool lost;   /**< FRAME_EFFECT: what binary32 has added to the output that is exact for what is stored, instead */
-    bool radial; /**< FRAME_EYE: distance from the camera in place of eye depth */
+    bool lost; /**< FRAME_EFFECT: what binary32 has added to the output that is exact for what is stored, instead */
+    const sensor *as;              /**< FRAME_EYE: rounded to its levels, and NaN beyond them; null: not */
+    bool radial;                   /**< FRAME_EYE: distance from the camera in place of eye depth */
     const position_row *position;  /**< FRAME_POSITION; null: exact, rounded to binary32 */
     const normal_row *normal;      /**< FRAME_NORMAL */
     const effect_row *effect;      /**< FRAME_EFFECT */

@@ -18,10 +18,28 @@ static bool is_depth(double x) {
 /* What is looked at before anything is changed. */
 typedef struct look {
     double least, most;
-    uint32_t divisor; /* integers: of all */
-    size_t depths;
+    uint32_t divisor;      /* integers: of all */
+    size_t depths, single; /* single: are binary32 */
     distinct_set seen;
 } look;
+
+/* Some sensors write 65535 where they saw nothing; it is that where nothing else is far. Such samples become 0. */
+static bool clear_top(image *img) {
+    enum { TOP = 65535, FAR = 30000 };
+    uint16_t *samples = img->data;
+    const size_t count = (size_t)img->width * img->height * img->channels;
+    uint16_t most = 0;
+    bool any = false;
+    for (size_t i = 0; i < count && img->type == IMAGE_U16; i += img->channels) {
+        any = any || samples[i] == TOP;
+        most = samples[i] < TOP && samples[i] > most ? samples[i] : most;
+    }
+    if (!any || most == 0 || most > FAR)
+        return false;
+    for (size_t i = 0; i < count; i += img->channels)
+        samples[i] = samples[i] == TOP ? 0 : samples[i];
+    return true;
+}
 
 static void look_at(const image *img, look *l) {
     const size_t count = (size_t)img->width * img->height;
@@ -34,8 +52,19 @@ static void look_at(const image *img, look *l) {
         l->depths++;
         l->least = fmin(l->least, x);
         l->most = fmax(l->most, x);
+        l->single += (double)(float)x == x;
         if (img->type < IMAGE_F16)
             l->divisor = common_divisor(l->divisor, (uint32_t)x);
+    }
+}
+
+static void look_through(const image *img, const sensor_file *file, const sensor *given, const look *l, metric *out) {
+    sensor_find(img, file, &out->seen);
+    out->depths = (double)l->depths;
+    out->sensor = out->seen;
+    if (given != NULL) {
+        out->sensor = *given;
+        sensor_complete(img, file, l->least * file->scale, l->most * file->scale, &out->sensor);
     }
 }
 
@@ -47,26 +76,34 @@ static void add_all(const image *img, look *l, double scale) {
             distinct_add(&l->seen, image_sample(img, i) * scale);
 }
 
-static const char *of_integers(const image *img, double scale, look *l, metric *out) {
-    static const int bits_of[] = {[IMAGE_U8] = 8, [IMAGE_U16] = 16, [IMAGE_U32] = 16};
-    int bits = bits_of[img->type];
-    while (bits <= BITS_MAX && ldexp(1, bits) - 1 < l->most)
+/* How many bits hold the most. */
+static int bits_for(double most, int bits) {
+    while (bits <= BITS_MAX && ldexp(1, bits) - 1 < most)
         bits++;
+    return bits;
+}
+
+static const char *of_integers(const image *img, double scale, look *l, const sensor *given, metric *out) {
+    static const int bits_of[] = {[IMAGE_U8] = 8, [IMAGE_U16] = 16, [IMAGE_U32] = 16};
+    int bits = bits_for(l->most, bits_of[img->type]);
     if (bits > BITS_MAX)
         return "an integer is larger than 2147483647";
-    const double top = ldexp(1, bits) - 1;
     add_all(img, l, 1);
     /* A few values have a divisor by chance. */
     const double divisor = l->seen.count >= VALUES_LEAST ? l->divisor : 1;
+    const sensor_file file = {.step = divisor * scale, .unit = scale, .scale = scale};
+    look_through(img, &file, given, l, out);
+    bits = bits_for(fmin(sensor_end(&out->sensor, (l->most + divisor) * scale) / scale, ldexp(1, BITS_MAX) - 1), bits);
+    const double top = ldexp(1, bits) - 1;
     dp_format formats[2];
     char name[24];
     snprintf(name, sizeof name, "unorm%d", bits);
     dp_format_parse(name, formats);
-    *out = (metric){.format = formats[0],
-                    .znear = 0.5 * l->least * scale,
-                    .zfar = top * scale,
-                    .step = divisor * scale,
-                    .grain = {.kind = GRAIN_STEPS, .steps = top / divisor}};
+    out->format = formats[0];
+    out->znear = 0.5 * l->least * scale;
+    out->zfar = top * scale;
+    out->step = divisor * scale;
+    out->grain = (grain){.kind = GRAIN_STEPS, .steps = top * scale / out->sensor.file_step};
     return NULL;
 }
 
@@ -86,25 +123,33 @@ static double find_step(const image *img, look *l, int exponent) {
     return 0;
 }
 
-static const char *of_numbers(const image *img, double scale, look *l, metric *out) {
+static const char *of_numbers(const image *img, double scale, look *l, const sensor *given, metric *out) {
+    const int own = img->type == IMAGE_F16 ? 11 : 24;
     int exponent;
     dp_format formats[2];
     if (frexp(l->most, &exponent) == 0.5)
         exponent--; /* the least power of two that is not below */
-    const double zfar = ldexp(scale, exponent);
-    if (!(zfar >= 1e-9 && zfar <= 1e18))
+    if (!(ldexp(scale, exponent) >= 1e-9 && ldexp(scale, exponent) <= 1e18))
         return "its depths leave the possible range, 1e-9 to 1e18 scene units";
     dp_format_parse("fp32", formats);
     const double step = find_step(img, l, exponent);
-    *out = (metric){.format = formats[0],
-                    .znear = fmax(0.5 * l->least * scale, 1e-12),
-                    .zfar = zfar,
-                    .step = step * scale,
-                    .grain = {.kind = step > 0 ? GRAIN_STEPS : GRAIN_FLOATS,
-                              .steps = step > 0 ? ldexp(1, exponent) / step : 0,
-                              .rounding = img->type == IMAGE_F64 && step == 0 ? GRAIN_NEAREST : GRAIN_ANY,
-                              .bits = img->type == IMAGE_F16 ? 11 : 24,
-                              .least = img->type == IMAGE_F16 ? ldexp(1, -24 - exponent) : 0x1p-149}};
+    const bool single = (double)l->single >= SENSOR_SHARE * (double)l->depths;
+    const sensor_file file = {.step = step * scale, .digits = single ? own : 53, .scale = scale};
+    look_through(img, &file, given, l, out);
+    const double end = sensor_end(&out->sensor, (l->most * (1 + 0x1p-10) + step) * scale);
+    while (out->sensor.row->levels != GRAIN_FINE && ldexp(scale, exponent) < fmin(end, 5e17))
+        exponent++;
+    const bool alone = step == 0 && out->sensor.row->levels == GRAIN_FINE;
+    out->format = formats[0];
+    out->znear = fmax(0.5 * l->least * scale, 1e-12);
+    out->zfar = ldexp(scale, exponent);
+    out->step = step * scale;
+    const double rounded = out->sensor.file_step / scale;
+    out->grain = (grain){.kind = rounded > 0 ? GRAIN_STEPS : GRAIN_FLOATS,
+                         .steps = rounded > 0 ? ldexp(1, exponent) / rounded : 0,
+                         .rounding = img->type == IMAGE_F64 && alone ? GRAIN_NEAREST : GRAIN_ANY,
+                         .bits = own,
+                         .least = img->type == IMAGE_F16 ? ldexp(1, -24 - exponent) : 0x1p-149};
     return NULL;
 }
 
@@ -130,13 +175,16 @@ static bool replace(image *img, const metric *m, double scale) {
     return true;
 }
 
-const char *metric_convert(image *img, double scale, metric *out) {
+const char *metric_convert(image *img, double scale, const sensor *given, metric *out) {
     look l;
+    *out = (metric){.top_is_hole = clear_top(img)};
     look_at(img, &l);
     const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"
-                        : img->type < IMAGE_F16 ? of_integers(img, scale, &l, out)
-                                                : of_numbers(img, scale, &l, out);
+                        : img->type < IMAGE_F16 ? of_integers(img, scale, &l, given, out)
+                                                : of_numbers(img, scale, &l, given, out);
     distinct_free(&l.seen);
+    if (wrong == NULL)
+        sensor_into(&out->sensor, out->zfar, &out->grain);
     if (wrong == NULL && !replace(img, out, scale))
         wrong = "no memory";
     return wrong;

@@ -10,8 +10,8 @@
 #ifndef FRAME_METRIC_H
 #define FRAME_METRIC_H
 
+#include "frame/sensor.h"
 #include "image/image.h"
-#include "shader/sample_rounding.h"
 
 /** Scene units of 1 in a sample, at least and at most. */
 #define METRIC_SCALE_MIN 1e-9
@@ -19,17 +19,23 @@
 
 typedef struct metric {
     dp_format format;
-    double znear, zfar; /**< half the nearest depth or less; the end of the lattice, scene units */
+    double znear, zfar; /**< half the nearest depth or less; the end of the lattice, scene units: beyond what the
+                             farthest depth may have been, where that has an end */
     double step;        /**< scene units between neighbouring samples: integers, or numbers that all are multiples of
                              it; 0: numbers of their own precision */
-    grain grain;        /**< how far the depth can be beside its sample, which was rounded or truncated */
+    sensor sensor;      /**< what it was rounded to before: as given, else as seen */
+    sensor seen;        /**< as the samples show it */
+    double depths;      /**< pixels that hold one */
+    bool top_is_hole;   /**< of 16 bits: 65535 is no depth, because no other is above 30000 */
+    grain grain;        /**< how far the depth can be beside its sample, with both roundings */
 } metric;
 
 /**
  * Converts the image, which becomes one channel of u4 or f4; holes become UINT32_MAX or NaN.
  * @param scale  from METRIC_SCALE_MIN to METRIC_SCALE_MAX
- * @return null, or why not: one sentence; the image is then as it was
+ * @param given  what sensor_given() takes, or null
+ * @return null, or why not: one sentence; the image is then as it was, but for such holes
  */
-const char *metric_convert(image *img, double scale, metric *out);
+const char *metric_convert(image *img, double scale, const sensor *given, metric *out);
 
 #endif

@@ -47,6 +47,8 @@ static void make_eye(const frame_row *in) {
     memcpy(in->out, eyes_of(in), width * sizeof *in->out);
     for (uint32_t x = 0; x < width && in->product->radial; x++)
         in->out[x] = (float)((double)in->out[x] * stretch(in, x));
+    for (uint32_t x = 0; x < width && in->product->as != NULL; x++)
+        in->out[x] = (float)sensor_round(in->product->as, (double)in->out[x]);
 }
 
 static double far_of(const frame_row *in) {
@@ -80,8 +82,8 @@ static const double *along_in(const frame_row *in) {
     return along;
 }
 
-CLONES static void eye_errors(const float *restrict eyes, const grain_rows *ranges, const double *along,
-                              float *restrict out, size_t count) {
+CLONES static void eye_errors(const float *eyes, const grain_rows *ranges, const double *along, float *out,
+                              size_t count) {
     const double *stored = ranges->stored, *reach = ranges->reach;
 #pragma omp simd
     for (size_t i = 0; i < count; i++) {
@@ -119,7 +121,10 @@ static void make_eye_error(const frame_row *in) {
         return;
     }
     const grain_rows ranges = ranges_in(in);
-    eye_errors(eyes_of(in), &ranges, in->product->radial ? along_in(in) : NULL, in->out, camera_of(in)->width);
+    if (in->product->as != NULL)
+        make_eye(in);
+    eye_errors(in->product->as != NULL ? in->out : eyes_of(in), &ranges, in->product->radial ? along_in(in) : NULL,
+               in->out, camera_of(in)->width);
 }
 
 static void make_linear01_error(const frame_row *in) {

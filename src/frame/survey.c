@@ -191,6 +191,15 @@ static double span(const dp_setup *setup, uint32_t from, uint32_t to) {
                          dp_point_of_code(&setup->spec.format, frame_code(setup, to)));
 }
 
+/* Of metric depth on a lattice the file's codes are not what tells depths apart. */
+static void of_levels(const sensor *lattice, survey_band *out) {
+    out->available = (uint64_t)fmax(sensor_levels(lattice, out->lo, out->hi), 0);
+    if (isnan(out->gap))
+        return;
+    out->interval = sensor_gap(lattice, out->gap_z);
+    out->steps = (uint64_t)fmin(rint(out->gap / out->interval), 0x1p62);
+}
+
 static void finish_band(const surveying *s, size_t index, survey_band *out) {
     const uint32_t start = s->bands.start[index], end = s->bands.start[index + 1];
     uint32_t before = next_used(s, start, end), nearest = 0;
@@ -216,6 +225,8 @@ static void finish_band(const surveying *s, size_t index, survey_band *out) {
         out->gap_z = stored(s->setup, nearest);
         out->interval = dp_cell_of(s->setup, frame_code(s->setup, nearest)).width;
     }
+    if (s->f->sensor != NULL && s->f->sensor->row->levels != GRAIN_FINE)
+        of_levels(s->f->sensor, out);
 }
 
 typedef struct finishing {

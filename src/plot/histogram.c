@@ -76,6 +76,14 @@ static bool count_codes(const frame *f, bins *b) {
     return true;
 }
 
+/* Levels of metric depth, between the edges of the bins. */
+static void count_levels(const sensor *lattice, bins *b) {
+    for (int i = 0; i < BINS; i++) {
+        const double lo = chart_axis_at(&b->x, (double)i / BINS), hi = chart_axis_at(&b->x, (double)(i + 1) / BINS);
+        b->codes[i] = fmax(sensor_levels(lattice, lo, hi), 0);
+    }
+}
+
 /* A step for each bin; 0 lies below all that a logarithmic axis shows. */
 static void add_steps(chart *out, chart_panel *panel, const double *counts, int look, const char *name) {
     chart_series *s = chart_add_series(out, panel, CHART_LINE, 2 * BINS);
@@ -102,7 +110,10 @@ bool histogram_build(const frame *f, bool codes, chart *out, uint64_t *counted) 
     b.x = axis_of(&sum);
     if (!frame_run(f, &eye, false, count_rows, &b))
         return false;
-    if (codes && !count_codes(f, &b))
+    const bool levels = f->sensor != NULL && f->sensor->row->levels != GRAIN_FINE;
+    if (levels)
+        count_levels(f->sensor, &b);
+    else if (codes && !count_codes(f, &b))
         return false;
     for (int i = 0; i < BINS; i++)
         most = fmax(most, fmax(b.pixels[i], b.codes[i]));
@@ -110,7 +121,7 @@ bool histogram_build(const frame *f, bool codes, chart *out, uint64_t *counted) 
     panel->x = b.x;
     panel->y = (chart_axis){CHART_LOG, 0.5, 2 * most, "count in each of 96 bins", "count", "", NULL};
     add_steps(out, panel, b.pixels, 0, "pixels");
-    if (codes)
-        add_steps(out, panel, b.codes, 1, "codes available");
+    if (codes || levels)
+        add_steps(out, panel, b.codes, 1, levels ? "levels available" : "codes available");
     return !chart_failed(out);
 }

@@ -57,6 +57,32 @@ static span floats_span(const grain *g, double v) {
     return (span){v - below[g->rounding] * unit - g->margin, v + above[g->rounding] * unit + g->margin, 1};
 }
 
+double grain_level_gap(const grain *g, double v) {
+    int exponent;
+    frexp(v / g->level, &exponent);
+    return g->levels == GRAIN_HALF ? ldexp(g->level, exponent > -13 ? exponent - 11 : -24) : g->level;
+}
+
+/* What was rounded to a level lies a step away at most on either side: cut-off numbers of binary16 lie above theirs,
+ * which way others were cut is not known. */
+static span level_span(const grain *g, span s) {
+    const double half = g->levels == GRAIN_HALF ? 0.5 : 1;
+    const double below[] = {[GRAIN_ANY] = half, [GRAIN_NEAREST] = 0.5, [GRAIN_ZERO] = 0};
+    const double above[] = {[GRAIN_ANY] = 1, [GRAIN_NEAREST] = 0.5, [GRAIN_ZERO] = 1};
+    const double lo = s.lo / s.den, hi = s.hi / s.den;
+    const double down = below[g->rounding] * grain_level_gap(g, lo), up = above[g->rounding] * grain_level_gap(g, hi);
+    if (g->levels != GRAIN_INVERSE)
+        return (span){lo - down, hi + up, 1};
+    const double least = 1 / hi - down;
+    return (span){1 / (1 / fmax(lo, 0) + up), least > 0 ? 1 / least : (double)INFINITY, 1};
+}
+
+/* Without a buffer: the numbers that the sample may have been. */
+static span sample_span(const grain *g, double v) {
+    const span s = g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v);
+    return g->levels == GRAIN_FINE ? s : level_span(g, s);
+}
+
 /*
  * Codes of UNORM came back as a quotient, or as a product with the rounded reciprocal, which may be a neighbour of
  * that: within 1.5 units, and the code was taken that is nearest to it. Binary16 was made of something finer, perhaps
@@ -120,8 +146,7 @@ static void ends_of(const dp_setup *setup, const grain *g, uint32_t code, dp_poi
         boundaries(setup, g, code, below, above);
         return;
     }
-    const double v = dp_format_value(&setup->spec.format, code);
-    const span s = g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v);
+    const span s = sample_span(g, dp_format_value(&setup->spec.format, code));
     *below = dp_point_make(fmax(s.lo, 0), s.den);
     *above = dp_point_make(fmin(s.hi, s.den), s.den);
 }
@@ -144,6 +169,8 @@ grain_points grain_points_of(const dp_setup *setup, const grain *g, uint32_t cod
 
 grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code) {
     const grain_points p = grain_points_of(setup, g, code);
+    if (g != NULL && g->levels != GRAIN_FINE && p.to_far.num >= p.to_far.den)
+        return (grain_range){dp_curve_eye(setup, p.to_near), (double)INFINITY, (double)INFINITY};
     return (grain_range){
         .lo = dp_curve_eye(setup, p.to_near),
         .hi = dp_curve_eye(setup, p.to_far),

@@ -31,6 +31,10 @@ typedef enum grain_kind {
 /** How an image was rounded. */
 typedef enum grain_rounding { GRAIN_ANY = 0, GRAIN_NEAREST, GRAIN_ZERO } grain_rounding;
 
+/** What the depth itself was rounded to before it became a sample of metric depth: levels that are even in eye depth or
+ * in its inverse, or binary16. */
+typedef enum grain_levels { GRAIN_FINE = 0, GRAIN_EVEN, GRAIN_INVERSE, GRAIN_HALF } grain_levels;
+
 typedef struct grain {
     grain_kind kind;
     grain_rounding rounding;
@@ -40,8 +44,13 @@ typedef struct grain {
     bool buffer;   /**< behind the image lies a buffer of the set-up's format; else the depth itself, or */
     double margin; /**< ... a finer buffer, whose cells reach so far beyond its numbers, window depth */
     int bits; /**< GRAIN_FLOATS: significant bits, 11, 24 or 53; GRAIN_STEPS: 0, or those that steps were rounded to */
-    double least; /**< the least subnormal */
+    double least;        /**< the least subnormal */
+    grain_levels levels; /**< of a linear mapping from the eye on alone: what was rounded before, in the same way */
+    double level;        /**< its step, of window depth or of the inverse of that; GRAIN_HALF: 1 as window depth */
 } grain;
+
+/** How far apart levels near v are, in what they are even in; GRAIN_HALF: in window depth. */
+double grain_level_gap(const grain *g, double v);
 
 /** "unknown", "nearest", "zero". */
 const char *grain_rounding_name(grain_rounding rounding);
@@ -53,7 +62,7 @@ double grain_quotient_codes(const grain *g, const dp_format *format, double v);
 
 /** Eye depths, scene units. */
 typedef struct grain_range {
-    double lo, hi; /**< within 2^-44 relative; hi may be INFINITY */
+    double lo, hi; /**< within 2^-44 relative; hi may be INFINITY, and is where levels reach beyond the last code */
     double reach;  /**< from the depth that the code gives back to the farther end; never below that */
 } grain_range;
 

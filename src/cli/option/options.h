@@ -106,10 +106,12 @@ typedef enum option_id {
     OPTION_PARAMETER,
     OPTION_SKY,
     OPTION_METRIC,
+    OPTION_LATTICE,
     OPTION_PACKING,
     OPTION_CHANNEL,
     OPTION_PIXEL,
     OPTION_PRODUCT,
+    OPTION_AS,
     OPTION_NORMAL_FORMAT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
@@ -263,6 +265,8 @@ typedef struct options_image {
     size_t parameter_count;
     double sky;             /**< window depth */
     double metric;          /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    const char *lattice;    /**< what it was rounded to before; null when not given */
+    const char *as;         /**< what eye depth is rounded to; null when not given */
     const char *channel;    /**< of FILE, by name; null: that which is depth */
     const packing *packing; /**< of FILE */
     depths pixels;          /**< column and row of each in turn; count is 0 when not given */

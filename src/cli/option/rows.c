@@ -281,6 +281,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity "
         "are holes",
         LENGTH(image.metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_LATTICE] = {"lattice", 0, "NAME[:NUMBERS]",
+        "what metric depth was rounded to before, in place of what the image shows: stereo:FOCAL,BASELINE[,PIXELS] "
+        "with the step of disparity in pixels, inverse:A[,B] with steps of 1/A in 1/z, even:STEP[,FROM] in z, "
+        "inverse-levels:N or levels:N from the nearest to the farthest depth, binary16, file",
+        TEXT(image.lattice), .without = "as found"},
     [OPTION_PACKING] = {"packing", 0, "NAME",
         "the channels of FILE hold the depth together: @; 'depthprec list packings'", ROW(image.packing, packings)},
     [OPTION_CHANNEL] = {"channel", 0, "NAME",
@@ -295,6 +300,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "FILE holds or, for effect:outline, the scene has, else projective; see 'depthprec list products'. An effect "
         "without an image: the usable values of its parameter",
         .parse = parse_product, FIELD(const product_row *, image.product), .names = &products},
+    [OPTION_AS] = {"as", 0, "NAME[:NUMBERS]",
+        "eye depths as another sensor or format would have stored them: the nearest levels of what --lattice has names "
+        "for, which begin at 0 where nothing else is said", TEXT(image.as), .without = "not rounded"},
     [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL,
         "which way y runs in a PNG of normals: up, or down", WORD(image.normal_format, normal_formats),
         .standard = "opengl"},

@@ -12,6 +12,8 @@ static int check_alone(const options *o) {
         return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --product");
+    if (o->image.as != NULL && !texture_product_wanted(o))
+        return option_error(OPTION_AS, "needs --product eye");
     if (option_given(o, OPTION_NORMAL_FORMAT) && o->image.normal == NULL)
         return option_error(OPTION_NORMAL_FORMAT, "needs --product normal or packed-normal");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))

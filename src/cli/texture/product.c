@@ -101,9 +101,26 @@ int texture_product_resolve(const options *o, texture_product *p) {
                             o->image.error_map ? "error-map" : "product ", o->image.error_map ? "" : row->name);
     if (row->kind == FRAME_EFFECT)
         status = texture_product_effect(o, p);
+    if (o->image.as != NULL && (row->kind != FRAME_EYE || row->radial))
+        return option_error(OPTION_AS, "is for --product eye");
+    if (status == EXIT_FINE)
+        status = texture_lattice(OPTION_AS, o->image.as, &p->as);
+    if (o->image.as != NULL)
+        p->made.as = &p->as;
     p->error = p->made;
     p->error.error = true;
     return status == EXIT_FINE ? check_files(o) : status;
+}
+
+/* Levels that begin at 0, or are as many between the nearest and the farthest depth. */
+static bool find_levels(const texture_source *s, texture_product *p) {
+    const frame_product eye = {.kind = FRAME_EYE};
+    frame_summary sum = {0};
+    if (!isnan(p->as.levels) && !frame_summarise(&s->frame, &eye, &sum))
+        return false;
+    sensor_between(sum.lo, sum.hi, &p->as);
+    p->as.offset = isnan(p->as.offset) ? 0 : p->as.offset;
+    return true;
 }
 
 int texture_product_check(const options *o, const texture_source *s, texture_product *p) {
@@ -117,6 +134,8 @@ int texture_product_check(const options *o, const texture_source *s, texture_pro
     };
     if (p->made.kind == FRAME_LINEAR01 && !texture_far_known(o))
         return option_error(OPTION_PRODUCT, "linear01 needs --far with --metric, which has none");
+    if (o->image.as != NULL && !find_levels(s, p))
+        return usage_error("texture: no memory for the levels of --as");
     const char *wrong = frame_refuses(&s->frame, o->image.error_file != NULL ? &p->error : &p->made);
     if (wrong != NULL)
         return usage_error("texture: %s: %s", p->name, wrong);

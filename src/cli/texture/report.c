@@ -32,20 +32,23 @@ static void *next_error(void *of, size_t i) {
     if (i == r->error_count)
         return NULL;
     e->masked = r->survey.pixels - e->sum.count - e->sum.infinite;
-    if (e->sum.count > 0)
+    e->most = e->sum.infinite > 0 ? (double)INFINITY : e->sum.hi;
+    if (e->sum.infinite > 0)
+        snprintf(e->at, sizeof e->at, "%llu pixels (%s)", (unsigned long long)e->sum.infinite, e->unit);
+    else if (e->sum.count > 0)
         snprintf(e->at, sizeof e->at, "%u,%u (%s)", e->sum.hi_column, e->sum.hi_row, e->unit);
     else
         snprintf(e->at, sizeof e->at, "- (%s)", e->unit);
     return e;
 }
 
-/* Window depth is what an image holds without --metric. */
-enum { OF_SYNTHETIC = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8 };
+/* Of an image window depth without --metric, and levels with it. */
+enum { OF_SYNTHETIC = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8, OF_METRIC = 16 };
 
 static unsigned conditions(const statistics *r) {
     const unsigned source = !statistics_of_image(r)   ? OF_SYNTHETIC
                             : r->o->image.metric == 0 ? OF_IMAGE | OF_WINDOW
-                                                      : OF_IMAGE;
+                                                      : OF_IMAGE | OF_METRIC;
     return source | (r->source.matrix.path != NULL ? OF_MATRIX : 0);
 }
 
@@ -67,6 +70,25 @@ static const column recognised_columns[] = {{FIELD(statistics, named.format, "fo
                                             {FIELD(statistics, source.found.why, "why", "")},
                                             {.kind = COLUMN_END}};
 
+static const column gap_columns[] = {
+    {FIELD(statistics, gap.z, "z", "scene")}, {FIELD(statistics, gap.gap, "gap", "scene")}, {.kind = COLUMN_END}};
+
+static const column lattice_columns[] = {{FIELD(statistics, lattice.name, "name", "")},
+                                         {FIELD(statistics, lattice.from, "from", "")},
+                                         {FIELD(statistics, lattice.other, "other", "")},
+                                         {FIELD(statistics, lattice.like, "like", "")},
+                                         {FIELD(statistics, lattice.step, "step", "")},
+                                         {FIELD(statistics, lattice.step_error, "step_error", "")},
+                                         {FIELD(statistics, lattice.offset, "offset", "")},
+                                         {FIELD(statistics, lattice.offset_error, "offset_error", "")},
+                                         {FIELD(statistics, lattice.constant, "constant", "scene")},
+                                         {FIELD(statistics, lattice.levels, "levels", "")},
+                                         {FIELD(statistics, lattice.bits, "bits", "")},
+                                         {FIELD(statistics, lattice.off_pixels, "off_pixels", "")},
+                                         {FIELD(statistics, lattice.residual, "residual", "scene")},
+                                         {LIST("gaps", gap_columns, statistics_next_gap)},
+                                         {.kind = COLUMN_END}};
+
 static const column source_columns[] = {{FIELD(statistics, source.path, "file", "")},
                                         {FIELD(statistics, named.synthetic, "synthetic", "")},
                                         {LIST("parameters", parameter_columns, statistics_next_parameter)},
@@ -78,6 +100,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
                                         {GROUP("samples", sample_columns), .when = OF_IMAGE},
+                                        {GROUP("lattice", lattice_columns), .when = OF_METRIC},
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
                                         {.kind = COLUMN_END}};
 
@@ -148,7 +171,8 @@ static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
                                        {FIELD(error_line, masked, "masked", "")},
                                        {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 11, 4)},
                                        {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4), .upward = true},
-                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4), .upward = true},
+                                       {FIELD(error_line, sum.hi, "max", "")},
+                                       {TEXT_FIELD(error_line, most, "at most", 10, 4), .upward = true},
                                        {FIELD(error_line, sum.hi_column, "column", "")},
                                        {FIELD(error_line, sum.hi_row, "row", "")},
                                        {TEXT_FIELD(error_line, at, "at pixel", -1, 0)},
@@ -200,6 +224,8 @@ static void name_all(statistics *r) {
     r->named.coarser = !is_metric && texture_coarser(s);
     r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;
     name_zbuffer(r);
+    if (is_metric)
+        statistics_name_lattice(r);
     r->named.hidden = r->survey.sky - r->survey.true_sky;
 }
 

@@ -89,6 +89,8 @@ static int check_together(const options *o) {
         return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
     if (o->image.metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
+    if (o->image.lattice != NULL && o->image.metric == 0)
+        return option_error(OPTION_LATTICE, "needs --metric");
     if (o->image.channel != NULL && !file)
         return option_error(OPTION_CHANNEL, "needs FILE");
     if (o->image.packing != NULL && !file)
@@ -224,8 +226,15 @@ static int read_image(options *o, texture_source *s) {
         recognise(&s->picture, &s->found);
         return EXIT_FINE;
     }
-    const char *wrong = metric_convert(&s->picture, o->image.metric, &s->metric);
-    return wrong == NULL ? EXIT_FINE : usage_error("%s: no metric depth: %s", s->path, wrong);
+    sensor given;
+    status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
+    if (status != EXIT_FINE)
+        return status;
+    const char *wrong = metric_convert(&s->picture, o->image.metric, given.row != NULL ? &given : NULL, &s->metric);
+    if (wrong != NULL)
+        return usage_error("%s: no metric depth: %s", s->path, wrong);
+    texture_lattice_warn(o, s);
+    return EXIT_FINE;
 }
 
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
@@ -352,6 +361,7 @@ int texture_source_open(options *o, texture_source *s) {
                 .parameters = s->parameters,
                 .grain = s->path != NULL ? &s->grain : NULL,
                 .metric = o->image.metric > 0,
+                .sensor = o->image.metric > 0 ? &s->metric.sensor : NULL,
                 .planes = o->image.metric > 0 ? &s->planes : NULL,
                 .sky = o->image.sky,
                 .threads = o->out.threads};

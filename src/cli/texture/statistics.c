@@ -68,14 +68,72 @@ static number_text in_scene(const page *p, double length) {
     return number_in(number_of(length, 6), p->unit != NULL ? p->unit : "scene units");
 }
 
-static void say_metric(const statistics *r, page *p) {
+static const char *origin_of(const sensor *s) {
+    return texture_origin_name(s->given ? ORIGIN_GIVEN : s->found ? ORIGIN_FOUND : ORIGIN_ASSUMED);
+}
+
+void statistics_name_lattice(statistics *r) {
+    const sensor *s = &r->source.metric.sensor;
+    r->lattice = (lattice_fields){.name = s->row->name,
+                                  .from = origin_of(s),
+                                  .other = s->other != NULL ? s->other->name : NULL,
+                                  .like = s->like,
+                                  .step = s->step,
+                                  .step_error = s->step_off,
+                                  .offset = s->offset,
+                                  .offset_error = s->offset_off,
+                                  .constant = s->row->levels == GRAIN_INVERSE ? 1 / s->step : (double)NAN,
+                                  .levels = s->levels,
+                                  .bits = s->bits,
+                                  .off_pixels = s->off_pixels,
+                                  .residual = s->residual};
+}
+
+void *statistics_next_gap(void *of, size_t i) {
+    static const double at[] = {1, 2, 5, 10};
+    statistics *r = of;
+    if (i == sizeof at / sizeof at[0])
+        return NULL;
+    r->gap = (lattice_gap){at[i], sensor_gap(&r->source.metric.sensor, at[i])};
+    return r;
+}
+
+/* The levels: how far apart, with what that is off by, and what else is known of them. */
+static void say_levels(statistics *r, page *p) {
+    const sensor *s = &r->source.metric.sensor;
+    char gaps[256] = "";
+    char off[64] = "";
+    if (s->step_off > 0)
+        snprintf(off, sizeof off, ", off by at most %s", number_up(s->step_off, 2).text);
+    if (s->row->levels == GRAIN_INVERSE)
+        page_note(p, "", "1/z in steps of %s%s; baseline times focal length over a step %s", number_of(s->step, 6).text,
+                  off, number_of(1 / s->step, 6).text);
+    else if (s->row->levels == GRAIN_EVEN)
+        page_note(p, "", "z in steps of %s%s", in_scene(p, s->step).text, off);
+    for (size_t i = 0; statistics_next_gap(r, i) != NULL; i++)
+        append(gaps, sizeof gaps, "%s%s at %s", i > 0 ? ", " : "", number_of(r->gap.gap, 4).text,
+               number_of(r->gap.z, 4).text);
+    page_note(p, "", "%s levels, apart by %s", number_of(s->levels, 9).text, gaps);
+    if (s->off_pixels > 0)
+        page_note(p, "", "%s pixels are on none: interpolated, or of something else", number_of(s->off_pixels, 9).text);
+    if (s->like != NULL)
+        page_note(p, "", "such as %s", s->like);
+}
+
+static void say_metric(statistics *r, page *p) {
     const metric *m = &r->source.metric;
+    const sensor *s = &m->sensor;
     page_text(p, "metric depth, samples in units of %s, up to %s", in_scene(p, r->o->image.metric).text,
               in_scene(p, m->zfar).text);
     if (m->step > 0)
         page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);
     else
         page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
+    page_note(p, "lattice", "%s %s%s%s%s%s", s->row->name, origin_of(s), s->given ? "" : ": ",
+              s->given ? "" : s->row->note, s->other != NULL ? "; as well explained by " : "",
+              s->other != NULL ? s->other->name : "");
+    if (s->row->levels != GRAIN_FINE)
+        say_levels(r, p);
 }
 
 static void say_source(statistics *r, page *p) {
@@ -132,8 +190,9 @@ void statistics_say_head(page *p, void *item) {
     if (r->source.unpacked.zeros > 0)
         page_note(p, "zeros", "%s", texture_zeros_of(r->o, &r->source, zeros));
     if (v->invalid > 0)
-        page_note(p, "holes", "%llu pixels, %s %%, hold no depth", (unsigned long long)v->invalid,
-                  share(v->invalid, v->pixels).text);
+        page_note(p, "holes", "%llu pixels, %s %%, hold no depth%s", (unsigned long long)v->invalid,
+                  share(v->invalid, v->pixels).text,
+                  r->source.metric.top_is_hole ? "; 65535 counts as none, others end at 30000" : "");
     if (isnan(v->lo))
         page_note(p, "depths", "none");
     else

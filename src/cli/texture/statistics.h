@@ -15,13 +15,25 @@ typedef struct error_line {
     const char *unit;
     frame_summary sum;
     uint64_t masked;
-    char at[64]; /* the pixel, and the unit */
+    double most; /* of all: INFINITY where some have no bound, */
+    char at[64]; /* and the pixel, or how many these are, and the unit */
 } error_line;
 
 /** As the shader sees them: binary32. */
 typedef struct shader_params {
     double x, y, z, w;
 } shader_params;
+
+/** What is printed of the lattice of metric depth. */
+typedef struct lattice_fields {
+    const char *name, *from, *other, *like;
+    double step, step_error, offset, offset_error, constant, levels, bits, off_pixels, residual;
+} lattice_fields;
+
+/** How far apart its levels are, scene units. */
+typedef struct lattice_gap {
+    double z, gap;
+} lattice_gap;
 
 /** The statistics; what does not exist is null or NaN. Below `named`, the items of lists at hand. */
 typedef struct statistics {
@@ -33,6 +45,8 @@ typedef struct statistics {
     double condition; /* of the view-projection matrix, 2-norm; NaN where the mapping has none */
     size_t error_count;
     error_line errors[ERRORS_MAX];
+    lattice_fields lattice;
+    lattice_gap gap;
     setup_fields setup;
     struct {
         const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
@@ -56,6 +70,10 @@ static inline bool statistics_of_image(const statistics *r) {
 
 /** The parameters of the synthetic image, an item after the other. */
 void *statistics_next_parameter(void *of, size_t i);
+
+/** Fills in `lattice`; how far apart its levels are at 1, 2, 5 and 10, an item after the other. */
+void statistics_name_lattice(statistics *r);
+void *statistics_next_gap(void *of, size_t i);
 
 /** Above the bands, and below them. */
 void statistics_say_head(page *p, void *item);

@@ -66,6 +66,13 @@ const char *texture_origin_name(texture_origin origin);
 int texture_source_open(options *o, texture_source *out);
 void texture_source_close(texture_source *s);
 
+/** What the text of --lattice or --as says; NaN where it does not, no row where the text is null. @return an exit
+ *  status, after one line on stderr */
+int texture_lattice(option_id id, const char *text, sensor *out);
+
+/** One line on stderr where the image contradicts it. */
+void texture_lattice_warn(const options *o, const texture_source *s);
+
 /** Whether something says where far is, which metric depth does not need. */
 bool texture_far_known(const options *o);
 
@@ -125,6 +132,7 @@ typedef struct texture_product {
     frame_product made;
     frame_product error; /**< of it, for the file of --error-map */
     double settings[PARAMETERS_MAX];
+    sensor as;                        /**< with --as */
     char name[PRODUCT_NAME_SIZE];     /**< "normals by high, error" */
     const char *unit, *unit_of_error; /**< "scene units", "degrees", "levels of 1/255", "" */
 } texture_product;

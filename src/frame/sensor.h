@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file sensor.h  What a depth was rounded to before it became a sample of metric depth: the lattice of the sensor, of
+ * a format or of a depth buffer, which is what the image resolves. The file's own step says nothing about that.
+ *
+ * Quantization alone is looked at: noise is not.
+ */
+#ifndef FRAME_SENSOR_H
+#define FRAME_SENSOR_H
+
+#include "image/image.h"
+#include "shader/sample_rounding.h"
+
+/** The share of the pixels that lie on a lattice that is found. */
+#define SENSOR_SHARE 0.875
+
+typedef struct sensor_row {
+    const char *name; /**< "file", "inverse", "even", "binary16" */
+    const char *note;
+    const char *gap;    /**< between levels */
+    const char *source; /**< who makes such depths, and where that is written */
+    grain_levels levels;
+} sensor_row;
+
+const sensor_row *sensor_get(size_t index); /**< null beyond the last */
+
+/** How the file itself rounded. */
+typedef struct sensor_file {
+    double step;  /**< samples are multiples of it, in scene units; 0: numbers */
+    double unit;  /**< of an integer, at most the step; 0: numbers */
+    int digits;   /**< numbers: significant bits, 11, 24 or 53; 0: integers */
+    double scale; /**< scene units of 1 in a sample */
+} sensor_file;
+
+/** What was found. What there is not is NaN. */
+typedef struct sensor {
+    const sensor_row *row;
+    bool given;                /**< by somebody who knows */
+    bool found;                /**< by the rule above, and no other row explains the values as well; else assumed */
+    double file_step;          /**< what the file itself rounded to, step or unit of it */
+    double step, step_off;     /**< of 1/z, or of z, and how far off it is at most */
+    double offset, offset_off; /**< the level nearest to 0, in the unit of the step */
+    double levels;             /**< from the nearest to the farthest depth, whether used or not */
+    double bits;               /**< -log2 of the chance of random values, less that of all lattices tried */
+    double off_pixels;         /**< on no level: interpolated, or of something else */
+    double residual;           /**< of all others: how far the farthest is from its level, scene units, where all are
+                                    shifted alike so that this is least */
+    const sensor_row *other;   /**< explains the values, too; null: none does */
+    const char *like;          /**< a standard lattice with such a step; null: none is known */
+} sensor;
+
+/** Looks at all depths. Never fails: what cannot be found is assumed to be the file's own. */
+void sensor_find(const image *img, const sensor_file *file, sensor *out);
+
+/**
+ * What somebody knows: a row, and of its levels the step and the offset, or how many there are from lo to hi. NaN
+ * stands for what is not known; an offset is then where most values are. Fills in the rest.
+ */
+void sensor_complete(const image *img, const sensor_file *file, double lo, double hi, sensor *s);
+
+/** Where it is known how many levels there are from lo to hi: their step and offset. */
+void sensor_between(double lo, double hi, sensor *s);
+
+/** From a level at z to the next farther one, scene units, INFINITY where there is none; NaN where the row is "file"
+ * and its samples are numbers. */
+double sensor_gap(const sensor *s, double z);
+
+/** How many levels there are from lo on and below hi; NaN as above */
+double sensor_levels(const sensor *s, double lo, double hi);
+
+/** The nearest level; NaN beyond the farthest one. */
+double sensor_round(const sensor *s, double z);
+
+/** Beyond which nothing lies that was rounded to a depth up to z; z where that has no end. */
+double sensor_end(const sensor *s, double z);
+
+/** What ranges are made of: for window depths of a linear mapping that ends at zfar. */
+void sensor_into(const sensor *s, double zfar, grain *g);
+
+#endif

@@ -1,0 +1,355 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "frame/sensor_fit.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "core/elementary.h"
+#include "shader/clones.h"
+
+enum {
+    WINDOW = 48,         /* values that a comb is laid on, */
+    NEIGHBOURS = 96,     /* the commonest of so many */
+    WINDOWS = 6,         /* windows and, in each, values that may be the comb's origin */
+    ORIGINS = 3,         /* ... as one may be off */
+    TEETH_MAX = 1 << 16, /* frequencies, */
+    BLOCK = 256,         /* ... so many at a time */
+    PEAKS = 12,
+    TELLING = 6, /* of a step, the share that a value may be off by to count, or to be fitted */
+    FITTING = 5,
+    ENDS = 64,      /* values at either end that bound the step */
+    TOLD = 4096,    /* values that the chance is of, at most: any choice of them proves it */
+    EXPONENTS = 48, /* of Chernoff's base */
+    EXTENSIONS = 64
+};
+
+/* What of an `off` a cover of all lattices may shift each of step and offset by, and log2 of the octaves of steps. */
+static const double COVER = 0.25, OCTAVES = 6;
+
+/* ---- The chance -------------------------------------------------------------------------------------------------- */
+
+double fit_chance(const double *probabilities, size_t count, size_t on) {
+    double most = 0;
+    for (int e = 1; e <= EXPONENTS; e++) {
+        const double base = ldexp(1, e);
+        double bits = (double)on * e;
+        for (size_t i = 0; i < count; i++)
+            bits -= dp_log2(1 + fmin(probabilities[i], 1) * (base - 1));
+        if (!(bits > most))
+            break; /* it is concave in the base's logarithm */
+        most = bits;
+    }
+    return most;
+}
+
+/* From the nearest level. */
+static double residual_of(const fit *f, double at) {
+    const double k = (at - f->offset) / f->step;
+    return (k - rint(k)) * f->step;
+}
+
+static double residual(const fit *f, double at) {
+    return fabs(residual_of(f, at));
+}
+
+bool fit_holds(const fit *f, const fit_value *value) {
+    return residual(f, value->at) <= value->off * (1 + 0x1p-20);
+}
+
+/* Values that can tell: a comb of random phase meets them with a chance of half or less; somewhat more for a fit. */
+static bool can_tell(const fit *f, const fit_value *value, double telling) {
+    return value->off < f->step / telling;
+}
+
+static void weigh(const fit_value *values, size_t count, double telling, fit *f) {
+    double chances[TOLD], halves[TOLD], least = (double)INFINITY, last = (double)NAN, pixels = 0, all = 0;
+    const size_t stride = 1 + (count - 1) / TOLD;
+    size_t told = 0, on = 0;
+    f->levels = 0;
+    for (size_t i = 0; i < count; i++) {
+        const bool held = fit_holds(f, &values[i]), tells = can_tell(f, &values[i], telling);
+        const double k = rint((values[i].at - f->offset) / f->step);
+        pixels += held ? values[i].pixels : 0;
+        all += values[i].pixels;
+        if (!tells)
+            continue;
+        const bool alone = held && k != last; /* a level becomes one sample: a second one is on none */
+        least = fmin(least, values[i].off);
+        last = held ? k : last;
+        f->levels += alone;
+        if (i % stride == 0) {
+            halves[told] = 0.5;
+            chances[told++] = 2 * (1 + 2 * COVER) * values[i].off / f->step;
+            on += alone;
+        }
+    }
+    const double span = values[count - 1].at - values[0].at, unit = COVER * least;
+    const double lattices = dp_log2(fmax(span / unit, 1)) + dp_log2(fmax(f->step / unit, 1)) + OCTAVES;
+    f->pixels = pixels / all;
+    f->bits = told > 0 ? fit_chance(chances, told, on) - lattices : 0;
+    f->whole = told > 0 ? fit_chance(halves, told, on) : 0;
+}
+
+bool fit_explains(const fit *f) {
+    return f->bits >= FIT_BITS && f->whole >= FIT_WHOLE && f->levels >= FIT_LEVELS;
+}
+
+/* A half or a third of a step holds values, too, and averages of neighbours besides: the coarsest that explains them is
+ * meant. */
+static bool is_better(const fit *f, const fit *than) {
+    const bool explains = fit_explains(f);
+    if (explains != fit_explains(than))
+        return explains;
+    return explains && fmax(f->step, than->step) > 1.5 * fmin(f->step, than->step) ? f->step > than->step
+                                                                                   : f->bits > than->bits;
+}
+
+/* ---- From a step that is nearly right to all values -------------------------------------------------------------- */
+
+/* Least squares over values from a to b that lie within their own rounding and `slack` steps. @return false where the
+ * lattice does not hold them */
+static bool regress(const fit_value *values, size_t a, size_t b, double slack, fit *f) {
+    const double origin = values[a + (b - a) / 2].at, first = rint((origin - f->offset) / f->step);
+    double sum = 0, sk = 0, su = 0, skk = 0, sku = 0, pixels = 0, all = 0;
+    for (size_t i = a; i < b; i++) {
+        const fit_value *v = &values[i];
+        if (!can_tell(f, v, FITTING))
+            continue;
+        all += v->pixels;
+        if (residual(f, v->at) > fmin(v->off + slack * f->step, 0.375 * f->step))
+            continue;
+        pixels += v->pixels;
+        const double k = rint((v->at - f->offset) / f->step) - first, u = v->at - origin;
+        const double weight = fmin(v->pixels, 16) / (v->off * v->off) * (f->step * f->step);
+        sum += weight;
+        sk += weight * k;
+        su += weight * u;
+        skk += weight * k * k;
+        sku += weight * k * u;
+    }
+    const double spread = sum * skk - sk * sk;
+    if (!(pixels >= 0.625 * all && spread > 1e-9 * sum * skk))
+        return false;
+    const double step = (sum * sku - sk * su) / spread;
+    if (!(step > 0.5 * f->step && step < 2 * f->step))
+        return false;
+    f->offset = origin + (su - step * sk) / sum - step * first;
+    f->step = step;
+    return true;
+}
+
+static bool extend(const fit_value *values, size_t count, size_t a, size_t b, fit *f) {
+    for (int i = 0; i < EXTENSIONS; i++) {
+        if (!regress(values, a, b, 0.125, f) || !regress(values, a, b, 0.0625, f))
+            return false;
+        if (a == 0 && b == count)
+            return regress(values, 0, count, 0.03125, f) && regress(values, 0, count, 0, f);
+        const double lo = values[a].at, hi = values[b - 1].at, more = 0.5 * (hi - lo);
+        while (a > 0 && values[a - 1].at >= lo - more)
+            a--;
+        while (b < count && values[b].at <= hi + more)
+            b++;
+        if (a > 0 && values[a].at == lo)
+            a--; /* over a gap */
+        if (b < count && values[b - 1].at == hi)
+            b++;
+    }
+    return false;
+}
+
+/* ---- Where a comb stands out -------------------------------------------------------------------------------------*/
+
+typedef struct comb {
+    double at[WINDOW], distance[WINDOW];
+    size_t count, first, end; /* of the values */
+    double lo, spacing;       /* frequencies */
+    size_t teeth;
+    double *scores; /* room for TEETH_MAX */
+} comb;
+
+/* The commonest values of a window; of equals the first. */
+static void lay(const fit_value *values, size_t count, size_t first, comb *c) {
+    const size_t end = first + NEIGHBOURS < count ? first + NEIGHBOURS : count;
+    bool taken[NEIGHBOURS] = {false};
+    c->first = first;
+    c->end = end;
+    c->count = 0;
+    while (c->count < WINDOW && c->count < end - first) {
+        size_t best = end;
+        for (size_t i = first; i < end; i++)
+            if (!taken[i - first] && (best == end || values[i].pixels > values[best].pixels))
+                best = i;
+        taken[best - first] = true;
+        c->at[c->count++] = values[best].at;
+    }
+}
+
+static int compare_doubles(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* From a quarter of the window up to sixteen steps in the usual gap, or to what rounding leaves. */
+static bool choose_teeth(const fit_value *values, comb *c) {
+    double sorted[WINDOW], gaps[WINDOW], off = 0;
+    for (size_t i = 0; i < c->count; i++)
+        sorted[i] = c->at[i];
+    qsort(sorted, c->count, sizeof *sorted, compare_doubles);
+    for (size_t i = 0; i + 1 < c->count; i++)
+        gaps[i] = sorted[i + 1] - sorted[i];
+    qsort(gaps, c->count - 1, sizeof *gaps, compare_doubles);
+    for (size_t i = c->first; i < c->end; i++)
+        off += values[i].off / (double)(c->end - c->first);
+    const double range = sorted[c->count - 1] - sorted[0];
+    const double hi = fmin(1 / (3 * off), 16 / gaps[c->count / 4]);
+    c->lo = 4 / range;
+    c->spacing = 0.25 / range;
+    if (!(hi > c->lo))
+        return false;
+    c->teeth = (size_t)fmin((hi - c->lo) / c->spacing, TEETH_MAX);
+    return c->teeth > 2;
+}
+
+/* 1 - 12 x^2 of how far values are from a tooth: of values at random it is 0 on average, on the teeth 1. */
+CLONES static void comb_scores(const double *restrict distance, size_t count, double lo, double spacing, size_t teeth,
+                               double *restrict scores) {
+    for (size_t first = 0; first < teeth; first += BLOCK) {
+        double sums[BLOCK];
+        for (size_t i = 0; i < BLOCK; i++)
+            sums[i] = 0;
+        for (size_t k = 0; k < count; k++)
+            for (size_t i = 0; i < BLOCK; i++) {
+                const double x = distance[k] * (lo + spacing * (double)(int32_t)(first + i)), off = x - rint(x);
+                sums[i] += 1 - 12 * off * off;
+            }
+        for (size_t i = 0; i < BLOCK && first + i < teeth; i++)
+            scores[first + i] = sums[i];
+    }
+}
+
+/* The coarsest of those that stand out, extended; what says most is kept. */
+static bool try_origin(const fit_value *values, size_t count, comb *c, double origin, fit *best) {
+    bool found = false;
+    double most = 0;
+    for (size_t k = 0; k < c->count; k++)
+        c->distance[k] = c->at[k] - origin;
+    comb_scores(c->distance, c->count, c->lo, c->spacing, c->teeth, c->scores);
+    for (size_t i = 0; i < c->teeth; i++)
+        most = fmax(most, c->scores[i]);
+    const double least = fmax(0.85 * most, 0.3 * (double)c->count);
+    int peaks = 0;
+    for (size_t i = 1; i + 1 < c->teeth && peaks < PEAKS; i++) {
+        if (!(c->scores[i] >= least && c->scores[i] > c->scores[i - 1] && c->scores[i] >= c->scores[i + 1]))
+            continue;
+        peaks++;
+        fit f = {.step = 1 / (c->lo + c->spacing * (double)i), .offset = origin};
+        if (!extend(values, count, c->first, c->end, &f))
+            continue;
+        weigh(values, count, TELLING, &f);
+        if (is_better(&f, best)) {
+            *best = f;
+            found = true;
+        }
+    }
+    return found;
+}
+
+/* Over a gap a level may have been skipped, or been counted twice. @return whether another number of levels fits nearly
+ * as well, so that the values do not tell */
+static bool may_have_slipped(const fit_value *values, size_t count, const fit *best) {
+    enum { MOST = 16, QUARTERS = 4, ANCHORS = 8 };
+    const double range = values[count - 1].at - values[0].at, levels = range / best->step;
+    for (int quarters = -MOST; quarters <= MOST; quarters++)
+        for (size_t i = 0; i < ANCHORS && levels > MOST; i++) {
+            fit f = {.step = range / (levels + (double)quarters / QUARTERS),
+                     .offset = values[(count - 1) * i / (ANCHORS - 1)].at};
+            f.offset -= residual_of(best, f.offset);
+            if (quarters == 0 || !regress(values, 0, count, 0.125, &f) || !regress(values, 0, count, 0.03125, &f) ||
+                !regress(values, 0, count, 0, &f) || fabs(range / f.step - levels) < 0.5)
+                continue;
+            weigh(values, count, FITTING, &f);
+            if (f.bits > best->bits - FIT_BITS)
+                return true;
+        }
+    return false;
+}
+
+/* ---- What it leaves open ------------------------------------------------------------------------------------------*/
+
+/*
+ * Any other lattice that holds the same values by the same k: (k_j - k_i) step lies within off_i + off_j of their
+ * difference, for every pair.
+ */
+static void bound(const fit_value *values, size_t count, fit *f) {
+    const fit_value *ends[2][ENDS];
+    size_t filled[2] = {0, 0};
+    f->offset -= f->step * rint(f->offset / f->step);
+    for (size_t i = 0; i < count && filled[0] < ENDS; i++)
+        if (can_tell(f, &values[i], FITTING) && fit_holds(f, &values[i]))
+            ends[0][filled[0]++] = &values[i];
+    for (size_t i = count; i-- > 0 && filled[1] < ENDS;)
+        if (can_tell(f, &values[i], FITTING) && fit_holds(f, &values[i]))
+            ends[1][filled[1]++] = &values[i];
+    double lo = 0, hi = (double)INFINITY;
+    for (size_t i = 0; i < filled[0]; i++)
+        for (size_t j = 0; j < filled[1]; j++) {
+            const double apart = rint((ends[1][j]->at - ends[0][i]->at) / f->step);
+            const double off = ends[0][i]->off + ends[1][j]->off, difference = ends[1][j]->at - ends[0][i]->at;
+            if (apart < 1)
+                continue;
+            lo = fmax(lo, (difference - off) / apart);
+            hi = fmin(hi, (difference + off) / apart);
+        }
+    f->step_off = fmax(fmax(hi - f->step, f->step - lo), 0);
+    f->offset_off = (double)INFINITY;
+    for (int side = 0; side < 2; side++)
+        for (size_t i = 0; i < filled[side]; i++) {
+            const fit_value *v = ends[side][i];
+            const double k = rint((v->at - f->offset) / f->step);
+            f->offset_off = fmin(f->offset_off, fabs(k) * f->step_off + v->off + residual(f, v->at));
+        }
+}
+
+/*
+ * Two lattices that were put together lie on a finer one, but on few of its residues: of one lattice levels are missing
+ * without regard to them. By chi squared and its bound for a chance of e^-15.
+ */
+static bool is_mixed(const fit_value *values, size_t count, const fit *f) {
+    enum { MOST = 64 };
+    for (int q = 2; q <= MOST; q++) {
+        double of[MOST] = {0}, all = 0, last = (double)NAN, squares = 0;
+        for (size_t i = 0; i < count; i++) {
+            const double k = rint((values[i].at - f->offset) / f->step);
+            if (!can_tell(f, &values[i], FITTING) || !fit_holds(f, &values[i]) || k == last)
+                continue;
+            of[(int)(k - q * floor(k / q))]++;
+            all++;
+            last = k;
+        }
+        for (int i = 0; i < q; i++)
+            squares += of[i] * of[i];
+        if (q / all * squares - all > q - 1 + 2 * sqrt(15.0 * (q - 1)) + 30)
+            return true;
+    }
+    return false;
+}
+
+bool fit_find(const fit_value *values, size_t count, fit *out) {
+    comb c = {.scores = malloc(TEETH_MAX * sizeof(double))};
+    bool found = false;
+    *out = (fit){0};
+    const size_t last = count > NEIGHBOURS ? count - NEIGHBOURS : 0;
+    for (size_t w = 0; w < WINDOWS && !(fit_explains(out) && out->pixels == 1) && c.scores != NULL && count >= 4; w++) {
+        if (w > 0 && last == 0)
+            break;
+        lay(values, count, last * w / (WINDOWS - 1), &c);
+        for (size_t k = 0; k < ORIGINS && choose_teeth(values, &c); k++)
+            found = try_origin(values, count, &c, c.at[k], out) || found;
+    }
+    free(c.scores);
+    if (!found || may_have_slipped(values, count, out) || is_mixed(values, count, out))
+        return false;
+    bound(values, count, out);
+    return true;
+}
