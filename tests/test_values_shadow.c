@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every number that shadow prints, against the room shadow with a light of the test's own; the split and the sphere of
  * a cascade by closed forms. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "cli/bias_all.h"
 #include "named.h"
 #include "printed.h"
@@ -156,17 +152,10 @@ static double radians(double degrees) {
 
 static shadow_light light_of(const shadow_case *c, const char *format, dp_mapping mapping) {
     shadow_light light = shadow_light_default();
-    dp_spec spec = dp_spec_default();
-    dp_format found[2];
-    assert_int_equal(dp_format_parse(format, found), 1);
-    spec.ortho = 1;
-    spec.znear = 0;
-    spec.zfar = c->box[2] > 0 ? c->box[2] : 1;
-    spec.format = found[0];
-    spec.mapping = mapping;
+    dp_arith arith = 0;
     if (c->raster != NULL)
-        assert_int_equal(dp_arith_parse(c->arith, &spec.arith), DP_OK);
-    assert_int_equal(dp_setup_init(&light.setup, &spec), DP_OK);
+        assert_int_equal(dp_arith_parse(c->arith, &arith), DP_OK);
+    light.setup = SETUP(format, .ortho = 1, .zfar = c->box[2] > 0 ? c->box[2] : 1, .mapping = mapping, .arith = arith);
     light.triangles.width = c->width;
     light.triangles.height = c->height;
     light.triangles.subpixel = c->subpixel;
@@ -273,16 +262,10 @@ static void want_row(values *v, const shadow_case *c, const shadow_cascade *map,
     shadow_need need;
     shadow_need_of(light, &need);
     want_text(v, "api", api->name);
-    if (c->box[2] == 0) {
-        want_count(v, "cascade", (uint64_t)cascade + 1);
-        want_number(v, "from", map->from);
-        want_number(v, "to", map->to);
-        want_number(v, "radius", map->radius);
-    }
-    want_number(v, "width", light->width);
-    want_number(v, "height", light->height);
-    want_number(v, "depth", depth);
-    want_number(v, "texel_size", fmax(light->width / c->width, light->height / c->height));
+    if (c->box[2] == 0)
+        want(v, "cascade=%u from=%f to=%f radius=%f", (unsigned)cascade + 1, map->from, map->to, map->radius);
+    want(v, "width=%f height=%f depth=%f", light->width, light->height, depth);
+    want(v, "texel_size=%f", fmax(light->width / c->width, light->height / c->height));
     want_ways(v, light, &need, api);
     values_under(v, "%scauses.", v->prefix);
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++)
@@ -329,56 +312,37 @@ static void want_answer(values *v, const shadow_case *c, const char *format, dp_
 }
 
 static void want_head(values *v, const shadow_case *c) {
-    want_text(v, "api", c->api != NULL ? c->api : "all");
-    want_text(v, "arith", c->arith != NULL ? c->arith : "ieee");
-    want_number(v, "size.width", c->width);
-    want_number(v, "size.height", c->height);
-    want_number(v, "kernel", c->kernel);
-    want_number(v, "angle", c->angle);
-    want_number(v, "subpixel", c->subpixel);
-    want_number(v, "pixels", c->pixels);
-    want_number(v, "slim", c->slim);
-    want_number(v, "from_origin", c->world);
-    want_number(v, "curvature", c->curvature > 0 ? c->curvature : NAN);
-    want_number(v, "facet", c->facet);
+    want(v, "api=%s arith=%s", c->api != NULL ? c->api : "all", c->arith != NULL ? c->arith : "ieee");
+    want(v, "size.width=%u size.height=%u kernel=%u", (unsigned)c->width, (unsigned)c->height, (unsigned)c->kernel);
+    want(v, "angle=%f subpixel=%u pixels=%f slim=%f", c->angle, (unsigned)c->subpixel, c->pixels, c->slim);
+    want(v, "from_origin=%f curvature=%f facet=%f", c->world, c->curvature > 0 ? c->curvature : NAN, c->facet);
     if (c->box[2] > 0) {
         want_text(v, "view", NULL);
         return;
     }
-    want_number(v, "view.near", c->znear);
-    want_number(v, "view.far", c->zfar);
-    want_number(v, "view.fov", fov_of(c));
-    want_number(v, "view.aspect", c->aspect);
-    want_number(v, "view.cascades", c->cascades);
-    want_number(v, "view.lambda", c->lambda);
-    want_number(v, "view.casters", c->casters);
+    want(v, "view.near=%f view.far=%f view.fov=%f view.aspect=%f", c->znear, c->zfar, fov_of(c), c->aspect);
+    want(v, "view.cascades=%u view.lambda=%f view.casters=%f", (unsigned)c->cascades, c->lambda, c->casters);
 }
 
 static const bias_api *api_of(const shadow_case *c, size_t i) {
     return c->api != NULL ? bias_api_find(c->api) : bias_api_get(i);
 }
 
-static void want_setup_of(values *v, const shadow_case *c, size_t k, line_places *lines) {
+static void want_setup_of(values *v, const shadow_case *c, size_t k) {
     const char *format = c->formats[k / c->mapping_count];
     const dp_mapping mapping = c->mappings[k % c->mapping_count];
     const size_t apis = c->api != NULL ? 1 : APIS;
     values_under(v, "setups[%zu].", k);
-    want_text(v, "format", format);
-    want_text(v, "mapping", dp_mapping_get(mapping)->name);
-    want_text(v, "unit", c->unit);
-    want_number(v, "lit_from", c->box[2] > 0 ? c->lo : NAN);
-    want_number(v, "lit_to", c->box[2] > 0 ? c->hi : NAN);
+    want(v, "format=%s mapping=%s unit=%s", format, dp_mapping_get(mapping)->name, c->unit);
+    want(v, "lit_from=%f lit_to=%f", c->box[2] > 0 ? c->lo : NAN, c->box[2] > 0 ? c->hi : NAN);
     for (size_t i = 0; i < apis; i++) {
         values_under(v, "setups[%zu].answers[%zu].", k, i);
         want_answer(v, c, format, mapping, api_of(c, i));
     }
     for (size_t i = 0; i < map_count(c) * apis; i++) {
         const shadow_cascade map = map_of(c, format, mapping, (int)(i / apis));
-        char inner[32];
         values_under(v, "setups[%zu].rows[%zu].", k, i);
         want_row(v, c, &map, (int)(i / apis), api_of(c, i % apis));
-        snprintf(inner, sizeof inner, "rows[%zu].", i);
-        place_add(lines, inner, "setups[%zu].", k);
     }
 }
 
@@ -390,7 +354,7 @@ static bool enough(double shown, double value, const char *field) {
     return fabs(shown) >= fabs(value) * (1 - 1e-12) && fabs(shown) <= fabs(value) * (1 + step);
 }
 
-static double number_at(const values *v, size_t setup, size_t row, const char *field) {
+static double number_of(const values *v, size_t setup, size_t row, const char *field) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "setups[%zu].rows[%zu].%s", setup, row, field);
     return value_at(v, path)->number;
@@ -406,7 +370,7 @@ static void check_bias_line(const values *v, const char *line, size_t setup, siz
         line = end;
     }
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) {
-        const double want = number_at(v, setup, row, fields[k]);
+        const double want = number_of(v, setup, row, fields[k]);
         line += strspn(line, " ");
         if (!isfinite(want)) {
             assert_int_equal(*line, '-');
@@ -425,7 +389,7 @@ static void check_place_line(const values *v, const char *line, size_t setup, si
     char *end;
     assert_int_equal(strtol(line, &end, 10), (long)row + 1);
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-        assert_relative(strtod(end, &end), number_at(v, setup, row, fields[k]), k < 2 ? 5e-6 : 5e-4);
+        assert_relative(strtod(end, &end), number_of(v, setup, row, fields[k]), k < 2 ? 5e-6 : 5e-4);
 }
 
 static const char *line_behind(const char *text, int lines) {
@@ -472,14 +436,14 @@ static void check_notes(const values *v, const shadow_case *c, const char *at, s
     size_t least = 0;
     for (size_t i = 0; i < map_count(c); i++)
         for (int k = 0; k < 3; k++) {
-            const double value = number_at(v, setup, i, shares[k]);
+            const double value = number_of(v, setup, i, shares[k]);
             least = k == 0 && value < share[0] ? i : least;
             share[k] = fmin(share[k], value);
-            gap[k] = fmax(gap[k], number_at(v, setup, i, gaps[k]));
+            gap[k] = fmax(gap[k], number_of(v, setup, i, gaps[k]));
         }
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
         snprintf(path, sizeof path, "causes.%s", shadow_cause_name((shadow_cause)k));
-        sum += number_at(v, setup, least, path);
+        sum += number_of(v, setup, least, path);
     }
     note_of(at, "\n  causes ", text);
     if (map_count(c) > 1)
@@ -487,7 +451,7 @@ static void check_notes(const values *v, const shadow_case *c, const char *at, s
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
         const char *const name = shadow_cause_name((shadow_cause)k), *const found = strstr(text, name);
         snprintf(path, sizeof path, "causes.%s", name);
-        const double percent = 100 * number_at(v, setup, least, path) / sum;
+        const double percent = 100 * number_of(v, setup, least, path) / sum;
         assert_int_equal(found != NULL, percent >= 0.05);
         if (found != NULL)
             assert_relative(strtod(found + strlen(name), NULL), percent, 0.006);
@@ -520,13 +484,13 @@ static void check_remarks(const values *v, const shadow_case *c, const char *at,
          beyond = false; /* no units of the constant bias; for it is deeper than the box */
     char text[4096];
     for (size_t i = 0; i < map_count(c); i++) {
-        const double depth = number_at(v, setup, i, "depth");
-        const double bias = number_at(v, setup, i, "constant_bias");
-        none = none || isnan(number_at(v, setup, i, "constant_units"));
+        const double depth = number_of(v, setup, i, "depth");
+        const double bias = number_of(v, setup, i, "constant_bias");
+        none = none || isnan(number_of(v, setup, i, "constant_units"));
         beyond = beyond || bias >= 1;
-        wide = fmax(wide, number_at(v, setup, i, gaps[0]) / (bias * depth));
+        wide = fmax(wide, number_of(v, setup, i, gaps[0]) / (bias * depth));
         for (int k = 0; k < 3; k++)
-            hidden = hidden || beyond || number_at(v, setup, i, gaps[k]) >= depth;
+            hidden = hidden || beyond || number_of(v, setup, i, gaps[k]) >= depth;
     }
     joined(at, text);
     assert_int_equal(strstr(text, "nothing is in shadow") != NULL, hidden);
@@ -601,55 +565,83 @@ static void check_text(const values *v, const shadow_case *c) {
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 #define WAY(name)                                                                                                      \
-    {name "_bias", name "_bias"}, {name "_units", name "_units"}, {name "_gap [scene]", name "_gap"},                  \
-        {name "_gap_normal [scene]", name "_gap_normal"}, {                                                            \
-        name "_share", name "_share"                                                                                   \
-    }
-#define FACING(name)                                                                                                   \
-    { name "_gap_facing [scene]", name "_gap_facing" }
-#define CAUSES                                                                                                         \
-    {"texel [scene]", "causes.texel"}, {"kernel [scene]", "causes.kernel"}, {"lookup [scene]", "causes.lookup"},       \
-        {"snapping [scene]", "causes.snapping"}, {"set-up [scene]", "causes.set-up"},                                  \
-        {"position [scene]", "causes.position"}, {                                                                     \
-        "format [scene]", "causes.format"                                                                              \
-    }
-#define MAP                                                                                                            \
-    {"width [scene]", "width"}, {"height [scene]", "height"}, {"depth [scene]", "depth"},                              \
-        {"texel_size [scene]", "texel_size"}, WAY("constant"), {"slope_factor", "slope_factor"}, WAY("slope"),         \
-        FACING("slope"), {"normal_offset [scene]", "normal_offset"}, {"normal_texels", "normal_texels"},               \
-        WAY("normal"), FACING("normal"), {"limited", "limited"}, CAUSES
+    name "_bias, " name "_units, " name "_gap [scene], " name "_gap_normal [scene], " name "_share, ?" name            \
+         "_gap_facing [scene], "
 
-static void test_all(void **state) {
-    static const csv_column box[] = {{"format", "^format"}, {"mapping", "^mapping"}, {"api", "api"}, MAP};
-    static const csv_column split[] = {{"format", "^format"},
-                                       {"mapping", "^mapping"},
-                                       {"api", "api"},
-                                       {"cascade", "cascade"},
-                                       {"from [scene]", "from"},
-                                       {"to [scene]", "to"},
-                                       {"radius [scene]", "radius"},
-                                       MAP};
-    (void)state;
+TEST(each_number) {
     for (size_t i = 0; i < CASES; i++) {
         const shadow_case all = filled(given[i]), *const c = &all;
-        const bool is_box = c->box[2] > 0;
         values v = values_of("shadow");
-        line_places lines = {0};
-        char arguments[512];
-        snprintf(arguments, sizeof arguments, "shadow %s", c->options);
+        char line[512];
+        snprintf(line, sizeof line, "shadow %s", c->options);
         want_head(&v, c);
         for (size_t k = 0; k < setup_count(c); k++)
-            want_setup_of(&v, c, k, &lines);
-        check_json(&v, 0, arguments);
-        check_csv(&v, 0, arguments, is_box ? box : split,
-                  is_box ? sizeof box / sizeof box[0] : sizeof split / sizeof split[0], &lines);
+            want_setup_of(&v, c, k);
+        check_forms(
+            &v, 0, line, "setups[].rows[]",
+            "format = ^format, mapping = ^mapping, api, ?cascade, ?from [scene], ?to [scene], "
+            "?radius [scene], width [scene], height [scene], depth [scene], texel_size [scene], " WAY(
+                "constant") "slope_factor, " WAY("slope") "normal_offset [scene], normal_texels, " WAY("normal") "limit"
+                                                                                                                 "ed, "
+                                                                                                                 "texel"
+                                                                                                                 " ["
+                                                                                                                 "scene"
+                                                                                                                 "] = "
+                                                                                                                 "cause"
+                                                                                                                 "s."
+                                                                                                                 "texel"
+                                                                                                                 ", "
+                                                                                                                 "kerne"
+                                                                                                                 "l "
+                                                                                                                 "[scen"
+                                                                                                                 "e] = "
+                                                                                                                 "cause"
+                                                                                                                 "s."
+                                                                                                                 "kerne"
+                                                                                                                 "l, "
+                                                                                                                 "looku"
+                                                                                                                 "p "
+                                                                                                                 "[scen"
+                                                                                                                 "e] = "
+                                                                                                                 "cause"
+                                                                                                                 "s."
+                                                                                                                 "looku"
+                                                                                                                 "p, "
+                                                                                                                 "snapp"
+                                                                                                                 "ing "
+                                                                                                                 "[scen"
+                                                                                                                 "e] = "
+                                                                                                                 "cause"
+                                                                                                                 "s."
+                                                                                                                 "snapp"
+                                                                                                                 "ing, "
+                                                                                                                 "set-"
+                                                                                                                 "up "
+                                                                                                                 "[scen"
+                                                                                                                 "e] = "
+                                                                                                                 "cause"
+                                                                                                                 "s."
+                                                                                                                 "set-"
+                                                                                                                 "up, "
+                                                                                                                 "posit"
+                                                                                                                 "ion "
+                                                                                                                 "[scen"
+                                                                                                                 "e] = "
+                                                                                                                 "cause"
+                                                                                                                 "s."
+                                                                                                                 "posit"
+                                                                                                                 "ion, "
+                                                                                                                 "forma"
+                                                                                                                 "t "
+                                                                                                                 "[scen"
+                                                                                                                 "e] = "
+                                                                                                                 "cause"
+                                                                                                                 "s."
+                                                                                                                 "forma"
+                                                                                                                 "t");
         (c->api != NULL ? check_text : check_apis)(&v, c);
         values_free(&v);
-        places_free(&lines);
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all), cmocka_unit_test(check_apart)};
-    return run_tap(tests);
-}
+LIST_TEST(check_apart)
