@@ -145,7 +145,7 @@ void check_says(int status, const char *said, const char *format, ...) {
     printed_free(&p);
 }
 
-void check_refused(const char *line, const refusal *rows, size_t count) {
+void check_refused(const char *line, const refused_row *rows, size_t count) {
     for (size_t i = 0; i < count; i++) {
         printed p = print_of("%s %s", line, rows[i].words);
         if (p.status != (rows[i].status > 0 ? rows[i].status : 2) || strstr(p.errors, rows[i].said) == NULL || *p.out)

@@ -49,14 +49,14 @@ const char *scratch_text(const char *name, const char *format, ...) __attribute_
 void check_says(int status, const char *said, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /** Words behind a command line, what they are refused with, and the exit status; of a 0 it is 2. */
-typedef struct refusal {
+typedef struct refused_row {
     const char *words, *said;
     int status;
-} refusal;
+} refused_row;
 
 /** Each of them is refused with its sentence on stderr, and nothing on stdout. */
 #define CHECK_REFUSED(line, rows) check_refused(line, rows, sizeof rows / sizeof rows[0])
-void check_refused(const char *line, const refusal *rows, size_t count);
+void check_refused(const char *line, const refused_row *rows, size_t count);
 
 /** The text of a file, to be freed. */
 char *text_of_file(const char *path);

@@ -11,7 +11,7 @@ enum { TESTS_MAX = 64 };
 static struct CMUnitTest tests[TESTS_MAX];
 static size_t test_count;
 
-void test_listed(struct CMUnitTest test) {
+void list_test(struct CMUnitTest test) {
     if (test_count == TESTS_MAX)
         abort();
     tests[test_count++] = test;

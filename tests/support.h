@@ -118,9 +118,9 @@ const char *vector_text(const vector_row *row, int index);
     static void name(void **state __attribute__((unused)))
 #define LIST_TEST(name)                                                                                                \
     static void __attribute__((constructor)) name##_listed(void) {                                                     \
-        test_listed((struct CMUnitTest)cmocka_unit_test(name));                                                        \
+        list_test((struct CMUnitTest)cmocka_unit_test(name));                                                        \
     }
-void test_listed(struct CMUnitTest test);
+void list_test(struct CMUnitTest test);
 
 /** Runs them between two functions of cmocka's, or none. @return the exit status */
 int run_listed(CMFixtureFunction before, CMFixtureFunction after);
