@@ -10,138 +10,114 @@ static const char *const ways[SHADOW_WAY_COUNT] = {"constant", "slope", "normal"
 
 enum { FORMATS = 2, MAPPINGS = 2, APIS = 10 };
 
-/* What is left out is as the help has it, see filled(). */
-typedef struct shadow_case {
-    const char *options;
-    const char *formats[FORMATS]; /* null behind the last */
-    dp_mapping mappings[MAPPINGS];
-    size_t mapping_count;
-    const char *api; /* null for all */
-    int width, height;
-    int kernel;
-    double angle;
-    int subpixel;
-    double pixels, slim, world;
-    double curvature, facet;    /* 0: planes */
-    const char *raster, *arith; /* with a raster a subpixel of 0 is none */
-    double box[3], lo, hi;      /* 0: the view; what is lit */
-    double znear, zfar, fov, aspect, lambda, casters;
-    int cascades;
-    const char *unit;
-} shadow_case;
-
-static const shadow_case given[] = {
-    {.options = "-n 0.25 -f 90 --cascades 3 --lambda 0.7 --fov 50 --viewport 800x600 --casters 40 --size 1024 "
-                "--kernel 5 --angle 70 -F fp32,unorm24 -m d3d,reversed",
-     .formats = {"fp32", "unorm24"},
-     .mappings = {DP_MAPPING_D3D, DP_MAPPING_REVERSED},
-     .mapping_count = 2,
-     .api = "d3d11",
-     .width = 1024,
-     .height = 1024,
-     .kernel = 5,
-     .angle = 70,
-     .znear = 0.25,
-     .zfar = 90,
-     .fov = 50,
-     .aspect = 800.0 / 600,
-     .lambda = 0.7,
-     .casters = 40,
-     .cascades = 3},
-    {.options = "--light-box 30mx20mx50m --size 512x256 -F d16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
-                "--triangle-class pixels=64,slim=8 --kernel 3 --angle 60 --from-origin 1km --curvature 2m --facet 5cm",
-     .formats = {"unorm16"},
-     .mappings = {DP_MAPPING_GL},
-     .api = "gl",
-     .width = 512,
-     .height = 256,
-     .angle = 60,
-     .subpixel = 4,
-     .pixels = 64,
-     .slim = 8,
-     .world = 1000,
-     .curvature = 2,
-     .facet = 0.05,
-     .box = {30, 20, 50},
-     .lo = 5,
-     .hi = 48.65,
-     .unit = "m"},
-    {.options = "-f 300 --cascades 2 --hfov 100 --api all", .zfar = 300, .cascades = 2},
-    {.options = "--light-box 8x8x64 --api vulkan-float -m reversed --subpixel 1 --kernel 1 --angle 30", /* no factor */
-     .mappings = {DP_MAPPING_REVERSED},
-     .api = "vulkan-float",
-     .kernel = 1,
-     .angle = 30,
-     .subpixel = 1,
-     .box = {8, 8, 64},
-     .hi = 64},
-    {.options =
-         "--light-box 10x10x40 --size 1024 -F d24 --raster softpipe --range 10:30 --kernel 1 --angle 3 --api metal",
-     .formats = {"unorm24"},
-     .api = "metal",
-     .width = 1024,
-     .height = 1024,
-     .kernel = 1,
-     .angle = 3,
-     .raster = "softpipe",
-     .arith = "softpipe",
-     .box = {10, 10, 40},
-     .lo = 10,
-     .hi = 30},
-    {.options = "--light-box 40x40x404", /* away from window depth 0, where a unit is worth nothing: 404/256 */
-     .api = "d3d11",
-     .box = {40, 40, 404},
-     .lo = 1.578125,
-     .hi = 404},
-    {.options = "--light-box 40x40x404 -m reversed --api all",
-     .mappings = {DP_MAPPING_REVERSED},
-     .box = {40, 40, 404},
-     .hi = 404 - 1.578125},
-    {.options = "--light-box 40x40x0.2 -F d16", /* flatter than a gap is long */
-     .formats = {"unorm16"},
-     .api = "d3d11",
-     .box = {40, 40, 0.2},
-     .hi = 0.2},
-    {.options = "--light-box 1e9x1e9x0.001 --api vulkan-float", /* 2^31 units are not enough */
-     .api = "vulkan-float",
-     .box = {1e9, 1e9, 0.001},
-     .hi = 0.001},
-    {.options = "--light-box 1e9x1e9x0.001 --range 0.0005:0.001 --api gl",
-     .api = "gl",
-     .box = {1e9, 1e9, 0.001},
-     .lo = 0.0005,
-     .hi = 0.001},
+/* Each line, what it lights of a box where that is not all of it, and what its rasterizer brings. */
+static const struct {
+    const char *line;
+    double lo, hi;
+    const char *arith;
+} given[] = {
+    {"shadow -n 0.25 -f 90 --cascades 3 --lambda 0.7 --fov 50 --viewport 800x600 --casters 40 --size 1024x1024 "
+     "--kernel 5 --angle 70 -F fp32,unorm24 -m d3d,reversed --api d3d11",
+     0, 0, NULL},
+    {"shadow --light-box 30mx20mx50m --size 512x256 -F unorm16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
+     "--triangle-class pixels=64,slim=8 --kernel 3 --angle 60 --from-origin 1km --curvature 2m --facet 5cm --unit m",
+     5, 48.65, NULL},
+    {"shadow -f 300 --cascades 2 --hfov 100 --api all", 0, 0, NULL},
+    {"shadow --light-box 8x8x64 --api vulkan-float -m reversed --subpixel 1 --kernel 1 --angle 30", 0, 64,
+     NULL}, /* no factor */
+    {"shadow --light-box 10x10x40 --size 1024x1024 -F unorm24 --raster softpipe --range 10:30 --kernel 1 --angle 3 "
+     "--api metal",
+     10, 30, "softpipe"},
+    /* Away from window depth 0, where a unit is worth nothing: 404/256. */
+    {"shadow --light-box 40x40x404 --api d3d11", 1.578125, 404, NULL},
+    {"shadow --light-box 40x40x404 -m reversed --api all", 0, 404 - 1.578125, NULL},
+    {"shadow --light-box 40x40x0.2 -F unorm16 --api d3d11", 0, 0.2, NULL},   /* flatter than a gap is long */
+    {"shadow --light-box 1e9x1e9x0.001 --api vulkan-float", 0, 0.001, NULL}, /* 2^31 units are not enough */
+    {"shadow --light-box 1e9x1e9x0.001 --range 0.0005:0.001 --api gl", 0.0005, 0.001, NULL},
 };
 
 enum { CASES = sizeof given / sizeof given[0] };
 
-static double other(double number, double missing) {
-    return number != 0 ? number : missing;
+typedef struct shadow_case {
+    const char *line;
+    char formats[FORMATS][16];
+    size_t format_count;
+    dp_mapping mappings[MAPPINGS];
+    size_t mapping_count;
+    const char *api; /* null for all */
+    int width, height, kernel, subpixel;
+    double angle, pixels, slim, world;
+    double curvature, facet; /* 0: planes */
+    const char *arith;       /* of a rasterizer, which has no subpixels here; null: none is named */
+    double box[3], lo, hi;   /* 0: the view; what is lit */
+    double znear, zfar, fov, aspect, lambda, casters;
+    int cascades;
+} shadow_case;
+
+/* A length in metres where a unit is written behind it. */
+static double length_in(const char *text, char **end) {
+    static const struct {
+        const char *name;
+        double metres;
+    } units[] = {{"km", 1000}, {"cm", 0.01}, {"m", 1}};
+    const double number = strtod(text, end);
+    for (size_t i = 0; i < 3; i++)
+        if (strncmp(*end, units[i].name, strlen(units[i].name)) == 0) {
+            *end += strlen(units[i].name);
+            return number * units[i].metres;
+        }
+    return number;
 }
 
-static shadow_case filled(shadow_case c) {
-    if (c.formats[0] == NULL)
-        c.formats[0] = "fp32";
-    c.mapping_count = c.mapping_count > 0 ? c.mapping_count : 1;
-    c.width = (int)other(c.width, 2048);
-    c.height = (int)other(c.height, 2048);
-    c.kernel = (int)other(c.kernel, 3);
-    c.angle = other(c.angle, 75);
-    c.subpixel = c.raster != NULL ? c.subpixel : (int)other(c.subpixel, 8);
-    c.pixels = other(c.pixels, 512);
-    c.slim = other(c.slim, 16);
-    c.znear = other(c.znear, 0.1);
-    c.aspect = other(c.aspect, 1920.0 / 1080);
-    c.lambda = other(c.lambda, 0.5);
-    c.casters = other(c.casters, 100);
+static double length_behind(const char *line, const char *option) {
+    char *end;
+    return is_given(line, option) ? length_in(word_behind(line, option), &end) : 0;
+}
+
+/* What is left out is as the help has it. */
+static shadow_case case_of(size_t i) {
+    const char *line = given[i].line, *formats = word_behind(line, "-F"), *mappings = word_behind(line, "-m");
+    const char *api = word_behind(line, "--api");
+    double size[2] = {2048, 2048}, viewport[2] = {1920, 1080};
+    char words[64];
+    numbers_behind(line, "--size", size, 2);
+    numbers_behind(line, "--viewport", viewport, 2);
+    shadow_case c = {.line = line,
+                     .api = strcmp(api, "all") != 0 ? bias_api_find(api)->name : NULL,
+                     .width = (int)size[0],
+                     .height = (int)size[1],
+                     .kernel = (int)number_behind(line, "--kernel", 3),
+                     .subpixel = given[i].arith != NULL ? 0 : (int)number_behind(line, "--subpixel", 8),
+                     .angle = number_behind(line, "--angle", 75),
+                     .pixels = strstr(line, "pixels=64") != NULL ? 64 : 512,
+                     .slim = strstr(line, "slim=8") != NULL ? 8 : 16,
+                     .world = length_behind(line, "--from-origin"),
+                     .curvature = length_behind(line, "--curvature"),
+                     .facet = length_behind(line, "--facet"),
+                     .arith = given[i].arith,
+                     .lo = given[i].lo,
+                     .hi = given[i].hi,
+                     .znear = number_behind(line, "-n", 0.1),
+                     .zfar = number_behind(line, "-f", 0),
+                     .fov = number_behind(line, "--fov", 0),
+                     .aspect = viewport[0] / viewport[1],
+                     .lambda = number_behind(line, "--lambda", 0.5),
+                     .casters = number_behind(line, "--casters", 100),
+                     .cascades = (int)number_behind(line, "--cascades", 0)};
+    char *at = is_given(line, "--light-box") ? (char *)(uintptr_t)word_behind(line, "--light-box") : NULL;
+    for (int k = 0; k < 3 && at != NULL; k++, at++)
+        c.box[k] = length_in(at, &at);
+    snprintf(words, sizeof words, "%s", formats != NULL ? formats : "fp32");
+    for (char *word = strtok(words, ","); word != NULL; word = strtok(NULL, ","))
+        snprintf(c.formats[c.format_count++], sizeof c.formats[0], "%s", word);
+    snprintf(words, sizeof words, "%s", mappings != NULL ? mappings : "d3d");
+    for (char *word = strtok(words, ","); word != NULL; word = strtok(NULL, ","))
+        assert_int_equal(dp_mapping_parse(word, &c.mappings[c.mapping_count++]), DP_OK);
     return c;
 }
 
 static size_t setup_count(const shadow_case *c) {
-    size_t formats = 0;
-    while (formats < FORMATS && c->formats[formats] != NULL)
-        formats++;
-    return formats * c->mapping_count;
+    return c->format_count * c->mapping_count;
 }
 
 /* ---- The maps ---------------------------------------------------------------------------------------------------- */
@@ -153,13 +129,13 @@ static double radians(double degrees) {
 static shadow_light light_of(const shadow_case *c, const char *format, dp_mapping mapping) {
     shadow_light light = shadow_light_default();
     dp_arith arith = 0;
-    if (c->raster != NULL)
+    if (c->arith != NULL)
         assert_int_equal(dp_arith_parse(c->arith, &arith), DP_OK);
     light.setup = SETUP(format, .ortho = 1, .zfar = c->box[2] > 0 ? c->box[2] : 1, .mapping = mapping, .arith = arith);
     light.triangles.width = c->width;
     light.triangles.height = c->height;
     light.triangles.subpixel = c->subpixel;
-    if (c->raster != NULL)
+    if (c->arith != NULL)
         light.triangles.plane = dp_anchor_get(DP_ANCHOR_ORIGIN_STEPPED)->plane;
     light.triangles.pixels = c->pixels;
     light.triangles.slim = c->slim;
@@ -333,7 +309,7 @@ static void want_setup_of(values *v, const shadow_case *c, size_t k) {
     const dp_mapping mapping = c->mappings[k % c->mapping_count];
     const size_t apis = c->api != NULL ? 1 : APIS;
     values_under(v, "setups[%zu].", k);
-    want(v, "format=%s mapping=%s unit=%s", format, dp_mapping_get(mapping)->name, c->unit);
+    want(v, "format=%s mapping=%s unit=%s", format, dp_mapping_get(mapping)->name, *v->unit != '\0' ? v->unit : NULL);
     want(v, "lit_from=%f lit_to=%f", c->box[2] > 0 ? c->lo : NAN, c->box[2] > 0 ? c->hi : NAN);
     for (size_t i = 0; i < apis; i++) {
         values_under(v, "setups[%zu].answers[%zu].", k, i);
@@ -508,7 +484,7 @@ static void check_remarks(const values *v, const shadow_case *c, const char *at,
 static void check_apis(const values *v, const shadow_case *c) {
     static const char *const fields[] = {"constant_units", "slope_factor", "slope_units", "normal_texels",
                                          "normal_units"};
-    printed p = print_of("shadow %s", c->options);
+    printed p = print_of("%s", c->line);
     const char *at = strstr(p.out, "\napi ");
     for (size_t i = 0; i < APIS; i++) {
         assert_non_null(at);
@@ -526,7 +502,7 @@ static void check_apis(const values *v, const shadow_case *c) {
 }
 
 static void check_text(const values *v, const shadow_case *c) {
-    printed p = print_of("shadow %s", c->options);
+    printed p = print_of("%s", c->line);
     const bool split = c->box[2] == 0;
     const char *at = p.out;
     assert_int_equal(p.status, 0);
@@ -567,79 +543,25 @@ static void check_text(const values *v, const shadow_case *c) {
 #define WAY(name)                                                                                                      \
     name "_bias, " name "_units, " name "_gap [scene], " name "_gap_normal [scene], " name "_share, ?" name            \
          "_gap_facing [scene], "
+static const char columns[] =
+    "format = ^format, mapping = ^mapping, api, ?cascade, ?from [scene], ?to [scene], ?radius [scene], width [scene], "
+    "height [scene], depth [scene], texel_size [scene], "
+    /* of each way */
+    WAY("constant") "slope_factor, " WAY("slope") "normal_offset [scene], normal_texels, " WAY("normal")
+    /* and of all */
+    "limited, texel [scene] = causes.texel, kernel [scene] = causes.kernel, lookup [scene] = causes.lookup, "
+    "snapping [scene] = causes.snapping, set-up [scene] = causes.set-up, position [scene] = causes.position, "
+    "format [scene] = causes.format";
 
 TEST(each_number) {
     for (size_t i = 0; i < CASES; i++) {
-        const shadow_case all = filled(given[i]), *const c = &all;
-        values v = values_of("shadow");
-        char line[512];
-        snprintf(line, sizeof line, "shadow %s", c->options);
-        want_head(&v, c);
-        for (size_t k = 0; k < setup_count(c); k++)
-            want_setup_of(&v, c, k);
-        check_forms(
-            &v, 0, line, "setups[].rows[]",
-            "format = ^format, mapping = ^mapping, api, ?cascade, ?from [scene], ?to [scene], "
-            "?radius [scene], width [scene], height [scene], depth [scene], texel_size [scene], " WAY(
-                "constant") "slope_factor, " WAY("slope") "normal_offset [scene], normal_texels, " WAY("normal") "limit"
-                                                                                                                 "ed, "
-                                                                                                                 "texel"
-                                                                                                                 " ["
-                                                                                                                 "scene"
-                                                                                                                 "] = "
-                                                                                                                 "cause"
-                                                                                                                 "s."
-                                                                                                                 "texel"
-                                                                                                                 ", "
-                                                                                                                 "kerne"
-                                                                                                                 "l "
-                                                                                                                 "[scen"
-                                                                                                                 "e] = "
-                                                                                                                 "cause"
-                                                                                                                 "s."
-                                                                                                                 "kerne"
-                                                                                                                 "l, "
-                                                                                                                 "looku"
-                                                                                                                 "p "
-                                                                                                                 "[scen"
-                                                                                                                 "e] = "
-                                                                                                                 "cause"
-                                                                                                                 "s."
-                                                                                                                 "looku"
-                                                                                                                 "p, "
-                                                                                                                 "snapp"
-                                                                                                                 "ing "
-                                                                                                                 "[scen"
-                                                                                                                 "e] = "
-                                                                                                                 "cause"
-                                                                                                                 "s."
-                                                                                                                 "snapp"
-                                                                                                                 "ing, "
-                                                                                                                 "set-"
-                                                                                                                 "up "
-                                                                                                                 "[scen"
-                                                                                                                 "e] = "
-                                                                                                                 "cause"
-                                                                                                                 "s."
-                                                                                                                 "set-"
-                                                                                                                 "up, "
-                                                                                                                 "posit"
-                                                                                                                 "ion "
-                                                                                                                 "[scen"
-                                                                                                                 "e] = "
-                                                                                                                 "cause"
-                                                                                                                 "s."
-                                                                                                                 "posit"
-                                                                                                                 "ion, "
-                                                                                                                 "forma"
-                                                                                                                 "t "
-                                                                                                                 "[scen"
-                                                                                                                 "e] = "
-                                                                                                                 "cause"
-                                                                                                                 "s."
-                                                                                                                 "forma"
-                                                                                                                 "t");
-        (c->api != NULL ? check_text : check_apis)(&v, c);
+        const shadow_case c = case_of(i);
+        values v = values_of(c.line);
+        want_head(&v, &c);
+        for (size_t k = 0; k < setup_count(&c); k++)
+            want_setup_of(&v, &c, k);
+        check_forms(&v, 0, c.line, "setups[].rows[]", columns);
+        (c.api != NULL ? check_text : check_apis)(&v, &c);
         values_free(&v);
     }
 }
