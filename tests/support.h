@@ -118,14 +118,11 @@ const char *vector_text(const vector_row *row, int index);
     static void name(void **state __attribute__((unused)))
 #define LIST_TEST(name)                                                                                                \
     static void __attribute__((constructor)) name##_listed(void) {                                                     \
-        list_test((struct CMUnitTest)cmocka_unit_test(name));                                                        \
+        list_test((struct CMUnitTest)cmocka_unit_test(name));                                                          \
     }
 void list_test(struct CMUnitTest test);
 
 /** Runs them between two functions of cmocka's, or none. @return the exit status */
 int run_listed(CMFixtureFunction before, CMFixtureFunction after);
-
-/** Runs the tests of a program and prints TAP. */
-#define run_tap(tests) (cmocka_set_message_output(CM_OUTPUT_TAP), cmocka_run_group_tests(tests, NULL, NULL))
 
 #endif

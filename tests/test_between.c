@@ -4,9 +4,6 @@
  * camera that is looked at fails, those among them whose planes have few bits and are rounded to even; and where all
  * that are looked at do, it mostly says so.
  */
-#include <math.h>
-#include <stdio.h>
-
 #include "core/engine.h"
 #include "core/guarantee.h"
 #include "depthprec/bounds.h"
@@ -84,8 +81,7 @@ static double between(rng *r, const cameras *c) {
     return rng_below(r, 2) == 0 && coarse >= c->from && coarse <= end ? coarse : x;
 }
 
-static void test_all(void **state) {
-    (void)state;
+TEST(test_all) {
     rng r = rng_make("cameras between two");
     tally all = {.name = "of cameras that are said to tell apart what lies `limit` apart none fails"};
     uint64_t said = 0, could = 0, narrow = 0, narrow_said = 0;
@@ -124,8 +120,7 @@ static void test_all(void **state) {
 }
 
 /* A run of depths of one binade: what is guaranteed of all of them is at least what is guaranteed of each. */
-static void test_depths(void **state) {
-    (void)state;
+TEST(test_depths) {
     rng r = rng_make("depths of one binade");
     tally each = {.name = "what is guaranteed over a run of depths is at least the separation at each of them"};
     const uint64_t count = test_cases(4000, 20000, 400000);
@@ -159,8 +154,7 @@ static void test_depths(void **state) {
 }
 
 /* What has no matrix, no entry of one sign, or another model: nothing is said. */
-static void test_nothing(void **state) {
-    (void)state;
+TEST(test_nothing) {
     dp_spec spec = dp_spec_default();
     dp_setup one, other;
     spec.model = DP_MODEL_STAGED;
@@ -175,10 +169,4 @@ static void test_nothing(void **state) {
     spec.znear = 1.0;
     assert_int_equal(dp_setup_init(&other, &spec), DP_OK);
     assert_int_equal(dp_separation_within(&one, &other, 10.0, 10.0, 5.0), 0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all), cmocka_unit_test(test_depths),
-                                       cmocka_unit_test(test_nothing)};
-    return run_tap(tests);
 }

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each default that help spells out: with it given, a command prints what it prints without. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "cli/option/rows.h"
 #include "printed.h"
 
@@ -255,10 +252,9 @@ static void same_with(tally *t, const command_row *v, const char *line, const op
     printed_free(&with);
 }
 
-static void test_spelled_out(void **state) {
+TEST(test_spelled_out) {
     tally t = {.name = "defaults"};
     int tried = 0;
-    (void)state;
     for (size_t i = 0; i < command_count; i++)
         for (int id = 0; id < OPTION_COUNT; id++) {
             const command_row *v = &command_rows[i];
@@ -282,9 +278,8 @@ static void test_spelled_out(void **state) {
 }
 
 /* Each default in words is one of `meant`, and each of `meant` is told of an option. */
-static void test_in_words(void **state) {
+TEST(test_in_words) {
     tally t = {.name = "defaults in words"};
-    (void)state;
     for (size_t i = 0; i < command_count; i++)
         for (int id = 0; id < OPTION_COUNT; id++) {
             const command_row *v = &command_rows[i];
@@ -312,10 +307,9 @@ static void test_in_words(void **state) {
 }
 
 /* Type and colours of a figure, whose metadata hold the command line. */
-static void test_theme(void **state) {
+TEST(test_theme) {
     static const char *const themes[] = {"", "--theme light", "--type svg", "--theme dark"};
     char *text[4];
-    (void)state;
     for (int i = 0; i < 4; i++) {
         char file[512];
         snprintf(file, sizeof file, "%s", scratch_file("theme.svg"));
@@ -338,10 +332,4 @@ static void test_theme(void **state) {
     assert_string_not_equal(text[0], text[3]);
     for (int i = 0; i < 4; i++)
         free(text[i]);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_spelled_out), cmocka_unit_test(test_in_words),
-                                       cmocka_unit_test(test_theme)};
-    return run_tap(tests);
 }

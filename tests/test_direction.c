@@ -4,10 +4,6 @@
  * of known depths, whose mapping is not given, and how they say that a pixel would be read otherwise.
  */
 #include <jansson.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "support.h"
 #include "truth.h"
@@ -126,8 +122,7 @@ static int check_readings(tally *t, const json_t *root, size_t file, const void 
     return mappings;
 }
 
-static void directions_are_found_only_where_they_are(void **state) {
-    (void)state;
+TEST(directions_are_found_only_where_they_are) {
     tally t = {.name = "directions"};
     rng r = rng_make("directions");
     static double data[PIXELS];
@@ -174,7 +169,5 @@ static void directions_are_found_only_where_they_are(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(directions_are_found_only_where_they_are)};
-    cmocka_set_message_output(CM_OUTPUT_TAP);
-    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
+    return run_listed(truth_folder, truth_folder_end);
 }

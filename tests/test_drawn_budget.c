@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figure of causes, as drawn, against dp_budget_at(): bands that stand on each other, and the separation. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "drawn.h"
 #include "drawn_truth.h"
 #include "support.h"
@@ -228,8 +224,7 @@ static void check_figure(const drawn_theme *look, const char *formats, const cha
     drawn_close(d);
 }
 
-static void bands_are_the_causes(void **state) {
-    (void)state;
+TEST(bands_are_the_causes) {
     const dp_budget_terms none = {0}, all = {.world = 10, .interpolation = 2, .linearize = 1};
     const dp_budget_terms world = {.world = 10}, interpolation = {.interpolation = 2}, linearize = {.linearize = 1};
     const dp_budget_terms read_back = {.interpolation = 2, .linearize = 1};
@@ -245,8 +240,7 @@ static void bands_are_the_causes(void **state) {
 }
 
 /* A line through the middle of a band: the name goes to the wider side of it. */
-static void names_keep_clear_of_lines(void **state) {
-    (void)state;
+TEST(names_keep_clear_of_lines) {
     enum { POINTS = 200 };
     for (int above = 0; above < 2; above++) {
         chart *c = chart_new();
@@ -279,8 +273,7 @@ static void names_keep_clear_of_lines(void **state) {
 }
 
 /* Where there is no number there is no band. */
-static void gaps_stay_open(void **state) {
-    (void)state;
+TEST(gaps_stay_open) {
     chart *c = chart_new();
     assert_non_null(c);
     snprintf(c->title, sizeof c->title, "t");
@@ -310,10 +303,4 @@ static void gaps_stay_open(void **state) {
     assert_int_equal(bands, 2);
     drawn_words(d, q->frame, "band");
     drawn_close(d);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bands_are_the_causes),
-                                       cmocka_unit_test(names_keep_clear_of_lines), cmocka_unit_test(gaps_stay_open)};
-    return run_tap(tests);
 }

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers that `plot --json` and `--csv` write are those that the figure shows: axes, names and every point. */
 #include <jansson.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "drawn.h"
 #include "drawn_truth.h"
@@ -176,8 +172,7 @@ static double codes_up_to(float last, int mantissa) {
 }
 
 /* In binary32 a share is of the codes that [-1, 1] reaches, which is a few of those of reversed depth near 0. */
-static void share_counts_what_is_reached(void **state) {
-    (void)state;
+TEST(share_counts_what_is_reached) {
     static const struct {
         const char *format, *model;
         int mantissa;
@@ -206,8 +201,7 @@ typedef struct data_case {
     bool curves, map, second;
 } data_case;
 
-static void numbers_are_those_shown(void **state) {
-    (void)state;
+TEST(numbers_are_those_shown) {
     static const data_case cases[] = {
         {"error -F unorm24,fp16 -m d3d,reversed", true, false, false},
         {"share -F unorm16 -m d3d,reversed", true, false, false},
@@ -256,10 +250,4 @@ static void numbers_are_those_shown(void **state) {
         svg_free(d->svg); /* its words are looked at elsewhere */
         free(d);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(share_counts_what_is_reached),
-                                       cmocka_unit_test(numbers_are_those_shown)};
-    return run_tap(tests);
 }

@@ -4,11 +4,6 @@
  * formula for clip planes, written to files, and every pixel is judged in rationals by what the file says: eye depth,
  * range, place, and the map of errors.
  */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "image/image.h"
 #include "oracle.h"
 #include "printed.h"
@@ -260,11 +255,10 @@ static void judge_pixels(tally *t, const view_case *c, json_t *root) {
     }
 }
 
-static void pixels(void **state) {
+TEST(pixels) {
     rng r = rng_make("matrix pixels");
     tally t = {.name = "pixels of matrices"};
     char list[ALL * 4 + 1] = "";
-    (void)state;
     for (int i = 0; i < ALL; i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%d,%d", i > 0 ? ";" : "", i % ACROSS, i / ACROSS);
     for (uint64_t n = test_cases(10, 150, 2000); n > 0; n--) {
@@ -341,10 +335,9 @@ static void judge_products(tally *t, const view_case *c) {
     image_free(&place_off);
 }
 
-static void products(void **state) {
+TEST(products) {
     rng r = rng_make("matrix products");
     tally t = {.name = "products of matrices"};
-    (void)state;
     for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
         view_case c;
         make_case(&r, &c);
@@ -355,10 +348,9 @@ static void products(void **state) {
 
 /* ---- Statistics -------------------------------------------------------------------------------------------------- */
 
-static void statistics(void **state) {
+TEST(statistics) {
     rng r = rng_make("matrix statistics");
     tally t = {.name = "statistics of matrices"};
-    (void)state;
     for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
         view_case c;
         char arguments[1024];
@@ -413,11 +405,10 @@ static void statistics(void **state) {
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
 /* A plane seen through frustums that are not centred, and oblique ones. */
-static void normals(void **state) {
+TEST(normals) {
     rng r = rng_make("matrix normals");
     uint64_t known = 0;
     tally t = {.name = "normals of matrices"};
-    (void)state;
     for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
         view_case c;
         bool whole = true;
@@ -466,7 +457,7 @@ static void normals(void **state) {
  */
 
 /* Entries and planes are exact here, so the bytes are the same; also of a view that looks down -z, or has y down. */
-static void same_camera(void **state) {
+TEST(same_camera) {
     static const struct {
         const char *entries, *options, *mapping;
     } same[] = {
@@ -488,7 +479,6 @@ static void same_camera(void **state) {
                                            "--product normal:projective --error-map"};
     tally t = {.name = "matrices beside options"};
     char path[256], shot[256], one[256], other[256];
-    (void)state;
     snprintf(path, sizeof path, "%s", scratch_file("matrix.txt"));
     snprintf(shot, sizeof shot, "%s", scratch_file("shot.npy"));
     snprintf(one, sizeof one, "%s", scratch_file("one.pfm"));
@@ -525,11 +515,4 @@ static void same_camera(void **state) {
         }
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels), cmocka_unit_test(products),
-                                       cmocka_unit_test(statistics), cmocka_unit_test(normals),
-                                       cmocka_unit_test(same_camera)};
-    return run_tap(tests);
 }

@@ -4,10 +4,6 @@
  * depth that was rounded or truncated, for eye depth, places and effects; holes are counted and never averaged.
  */
 #include <jansson.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "support.h"
 #include "truth.h"
@@ -152,8 +148,7 @@ static double one_picture(tally *t, rng *r, const metric_kind *k) {
     return used;
 }
 
-static void metric_depth_is_within_what_is_said(void **state) {
-    (void)state;
+TEST(metric_depth_is_within_what_is_said) {
     const uint64_t rounds = test_cases(2, 6, 400);
     tally t = {.name = "metric"};
     rng r = rng_make("metric");
@@ -180,8 +175,7 @@ static bool was_said(const char *words) {
 }
 
 /* Without --metric: numbers above 1 are refused, integers with holes are doubted; and what has no depth is refused. */
-static void it_is_suspected(void **state) {
-    (void)state;
+TEST(it_is_suspected) {
     rng r = rng_make("suspected");
     double z[PIXELS];
     static double zeros[PIXELS];
@@ -211,8 +205,7 @@ static void it_is_suspected(void **state) {
 }
 
 /* Holes in a window depth are no reason to refuse it, and no depth either. */
-static void holes_are_counted(void **state) {
-    (void)state;
+TEST(holes_are_counted) {
     rng r = rng_make("holes");
     static double data[PIXELS];
     float eye[PIXELS];
@@ -239,11 +232,5 @@ static void holes_are_counted(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(metric_depth_is_within_what_is_said),
-        cmocka_unit_test(it_is_suspected),
-        cmocka_unit_test(holes_are_counted),
-    };
-    cmocka_set_message_output(CM_OUTPUT_TAP);
-    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
+    return run_listed(truth_folder, truth_folder_end);
 }

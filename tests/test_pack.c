@@ -4,7 +4,6 @@
  * all binary32 numbers.
  */
 #include <ctype.h>
-#include <string.h>
 
 #include "named.h"
 #include "pack_measure.h"
@@ -32,11 +31,10 @@ static const pack_error *error_of(const char *name) {
     return NULL;
 }
 
-static void test_rows(void **state) {
+TEST(test_rows) {
     static const char *const names[] = {"rg-depth", "rg-depth-zero", "rg-depth-fp32", "rg-depth-fp32-zero",
                                         "stereo-8", "oct-8",         "oct-10",        "oct-12",
                                         "xyz-8",    "xyz-10",        "xyz-12",        "depth-normal"};
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_non_null(pack_find(names[i]));
     for (size_t i = 0; i < count(); i++) {
@@ -59,9 +57,8 @@ static void claim(tally *t, const char *name, const char *what, double got, doub
     TALLY(t, got <= claimed && got >= claimed * 0.998, "%s: %s %.9g, claimed %.9g", name, what, got, claimed);
 }
 
-static void test_claims(void **state) {
+TEST(test_claims) {
     tally t = {.name = "claims"};
-    (void)state;
     for (size_t i = 0; i < count(); i++) {
         const pack_row *row = pack_get(i);
         const pack_error *e = error_of(row->name);
@@ -121,10 +118,9 @@ static double any_depth(rng *r) {
     return fmin(fmax(v, 0x1p-60), 1 - 0x1p-53);
 }
 
-static void test_rg_exact(void **state) {
+TEST(test_rg_exact) {
     rng r = rng_make("rg exact");
     tally t = {.name = "texels"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(20000, 1000000, 20000000); i++) {
         const double v = any_depth(&r);
         for (int truncates = 0; truncates < 2; truncates++) {
@@ -171,11 +167,10 @@ static float any_float(rng *r) {
     return v < 1 ? v : nextafterf(1, 0);
 }
 
-static void test_rg_binary32(void **state) {
+TEST(test_rg_binary32) {
     static const char *const names[] = {"rg-depth-fp32", "rg-depth-fp32-zero"};
     rng r = rng_make("rg binary32");
     tally t = {.name = "shader"};
-    (void)state;
     for (size_t k = 0; k < 2; k++) {
         const pack_row *row = pack_find(names[k]);
         const pack_error *e = error_of(names[k]);
@@ -196,10 +191,9 @@ static void test_rg_binary32(void **state) {
 }
 
 /* All 1,065,353,216 of them: no error is above the maximum, and the mean is that of pack_measure(). */
-static void test_rg_binary32_all(void **state) {
+TEST(test_rg_binary32_all) {
     static const char *const names[] = {"rg-depth-fp32", "rg-depth-fp32-zero"};
     tally t = {.name = "all of binary32"};
-    (void)state;
     if (test_effort() < EFFORT_FULL)
         skip();
     for (size_t k = 0; k < 2; k++) {
@@ -226,9 +220,8 @@ static void test_rg_binary32_all(void **state) {
     tally_end(&t);
 }
 
-static void test_rg_known(void **state) {
+TEST(test_rg_known) {
     const double step = 1 / 65025.0;
-    (void)state;
     for (size_t i = 0; i < count(); i++)
         if (pack_get(i)->kind == PACK_DEPTH) {
             assert_true(decoded(pack_get(i), encoded(pack_get(i), 1)) == 0); /* 1 does not survive */
@@ -253,10 +246,9 @@ static void test_rg_known(void **state) {
 }
 
 /* Normal in xy, depth in zw. */
-static void test_both(void **state) {
+TEST(test_both) {
     rng r = rng_make("both");
     const pack_row *both = pack_find("depth-normal"), *normal = pack_find("stereo-8"), *depth = pack_find("rg-depth");
-    (void)state;
     for (int i = 0; i < 1000; i++) {
         const double v = rng_unit(&r), z = rng_unit(&r), phi = rng_uniform(&r, 0, 6.28), radius = sqrt(1 - z * z);
         const double in[4] = {radius * cos(phi), radius * sin(phi), z, v};
@@ -273,13 +265,4 @@ static void test_both(void **state) {
     }
     assert_true(error_of("depth-normal")->normal.max == error_of("stereo-8")->normal.max);
     assert_true(error_of("depth-normal")->depth.max == error_of("rg-depth")->depth.max);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows),        cmocka_unit_test(test_rg_exact),        cmocka_unit_test(test_rg_known),
-        cmocka_unit_test(test_rg_binary32), cmocka_unit_test(test_rg_binary32_all), cmocka_unit_test(test_both),
-        cmocka_unit_test(test_claims),
-    };
-    return run_tap(tests);
 }

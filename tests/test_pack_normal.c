@@ -3,8 +3,6 @@
  * Packings of normals: each row against an encoding of our own in long double, the measured errors against sampling,
  * areas in the plane of the codes and published figures.
  */
-#include <string.h>
-
 #include "named.h"
 #include "pack_measure.h"
 #include "support.h"
@@ -109,10 +107,9 @@ static vec any_normal(rng *r, const pack_row *row) {
 }
 
 /* Random vectors: nothing above the maximum, the mean where it is said to be, the same codes but for ties. */
-static void test_normals_sampled(void **state) {
+TEST(test_normals_sampled) {
     rng r = rng_make("normals");
     tally t = {.name = "normals"};
-    (void)state;
     for (size_t i = 0; i < count(); i++) {
         const pack_row *row = pack_get(i);
         const uint64_t cases = test_cases(20000, 150000, 4000000);
@@ -149,10 +146,9 @@ static void test_normals_sampled(void **state) {
 
 /* The maximum is reached where it is said to be, and nothing about that place, or about any corner of codes, is worse.
  */
-static void test_normals_worst(void **state) {
+TEST(test_normals_worst) {
     rng r = rng_make("normals worst");
     tally t = {.name = "worst"};
-    (void)state;
     for (size_t i = 0; i < count(); i++) {
         const pack_row *row = pack_get(i);
         uint32_t codes[3];
@@ -211,12 +207,11 @@ static long double mean_by_area(const pack_row *row, int side) {
 }
 
 /* The error of such a sum falls with the square of the distance of the places, so two of them give a better one. */
-static void test_means_by_area(void **state) {
+TEST(test_means_by_area) {
     static const struct {
         const char *name;
         int codes;
     } rows[] = {{"stereo-8", 255}, {"oct-8", 254}};
-    (void)state;
     for (size_t i = 0; i < 2; i++) {
         const pack_row *row = pack_find(rows[i].name);
         const int places = (int)test_cases(4, 4, 16) * rows[i].codes;
@@ -227,12 +222,11 @@ static void test_means_by_area(void **state) {
     }
 }
 
-static void test_published(void **state) {
+TEST(test_published) {
     static const struct {
         const char *name;
         double mean, max; /* of a sample: a maximum over all is a little above */
     } rows[] = {{"oct-8", 0.337, 0.944}, {"oct-10", 0.0838, 0.235}, {"oct-12", 0.0209, 0.0587}};
-    (void)state;
     for (size_t i = 0; i < 3; i++) {
         const pack_error *e = error_of(rows[i].name);
         assert_relative(e->normal.mean, rows[i].mean, 2e-3);
@@ -246,14 +240,4 @@ static void test_published(void **state) {
     /* A code is half a step off at most, three times at right angles: the limit of small steps, less its bending. */
     assert_relative(error_of("xyz-12")->normal.max, sqrt(3.0) / 2 / 2047 * 180 / (double)PIL, 1e-3);
     assert_int_equal(error_of("oct-8")->codes, 255 * 255);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_normals_sampled),
-        cmocka_unit_test(test_normals_worst),
-        cmocka_unit_test(test_means_by_area),
-        cmocka_unit_test(test_published),
-    };
-    return run_tap(tests);
 }

@@ -3,8 +3,6 @@
  * The near or far plane in every model: the answer passes as `check` judges it, what is said to fail fails, what is
  * said to pass passes, and nothing that the lattice refuses is found. Recomputed from the library, not recorded.
  */
-#include <stdio.h>
-
 #include "requirement/plane.h"
 #include "support.h"
 
@@ -220,23 +218,19 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
         tally_end(&s.nothing);
 }
 
-static void test_fp32(void **state) {
-    (void)state;
+TEST(test_fp32) {
     in_model(DP_MODEL_FLOAT, MEASURE_SEPARATION, test_cases(100, 500, 20000));
 }
 
-static void test_staged(void **state) {
-    (void)state;
+TEST(test_staged) {
     in_model(DP_MODEL_STAGED, MEASURE_SEPARATION, test_cases(100, 250, 10000));
 }
 
-static void test_exact(void **state) {
-    (void)state;
+TEST(test_exact) {
     in_model(DP_MODEL_EXACT, MEASURE_SEPARATION, test_cases(100, 250, 10000));
 }
 
-static void test_error(void **state) {
-    (void)state;
+TEST(test_error) {
     in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(100, 250, 10000));
     in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(50, 100, 3000));
 }
@@ -256,8 +250,7 @@ static long double plain_error(int bits, int reversed, double n, double f, doubl
  * The least near against a sweep of its own: every near from the answer on keeps the error, and the next one below
  * does not, with 1e-9 for the long double's own rounding next to a boundary.
  */
-static void test_error_by_hand(void **state) {
-    (void)state;
+TEST(test_error_by_hand) {
     static solve_result lattice;
     rng r = rng_make("plane error by hand");
     tally least = {.name = "least near of an error: just below it fails"};
@@ -296,8 +289,7 @@ static void test_error_by_hand(void **state) {
 }
 
 /* Half a code: the depth 1000 keeps an error of 4000 as long as its code is not that of the infinite far plane. */
-static void test_half_code(void **state) {
-    (void)state;
+TEST(test_half_code) {
     static solve_result lattice;
     plane_answer a;
     dp_format found[2];
@@ -319,8 +311,7 @@ static void test_half_code(void **state) {
 }
 
 /* A binary32 sweep of a whole part in a thousand below the answer, and of what lies between it and the lattice's. */
-static void test_sweep(void **state) {
-    (void)state;
+TEST(test_sweep) {
     static solve_result lattice;
     plane_answer a;
     dp_format found[2];
@@ -362,8 +353,7 @@ static solve_problem camera(solve_unknown unknown, const char *format, dp_mappin
 }
 
 /* Far 16542.5 has an A and a B of few bits and fails; hundreds of values that are tried round it do not. */
-static void test_what_samples_miss(void **state) {
-    (void)state;
+TEST(test_what_samples_miss) {
     static solve_result lattice;
     plane_answer a;
     solve_problem p = camera(SOLVE_FAR, "unorm24", DP_MAPPING_D3D, 1.0);
@@ -377,8 +367,7 @@ static void test_what_samples_miss(void **state) {
 }
 
 /* Planes that do by the thousand, though neither the lattice's own ends nor the places next to its outer one do. */
-static void test_far_from_the_lattice(void **state) {
-    (void)state;
+TEST(test_far_from_the_lattice) {
     static const struct row {
         dp_model model;
         solve_unknown unknown;
@@ -419,8 +408,7 @@ static void test_far_from_the_lattice(void **state) {
  * these two cameras the plane at the depth itself reaches 2^-11, so none can come nearer; the other end of what the
  * lattice allows is twice as far off at least.
  */
-static void test_nearest_miss(void **state) {
-    (void)state;
+TEST(test_nearest_miss) {
     static const double other[] = {[SOLVE_NEAR] = 1e4, [SOLVE_FAR] = 2500.0};
     static solve_result lattice;
     plane_answer a;
@@ -453,8 +441,7 @@ static void test_nearest_miss(void **state) {
  * 255/9.5 - 25.5 = 1.3421, more than the limit; as it is aligned the error is 0 there, and next to 0 where far is
  * large.
  */
-static void test_infinite_far(void **state) {
-    (void)state;
+TEST(test_infinite_far) {
     static const dp_model models[] = {DP_MODEL_EXACT, DP_MODEL_STAGED};
     static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED};
     static solve_result lattice;
@@ -471,19 +458,4 @@ static void test_infinite_far(void **state) {
         assert_ulp(a.value, INFINITY, 0.0);
         assert_scene(a.reached.value, 0.0, 1e-5);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fp32),
-                                       cmocka_unit_test(test_staged),
-                                       cmocka_unit_test(test_exact),
-                                       cmocka_unit_test(test_error),
-                                       cmocka_unit_test(test_error_by_hand),
-                                       cmocka_unit_test(test_half_code),
-                                       cmocka_unit_test(test_what_samples_miss),
-                                       cmocka_unit_test(test_sweep),
-                                       cmocka_unit_test(test_far_from_the_lattice),
-                                       cmocka_unit_test(test_nearest_miss),
-                                       cmocka_unit_test(test_infinite_far)};
-    return run_tap(tests);
 }

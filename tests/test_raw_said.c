@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the command says of pixels without a header. What it makes of their bytes: test_image_raw. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "printed.h"
-#include "support.h"
 
 /* A file that has a header has its own size, and one without says that its size is assumed. */
-static void what_is_said(void **state) {
+TEST(what_is_said) {
     static const char pixels[640 * 480 * 4];
     char path[512];
-    (void)state;
     snprintf(path, sizeof path, "%s", scratch_file("said.raw"));
     FILE *out = fopen(path, "wb");
     assert_non_null(out);
@@ -38,9 +32,4 @@ static void what_is_said(void **state) {
     assert_int_equal(p.status, 2);
     assert_non_null(strstr(p.errors, "--size: is for --synthetic and raw files"));
     printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_said)};
-    return run_tap(tests);
 }

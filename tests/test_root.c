@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A root: what is found lies beside the change of sign, in few steps, also where the function is flat, steep or jumps.
  */
-#include <math.h>
-
 #include "requirement/root.h"
 #include "support.h"
 
@@ -40,8 +38,7 @@ static double flat(double x, double at) {
     return x < at ? -1 : (x - at) * 1e-12 + 1e-300;
 }
 
-static void test_enclosed(void **state) {
-    (void)state;
+TEST(test_enclosed) {
     static double (*const all[])(double, double) = {line, cube, falling, jump, flat};
     static const int steps[] = {8, MOST, 16, MOST, MOST}; /* what converges fast must */
     static const double places[] = {0x1p-60, 1e-3, 0.1, 1.0 / 3, 0.999999, 17, 1e6 + 0.1, 0x1p40 + 3};
@@ -58,27 +55,16 @@ static void test_enclosed(void **state) {
 }
 
 /* No two doubles are that close: it ends where none is left between the ends. */
-static void test_nothing_between(void **state) {
-    (void)state;
+TEST(test_nothing_between) {
     counted c = {.f = jump, .at = 3};
     const double x = root_find(count, &c, 1, 4, 1e-300);
     assert_true(x == 3 || x == nextafter(3, 0));
     assert_in_range(c.calls, 3, MOST);
 }
 
-static void test_ends(void **state) {
-    (void)state;
+TEST(test_ends) {
     counted c = {.f = line, .at = 2};
     assert_true(root_find(count, &c, 2, 9, 1e-9) == 2);
     assert_true(root_find(count, &c, -9, 2, 1e-9) == 2);
     assert_true(root_find(count, &c, 3, 9, 1e-9) == 3); /* no change of sign */
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_enclosed),
-        cmocka_unit_test(test_nothing_between),
-        cmocka_unit_test(test_ends),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

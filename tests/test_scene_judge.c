@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From where surfaces fight: ties against every code of small formats, the guarantee at and behind the depth named. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "scene/judge.h"
 #include "support.h"
@@ -37,7 +33,7 @@ static double ties_by_all(const dp_setup *setup, double most, double within) {
     return from;
 }
 
-static void ties(void **state) {
+TEST(ties) {
     static const struct {
         const char *format;
         dp_mapping mapping;
@@ -53,7 +49,6 @@ static void ties(void **state) {
     };
     tally t = {.name = "where ties begin"};
     rng r = rng_make("ties");
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const dp_setup setup = setup_of(rows[i].format, rows[i].mapping, rows[i].znear, rows[i].zfar, DP_MODEL_EXACT);
         const double end = fmin(rows[i].zfar, 2000 * rows[i].znear);
@@ -69,10 +64,9 @@ static void ties(void **state) {
     tally_end(&t);
 }
 
-static void certain(void **state) {
+TEST(certain) {
     tally t = {.name = "how far it is certain"};
     rng r = rng_make("certain");
-    (void)state;
     for (uint64_t run = 0; run < test_cases(30, 200, 5000); run++) {
         static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
         dp_setup setup =
@@ -101,15 +95,8 @@ static void certain(void **state) {
     tally_end(&t);
 }
 
-static void nothing_between(void **state) {
+TEST(nothing_between) {
     const dp_setup setup = setup_of("fp32", DP_MAPPING_REVERSED, 0.1, 1000, DP_MODEL_FLOAT);
     const scene_verdict v = scene_judge(&setup, 0, 0, 100);
-    (void)state;
     assert_true(isnan(v.certain_to) && v.ties_from == 0.1 && v.lift > 0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ties), cmocka_unit_test(certain),
-                                       cmocka_unit_test(nothing_between)};
-    return run_tap(tests);
 }

@@ -3,10 +3,6 @@
  * solve is tight: its answer passes, everything on its safe side passes, a part in 1e9 beyond it fails; every island
  * is found; and where the answer has a closed form it is that.
  */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "api/cost.h"
 #include "depthprec/depthprec.h"
 #include "requirement/solve.h"
@@ -113,8 +109,7 @@ static int island_of(const solve_problem *p, const solve_result *s, double x) {
 }
 
 /* Long: three claims on each answer, judged as it is solved for. */
-static void test_tight(void **state) {
-    (void)state;
+TEST(test_tight) {
     static solve_result s;
     rng r = rng_make("solve");
     tally answer = {.name = "the answer and each end of an island pass"};
@@ -190,8 +185,7 @@ static void test_tight(void **state) {
 }
 
 /* n = 1 / (S / (z (z + S) step) + 1/f) and f likewise, in long double: UNORM has one piece. */
-static void test_closed_form(void **state) {
-    (void)state;
+TEST(test_closed_form) {
     static solve_result s;
     rng r = rng_make("solve closed form");
     tally close = {.name = "UNORM under a perspective: the closed form"};
@@ -224,8 +218,7 @@ static void test_closed_form(void **state) {
     tally_end(&close);
 }
 
-static void test_known(void **state) {
-    (void)state;
+TEST(test_known) {
     static solve_result s;
     solve_problem p = problem_of("unorm24", DP_MAPPING_D3D, SOLVE_NEAR, 1e4, 0.01, 5000.0);
     assert_int_equal(solve(&p, &s), DP_OK);
@@ -262,8 +255,7 @@ static void test_known(void **state) {
     assert_false(s.possible);
 }
 
-static void test_door(void **state) {
-    (void)state;
+TEST(test_door) {
     static solve_result s;
     const solve_problem good = problem_of("unorm24", DP_MAPPING_D3D, SOLVE_NEAR, 100.0, 0.01, 50.0);
     solve_problem p = good;
@@ -300,8 +292,7 @@ static void test_door(void **state) {
 }
 
 /* The measure of an error is one: no stored depth lies farther off, and some nearly as far. */
-static void test_error(void **state) {
-    (void)state;
+TEST(test_error) {
     rng r = rng_make("solve error");
     tally held = {.name = "no error is larger than its measure"};
     tally near_by = {.name = "an error near by is nearly as large"};
@@ -328,8 +319,7 @@ static void test_error(void **state) {
 }
 
 /* Over a range the measure is the largest inside, and is reached where it says. */
-static void test_range(void **state) {
-    (void)state;
+TEST(test_range) {
     rng r = rng_make("solve range");
     tally largest = {.name = "no depth of a range has a larger measure"};
     const uint64_t cases = test_cases(500, 1500, 50000);
@@ -352,8 +342,7 @@ static void test_range(void **state) {
     tally_end(&largest);
 }
 
-static void test_cost(void **state) {
-    (void)state;
+TEST(test_cost) {
     static const char *const order[] = {"unorm16", "fp32", "unorm24", "fp16", "float3.3"};
     for (int i = 0; i < 5; i++)
         for (int k = i + 1; k < 4; k++) {
@@ -368,9 +357,8 @@ static void test_cost(void **state) {
 }
 
 /* Where an infinite far plane passes it is the largest far that does; mappings without one end at 1e18. */
-static void test_infinite(void **state) {
+TEST(test_infinite) {
     static const char *const formats[] = {"unorm24", "fp32"};
-    (void)state;
     for (int m = 0; m < DP_MAPPING_COUNT; m++)
         for (int f = 0; f < 2; f++) {
             static solve_result s;
@@ -382,13 +370,4 @@ static void test_infinite(void **state) {
             assert_true(s.value == s.islands[0].hi && (infinite || s.value <= 1e18));
             assert_true(worst_of(&p, s.value).value <= p.limit);
         }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known), cmocka_unit_test(test_closed_form), cmocka_unit_test(test_tight),
-        cmocka_unit_test(test_error), cmocka_unit_test(test_range),       cmocka_unit_test(test_door),
-        cmocka_unit_test(test_cost),  cmocka_unit_test(test_infinite),
-    };
-    return run_tap(tests);
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the figure of a texture's product is called: by its kind, by its method, and by what is known of the truth. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "printed.h"
 
 static const struct {
@@ -47,10 +43,9 @@ static void check_title(tally *t, const char *source, const char *options, const
     printed_free(&p);
 }
 
-static void test_names(void **state) {
+TEST(test_names) {
     char image[512];
     tally t = {.name = "names"};
-    (void)state;
     snprintf(image, sizeof image, "%s", scratch_file("image.npy"));
     printed p = print_of("texture --synthetic sphere --size 24x16 -F unorm16 -m d3d -o %s", image);
     assert_int_equal(p.status, 0);
@@ -61,9 +56,4 @@ static void test_names(void **state) {
         check_title(&t, image, products[i].options, products[i].of_image, products[i].panels);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_names)};
-    return run_tap(tests);
 }

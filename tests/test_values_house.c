@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene: the fights of a house whose fights are known, what only looks like one, and the house that is mended. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <jansson.h>
 #include <png.h>
 
 #include "printed.h"
-#include "support.h"
 
 #define CAMERA "-n 0.05 -F d24 -m d3d --viewport 960x540 --fov 20.7 --within 60 --json"
 #define HOUSE  "tests/models/house.gltf"
@@ -105,20 +100,18 @@ static void same_text(const char *path, const char *made) {
     assert_int_equal(system(line), 0);
 }
 
-static void made(void **state) {
-    (void)state;
+TEST(made) {
     same_text(HOUSE, make_house("made.gltf", ""));
     assert_int_not_equal(system("sh tests/models/house.sh chimney=1 >/dev/null 2>&1"), 0);
     assert_int_not_equal(system("sh tests/models/house.sh dor=1 >/dev/null 2>&1"), 0);
 }
 
 /* Just these, with their gaps and areas, however the transforms are rounded: in binary32 to a few of its steps. */
-static void known(void **state) {
+TEST(known) {
     static const struct {
         const char *options;
         double step; /* of the extent */
     } rows[] = {{"", 1e-12}, {"--threads 1", 1e-12}, {"--transforms binary32", 0x1p-22}};
-    (void)state;
     for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
         json_t *root = judged(HOUSE, rows[r].options, 1);
         const double extent = number(root, "extent"), off = rows[r].step * extent;
@@ -138,8 +131,7 @@ static void known(void **state) {
 }
 
 /* What is harmless is there, within the gap, and left out by the filter that is meant. */
-static void left_out(void **state) {
-    (void)state;
+TEST(left_out) {
     for (size_t i = 0; i < HARMLESS; i++) {
         char options[64] = "";
         if (harmless[i].filter != NULL)
@@ -167,11 +159,10 @@ static void lifts_of(const json_t *root, char *out, size_t size) {
 }
 
 /* Moved as far as is said nothing is found that near, and what is found farther off passes; by less it fights. */
-static void mended(void **state) {
+TEST(mended) {
     char lifts[2048];
     json_t *root = judged(HOUSE, "", 1);
     const double need = number(finding_of(root, "front wall", "door"), "lift");
-    (void)state;
     lifts_of(root, lifts, sizeof lifts);
     json_decref(root);
     same_text(LIFTED, make_house("lifted.gltf", lifts));
@@ -238,11 +229,10 @@ static json_t *drawn(const char *name) {
 }
 
 /* Before, each fight is wrong in some pixels, but that behind the walls; after, none is. The camera is the file's. */
-static void pictures(void **state) {
+TEST(pictures) {
     json_t *root = drawn("house");
     const json_t *render = json_object_get(root, "render"), *eye = json_object_get(render, "eye");
     const double before = number(render, "wrong_pixels");
-    (void)state;
     assert_true(number(eye, "x") == -20 && number(eye, "y") == 17 && number(eye, "z") == 50);
     assert_relative(number(render, "fov"), 0.36 * 180 / 3.14159265358979324, 1e-12);
     for (size_t i = 0; i < FIGHTS; i++) {
@@ -282,20 +272,18 @@ static int status_from_street(double share) {
 }
 
 /* What is moved is seen from elsewhere, by some thousandths. */
-static void mended_from_street(void **state) {
-    (void)state;
+TEST(mended_from_street) {
     assert_int_equal(status_from_street(1.01), 0);
     assert_int_equal(status_from_street(0.9), 1);
 }
 
 /* From an eye that is farther off than the model is large, what is not said reaches as far as the eye sees: each lift
  * is for the farthest place. */
-static void far_off(void **state) {
+TEST(far_off) {
     printed p = print_of("scene " HOUSE " -F d24 -m d3d --eye 0,50,400 --look 0,0,0 --json");
     json_t *root = json_of(p.out), *list = json_object_get(root, "findings");
     const double within = number(root, "within");
     size_t fighting = 0;
-    (void)state;
     assert_true(within > 400 && within < 450); /* the terrain ends at z = -21 */
     for (size_t i = 0; i < json_array_size(list); i++) {
         const json_t *f = json_array_get(list, i);
@@ -310,9 +298,8 @@ static void far_off(void **state) {
 }
 
 /* In words: the rounding of the transforms makes no gap where there is none, nor two of one. */
-static void in_words(void **state) {
+TEST(in_words) {
     printed p = print_of("scene " HOUSE " -n 0.05 -F d24 -m d3d --viewport 960x540 --fov 23 --within 60 --unit m");
-    (void)state;
     const char *door = strstr(p.out, "'front wall' (plaster) and 'door' (oak)");
     const char *poster = strstr(p.out, "'front wall' (plaster) and 'poster' (paper)");
     assert_non_null(door);
@@ -321,12 +308,4 @@ static void in_words(void **state) {
     assert_true(one_plane != NULL && one_plane < strstr(door, "area"));
     assert_true(gap != NULL && gap < strstr(poster, "area"));
     printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(made),     cmocka_unit_test(known),
-                                       cmocka_unit_test(left_out), cmocka_unit_test(mended),
-                                       cmocka_unit_test(pictures), cmocka_unit_test(mended_from_street),
-                                       cmocka_unit_test(far_off),  cmocka_unit_test(in_words)};
-    return run_tap(tests);
 }

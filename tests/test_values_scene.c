@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene: what is printed of models put together here, against what they are and against the library. */
 #include <jansson.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "depthprec/depthprec.h"
 #include "printed.h"
-#include "support.h"
 
 #define STREET "tests/models/street.obj"
 
@@ -81,7 +76,7 @@ static bool check_finding(const json_t *f, size_t k, const dp_setup *setup, doub
     return certain >= within;
 }
 
-static void findings(void **state) {
+TEST(findings) {
     static const struct {
         const char *options, *format;
         dp_mapping mapping;
@@ -92,7 +87,6 @@ static void findings(void **state) {
         {"--separation 0.02 -F d24 -m d3d --within 50", "unorm24", DP_MAPPING_D3D, false, 50},
         {"--separation 0.02 --viewport 1920x1080 --within 200", "fp32", DP_MAPPING_REVERSED, true, 200},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const dp_setup setup = setup_of(rows[i].format, rows[i].mapping, rows[i].slanted);
         const double extent = sqrt(32.0 * 32 + 16 * 16 + 4 * 4);
@@ -125,7 +119,7 @@ static void findings(void **state) {
 
 /* Filters that are off bring back what they left out; a gap of 0 asks for one plane alone; a narrow angle for
  * parallels. */
-static void what_is_asked(void **state) {
+TEST(what_is_asked) {
     static const struct {
         const char *options;
         size_t findings;
@@ -136,7 +130,6 @@ static void what_is_asked(void **state) {
                 {"--separation 0.02 --also all", 4, 0},
                 {"--separation 0.02 --also thin,facing --angle 0", 4, 0},
                 {"--separation 0.02 --transforms binary32 --threads 1", 2, -1}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         json_t *root = object_of(rows[i].options, 0);
         assert_int_equal(json_array_size(json_object_get(root, "findings")), rows[i].findings);
@@ -148,7 +141,7 @@ static void what_is_asked(void **state) {
 
 /* Unasked, a model is judged up to ten times its size, or as far as a hundredth of it is told apart; what is asked for
  * is judged, whatever it takes. All that may fight up to there is looked at. */
-static void default_gap(void **state) {
+TEST(default_gap) {
     static const struct {
         const char *options, *format;
         dp_mapping mapping;
@@ -158,7 +151,6 @@ static void default_gap(void **state) {
                 {"-F d24 -m d3d --within 100", "unorm24", DP_MAPPING_D3D, 100},
                 {"-F d16 -m d3d --within 100", "unorm16", DP_MAPPING_D3D, 100},
                 {"-F d16 -m d3d", "unorm16", DP_MAPPING_D3D, 0}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         dp_separation_worst worst;
         printed p = print_of("scene %s %s --json", STREET, rows[i].options);
@@ -196,8 +188,7 @@ static void default_gap(void **state) {
 
 /* What is printed to write says of what it holds: what faces the camera, or, where a view is, triangles of the class.
  */
-static void facing_bias(void **state) {
-    (void)state;
+TEST(facing_bias) {
     printed p = print_of("scene %s --separation 0.02 -F d24 -m d3d", STREET);
     assert_non_null(strstr(p.out, "where they face"));
     printed_free(&p);
@@ -208,11 +199,10 @@ static void facing_bias(void **state) {
 }
 
 /* The text has the same numbers, rounded to the safe side; CSV those of JSON. */
-static void other_forms(void **state) {
+TEST(other_forms) {
     json_t *root = object_of("--separation 0.02 -F d24 -m d3d --within 50 --unit m", 1);
     const json_t *f = json_array_get(json_object_get(root, "findings"), 0);
     char want[256];
-    (void)state;
     printed p = print_of("scene %s --separation 0.02 -F d24 -m d3d --within 50 --unit m", STREET);
     assert_int_equal(p.status, 1);
     assert_non_null(strstr(p.out, "10 triangles, 5 surfaces, 36 m across"));
@@ -254,10 +244,9 @@ static void other_forms(void **state) {
 }
 
 /* A vertex that no triangle uses reaches nowhere: neither the extent nor what follows from it changes. */
-static void stray_vertex(void **state) {
+TEST(stray_vertex) {
     const char *path = scratch_file("stray.obj");
     FILE *out = fopen(path, "w");
-    (void)state;
     assert_non_null(out);
     fputs("v 0 0 0\nv 3 0 0\nv 0 4 0\nv 1e6 1e6 1e6\nf 1 2 3\n", out);
     assert_int_equal(fclose(out), 0);
@@ -270,7 +259,7 @@ static void stray_vertex(void **state) {
     printed_free(&p);
 }
 
-static void refused(void **state) {
+TEST(refused) {
     static const struct {
         const char *arguments;
         int status;
@@ -287,7 +276,6 @@ static void refused(void **state) {
         {"scene %s --also fcing", 2, "--also: must be"},
         {"scene %s --ortho", 2, "--ortho: is not an option of scene"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024];
         const char *at = strstr(rows[i].arguments, "%s");
@@ -300,12 +288,4 @@ static void refused(void **state) {
             fail_msg("%s: %d: %s", line, p.status, p.errors);
         printed_free(&p);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(findings),    cmocka_unit_test(what_is_asked),
-                                       cmocka_unit_test(default_gap), cmocka_unit_test(facing_bias),
-                                       cmocka_unit_test(other_forms), cmocka_unit_test(stray_vertex),
-                                       cmocka_unit_test(refused)};
-    return run_tap(tests);
 }

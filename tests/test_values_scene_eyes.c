@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene from an eye: what is printed, against formulas of the test and the library; what cannot be an eye. */
 #include <jansson.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "depthprec/depthprec.h"
 #include "printed.h"
-#include "support.h"
 
 #define STREET "tests/models/street.obj --separation 0.02"
 
@@ -88,7 +83,7 @@ static double bound_of(const char *format, double lo, double hi, double zfar, bo
     return facing ? worst.separation : worst.bound;
 }
 
-static void one_eye(void **state) {
+TEST(one_eye) {
     static const struct {
         double eye[3], at[3];
         const char *more, *format;
@@ -97,7 +92,6 @@ static void one_eye(void **state) {
                 {{3, 8, 27}, {0, 0, 1}, " --within 30", "unorm24", 30},
                 {{3, 9, 70}, {0, 0, 1}, " --within 300", "unorm16", 300},
                 {{30, 40, -10}, {1, 0, 2}, " --within 20", "unorm16", 20}};
-    (void)state;
     size_t told[2] = {0};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const double *e = rows[i].eye, *at = rows[i].at;
@@ -149,11 +143,10 @@ static void one_eye(void **state) {
 }
 
 /* What only a cut road would tell apart comes before what is told apart, however close that is; and is counted. */
-static void what_comes_first(void **state) {
+TEST(what_comes_first) {
     const char *path = scratch_file("order.obj");
     const char *eye = "--separation 0.02 --eye 0,1.7,2 --look 0,0,-10";
     char line[256];
-    (void)state;
     write_file(path, "o road\nv -8 0 -8\nv 8 0 -8\nv 8 0 8\nv -8 0 8\nf 4 3 2 1\n" /* also behind the eye */
                      "o paint\nv -1 0.002 -4\nv 1 0.002 -4\nv 1 0.002 4\nv -1 0.002 4\nf 8 7 6 5\n"
                      "o wall\nv -1 0.5 -7\nv 1 0.5 -7\nv 1 1.5 -7\nv -1 1.5 -7\nf 9 10 11 12\n"
@@ -176,10 +169,9 @@ static void what_comes_first(void **state) {
 }
 
 /* Two parts of one surface, the nearer one first or last: the distance that mends it is that of the farther one. */
-static void lift_of_parts(void **state) {
+TEST(lift_of_parts) {
     static const char *const parts[] = {"v -1 1 -190\nv 1 1 -190\nv 0 2 -190\nf -3 -2 -1\n",
                                         "v -1 -2 -9\nv 1 -2 -9\nv 0 -1 -9\nf -3 -2 -1\n"};
-    (void)state;
     for (int first = 0; first < 2; first++) {
         const char *path = scratch_file("parts.obj"); /* which ends with the next one */
         char text[512], line[256];
@@ -199,11 +191,10 @@ static void lift_of_parts(void **state) {
 }
 
 /* The sign, not in view; what hides behind the eye; text and CSV. */
-static void forms(void **state) {
+TEST(forms) {
     char want[128];
     json_t *root = object_of(0, "scene " STREET " -m d3d -F d16 --eye 0,4,20 --look 0,0,0");
     const json_t *sign = finding_of(root, "wall"), *paint = finding_of(root, "road");
-    (void)state;
     assert_ptr_equal(json_array_get(json_object_get(root, "findings"), 0), paint); /* what is seen comes first */
     assert_true(json_is_null(json_object_get(sign, "seen_from")) && json_is_null(json_object_get(sign, "seen_to")));
     assert_true(json_is_false(json_object_get(sign, "fights")) && json_is_true(json_object_get(paint, "fights")));
@@ -243,9 +234,8 @@ static void forms(void **state) {
 
 /* ---- Several ----------------------------------------------------------------------------------------------------- */
 
-static void path(void **state) {
+TEST(path) {
     char name[512], line[1024];
-    (void)state;
     snprintf(name, sizeof name, "%s", scratch_file("walk.txt"));
     write_file(name, "# a walk\n0 4 90 0 0 0\r\n\n0,4,20, 0,0,0 # near\n 21.5 2 9 21.5 2 0\n0 4 40 0 0 0");
     snprintf(line, sizeof line, "scene " STREET " -m d3d -F d16 --within 25 --path %s", name);
@@ -266,7 +256,7 @@ static void path(void **state) {
     printed_free(&p);
 }
 
-static void damaged_paths(void **state) {
+TEST(damaged_paths) {
     static const struct {
         const char *text, *said;
     } rows[] = {{"", "has no line of six numbers"},
@@ -278,7 +268,6 @@ static void damaged_paths(void **state) {
                 {"1 2 3 4 5 2e12\n", "line 1: must be numbers from -1e12 to 1e12, got '2e12'"},
                 {"1 2 3 1 2 3\n", "line 1: must look at another place than its own"}};
     char name[512];
-    (void)state;
     snprintf(name, sizeof name, "%s", scratch_file("bad.txt"));
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         write_file(name, rows[i].text);
@@ -317,7 +306,7 @@ static const char cameras[] =
     "{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":1,\"znear\":0,\"zfar\":9}},"
     "{\"type\":\"perspective\",\"perspective\":{\"yfov\":3.14159,\"znear\":0.25}}]}";
 
-static void model_cameras(void **state) {
+TEST(model_cameras) {
     static const struct {
         const char *options;
         double znear, zfar, fov;
@@ -335,7 +324,6 @@ static void model_cameras(void **state) {
                  {"Odd", "--camera: 'Odd' has a vertical field of view of 180 degrees"},
                  {"Door --near 0.1 --eye 1,2,3 --look 0,0,0", "--camera: cannot be combined with --eye"}};
     char name[512], line[1024];
-    (void)state;
     snprintf(name, sizeof name, "%s", scratch_file("cameras.gltf"));
     write_file(name, cameras);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -363,7 +351,7 @@ static void model_cameras(void **state) {
     printed_free(&p);
 }
 
-static void refused(void **state) {
+TEST(refused) {
     static const struct {
         const char *options, *said;
     } rows[] = {{"--eye 1,2,3", "--eye: needs --look"},
@@ -374,19 +362,10 @@ static void refused(void **state) {
                 {"--camera A --path x", "--path: cannot be combined with --camera"},
                 {"--camera A", "--camera: tests/models/street.obj has no camera, got 'A'"},
                 {"--eye 1,2,3 --look 0,0,0 --slant 0:40", "--slant: does not apply from an eye"}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         printed p = print_of("scene " STREET " %s", rows[i].options);
         if (p.status != 2 || strstr(p.errors, rows[i].said) == NULL)
             fail_msg("%s: %d: %s", rows[i].options, p.status, p.errors);
         printed_free(&p);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(one_eye),       cmocka_unit_test(what_comes_first),
-                                       cmocka_unit_test(lift_of_parts), cmocka_unit_test(forms),
-                                       cmocka_unit_test(path),          cmocka_unit_test(damaged_paths),
-                                       cmocka_unit_test(model_cameras), cmocka_unit_test(refused)};
-    return run_tap(tests);
 }

@@ -3,15 +3,10 @@
 #include <jansson.h>
 #include <libxml/parser.h>
 #include <libxml/tree.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "api/bias.h"
 #include "depthprec/depthprec.h"
 #include "printed.h"
-#include "support.h"
 
 #define HOUSE  "tests/models/house.gltf"
 #define CAMERA "-n 0.05 -F d24 -m d3d --viewport 1280x720 --fov 23"
@@ -74,14 +69,13 @@ static void remedy_is(const char *message, const json_t *place, double lift) {
 }
 
 /* A case for each finding of JSON in its order; what fights fails. */
-static void junit(void **state) {
+TEST(junit) {
     static const struct {
         const char *options;
         int status;
         size_t fewest;
     } rows[] = {
         {CAMERA " --within 60", 1, 17}, {CAMERA " --within 10", 1, 10}, {"-F fp32 -m reversed --within 10", 1, 2}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char command[512], text[32];
         size_t fails = 0, k = 0;
@@ -128,10 +122,9 @@ static void junit(void **state) {
 }
 
 /* No finding is one case that passes; a name with what XML has a use for is text. */
-static void junit_edges(void **state) {
+TEST(junit_edges) {
     static const char lone[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng lone\nf 1 2 3\n";
     static const char odd[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng a<\"&>'\nf 1 2 3\ng b]]>\nf 1 2 3\n";
-    (void)state;
     for (int i = 0; i < 2; i++) {
         char path[512];
         snprintf(path, sizeof path, "%s", scratch_file("junit.obj"));
@@ -154,7 +147,7 @@ static void junit_edges(void **state) {
 /* ---- Requirements ------------------------------------------------------------------------------------------------ */
 
 /* By check: each pair that is not in one plane is a requirement with its gap, and fails exactly where it fights. */
-static void needs(void **state) {
+TEST(needs) {
     static const char *const cameras[] = {
         CAMERA " --within 60",
         CAMERA " --within 12 --raster swiftshader --slant 10:80 --triangle-class depth=1.5,pixels=100,slim=8",
@@ -164,7 +157,6 @@ static void needs(void **state) {
         "-m log -F d24 --log-c 0.5 --within 90 --separation 0.01",
         "-m log -F d24 -f 1e9 --within 300 --separation 0.02 --viewport 640x480", /* none in the lattice */
         "-m linear -F d16 --within 90 --viewport 640x480"};
-    (void)state;
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
         char command[1024], path[512];
         size_t at = 0, failed = 0;
@@ -195,9 +187,8 @@ static void needs(void **state) {
 }
 
 /* The mapping of the camera is put right in the file: then nothing fails, and nothing of the model was needed. */
-static void mended(void **state) {
+TEST(mended) {
     char command[1024], path[512], text[1 << 15];
-    (void)state;
     snprintf(path, sizeof path, "%s", scratch_file("mended.need"));
     snprintf(command, sizeof command, "scene " HOUSE " -n 0.05 -F fp32 -m d3d --within 60 --emit-need %s", path);
     json_decref(printed_json(command));
@@ -223,10 +214,9 @@ static void mended(void **state) {
 }
 
 /* From an eye the range is what it sees, and what it does not see is not asked for. */
-static void needs_of_an_eye(void **state) {
+TEST(needs_of_an_eye) {
     char command[1024], path[512];
     size_t at = 0;
-    (void)state;
     snprintf(path, sizeof path, "%s", scratch_file("eye.need"));
     snprintf(command, sizeof command, "scene " HOUSE " " CAMERA " --camera street --within 70 --emit-need %s", path);
     json_t *root = printed_json(command);
@@ -248,7 +238,7 @@ static void needs_of_an_eye(void **state) {
 
 /* ---- The bias ---------------------------------------------------------------------------------------------------- */
 
-static void bias(void **state) {
+TEST(bias) {
     static const struct {
         const char *options, *api;
         double znear, within;
@@ -256,7 +246,6 @@ static void bias(void **state) {
     } rows[] = {{CAMERA " --within 60", "d3d11", 0.05, 60.0, true},
                 {"-n 0.05 -F d24 -m d3d --within 60 --api vulkan", "vulkan", 0.05, 60.0, false},
                 {"-n 1 -f 1000 -F d24 -m d3d --within 90 --api gl", "gl", 1.0, 90.0, false}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char command[512];
         dp_spec spec = dp_spec_default();
@@ -299,10 +288,9 @@ static void bias(void **state) {
 }
 
 /* Triangles so wide that their set-up loses more than any slope brings back: so the library says, too. */
-static void no_bias(void **state) {
+TEST(no_bias) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
-    (void)state;
     spec.zfar = 1000.0;
     spec.triangles = dp_triangles_default();
     spec.triangles.width = 1280;
@@ -320,7 +308,7 @@ static void no_bias(void **state) {
     printed_free(&p);
 }
 
-static void refused(void **state) {
+TEST(refused) {
     static const struct {
         const char *options;
         int status;
@@ -333,7 +321,6 @@ static void refused(void **state) {
         {"--emit-need " HOUSE, 2, "--emit-need: must not be a file that is read"},
         {"--api all", 2, "--api: must name one here, got 'all'"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         printed p = print_of("scene " HOUSE " %s", rows[i].options);
         if (p.status != rows[i].status || strstr(p.errors, rows[i].said) == NULL)
@@ -343,11 +330,7 @@ static void refused(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(junit),           cmocka_unit_test(junit_edges),
-                                       cmocka_unit_test(needs),           cmocka_unit_test(mended),
-                                       cmocka_unit_test(needs_of_an_eye), cmocka_unit_test(bias),
-                                       cmocka_unit_test(no_bias),         cmocka_unit_test(refused)};
-    const int status = run_tap(tests);
+    const int status = run_listed(NULL, NULL);
     xmlCleanupParser();
     return status;
 }

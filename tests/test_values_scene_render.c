@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene --render: the picture as libpng reads it, and what is printed of it. */
 #include <jansson.h>
-#include <math.h>
 #include <png.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "printed.h"
-#include "support.h"
 
 #define STREET "tests/models/street.obj"
 #define DRAWN  " --separation 0.02 -F unorm16 -m d3d -f 100"
@@ -38,7 +33,7 @@ static double number(const json_t *object, const char *key) {
 }
 
 /* The red pixels are counted, in all and by finding; text says the same. */
-static void counts(void **state) {
+TEST(counts) {
     static const struct {
         const char *options, *raster;
         unsigned width, height;
@@ -46,7 +41,6 @@ static void counts(void **state) {
     } rows[] = {{"--viewport 320x200", "llvmpipe", 320, 200, 60},
                 {"--viewport 300x200 --raster swiftshader --fov 40", "swiftshader", 300, 200, 40},
                 {"--fov 30", "llvmpipe", 1920, 1080, 30}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char path[512];
         snprintf(path, sizeof path, "%s", scratch_file("street.png"));
@@ -83,7 +77,7 @@ static void counts(void **state) {
     }
 }
 
-static void refused(void **state) {
+TEST(refused) {
     static const struct {
         const char *options;
         int status;
@@ -102,7 +96,6 @@ static void refused(void **state) {
         {"--render x.png -o x.png", 2, "--render: must not be the file of --output, got 'x.png'"},
         {"--fov 40", 2, "--fov: needs --viewport"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         printed p = print_of("scene %s %s", STREET, rows[i].options);
         if (p.status != rows[i].status || strstr(p.errors, rows[i].said) == NULL)
@@ -110,9 +103,4 @@ static void refused(void **state) {
         assert_int_equal(strlen(p.out), 0);
         printed_free(&p);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(counts), cmocka_unit_test(refused)};
-    return run_tap(tests);
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What table and budget print of slanted triangles, against the library; options spelled out here by hand. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "api/bias.h"
 #include "printed.h"
 
@@ -183,8 +179,7 @@ static void check_rows(const slant_case *c, const char *command) {
     printed_free(&csv);
 }
 
-static void test_rows(void **state) {
-    (void)state;
+TEST(test_rows) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         check_rows(&cases[i], "table");
         check_rows(&cases[i], "budget");
@@ -192,12 +187,11 @@ static void test_rows(void **state) {
 }
 
 /* With world positions: each guarantee has its own composition, and what it adds is that cause. */
-static void test_world(void **state) {
+TEST(test_world) {
     static const char *const names[] = {"once", "products", "relative"};
     const slant_case *c = &cases[0];
     dp_spec spec = dp_spec_default();
     dp_setup slanted;
-    (void)state;
     spec.znear = c->znear;
     spec.zfar = c->zfar;
     spec.mapping = c->mapping;
@@ -229,7 +223,7 @@ static void test_world(void **state) {
 }
 
 /* What the subpixel grid costs at the worst slant, per depth, as published for these views; 28.8 mm at 5 km. */
-static void test_published(void **state) {
+TEST(test_published) {
     static const struct {
         const char *view;
         double per_depth;
@@ -237,7 +231,6 @@ static void test_published(void **state) {
         {"--viewport 1920x1080 --hfov 90", 5.75e-6},     {"--viewport 1920x1080 --hfov 90 --subpixel 4", 9.2e-5},
         {"--viewport 1920x1080 --hfov 60", 3.32e-6},     {"--viewport 1920x1080 --hfov 60 --subpixel 4", 5.3e-5},
         {"--viewport 3840x2160 --hfov 90", 5.75e-6 / 2}, {"--viewport 3840x2160 --hfov 60 --subpixel 4", 5.3e-5 / 2}};
-    (void)state;
     for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
         printed p = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --slant 89.999:90 --at 5000 --json %s",
                              published[i].view);
@@ -251,11 +244,10 @@ static void test_published(void **state) {
 }
 
 /* Of text the last column of a table is that at any slant, rounded up. */
-static void test_text(void **state) {
+TEST(test_text) {
     const slant_case *c = &cases[0];
     printed p = print_of("table %s %s --at 700", c->camera, c->options);
     const char *head = strstr(p.out, " guaranteed  any slant\n");
-    (void)state;
     assert_non_null(head);
     const char *line = strchr(head, '\n') + 1, *end = strchr(line, '\n');
     while (end[-1] != ' ')
@@ -269,7 +261,7 @@ static void test_text(void **state) {
 }
 
 /* Who draws, on which grid, and how depth is set up. */
-static void test_rasterizer(void **state) {
+TEST(test_rasterizer) {
     static const struct {
         const char *options, *line;
     } said[] = {{"--raster llvmpipe", "llvmpipe: depth from unsnapped vertices, anchor origin, arithmetic mesa\n"},
@@ -277,7 +269,6 @@ static void test_rasterizer(void **state) {
                 {"--raster spec-d3d", "spec-d3d: 8 subpixel bits, any anchor: the worst is counted, arithmetic ieee\n"},
                 {"--raster spec-gl --subpixel 5",
                  "spec-gl: at least 5 subpixel bits, any anchor: the worst is counted, arithmetic\n"}};
-    (void)state;
     for (size_t i = 0; i < sizeof said / sizeof said[0]; i++) {
         printed p = print_of("budget -F fp32 -m reversed --viewport 640x480 --at 10 %s", said[i].options);
         assert_non_null(strstr(p.out, "viewport 640x480, fov 60, slant 0 to 90 degrees\n"));
@@ -287,7 +278,7 @@ static void test_rasterizer(void **state) {
 }
 
 /* A preset's view and rasterizer hold with a viewport, and where they are not given. */
-static void test_presets(void **state) {
+TEST(test_presets) {
     static const struct {
         const char *options, *raster;
         double fov;
@@ -298,7 +289,6 @@ static void test_presets(void **state) {
                  {"--preset godot-forward --raster spec-d3d", "spec-d3d", 75, 8},
                  {"--preset godot-forward --raster spec-vulkan --subpixel 6", "spec-vulkan", 75, 6},
                  {"--preset godot-forward --subpixel 6", NULL, 75, 6}};
-    (void)state;
     for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
         printed p = print_of("table --viewport 1920x1080 --at 10 --json %s", asked[i].options);
         json_t *root = json_of(p.out), *got = json_object_get(root, "triangles");
@@ -375,8 +365,7 @@ static void check_bias(const slant_case *c, const char *options, double slope, d
     }
 }
 
-static void test_bias(void **state) {
-    (void)state;
+TEST(test_bias) {
     check_bias(&cases[0], "", 0, NAN);
     check_bias(&cases[0], "--slope 0.5", 0.5, 0);
     check_bias(&cases[1], "", 0, NAN);
@@ -394,13 +383,12 @@ static void test_bias(void **state) {
 }
 
 /* The figure has both: each point is that of a pixel column, and no less than what is guaranteed there. */
-static void test_plot(void **state) {
+TEST(test_plot) {
     const slant_case *c = &cases[0];
     printed p = print_of("plot interval --model float %s %s --range 1:1e4 --json", c->camera, c->options);
     json_t *root = json_of(p.out), *series, *point;
     const json_t *panel = json_array_get(json_object_get(root, "panels"), 0);
     size_t s, i, points[2] = {0};
-    (void)state;
     json_array_foreach(json_object_get(panel, "series"), s, series) {
         const char *name = json_string_value(json_object_get(series, "name"));
         const bool slanted = strcmp(name, "fp32 reversed, any slant") == 0;
@@ -421,7 +409,7 @@ static void test_plot(void **state) {
 }
 
 /* A census stays what it is; beside each band stands what holds at any slant all over it. */
-static void test_zfight(void **state) {
+TEST(test_zfight) {
     const slant_case *c = &cases[0];
     static const char *const same[] = {"pairs", "ties", "swaps", "longest", "longest_z", "bound", "used"};
     const char *const common = "zfight %s --range 5.5:9 --json %s";
@@ -431,7 +419,6 @@ static void test_zfight(void **state) {
     const json_t *setups[2], *bands[2];
     dp_spec spec = dp_spec_default();
     dp_setup slanted;
-    (void)state;
     spec.znear = c->znear;
     spec.zfar = c->zfar;
     spec.mapping = c->mapping;
@@ -464,12 +451,11 @@ static void test_zfight(void **state) {
 }
 
 /* Over a range, of both. */
-static void test_range(void **state) {
+TEST(test_range) {
     const slant_case *c = &cases[0];
     printed p = print_of("table %s %s --at 700 --range 3:5e4 --json", c->camera, c->options);
     json_t *root = json_of(p.out);
     const json_t *setup = json_array_get(json_object_get(root, "setups"), 0);
-    (void)state;
     for (int slanted = 0; slanted < 2; slanted++) {
         const json_t *got = json_object_get(setup, slanted ? "worst_separation_slanted" : "worst_separation");
         dp_spec spec = dp_spec_default();
@@ -491,20 +477,10 @@ static void test_range(void **state) {
 }
 
 /* Where nothing is certain, it is what lies in front of the farther surface that is not. */
-static void test_hopeless(void **state) {
+TEST(test_hopeless) {
     const slant_case *c = &cases[2];
     printed p = print_of("budget %s %s --at 30,1e4,1e5", c->camera, c->options);
-    (void)state;
     assert_true(isfinite(budget_of(c, 30, true).separation) && isinf(budget_of(c, 1e4, true).separation));
     assert_non_null(strstr(p.out, "at z = 10000 no separation is guaranteed: everything nearer may share its code\n"));
     printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows),    cmocka_unit_test(test_text),    cmocka_unit_test(test_rasterizer),
-        cmocka_unit_test(test_presets), cmocka_unit_test(test_range),   cmocka_unit_test(test_zfight),
-        cmocka_unit_test(test_bias),    cmocka_unit_test(test_plot),    cmocka_unit_test(test_published),
-        cmocka_unit_test(test_world),   cmocka_unit_test(test_hopeless)};
-    return run_tap(tests);
 }

@@ -3,11 +3,6 @@
  * What solve finds with --viewport: for each unknown the answer against the library's guarantee of slanted triangles,
  * at the answer and where it is said to end; the options spelled out here by hand.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "printed.h"
 
 #define VIEW "--viewport 1280x720 --fov 55 --subpixel 6 --slant 10:80 --triangle-class depth=1.5,pixels=300,slim=8"
@@ -141,8 +136,7 @@ static void check_lines(const solve_case *c, const json_t *answer) {
     printed_free(&p);
 }
 
-static void test_answers(void **state) {
-    (void)state;
+TEST(test_answers) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const solve_case *c = &cases[i];
         printed p = print_of("solve %s " VIEW " --json", c->arguments);
@@ -165,7 +159,7 @@ static void test_answers(void **state) {
     }
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     static const struct {
         const char *arguments, *says;
     } refusals[] = {
@@ -177,7 +171,6 @@ static void test_refusals(void **state) {
          "--mapping: must be one of d3d, gl, reversed, gl-rev"},
         {"-F fp32 -m linear -f 99 --separation 0.01 --at 9", "--mapping: must be one of d3d"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof refusals / sizeof refusals[0]; i++) {
         printed p = print_of("solve %s " VIEW "", refusals[i].arguments);
         assert_int_equal(p.status, 2);
@@ -191,9 +184,4 @@ static void test_refusals(void **state) {
     p = print_of("solve -F fp32 -m d3d -f 99 --separation 1 --at 9 --viewport 64x64 --raster softpipe --json");
     assert_true(p.status == 0 && strstr(p.out, "unorm16") == NULL && strstr(p.out, "unorm24") != NULL);
     printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_answers), cmocka_unit_test(test_refusals)};
-    return run_tap(tests);
 }

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What `world` prints: every value, against the library; how far is far enough, from both sides. */
-#include <stdio.h>
-#include <string.h>
-
 #include "printed.h"
 #include "world/reach.h"
 
@@ -28,10 +25,9 @@ static double farthest(world_loss *loss, const world_scheme *s, const world_aske
 }
 
 /* Long: one report, read from the outside in. */
-static void test_world(void **state) {
+TEST(test_world) {
     static const double gaps[] = {0.02, 0.02, 1e-5,
                                   30.0}; /* the third fights where it stands still, the last jitters */
-    (void)state;
     for (int run = 0; run < 4; run++) {
         const bool shared = run == 1;
         dp_spec spec = dp_spec_default();
@@ -112,8 +108,7 @@ static void test_world(void **state) {
 }
 
 /* budget --scheme: the room's own budget at a corner of the box; absolute is what --from-origin means without. */
-static void test_budget(void **state) {
-    (void)state;
+TEST(test_budget) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     dp_format formats[2];
@@ -147,8 +142,7 @@ static void test_budget(void **state) {
 }
 
 /* check: the same of a camera in a file. */
-static void test_check(void **state) {
-    (void)state;
+TEST(test_check) {
     static const char *const wrong[] = {"from_origin = 5.0;",
                                         "scheme = \"split\";",
                                         "from_origin = 5.0; scheme = \"splt\";",
@@ -192,8 +186,7 @@ static void test_check(void **state) {
 }
 
 /* A view so wide that its corners are 47 times as far away as its middle: they are seen, too. */
-static void test_wide(void **state) {
-    (void)state;
+TEST(test_wide) {
     const double pi = 3.14159265358979323846, half = tan(87.5 * pi / 180.0);
     dp_spec spec = dp_spec_default();
     dp_setup setup;
@@ -212,8 +205,7 @@ static void test_wide(void **state) {
 }
 
 /* Unreal's tile is 2097152 of its units, which are centimetres; what others count in is not said. */
-static void test_sizes(void **state) {
-    (void)state;
+TEST(test_sizes) {
     static const struct {
         const char *arguments, *first, *second;
     } rows[] = {{"--preset unreal", "tile:2097152", "split:65536"},
@@ -251,12 +243,4 @@ static void test_sizes(void **state) {
     }
     assert_true(value[0] > 0.1); /* not of a tile of 210 m, 100 times smaller */
     assert_relative(value[0], value[1], 1e-12);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_world), cmocka_unit_test(test_budget), cmocka_unit_test(test_check),
-        cmocka_unit_test(test_wide),  cmocka_unit_test(test_sizes),
-    };
-    return run_tap(tests);
 }
