@@ -465,7 +465,7 @@ void check_json(values *v, int status, const char *arguments) {
 static const char *behind(const char *line, const char *option) {
     const size_t length = strlen(option);
     for (const char *at = line; (at = strstr(at, option)) != NULL; at += length)
-        if (at > line && at[-1] == ' ' && strchr(" =", at[length]) != NULL)
+        if ((at == line || at[-1] == ' ') && strchr(" =", at[length]) != NULL)
             return at + length + (at[length] != '\0');
     return NULL;
 }
