@@ -44,8 +44,8 @@ const char *scratch_file(const char *name);
 /** The same, holding the text that is given. */
 const char *scratch_text(const char *name, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** What a run says, found out in one call: it ends with `status`, having said this on stdout, or where it fails stderr;
- * behind a '!' what it does not say. */
+/** What a run says, found out in one call: it ends with `status`, any where that is -1, having said this on stdout, or
+ * where it fails stderr; behind a '!' what it does not say. */
 void check_says(int status, const char *said, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /** Words behind a command line, what they are refused with, and the exit status; of a 0 it is 2. */

@@ -75,17 +75,13 @@ static double unit_of(double value, int digits) {
 }
 
 static dp_setup full_setup(const camera *c, const char *format, const char *mapping) {
-    dp_spec spec = {.znear = c->znear, .zfar = c->zfar, .ortho = c->ortho, .log_c = 1};
+    dp_spec spec = {.znear = c->znear, .zfar = c->zfar, .ortho = c->ortho};
     if (c->triangles != NULL)
         spec.triangles = *c->triangles;
     if (c->triangles == &mesa)
         assert_int_equal(dp_arith_parse("mesa", &spec.arith), DP_OK); /* its rasterizer brings it */
-    dp_format formats[2];
-    dp_setup setup;
-    assert_int_equal(dp_format_parse(format, formats), 1);
-    spec.format = formats[0];
     assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const dp_setup setup = setup_with(format, spec);
     return dp_setup_guaranteed(&setup);
 }
 
