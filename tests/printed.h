@@ -19,7 +19,7 @@
 
 #include <jansson.h>
 
-#include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
@@ -210,12 +210,5 @@ size_t numbers_behind(const char *line, const char *option, double *out, size_t 
 
 /** The set-ups by -n, -f, -F, -m, --ortho, --rounding, --model (else the one that is given), --arith and --log-c. */
 size_t setups_of(const char *line, dp_model model, dp_setup out[SETUPS_MAX]);
-
-/** A checked set-up; planes and log_c that are 0 are the default ones. */
-dp_setup setup_with(const char *format, dp_spec spec);
-#define SETUP(format, ...) setup_with(format, (dp_spec){__VA_ARGS__})
-
-/** A set-up in another model. */
-dp_setup setup_in(const dp_setup *setup, dp_model model);
 
 #endif

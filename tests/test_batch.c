@@ -4,6 +4,7 @@
 
 #include "depthprec/depthprec.h"
 #include "parallel.h"
+#include "setups.h"
 #include "support.h"
 
 enum { CHUNK = 4096, GUARD = 64 };
@@ -41,19 +42,8 @@ static const char *const formats[] = {"fp16",    "fp32",    "unorm16", "unorm24"
 enum { CAMERAS = sizeof cameras / sizeof cameras[0], FORMATS = sizeof formats / sizeof formats[0] };
 
 static dp_setup make(const camera *c, const char *name, dp_rounding rounding, dp_model model) {
-    dp_format format[2];
-    dp_spec spec = dp_spec_default();
-    dp_setup setup;
-    assert_true(dp_format_parse(name, format) > 0);
-    spec.znear = c->znear;
-    spec.zfar = c->zfar;
-    spec.ortho = c->ortho;
-    spec.mapping = c->mapping;
-    spec.format = format[0];
-    spec.rounding = rounding;
-    spec.model = model;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(name, .znear = c->znear, .zfar = c->zfar, .ortho = c->ortho, .mapping = c->mapping,
+                 .rounding = rounding, .model = model);
 }
 
 static const char *label(const dp_batch *b) {

@@ -2,6 +2,7 @@
 /* What a census looks at again, and how often it asks for the guarantee: little, and the same comes out. */
 #include "census/census.h"
 #include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 
 static uint64_t looked_at, asked;
@@ -17,15 +18,7 @@ static double counting_bound(const dp_setup *setup, double z) {
 }
 
 static dp_setup setup_of(const char *format, dp_mapping mapping) {
-    dp_spec spec = dp_spec_default();
-    dp_format formats[2];
-    dp_setup setup;
-    assert_int_not_equal(dp_format_parse(format, formats), 0);
-    spec.format = formats[0];
-    spec.mapping = mapping;
-    spec.model = DP_MODEL_FLOAT;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .model = DP_MODEL_FLOAT);
 }
 
 static const struct {

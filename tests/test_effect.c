@@ -6,6 +6,7 @@
 #include <ctype.h>
 
 #include "named.h"
+#include "setups.h"
 #include "shader/effect.h"
 #include "support.h"
 
@@ -17,16 +18,7 @@ static size_t count(void) {
 }
 
 static dp_setup setup_of(double znear, double zfar, dp_mapping mapping, const char *format) {
-    dp_spec spec = dp_spec_default();
-    dp_format found[2];
-    dp_setup setup;
-    assert_true(dp_format_parse(format, found) >= 1);
-    spec.znear = znear;
-    spec.zfar = zfar;
-    spec.mapping = mapping;
-    spec.format = found[0];
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .znear = znear, .zfar = zfar, .mapping = mapping);
 }
 
 /* ---- Cells of UNORM by hand -------------------------------------------------------------------------------------- */

@@ -2,21 +2,13 @@
 /* Which model is enough, and how the guaranteed separation is split: the sums, not the bounds themselves. */
 #include "cli/choice.h"
 #include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 
 enum { DEPTHS = 200 };
 
 static dp_setup make(const char *format, dp_mapping mapping, double znear, double zfar) {
-    dp_format found[2];
-    dp_setup setup;
-    dp_spec spec = dp_spec_default();
-    assert_true(dp_format_parse(format, found) == 1);
-    spec.format = found[0];
-    spec.mapping = mapping;
-    spec.znear = znear;
-    spec.zfar = zfar;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .znear = znear, .zfar = zfar);
 }
 
 static void spread(const dp_setup *setup, double *z, size_t count) {

@@ -4,6 +4,7 @@
 #include <mpfr.h>
 
 #include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 #include "transform.h"
 
@@ -20,16 +21,7 @@ static uint32_t bits_of(float z) {
 }
 
 static dp_setup setup_of(double znear, double zfar, dp_mapping mapping, const char *format) {
-    dp_spec spec = dp_spec_default();
-    dp_format found[2];
-    dp_setup setup;
-    assert_int_not_equal(dp_format_parse(format, found), 0);
-    spec.znear = znear;
-    spec.zfar = zfar;
-    spec.mapping = mapping;
-    spec.format = found[0];
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .znear = znear, .zfar = zfar, .mapping = mapping);
 }
 
 static dp_pipeline pipeline_of(const dp_setup *setup) {

@@ -5,20 +5,13 @@
 #include "plot/area.h"
 #include "plot/draw.h"
 #include "plot/figure.h"
+#include "setups.h"
 #include "support.h"
 
 enum { COLUMNS = 200 };
 
 static dp_setup make(const char *format, dp_mapping mapping, dp_model model) {
-    dp_format found[2];
-    dp_setup setup;
-    dp_spec spec = dp_spec_default();
-    assert_true(dp_format_parse(format, found) == 1);
-    spec.format = found[0];
-    spec.mapping = mapping;
-    spec.model = model;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .model = model);
 }
 
 static chart *build(const char *figure, const figure_request *request) {

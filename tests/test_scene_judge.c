@@ -2,20 +2,11 @@
 /* From where surfaces fight: ties against every code of small formats, the guarantee at and behind the depth named. */
 #include "depthprec/depthprec.h"
 #include "scene/judge.h"
+#include "setups.h"
 #include "support.h"
 
 static dp_setup setup_of(const char *format, dp_mapping mapping, double znear, double zfar, dp_model model) {
-    dp_spec spec = dp_spec_default();
-    dp_setup setup;
-    dp_format found[2];
-    assert_int_equal(dp_format_parse(format, found), 1);
-    spec.format = found[0];
-    spec.mapping = mapping;
-    spec.znear = znear;
-    spec.zfar = zfar;
-    spec.model = model;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .znear = znear, .zfar = zfar, .model = model);
 }
 
 /* Every code between near and the depth, the cut off ones at the ends left out: the end of the last narrow cell. */

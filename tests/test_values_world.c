@@ -24,9 +24,17 @@ static double farthest(world_loss *loss, const world_scheme *s, const world_aske
     return to;
 }
 
+/* By its definition: what lies across the view, at the depth that is left in the worst case, in pixels. */
+static double jitter_of(const world_scheme *s, const world_asked *a, double distance) {
+    const world_where ahead = {distance, a->z, a->z}, beside = {distance, a->z, 0.0};
+    const world_error along = world_bound(s, &ahead), across = world_bound(s, &beside);
+    const double nearest = a->z - world_all(&along);
+    return nearest > 0.0 ? a->pixels * world_all(&across) / nearest : INFINITY;
+}
+
 static void check_scheme(const json_t *line, const world_asked *a, size_t k, double distance, double gap) {
     const world_scheme s = scheme_of(k);
-    const double safe_gap = world_separation(&s, a, distance), jitter = world_jitter(&s, a, distance);
+    const double safe_gap = world_separation(&s, a, distance), jitter = jitter_of(&s, a, distance);
     const struct {
         const char *key;
         double want;

@@ -6,20 +6,11 @@
 
 #include "named.h"
 #include "raster/vertex_compare.h"
+#include "setups.h"
 #include "support.h"
 
 static dp_setup setup_of(dp_mapping mapping, const char *format, double n, double f, int ortho) {
-    dp_spec spec = dp_spec_default();
-    dp_format found[2];
-    dp_setup setup;
-    spec.mapping = mapping;
-    spec.znear = n;
-    spec.zfar = f;
-    spec.ortho = ortho;
-    assert_int_equal(dp_format_parse(format, found), 1);
-    spec.format = found[0];
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .znear = n, .zfar = f, .ortho = ortho);
 }
 
 static const vertex_program *program_of(const char *name) {
