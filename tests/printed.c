@@ -33,24 +33,23 @@ static void remove_scratch(void) {
     nftw(scratch, remove_one, 8, FTW_DEPTH | FTW_PHYS);
 }
 
-/* Static strings, each new until 15 more were asked for. */
-enum { STRINGS = 16, STRING_SIZE = 512 };
-
-static char *next_string(void) {
-    static char strings[STRINGS][STRING_SIZE];
-    static int next;
-    return strings[next++ % STRINGS];
-}
-
+/* Each name has its string, to the end of the program. */
 const char *scratch_file(const char *name) {
-    char *path = next_string();
+    enum { FILES_MAX = 256 };
+    static char *paths[FILES_MAX];
+    char path[512];
+    size_t i = 0;
     if (scratch[0] == '\0') {
         strcpy(scratch, "/tmp/depthprec-test-XXXXXX");
         assert_non_null(mkdtemp(scratch));
         atexit(remove_scratch);
     }
-    snprintf(path, STRING_SIZE, "%s/%s", scratch, name);
-    return path;
+    snprintf(path, sizeof path, "%s/%s", scratch, name);
+    while (i < FILES_MAX && paths[i] != NULL && strcmp(paths[i], path) != 0)
+        i++;
+    assert_true(i < FILES_MAX);
+    paths[i] = paths[i] != NULL ? paths[i] : strdup(path);
+    return paths[i];
 }
 
 const char *scratch_text(const char *name, const char *format, ...) {
@@ -89,12 +88,9 @@ char *text_of_file(const char *path) {
     return text;
 }
 
-/* "errors" of a run are read before the next one. */
 static printed run(const char *arguments) {
     char line[9216];
-    static char errors[STRING_SIZE];
-    if (errors[0] == '\0')
-        snprintf(errors, sizeof errors, "%s", scratch_file("errors"));
+    const char *errors = scratch_file("errors");
     snprintf(line, sizeof line, "exec '%s' %s 2>'%s' </dev/null", program(), arguments, errors);
     FILE *in = popen(line, "r");
     assert_non_null(in);
@@ -478,8 +474,10 @@ const char *word_behind(const char *line, const char *option) {
     const char *at = behind(line, option);
     if (at == NULL)
         return NULL;
-    char *word = next_string();
-    snprintf(word, STRING_SIZE, "%.*s", (int)strcspn(at, " "), at);
+    static char words[16][512];
+    static int next;
+    char *word = words[next++ % 16];
+    snprintf(word, sizeof words[0], "%.*s", (int)strcspn(at, " "), at);
     return word;
 }
 

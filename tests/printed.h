@@ -37,8 +37,7 @@ void printed_free(printed *p);
 /** The stdout, to be freed, of `depthprec ARGUMENTS FORM`; fails the test when it ends with another exit status. */
 char *output_of(int status, const char *arguments, const char *form);
 
-/** A file in a folder of this run that is removed when the test program ends. @return one of 16 static strings in turn
- */
+/** A file in a folder of this run that is removed when the test program ends. @return a string that stays */
 const char *scratch_file(const char *name);
 
 /** The same, holding the text that is given. */

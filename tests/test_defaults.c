@@ -311,8 +311,7 @@ TEST(test_theme) {
     static const char *const themes[] = {"", "--theme light", "--type svg", "--theme dark"};
     char *text[4];
     for (int i = 0; i < 4; i++) {
-        char file[512];
-        snprintf(file, sizeof file, "%s", scratch_file("theme.svg"));
+        const char *file = scratch_file("theme.svg");
         printed p = print_of("plot error -F d24 -m d3d %s -o %s", themes[i], file);
         assert_int_equal(p.status, 0);
         printed_free(&p);

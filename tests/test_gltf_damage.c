@@ -179,10 +179,9 @@ TEST(files_beside) {
         putc(i % 4 == 3 ? 0x40 : 0, out);
     assert_int_equal(fclose(out), 0);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        char path[512];
         model m;
         model_error error;
-        snprintf(path, sizeof path, "%s", scratch_file("m.gltf"));
+        const char *path = scratch_file("m.gltf");
         out = fopen(path, "wb");
         assert_non_null(out);
         fprintf(

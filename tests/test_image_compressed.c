@@ -51,9 +51,8 @@ TEST(in_every_compression) {
         const bool changes = type == IMAGE_F16 ? compressions[how].half : type == IMAGE_F32 && compressions[how].real;
         image img;
         image_error error;
-        char path[256];
         draw(&r, type, samples);
-        snprintf(path, sizeof path, "%s", scratch_file("made.exr"));
+        const char *path = scratch_file("made.exr");
         const char *wrong = exr_make(path, &of);
         if (wrong != NULL) {
             print_message("# skipped: %s of %s, %s\n", compressions[how].name, image_type_name(type), wrong);
@@ -95,11 +94,11 @@ TEST(made_by_dwa) {
     rng r = rng_make("DWA");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const exr_made of = {3, rows[i].type, rows[i].channel, 0, ACROSS, DOWN, samples};
-        char folder[256], command[1024];
+        char command[1024];
         image img;
         image_error error;
         draw(&r, rows[i].type, samples);
-        snprintf(folder, sizeof folder, "%s", scratch_file("in.exr"));
+        const char *folder = scratch_file("in.exr");
         if (exr_make(folder, &of) != NULL)
             skip();
         *strrchr(folder, '/') = '\0';
@@ -125,9 +124,8 @@ TEST(said_by_name) {
     const exr_made lossy = {5, IMAGE_F32, "Z", 0, ACROSS, DOWN, samples},
                    exact = {3, IMAGE_F32, "Z", 0, ACROSS, DOWN, samples};
     rng r = rng_make("lossy");
-    char path[256];
     draw(&r, IMAGE_F32, samples);
-    snprintf(path, sizeof path, "%s", scratch_file("lossy.exr"));
+    const char *path = scratch_file("lossy.exr");
     if (exr_make(path, &lossy) != NULL)
         skip();
     printed p = print_of("texture %s -F fp32 -m d3d", path);
@@ -148,7 +146,5 @@ TEST(said_by_name) {
     assert_null(strstr(p.errors, "compression"));
     assert_null(strstr(p.out, "compression"));
     printed_free(&p);
-    p = print_of("texture %s -F fp32 -m d3d --json", path);
-    assert_non_null(strstr(p.out, "\"lossy\":null"));
-    printed_free(&p);
+    check_says(-1, "\"lossy\":null", "texture %s -F fp32 -m d3d --json", path);
 }

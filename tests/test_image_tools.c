@@ -599,21 +599,10 @@ TEST(by_the_program) {
         skip();
     make_exr(&h, (const exr_channel[]){{"Q", IMAGE_F32, false}, {"Z", IMAGE_F32, true}}, 2, 0);
     snprintf(path, sizeof path, "%s", write_file("q.exr", &h));
-    printed p = print_of("texture %s --channel Q -q", path);
-    assert_int_equal(p.status, 0);
-    assert_non_null(strstr(p.out, "23 x 11 pixels, EXR of f4, 1 channel"));
-    printed_free(&p);
-    p = print_of("texture %s --channel X -q", path);
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "EXR: has no channel X, but Q, Z"));
-    printed_free(&p);
+    check_says(0, "23 x 11 pixels, EXR of f4, 1 channel", "texture %s --channel Q -q", path);
+    check_says(2, "EXR: has no channel X, but Q, Z", "texture %s --channel X -q", path);
     prepare();
-    p = print_of("texture %s --channel Z", scratch_file("a.png"));
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--channel names one of an EXR; those of PNG have no names"));
-    printed_free(&p);
-    p = print_of("texture --synthetic plane --channel Z");
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--channel: needs FILE"));
-    printed_free(&p);
+    check_says(2, "--channel names one of an EXR; those of PNG have no names", "texture %s --channel Z",
+               scratch_file("a.png"));
+    check_says(2, "--channel: needs FILE", "texture --synthetic plane --channel Z");
 }

@@ -280,10 +280,9 @@ TEST(pixels) {
 /* ---- Products ---------------------------------------------------------------------------------------------------- */
 
 static image numbers_of(const view_case *c, const char *product) {
-    char path[256];
     image_error error;
     image out;
-    snprintf(path, sizeof path, "%s", scratch_file("product.npy"));
+    const char *path = scratch_file("product.npy");
     printed p = print_of("texture '%s' -q --sky 0 --matrix '%s' -F %s -m %s %s -o '%s'", c->shot, c->path,
                          c->format.name, c->mapping, product, path);
     if (p.status != 0)
@@ -478,11 +477,10 @@ TEST(same_camera) {
                                            "--product normal:projective",
                                            "--product normal:projective --error-map"};
     tally t = {.name = "matrices beside options"};
-    char path[256], shot[256], one[256], other[256];
-    snprintf(path, sizeof path, "%s", scratch_file("matrix.txt"));
-    snprintf(shot, sizeof shot, "%s", scratch_file("shot.npy"));
-    snprintf(one, sizeof one, "%s", scratch_file("one.pfm"));
-    snprintf(other, sizeof other, "%s", scratch_file("other.pfm"));
+    const char *path = scratch_file("matrix.txt");
+    const char *shot = scratch_file("shot.npy");
+    const char *one = scratch_file("one.pfm");
+    const char *other = scratch_file("other.pfm");
     for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
         FILE *out = fopen(path, "w");
         assert_non_null(out);

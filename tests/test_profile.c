@@ -84,9 +84,9 @@ TEST(test_same_as_rows) {
 
 /* Beside the requirement file, wherever the program runs; a folder up; and an absolute path. */
 TEST(test_paths) {
-    char absolute[1024], text[1200];
+    char text[1200];
     need_file f;
-    snprintf(absolute, sizeof absolute, "%s", scratch_file("two.json"));
+    const char *absolute = scratch_file("two.json");
     const char *const paths[] = {"../two.json", "./../two.json", absolute};
     for (size_t i = 0; i < 3; i++) {
         snprintf(text, sizeof text, CAMERA("a", "unorm24", "arith = \"%s\";"), paths[i]);
@@ -247,9 +247,8 @@ static json_t *bias_json(const char *raster, const char *api, const char *more, 
 
 /* r as it was found, of the API by which it was drawn and of no other; where it was not found for sure, nothing. */
 TEST(test_bias_measured) {
-    char path[512];
     double r[2], by_api[2];
-    snprintf(path, sizeof path, "%s", scratch_file("bias.json"));
+    const char *path = scratch_file("bias.json");
     for (size_t i = 0; i < sizeof found_of / sizeof found_of[0]; i++)
         for (int api = 0; api < 3; api++) {
             const char *const name = (const char *const[]){"vulkan", "gl", "d3d11"}[api];
@@ -281,9 +280,8 @@ TEST(test_bias_measured) {
 TEST(test_bias_beside) {
     static const char cuts[] =
         ", {\"key\": \"fraction\", \"found\": \"fractions of a constant are cut\", \"sure\": \"sure\"}";
-    char path[512];
     double r[2];
-    snprintf(path, sizeof path, "%s", scratch_file("bias.json"));
+    const char *path = scratch_file("bias.json");
     write_bias("bias.json", 1, cuts); /* 2^(n-22) */
     printed p =
         print_of("bias --platform webgl-vulkan -F fp32 -n 0.1 -f inf -m reversed --at 10 --raster %s --json", path);

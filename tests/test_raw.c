@@ -113,10 +113,10 @@ TEST(images_are_off_by_half_a_cell) {
     rng r = rng_make("raw");
     for (size_t k = 0; k < BUFFERS; k++) {
         const buffer *b = &buffers[k];
-        char source[768], path[512];
+        char source[768];
         double samples[PIXELS];
         image made[4];
-        snprintf(path, sizeof path, "%s", scratch_file("in.npy"));
+        const char *path = scratch_file("in.npy");
         write_samples(b, &r, samples, path);
         snprintf(source, sizeof source, "%s ", path);
         options_of(b, source + strlen(source));
@@ -153,11 +153,11 @@ TEST(images_are_off_by_half_a_cell) {
 
 /* Bytes of a finer buffer: v in [min(k - 1/2, k 255/256)/255, (k + 1)/255), and half a cell of that. */
 TEST(samples_coarser_than_the_buffer_count) {
-    char source[768], path[512];
+    char source[768];
     uint8_t bytes[PIXELS];
     image map;
     tally t = {.name = "bytes"};
-    snprintf(path, sizeof path, "%s", scratch_file("bytes.npy"));
+    const char *path = scratch_file("bytes.npy");
     for (int i = 0; i < PIXELS; i++)
         bytes[i] = (uint8_t)(i * 37 % 256);
     FILE *stream = fopen(path, "wb");
@@ -211,12 +211,12 @@ TEST(scenes_are_off_by_what_they_are) {
 
 /* Metric depth over a far plane that is given. */
 TEST(metric_depth_over_far) {
-    char source[600], path[512];
+    char source[600];
     double samples[PIXELS];
     image share;
     tally t = {.name = "metric"};
     rng r = rng_make("metric");
-    snprintf(path, sizeof path, "%s", scratch_file("in.npy"));
+    const char *path = scratch_file("in.npy");
     write_samples(&buffers[0], &r, samples, path);
     snprintf(source, sizeof source, "%s --metric 0.01 -f 800", path);
     const float *got = product_of(source, "--product linear01", &share);
@@ -240,10 +240,9 @@ TEST(refusals) {
         {"-m d3d --product raw --product linear01",
          "depthprec: --product: must not be given twice, got 'linear01' too\n"},
         {"-m d3d --pack rg --product raw", "depthprec: --product: does not apply with --pack\n"}};
-    char path[512];
     double samples[PIXELS];
     rng r = rng_make("refusals");
-    snprintf(path, sizeof path, "%s", scratch_file("in.npy"));
+    const char *path = scratch_file("in.npy");
     write_samples(&buffers[0], &r, samples, path);
     printed pixel = print_of("texture %s -m d3d --ortho -n -3 -f 0 -q --pixel 3,3", path);
     assert_non_null(strstr(pixel.out, "window depth"));

@@ -21,15 +21,9 @@ TEST(what_is_said) {
     assert_null(strstr(p.errors, "assumed"));
     assert_non_null(strstr(p.out, "480 x 640 pixels, raw of u4"));
     printed_free(&p);
-    p = print_of("texture %s -m d3d --channel Z", path);
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "those of raw have no names"));
-    printed_free(&p);
+    check_says(2, "those of raw have no names", "texture %s -m d3d --channel Z", path);
     snprintf(path, sizeof path, "%s", scratch_file("own.npy"));
     p = print_of("texture --synthetic plane --size 8x8 -o %s", path);
     printed_free(&p);
-    p = print_of("texture %s --size 8x8", path);
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--size: is for --synthetic and raw files"));
-    printed_free(&p);
+    check_says(2, "--size: is for --synthetic and raw files", "texture %s --size 8x8", path);
 }

@@ -135,8 +135,8 @@ TEST(lifts) {
     for (uint64_t run = 0; run < test_cases(60, 200, 4000); run++) {
         const bool eye = run % 4 != 0;
         const double size = rng_log(&r, 0.3, 10), gap = rng_below(&r, 5) == 0 ? 0 : size * rng_log(&r, 1e-6, 1e-3);
-        char path[512], options[512];
-        snprintf(path, sizeof path, "%s", scratch_file("two.obj"));
+        char options[512];
+        const char *path = scratch_file("two.obj");
         two made = {0};
         make_two(&r, size, gap, 0.05, run % 3 == 0, &made);
         made.halved = made.hinged || run % 2 != 0;
@@ -185,9 +185,9 @@ TEST(crossing) {
 /* A camera of the file has the class of the very triangles: of a sliver 4 long and 1/1000 of that high, seen from 3. */
 TEST(class_of_a_sliver) {
     static const double seen = 4 * 360 / (3 * 0.57735026918962576); /* pixels of 720 in 60 degrees */
-    char path[512], need[512], line[1280], text[4096];
-    snprintf(path, sizeof path, "%s", scratch_file("sliver.obj"));
-    snprintf(need, sizeof need, "%s", scratch_file("sliver.need"));
+    char line[1280], text[4096];
+    const char *path = scratch_file("sliver.obj");
+    const char *need = scratch_file("sliver.need");
     FILE *out = fopen(path, "w");
     assert_non_null(out);
     fputs("o below\nv -2 0 0\nv 2 0 0\nv 2 0.004 0\nf 1 2 3\n"
@@ -220,12 +220,12 @@ TEST(requirements) {
     tally t = {.name = "fails"};
     for (uint64_t run = 0; run < test_cases(100, 400, 10000); run++) {
         const double size = rng_log(&r, 0.3, 10), gap = size * rng_log(&r, 1e-4, 1e-1);
-        char path[512], options[512], need[512], line[1280];
-        snprintf(path, sizeof path, "%s", scratch_file("asked.obj"));
+        char options[512], line[1280];
+        const char *path = scratch_file("asked.obj");
         two made = {0};
         make_two(&r, size, gap, 0.0005, false, &made);
         random_options(&r, size, run % 4 != 0, options);
-        snprintf(need, sizeof need, "%s", scratch_file("asked.need"));
+        const char *need = scratch_file("asked.need");
         snprintf(line, sizeof line, "%s --emit-need %s", options, need);
         write_two(&made, (const double[2]){0, 0}, path);
         const said s = ask(path, line);

@@ -28,8 +28,8 @@ static const struct {
 };
 
 static void check_title(tally *t, const char *source, const char *options, const char *title, const char *panels) {
-    char path[512], expected[512];
-    snprintf(path, sizeof path, "%s", scratch_file("figure.svg"));
+    char expected[512];
+    const char *path = scratch_file("figure.svg");
     printed p = print_of("texture %s %s --figure %s", source, options, path);
     TALLY(t, (p.status == 0) == (title != NULL), "%s %s: exit status %d: %s", source, options, p.status, p.errors);
     if (title != NULL && p.status == 0) {
@@ -44,9 +44,8 @@ static void check_title(tally *t, const char *source, const char *options, const
 }
 
 TEST(test_names) {
-    char image[512];
     tally t = {.name = "names"};
-    snprintf(image, sizeof image, "%s", scratch_file("image.npy"));
+    const char *image = scratch_file("image.npy");
     printed p = print_of("texture --synthetic sphere --size 24x16 -F unorm16 -m d3d -o %s", image);
     assert_int_equal(p.status, 0);
     printed_free(&p);
