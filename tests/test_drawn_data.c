@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The numbers that `plot --json` and `--csv` write are those that the figure shows: axes, names and every point. */
+/* The numbers that `plot --json` writes are those that the figure shows: axes, names and every point. */
 #include <jansson.h>
 
 #include "drawn.h"
@@ -68,66 +68,6 @@ static int check_points(const drawn *d, const drawn_panel *p, const json_t *root
         seen++;
     }
     return seen;
-}
-
-/* The next field of a line of CSV, without its quotes. */
-static char *field(char **at) {
-    char *start = *at, *end;
-    if (*start == '"') {
-        start++;
-        end = strchr(start, '"');
-        assert_non_null(end);
-        *end++ = '\0';
-    } else {
-        end = start + strcspn(start, ",\r\n");
-    }
-    *at = end + (*end != '\0');
-    *end = '\0';
-    return start;
-}
-
-static void check_cell(const char *text, double want) {
-    if (isnan(want))
-        assert_true(text[0] == '\0' || strcmp(text, "nan") == 0);
-    else
-        assert_ulp(strtod(text, NULL), want, 0);
-}
-
-/* Lines of CSV are the points of JSON, a column for each axis. */
-static void check_csv(const json_t *root, char *csv) {
-    static const char *const axes[] = {"x", "y", "second", "value"};
-    size_t p, s, i, columns = 0;
-    const json_t *panel, *series, *point, *own[4];
-    char *rest = NULL, *line = strtok_r(csv, "\n", &rest);
-    assert_string_equal(field(&line), "panel");
-    assert_string_equal(field(&line), "series");
-    for (size_t k = 0; k < 4; k++) {
-        const json_t *axis = json_object_get(root, axes[k]);
-        char head[128];
-        if (axis == NULL)
-            continue;
-        const char *unit = text_of(axis, "unit");
-        snprintf(head, sizeof head, unit[0] != '\0' ? "%s [%s]" : "%s", text_of(axis, "key"), unit);
-        assert_string_equal(field(&line), head);
-        own[columns++] = axis;
-    }
-    json_array_foreach(json_object_get(root, "panels"), p, panel) {
-        json_array_foreach(json_object_get(panel, "series"), s, series) {
-            json_array_foreach(json_object_get(series, "points"), i, point) {
-                line = strtok_r(NULL, "\n", &rest);
-                assert_non_null(line);
-                if (i % 16 != 0 && json_array_size(json_object_get(series, "points")) > 1000)
-                    continue;
-                assert_string_equal(field(&line), text_of(panel, "title"));
-                assert_string_equal(field(&line), text_of(series, "name"));
-                for (size_t k = 0; k < columns; k++) {
-                    const char *key = text_of(own[k], "key"), *text = field(&line);
-                    check_cell(text, json_object_get(point, key) != NULL ? number_of(point, key) : NAN);
-                }
-            }
-        }
-    }
-    assert_null(strtok_r(NULL, "\n", &rest));
 }
 
 /* A map's points against the library: near, far, and the worst interval. */
@@ -213,7 +153,7 @@ TEST(numbers_are_those_shown) {
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
         const data_case *q = &cases[c];
         cameras like = cameras_of(drawn_camera(0.1, 1000), "unorm24", "d3d,reversed");
-        char *text = drawn_output("plot %s --json", q->arguments), *csv = drawn_output("plot %s --csv", q->arguments);
+        char *text = drawn_output("plot %s --json", q->arguments);
         drawn *d = drawn_run(&drawn_light, "plot %s", q->arguments);
         json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
         const json_t *panel, *series;
@@ -243,10 +183,8 @@ TEST(numbers_are_those_shown) {
             assert_int_equal(points > 0, q->curves);
             assert_int_equal(fields > 100, q->map);
         }
-        check_csv(root, csv);
         json_decref(root);
         free(text);
-        free(csv);
         svg_free(d->svg); /* its words are looked at elsewhere */
         free(d);
     }

@@ -68,7 +68,8 @@ TEST(both_forms) {
                                           "interval -F unorm24,fp32 -m reversed --tolerance 1%",
                                           "interval -F fp32 -n 1 -f 1.25 --model float",
                                           "budget -F unorm16,fp32 -m d3d",
-                                          "map -F unorm16 -m d3d --at 7"};
+                                          "map -F unorm16 -m d3d --at 7",
+                                          "stability linearize"};
     for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++)
         check_both(figures[i], INFINITY);
     check_both("needs tests/needs/village.need", NAN);
