@@ -379,6 +379,17 @@ drawn *drawn_run(const drawn_theme *look, const char *format, ...) {
     return d;
 }
 
+chart *drawn_sketch(double x_to, double y_to) {
+    chart *c = chart_new();
+    assert_non_null(c);
+    snprintf(c->title, sizeof c->title, "t");
+    snprintf(c->subtitle, sizeof c->subtitle, "s");
+    chart_panel *p = chart_add_panel(c);
+    p->x = (chart_axis){CHART_LINEAR, 0, x_to, "x", "x", "", NULL};
+    p->y = (chart_axis){CHART_LINEAR, 0, y_to, "y", "y", "", NULL};
+    return c;
+}
+
 drawn *drawn_chart(const drawn_theme *look, chart *c, int width, int height) {
     canvas_bytes bytes;
     assert_false(chart_failed(c));

@@ -243,13 +243,8 @@ TEST(bands_are_the_causes) {
 TEST(names_keep_clear_of_lines) {
     enum { POINTS = 200 };
     for (int above = 0; above < 2; above++) {
-        chart *c = chart_new();
-        assert_non_null(c);
-        snprintf(c->title, sizeof c->title, "t");
-        snprintf(c->subtitle, sizeof c->subtitle, "s");
-        chart_panel *p = chart_add_panel(c);
-        p->x = (chart_axis){CHART_LINEAR, 0, 1, "x", "x", "", NULL};
-        p->y = (chart_axis){CHART_LINEAR, 0, 100, "y", "y", "", NULL};
+        chart *c = drawn_sketch(1, 100);
+        chart_panel *p = c->panels;
         p->second = (chart_axis){CHART_LINEAR, 0, 100, "z", "z", "", NULL};
         for (int s = 0; s < 3; s++) {
             chart_series *series = chart_add_series(c, p, s < 2 ? CHART_AREA : CHART_LINE, POINTS);
@@ -274,13 +269,8 @@ TEST(names_keep_clear_of_lines) {
 
 /* Where there is no number there is no band. */
 TEST(gaps_stay_open) {
-    chart *c = chart_new();
-    assert_non_null(c);
-    snprintf(c->title, sizeof c->title, "t");
-    snprintf(c->subtitle, sizeof c->subtitle, "s");
-    chart_panel *p = chart_add_panel(c);
-    p->x = (chart_axis){CHART_LINEAR, 0, 10, "x", "x", "", NULL};
-    p->y = (chart_axis){CHART_LINEAR, 0, 100, "y", "y", "", NULL};
+    chart *c = drawn_sketch(10, 100);
+    chart_panel *p = c->panels;
     chart_series *s = chart_add_series(c, p, CHART_AREA, 11);
     assert_non_null(s);
     snprintf(s->name, sizeof s->name, "band");

@@ -178,13 +178,8 @@ TEST(fitted) {
 TEST(labels_of_points) {
     static const char *const texts[] = {"first", "second", "third", "fourth"};
     static const double at[][2] = {{0.02, 0.5}, {0.5, 0.2}, {0.99, 0.7}, {0.3, 1}};
-    chart *c = chart_new();
-    assert_non_null(c);
-    snprintf(c->title, sizeof c->title, "t");
-    snprintf(c->subtitle, sizeof c->subtitle, "s");
-    chart_panel *p = chart_add_panel(c);
-    p->x = (chart_axis){CHART_LINEAR, 0, 1, "x", "x", "", NULL};
-    p->y = (chart_axis){CHART_LINEAR, 0, 1, "y", "y", "", NULL};
+    chart *c = drawn_sketch(1, 1);
+    chart_panel *p = c->panels;
     chart_series *s = chart_add_series(c, p, CHART_POINTS, 4);
     snprintf(s->name, sizeof s->name, "points");
     s->labels = chart_memory(c, 4, sizeof *s->labels);

@@ -63,17 +63,6 @@ static size_t picture(rng *r, const metric_kind *k, double z[PIXELS]) {
     return count;
 }
 
-static json_t *statistics(const command *base) {
-    command c = *base;
-    truth_add(&c, "--json");
-    truth_add(&c, "-o");
-    truth_add(&c, truth_path("said.json"));
-    assert_int_equal(truth_run(c.arguments, c.count), 0);
-    json_t *root = json_load_file(truth_path("said.json"), JSON_REJECT_DUPLICATES, NULL);
-    assert_non_null(root);
-    return root;
-}
-
 static double number_in(const json_t *object, const char *name) {
     const json_t *found = json_object_get(object, name);
     assert_true(json_is_number(found));
@@ -81,7 +70,7 @@ static double number_in(const json_t *object, const char *name) {
 }
 
 static void check_statistics(const metric_kind *k, const command *base, size_t holes, double worst) {
-    json_t *root = statistics(base);
+    json_t *root = truth_statistics(base);
     const json_t *eye = json_array_get(json_object_get(root, "errors"), 0);
     assert_true(number_in(root, "metric") == k->scale);
     assert_true(number_in(root, "invalid") == (double)holes);
@@ -163,17 +152,6 @@ TEST(metric_depth_is_within_what_is_said) {
     tally_end(&t);
 }
 
-static bool was_said(const char *words) {
-    char line[512];
-    bool found = false;
-    FILE *said = fopen(truth_path("said"), "r");
-    assert_non_null(said);
-    while (fgets(line, sizeof line, said) != NULL)
-        found = found || strstr(line, words) != NULL;
-    fclose(said);
-    return found;
-}
-
 /* Without --metric: numbers above 1 are refused, integers with holes are doubted; and what has no depth is refused. */
 TEST(it_is_suspected) {
     rng r = rng_make("suspected");
@@ -183,9 +161,9 @@ TEST(it_is_suspected) {
     truth_add(&c, truth_path("in.npy"));
     picture(&r, &kinds[4], z);
     assert_int_equal(truth_run(c.arguments, c.count), 2);
-    assert_true(was_said("--metric"));
+    assert_true(truth_said("--metric"));
     picture(&r, &(metric_kind){"millimetres", IMAGE_U16, 0.001, 20, 1}, z);
-    json_t *root = statistics(&c);
+    json_t *root = truth_statistics(&c);
     assert_string_equal(json_string_value(json_object_get(root, "direction_from")), "assumed"); /* no sky, but holes */
     json_decref(root);
     command quiet = c;
@@ -194,14 +172,14 @@ TEST(it_is_suspected) {
     truth_add(&quiet, "-o");
     truth_add(&quiet, truth_path("eye.npy"));
     assert_int_equal(truth_run(quiet.arguments, quiet.count), 0);
-    assert_true(was_said("--metric 0.001"));
+    assert_true(truth_said("--metric 0.001"));
     truth_add(&quiet, "-q");
     assert_int_equal(truth_run(quiet.arguments, quiet.count), 0);
-    assert_false(was_said("metric"));
+    assert_false(truth_said("metric"));
     truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, zeros);
     truth_add_number(&c, 0, "--metric", 0.001);
     assert_int_equal(truth_run(c.arguments, c.count), 2);
-    assert_true(was_said("no sample is a depth"));
+    assert_true(truth_said("no sample is a depth"));
 }
 
 /* Holes in a window depth are no reason to refuse it, and no depth either. */
@@ -222,7 +200,7 @@ TEST(holes_are_counted) {
     truth_floats("eye.npy", 1, eye);
     for (int i = 0; i < PIXELS; i++)
         assert_true(!isnan(((float *)(void *)data)[i]) == !isnan(eye[i]));
-    json_t *root = statistics(&c);
+    json_t *root = truth_statistics(&c);
     assert_true(number_in(root, "invalid") == (double)holes);
     assert_true(number_in(json_object_get(root, "sky"), "pixels") == 0);
     assert_string_equal(json_string_value(json_object_get(root, "mapping_from")), "assumed");

@@ -9,28 +9,6 @@
 
 static const long double PIL = 3.14159265358979323846264338327950288L;
 
-static size_t count(void) {
-    size_t rows = 0;
-    while (pack_get(rows) != NULL)
-        rows++;
-    return rows;
-}
-
-/* Measured once: a test program asks often. */
-static const pack_error *error_of(const char *name) {
-    static pack_error errors[64];
-    static bool done[64];
-    for (size_t i = 0; i < count() && i < 64; i++)
-        if (strcmp(pack_get(i)->name, name) == 0) {
-            if (!done[i])
-                errors[i] = pack_measure(pack_get(i));
-            done[i] = true;
-            return &errors[i];
-        }
-    fail_msg("no row %s", name);
-    return NULL;
-}
-
 typedef struct vec {
     long double x, y, z;
 } vec;
@@ -110,14 +88,14 @@ static vec any_normal(rng *r, const pack_row *row) {
 TEST(test_normals_sampled) {
     rng r = rng_make("normals");
     tally t = {.name = "normals"};
-    for (size_t i = 0; i < count(); i++) {
+    for (size_t i = 0; i < pack_count(); i++) {
         const pack_row *row = pack_get(i);
         const uint64_t cases = test_cases(20000, 150000, 4000000);
         long double sum = 0, squares = 0;
         uint64_t differ = 0;
         if (row->kind == PACK_DEPTH)
             continue;
-        const pack_error *e = error_of(row->name);
+        const pack_error *e = pack_error_of(row->name);
         for (uint64_t k = 0; k < cases; k++) {
             const vec n = any_normal(&r, row);
             const double in[PACK_INPUTS_MAX] = {(double)n.x, (double)n.y, (double)n.z, 0};
@@ -149,12 +127,12 @@ TEST(test_normals_sampled) {
 TEST(test_normals_worst) {
     rng r = rng_make("normals worst");
     tally t = {.name = "worst"};
-    for (size_t i = 0; i < count(); i++) {
+    for (size_t i = 0; i < pack_count(); i++) {
         const pack_row *row = pack_get(i);
         uint32_t codes[3];
         if (row->kind == PACK_DEPTH)
             continue;
-        const pack_error *e = error_of(row->name);
+        const pack_error *e = pack_error_of(row->name);
         const vec at = {e->normal_at[0], e->normal_at[1], e->normal_at[2]};
         TALLY(&t, fabsl(own_error(row, at, codes) - (long double)e->normal.max) <= 1e-6L * (long double)e->normal.max,
               "%s: %.12Lg at the worst place, %.12g", row->name, own_error(row, at, codes), e->normal.max);
@@ -216,9 +194,9 @@ TEST(test_means_by_area) {
         const pack_row *row = pack_find(rows[i].name);
         const int places = (int)test_cases(4, 4, 16) * rows[i].codes;
         const double mean = (double)((4 * mean_by_area(row, 2 * places) - mean_by_area(row, places)) / 3);
-        print_message("# %s: mean %.7g by area, %.7g +- %.2g\n", row->name, mean, error_of(row->name)->normal.mean,
-                      error_of(row->name)->normal_spread);
-        assert_relative(error_of(row->name)->normal.mean, mean, 1e-3);
+        print_message("# %s: mean %.7g by area, %.7g +- %.2g\n", row->name, mean, pack_error_of(row->name)->normal.mean,
+                      pack_error_of(row->name)->normal_spread);
+        assert_relative(pack_error_of(row->name)->normal.mean, mean, 1e-3);
     }
 }
 
@@ -228,16 +206,16 @@ TEST(test_published) {
         double mean, max; /* of a sample: a maximum over all is a little above */
     } rows[] = {{"oct-8", 0.337, 0.944}, {"oct-10", 0.0838, 0.235}, {"oct-12", 0.0209, 0.0587}};
     for (size_t i = 0; i < 3; i++) {
-        const pack_error *e = error_of(rows[i].name);
+        const pack_error *e = pack_error_of(rows[i].name);
         assert_relative(e->normal.mean, rows[i].mean, 2e-3);
         assert_true(e->normal.max > rows[i].max && e->normal.max < 1.02 * rows[i].max);
     }
-    const pack_error *e = error_of("stereo-8");
+    const pack_error *e = pack_error_of("stereo-8");
     assert_relative(e->normal.mean, 0.459, 2e-3);
     assert_relative(e->normal.max, (double)(2 * atanl(sqrtl(2) * 1.7777L / 255) * 180 / PIL), 1e-12);
     assert_true(fabs(e->normal.max - 1.130) < 5e-4);
     assert_true(e->normal_at[2] > 1 - 1e-12);
     /* A code is half a step off at most, three times at right angles: the limit of small steps, less its bending. */
-    assert_relative(error_of("xyz-12")->normal.max, sqrt(3.0) / 2 / 2047 * 180 / (double)PIL, 1e-3);
-    assert_int_equal(error_of("oct-8")->codes, 255 * 255);
+    assert_relative(pack_error_of("xyz-12")->normal.max, sqrt(3.0) / 2 / 2047 * 180 / (double)PIL, 1e-3);
+    assert_int_equal(pack_error_of("oct-8")->codes, 255 * 255);
 }
