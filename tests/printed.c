@@ -264,8 +264,10 @@ void want(values *v, const char *format, ...) {
             want_text(v, field, va_arg(list, const char *));
         else if (*at == 'u')
             want_count(v, field, va_arg(list, unsigned));
+        else if (*at == 'z')
+            want_count(v, field, va_arg(list, size_t));
         else
-            want_count(v, field, va_arg(list, uint64_t)); /* "zu", "lu" */
+            want_count(v, field, va_arg(list, uint64_t)); /* "lu" */
         v->items[v->count - 1].derived = derived;
         at += kind;
     }
