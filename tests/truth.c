@@ -2,9 +2,6 @@
 #include "truth.h"
 
 #include <jansson.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "cli/option/options.h"
