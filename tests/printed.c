@@ -131,14 +131,20 @@ char *output_of(int status, const char *arguments, const char *form) {
     return p.out;
 }
 
+void check_says_all(int status, const char *line, const char *const *said) {
+    printed p = run(line);
+    for (; *said != NULL; said++) {
+        const bool asked = **said != '!', found = strstr(status < 2 ? p.out : p.errors, *said + !asked) != NULL;
+        if ((status >= 0 && p.status != status) || found != asked)
+            fail_msg("depthprec %s: exit status %d, and '%s' is in: %s%s", line, p.status, *said, p.out, p.errors);
+    }
+    printed_free(&p);
+}
+
 void check_says(int status, const char *said, const char *format, ...) {
     char arguments[4096];
     FORMATTED(arguments, format);
-    printed p = run(arguments);
-    const bool asked = *said != '!', found = strstr(status < 2 ? p.out : p.errors, said + !asked) != NULL;
-    if ((status >= 0 && p.status != status) || found != asked)
-        fail_msg("depthprec %s: exit status %d, and '%s' is in: %s%s", arguments, p.status, said, p.out, p.errors);
-    printed_free(&p);
+    check_says_all(status, arguments, SAID(said));
 }
 
 void check_refused(const char *line, const refused_row *rows, size_t count) {

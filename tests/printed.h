@@ -47,6 +47,10 @@ const char *scratch_text(const char *name, const char *format, ...) __attribute_
  * where it fails stderr; behind a '!' what it does not say. */
 void check_says(int status, const char *said, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/** The same of several, in one run: check_says_all(0, "table -q", SAID("this", "!and not that")). */
+#define SAID(...) ((const char *const[]){__VA_ARGS__, NULL})
+void check_says_all(int status, const char *line, const char *const *said);
+
 /** Words behind a command line, what they are refused with, and the exit status; of a 0 it is 2. */
 typedef struct refused_row {
     const char *words, *said;

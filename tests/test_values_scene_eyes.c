@@ -69,13 +69,14 @@ TEST(one_eye) {
         const bool must = bound_of(rows[i].format, depth[0], depth[1], 1000, true) > 0x1p-6;
         const bool may = bound_of(rows[i].format, depth[0], depth[1], 1000, false) > 0x1p-6;
         assert_true(must == may); /* else nothing is known here */
-        json_t *root = json_printed(-1, "%s", line);
+        printed p = print_of("%s --json", line);
+        json_t *root = json_of(p.out);
         const bool passed =
             !flag_at(finding_of(root, "road"), "fights") && !flag_at(finding_of(root, "wall"), "fights");
         assert_int_equal(node_at(root, "passed") != NULL, rows[i].within > 0);
         assert_true(rows[i].within == 0 || flag_at(root, "passed") == passed);
-        char *again = output_of(rows[i].within > 0 && !passed, line, "");
-        free(again);
+        assert_int_equal(p.status, rows[i].within > 0 && !passed);
+        printed_free(&p);
         const json_t *f = finding_of(root, "road"), *from = node_at(f, "fights_from");
         assert_relative(number_at(f, "seen_from"), depth[0], 1e-9);
         assert_relative(number_at(f, "seen_to"), depth[1], 1e-9);
@@ -125,9 +126,8 @@ TEST(what_comes_first) {
     assert_true(json_is_number(json_object_get(json_array_get(list, 1), "seen_from")));
     assert_true(number_at(json_array_get(list, 1), "certain_to") < number_at(json_array_get(list, 0), "certain_to"));
     json_decref(root);
-    check_says(0, "2 seen, 0 can fight.\n1 more is told apart only", "%s", line);
-    check_says(0, "  1   'road' and 'paint'\n", "%s", line);
-    check_says(0, "!'wall'", "%s", line);
+    check_says_all(0, line,
+                   SAID("2 seen, 0 can fight.\n1 more is told apart only", "  1   'road' and 'paint'\n", "!'wall'"));
 }
 
 /* Two parts of one surface, the nearer one first or last: the distance that mends it is that of the farther one. */
@@ -184,9 +184,9 @@ TEST(forms) {
     printed_free(&p);
     json_decref(root);
     /* above the road, whose corners lie behind the eye */
-    check_says(0, "1 seen, 0 can fight.\n1 more is told apart only if cut into the triangles above.\n",
-               "scene " STREET " --eye 0,1.7,2 --look 0,0,-10");
-    check_says(0, ": told apart only if cut into the triangles", "scene " STREET " --eye 0,1.7,2 --look 0,0,-10");
+    check_says_all(0, "scene " STREET " --eye 0,1.7,2 --look 0,0,-10",
+                   SAID("1 seen, 0 can fight.\n1 more is told apart only if cut into the triangles above.\n",
+                        ": told apart only if cut into the triangles"));
     check_says(0, "1 seen, 0 can fight.\n1 more is told apart only facing the camera.\n",
                "scene " STREET " --eye 0,4,20 --look 0,0,0 -m log");
 }
@@ -209,8 +209,7 @@ TEST(path) {
     assert_true(number_at(root, "eyes.places") == 4);
     assert_string_equal(text_at(root, "eyes.path"), name);
     json_decref(root);
-    check_says(1, "from the worst of the 4 eyes of ", "%s", line);
-    check_says(1, ": can fight, worst at line 5; ", "%s", line);
+    check_says_all(1, line, SAID("from the worst of the 4 eyes of ", ": can fight, worst at line 5; "));
 }
 
 TEST(damaged_paths) {
@@ -226,9 +225,10 @@ TEST(damaged_paths) {
                 {"1 2 3 1 2 3\n", "line 1: must look at another place than its own"}};
     const char *name = scratch_file("bad.txt");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[640];
         scratch_text("bad.txt", "%s", rows[i].text);
-        check_says(2, "--path: ", "scene " STREET " --path %s", name);
-        check_says(2, rows[i].said, "scene " STREET " --path %s", name);
+        snprintf(line, sizeof line, "scene " STREET " --path %s", name);
+        check_says_all(2, line, SAID("--path: ", rows[i].said));
     }
     FILE *out = fopen(name, "w");
     assert_non_null(out);

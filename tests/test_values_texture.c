@@ -472,9 +472,8 @@ TEST(images_of_depths) {
 /* Then nothing is off, by no number and at no pixel. */
 TEST(nothing_but_sky) {
     static const char line[] = "texture --synthetic plane --parameter distance=2000 --size 8x8 -q";
-    check_says(0, "!inf", "%s", line);
-    check_says(0, "!0,0", "%s", line);
-    check_says(0, "\n  eye depth                       -         -         -  - (scene units)\n", "%s", line);
+    check_says_all(
+        0, line, SAID("!inf", "!0,0", "\n  eye depth                       -         -         -  - (scene units)\n"));
 }
 
 /* 8 bits times 256: shares of 65535/256, or of 255. */
