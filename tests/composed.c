@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "composed.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { SAMPLES = 160, BEHIND = 16 };
 
 /* ---- The pipeline --------------------------------------------------------------------------------------- */

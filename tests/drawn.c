@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "drawn.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -377,6 +373,17 @@ drawn *drawn_run(const drawn_theme *look, const char *format, ...) {
     drawn *d = read_page(look, bytes, size, width, height);
     free(bytes);
     return d;
+}
+
+chart *drawn_sketch(double x_to, double y_to) {
+    chart *c = chart_new();
+    assert_non_null(c);
+    snprintf(c->title, sizeof c->title, "t");
+    snprintf(c->subtitle, sizeof c->subtitle, "s");
+    chart_panel *p = chart_add_panel(c);
+    p->x = (chart_axis){CHART_LINEAR, 0, x_to, "x", "x", "", NULL};
+    p->y = (chart_axis){CHART_LINEAR, 0, y_to, "y", "y", "", NULL};
+    return c;
 }
 
 drawn *drawn_chart(const drawn_theme *look, chart *c, int width, int height) {

@@ -92,6 +92,9 @@ typedef struct drawn {
  *  texture that of --figure, or that of --histogram where it is the last argument. */
 drawn *drawn_run(const drawn_theme *look, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/** A chart of the test's own, with one panel whose axes begin at 0. */
+chart *drawn_sketch(double x_to, double y_to);
+
 /** Draws a chart of the test's own and reads; it keeps the chart. */
 drawn *drawn_chart(const drawn_theme *look, chart *c, int width, int height);
 

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "drawn_map.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 #include "support.h"
 
 const svg_mark *drawn_map_image(const drawn *d, const drawn_panel *p) {

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "drawn_truth.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "support.h"
 
 cameras cameras_of(dp_spec spec, const char *formats, const char *mappings) {

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "handmade.h"
 
-#include <string.h>
-
 #include "support.h"
 
 void handmade_bytes(handmade *h, const void *bytes, size_t size) {

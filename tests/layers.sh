@@ -173,7 +173,7 @@ long_functions() {
     find src include tests -name '*.[ch]' >"$scratch/files" && grep -q '^src/cli/main.c$' "$scratch/files" || return
     xargs awk '
         FNR == 1 { inside = reason = 0 }
-        !inside && /^[a-z].*[({,]$/ && !/=/ { start = FNR; name = $0 }
+        !inside && /^([a-z]|TEST).*[({,]$/ && !/=/ { start = FNR; name = $0 }
         !inside && start && /\) \{$/ { inside = 1; body = FNR }
         !inside && /Long: / { reason = 1 }
         !inside && /^$/ { reason = 0 }

@@ -25,4 +25,8 @@ typedef struct pack_error {
  */
 pack_error pack_measure(const pack_row *row);
 
+/** How many rows there are; what pack_measure() makes of one by its name, measured once. */
+size_t pack_count(void);
+const pack_error *pack_error_of(const char *name);
+
 #endif

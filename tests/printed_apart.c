@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Whether the runs of a test program could have noticed an exchange: two fields of an object that were the same in all
  * of them could be exchanged and no test would see it. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "printed.h"
 
 enum { APART_MAX = 4096, NAME_SIZE = 96 };

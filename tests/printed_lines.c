@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* CSV and text against the values that are wanted: printed.h. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "printed.h"
 
 /* ---- Lines ------------------------------------------------------------------------------------------------------- */
@@ -26,20 +21,59 @@ void places_free(line_places *l) {
     *l = (line_places){0};
 }
 
-/* Null where a path with ? has no value. */
-static const wanted *resolve(const values *v, const line_place *p, const char *path) {
-    static wanted constant;
-    char full[2 * PATH_SIZE];
-    if (*path == '=') {
-        constant = (wanted){.kind = VALUE_TEXT};
-        snprintf(constant.text, sizeof constant.text, "%s", path + 1);
-        return &constant;
+/* Is a value wanted under a prefix? Mostly behind the last one. */
+static bool any_under(const values *v, const char *prefix) {
+    static size_t last;
+    for (size_t i = 0; i < v->count; i++) {
+        const size_t at = (last + i) % v->count;
+        if (strncmp(v->items[at].path, prefix, strlen(prefix)) == 0) {
+            last = at;
+            return true;
+        }
     }
-    const bool optional = *path == '?';
-    path += optional;
+    return false;
+}
+
+/* Of "a[].b[]" the places of a, and for each of them those of b. */
+line_places places_of(const values *v, const char *pattern) {
+    const char *inner = strchr(pattern, '.');
+    const bool sum = pattern[strlen(pattern) - 1] == '+';
+    const int outer_name = (int)strcspn(pattern, "["), inner_name = inner != NULL ? (int)strcspn(inner + 1, "[") : 0;
+    line_places l = {0};
+    char outer[PATH_SIZE], line[PATH_SIZE];
+    for (size_t i = 0;; i++) {
+        snprintf(outer, sizeof outer, "%.*s[%zu].", outer_name, pattern, i);
+        if (!any_under(v, outer))
+            return l;
+        if (inner == NULL) {
+            place_add(&l, outer, "%s", "");
+            continue;
+        }
+        for (size_t k = 0;; k++) {
+            snprintf(line, sizeof line, "%.50s%.*s[%zu].", outer, inner_name, inner + 1, k);
+            if (!any_under(v, line))
+                break;
+            place_add(&l, line + strlen(outer), "%s", outer);
+        }
+        if (sum)
+            place_add(&l, "", "%s", outer);
+    }
+}
+
+/* The next of "a, b, c"; false at the end. */
+static bool next_column(const char **at, char column[WORD_SIZE]) {
+    const char *end = strstr(*at, ", ");
+    const size_t length = end != NULL ? (size_t)(end - *at) : strlen(*at);
+    snprintf(column, WORD_SIZE, "%.*s", (int)length, *at);
+    *at += length + (end != NULL ? 2 : 0);
+    return length > 0;
+}
+
+static const wanted *resolve(const values *v, const line_place *p, const char *path) {
+    char full[2 * PATH_SIZE];
     const char *before = *path == '^' ? p->outer : *path == '/' ? "" : p->inner;
     snprintf(full, sizeof full, "%s%s", before, path + (*path == '^' || *path == '/'));
-    return optional ? value_find(v, full) : value_at(v, full);
+    return value_find(v, full);
 }
 
 /* ---- CSV --------------------------------------------------------------------------------------------------------- */
@@ -82,35 +116,80 @@ static bool cell_is(const char *cell, const wanted *want) {
     return *cell != '\0' && *end == '\0' && got == want->number;
 }
 
-void check_csv_text(const values *v, const char *text, const csv_column *columns, size_t count,
-                    const line_places *lines) {
+enum { COLUMNS_MAX = 64 };
+
+typedef struct csv_column {
+    bool optional, may_lack; /* the column; its value in some lines */
+    char head[WORD_SIZE], path[PATH_SIZE];
+} csv_column;
+
+/* "z_stored [scene]" and "case = stability.case". */
+static csv_column column_of(const char *text) {
+    const char *path = strstr(text, " = ");
+    csv_column c = {.optional = *text == '?', .may_lack = *text == '?' || (path != NULL && path[3] == '?')};
+    text += c.optional;
+    const size_t head = path != NULL ? (size_t)(path - text) : strlen(text);
+    snprintf(c.head, sizeof c.head, "%.*s", (int)head, text);
+    if (path != NULL)
+        snprintf(c.path, sizeof c.path, "%s", path + 3 + (path[3] == '?'));
+    else
+        snprintf(c.path, sizeof c.path, "%.*s", (int)strcspn(c.head, " ["), c.head);
+    return c;
+}
+
+/* Those that are there. */
+static size_t columns_of(const values *v, const char *text, const line_places *lines, csv_column out[COLUMNS_MAX]) {
+    char word[WORD_SIZE];
+    size_t count = 0;
+    while (next_column(&text, word)) {
+        assert_true(count < COLUMNS_MAX);
+        out[count] = column_of(word);
+        bool there = !out[count].optional;
+        for (size_t i = 0; i < lines->count && !there; i++)
+            there = resolve(v, &lines->items[i], out[count].path) != NULL;
+        count += there;
+    }
+    return count;
+}
+
+void check_csv_text(const values *v, const char *text, const char *columns, const line_places *lines) {
+    static csv_column all[COLUMNS_MAX];
+    const size_t count = columns_of(v, columns, lines, all);
     tally t = {.name = v->command};
     char cell[WORD_SIZE];
     const char *at = text;
     for (size_t i = 0; i < count; i++) {
         read_cell(&at, cell);
-        TALLY(&t, strcmp(cell, columns[i].head) == 0, "column %zu is '%s', not '%s'", i, cell, columns[i].head);
+        TALLY(&t, strcmp(cell, all[i].head) == 0, "column %zu is '%s', not '%s'", i, cell, all[i].head);
         assert_true(ends_line(&at) == (i + 1 == count));
     }
     for (size_t line = 0; line < lines->count; line++)
         for (size_t i = 0; i < count; i++) {
-            const wanted *want = resolve(v, &lines->items[line], columns[i].path);
+            const wanted *want = resolve(v, &lines->items[line], all[i].path);
             if (*at == '\0')
                 fail_msg("%s: %zu lines of CSV, not %zu", v->command, line, lines->count);
+            if (want == NULL && !all[i].may_lack)
+                fail_msg("%s: the test wants no value for %s of line %zu", v->command, all[i].path, line);
             read_cell(&at, cell);
-            TALLY(&t, cell_is(cell, want), "line %zu, %s: printed '%s', computed %.17g '%s'", line, columns[i].head,
-                  cell, want != NULL ? want->number : NAN, want != NULL ? want->text : "");
+            TALLY(&t, cell_is(cell, want), "line %zu, %s: printed '%s', computed %.17g '%s'", line, all[i].head, cell,
+                  want != NULL ? want->number : NAN, want != NULL ? want->text : "");
             assert_true(ends_line(&at) == (i + 1 == count));
         }
     TALLY(&t, *at == '\0', "more lines than %zu: %.80s", lines->count, at);
     tally_end(&t);
 }
 
-void check_csv(const values *v, int status, const char *arguments, const csv_column *columns, size_t count,
-               const line_places *lines) {
+void check_csv(const values *v, int status, const char *arguments, const char *columns, const line_places *lines) {
     char *text = output_of(status, arguments, "--csv");
-    check_csv_text(v, text, columns, count, lines);
+    check_csv_text(v, text, columns, lines);
     free(text);
+}
+
+void check_forms(values *v, int status, const char *arguments, const char *pattern, const char *columns) {
+    line_places lines = places_of(v, pattern);
+    check_json(v, status, arguments);
+    check_csv(v, status, arguments, columns, &lines);
+    places_free(&lines);
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
@@ -171,33 +250,44 @@ static const char *line_end(const char *line) {
     return line + strcspn(line, "\n");
 }
 
-void check_text_table(const values *v, const char *text, const text_column *columns, size_t count,
-                      const line_places *lines) {
+/* "z:9" and "share:-3". */
+static int path_of(const char *column, char path[PATH_SIZE]) {
+    const char *digits = strchr(column, ':');
+    assert_non_null(digits);
+    snprintf(path, PATH_SIZE, "%.*s", (int)(digits - column), column);
+    return atoi(digits + 1);
+}
+
+void check_table(const values *v, const char *text, const char *pattern, const char *columns) {
     tally t = {.name = v->command};
-    char word[WORD_SIZE];
+    line_places lines = places_of(v, pattern);
+    char word[WORD_SIZE], column[WORD_SIZE], path[PATH_SIZE];
     size_t line = 0;
     for (const char *at = text; *at != '\0';) {
-        const char *end = line_end(at);
+        const char *end = line_end(at), *rest = columns;
         if (is_table_line(at, (size_t)(end - at))) {
-            if (line == lines->count)
-                fail_msg("%s: more lines than %zu: %.*s", v->command, lines->count, (int)(end - at), at);
-            for (size_t i = 0; i < count; i++) {
-                const wanted *want = resolve(v, &lines->items[line], columns[i].path);
-                TALLY(&t, next_word(&at, end, word) && (is_sum(word, i) || shows(word, want, columns[i].digits)),
-                      "line %zu, column %zu, %s: printed '%s', computed %.17g", line, i, columns[i].path, word,
-                      want->number);
+            if (line == lines.count)
+                fail_msg("%s: more lines than %zu: %.*s", v->command, lines.count, (int)(end - at), at);
+            for (size_t i = 0; next_column(&rest, column); i++) {
+                const int digits = path_of(column, path);
+                const wanted *want = resolve(v, &lines.items[line], path);
+                if (want == NULL)
+                    fail_msg("%s: the test wants no value for %s of line %zu", v->command, path, line);
+                TALLY(&t, next_word(&at, end, word) && (is_sum(word, i) || shows(word, want, digits)),
+                      "line %zu, column %zu, %s: printed '%s', computed %.17g", line, i, path, word, want->number);
             }
             TALLY(&t, !next_word(&at, end, word), "line %zu: '%s' is one word more", line, word);
             line++;
         }
         at = *end != '\0' ? end + 1 : end;
     }
-    TALLY(&t, line == lines->count, "%zu lines of text, not %zu", line, lines->count);
+    TALLY(&t, line == lines.count, "%zu lines of text, not %zu", line, lines.count);
+    places_free(&lines);
     tally_end(&t);
 }
 
-void check_text_numbers(const values *v, const char *text, const char *label, int digits, const char *const *paths) {
-    char word[WORD_SIZE];
+void check_line(const values *v, const char *text, const char *label, const char *columns) {
+    char word[WORD_SIZE], column[WORD_SIZE], path[PATH_SIZE];
     const char *at = text;
     while (*at != '\0' && strncmp(at + strspn(at, " "), label, strlen(label)) != 0)
         at = *line_end(at) != '\0' ? line_end(at) + 1 : line_end(at);
@@ -205,13 +295,15 @@ void check_text_numbers(const values *v, const char *text, const char *label, in
         fail_msg("%s: no line begins with '%s'", v->command, label);
     const char *end = line_end(at);
     at += strspn(at, " ") + strlen(label);
-    for (; *paths != NULL; paths++) {
-        char *rest = word;
+    while (next_column(&columns, column)) {
+        const int digits = path_of(column, path);
+        char full[2 * PATH_SIZE], *rest = word;
+        snprintf(full, sizeof full, "%s%s", v->prefix, path);
         while (next_word(&at, end, word) && strcmp(word, "-") != 0 &&
                (strtod(word, &rest), rest == word || *rest != '\0'))
             continue;
-        if (!shows(word, value_at(v, *paths), digits))
-            fail_msg("%s: '%s': %s: printed '%s', computed %.17g", v->command, label, *paths, word,
-                     value_at(v, *paths)->number);
+        if (!shows(word, value_at(v, full), digits))
+            fail_msg("%s: '%s': %s: printed '%s', computed %.17g", v->command, label, full, word,
+                     value_at(v, full)->number);
     }
 }

@@ -2,7 +2,6 @@
 #include "shadow_stage.h"
 
 #include <float.h>
-#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 

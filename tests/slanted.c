@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "slanted.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "world/reach.h"
 
 static const double pi = 3.14159265358979323846;

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "stage.h"
 
-#include <string.h>
-
 #include "named.h"
 
 double eye_of(double code) {

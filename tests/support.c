@@ -2,11 +2,29 @@
 #include "support.h"
 
 #include <errno.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
+
+/* ---- tests ---- */
+
+enum { TESTS_MAX = 64 };
+
+static struct CMUnitTest tests[TESTS_MAX];
+static size_t test_count;
+
+void list_test(struct CMUnitTest test) {
+    if (test_count == TESTS_MAX)
+        abort();
+    tests[test_count++] = test;
+}
+
+int run_listed(CMFixtureFunction before, CMFixtureFunction after) {
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return _cmocka_run_group_tests("tests", tests, test_count, before, after);
+}
+
+int __attribute__((weak)) main(void) {
+    return run_listed(NULL, NULL);
+}
 
 /* ---- numbers ---- */
 

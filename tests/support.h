@@ -15,8 +15,12 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -104,7 +108,21 @@ void vectors_read(const char *file, void (*visit)(const vector_row *row, void *c
 double vector_number(const vector_row *row, int index);
 const char *vector_text(const vector_row *row, int index);
 
-/** Runs the tests of a program and prints TAP. */
-#define run_tap(tests) (cmocka_set_message_output(CM_OUTPUT_TAP), cmocka_run_group_tests(tests, NULL, NULL))
+/**
+ * A test: TEST(name) { ... }. Those of a program run in the order in which they are written, and print TAP; LIST_TEST()
+ * adds a function that stands elsewhere. A program that has more to do has a main(), which calls run_listed().
+ */
+#define TEST(name)                                                                                                     \
+    static void name(void **state);                                                                                    \
+    LIST_TEST(name)                                                                                                    \
+    static void name(void **state __attribute__((unused)))
+#define LIST_TEST(name)                                                                                                \
+    static void __attribute__((constructor)) name##_listed(void) {                                                     \
+        list_test((struct CMUnitTest)cmocka_unit_test(name));                                                          \
+    }
+void list_test(struct CMUnitTest test);
+
+/** Runs them between two functions of cmocka's, or none. @return the exit status */
+int run_listed(CMFixtureFunction before, CMFixtureFunction after);
 
 #endif

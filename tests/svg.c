@@ -4,10 +4,6 @@
 #include <cairo.h>
 #include <libxml/parser.h>
 #include <libxml/tree.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "support.h"
 #include "svg_letters.h"

@@ -3,9 +3,6 @@
 
 #include <cairo-svg.h>
 #include <cairo.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "support.h"
 

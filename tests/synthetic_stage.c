@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "synthetic_stage.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "named.h"
 #include "support.h"
 

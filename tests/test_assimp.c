@@ -1,13 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Models that libassimp reads, from files put together here: places, names, units; damage has a sentence. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "model/model.h"
 #include "printed.h"
-#include "support.h"
 #include "system/dynload.h"
 
 static const char stl[] = "solid wall\n"
@@ -118,7 +112,7 @@ static void corners_are(const model *m, size_t triangle, const double want[3][3]
         }
 }
 
-static void plain(void **state) {
+TEST(plain) {
     static const struct {
         const char *name, *text;
         size_t triangles;
@@ -126,7 +120,6 @@ static void plain(void **state) {
     } rows[] = {{"a.stl", stl, 2, {{0, 0, 0.1}, {4, 0, 0.1}, {4, 3, 0.1}}},
                 {"b.PLY", ply, 2, {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}}},
                 {"c.off", off, 1, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.25}}}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         model m;
         must_read(written(rows[i].name, rows[i].text), &m);
@@ -138,10 +131,9 @@ static void plain(void **state) {
 }
 
 /* (x, y, z) up z becomes (x, z, -y) up y. A mirrored triangle turns round, so that its front stays its front. */
-static void nodes(void **state) {
+TEST(nodes) {
     static const double door[3][3] = {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, wing[3][3] = {{0, 2, 0}, {0, 3, 0}, {-1, 2, 0}};
     model m;
-    (void)state;
     must_read(written("d.dae", collada), &m);
     assert_int_equal(m.triangles, 2);
     assert_int_equal(m.surfaces, 2);
@@ -156,10 +148,9 @@ static void nodes(void **state) {
 }
 
 /* Metres, and y up, whatever the file has. */
-static void buildings(void **state) {
+TEST(buildings) {
     static const double leaf[3][3] = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
     model m;
-    (void)state;
     must_read(written("d.ifc", ifc), &m);
     assert_int_equal(m.triangles, 1);
     assert_true(m.metres == 1.0);
@@ -169,7 +160,7 @@ static void buildings(void **state) {
 }
 
 /* Axes of FBX: to the right, upwards, to the one who looks; a mirrored world keeps its fronts. */
-static void axes(void **state) {
+TEST(axes) {
     static const struct {
         const char *said;
         double corner[3]; /* of (30, 40, 50), 10 cm each */
@@ -181,7 +172,6 @@ static void axes(void **state) {
                 {"P: \"UpAxis\", \"int\", \"Integer\", \"\",1\n\t\tP: \"CoordAxisSign\", \"int\", \"Integer\", \"\",-1",
                  {-3, 4, 5}}};
     static const char up[] = "P: \"UpAxis\", \"int\", \"Integer\", \"\",1", last[] = "0,40,0\n";
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char text[2048];
         const char *at = strstr(fbx, up), *corner = strstr(fbx, last);
@@ -198,7 +188,7 @@ static void axes(void **state) {
 }
 
 /* Where both the file and the command say what a unit is, the model is told in the command's. */
-static void units(void **state) {
+TEST(units) {
     static const struct {
         const char *name, *text, *options, *said;
     } rows[] = {{"e.dae", collada, "", "surfaces, 4.243 across"},
@@ -210,7 +200,6 @@ static void units(void **state) {
                 {"e.stl", stl, "--unit cm", "surface, 5 cm across"}, /* which says nothing of its own */
                 {"e.gltf", NULL, "--unit mm", "surfaces, 99780 mm across"},
                 {"e.gltf", NULL, "--preset unreal --separation 1", "surfaces, 9978 cm across"}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const char *path = rows[i].text != NULL ? written(rows[i].name, rows[i].text) : "tests/models/house.gltf";
         printed p = print_of("scene %s %s", path, rows[i].options);
@@ -224,7 +213,7 @@ static void units(void **state) {
     printed_free(&p);
 }
 
-static void refused(void **state) {
+TEST(refused) {
     static const struct {
         const char *name, *text, *said;
     } rows[] = {{"f.xyz", "hello", "must be glTF, OBJ or a kind that libassimp reads, got '.xyz'"},
@@ -233,17 +222,10 @@ static void refused(void **state) {
                 {"f.dae", "<COLLADA", "libassimp does not read it: "},
                 {"f.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n1\n2\n", ": "},
                 {"f.ifc", "ISO-10303-21;\nHEADER;\n", "libassimp does not read it: "}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         printed p = print_of("scene %s", written(rows[i].name, rows[i].text));
         if (p.status != 2 || strstr(p.errors, rows[i].said) == NULL || strlen(p.out) > 0)
             fail_msg("%s: %d: %s", rows[i].name, p.status, p.errors);
         printed_free(&p);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(plain), cmocka_unit_test(nodes), cmocka_unit_test(buildings),
-                                       cmocka_unit_test(axes),  cmocka_unit_test(units), cmocka_unit_test(refused)};
-    return run_tap(tests);
 }

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Arrays against the scalar functions: each path, each task, each type, to the bit where the header says so. */
 #include <float.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "depthprec/depthprec.h"
 #include "parallel.h"
+#include "setups.h"
 #include "support.h"
 
 enum { CHUNK = 4096, GUARD = 64 };
@@ -44,19 +42,8 @@ static const char *const formats[] = {"fp16",    "fp32",    "unorm16", "unorm24"
 enum { CAMERAS = sizeof cameras / sizeof cameras[0], FORMATS = sizeof formats / sizeof formats[0] };
 
 static dp_setup make(const camera *c, const char *name, dp_rounding rounding, dp_model model) {
-    dp_format format[2];
-    dp_spec spec = dp_spec_default();
-    dp_setup setup;
-    assert_true(dp_format_parse(name, format) > 0);
-    spec.znear = c->znear;
-    spec.zfar = c->zfar;
-    spec.ortho = c->ortho;
-    spec.mapping = c->mapping;
-    spec.format = format[0];
-    spec.rounding = rounding;
-    spec.model = model;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(name, .znear = c->znear, .zfar = c->zfar, .ortho = c->ortho, .mapping = c->mapping,
+                 .rounding = rounding, .model = model);
 }
 
 static const char *label(const dp_batch *b) {
@@ -188,8 +175,7 @@ static void walk_codes(tally *t, const dp_setup *s, int all) {
         codes_of(t, s, k * CHUNK * step, step, CHUNK);
 }
 
-static void test_codes(void **state) {
-    (void)state;
+TEST(test_codes) {
     for (int f = 0; f < FORMATS; f++) {
         tally t = {.name = formats[f]};
         for (int c = 0; c < CAMERAS; c++)
@@ -204,8 +190,7 @@ static void test_codes(void **state) {
 }
 
 /* The value of every code in binary32: the two-term form must round as the quotient does. */
-static void test_values(void **state) {
-    (void)state;
+TEST(test_values) {
     static const char *const names[] = {"unorm16", "unorm17", "unorm18", "unorm19", "unorm20",
                                         "unorm21", "unorm22", "unorm23", "unorm24"};
     static float value[CHUNK];
@@ -295,8 +280,7 @@ static void depths_to_codes(tally *t, const dp_setup *s, rng *r, int window, siz
     }
 }
 
-static void test_depths(void **state) {
-    (void)state;
+TEST(test_depths) {
     const uint64_t rounds = test_cases(1, 1, 24);
     for (int f = 0; f < FORMATS; f++) {
         tally t = {.name = formats[f]};
@@ -316,8 +300,7 @@ static void test_depths(void **state) {
 }
 
 /* The direct kernels over many plain depths; with DEPTHPREC_FULL a hundred million of each kind. */
-static void test_many(void **state) {
-    (void)state;
+TEST(test_many) {
     static const struct {
         const char *format;
         int camera;
@@ -351,8 +334,7 @@ static void test_many(void **state) {
 }
 
 /* The other models, element by element. */
-static void test_models(void **state) {
-    (void)state;
+TEST(test_models) {
     tally t = {.name = "models"};
     rng r = rng_make("models");
     for (int model = DP_MODEL_STAGED; model < DP_MODEL_COUNT; model++)
@@ -372,8 +354,7 @@ static void test_models(void **state) {
 /* ---- Shapes of arrays -------------------------------------------------------------------------------------------- */
 
 /* Every length, at every offset of a vector, with nothing written outside; then in place. */
-static void test_shapes(void **state) {
-    (void)state;
+TEST(test_shapes) {
     tally t = {.name = "shapes"};
     for (int f = 0; f < 4; f++)
         for (int task = 0; task < DP_TASK_COUNT; task++)
@@ -423,8 +404,7 @@ static void test_shapes(void **state) {
 }
 
 /* Threads: pieces of a large array, in place too, on any number of them. */
-static void test_threads(void **state) {
-    (void)state;
+TEST(test_threads) {
     enum { COUNT = 300001 };
     const dp_setup s = make(&cameras[1], "unorm24", DP_ROUND_NEAREST, DP_MODEL_EXACT);
     float *z = malloc(COUNT * sizeof *z);
@@ -450,8 +430,7 @@ static void test_threads(void **state) {
     free(got);
 }
 
-static void test_door(void **state) {
-    (void)state;
+TEST(test_door) {
     const dp_setup s = make(&cameras[0], "unorm24", DP_ROUND_NEAREST, DP_MODEL_EXACT);
     dp_batch b;
     memset(&b, 0x77, sizeof b);
@@ -469,13 +448,4 @@ static void test_door(void **state) {
     assert_null(dp_path_name(DP_PATH_COUNT));
     assert_true(dp_path_available(DP_PATH_BASELINE));
     assert_false(dp_path_available(DP_PATH_COUNT));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_door),   cmocka_unit_test(test_values),  cmocka_unit_test(test_codes),
-        cmocka_unit_test(test_depths), cmocka_unit_test(test_many),    cmocka_unit_test(test_models),
-        cmocka_unit_test(test_shapes), cmocka_unit_test(test_threads),
-    };
-    return run_tap(tests);
 }

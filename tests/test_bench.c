@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The statistics of the bench, by known samples: a clock of its own, which goes on only where this program says so. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "method/bench.h"
@@ -133,10 +129,9 @@ static size_t run_bench(int count, bench_result results[BENCH_METHODS_MAX]) {
     return bench_run(&family, 0, &setup, count, results);
 }
 
-static void medians_and_quartiles(void **state) {
+TEST(medians_and_quartiles) {
     static const int counts[] = {25, 8, 1};
     static bench_result results[BENCH_METHODS_MAX];
-    (void)state;
     for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
         assert_int_equal(run_bench(counts[k], results), 3);
         for (int i = 0; i < 3; i++) {
@@ -151,9 +146,8 @@ static void medians_and_quartiles(void **state) {
     }
 }
 
-static void worst_errors_and_places(void **state) {
+TEST(worst_errors_and_places) {
     static bench_result results[BENCH_METHODS_MAX];
-    (void)state;
     assert_int_equal(run_bench(REPETITIONS, results), 3);
     for (int i = 0; i < 3; i++) {
         const bench_result *r = &results[i];
@@ -168,9 +162,8 @@ static void worst_errors_and_places(void **state) {
 }
 
 /* No error is worse than to have no answer, and such a method is on no front. */
-static void no_number_is_the_worst(void **state) {
+TEST(no_number_is_the_worst) {
     static bench_result results[BENCH_METHODS_MAX];
-    (void)state;
     loses_one = true;
     assert_int_equal(run_bench(REPETITIONS, results), 3);
     loses_one = false;
@@ -184,24 +177,21 @@ static void no_number_is_the_worst(void **state) {
 }
 
 /* On the front are the fastest and the most exact; the third is slower an element than the first, and no better. */
-static void front(void **state) {
+TEST(front) {
     static bench_result results[BENCH_METHODS_MAX];
-    (void)state;
     assert_int_equal(run_bench(REPETITIONS, results), 3);
     assert_true(results[0].ns < results[1].ns && results[0].ns < results[2].ns);
     assert_true(results[0].front && results[1].front && !results[2].front);
 }
 
-static void untimed(void **state) {
+TEST(untimed) {
     static bench_result results[BENCH_METHODS_MAX];
-    (void)state;
     assert_int_equal(run_bench(0, results), 3);
     for (int i = 0; i < 3; i++)
         assert_true(isnan(results[i].ns) && isnan(results[i].spread) && isnan(results[i].limit) && !results[i].front);
 }
 
-static void statistics_by_hand(void **state) {
-    (void)state;
+TEST(statistics_by_hand) {
     static const struct {
         size_t count;
         double times[9], median, spread;
@@ -225,14 +215,4 @@ static void statistics_by_hand(void **state) {
               "row %zu: median %g, spread %g", i, got.median, got.spread);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(statistics_by_hand),
-                                       cmocka_unit_test(medians_and_quartiles),
-                                       cmocka_unit_test(worst_errors_and_places),
-                                       cmocka_unit_test(no_number_is_the_worst),
-                                       cmocka_unit_test(front),
-                                       cmocka_unit_test(untimed)};
-    return run_tap(tests);
 }

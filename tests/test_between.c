@@ -5,9 +5,6 @@
  * even; and where all that are looked at do, it mostly says so. Of the models exact and staged the codes are an
  * oracle's.
  */
-#include <math.h>
-#include <stdio.h>
-
 #include "core/engine.h"
 #include "core/guarantee.h"
 #include "depthprec/bounds.h"
@@ -130,19 +127,16 @@ static void in_curve(int logarithm) {
     assert_true(narrow_said * 10 > narrow * 9);
 }
 
-static void test_all(void **state) {
-    (void)state;
+TEST(test_all) {
     in_curve(0);
 }
 
-static void test_shaders(void **state) {
-    (void)state;
+TEST(test_shaders) {
     in_curve(1);
 }
 
 /* What a shader's stored depth is off by, in each camera of a run. */
-static void test_shader_errors(void **state) {
-    (void)state;
+TEST(test_shader_errors) {
     rng r = rng_make("errors of shaders between two");
     tally all = {.name = "no shader's error is above that of its run"};
     tally tight = {.name = "the error of a narrow run is nearly that of its ends"};
@@ -247,8 +241,7 @@ static double kept_by(const cameras *c, int of_errors) {
 }
 
 /* Nothing is looked at but the codes of an oracle: of surfaces that far apart, and of what a code is read back as. */
-static void test_lattice(void **state) {
-    (void)state;
+TEST(test_lattice) {
     rng r = rng_make("lattices between two");
     tally apart = {.name = "surfaces that far apart have two codes in every camera of a run, by GMP"};
     tally errors = {.name = "no code of a camera of a run is read back farther off, by GMP"};
@@ -303,8 +296,7 @@ static void test_lattice(void **state) {
 }
 
 /* A run of depths of one binade: what is guaranteed of all of them is at least what is guaranteed of each. */
-static void test_depths(void **state) {
-    (void)state;
+TEST(test_depths) {
     rng r = rng_make("depths of one binade");
     tally each = {.name = "what is guaranteed over a run of depths is at least the separation at each of them"};
     const uint64_t count = test_cases(4000, 20000, 400000);
@@ -338,8 +330,7 @@ static void test_depths(void **state) {
 }
 
 /* What has no entry of one sign, and an error in float: nothing is said. */
-static void test_nothing(void **state) {
-    (void)state;
+TEST(test_nothing) {
     dp_spec spec = dp_spec_default();
     dp_setup one, other;
     spec.model = DP_MODEL_FLOAT;
@@ -352,11 +343,4 @@ static void test_nothing(void **state) {
     spec.znear = 1.0;
     assert_int_equal(dp_setup_init(&other, &spec), DP_OK);
     assert_int_equal(dp_separation_within(&one, &other, 10.0, 10.0, 5.0), 0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all),           cmocka_unit_test(test_shaders),
-                                       cmocka_unit_test(test_shader_errors), cmocka_unit_test(test_lattice),
-                                       cmocka_unit_test(test_depths),        cmocka_unit_test(test_nothing)};
-    return run_tap(tests);
 }

@@ -4,8 +4,6 @@
  * many units as are said to be enough are enough for every binary32 depth.
  */
 #include <float.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "api/bias.h"
 #include "cli/bias_all.h"
@@ -48,7 +46,7 @@ static double biased(double d, double o) {
 /* ---- The rules --------------------------------------------------------------------------------------------------- */
 
 /* WebGPU conformance, depth_bias.spec.ts: a flat quad at 0.25, or one from 0 to 0.5 across one pixel. */
-static void test_webgpu_rows(void **state) {
+TEST(test_webgpu_rows) {
     static const struct {
         double d, most, m, units, factor, clamp, want;
     } rows[] = {
@@ -59,7 +57,6 @@ static void test_webgpu_rows(void **state) {
     };
     static const char *const apis[] = {"webgpu", "d3d11", "d3d12", "vulkan", "vulkan-exact", "gl", "metal"};
     const dp_format fp32 = format_of("depth32float");
-    (void)state;
     for (size_t a = 0; a < sizeof apis / sizeof apis[0]; a++)
         for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
             const bias_state s = {called(apis[a]), rows[i].units, rows[i].factor, rows[i].clamp};
@@ -70,13 +67,12 @@ static void test_webgpu_rows(void **state) {
 }
 
 /* Its rows for depth24plus: drawn over a depth of 0.4 where greater, whichever format stands behind it. */
-static void test_webgpu_depth24plus(void **state) {
+TEST(test_webgpu_depth24plus) {
     static const struct {
         double most, m, factor, clamp;
         int drawn;
     } rows[] = {{0.25, 0.0, 0.0, 0.0, 1}, {0.5, 0.5, 1.0, 0.0, 1}, {0.25, 0.0, 0.0, 0.1, 0}};
     dp_format both[2];
-    (void)state;
     assert_int_equal(dp_format_parse("depth24plus", both), 2);
     for (size_t f = 0; f < 2; f++)
         for (size_t i = 0; i < 3; i++) {
@@ -86,7 +82,7 @@ static void test_webgpu_depth24plus(void **state) {
         }
 }
 
-static void test_units(void **state) {
+TEST(test_units) {
     static const struct {
         const char *api, *format;
         double d, least, most;
@@ -111,7 +107,6 @@ static void test_units(void **state) {
         {"vulkan", "fp16", 0.3, 0x1p-12, 0x1p-11},
         {"vulkan-exact", "fp32", 0.3, 0x1p-25, 0x1p-24},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const dp_format format = format_of(rows[i].format);
         const bias_unit unit = bias_unit_at(called(rows[i].api), &format, rows[i].d);
@@ -120,9 +115,8 @@ static void test_units(void **state) {
     }
 }
 
-static void test_names(void **state) {
+TEST(test_names) {
     const dp_setup fp32 = setup_of(1e-7, 1e9, DP_MAPPING_REVERSED, "fp32"); /* more units than 2^24 */
-    (void)state;
     assert_true(bias_needed(&fp32, &(bias_goal){.api = called("metal"), .gap = 4.9}, 5.0) > 0x1p24);
     for (size_t i = 0; bias_api_get(i) != NULL; i++) {
         const bias_api *row = bias_api_get(i);
@@ -143,9 +137,8 @@ static void test_names(void **state) {
     assert_null(called("d3d1"));
 }
 
-static void test_clamp(void **state) {
+TEST(test_clamp) {
     const bias_api *d3d11 = called("d3d11");
-    (void)state;
     const bias_state up = {d3d11, 100.0, 2.0, 0x1p-20};
     const bias_state down = {d3d11, -100.0, -2.0, -0x1p-20};
     const bias_state other = {d3d11, -100.0, -2.0, 0x1p-20}; /* a positive clamp does not hold a negative bias */
@@ -199,10 +192,9 @@ static double shift_reference(const dp_setup *setup, double z, double o) {
     return (double)(1 / (1 / (quadruple)z - t * kappa) - z);
 }
 
-static void test_shift(void **state) {
+TEST(test_shift) {
     rng r = rng_make("bias shift");
     tally t = {.name = "shift"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(2000, 100000, 1000000); i++) {
         double lo, hi;
         const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
@@ -227,10 +219,9 @@ static void test_shift(void **state) {
 }
 
 /* The derivative of the window depth, against a difference quotient. */
-static void test_slope(void **state) {
+TEST(test_slope) {
     rng r = rng_make("bias slope");
     tally t = {.name = "slope"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(1000, 20000, 100000); i++) {
         double lo, hi;
         const dp_setup setup = any_setup(&r, "fp32", &lo, &hi);
@@ -248,12 +239,11 @@ static void test_slope(void **state) {
     tally_end(&t);
 }
 
-static void test_limited(void **state) {
+TEST(test_limited) {
     const dp_setup d3d = setup_of(0.1, INFINITY, DP_MAPPING_D3D, "fp32");
     const dp_setup reversed = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, "unorm24");
     const bias_state plus = {called("d3d9"), 0.5, 0.0, 0.0};
     const bias_state minus = {called("d3d9"), -0.5, 0.0, 0.0};
-    (void)state;
     bias_effect e = bias_at(&d3d, &plus, 0.0, 100.0);
     assert_true(e.limited && isinf(e.to) && isinf(e.shift) && e.moved == d3d.spec.format.code_max);
     e = bias_at(&d3d, &minus, 0.0, 0.11);
@@ -280,10 +270,9 @@ static uint32_t stored(const dp_setup *setup, double d) {
 }
 
 /* One unit of r = code 1 is not always enough for an integer buffer: 0.5 and the next number store the same code. */
-static void test_one_unit_can_fail(void **state) {
+TEST(test_one_unit_can_fail) {
     static const char *const formats[] = {"unorm16", "unorm24"};
     const bias_api *api = called("d3d11");
-    (void)state;
     for (size_t i = 0; i < 2; i++) {
         const dp_setup setup = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, formats[i]);
         const double r = bias_unit_at(api, &setup.spec.format, 0.5).least;
@@ -315,11 +304,10 @@ static double any_depth(rng *r, const dp_format *format) {
     }
 }
 
-static void test_enough(void **state) {
+TEST(test_enough) {
     static const char *const formats[] = {"unorm16", "unorm24", "fp32", "fp16"};
     rng r = rng_make("bias enough");
     tally t = {.name = "told apart"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(20000, 1000000, 20000000); i++) {
         const int reversed = (int)rng_below(&r, 2);
         const char *format = formats[rng_below(&r, 4)];
@@ -360,10 +348,9 @@ static void test_enough(void **state) {
 }
 
 /* The gap is reached at every depth of the range with as many units, and with one fewer it is not everywhere. */
-static void test_gap(void **state) {
+TEST(test_gap) {
     rng r = rng_make("bias gap");
     tally t = {.name = "gap"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(200, 5000, 50000); i++) {
         double lo, hi, worst;
         const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
@@ -401,11 +388,10 @@ static void test_gap(void **state) {
 }
 
 /* Where a bias is enough it is at every depth, and just beyond the ends none is; a far plane has no unit at all. */
-static void test_enough_over(void **state) {
+TEST(test_enough_over) {
     rng r = rng_make("bias enough over");
     tally t = {.name = "enough over"};
     uint64_t up_to = 0, onwards = 0;
-    (void)state;
     for (uint64_t i = 0; i < test_cases(300, 3000, 30000); i++) {
         double lo, hi, from, to;
         const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
@@ -468,11 +454,10 @@ static double fewest(const dp_setup *setup, const bias_goal *goal, double back, 
  * Layers that are sampled a pixel apart, at every alignment of both samples to binary32 within a quarter of its step:
  * what is said to be needed is enough, and one unit fewer is not always, where a unit is about a step of the format.
  */
-static void test_sampled_apart(void **state) {
+TEST(test_sampled_apart) {
     static const char *const formats[] = {"unorm24", "fp32"}, *const apis[] = {"d3d11", "vulkan-exact"};
     tally t = {.name = "sampled apart"};
     uint64_t tight = 0;
-    (void)state;
     for (int i = 0; i < 8; i++) {
         const dp_setup setup = flat_setup(i & 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, formats[i >> 1 & 1]);
         for (int eighths = 1; eighths <= 40; eighths++) { /* of a step of binary32 below 1 */
@@ -499,9 +484,8 @@ static void test_sampled_apart(void **state) {
  * Where every rounding goes the wrong way. A cell of unorm16 holds 256 binary32 numbers, or 257 where it lies just so;
  * the layer behind is rounded to the end of such a cell, the other one away from it, and so is the sum.
  */
-static void test_longest_cells(void **state) {
+TEST(test_longest_cells) {
     tally t = {.name = "longest cells"};
-    (void)state;
     for (int i = 0; i < 4; i++) {
         const int reversed = i & 1;
         const dp_setup setup = flat_setup(reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, "unorm16");
@@ -525,11 +509,10 @@ static void test_longest_cells(void **state) {
     tally_end(&t);
 }
 
-static void test_impossible(void **state) {
+TEST(test_impossible) {
     const dp_setup setup = setup_of(1.0, 1000.0, DP_MAPPING_D3D, "unorm24");
     const bias_goal past = {.api = called("d3d11"), .gap = 2.0};
     double worst;
-    (void)state;
     assert_true(isinf(bias_needed(&setup, &past, 2.5)));
     assert_true(isfinite(bias_needed(&setup, &past, 3.0)));
     assert_true(isinf(bias_needed_over(&setup, &past, 2.5, 100.0, &worst)));
@@ -537,13 +520,12 @@ static void test_impossible(void **state) {
 }
 
 /* An orthographic bias is as long everywhere, on both sides of 0, and ends at a plane behind the camera. */
-static void test_either_sign(void **state) {
+TEST(test_either_sign) {
     static const double places[] = {-99.0, -1.0, 0.0, 1.0, 400.0};
     const bias_state three = {.api = called("d3d11"), .units = -3.0};
     const bias_goal goal = {.api = called("d3d11"), .gap = 0.5};
     dp_spec spec = dp_spec_default();
     dp_setup setup;
-    (void)state;
     spec.ortho = 1;
     spec.znear = -100.0;
     spec.zfar = 500.0;
@@ -563,9 +545,8 @@ static void test_either_sign(void **state) {
 
 /* A bias is lost where the row says that the fragment shader writes depth; an orthographic depth is always
  * interpolated. */
-static void is_lost_in_fragments(void **state) {
+TEST(is_lost_in_fragments) {
     int lost = 0;
-    (void)state;
     for (dp_mapping m = 0; m < DP_MAPPING_COUNT; m++) {
         dp_setup setup = setup_of(0.1, 1000, m, "unorm24");
         const bool written = strstr(dp_mapping_get(m)->effort, "the fragment shader writes depth") != NULL;
@@ -575,27 +556,4 @@ static void is_lost_in_fragments(void **state) {
         assert_false(bias_is_missed(&setup));
     }
     assert_int_equal(lost, 5); /* linear, log, three.js twice, Cesium */
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_webgpu_rows),
-        cmocka_unit_test(test_webgpu_depth24plus),
-        cmocka_unit_test(test_units),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_clamp),
-        cmocka_unit_test(test_shift),
-        cmocka_unit_test(test_slope),
-        cmocka_unit_test(test_limited),
-        cmocka_unit_test(test_one_unit_can_fail),
-        cmocka_unit_test(test_enough),
-        cmocka_unit_test(test_enough_over),
-        cmocka_unit_test(test_gap),
-        cmocka_unit_test(test_sampled_apart),
-        cmocka_unit_test(test_longest_cells),
-        cmocka_unit_test(test_impossible),
-        cmocka_unit_test(test_either_sign),
-        cmocka_unit_test(is_lost_in_fragments),
-    };
-    return run_tap(tests);
 }

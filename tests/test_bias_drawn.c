@@ -4,10 +4,6 @@
  * enough at any slant, or for a slope, the biased one is in front in every pixel that both cover. Drawn by the models
  * of src/raster, which recorded codes guard, biased as Direct3D 11 says. With a small share of the bias it is not.
  */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "api/bias.h"
 #include "raster_named.h"
 #include "slanted.h"
@@ -136,7 +132,7 @@ static void judge(slanted *s, size_t row, double share, bool sloped, outcome *ou
     }
 }
 
-static void test_drawn_twice(void **state) {
+TEST(test_drawn_twice) {
     static const struct {
         const char *name, *arith, *format;
         double share; /* of the bias, with which some pixels are wrong */
@@ -145,7 +141,6 @@ static void test_drawn_twice(void **state) {
                  {"swiftshader", "mesa", "fp32", 0.5},
                  {"swiftshader", "mesa", "unorm16", 0.5},
                  {"llvmpipe", "mesa", "unorm24", 0.1}};
-    (void)state;
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++) {
         size_t row = 0;
         while (strcmp(raster_get(row)->name, drawn[i].name) != 0)
@@ -173,12 +168,11 @@ static void test_drawn_twice(void **state) {
 }
 
 /* depthprec(7), by hand; a reversed camera without far plane loses one rounding of the divide alone. */
-static void test_terms(void **state) {
+TEST(test_terms) {
     const double eps = 0x1p-24, z = 40;
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     dp_coplanar got, wide;
-    (void)state;
     spec.znear = 0.25;
     spec.zfar = INFINITY;
     spec.mapping = DP_MAPPING_REVERSED;
@@ -232,11 +226,10 @@ static void test_terms(void **state) {
 }
 
 /* What is enough over a range is enough at each depth of it, and not many times what some depth needs. */
-static void test_range(void **state) {
+TEST(test_range) {
     static const char *const formats[] = {"fp32", "unorm24", "fp16"};
     tally t = {.name = "range"};
     rng r = rng_make("bias range");
-    (void)state;
     for (uint64_t i = 0; i < test_cases(20, 100, 2000); i++) {
         dp_spec spec = dp_spec_default();
         dp_format found[2];
@@ -264,10 +257,4 @@ static void test_range(void **state) {
               spec.format.name, spec.mapping, all, lo, hi, most);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_terms), cmocka_unit_test(test_range),
-                                       cmocka_unit_test(test_drawn_twice)};
-    return run_tap(tests);
 }

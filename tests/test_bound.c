@@ -3,9 +3,6 @@
  * Bounds of linearizations for one camera, from both sides: no depth that is found by climbing has a greater error
  * than the bound, and what is found comes near to it. The truth is the definition in long double.
  */
-#include <stdio.h>
-#include <string.h>
-
 #include "method/bench.h"
 #include "named.h"
 #include "support.h"
@@ -81,8 +78,7 @@ static void try_row(tally *t, rng *r, const method_row *row, size_t which, const
     s->count++;
 }
 
-static void no_depth_is_beyond_the_bound(void **state) {
-    (void)state;
+TEST(no_depth_is_beyond_the_bound) {
     rng r = rng_make("bounds");
     tally t = {.name = "bounds"};
     method_inputs in;
@@ -122,8 +118,7 @@ static void no_depth_is_beyond_the_bound(void **state) {
 }
 
 /* Tables, splines and series are judged by their claims alone. */
-static void every_algebraic_method_has_one(void **state) {
-    (void)state;
+TEST(every_algebraic_method_has_one) {
     tally t = {.name = "rows"};
     dp_setup setup;
     assert_int_equal(method_setup(&linearize_family, 0, 0.1, 1000, false, &setup), DP_OK);
@@ -133,12 +128,4 @@ static void every_algebraic_method_has_one(void **state) {
         TALLY(&t, isnan(method_bound(row, &setup)) == interpolates, "%s", row->name);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_algebraic_method_has_one),
-        cmocka_unit_test(no_depth_is_beyond_the_bound),
-    };
-    return run_tap(tests);
 }

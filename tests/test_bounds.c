@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Certified worst cases against the exhaustive sweep of all codes. */
-#include <math.h>
-#include <stdio.h>
-
 #include "oracle.h"
 #include "support.h"
 #include "sweep.h"
@@ -180,8 +177,7 @@ static void sweep_format(const dp_format *format, tally *t) {
     }
 }
 
-static void sweep_small(void **state) {
-    (void)state;
+TEST(sweep_small) {
     tally t = {.name = "fp16, unorm16 and small formats"};
     const dp_format formats[] = {oracle_float(5, 10, 15), oracle_unorm(16),       oracle_unorm(1),
                                  oracle_unorm(4),         oracle_float(3, 3, 5),  oracle_float(3, 3, 3),
@@ -209,8 +205,7 @@ static void sweep_fp32(void **state) {
 
 /* ---- random cameras and ranges ---- */
 
-static void random_ranges(void **state) {
-    (void)state;
+TEST(random_ranges) {
     rng r = rng_make("bounds");
     tally t = {.name = "random cameras and ranges"};
     uint64_t count = test_cases(60, 600, 10000);
@@ -270,8 +265,7 @@ static void random_ranges(void **state) {
     tally_end(&t);
 }
 
-static void infinite_range(void **state) {
-    (void)state;
+TEST(infinite_range) {
     tally t = {.name = "infinite range"};
     const dp_format formats[] = {oracle_float(5, 10, 15), oracle_unorm(16), oracle_unorm(24), oracle_float(8, 23, 127)};
     for (int i = 0; i < 4; i++) {
@@ -304,27 +298,9 @@ static void infinite_range(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest quick[] = {
-        cmocka_unit_test(sweep_small),
-        cmocka_unit_test(random_ranges),
-        cmocka_unit_test(infinite_range),
-    };
-    const struct CMUnitTest check[] = {
-        cmocka_unit_test(sweep_small),
-        cmocka_unit_test(random_ranges),
-        cmocka_unit_test(infinite_range),
-        cmocka_unit_test(sweep_unorm24),
-    };
-    const struct CMUnitTest full[] = {
-        cmocka_unit_test(sweep_small),   cmocka_unit_test(random_ranges), cmocka_unit_test(infinite_range),
-        cmocka_unit_test(sweep_unorm24), cmocka_unit_test(sweep_fp32),
-    };
-    switch (test_effort()) {
-    case EFFORT_QUICK:
-        return run_tap(quick);
-    case EFFORT_FULL:
-        return run_tap(full);
-    default:
-        return run_tap(check);
-    }
+    if (test_effort() != EFFORT_QUICK)
+        list_test((struct CMUnitTest)cmocka_unit_test(sweep_unorm24));
+    if (test_effort() == EFFORT_FULL)
+        list_test((struct CMUnitTest)cmocka_unit_test(sweep_fp32));
+    return run_listed(NULL, NULL);
 }

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The camera behind a depth image: what it refuses, where pixels look, and that its axes are what they should be. */
-#include <string.h>
-
 #include "shader/camera.h"
 #include "support.h"
 
@@ -28,8 +26,7 @@ static texture_camera camera_of(int ortho, camera_spec spec) {
 }
 
 /* Each field beyond its range is named; the ends of the ranges are good. */
-static void the_door(void **state) {
-    (void)state;
+TEST(the_door) {
     const dp_setup perspective = setup_of(0), ortho = setup_of(1);
     texture_camera camera;
     static const struct {
@@ -66,8 +63,7 @@ static void the_door(void **state) {
 }
 
 /* Known views: the corners of a 90 degree square, and a quarter turn. */
-static void pixels_look_where_they_should(void **state) {
-    (void)state;
+TEST(pixels_look_where_they_should) {
     camera_spec spec = spec_of(2, 2);
     spec.fov_y = 90;
     texture_camera camera = camera_of(0, spec);
@@ -101,8 +97,7 @@ static void pixels_look_where_they_should(void **state) {
 }
 
 /* The view axis passes through what the camera looks at, and its right is level, in long double. */
-static void looks_at(void **state) {
-    (void)state;
+TEST(looks_at) {
     rng r = rng_make("looks");
     tally t = {.name = "looks"};
     for (uint64_t n = test_cases(200, 2000, 20000); n > 0; n--) {
@@ -133,8 +128,7 @@ static void looks_at(void **state) {
 }
 
 /* Right-angled axes of length 1 and left-handed; slopes to two units in the last place against long double. */
-static void axes_and_slopes(void **state) {
-    (void)state;
+TEST(axes_and_slopes) {
     rng r = rng_make("camera");
     tally t = {.name = "cameras"};
     for (uint64_t n = test_cases(200, 2000, 20000); n > 0; n--) {
@@ -165,14 +159,4 @@ static void axes_and_slopes(void **state) {
               "row 0 is not the top one");
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_door),
-        cmocka_unit_test(pixels_look_where_they_should),
-        cmocka_unit_test(looks_at),
-        cmocka_unit_test(axes_and_slopes),
-    };
-    return run_tap(tests);
 }

@@ -1,11 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The census against a plain one that stores every code, against published counts, and against itself. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "census/census.h"
 #include "depthprec/depthprec.h"
 #include "support.h"
@@ -222,8 +216,7 @@ static void compare_plain(tally *t, rng *r, uint64_t cases, double count, bool e
     }
 }
 
-static void matches_plain(void **state) {
-    (void)state;
+TEST(matches_plain) {
     tally t = {.name = "census against plain census"};
     rng r = rng_make("census");
     compare_plain(&t, &r, test_cases(30, 400, 4000), 200.0, false);
@@ -233,8 +226,7 @@ static void matches_plain(void **state) {
 }
 
 /* Of an orthographic camera, whose depths may be 0 and negative. */
-static void matches_plain_of_either_sign(void **state) {
-    (void)state;
+TEST(matches_plain_of_either_sign) {
     tally t = {.name = "census of either sign against plain census"};
     rng r = rng_make("census of either sign");
     compare_plain(&t, &r, test_cases(60, 800, 8000), 200.0, true);
@@ -275,8 +267,7 @@ static double stepped_bound(const dp_setup *setup, double z) {
 }
 
 /* A band ends before the power of two, also below 0, where that is nearer to 0. */
-static void a_band_has_its_own_guarantee(void **state) {
-    (void)state;
+TEST(a_band_has_its_own_guarantee) {
     static census_result found;
     const dp_setup shadow = ortho_of(-10.0, 500.0, "unorm16");
     const census_sample_request q = {.common = {.setup = &shadow, .lo = -8.0, .hi = -2.0, .bound = stepped_bound},
@@ -286,8 +277,7 @@ static void a_band_has_its_own_guarantee(void **state) {
     assert_true(found.bands[1].bound == 2.0 && found.all.bound == 2.0);
 }
 
-static void near_0_is_one_band(void **state) {
-    (void)state;
+TEST(near_0_is_one_band) {
     static census_result whole, part;
     const dp_setup shadow = ortho_of(-10.0, 500.0, "unorm16"), tiny = ortho_of(0.0, 1e-12, "fp32");
     const census_sample_request q = {.common = {.setup = &shadow, .lo = -10.0, .hi = 500.0}, .count = 10000};
@@ -312,8 +302,7 @@ static void near_0_is_one_band(void **state) {
 }
 
 /* Across a power of two: one code on both sides of it, in segments that are shorter than the interval. */
-static void matches_plain_across_bands(void **state) {
-    (void)state;
+TEST(matches_plain_across_bands) {
     tally t = {.name = "two bands"};
     for (int mapping = 0; mapping < 4; mapping++) {
         static census_result want, got;
@@ -329,8 +318,7 @@ static void matches_plain_across_bands(void **state) {
 }
 
 /* Next to the near plane most blocks have no tie at all, and the sweep takes its other turns. */
-static void matches_plain_where_ties_are_rare(void **state) {
-    (void)state;
+TEST(matches_plain_where_ties_are_rare) {
     static const char *const ariths[] = {"ieee", "mesa", "fused"};
     for (size_t i = 0; i < 3; i++)
         for (int mapping = 0; mapping < 2; mapping++) {
@@ -346,8 +334,7 @@ static void matches_plain_where_ties_are_rare(void **state) {
 
 /* Many intervals are as long as the longest. Where the guarantee is no smaller for the nearer ones, the sweep itself
  * looks at the farthest alone. */
-static void names_the_nearest_of_equally_long(void **state) {
-    (void)state;
+TEST(names_the_nearest_of_equally_long) {
     static census_result want, got;
     const dp_setup setup = setup_of(1.0, 1.5, "unorm16", DP_MAPPING_REVERSED, "ieee");
     const census_request q = {.setup = &setup, .lo = 1.49, .hi = 1.5, .bound = dp_separation};
@@ -359,8 +346,7 @@ static void names_the_nearest_of_equally_long(void **state) {
 
 /* ---- Published counts: design values from an independent census -------------------------------------------------- */
 
-static void counts(void **state) {
-    (void)state;
+TEST(counts) {
     static const struct {
         double zfar;
         const char *format;
@@ -393,8 +379,7 @@ static void counts(void **state) {
     }
 }
 
-static void clipped(void **state) {
-    (void)state;
+TEST(clipped) {
     const dp_setup setup = setup_of(1.0, 10.0, "fp32", DP_MAPPING_D3D, "ieee");
     const census_request q = {.setup = &setup, .lo = 1.0, .hi = 10.0};
     static census_result got;
@@ -405,8 +390,7 @@ static void clipped(void **state) {
 
 /* ---- The same on every processor, for any number of threads, from any compiler ----------------------------------- */
 
-static void same_levels(void **state) {
-    (void)state;
+TEST(same_levels) {
     tally t = {.name = "levels"};
     rng r = rng_make("levels");
     const uint64_t cases = test_cases(30, 200, 6000);
@@ -458,8 +442,7 @@ static uint64_t digest(const census_level *level) {
     return hash;
 }
 
-static void same_codes(void **state) {
-    (void)state;
+TEST(same_codes) {
     for (size_t i = 0; i < census_level_count; i++)
         if (dp_path_available(census_levels[i].path)) {
             const uint64_t hash = digest(&census_levels[i]);
@@ -468,8 +451,7 @@ static void same_codes(void **state) {
         }
 }
 
-static void same_threads(void **state) {
-    (void)state;
+TEST(same_threads) {
     static census_result one, more;
     const dp_setup setup = setup_of(0.1, 100.0, "unorm24", DP_MAPPING_GL, "mesa");
     census_request q = {.setup = &setup, .lo = 60.0, .hi = 100.0, .threads = 1, .bound = toy_bound};
@@ -482,8 +464,7 @@ static void same_threads(void **state) {
 
 /* ---- Sampling ---------------------------------------------------------------------------------------------------- */
 
-static void sampled(void **state) {
-    (void)state;
+TEST(sampled) {
     static census_result all, some, again;
     const dp_setup setup = setup_of(0.1, 100.0, "fp32", DP_MAPPING_D3D, "ieee");
     census_sample_request q = {.common = {.setup = &setup, .lo = 32.0, .hi = 64.0}, .count = 100000, .seed = 7};
@@ -501,8 +482,7 @@ static void sampled(void **state) {
     assert_true(again.all.ties != some.all.ties);
 }
 
-static void gaps(void **state) {
-    (void)state;
+TEST(gaps) {
     static census_result got;
     const dp_setup setup = setup_of(0.1, 100.0, "unorm24", DP_MAPPING_GL, "ieee");
     census_sample_request q = {.common = {.setup = &setup, .lo = 50.0, .hi = 50.5}, .gap = 0.001};
@@ -536,8 +516,7 @@ static int stop_at_once(void *context, uint64_t done) {
     return done > 0;
 }
 
-static void stops(void **state) {
-    (void)state;
+TEST(stops) {
     static census_result got;
     int calls = 0;
     const dp_setup setup = setup_of(0.1, 1000.0, "fp32", DP_MAPPING_D3D, "ieee");
@@ -551,8 +530,7 @@ static void stops(void **state) {
     assert_in_range(calls, 1, 3);
 }
 
-static void refuses(void **state) {
-    (void)state;
+TEST(refuses) {
     static census_result got;
     dp_spec spec = dp_spec_default();
     dp_setup setup;
@@ -575,26 +553,4 @@ static void refuses(void **state) {
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     q.hi = 2.0;
     assert_int_equal(census_run(&q, &got), CENSUS_MODEL);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matches_plain),
-        cmocka_unit_test(matches_plain_of_either_sign),
-        cmocka_unit_test(near_0_is_one_band),
-        cmocka_unit_test(a_band_has_its_own_guarantee),
-        cmocka_unit_test(matches_plain_where_ties_are_rare),
-        cmocka_unit_test(matches_plain_across_bands),
-        cmocka_unit_test(names_the_nearest_of_equally_long),
-        cmocka_unit_test(counts),
-        cmocka_unit_test(clipped),
-        cmocka_unit_test(same_levels),
-        cmocka_unit_test(same_codes),
-        cmocka_unit_test(same_threads),
-        cmocka_unit_test(sampled),
-        cmocka_unit_test(gaps),
-        cmocka_unit_test(stops),
-        cmocka_unit_test(refuses),
-    };
-    return run_tap(tests);
 }

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a census looks at again, and how often it asks for the guarantee: little, and the same comes out. */
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "census/census.h"
 #include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 
 static uint64_t looked_at, asked;
@@ -21,15 +18,7 @@ static double counting_bound(const dp_setup *setup, double z) {
 }
 
 static dp_setup setup_of(const char *format, dp_mapping mapping) {
-    dp_spec spec = dp_spec_default();
-    dp_format formats[2];
-    dp_setup setup;
-    assert_int_not_equal(dp_format_parse(format, formats), 0);
-    spec.format = formats[0];
-    spec.mapping = mapping;
-    spec.model = DP_MODEL_FLOAT;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .model = DP_MODEL_FLOAT);
 }
 
 static const struct {
@@ -55,8 +44,7 @@ static void far_binade(size_t row, double (*bound)(const dp_setup *, double)) {
            1024.0 * (double)asked / (double)result.all.pairs);
 }
 
-static void without_a_bound(void **state) {
-    (void)state;
+TEST(without_a_bound) {
     for (size_t i = 0; i < 4; i++) {
         far_binade(i, NULL);
         assert_true(looked_at < (1 << 23) / (i == 2 ? 10 : 20));
@@ -64,8 +52,7 @@ static void without_a_bound(void **state) {
 }
 
 /* Of unorm16 nearly all of a cell is an interval. */
-static void with_the_guarantee(void **state) {
-    (void)state;
+TEST(with_the_guarantee) {
     for (size_t i = 0; i < 4; i++) {
         far_binade(i, counting_bound);
         assert_true((double)asked < (i == 2 ? 1.6 : 0.8) * 8192);
@@ -102,8 +89,7 @@ static const char *name_of(const dp_setup *s) {
 }
 
 /* The separation is as calm as the census takes it to be. */
-static void separation_is_calm(void **state) {
-    (void)state;
+TEST(separation_is_calm) {
     tally t = {.name = "calm"};
     rng r = rng_make("calm");
     for (uint64_t n = 0; n < test_cases(100, 1500, 30000); n++) {
@@ -129,8 +115,7 @@ static void separation_is_calm(void **state) {
 }
 
 /* The same to the last bit, with any number of threads, as where it is asked for in each block. */
-static void the_same_comes_out(void **state) {
-    (void)state;
+TEST(the_same_comes_out) {
     static census_result every, calm;
     tally t = {.name = "the same"};
     rng r = rng_make("asked");
@@ -153,10 +138,4 @@ static void the_same_comes_out(void **state) {
               name_of(&s), lo, hi, calm.all.slack, calm.all.slack_z, every.all.slack, every.all.slack_z);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(without_a_bound), cmocka_unit_test(with_the_guarantee),
-                                       cmocka_unit_test(separation_is_calm), cmocka_unit_test(the_same_comes_out)};
-    return run_tap(tests);
 }

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which runs of a block hold a depth that is out of order with one far behind it: by looking at all depths. */
-
-#include <stdbool.h>
-
 #include "census/kernel.h"
 #include "support.h"
 
@@ -43,11 +40,10 @@ static uint32_t seen_by(const census_level *level, const depths *d, unsigned del
 }
 
 /* Keys that fall towards the viewer, but for one here and there; the border of the block among the places. */
-static void test_disorder(void **state) {
+TEST(test_disorder) {
     rng r = rng_make("disorder");
     tally t = {.name = "disorder"};
     uint64_t far_run = 0, none = 0;
-    (void)state;
     for (uint64_t n = 0; n < test_cases(300, 4000, 100000); n++) {
         static depths d;
         const unsigned delay = 1 + (unsigned)rng_below(&r, CENSUS_RUN - 1);
@@ -73,9 +69,4 @@ static void test_disorder(void **state) {
                   (unsigned long long)none);
     assert_true(far_run > t.cases / 40 && none > t.cases / 40);
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_disorder)};
-    return run_tap(tests);
 }

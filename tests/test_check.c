@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Verdicts: against depths visited one by one, against published figures, and fast enough for thousands. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "requirement/check.h"
@@ -57,8 +53,7 @@ static judged judge_one(const char *camera, const char *what) {
 
 /* The cell of unorm24 at 5 km with near 0.01 and far 10 km is 147 m wide; the separation is one whole step from 5 km.
  */
-static void known_answers(void **state) {
-    (void)state;
+TEST(known_answers) {
     static const struct {
         const char *camera, *what;
         bool passed;
@@ -102,8 +97,7 @@ static void known_answers(void **state) {
 }
 
 /* Without a word about the model the guarantee decides: 15 m at 5 km pass in the lattice alone. */
-static void the_default_is_a_guarantee(void **state) {
-    (void)state;
+TEST(the_default_is_a_guarantee) {
     static const char camera[] = "near = 0.1; far = \"10 km\"; mapping = \"d3d\"; format = \"unorm24\";";
     static const char what[] = "at = \"5 km\"; separation = 15;";
     static const char *const words[] = {"", " model = \"auto\";", " model = \"float\";", " model = \"exact\";"};
@@ -123,8 +117,7 @@ static void the_default_is_a_guarantee(void **state) {
 
 /* Of a logarithmic depth that of the shader: 5 m at 1000 km are enough for the model staged, not for a shader's log2.
  */
-static void of_a_shader(void **state) {
-    (void)state;
+TEST(of_a_shader) {
     static const char camera[] = "near = 1; far = 1e9; mapping = \"log\"; format = \"unorm24\";";
     static const struct {
         const char *model, *what;
@@ -166,8 +159,7 @@ static const char *const formats[] = {"fp32", "unorm24", "unorm16", "fp16"};
 static const char *const models[] = {"exact", "staged", "float", "auto"};
 
 /* Random cameras and ranges: a requirement that passes holds at every depth tried, one that fails fails at its z. */
-static void ranges_against_single_depths(void **state) {
-    (void)state;
+TEST(ranges_against_single_depths) {
     tally holds = {.name = "what passes holds at each depth of the range"};
     tally fails = {.name = "what fails does so at the depth that is named"};
     rng r = rng_make("check ranges");
@@ -205,8 +197,7 @@ static void ranges_against_single_depths(void **state) {
 }
 
 /* The error at one depth is what is stored less what is, without its sign: half of them point towards the camera. */
-static void errors_at_single_depths(void **state) {
-    (void)state;
+TEST(errors_at_single_depths) {
     tally t = {.name = "an error has no sign"};
     rng r = rng_make("check errors");
     int nearer = 0;
@@ -233,8 +224,7 @@ static void errors_at_single_depths(void **state) {
 }
 
 /* What the models say of one camera, and which of them is asked. */
-static void the_quick_model_first(void **state) {
-    (void)state;
+TEST(the_quick_model_first) {
     static const char camera[] = "near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm24\"; model = \"%s\";";
     static const struct {
         const char *model, *what;
@@ -263,8 +253,7 @@ static void the_quick_model_first(void **state) {
     }
 }
 
-static void ties_are_counted_when_needed(void **state) {
-    (void)state;
+TEST(ties_are_counted_when_needed) {
     static const char reversed[] =
         "near = 0.1; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"float\";";
     static const char d3d[] = "near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm24\"; model = \"float\";";
@@ -297,8 +286,7 @@ static void ties_are_counted_when_needed(void **state) {
 }
 
 /* Ten thousand requirements in one file: all are judged; the processor time that it takes is shown, not judged. */
-static void thousands(void **state) {
-    (void)state;
+TEST(thousands) {
     enum { COUNT = 10000 };
     const char *const heads[] = {"mapping = \"reversed\"; format = \"fp32\";",
                                  "mapping = \"gl\"; format = \"unorm24\"; model = \"staged\";",
@@ -321,18 +309,4 @@ static void thousands(void **state) {
         done(&j);
         free(text);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_answers),
-        cmocka_unit_test(the_default_is_a_guarantee),
-        cmocka_unit_test(of_a_shader),
-        cmocka_unit_test(ranges_against_single_depths),
-        cmocka_unit_test(errors_at_single_depths),
-        cmocka_unit_test(the_quick_model_first),
-        cmocka_unit_test(ties_are_counted_when_needed),
-        cmocka_unit_test(thousands),
-    };
-    return run_tap(tests);
 }

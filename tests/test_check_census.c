@@ -3,11 +3,6 @@
  * What check passes, zfight --separation must find in order: random requirements on a separation, as short as check
  * lets them be; then each binary32 depth of the range and the surface that far behind it.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "census/census.h"
 #include "reference.h"
 #include "requirement/check.h"
@@ -109,8 +104,7 @@ static asked draw(rng *r) {
     return a;
 }
 
-static void what_passes_shows_no_fight(void **state) {
-    (void)state;
+TEST(what_passes_shows_no_fight) {
     tally ranges = {.name = "ranges that pass without a tie or a swap"};
     rng r = rng_make("promise check");
     census_result *result = malloc(sizeof *result);
@@ -139,8 +133,7 @@ static void what_passes_shows_no_fight(void **state) {
 }
 
 /* A single depth: the surface that far behind it, and others behind that one. */
-static void a_single_depth(void **state) {
-    (void)state;
+TEST(a_single_depth) {
     tally depths = {.name = "single depths that pass, with a surface behind"};
     rng r = rng_make("promise check at");
     for (uint64_t i = test_cases(100, 5000, 100000); i > 0; i--) {
@@ -167,12 +160,4 @@ static void a_single_depth(void **state) {
         TALLY(&depths, in_order, "%.17g and %.17g: %s", a.lo, z2, text);
     }
     tally_end(&depths);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_passes_shows_no_fight),
-        cmocka_unit_test(a_single_depth),
-    };
-    return run_tap(tests);
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The choice in the words of set-ups: what it takes keeps its claim, and figures drawn by it look the same. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "cli/choice.h"
 #include "method/truth.h"
 #include "method/ways.h"
@@ -46,8 +42,7 @@ static double width_at(const dp_setup *setup, double z, bool *cut) {
     return truth_width(setup, dp_code(setup, z), cut);
 }
 
-static void what_is_chosen_keeps_its_claim(void **state) {
-    (void)state;
+TEST(what_is_chosen_keeps_its_claim) {
     rng r = rng_make("ways");
     tally t = {.name = "ways"};
     uint64_t cheap = 0;
@@ -83,8 +78,7 @@ static void what_is_chosen_keeps_its_claim(void **state) {
 }
 
 /* Nothing is claimed of other roundings, models and arithmetic. */
-static void other_set_ups_keep_to_the_engine(void **state) {
-    (void)state;
+TEST(other_set_ups_keep_to_the_engine) {
     for (int k = 0; k < 4; k++) {
         dp_setup setup = make(0, 0.1, 1000, false);
         dp_spec spec = setup.spec;
@@ -103,8 +97,7 @@ static void other_set_ups_keep_to_the_engine(void **state) {
 }
 
 /* Of the pipeline: no interval near z is longer, by a plain scan. */
-static void the_pipeline_has_methods_too(void **state) {
-    (void)state;
+TEST(the_pipeline_has_methods_too) {
     for (int kind = 0; kind < 2; kind++) {
         dp_setup setup = make(kind, 0.1, 1000, false);
         dp_spec spec = setup.spec;
@@ -122,8 +115,7 @@ static void the_pipeline_has_methods_too(void **state) {
 }
 
 /* The model chosen is the library's, tolerance by tolerance, over more depths than a block holds. */
-static void models_are_chosen_as_the_library_does(void **state) {
-    (void)state;
+TEST(models_are_chosen_as_the_library_does) {
     rng r = rng_make("models");
     tally t = {.name = "models"};
     for (uint64_t n = test_cases(100, 1000, 10000); n > 0; n--) {
@@ -147,8 +139,7 @@ static void models_are_chosen_as_the_library_does(void **state) {
 }
 
 /* A figure drawn by the method that is good enough lies within half a pixel of the exact one. */
-static void figures_look_the_same(void **state) {
-    (void)state;
+TEST(figures_look_the_same) {
     rng r = rng_make("figures");
     tally t = {.name = "figures"};
     uint64_t by_method = 0;
@@ -189,13 +180,4 @@ static void figures_look_the_same(void **state) {
     }
     assert_true(by_method > 0);
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_chosen_keeps_its_claim), cmocka_unit_test(other_set_ups_keep_to_the_engine),
-        cmocka_unit_test(the_pipeline_has_methods_too),   cmocka_unit_test(models_are_chosen_as_the_library_does),
-        cmocka_unit_test(figures_look_the_same),
-    };
-    return run_tap(tests);
 }

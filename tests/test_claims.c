@@ -3,8 +3,6 @@
  * Claims of methods from both sides. Of linearizations: the roundings of their operations, counted here by propagating
  * the worst error of each, first order. Of positions: the bound at the worst pixel, which has tests of its own.
  */
-#include <string.h>
-
 #include "method/bench.h"
 #include "named.h"
 #include "shader/position.h"
@@ -106,8 +104,7 @@ static double most_units(term (*count)(const view *), double ratio, bool reverse
 }
 
 /* A claim is e/(1 - e) of what is counted where the divisor cancels, and what is counted where nothing does. */
-static void linearize_claims_are_their_roundings(void **state) {
-    (void)state;
+TEST(linearize_claims_are_their_roundings) {
     const method_family_row *family = method_family_find("linearize");
     tally t = {.name = "roundings"};
     for (size_t i = 0; i < sizeof counted / sizeof counted[0]; i++)
@@ -161,8 +158,7 @@ static double worst_place(const char *name, const dp_setup *setup, double yaw, d
 }
 
 /* In directions where they are worst, of a grid of 5 degrees. */
-static void position_claims_are_their_bounds(void **state) {
-    (void)state;
+TEST(position_claims_are_their_bounds) {
     static const double hard[3][2] = {{25, 0}, {30, 25}, {35, 55}};
     const method_family_row *family = method_family_find("position");
     tally t = {.name = "bounds"};
@@ -218,18 +214,8 @@ static void check_hard(const vector_row *line, void *context) {
     method_arrays_free(&in, &out);
 }
 
-static void the_hardest_set_ups_need_the_claims(void **state) {
-    (void)state;
+TEST(the_hardest_set_ups_need_the_claims) {
     tally t = {.name = "hardest"};
     vectors_read("claims.txt", check_hard, &t);
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(linearize_claims_are_their_roundings),
-        cmocka_unit_test(position_claims_are_their_bounds),
-        cmocka_unit_test(the_hardest_set_ups_need_the_claims),
-    };
-    return run_tap(tests);
 }

@@ -6,9 +6,6 @@
  * rounding boundary: the boundary's depth is computed exactly, cut to a double, and that double, the two below and
  * the two above are taken. Cameras with exact ties come on top.
  */
-#include <math.h>
-#include <stdio.h>
-
 #include "oracle.h"
 #include "support.h"
 
@@ -317,8 +314,7 @@ static void random_codes(void **state) {
 }
 
 /* Boundaries of the 16-bit formats, all at full effort, of what browsers and globes write. */
-static void small_boundaries(void **state) {
-    (void)state;
+TEST(small_boundaries) {
     tally t = {.name = "boundaries of 16 bits"};
     static const dp_mapping written[] = {DP_MAPPING_THREE_WEBGL, DP_MAPPING_THREE_WEBGPU, DP_MAPPING_CESIUM,
                                          DP_MAPPING_OSGEARTH};
@@ -339,8 +335,7 @@ static void small_boundaries(void **state) {
     tally_end(&t);
 }
 
-static void exact_ties(void **state) {
-    (void)state;
+TEST(exact_ties) {
     rng r = rng_make("ties");
     tally t = {.name = "exact ties"};
     dp_format format[6];
@@ -355,8 +350,7 @@ static void exact_ties(void **state) {
 }
 
 /* Outside [near, far] a depth is clamped. */
-static void clamped(void **state) {
-    (void)state;
+TEST(clamped) {
     tally t = {.name = "clamped"};
     for (int k = 0; k < PAIRS; k++) {
         dp_setup setup;
@@ -377,9 +371,7 @@ static void clamped(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[PAIRS + 3] = {cmocka_unit_test(exact_ties), cmocka_unit_test(clamped),
-                                          cmocka_unit_test(small_boundaries)};
     for (int k = 0; k < PAIRS; k++)
-        tests[k + 3] = (struct CMUnitTest){pairs[k].name, random_codes, NULL, NULL, (void *)(uintptr_t)&pairs[k]};
-    return run_tap(tests);
+        list_test((struct CMUnitTest){pairs[k].name, random_codes, NULL, NULL, (void *)(uintptr_t)&pairs[k]});
+    return run_listed(NULL, NULL);
 }

@@ -3,10 +3,6 @@
  * World positions through view and projection: no separation is below what a search finds, and none is far above; and
  * each of the errors that it is made of alone.
  */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "composed.h"
 #include "core/composition.h"
 
@@ -18,8 +14,7 @@ static const double fars[] = {1000, 10000, HUGE_VAL};
 static const char *const formats[] = {"fp32", "unorm24"};
 
 /* Where no separation is promised, surfaces many times as far away must be found tied or swapped. */
-static void within_four_times(void **state) {
-    (void)state;
+TEST(within_four_times) {
     rng r = rng_make("composition");
     tally never = {.name = "never below"};
     tally tight = {.name = "within 4 times"};
@@ -62,8 +57,7 @@ static void within_four_times(void **state) {
 }
 
 /* Every mapping, arithmetic, composition and projection. */
-static void random_set_ups(void **state) {
-    (void)state;
+TEST(random_set_ups) {
     rng r = rng_make("composed set-ups");
     tally never = {.name = "random set-ups"};
     found worst = {0};
@@ -96,8 +90,7 @@ static void random_set_ups(void **state) {
 }
 
 /* Orthographic cameras with depths of 0 and less. */
-static void depths_of_either_sign(void **state) {
-    (void)state;
+TEST(depths_of_either_sign) {
     rng r = rng_make("composed depths of either sign");
     tally never = {.name = "depths of either sign"};
     tally certain = {.name = "a separation there is"};
@@ -195,8 +188,7 @@ static void report(const char *composition, const char *row, const char *what, d
 }
 
 /* No cause is more than its claim, and each somewhere more than half of it: with one halved this fails. */
-static void each_cause(void **state) {
-    (void)state;
+TEST(each_cause) {
     rng r = rng_make("composition causes");
     tally within = {.name = "causes"};
     for (int k = 0; k < DP_COMPOSITION_COUNT; k++) {
@@ -237,14 +229,4 @@ static void each_cause(void **state) {
             report(name, "eye depth,", totals[total], most_eye[total]);
     }
     tally_end(&within);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(within_four_times),
-        cmocka_unit_test(random_set_ups),
-        cmocka_unit_test(depths_of_either_sign),
-        cmocka_unit_test(each_cause),
-    };
-    return run_tap(tests);
 }

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Constants of a camera and depths as shaders have them, against their definitions in long double; the traps by doing
  * what each of them does. */
-#include <math.h>
-#include <string.h>
-
 #include "shader/constants.h"
 #include "support.h"
 #include "views.h"
@@ -23,8 +20,7 @@ static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_
 static const float near_clips[] = {0, -1, 1, 1};
 
 /* (1 - f/n, f/n, x/f, y/f), reversed (f/n - 1, 1, x/f, 1/f), and the limits of an infinite far plane. */
-static void constants_are_as_documented(void **state) {
-    (void)state;
+TEST(constants_are_as_documented) {
     rng r = rng_make("constants");
     for (int i = 0; i < 4000; i++) {
         const double n = rng_log(&r, 1e-3, 10), f = i % 5 == 0 ? INFINITY : n * (1 + rng_log(&r, 1e-3, 1e6));
@@ -44,8 +40,7 @@ static void constants_are_as_documented(void **state) {
 }
 
 /* Clip z of the projection matrix as documented, and what LinearEyeDepth and its kin are of a depth. */
-static void depths_are_as_documented(void **state) {
-    (void)state;
+TEST(depths_are_as_documented) {
     rng r = rng_make("depths");
     tally t = {.name = "depths"};
     for (int i = 0; i < 20000; i++) {
@@ -79,8 +74,7 @@ static void depths_are_as_documented(void **state) {
 }
 
 /* A corner's ray, times a depth, is where the corner of the picture is at it: half a pixel beyond the last ones. */
-static void corners_are_those_of_the_picture(void **state) {
-    (void)state;
+TEST(corners_are_those_of_the_picture) {
     for (int ortho = 0; ortho < 2; ortho++) {
         const texture_camera c = view_camera("fp32", DP_MAPPING_D3D, 0.5, 100, ortho != 0, 320, 180, ortho ? 5 : 60);
         const shader_corners got = shader_corners_of(&c);
@@ -131,8 +125,7 @@ static long double trapped(const char *name, long double n, long double f, long 
     return reversed ? f - (f - n) * d : n + (f - n) * d;
 }
 
-static void traps_read_what_they_read(void **state) {
-    (void)state;
+TEST(traps_read_what_they_read) {
     rng r = rng_make("traps");
     tally t = {.name = "traps"};
     size_t seen[16] = {0}, count = 0;
@@ -160,8 +153,7 @@ static void traps_read_what_they_read(void **state) {
 }
 
 /* What the articles' cameras show. */
-static void known_traps(void **state) {
-    (void)state;
+TEST(known_traps) {
     const dp_setup gl = setup_of(DP_MAPPING_GL, false, 0.1, 1000), d3d = setup_of(DP_MAPPING_D3D, false, 0.3, 1000);
     assert_scene(trap_reads(trap_find("ndc-as-depth"), &gl, 10), 5.0251256, 1e-6);
     assert_scene(trap_reads(trap_find("inverted-x"), &d3d, 10), 0.2999127, 1e-6);
@@ -170,8 +162,7 @@ static void known_traps(void **state) {
 }
 
 /* Each with its formula, and what it reads of a depth of 10. */
-static void traps_are_listed(void **state) {
-    (void)state;
+TEST(traps_are_listed) {
     printed p = print_of("list traps --full");
     const char *at = p.out;
     for (size_t i = 0; trap_get(i) != NULL; i++) {
@@ -185,16 +176,4 @@ static void traps_are_listed(void **state) {
         assert_relative(reads, (double)trapped(row->name, 0.3L, 1000, 10, row->ortho, false), 1e-5);
     }
     printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(constants_are_as_documented),
-        cmocka_unit_test(depths_are_as_documented),
-        cmocka_unit_test(corners_are_those_of_the_picture),
-        cmocka_unit_test(traps_read_what_they_read),
-        cmocka_unit_test(known_traps),
-        cmocka_unit_test(traps_are_listed),
-    };
-    return run_tap(tests);
 }

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Decoding rows: the exact values against rationals and MPFR, the binary32 rows against their bounds, and the sky. */
 #include <float.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "core/elementary.h"
 #include "named.h"
@@ -117,8 +115,7 @@ static void logarithmic(const dp_spec *s, double d, decode_quantity quantity, mp
     mpfr_clears(a, b, c, (mpfr_ptr)NULL);
 }
 
-static void exact_is_exact(void **state) {
-    (void)state;
+TEST(exact_is_exact) {
     rng r = rng_make("exact");
     tally t = {.name = "exact"};
     mpq_t want;
@@ -154,8 +151,7 @@ static void exact_is_exact(void **state) {
 }
 
 /* No row's error is above its bound; each row comes within a quarter of it somewhere in each direction. */
-static void rows_keep_their_bounds(void **state) {
-    (void)state;
+TEST(rows_keep_their_bounds) {
     enum { ROWS = 16, PIXELS = 64 };
     rng r = rng_make("rows");
     tally t = {.name = "bounds"};
@@ -224,16 +220,14 @@ static void check_hard(const vector_row *row, void *context) {
     mpq_clear(want);
 }
 
-static void the_hardest_depths_need_each_term(void **state) {
-    (void)state;
+TEST(the_hardest_depths_need_each_term) {
     tally t = {.name = "hardest"};
     vectors_read("decode.txt", check_hard, &t);
     tally_end(&t);
 }
 
 /* What the bound of log-eye takes for granted: exp2f within 0.55 ulp, expm1f within 1. */
-static void exponentials_are_as_exact_as_assumed(void **state) {
-    (void)state;
+TEST(exponentials_are_as_exact_as_assumed) {
     rng r = rng_make("library");
     tally t = {.name = "exp2f, expm1f"};
     for (uint64_t k = test_cases(20000, 500000, 20000000); k > 0; k--) {
@@ -246,8 +240,7 @@ static void exponentials_are_as_exact_as_assumed(void **state) {
 }
 
 /* A cancelling sum has no digit left: the bound says so, and the complement keeps its own. */
-static void the_complement_cancels_nothing(void **state) {
-    (void)state;
+TEST(the_complement_cancels_nothing) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     spec.zfar = 1e8;
@@ -261,8 +254,7 @@ static void the_complement_cancels_nothing(void **state) {
 }
 
 /* _ZBufferParams of near 0.1 and far 1000, by hand. */
-static void parameters_are_those_of_engines(void **state) {
-    (void)state;
+TEST(parameters_are_those_of_engines) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     spec.znear = 0.5;
@@ -281,8 +273,7 @@ static void parameters_are_those_of_engines(void **state) {
 }
 
 /* Which row applies where is data: for each set-up exactly one usual row, and the best one always. */
-static void rows_apply_where_they_say(void **state) {
-    (void)state;
+TEST(rows_apply_where_they_say) {
     rng r = rng_make("applies");
     for (size_t i = 0; decode_get(i) != NULL; i++)
         assert_ptr_equal(decode_find(decode_get(i)->name), decode_get(i));
@@ -308,8 +299,7 @@ static void rows_apply_where_they_say(void **state) {
 }
 
 /* Any length and place, and in place: the same bits as one by one. */
-static void loops_have_no_edges(void **state) {
-    (void)state;
+TEST(loops_have_no_edges) {
     enum { MOST = 100 };
     float d[MOST], one[MOST], all[MOST];
     dp_spec spec = dp_spec_default();
@@ -338,10 +328,9 @@ static void loops_have_no_edges(void **state) {
         }
 }
 
-static void many_are_what_each_is(void **state) {
+TEST(many_are_what_each_is) {
     enum { SETUPS = 300, COUNT = 67 };
     rng r = rng_make("decode many");
-    (void)state;
     for (int k = 0; k < SETUPS; k++) {
         const dp_spec spec = random_spec(&r);
         dp_setup setup;
@@ -360,19 +349,4 @@ static void many_are_what_each_is(void **state) {
             }
         }
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_is_exact),
-        cmocka_unit_test(rows_keep_their_bounds),
-        cmocka_unit_test(the_hardest_depths_need_each_term),
-        cmocka_unit_test(exponentials_are_as_exact_as_assumed),
-        cmocka_unit_test(the_complement_cancels_nothing),
-        cmocka_unit_test(parameters_are_those_of_engines),
-        cmocka_unit_test(rows_apply_where_they_say),
-        cmocka_unit_test(loops_have_no_edges),
-        cmocka_unit_test(many_are_what_each_is),
-    };
-    return run_tap(tests);
 }

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each default that help spells out: with it given, a command prints what it prints without. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "cli/option/uses.h"
 #include "printed.h"
 
@@ -260,10 +257,9 @@ static const option_use *use_of(const command_row *v, option_id id) {
     return shown != NULL ? shown : option_used(v, ~0U, id);
 }
 
-static void test_spelled_out(void **state) {
+TEST(test_spelled_out) {
     tally t = {.name = "defaults"};
     int tried = 0;
-    (void)state;
     for (size_t i = 0; i < command_count; i++)
         for (int id = 0; id < OPTION_COUNT; id++) {
             const command_row *v = &command_rows[i];
@@ -289,9 +285,8 @@ static void test_spelled_out(void **state) {
 }
 
 /* Each default in words is one of `meant`, and each of `meant` is told of an option. */
-static void test_in_words(void **state) {
+TEST(test_in_words) {
     tally t = {.name = "defaults in words"};
-    (void)state;
     for (size_t i = 0; i < command_count; i++)
         for (int id = 0; id < OPTION_COUNT; id++) {
             const command_row *v = &command_rows[i];
@@ -320,10 +315,9 @@ static void test_in_words(void **state) {
 }
 
 /* Type and colours of a figure, whose metadata hold the command line. */
-static void test_theme(void **state) {
+TEST(test_theme) {
     static const char *const themes[] = {"", "--theme light", "--type svg", "--theme dark"};
     char *text[4];
-    (void)state;
     for (int i = 0; i < 4; i++) {
         char file[512];
         snprintf(file, sizeof file, "%s", scratch_file("theme.svg"));
@@ -346,10 +340,4 @@ static void test_theme(void **state) {
     assert_string_not_equal(text[0], text[3]);
     for (int i = 0; i < 4; i++)
         free(text[i]);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_spelled_out), cmocka_unit_test(test_in_words),
-                                       cmocka_unit_test(test_theme)};
-    return run_tap(tests);
 }

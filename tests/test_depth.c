@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cells, stored depths, errors, intervals and separations against exact arithmetic (log: 384 bits). */
-#include <math.h>
-#include <stdio.h>
-
 #include "oracle.h"
 #include "support.h"
 
@@ -148,8 +145,7 @@ static void check_cell(scene *s, uint32_t code, tally *t, tally *planes) {
     mpq_clear(width);
 }
 
-static void cells(void **state) {
-    (void)state;
+TEST(cells) {
     rng r = rng_make("cells");
     tally t = {.name = "cells"}, planes = {.name = "cells stay between the planes"};
     uint64_t cameras = test_cases(100, 4000, 20000);
@@ -183,8 +179,7 @@ static void cells(void **state) {
 }
 
 /* Planes placed a hair from a cell's end, so that clipping leaves a sliver. */
-static void slivers(void **state) {
-    (void)state;
+TEST(slivers) {
     rng r = rng_make("slivers");
     tally t = {.name = "slivers"}, planes = {.name = "slivers stay between the planes"};
     mpq_t boundary, z;
@@ -286,8 +281,7 @@ static void check_infinity(const scene *s, uint32_t code, tally *t) {
     TALLY(t, got == want, "%s: error of code %u at infinity is %g, should be %g", s->text, code, got, want);
 }
 
-static void samples(void **state) {
-    (void)state;
+TEST(samples) {
     rng r = rng_make("samples");
     tally t = {.name = "samples"};
     uint64_t cameras = test_cases(100, 4000, 20000);
@@ -315,8 +309,7 @@ static void samples(void **state) {
  * The code of the stored depth is the code, for every code whose stored depth lies in [near, far]. The stored depth is
  * rounded to a double, so this is asked where half a cell is wider than that rounding; the others are counted.
  */
-static void round_trips(void **state) {
-    (void)state;
+TEST(round_trips) {
     rng r = rng_make("round trips");
     tally t = {.name = "code(stored(code))"};
     uint64_t cameras = test_cases(4, 40, 60);
@@ -390,8 +383,7 @@ static void check_separation(scene *s, double z, tally *t) {
     mpq_clears(least, most, NULL);
 }
 
-static void separations(void **state) {
-    (void)state;
+TEST(separations) {
     rng r = rng_make("separations");
     tally t = {.name = "separations"};
     mpq_t value;
@@ -434,8 +426,7 @@ static int is_behind(const scene *s, uint32_t code, uint32_t than) {
  * The guarantee: a surface a hair beyond z + s(z) has a code behind z's. And it is not slack: the depth just behind a
  * rounding boundary shares its code with depths up to almost s behind it (a step), never less than half of s.
  */
-static void guarantee(void **state) {
-    (void)state;
+TEST(guarantee) {
     rng r = rng_make("guarantee");
     tally behind = {.name = "behind z + s is a code behind"}, tight = {.name = "s is needed"};
     mpq_t boundary, z, at, hair;
@@ -493,12 +484,4 @@ static void guarantee(void **state) {
     mpq_clears(boundary, z, at, hair, NULL);
     tally_end(&behind);
     tally_end(&tight);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells),       cmocka_unit_test(slivers),     cmocka_unit_test(samples),
-        cmocka_unit_test(round_trips), cmocka_unit_test(separations), cmocka_unit_test(guarantee),
-    };
-    return run_tap(tests);
 }

@@ -4,10 +4,6 @@
  * of known depths, whose mapping is not given, and how they say that a pixel would be read otherwise.
  */
 #include <jansson.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "support.h"
 #include "truth.h"
@@ -81,25 +77,7 @@ static json_t *statistics_of(bool ortho, const char *path) {
     truth_add_number(&c, 1, "-f", FAR);
     if (ortho)
         truth_add(&c, "--ortho");
-    truth_add(&c, "--json");
-    truth_add(&c, "-o");
-    truth_add(&c, truth_path("said.json"));
-    assert_int_equal(truth_run(c.arguments, c.count), 0);
-    json_t *root = json_load_file(truth_path("said.json"), JSON_REJECT_DUPLICATES, NULL);
-    assert_non_null(root);
-    return root;
-}
-
-/* The warning on stderr names what is assumed, and nothing is said where nothing is. */
-static bool warned(const char *words) {
-    char line[512];
-    bool found = false;
-    FILE *said = fopen(truth_path("said"), "r");
-    assert_non_null(said);
-    while (fgets(line, sizeof line, said) != NULL)
-        found = found || strstr(line, words) != NULL;
-    fclose(said);
-    return found;
+    return truth_statistics(&c);
 }
 
 static int check_readings(tally *t, const json_t *root, size_t file, const void *data) {
@@ -126,8 +104,7 @@ static int check_readings(tally *t, const json_t *root, size_t file, const void 
     return mappings;
 }
 
-static void directions_are_found_only_where_they_are(void **state) {
-    (void)state;
+TEST(directions_are_found_only_where_they_are) {
     tally t = {.name = "directions"};
     rng r = rng_make("directions");
     static double data[PIXELS];
@@ -162,7 +139,7 @@ static void directions_are_found_only_where_they_are(void **state) {
                           strcmp(text_in(root, "format_from"), "assumed") == 0 &&
                               json_is_false(json_object_get(recognised, "certain")),
                           "a format of %s", image_type_name(files[f].type));
-                TALLY(&t, warned("the mapping is assumed"), "%s: no warning", scenes[s].name);
+                TALLY(&t, truth_said("the mapping is assumed"), "%s: no warning", scenes[s].name);
                 found += is_found;
                 if (!ortho)
                     readings += check_readings(&t, root, f, data);
@@ -174,7 +151,5 @@ static void directions_are_found_only_where_they_are(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(directions_are_found_only_where_they_are)};
-    cmocka_set_message_output(CM_OUTPUT_TAP);
-    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
+    return run_listed(truth_folder, truth_folder_end);
 }

@@ -4,8 +4,6 @@
  * dp_separation_over(); not at the depth that is said to fail; and where there is a closed form it is that.
  */
 #include <fenv.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "requirement/distance.h"
 #include "support.h"
@@ -161,30 +159,25 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
         tally_end(&none);
 }
 
-static void test_fp32(void **state) {
-    (void)state;
+TEST(test_fp32) {
     in_model(DP_MODEL_FLOAT, MEASURE_SEPARATION, test_cases(50, 500, 10000));
 }
 
-static void test_staged(void **state) {
-    (void)state;
+TEST(test_staged) {
     in_model(DP_MODEL_STAGED, MEASURE_SEPARATION, test_cases(50, 500, 10000));
 }
 
-static void test_exact(void **state) {
-    (void)state;
+TEST(test_exact) {
     in_model(DP_MODEL_EXACT, MEASURE_SEPARATION, test_cases(100, 1000, 20000));
 }
 
-static void test_error(void **state) {
-    (void)state;
+TEST(test_error) {
     in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(20, 200, 2000));
     in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(10, 100, 1000));
 }
 
 /* UNORM under a perspective: s = z g/(1 - g) with g = z kappa h, so z^2 kappa h + z S kappa h - S = 0. */
-static void test_closed_form(void **state) {
-    (void)state;
+TEST(test_closed_form) {
     rng r = rng_make("distance closed form");
     tally close = {.name = "UNORM in the lattice: the root of a quadratic"};
     const uint64_t cases = test_cases(100, 2000, 20000);
@@ -257,12 +250,11 @@ static void check_spans(const question *q, const distance_answer *a, rng *r, tal
     }
 }
 
-static void test_again(void **state) {
+TEST(test_again) {
     static const dp_model models[] = {DP_MODEL_EXACT, DP_MODEL_STAGED, DP_MODEL_FLOAT};
     rng r = rng_make("distance again");
     tally inside = {.name = "spans hold, and end"}, outside = {.name = "elsewhere"};
     const uint64_t cases = test_cases(60, 600, 6000);
-    (void)state;
     for (uint64_t i = 0; i < cases;) {
         question q;
         distance_answer a;
@@ -278,8 +270,7 @@ static void test_again(void **state) {
     assert_true(outside.cases > 0 && outside.skipped * 5000 <= outside.cases);
 }
 
-static void test_door(void **state) {
-    (void)state;
+TEST(test_door) {
     distance_answer a;
     dp_setup setup;
     dp_spec spec = dp_spec_default();
@@ -293,12 +284,4 @@ static void test_door(void **state) {
     assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 2.0, 0.0, &a), DP_ERROR_RANGE);
     assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 1.0, 10.0, &a), DP_OK);
     assert_true(a.possible && a.throughout && a.value == 1.0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fp32),        cmocka_unit_test(test_staged),
-                                       cmocka_unit_test(test_exact),       cmocka_unit_test(test_error),
-                                       cmocka_unit_test(test_closed_form), cmocka_unit_test(test_again),
-                                       cmocka_unit_test(test_door)};
-    return run_tap(tests);
 }

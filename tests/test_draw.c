@@ -139,13 +139,12 @@ static void compare(rng *r, const scene *s, draw_buffer *b, tally *t) {
         }
 }
 
-static void who_wins(void **state) {
+TEST(who_wins) {
     static const char *const names[] = {"llvmpipe", "lavapipe", "softpipe", "swiftshader"};
     static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
     tally t = {.name = "winners"};
     rng r = rng_make("draw");
     int cameras = 0;
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++)
             for (dp_mapping m = DP_MAPPING_D3D; m <= DP_MAPPING_GL_REVERSED; m++) {
@@ -166,10 +165,9 @@ static void who_wins(void **state) {
 /* ---- Planes and meshes ------------------------------------------------------------------------------------------- */
 
 /* A place of the window is seen along its ray, as the viewport transform says. */
-static void rays(void **state) {
+TEST(rays) {
     rng r = rng_make("rays");
     scene s;
-    (void)state;
     assert_int_equal(try_scene(&s, "llvmpipe", "fp32", DP_MAPPING_D3D), RASTER_OK);
     for (int i = 0; i < 1000; i++) {
         const double window[2] = {rng_uniform(&r, 0.0, WIDTH), rng_uniform(&r, 0.0, HEIGHT)};
@@ -219,13 +217,12 @@ static bool belongs(const scene *s, const draw_plane *plane, const double v[3][2
 }
 
 /* Without a class every triangle of the view is drawn, with one those that belong to it. */
-static void meshes(void **state) {
+TEST(meshes) {
     tally t = {.name = "triangles of meshes"};
     rng r = rng_make("meshes");
     uint64_t kept = 0, dropped = 0;
     scene s;
     draw_buffer b;
-    (void)state;
     assert_int_equal(try_scene(&s, "llvmpipe", "fp32", DP_MAPPING_REVERSED), RASTER_OK);
     assert_true(draw_buffer_open(&b, WIDTH * HEIGHT));
     for (uint64_t n = test_cases(300, 3000, 100000); n > 0; n--) {
@@ -266,11 +263,10 @@ static void meshes(void **state) {
 }
 
 /* No pixel between the triangles of a mesh is left out. */
-static void closed(void **state) {
+TEST(closed) {
     rng r = rng_make("closed");
     scene s;
     draw_buffer b;
-    (void)state;
     assert_int_equal(try_scene(&s, "llvmpipe", "unorm24", DP_MAPPING_D3D), RASTER_OK);
     assert_true(draw_buffer_open(&b, 40 * 30));
     for (uint64_t n = test_cases(20, 100, 2000); n > 0; n--) {
@@ -285,14 +281,4 @@ static void closed(void **state) {
                 fail_msg("cells of %g pixels: pixel %d, %d shows %d", cell, i % 40, i / 40, b.winner[i]);
     }
     draw_buffer_close(&b);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(who_wins),
-        cmocka_unit_test(rays),
-        cmocka_unit_test(meshes),
-        cmocka_unit_test(closed),
-    };
-    return run_tap(tests);
 }

@@ -3,9 +3,6 @@
  * How near drawn planes come before a pixel is wrong: never to the guarantee, and as near as the lattice of codes and
  * the subpixel grid alone say, by formulas of the test. The same for any number of threads.
  */
-#include <math.h>
-#include <stdio.h>
-
 #include "raster/fight.h"
 #include "support.h"
 
@@ -69,12 +66,11 @@ static void judge(tally *t, const stage *s, const draw_fight_band *b, const char
           b->slant);
 }
 
-static void never_reached(void **state) {
+TEST(never_reached) {
     static const char *const names[] = {"llvmpipe", "lavapipe", "softpipe", "swiftshader"};
     static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
     tally t = {.name = "at the guarantee"};
     stage s;
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++)
             for (dp_mapping m = DP_MAPPING_D3D; m <= DP_MAPPING_GL_REVERSED; m++) {
@@ -95,9 +91,8 @@ static void never_reached(void **state) {
 }
 
 /* Planes that face the camera are told apart by the codes alone: wrong up to one step of 1/65535. */
-static void one_code(void **state) {
+TEST(one_code) {
     stage s;
-    (void)state;
     assert_true(set_stage(&s, "llvmpipe", "unorm16", DP_MAPPING_REVERSED, 500.0));
     slant(&s, 0.0, 0.0);
     assert_int_equal(fight(&s, 8.0, 64.0, 150), DRAW_FIGHT_DONE);
@@ -114,12 +109,11 @@ static void one_code(void **state) {
 
 /* SwiftShader's grid, 1/16 pixel: vertices are moved by half of it along x and y, towards each other;
  * where the plane rises along one of them alone, the other does nothing. */
-static void moved_vertices(void **state) {
+TEST(moved_vertices) {
     static const double slants[] = {20.0, 45.0, 70.0, 70.0, 70.0, 70.0};
     static const double azimuths[] = {45.0, 45.0, 45.0, 0.0, -90.0, 180.0};
     double found[6];
     stage s;
-    (void)state;
     for (int i = 0; i < 6; i++) {
         assert_true(set_stage(&s, "swiftshader", "fp32", DP_MAPPING_REVERSED, INFINITY));
         slant(&s, slants[i], slants[i]);
@@ -141,10 +135,9 @@ static bool same(const draw_fight_band *a, const draw_fight_band *b) {
     return a->pixels == b->pixels && a->separation == b->separation && a->z == b->z && a->slant == b->slant;
 }
 
-static void threads_and_seeds(void **state) {
+TEST(threads_and_seeds) {
     stage s;
     draw_fight_result first;
-    (void)state;
     assert_true(set_stage(&s, "softpipe", "fp32", DP_MAPPING_D3D, 500.0));
     s.request.threads = 1;
     assert_int_equal(fight(&s, 3.0, 20.0, 160), DRAW_FIGHT_DONE);
@@ -185,10 +178,9 @@ static int never_stop(void *context, uint64_t done) {
     return 0;
 }
 
-static void stopped(void **state) {
+TEST(stopped) {
     uint64_t done = 0;
     stage s;
-    (void)state;
     assert_true(set_stage(&s, "llvmpipe", "fp32", DP_MAPPING_D3D, 500.0));
     s.request.context = &done;
     s.request.progress = never_stop;
@@ -200,20 +192,11 @@ static void stopped(void **state) {
 }
 
 /* Where nothing is certain nothing is drawn. */
-static void nothing_certain(void **state) {
+TEST(nothing_certain) {
     stage s;
-    (void)state;
     assert_true(set_stage(&s, "llvmpipe", "unorm16", DP_MAPPING_D3D, 1e9));
     assert_int_equal(fight(&s, 1e7, 3e7, 40), DRAW_FIGHT_DONE);
     const draw_fight_band worst = draw_fight_worst(&s.result);
     assert_true(worst.pixels == 0 && isnan(worst.used) && isnan(worst.separation) && isnan(worst.z));
     assert_true(worst.lo == 1e7 && worst.hi == 3e7);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(never_reached),     cmocka_unit_test(one_code), cmocka_unit_test(moved_vertices),
-        cmocka_unit_test(threads_and_seeds), cmocka_unit_test(stopped),  cmocka_unit_test(nothing_certain),
-    };
-    return run_tap(tests);
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figure of causes, as drawn, against dp_budget_at(): bands that stand on each other, and the separation. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "drawn.h"
 #include "drawn_truth.h"
 #include "support.h"
@@ -228,8 +224,7 @@ static void check_figure(const drawn_theme *look, const char *formats, const cha
     drawn_close(d);
 }
 
-static void bands_are_the_causes(void **state) {
-    (void)state;
+TEST(bands_are_the_causes) {
     const dp_budget_terms none = {0}, all = {.world = 10, .interpolation = 2, .linearize = 1};
     const dp_budget_terms world = {.world = 10}, interpolation = {.interpolation = 2}, linearize = {.linearize = 1};
     const dp_budget_terms read_back = {.interpolation = 2, .linearize = 1};
@@ -245,17 +240,11 @@ static void bands_are_the_causes(void **state) {
 }
 
 /* A line through the middle of a band: the name goes to the wider side of it. */
-static void names_keep_clear_of_lines(void **state) {
-    (void)state;
+TEST(names_keep_clear_of_lines) {
     enum { POINTS = 200 };
     for (int above = 0; above < 2; above++) {
-        chart *c = chart_new();
-        assert_non_null(c);
-        snprintf(c->title, sizeof c->title, "t");
-        snprintf(c->subtitle, sizeof c->subtitle, "s");
-        chart_panel *p = chart_add_panel(c);
-        p->x = (chart_axis){CHART_LINEAR, 0, 1, "x", "x", "", NULL};
-        p->y = (chart_axis){CHART_LINEAR, 0, 100, "y", "y", "", NULL};
+        chart *c = drawn_sketch(1, 100);
+        chart_panel *p = c->panels;
         p->second = (chart_axis){CHART_LINEAR, 0, 100, "z", "z", "", NULL};
         for (int s = 0; s < 3; s++) {
             chart_series *series = chart_add_series(c, p, s < 2 ? CHART_AREA : CHART_LINE, POINTS);
@@ -279,15 +268,9 @@ static void names_keep_clear_of_lines(void **state) {
 }
 
 /* Where there is no number there is no band. */
-static void gaps_stay_open(void **state) {
-    (void)state;
-    chart *c = chart_new();
-    assert_non_null(c);
-    snprintf(c->title, sizeof c->title, "t");
-    snprintf(c->subtitle, sizeof c->subtitle, "s");
-    chart_panel *p = chart_add_panel(c);
-    p->x = (chart_axis){CHART_LINEAR, 0, 10, "x", "x", "", NULL};
-    p->y = (chart_axis){CHART_LINEAR, 0, 100, "y", "y", "", NULL};
+TEST(gaps_stay_open) {
+    chart *c = drawn_sketch(10, 100);
+    chart_panel *p = c->panels;
     chart_series *s = chart_add_series(c, p, CHART_AREA, 11);
     assert_non_null(s);
     snprintf(s->name, sizeof s->name, "band");
@@ -310,10 +293,4 @@ static void gaps_stay_open(void **state) {
     assert_int_equal(bands, 2);
     drawn_words(d, q->frame, "band");
     drawn_close(d);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bands_are_the_causes),
-                                       cmocka_unit_test(names_keep_clear_of_lines), cmocka_unit_test(gaps_stay_open)};
-    return run_tap(tests);
 }

@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures of curves, as drawn, against the library: distribution, share, error, interval. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "drawn.h"
 #include "drawn_parts.h"
@@ -174,8 +169,7 @@ static size_t one_panel(const curves_case *q, const drawn_theme *look, double zn
     return alike;
 }
 
-static void curves_show_the_library(void **state) {
-    (void)state;
+TEST(curves_show_the_library) {
     for (size_t i = 0; i < sizeof curve_cases / sizeof curve_cases[0]; i++) {
         assert_true(one_panel(&curve_cases[i], &drawn_light, 0.1, 1000, "unorm16,unorm24,fp32,fp16", "d3d,reversed") >
                     1);
@@ -187,8 +181,7 @@ static void curves_show_the_library(void **state) {
 
 /* ---- Unbounded cells --------------------------------------------------------------------------------------------- */
 
-static void blind_ends_in_an_arrow(void **state) {
-    (void)state;
+TEST(blind_ends_in_an_arrow) {
     cameras c = cameras_of(drawn_camera(0.1, INFINITY), "unorm16,fp32", "d3d,reversed");
     drawn *d = drawn_run(&drawn_light, "plot interval -f inf -F unorm16,fp32 -m d3d,reversed");
     const drawn_panel *p = &d->panels[0];
@@ -285,8 +278,7 @@ static void check_census(const drawn *d, const drawn_entry *e, const char *forma
     assert_true(bands >= 6);
 }
 
-static void guarantee_over_lattice(void **state) {
-    (void)state;
+TEST(guarantee_over_lattice) {
     static const char *const texts[] = {"unorm24 gl", "fp32 reversed"};
     for (int k = 0; k < 2; k++) {
         dp_spec spec = drawn_camera(0.1, 1000);
@@ -322,8 +314,7 @@ static void guarantee_over_lattice(void **state) {
 }
 
 /* The census of one set-up hides that of another behind equal points; the legend says so. */
-static void hidden_points(void **state) {
-    (void)state;
+TEST(hidden_points) {
     drawn *d = drawn_run(&drawn_light, "plot interval --model float --range 1:1000 -F unorm24,fp32 -m d3d,reversed");
     const drawn_panel *p = &d->panels[0];
     drawn_marker all[256];
@@ -346,8 +337,7 @@ static void hidden_points(void **state) {
 }
 
 /* Each of many set-ups has two curves, one of them with markers. */
-static void guarantees_of_many(void **state) {
-    (void)state;
+TEST(guarantees_of_many) {
     drawn *d = drawn_run(&drawn_light, "plot interval --model float --figure-size 800x900 "
                                        "-F unorm16,unorm20,unorm24,fp16,fp32,"
                                        "unorm12 -m d3d,gl,reversed");
@@ -431,8 +421,7 @@ static size_t check_codes(const drawn *d, const drawn_panel *p, const dp_setup *
     return codes;
 }
 
-static void staircases(void **state) {
-    (void)state;
+TEST(staircases) {
     static const char *const texts[] = {"codes and their decoded depths", "window depth d(z)"};
     cameras c = cameras_of(drawn_camera(1, 20), "unorm4,float3.3b5", "d3d,reversed");
     drawn *d = drawn_run(&drawn_light, "plot distribution -n 1 -f 20 -F unorm4,float3.3b5 -m d3d,reversed");
@@ -462,8 +451,7 @@ static void staircases(void **state) {
 }
 
 /* Whatever way depth runs, [-1, 1] reaches 25 of 41 codes; the other mapping, and the model exact, have all. */
-static void staircases_behind_signed_ndc(void **state) {
-    (void)state;
+TEST(staircases_behind_signed_ndc) {
     static const struct {
         const char *format, *mapping, *model;
         size_t codes;
@@ -486,8 +474,7 @@ static void staircases_behind_signed_ndc(void **state) {
 }
 
 /* With an infinite far plane the picture ends a little behind the depth from which nothing is told apart. */
-static void staircase_without_end(void **state) {
-    (void)state;
+TEST(staircase_without_end) {
     static const char *const formats[] = {"unorm4", "unorm6"};
     for (int i = 0; i < 2; i++) {
         cameras c = cameras_of(drawn_camera(2, INFINITY), formats[i], "d3d");
@@ -499,14 +486,4 @@ static void staircase_without_end(void **state) {
         assert_int_equal(linear, i == 0);
         drawn_close(d);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(curves_show_the_library), cmocka_unit_test(blind_ends_in_an_arrow),
-        cmocka_unit_test(guarantee_over_lattice),  cmocka_unit_test(hidden_points),
-        cmocka_unit_test(guarantees_of_many),      cmocka_unit_test(staircases),
-        cmocka_unit_test(staircase_without_end),   cmocka_unit_test(staircases_behind_signed_ndc),
-    };
-    return run_tap(tests);
 }

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers that `plot --json` and `--csv` write are those that the figure shows: axes, names and every point. */
 #include <jansson.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "drawn.h"
 #include "drawn_truth.h"
@@ -176,8 +172,7 @@ static double codes_up_to(float last, int mantissa) {
 }
 
 /* In binary32 a share is of the codes that [-1, 1] reaches, which is a few of those of reversed depth near 0. */
-static void share_counts_what_is_reached(void **state) {
-    (void)state;
+TEST(share_counts_what_is_reached) {
     static const struct {
         const char *format, *model;
         int mantissa;
@@ -202,8 +197,7 @@ static void share_counts_what_is_reached(void **state) {
 }
 
 /* Unless another model is asked for, [-1, 1] is rounded: 1.3 % of the codes are left beyond 10, not 94.7 %. */
-static void share_of_signed_ndc(void **state) {
-    (void)state;
+TEST(share_of_signed_ndc) {
     static const char *const models[] = {"", "--model staged", "--model float", "--model exact"};
     const double depth = 0.1 * 990 / (10 * 999.9), left = codes_up_to((float)(2 * depth - 1), 23);
     for (size_t i = 0; i < sizeof models / sizeof models[0]; i++) {
@@ -221,8 +215,7 @@ static void share_of_signed_ndc(void **state) {
 
 /* Of 41 codes [-1, 1] reaches 25, if NDC has as few bits: whole 24ths of them are left behind a depth, those of all NDC
  * that are rounded to be as far or farther. */
-static void share_of_a_small_float(void **state) {
-    (void)state;
+TEST(share_of_a_small_float) {
     double ndc[81];
     dp_format f[2];
     size_t seen = 0;
@@ -254,8 +247,7 @@ typedef struct data_case {
     bool curves, map, second;
 } data_case;
 
-static void numbers_are_those_shown(void **state) {
-    (void)state;
+TEST(numbers_are_those_shown) {
     static const data_case cases[] = {
         {"error -F unorm24,fp16 -m d3d,reversed", true, false, false},
         {"share -F unorm16 -m d3d,reversed", true, false, false},
@@ -304,11 +296,4 @@ static void numbers_are_those_shown(void **state) {
         svg_free(d->svg); /* its words are looked at elsewhere */
         free(d);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(share_counts_what_is_reached),
-                                       cmocka_unit_test(share_of_signed_ndc), cmocka_unit_test(share_of_a_small_float),
-                                       cmocka_unit_test(numbers_are_those_shown)};
-    return run_tap(tests);
 }

@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The fight as drawn: what each pixel shows against the wall, its stripes and the decal as places on a plane, which the
  * test finds by itself; the gap against the library; how much is wrong, counted in the picture. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "drawn.h"
 #include "drawn_map.h"
@@ -147,9 +142,8 @@ static void check_pixels(const fight_case *c, const drawn *d, const drawn_panel 
     tally_end(&t);
 }
 
-static void test_fight(void **state) {
+TEST(test_fight) {
     static const char *const legend[] = {"wall", "its stripes", "decal before it"};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const fight_case *c = &cases[i];
         drawn *d = drawn_run(c->look, "plot fight %s", c->arguments);
@@ -175,12 +169,11 @@ static void test_fight(void **state) {
 }
 
 /* The numbers are those of the picture: 0 wall, 1 stripe, 2 decal. */
-static void test_numbers(void **state) {
+TEST(test_numbers) {
     static const char *const names[] = {"wall", "its stripes", "decal before it"};
     drawn *d = drawn_run(&drawn_light, "plot fight");
     char *csv = drawn_output("plot fight --csv");
     int lines = 0;
-    (void)state;
     char *line = strtok(csv, "\r\n");
     assert_string_equal(line, "panel,series,column [px],row [px],shown");
     for (line = strtok(NULL, "\r\n"); line != NULL; line = strtok(NULL, "\r\n"), lines++) {
@@ -197,9 +190,4 @@ static void test_numbers(void **state) {
     assert_int_equal(lines, 2 * 120 * 90);
     free(csv);
     drawn_close(d);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fight), cmocka_unit_test(test_numbers)};
-    return run_tap(tests);
 }

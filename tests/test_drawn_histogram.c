@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* texture --histogram, as drawn, against the eye depths that the program writes and the codes of the format. */
 #include <jansson.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "drawn.h"
 #include "image/image.h"
@@ -154,15 +150,13 @@ static void check_case(size_t k) {
     drawn_close(d);
 }
 
-static void steps_are_counts(void **state) {
-    (void)state;
+TEST(steps_are_counts) {
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
         check_case(k);
 }
 
 /* Metric depth and packed eye depth hold no codes of a buffer. */
-static void metric_depth(void **state) {
-    (void)state;
+TEST(metric_depth) {
     char path[320];
     snprintf(path, sizeof path, "%s/metres.npy", drawn_folder());
     free(drawn_output("texture --synthetic steps --parameter to=290 --size 96x8 -F fp32 -m reversed --product eye -q "
@@ -182,8 +176,7 @@ static void metric_depth(void **state) {
 }
 
 /* Where it was rounded before, its levels: on no edge of a bin. */
-static void metric_levels(void **state) {
-    (void)state;
+TEST(metric_levels) {
     char path[320], arguments[400];
     snprintf(path, sizeof path, "%s/metres.npy", drawn_folder());
     free(drawn_output("texture --synthetic steps --parameter to=290 --size 96x8 -F fp32 -m reversed --product eye -q "
@@ -210,10 +203,4 @@ static void metric_levels(void **state) {
     }
     free(depths.data);
     drawn_close(d);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_counts), cmocka_unit_test(metric_depth),
-                                       cmocka_unit_test(metric_levels)};
-    return run_tap(tests);
 }

@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Maps of cameras, as drawn, against the library: colours through the colour bar, contours, hatch, the camera. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "drawn.h"
 #include "drawn_map.h"
 #include "drawn_truth.h"
@@ -259,8 +254,7 @@ static void check_figure(const map_case *q) {
     drawn_close(d);
 }
 
-static void colours_are_values(void **state) {
-    (void)state;
+TEST(colours_are_values) {
     static const map_case cases[] = {
         {"unorm24,fp32", "d3d,reversed", "", 1000, NAN, NAN, &drawn_light},
         {"unorm24", "d3d", "--at 100", 1000, 100, 100, &drawn_light},
@@ -270,9 +264,4 @@ static void colours_are_values(void **state) {
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         check_figure(&cases[i]);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(colours_are_values)};
-    return run_tap(tests);
 }

@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures of methods, as drawn: Pareto and stability, with methods of the test's own and with those of the program. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "drawn.h"
 #include "drawn_map.h"
 #include "named.h"
@@ -144,8 +139,7 @@ static void check_pareto_words(const drawn *d) {
     assert_int_equal(behind->rim, d->theme->palette[1]);
 }
 
-static void pareto_of_the_test(void **state) {
-    (void)state;
+TEST(pareto_of_the_test) {
     drawn *d = draw_own("pareto", &drawn_light);
     const drawn_panel *p = &d->panels[0];
     drawn_marker all[32];
@@ -197,8 +191,7 @@ static bool at_the_frame(const drawn_panel *p, svg_box label) {
 }
 
 /* Times change from run to run, errors do not: each name has its point at its error, marked as its place deserves. */
-static void pareto_of_the_program(void **state) {
-    (void)state;
+TEST(pareto_of_the_program) {
     drawn *d = drawn_run(&drawn_light, "plot pareto interval");
     const drawn_panel *p = &d->panels[0];
     drawn_marker all[32];
@@ -279,8 +272,7 @@ static void check_ends(const drawn *d, const drawn_panel *p, const double *ends,
     assert_int_equal(count, wanted + others);
 }
 
-static void stability_of_the_test(void **state) {
-    (void)state;
+TEST(stability_of_the_test) {
     static const char *const texts[] = {"claimed up to here", "the claim breaks here"};
     for (int dark = 0; dark < 2; dark++) {
         drawn *d = draw_own("stability", dark ? &drawn_dark : &drawn_light);
@@ -380,8 +372,7 @@ static void check_panels(const drawn *d, bool seen[DRAWN_PANELS][DRAWN_LABELS]) 
 }
 
 /* Names, colours and ends of the program's methods against the walk. */
-static void stability_of_the_program(void **state) {
-    (void)state;
+TEST(stability_of_the_program) {
     static const struct {
         const char *family, *subtitle;
         size_t cases;
@@ -410,14 +401,4 @@ static void stability_of_the_program(void **state) {
         check_panels(d, seen);
         drawn_close(d);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pareto_of_the_test),
-        cmocka_unit_test(pareto_of_the_program),
-        cmocka_unit_test(stability_of_the_test),
-        cmocka_unit_test(stability_of_the_program),
-    };
-    return run_tap(tests);
 }

@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Requirements and normals, as drawn: a requirement file of the test's own against the library, normals against error
  * maps of the same plane. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "drawn.h"
 #include "drawn_truth.h"
 #include "frame/normal_errors.h"
@@ -168,8 +163,7 @@ static void check_legend(const drawn *d) {
     assert_int_equal(missed->inside, d->theme->background);
 }
 
-static void needs_of_a_file(void **state) {
-    (void)state;
+TEST(needs_of_a_file) {
     char path[320], subtitle[128];
     size_t met = 0, marks[3] = {0, 0, 0}, inner = 0;
     snprintf(path, sizeof path, "%s/street.need", drawn_folder());
@@ -220,8 +214,7 @@ static void needs_of_a_file(void **state) {
 }
 
 /* Of part of the depths: what is asked about others is not there; what reaches beyond them is named at the end. */
-static void needs_in_part(void **state) {
-    (void)state;
+TEST(needs_in_part) {
     char path[320];
     snprintf(path, sizeof path, "%s/street.need", drawn_folder());
     write_needs(path);
@@ -263,8 +256,7 @@ static bool true_normal(const void *context, double from, double to, double *lo,
     return from > n->setup->spec.znear * 1.2 && to < n->setup->spec.zfar / 1.2; /* curves end within a slice of both */
 }
 
-static void normals_of_the_test(void **state) {
-    (void)state;
+TEST(normals_of_the_test) {
     static const char *const texts[] = {"low", "medium", "high", "projective", "bound of projective"};
     static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d,reversed");
@@ -353,8 +345,7 @@ static double outlined(const char *method, double z) {
     return m.edges.mean * 180 / 3.14159265358979323846;
 }
 
-static void normals_of_the_program(void **state) {
-    (void)state;
+TEST(normals_of_the_program) {
     static const char *const texts[] = {"low", "medium", "high", "projective", "bound of projective"};
     drawn *d = drawn_run(&drawn_light, "plot normals -F unorm16 -m d3d");
     assert_string_equal(d->title, "Normals from depth");
@@ -380,8 +371,7 @@ static void normals_of_the_program(void **state) {
 }
 
 /* As many set-ups as it shows where none are named, and each panel says all of what it shows. */
-static void normals_by_default(void **state) {
-    (void)state;
+TEST(normals_by_default) {
     static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "fp32,unorm24", "d3d,reversed");
     drawn *d = drawn_run(&drawn_light, "plot normals");
@@ -392,13 +382,4 @@ static void normals_by_default(void **state) {
         assert_string_equal(d->panels[i].heading, heading);
     }
     drawn_close(d);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(needs_of_a_file),     cmocka_unit_test(needs_in_part),
-        cmocka_unit_test(normals_of_the_test), cmocka_unit_test(normals_of_the_program),
-        cmocka_unit_test(normals_by_default),
-    };
-    return run_tap(tests);
 }

@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* texture --figure --overlay, as drawn: grey where the error map is not above the limit, its colour where it is. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "drawn.h"
 #include "drawn_map.h"
 #include "image/image.h"
@@ -113,15 +108,13 @@ static void check_overlay(size_t k) {
     drawn_close(d);
 }
 
-static void colours_are_errors_above_the_limit(void **state) {
-    (void)state;
+TEST(colours_are_errors_above_the_limit) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         check_overlay(i);
 }
 
 /* Of a file it is what the depth can be off by. */
-static void a_file(void **state) {
-    (void)state;
+TEST(a_file) {
     char path[320];
     snprintf(path, sizeof path, "%s/depth.npy", drawn_folder());
     free(drawn_output("texture --synthetic steps --size 80x64 -F unorm16 -m d3d -q -o %s", path));
@@ -132,8 +125,7 @@ static void a_file(void **state) {
 }
 
 /* Then no depth is grey, and none of no pixels are in colour. */
-static void nothing_but_sky(void **state) {
-    (void)state;
+TEST(nothing_but_sky) {
     drawn *d = drawn_run(&drawn_light, "texture --synthetic plane --parameter distance=2000 --size 8x8 --overlay 1");
     assert_null(strstr(d->subtitle, "grey"));
     assert_null(strstr(d->subtitle, "%"));
@@ -146,8 +138,7 @@ static void nothing_but_sky(void **state) {
 }
 
 /* A colour is then the largest of several, also where no two are side by side. */
-static void more_pixels_than_points(void **state) {
-    (void)state;
+TEST(more_pixels_than_points) {
     const char *const sizes[][2] = {
         {"--size 1600x20 --overlay 1", "; a colour is the largest error of 4 pixels"},
         {"--size 1x3200 --overlay 1", "; a colour is the largest error of 4 pixels"},
@@ -158,10 +149,4 @@ static void more_pixels_than_points(void **state) {
             fail_msg("%s: not said: %s", sizes[i][0], sizes[i][1]);
         free(text);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(colours_are_errors_above_the_limit), cmocka_unit_test(a_file),
-                                       cmocka_unit_test(nothing_but_sky), cmocka_unit_test(more_pixels_than_points)};
-    return run_tap(tests);
 }

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all figures share: words that may be too long, sizes, themes, legends of many set-ups, axes of every length. */
 #include <cairo.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "drawn.h"
 #include "drawn_truth.h"
@@ -12,8 +8,7 @@
 
 /* ---- Words ------------------------------------------------------------------------------------------------------- */
 
-static void titles(void **state) {
-    (void)state;
+TEST(titles) {
     drawn *d = drawn_run(&drawn_light, "plot share -F fp16 -m d3d --title 'a < b & \"c\" > d'");
     assert_string_equal(d->title, "a < b & \"c\" > d");
     drawn_description_is(d, " Shown: fp16 d3d.");
@@ -30,8 +25,7 @@ static void titles(void **state) {
     drawn_close(d);
 }
 
-static void metadata(void **state) {
-    (void)state;
+TEST(metadata) {
     char first[SVG_NOTE], before[SVG_NOTE];
     static const char *const drawn_as[] = {"-n 0.2 --theme dark", "-n 0.2 --theme dark", "-n 0.3 --theme dark"};
     for (int i = 0; i < 3; i++) {
@@ -53,8 +47,7 @@ static void metadata(void **state) {
 
 /* ---- Sizes ------------------------------------------------------------------------------------------------------- */
 
-static void sizes(void **state) {
-    (void)state;
+TEST(sizes) {
     static const int all[][2] = {{1600, 1000}, {400, 300}, {320, 200}, {2000, 500}, {500, 900}};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm24,fp16", "d3d,reversed");
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
@@ -75,8 +68,7 @@ static void sizes(void **state) {
 
 /* ---- Many set-ups ------------------------------------------------------------------------------------------------ */
 
-static void many(void **state) {
-    (void)state;
+TEST(many) {
     static const char *const mappings = "d3d,gl,reversed,log";
     static const drawn_shape shapes[] = {DRAWN_DISC,     DRAWN_SQUARE,        DRAWN_DIAMOND,
                                          DRAWN_TRIANGLE, DRAWN_TRIANGLE_DOWN, DRAWN_HEXAGON};
@@ -107,8 +99,7 @@ static void many(void **state) {
 }
 
 /* Guarantee and interval in one figure, each with its own name. */
-static void models(void **state) {
-    (void)state;
+TEST(models) {
     drawn *d = drawn_run(&drawn_light, "plot interval --model auto -F unorm16,unorm24 -m d3d,log --range 100:1000");
     assert_string_equal(d->title, "Z-fighting interval; in the model float, guaranteed separation");
     assert_string_equal(d->y_caption->text, "separation, interval (scene units)");
@@ -128,8 +119,7 @@ typedef struct axis_case {
 } axis_case;
 
 /* Decades by their name, a few decades in between, small ranges in even steps, large numbers in full. */
-static void axes_of_every_length(void **state) {
-    (void)state;
+TEST(axes_of_every_length) {
     static const axis_case cases[] = {
         {"error -F unorm16 -m d3d", "0.1", "1000", true, 5},
         {"error -F unorm16 -m d3d -f 1e6", "10\u207b\u00b9", "10\u2076", true, 8},
@@ -155,8 +145,7 @@ static void axes_of_every_length(void **state) {
 }
 
 /* An axis without ends of its own is as long as its data, a vertical one a little longer. */
-static void fitted(void **state) {
-    (void)state;
+TEST(fitted) {
     chart *c = chart_new();
     assert_non_null(c);
     snprintf(c->title, sizeof c->title, "t");
@@ -187,17 +176,11 @@ static void fitted(void **state) {
 }
 
 /* A label stands to the right of its point, to the left where it would leave the frame, and never above the frame. */
-static void labels_of_points(void **state) {
-    (void)state;
+TEST(labels_of_points) {
     static const char *const texts[] = {"first", "second", "third", "fourth"};
     static const double at[][2] = {{0.02, 0.5}, {0.5, 0.2}, {0.99, 0.7}, {0.3, 1}};
-    chart *c = chart_new();
-    assert_non_null(c);
-    snprintf(c->title, sizeof c->title, "t");
-    snprintf(c->subtitle, sizeof c->subtitle, "s");
-    chart_panel *p = chart_add_panel(c);
-    p->x = (chart_axis){CHART_LINEAR, 0, 1, "x", "x", "", NULL};
-    p->y = (chart_axis){CHART_LINEAR, 0, 1, "y", "y", "", NULL};
+    chart *c = drawn_sketch(1, 1);
+    chart_panel *p = c->panels;
     chart_series *s = chart_add_series(c, p, CHART_POINTS, 4);
     snprintf(s->name, sizeof s->name, "points");
     s->labels = chart_memory(c, 4, sizeof *s->labels);
@@ -230,8 +213,7 @@ static uint32_t pixel_of(cairo_surface_t *image, double x, double y) {
 }
 
 /* The PNG shows what the SVG shows, where it shows it; a PDF is as large, in points. */
-static void the_same_in_png_and_pdf(void **state) {
-    (void)state;
+TEST(the_same_in_png_and_pdf) {
     char path[2][320], command[400], head[64];
     drawn_marker all[256];
     drawn *d = drawn_run(&drawn_light, "plot share -F unorm24,fp16 -m d3d,reversed");
@@ -273,7 +255,7 @@ typedef struct unit_case {
 } unit_case;
 
 /* Where something says what a scene unit is, the axes and the subtitle say it, and JSON beside its own words. */
-static void units_of_lengths(void **state) {
+TEST(units_of_lengths) {
     static const unit_case cases[] = {
         {"plot error -F unorm24 -m d3d", "eye depth z (scene units)", "worst |decoded depth \u2212 z| (scene units)",
          NULL, NULL},
@@ -293,7 +275,6 @@ static void units_of_lengths(void **state) {
         {"texture --synthetic sphere -F unorm16 -m d3d --product position:rays --unit cm", "column (px)", "row (px)",
          "coordinate (cm)", "cm"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const unit_case *q = &cases[i];
         char ending[32];
@@ -319,20 +300,4 @@ static void units_of_lengths(void **state) {
     assert_int_not_equal(strncmp(strstr(metres, "\"data\""), strstr(feet, "\"data\""), 25), 0);
     free(metres);
     free(feet);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(titles),
-        cmocka_unit_test(metadata),
-        cmocka_unit_test(sizes),
-        cmocka_unit_test(many),
-        cmocka_unit_test(models),
-        cmocka_unit_test(axes_of_every_length),
-        cmocka_unit_test(fitted),
-        cmocka_unit_test(labels_of_points),
-        cmocka_unit_test(the_same_in_png_and_pdf),
-        cmocka_unit_test(units_of_lengths),
-    };
-    return run_tap(tests);
 }

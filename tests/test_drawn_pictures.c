@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures of depth textures, as drawn, against the product that the same command writes as an image of numbers. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "drawn.h"
 #include "drawn_map.h"
 #include "drawn_truth.h"
@@ -305,15 +300,13 @@ static void check_figure(const picture_case *q) {
     drawn_close(d);
 }
 
-static void pictures_show_the_product(void **state) {
-    (void)state;
+TEST(pictures_show_the_product) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         check_figure(&cases[i]);
 }
 
 /* Each decal that has the code of its tile, and no other. */
-static void decals_that_fight(void **state) {
-    (void)state;
+TEST(decals_that_fight) {
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d");
     drawn *d =
         drawn_run(&drawn_light, "texture --synthetic decals -F unorm16 -m d3d --product eye --parameter count=6");
@@ -340,8 +333,7 @@ static void decals_that_fight(void **state) {
 }
 
 /* One value alone has the middle of a bar that goes to both sides of it; no error at all is dark. */
-static void a_single_value(void **state) {
-    (void)state;
+TEST(a_single_value) {
     drawn *d =
         drawn_run(&drawn_light, "texture --synthetic plane --parameter distance=16 -F fp32 -m reversed --product eye");
     const svg_mark *image = drawn_map_image(d, &d->panels[0]);
@@ -353,8 +345,7 @@ static void a_single_value(void **state) {
 }
 
 /* Of a file the subtitle says the name, without its folder; the eye depth is what the image was made of. */
-static void a_file(void **state) {
-    (void)state;
+TEST(a_file) {
     char path[320];
     snprintf(path, sizeof path, "%s/depth.png", drawn_folder());
     free(drawn_output("texture --synthetic steps --size 160x90 -F unorm16 -m d3d -q -o %s", path));
@@ -374,10 +365,4 @@ static void a_file(void **state) {
     assert_string_equal(d->subtitle, "depth.npy, 160 x 90; metric depth, 1 m a unit");
     assert_string_equal(d->right_caption->text, "eye depth (m)");
     drawn_close(d);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_show_the_product), cmocka_unit_test(a_single_value),
-                                       cmocka_unit_test(decals_that_fight), cmocka_unit_test(a_file)};
-    return run_tap(tests);
 }

@@ -4,10 +4,6 @@
  * against rectangles by hand; colours through the bar; the numbers beside their places; what CSV has of it.
  */
 #include <jansson.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "drawn.h"
 #include "drawn_map.h"
@@ -166,21 +162,19 @@ static void check(const char *file, const drawn_theme *look, const side sides[2]
     drawn_close(d);
 }
 
-static void test_views(void **state) {
+TEST(test_views) {
     static const side along_x[2] = {{0, 2, 1, "From above: x to the right, z downwards", PARTS - 1},
                                     {0, 1, 1, "From the front: x to the right, y upwards", PARTS - 1}};
     static const side along_z[2] = {{0, 2, -1, "From above: z to the right, x upwards", PARTS},
                                     {0, 1, 1, "From the side: z to the right, y upwards", PARTS}};
-    (void)state;
     check(STREET, &drawn_light, along_x, "x (m)", "z, y (m)");
     check(turned_street(), &drawn_dark, along_z, "z (m)", "x, y (m)");
 }
 
 /* What fights at every depth, a door in its wall, is darker than the nearest that is certain up to some depth, a
  * path. */
-static void test_darkest(void **state) {
+TEST(test_darkest) {
     static const double path[] = {10, 8.5}, door[] = {-4.49, 0.7};
-    (void)state;
     drawn *d = drawn_run(&drawn_light, "plot scene tests/models/house.gltf -F d24 -m d3d --unit m");
     const drawn_panel *p = d->panels, *q = d->panels + 1;
     const uint32_t near = drawn_map_shown(d, p, (svg_point){drawn_px(&p->x, path[0]), drawn_px(&p->y, path[1]), false});
@@ -195,11 +189,10 @@ static void test_darkest(void **state) {
 }
 
 /* Fields that have a value, and they alone. */
-static void test_numbers(void **state) {
+TEST(test_numbers) {
     char *csv = drawn_output("plot scene %s %s --csv", STREET, CAMERA);
     double certain[2], place[2][3], sums[2] = {0};
     int lines = 0, points = 0;
-    (void)state;
     depths_of(STREET, certain, place);
     char *line = strtok(csv, "\r\n");
     assert_string_equal(line, "panel,series,across [scene units],up [scene units],fights_from [scene units]");
@@ -221,10 +214,4 @@ static void test_numbers(void **state) {
     assert_int_equal(points, 4);
     assert_true(lines > 1000 && sums[0] > 100 && sums[1] > 500);
     free(csv);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_views), cmocka_unit_test(test_darkest),
-                                       cmocka_unit_test(test_numbers)};
-    return run_tap(tests);
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figure of shadow maps, as drawn, against the room shadow: gaps and causes of each map at each angle. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "drawn.h"
 #include "shadow/shadow.h"
 #include "support.h"
@@ -83,10 +79,9 @@ static void check_panel(const drawn *d, const drawn_panel *p, const shadow_light
     }
 }
 
-static void one_box(void **state) {
+TEST(one_box) {
     const drawn_theme *const looks[] = {&drawn_light, &drawn_dark};
     const shadow_light light = light_of("unorm16", 1024, 2.5, 70);
-    (void)state;
     for (size_t i = 0; i < 2; i++) {
         drawn *d = drawn_run(looks[i],
                              "plot shadow --light-box 30mx20mx80m -F d16 --size 1024 --kernel 5 --angle 70 --theme %s",
@@ -99,13 +94,12 @@ static void one_box(void **state) {
     }
 }
 
-static void cascades(void **state) {
+TEST(cascades) {
     const shadow_split split = {0.5, 60, 40, 2, 3, 0.25, 30, true};
     const shadow_light model = light_of("fp32", 512, 1.5, 75);
     drawn *d =
         drawn_run(&drawn_light, "plot shadow -n 0.5 -f 60 --fov 40 --viewport 640x320 --cascades 3:0.25 "
                                 "--casters 30 --size 512");
-    (void)state;
     assert_int_equal(d->panel_count, 3);
     assert_string_equal(d->subtitle, "fp32 d3d, 512 x 512 texels, filter of 3 x 3; view near 0.5, far 60");
     for (int i = 0; i < 3; i++) {
@@ -118,9 +112,4 @@ static void cascades(void **state) {
         check_panel(d, &d->panels[i], &c.light);
     }
     drawn_close(d);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(one_box), cmocka_unit_test(cascades)};
-    return run_tap(tests);
 }

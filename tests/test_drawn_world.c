@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figure of large worlds, as drawn, against the room world: the gap and the jitter of each scheme. */
-#include <math.h>
-#include <stdio.h>
-
 #include "drawn.h"
 #include "support.h"
 #include "world/reach.h"
@@ -70,8 +67,7 @@ static void check_figure(const char *options, const char *format, const char *ma
     drawn_close(d);
 }
 
-static void test_figure(void **state) {
-    (void)state;
+TEST(test_figure) {
     check_figure("-F fp32 -m reversed -f inf", "fp32", "reversed", INFINITY, 10, 1,
                  "Separation that is safe, scene units",
                  "fp32 reversed, near 0.1, far inf, perspective, nearest, float ieee, 10 ahead");
@@ -81,9 +77,4 @@ static void test_figure(void **state) {
     check_figure("-F fp32 -m reversed -f inf --unit cm", "fp32", "reversed", INFINITY, 1000, 100,
                  "Separation that is safe, cm",
                  "fp32 reversed, near 0.1, far inf, perspective, nearest, float ieee, lengths in cm, 1000 ahead");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_figure)};
-    return run_tap(tests);
 }

@@ -4,9 +4,9 @@
  * compared at many depths of a cell; cells are computed here too, from the codes' window depths.
  */
 #include <ctype.h>
-#include <string.h>
 
 #include "named.h"
+#include "setups.h"
 #include "shader/effect.h"
 #include "support.h"
 
@@ -18,16 +18,7 @@ static size_t count(void) {
 }
 
 static dp_setup setup_of(double znear, double zfar, dp_mapping mapping, const char *format) {
-    dp_spec spec = dp_spec_default();
-    dp_format found[2];
-    dp_setup setup;
-    assert_true(dp_format_parse(format, found) >= 1);
-    spec.znear = znear;
-    spec.zfar = zfar;
-    spec.mapping = mapping;
-    spec.format = found[0];
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .znear = znear, .zfar = zfar, .mapping = mapping);
 }
 
 /* ---- Cells of UNORM by hand -------------------------------------------------------------------------------------- */
@@ -287,10 +278,9 @@ static long double slack(cell k) {
     return 1e-11L + 0x1p-46L * k.hi / reach(k);
 }
 
-static void test_by_hand(void **state) {
+TEST(test_by_hand) {
     rng r = rng_make("effects by hand");
     tally t = {.name = "by hand"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(2000, 60000, 1000000); i++) {
         place at;
         any_place(&r, 1, &at);
@@ -323,10 +313,9 @@ static void test_by_hand(void **state) {
 }
 
 /* From the value found on, all are usable; the next double before it is not. By errors of our own. */
-static void test_sharp(void **state) {
+TEST(test_sharp) {
     rng r = rng_make("effects sharp");
     tally t = {.name = "sharp"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(2000, 40000, 1000000); i++) {
         place at;
         any_place(&r, 1, &at);
@@ -371,14 +360,13 @@ static void wall_of(const effect_row *row, double from, double *p) {
  * Every code of unorm16 over a range of them: the row's output at many depths of the cell, compared with that at the
  * stored depth, for many places of the reference. Nothing is above the error, and something comes close.
  */
-static void test_outputs(void **state) {
+TEST(test_outputs) {
     enum { DEPTHS = 16, REFERENCES = 8 };
     const dp_setup setup = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     const camera c = camera_of(&setup);
     const effect_view view = view_of(&setup);
     rng r = rng_make("effects outputs");
     tally t = {.name = "outputs"};
-    (void)state;
     const uint32_t first = test_effort() == EFFORT_QUICK ? 65400 : 63000;
     for (uint32_t code = first; code <= 65535; code++)
         for (size_t i = 0; i < count(); i++) {
@@ -417,12 +405,11 @@ static void test_outputs(void **state) {
 /* ---- Edges ------------------------------------------------------------------------------------------------------- */
 
 /* The differences of stored depths of a plane, first pixels all over the cell. */
-static void test_edge(void **state) {
+TEST(test_edge) {
     enum { PLACES = 200 };
     const effect_row *row = effect_find("edge");
     rng r = rng_make("edges");
     tally t = {.name = "edges"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(300, 6000, 100000); i++) {
         place at;
         any_place(&r, 1.5, &at);
@@ -500,11 +487,10 @@ static const step steps[] = {
 enum { STEPS = sizeof steps / sizeof steps[0] };
 
 /* At the end of the usable values, a little before and behind it, the answers of first pixels all over the cell. */
-static void test_steps(void **state) {
+TEST(test_steps) {
     enum { PLACES = 300 };
     rng r = rng_make("steps");
     tally t = {.name = "steps"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(600, 9000, 200000); i++) {
         place at;
         any_place(&r, 1.5, &at);
@@ -560,12 +546,11 @@ static void test_steps(void **state) {
 }
 
 /* What reaches over the radius hides nothing: of two differences the smaller one asks for a bias. */
-static void test_range_check(void **state) {
+TEST(test_range_check) {
     const dp_setup setup = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     const effect_view view = view_of(&setup);
     const effect_row *row = effect_find("ambient-occlusion");
     double p[PARAMETERS_MAX];
-    (void)state;
     parameter_defaults(row->parameters, p);
     const int radius = parameter_find(row->parameters, "radius"), slope = parameter_find(row->parameters, "slope");
     p[slope] = 0.2;
@@ -580,12 +565,11 @@ static void test_range_check(void **state) {
 }
 
 /* A shadow map's texel saw the middle; the plane's places beside it lie before or behind that. Acne by counting. */
-static void test_shadow(void **state) {
+TEST(test_shadow) {
     enum { PLACES = 400 };
     const effect_row *row = effect_find("shadow");
     rng r = rng_make("shadows");
     tally t = {.name = "shadows"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(100, 1500, 20000); i++) {
         place at;
         any_place(&r, 1, &at);
@@ -623,14 +607,13 @@ static void test_shadow(void **state) {
 
 /* ---- Rows and limits --------------------------------------------------------------------------------------------- */
 
-static void test_rows(void **state) {
+TEST(test_rows) {
     static const char *const names[] = {"intersection",   "force-field",    "fog",         "scan-line",
                                         "water-line",     "height-fog",     "edge",        "motion-blur",
                                         "depth-of-field", "soft-particles", "decal",       "ambient-occlusion",
                                         "contact-shadow", "shadow",         "water-depth", "outline"};
     /* As depthprec-texture(1) documents them: a command without --parameter is read with these in mind. */
     static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10, 1, 0, 0.01, 0.1, 0.01, 0.5, 1};
-    (void)state;
     assert_int_equal(count(), sizeof names / sizeof names[0]);
     for (size_t i = 0; i < count(); i++) {
         const effect_row *row = effect_get(i);
@@ -659,13 +642,12 @@ static void test_rows(void **state) {
     assert_int_equal(parameter_find(effect_get(0)->parameters, "nothing"), -1);
 }
 
-static void test_limits(void **state) {
+TEST(test_limits) {
     const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_D3D, "unorm24");
     const dp_setup finite = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     dp_setup pipeline = finite;
     effect_view at = view_of(&infinite), near = view_of(&finite), level = view_of(&finite);
     double p[PARAMETERS_MAX];
-    (void)state;
     /* The last cell of an infinite far plane has no end: no distance is enough, but 1/z stays where it is. */
     parameter_defaults(effect_find("intersection")->parameters, p);
     assert_true(effect_error(effect_find("intersection"), &at, p, 1e9) == 255);
@@ -719,12 +701,11 @@ static void test_limits(void **state) {
     assert_true(isnan(effect_error(fog, &none, p, 10)) && isnan(effect_usable(fog, &none, p, 10, 1)));
 }
 
-static void test_step_limits(void **state) {
+TEST(test_step_limits) {
     const dp_setup finite = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     const effect_view near = view_of(&finite);
     const effect_row *edge = effect_find("edge"), *shadow = effect_find("shadow");
     double p[PARAMETERS_MAX];
-    (void)state;
     /* A plane whose second pixel lies beyond the far plane is not seen there. */
     parameter_defaults(edge->parameters, p);
     p[edge->wanted] = 0.15;
@@ -736,14 +717,4 @@ static void test_step_limits(void **state) {
     p[parameter_find(shadow->parameters, "slope")] = 1e-14;
     assert_true(facing > 0.1 && facing < 0.9);
     assert_relative(effect_share(shadow, &near, p, 30), facing, 1e-9);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows),        cmocka_unit_test(test_by_hand), cmocka_unit_test(test_sharp),
-        cmocka_unit_test(test_outputs),     cmocka_unit_test(test_edge),    cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_range_check), cmocka_unit_test(test_shadow),  cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_step_limits),
-    };
-    return run_tap(tests);
 }

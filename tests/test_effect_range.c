@@ -3,9 +3,6 @@
  * The range check of ambient occlusion on a plane: every difference that two stored depths of it can have is written
  * down, and bias and radius are held to that list.
  */
-#include <stdio.h>
-#include <string.h>
-
 #include "named.h"
 #include "support.h"
 
@@ -92,14 +89,13 @@ static bool check_ceiling(tally *t, const effect_row *row, const effect_view *vi
     return all;
 }
 
-static void test_range(void **state) {
+TEST(test_range) {
     static long double apart[MOST];
     const effect_row *row = effect_find("ambient-occlusion");
     const int bias_at = parameter_find(row->parameters, "bias"), radius_at = parameter_find(row->parameters, "radius");
     rng r = rng_make("range checks");
     tally t = {.name = "range checks"};
     uint64_t every = 0, between = 0, some = 0;
-    (void)state;
     for (uint64_t i = 0; i < test_cases(8000, 40000, 400000); i++) {
         const camera c = any_camera(&r);
         const effect_view view = {.setup = &c.setup};
@@ -153,13 +149,12 @@ static void test_range(void **state) {
 }
 
 /* Who has none; and a plane that leaves the far plane, which is not seen. */
-static void test_without(void **state) {
+TEST(test_without) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     const effect_row *row = effect_find("ambient-occlusion");
     const effect_view view = {.setup = &setup};
     double p[PARAMETERS_MAX];
-    (void)state;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     parameter_defaults(effect_find("edge")->parameters, p);
     assert_true(isnan(effect_ceiling(effect_find("edge"), &view, p, 10)));
@@ -178,9 +173,4 @@ static void test_without(void **state) {
         p[1] = nextafter(ceiling, INFINITY);
         assert_true(ceiling == 1e12 || effect_error(row, &view, p, z) == 255);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_range), cmocka_unit_test(test_without)};
-    return run_tap(tests);
 }

@@ -3,8 +3,6 @@
  * Effects that look at pixels around: edges, ambient occlusion, and water that refracts, over images and scenes. What
  * they should be is written out here for every pixel of the picture, from its depths alone.
  */
-#include <string.h>
-
 #include "stage.h"
 
 /* ---- Edges ------------------------------------------------------------------------------------------------------- */
@@ -17,12 +15,11 @@ static void exceeds(uint32_t a, uint32_t b, double threshold, bool *can, bool *m
     *must = *must || fmax(lo[0] - hi[1], lo[1] - hi[0]) > threshold;
 }
 
-static void test_edges(void **state) {
+TEST(test_edges) {
     static float got[PIXELS], off[PIXELS];
     rng r = rng_make("edges of images");
     tally t = {.name = "edges"};
     uint64_t doubtful = 0, sky = 0;
-    (void)state;
     for (uint64_t i = 0; i < test_cases(40, 100, 10000); i++) {
         stage s;
         double at[PARAMETERS_MAX];
@@ -66,11 +63,10 @@ static void test_edges(void **state) {
 }
 
 /* A wall at 10 before the sky: an edge on both sides of the border, and nowhere else. */
-static void test_sky(void **state) {
+TEST(test_sky) {
     static float got[PIXELS], off[PIXELS];
     stage s;
     double at[PARAMETERS_MAX];
-    (void)state;
     stage_make(&s);
     parameter_defaults(effect_find("edge")->parameters, at);
     for (int k = 0; k < PIXELS; k++)
@@ -85,13 +81,12 @@ static void test_sky(void **state) {
 
 /* ---- Ambient occlusion ------------------------------------------------------------------------------------------- */
 
-static void test_occlusion(void **state) {
+TEST(test_occlusion) {
     static float got[PIXELS], off[PIXELS];
     const double bias = 0.2, radius = 5;
     rng r = rng_make("occlusion");
     tally t = {.name = "occlusion"};
     uint64_t some = 0;
-    (void)state;
     for (uint64_t i = 0; i < test_cases(40, 100, 10000); i++) {
         stage s;
         double at[PARAMETERS_MAX];
@@ -133,13 +128,12 @@ static void test_occlusion(void **state) {
 /* ---- Refraction -------------------------------------------------------------------------------------------------- */
 
 /* Water at 20 looks three pixels to the right, unless what is there stands before the water. */
-static void test_refraction(void **state) {
+TEST(test_refraction) {
     static float got[PIXELS], off[PIXELS];
     const double surface = 20, density = 0.05;
     stage s;
     double at[PARAMETERS_MAX];
     int shifted = 0;
-    (void)state;
     stage_make(&s);
     parameter_defaults(effect_find("water-depth")->parameters, at);
     stage_set("water-depth", at, "density", density);
@@ -164,14 +158,13 @@ static void test_refraction(void **state) {
 }
 
 /* A sphere, most of it under water: the truth says where it is seen through, and how far off that is. */
-static void test_refracted_scene(void **state) {
+TEST(test_refracted_scene) {
     static float got[PIXELS], off[PIXELS];
     const double surface = 4.2, density = 0.3, distance = 8, radius = 4;
     const double parameters[PARAMETERS_MAX] = {distance, radius, 0};
     double at[PARAMETERS_MAX], z[PIXELS], ray[PIXELS];
     stage s;
     int shifted = 0;
-    (void)state;
     stage_make(&s);
     s.frame.image = NULL;
     s.frame.synthetic = synthetic_find("sphere");
@@ -222,13 +215,12 @@ static double worst_through(uint32_t own, uint32_t beside, double surface, doubl
 }
 
 /* A surface inside the cell of the pixel beside, or anywhere: then the effect may look at either. */
-static void test_refraction_unsure(void **state) {
+TEST(test_refraction_unsure) {
     static float off[PIXELS];
     rng r = rng_make("refraction unsure");
     tally t = {.name = "where it may look at either"};
     double at[PARAMETERS_MAX], largest = 0;
     stage s;
-    (void)state;
     stage_make(&s);
     parameter_defaults(effect_find("water-depth")->parameters, at);
     stage_set("water-depth", at, "density", 0.05);
@@ -263,14 +255,4 @@ static void test_refraction_unsure(void **state) {
     }
     assert_true(largest > 100);
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_edges),
-                                       cmocka_unit_test(test_sky),
-                                       cmocka_unit_test(test_occlusion),
-                                       cmocka_unit_test(test_refraction),
-                                       cmocka_unit_test(test_refraction_unsure),
-                                       cmocka_unit_test(test_refracted_scene)};
-    return run_tap(tests);
 }

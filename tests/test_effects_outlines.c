@@ -3,9 +3,6 @@
  * Outlines, which compare normals too: a scene's own, those that came with an image, and those made of its depths. Each
  * pixel is judged by formulas of this file.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "frame/normals.h"
 #include "stage.h"
 #include "synthetic_stage.h"
@@ -14,14 +11,13 @@
 
 /* Of a sphere before the sky: depth and normal are known. Packed normals are off by a degree, of edges near the limit
  * nothing is said; sky faces the camera. */
-static void test_outlines(void **state) {
+TEST(test_outlines) {
     static float got[PIXELS], off[PIXELS];
     const double distance = 8, radius = 4, depth_sensitivity = 2, normal_sensitivity = 0.25;
     const double parameters[PARAMETERS_MAX] = {distance, radius, 0};
     stage s;
     double at[PARAMETERS_MAX], normal[PIXELS][2], z[PIXELS];
     int edges = 0, by_normals = 0;
-    (void)state;
     stage_make(&s);
     s.frame.image = NULL;
     s.frame.synthetic = synthetic_find("sphere");
@@ -128,13 +124,12 @@ static void judge(const stage *s, const uint8_t *texels, const frame_normals *no
 
 /* Of an image whose normals came with it: none that its channels and depths allow makes another outline where the map
  * says that there is none, and it says so wherever two squares, twice as large, leave no doubt. */
-static void test_outlines_of_images(void **state) {
+TEST(test_outlines_of_images) {
     static float got[PIXELS], off[PIXELS];
     static uint8_t texels[2 * PIXELS];
     rng r = rng_make("outlines of images");
     tally t = {.name = "outlines"};
     uint64_t edges = 0, sure = 0, doubtful = 0;
-    (void)state;
     for (uint64_t i = 0; i < test_cases(40, 200, 4000); i++) {
         const frame_normals normals = {.texels = texels, .truncated = rng_below(&r, 3) == 0};
         stage s;
@@ -186,13 +181,12 @@ static void test_outlines_of_images(void **state) {
 }
 
 /* Normals that are made of the depths: of a plane that leans all are alike but at the sky, which faces the camera. */
-static void test_outlines_by_depth(void **state) {
+TEST(test_outlines_by_depth) {
     static float got[PIXELS], off[PIXELS];
     const double lean = 0.6;
     double at[PARAMETERS_MAX];
     frame_normals normals;
     stage s;
-    (void)state;
     stage_make(&s);
     parameter_defaults(effect_find("outline")->parameters, at);
     stage_set("outline", at, "depth-sensitivity", 1e-6);
@@ -232,14 +226,13 @@ static void test_outlines_by_depth(void **state) {
 }
 
 /* Normals that face the camera, off by so many degrees before they were packed: towards a corner, and away from it. */
-static void test_outlines_of_doubtful_normals(void **state) {
+TEST(test_outlines_of_doubtful_normals) {
     static float got[PIXELS], off[PIXELS];
     static uint16_t degrees[PIXELS];
     static uint8_t texels[2 * PIXELS];
     const frame_normals normals = {.texels = texels, .off = degrees};
     double at[PARAMETERS_MAX];
     stage s;
-    (void)state;
     stage_make(&s);
     s.frame.normals = &normals;
     parameter_defaults(effect_find("outline")->parameters, at);
@@ -256,11 +249,4 @@ static void test_outlines_of_doubtful_normals(void **state) {
         if (k < PIXELS / 2 - 2 * ACROSS || k > PIXELS / 2 + 2 * ACROSS)
             assert_true(off[k] == (k < PIXELS / 2 ? 0 : 255));
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_outlines), cmocka_unit_test(test_outlines_of_images),
-                                       cmocka_unit_test(test_outlines_by_depth),
-                                       cmocka_unit_test(test_outlines_of_doubtful_normals)};
-    return run_tap(tests);
 }

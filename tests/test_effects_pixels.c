@@ -3,8 +3,6 @@
  * Effects over images and scenes, each pixel against a formula in double: the camera's rays, the world position and
  * last frame's projection are those of this file. Images hold random codes; of a scene the truth is a plane's.
  */
-#include <string.h>
-
 #include "frame/frame.h"
 #include "named.h"
 #include "support.h"
@@ -308,13 +306,12 @@ static double deepest(const stage *s, int pixel, double lo, double hi) {
 }
 
 /* How deep in the box a ray comes between two depths: at an end, or where the nearest face changes. */
-static void test_deepest(void **state) {
+TEST(test_deepest) {
     const effect_row *row = effect_find("decal");
     rng r = rng_make("inside decals");
     tally t = {.name = "inside decals"};
     uint64_t within = 0;
     double p[PARAMETERS_MAX];
-    (void)state;
     for (size_t e = 0; e < EFFECTS; e++)
         if (effects[e].of == decal)
             settings_of(row, effects[e].parameters, p);
@@ -334,7 +331,7 @@ static void test_deepest(void **state) {
 }
 
 /* The output is the formula's at the stored depth; the error what the cell's depths make of it, seen at 33 of them. */
-static void test_images(void **state) {
+TEST(test_images) {
     enum { PLACES = 32 };
     static uint32_t codes[PIXELS];
     static float got[PIXELS], bound[PIXELS];
@@ -342,7 +339,6 @@ static void test_images(void **state) {
         .width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes};
     rng r = rng_make("effects of images");
     tally t = {.name = "images"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(300, 3000, 100000); i++) {
         const size_t e = (size_t)(i % EFFECTS);
         stage s;
@@ -379,7 +375,7 @@ static void test_images(void **state) {
 
 /* Where what an effect compares with is not given, the error holds for any place of it, the cell's ends among them, and
  * is no more than it takes. */
-static void test_worst(void **state) {
+TEST(test_worst) {
     enum { PLACES = 32, REFERENCES = 3 };
     static uint32_t codes[PIXELS];
     static float got[PIXELS], worst[PIXELS];
@@ -387,7 +383,6 @@ static void test_worst(void **state) {
         .width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes};
     rng r = rng_make("effects of images, at their worst");
     tally t = {.name = "worst"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(300, 3000, 100000); i++) {
         const size_t e = (size_t)(i % EFFECTS);
         double most[PIXELS] = {0};
@@ -422,12 +417,11 @@ static void test_worst(void **state) {
 /* ---- Scenes ------------------------------------------------------------------------------------------------------ */
 
 /* A plane leaning back: its depths are known, and the error is that of the output to theirs. */
-static void test_scenes(void **state) {
+TEST(test_scenes) {
     static float got[PIXELS], off[PIXELS];
     const double distance = 12, tilt = 50;
     rng r = rng_make("effects of scenes");
     tally t = {.name = "scenes"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(200, 1000, 30000); i++) {
         const size_t e = (size_t)(i % EFFECTS);
         const double parameters[PARAMETERS_MAX] = {distance, tilt, 0};
@@ -461,12 +455,11 @@ static void test_scenes(void **state) {
 /* ---- Numbers that are known by heart ----------------------------------------------------------------------------- */
 
 /* A move of 0.5 sideways, seen at depth 10 with a field of view of 90 degrees: 0.5/10/2 of a square picture's width. */
-static void test_velocity(void **state) {
+TEST(test_velocity) {
     static const struct {
         uint32_t width, height;
         double velocity;
     } pictures[] = {{100, 100, 0.025}, {160, 90, 0.0140625}};
-    (void)state;
     for (size_t i = 0; i < 2; i++) {
         dp_spec spec = dp_spec_default();
         dp_setup setup;
@@ -487,11 +480,10 @@ static void test_velocity(void **state) {
 }
 
 /* Fog over the ground is thicker the lower the camera stands. */
-static void test_camera_height(void **state) {
+TEST(test_camera_height) {
     const effect_row *row = effect_find("height-fog");
     const double heights[] = {0, 50, 200};
     double p[PARAMETERS_MAX], seen[3];
-    (void)state;
     settings_of(row, "density=1 start=100 end=-100", p);
     for (size_t i = 0; i < 3; i++) {
         stage s = {.now = {.fov = 60, .pitch = -30, .origin = {0, heights[i], 0}}};
@@ -502,11 +494,4 @@ static void test_camera_height(void **state) {
         assert_relative(seen[i] + 1, unit((heights[i] - 5 - 100) / -200) + 1, 1e-12);
     }
     assert_true(seen[0] > seen[1] && seen[1] > seen[2] && seen[2] == 0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_images),   cmocka_unit_test(test_deepest),
-                                       cmocka_unit_test(test_worst),    cmocka_unit_test(test_scenes),
-                                       cmocka_unit_test(test_velocity), cmocka_unit_test(test_camera_height)};
-    return run_tap(tests);
 }

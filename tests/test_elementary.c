@@ -3,8 +3,6 @@
  * The elementary functions: within their bounds of MPFR's, at random arguments, at the seams of tables and reductions
  * and where angles come nearest to multiples of pi/2; and what they do at zeros, infinities and NaN, as math.h does.
  */
-#include <stdio.h>
-#include <stdlib.h>
 
 #include <mpfr.h>
 
@@ -106,8 +104,7 @@ static double argument(rng *r, const row *f, uint64_t i) {
     return f->either && rng_below(r, 2) ? -x : x;
 }
 
-static void test_one(void **state) {
-    (void)state;
+TEST(test_one) {
     mpfr_t x, exact;
     mpfr_init2(x, 53);
     mpfr_init2(exact, BITS);
@@ -150,8 +147,7 @@ static void pair_near(tally *t, two *exact_of, double (*function)(double, double
 }
 
 /* Numbers of sizes far apart, next to each other, and such that a seam of atan2 lies between them */
-static void test_two(void **state) {
-    (void)state;
+TEST(test_two) {
     tally angle = {.name = "atan2"}, length = {.name = "hypot"}, power = {.name = "pow"};
     rng r = rng_make("two");
     for (uint64_t i = 0; i < test_cases(1000, 20000, 4000000); i++) {
@@ -173,8 +169,7 @@ static void test_two(void **state) {
 }
 
 /* Printed digits and ticks of axes rest on these. */
-static void test_tens(void **state) {
-    (void)state;
+TEST(test_tens) {
     tally t = {.name = "tens"};
     for (int k = -300; k <= 300; k++) {
         char text[8];
@@ -196,8 +191,7 @@ static int alike(double a, double b) {
     return isnan(a) ? isnan(b) : a == b && signbit(a) == signbit(b);
 }
 
-static void test_ends(void **state) {
-    (void)state;
+TEST(test_ends) {
     static const struct {
         const char *name;
         double (*ours)(double), (*theirs)(double);
@@ -235,14 +229,4 @@ static void test_ends(void **state) {
           dp_exp(710.0) == INFINITY && dp_exp(-800.0) == 0.0 && dp_expm1(-60.0) == -1.0 && dp_exp2(1024.0) == INFINITY,
           "overflow");
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one),
-        cmocka_unit_test(test_two),
-        cmocka_unit_test(test_tens),
-        cmocka_unit_test(test_ends),
-    };
-    return run_tap(tests);
 }

@@ -34,8 +34,7 @@ static double worst_of(tally *t, const char *whose, float (*estimate)(float)) {
 }
 
 /* The model has the error that is promised, not less: what holds with it holds with every processor's. */
-static void the_model_is_as_bad_as_allowed(void **state) {
-    (void)state;
+TEST(the_model_is_as_bad_as_allowed) {
     tally t = {.name = "model"};
     const double worst = worst_of(&t, "the model", estimate_reciprocal);
     TALLY(&t, worst >= 0.95 * ESTIMATE_WORST, "the model is off by %g only", worst);
@@ -55,8 +54,7 @@ static float own(float x) {
 }
 #endif
 
-static void this_processor_keeps_the_guarantee(void **state) {
-    (void)state;
+TEST(this_processor_keeps_the_guarantee) {
 #if defined(__SSE__)
     tally t = {.name = "processor"};
     worst_of(&t, "this processor", own);
@@ -67,8 +65,7 @@ static void this_processor_keeps_the_guarantee(void **state) {
 }
 
 /* What bench times and what it judges: two ways to one claim, the instruction nowhere beyond it. */
-static void the_timed_method_keeps_the_claim(void **state) {
-    (void)state;
+TEST(the_timed_method_keeps_the_claim) {
     tally t = {.name = "timed"};
     method_inputs in;
     method_outputs out;
@@ -95,13 +92,4 @@ static void the_timed_method_keeps_the_claim(void **state) {
 #if defined(__SSE__)
     tally_end(&t);
 #endif
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_model_is_as_bad_as_allowed),
-        cmocka_unit_test(this_processor_keeps_the_guarantee),
-        cmocka_unit_test(the_timed_method_keeps_the_claim),
-    };
-    return run_tap(tests);
 }

@@ -3,8 +3,6 @@
  * What a figure of a depth image holds for each of its fields: how much more a process needs for a figure of twice the
  * width. The figure itself is 4 bytes a pixel of it.
  */
-#include <stdio.h>
-#include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -51,8 +49,7 @@ static double memory_of(const char *path, int width) {
     return 1024.0 * (double)used.ru_maxrss;
 }
 
-static void bytes_a_field(void **state) {
-    (void)state;
+TEST(bytes_a_field) {
 #ifdef __SANITIZE_ADDRESS__
     skip(); /* it keeps what is freed */
 #endif
@@ -63,9 +60,4 @@ static void bytes_a_field(void **state) {
     const double fields = 0.75 * WIDTH * HEIGHT;
     printf("# %.1f bytes a field more\n", more / fields);
     assert_true(more < 16 * fields);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bytes_a_field)};
-    return run_tap(tests);
 }

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formats: names, values of codes, rounding, and the claimed errors. */
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "oracle.h"
 #include "support.h"
@@ -20,8 +17,7 @@ static void check_parse(const char *name, const char *want) {
     fail_msg("'%s' gives %zu formats, none of them %s", name, count, want);
 }
 
-static void names_of_rows(void **state) {
-    (void)state;
+TEST(names_of_rows) {
     static const char *const want[] = {"fp16", "fp32", "unorm16", "unorm24"};
     assert_true(dp_format_count() >= 4);
     for (size_t i = 0; i < 4; i++)
@@ -105,8 +101,7 @@ static const char *const interface_names[][2] = {
     {"Unorm24", "unorm24"},
 };
 
-static void names_of_interfaces(void **state) {
-    (void)state;
+TEST(names_of_interfaces) {
     for (size_t i = 0; i < sizeof interface_names / sizeof *interface_names; i++) {
         dp_format got[2];
         assert_int_equal(dp_format_parse(interface_names[i][0], got), 1);
@@ -135,8 +130,7 @@ static void same_format(const dp_format *got, const dp_format *want) {
     fail_msg("%s has the numbers of another format than %s", got->name, want->name);
 }
 
-static void parametric_names(void **state) {
-    (void)state;
+TEST(parametric_names) {
     char name[32];
     dp_format got[2], again[2], want;
     for (int bits = 1; bits <= 32; bits++) {
@@ -165,8 +159,7 @@ static void parametric_names(void **state) {
     assert_int_equal(got[0].code_max, 40);
 }
 
-static void rejected_names(void **state) {
-    (void)state;
+TEST(rejected_names) {
     static const char *const name[] = {
         "",
         " ",
@@ -227,8 +220,7 @@ static void rejected_names(void **state) {
     assert_int_equal(dp_format_parse(NULL, NULL), 0);
 }
 
-static void rounding_names(void **state) {
-    (void)state;
+TEST(rounding_names) {
     assert_string_equal(dp_rounding_name(DP_ROUND_NEAREST), "nearest");
     assert_string_equal(dp_rounding_name(DP_ROUND_EVEN), "even");
     assert_string_equal(dp_rounding_name(DP_ROUND_ZERO), "zero");
@@ -284,8 +276,7 @@ static void check_codes(const dp_format *format, uint32_t from, uint32_t to, uin
     mpq_clear(exact);
 }
 
-static void values(void **state) {
-    (void)state;
+TEST(values) {
     tally right = {.name = "values"}, trips = {.name = "encode(value(code))"};
     dp_format format[2];
     static const char *const small[] = {"fp16",     "unorm16",    "unorm1",       "unorm2",       "unorm8",
@@ -329,8 +320,7 @@ static void check_around(const dp_format *format, double d, tally *t) {
     check_encode(format, nextafter(nextafter(d, 2), 2), t);
 }
 
-static void encode(void **state) {
-    (void)state;
+TEST(encode) {
     static const char *const name[] = {"fp16",    "fp32",       "unorm16",  "unorm24",     "unorm1",       "unorm32",
                                        "unorm10", "float3.3b5", "float2.1", "float8.23b1", "float8.1b255", "float5.11"};
     static const double special[] = {
@@ -368,8 +358,7 @@ static void encode(void **state) {
  * |value - d| against the claim, at the boundaries between codes, where it is largest, and at random. Some depth must
  * reach 0.9 of the claim, both where the relative part rules and where the absolute part does.
  */
-static void claims(void **state) {
-    (void)state;
+TEST(claims) {
     rng random = rng_make("claims");
     mpq_t boundary, value, error;
     mpq_inits(boundary, value, error, NULL);
@@ -403,14 +392,4 @@ static void claims(void **state) {
             fail_msg("%s: only %.3f of the absolute claim is reached", format->name, worst_absolute);
     }
     mpq_clears(boundary, value, error, NULL);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_of_rows),    cmocka_unit_test(names_of_interfaces),
-        cmocka_unit_test(parametric_names), cmocka_unit_test(rejected_names),
-        cmocka_unit_test(rounding_names),   cmocka_unit_test(values),
-        cmocka_unit_test(encode),           cmocka_unit_test(claims),
-    };
-    return run_tap(tests);
 }

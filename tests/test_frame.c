@@ -2,9 +2,6 @@
 /*
  * Frames: strips on several threads give the bits of one pixel after the other, of scenes and of their images.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "frame/normal_errors.h"
 #include "frame/survey.h"
 #include "named.h"
@@ -41,8 +38,7 @@ static size_t products(frame_product out[PRODUCTS]) {
     return sizeof all / sizeof all[0];
 }
 
-static void bits_do_not_depend_on_threads_or_direction(void **state) {
-    (void)state;
+TEST(bits_do_not_depend_on_threads_or_direction) {
     frame_product all[PRODUCTS];
     synthetic_stage s;
     synthetic_stage_set(&s, "sphere", "unorm24", "d3d", 1000, false, WIDTH, HEIGHT);
@@ -78,8 +74,7 @@ static bool collect_all(void *context, uint32_t row, uint32_t count, const float
     return true;
 }
 
-static void products_of_one_pass_are_those_of_many(void **state) {
-    (void)state;
+TEST(products_of_one_pass_are_those_of_many) {
     frame_product all[PRODUCTS];
     wholes w = {.count = products(all)};
     synthetic_stage s;
@@ -121,7 +116,7 @@ static bool is_error(float error, float written, long double truth) {
 }
 
 /* Long: every product of a pixel, and how each is made by hand. */
-static void frames_equal_plain_pixels(void **state) {
+TEST(frames_equal_plain_pixels) {
     static const struct {
         const char *synthetic, *format, *mapping;
         double znear, zfar;
@@ -131,7 +126,6 @@ static void frames_equal_plain_pixels(void **state) {
                  {"plane", "fp32", "linear", 0.1, 1000, false},  {"sphere", "fp32", "log", 0.1, 1000, false},
                  {"plane", "fp32", "d3d", -100, 1000, true},     {"plane", "unorm16", "gl-reversed", -20, 20, true},
                  {"steps", "unorm16", "reversed", 0, 1000, true}};
-    (void)state;
     tally t = {.name = "plain"};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         synthetic_stage s;
@@ -232,8 +226,7 @@ static void keep(void *context, const normal_rows *in, const float *const normal
             s->normal[3 * ((size_t)in->row * s->width + x) + k] = normal[k][x];
 }
 
-static void normals_do_not_know_of_strips(void **state) {
-    (void)state;
+TEST(normals_do_not_know_of_strips) {
     synthetic_stage s;
     synthetic_stage_set(&s, "sphere", "unorm16", "d3d", 1000, false, WIDTH, HEIGHT);
     s.frame.threads = 2;
@@ -305,9 +298,8 @@ static void shader_normal(const synthetic_stage *s, char method, uint32_t x, uin
 
 /* A wall with a window to the sky. Beside it low and medium look through it and are most of a right angle off; high is
  * not, but where the sky is on both sides. */
-static void beside_the_sky_normals_are_the_shaders(void **state) {
+TEST(beside_the_sky_normals_are_the_shaders) {
     static const char *const names[] = {"low", "medium", "high"};
-    (void)state;
     for (int ortho = 0; ortho < 2; ortho++)
         for (size_t m = 0; m < 3; m++) {
             synthetic_stage s;
@@ -344,8 +336,7 @@ static void beside_the_sky_normals_are_the_shaders(void **state) {
         }
 }
 
-static void an_image_gives_the_same_as_its_scene(void **state) {
-    (void)state;
+TEST(an_image_gives_the_same_as_its_scene) {
     frame_product all[PRODUCTS];
     synthetic_stage s;
     synthetic_stage_set(&s, "decals", "unorm24", "reversed", 1000, false, 320, 180);
@@ -384,13 +375,12 @@ static void an_image_gives_the_same_as_its_scene(void **state) {
 }
 
 /* Roberts' detector sees an edge on either diagonal of a quad: here |s1 - s4| and |s2 - s3| of four depths, by hand. */
-static void an_edge_on_either_diagonal_is_one(void **state) {
+TEST(an_edge_on_either_diagonal_is_one) {
     static const struct {
         double corner[2][2];
         float edge;
     } quads[] = {{{{10, 10}, {10, 10}}, 0}, {{{10, 10}, {10, 60}}, 1}, {{{10, 60}, {10, 10}}, 1},
                  {{{10, 10}, {60, 10}}, 1}, {{{60, 10}, {10, 10}}, 1}, {{{10, 10}, {60, 60}}, 1}};
-    (void)state;
     const effect_row *edge = effect_find("edge");
     double at[PARAMETERS_MAX];
     parameter_defaults(edge->parameters, at);
@@ -417,10 +407,9 @@ static bool stop(void *context, uint32_t row, uint32_t count, const float *value
     return ++*(int *)context < 2;
 }
 
-static void the_smallest_images_and_a_stop(void **state) {
+TEST(the_smallest_images_and_a_stop) {
     static const uint32_t sizes[][2] = {{1, 1}, {1, 5}, {7, 1}, {2, 2}};
     frame_product all[PRODUCTS];
-    (void)state;
     const size_t count = products(all);
     synthetic_stage s;
     for (size_t k = 0; k < 4; k++)
@@ -432,16 +421,4 @@ static void the_smallest_images_and_a_stop(void **state) {
     synthetic_stage_set(&s, "plane", "unorm24", "d3d", 1000, false, WIDTH, HEIGHT);
     assert_false(frame_run(&s.frame, &all[0], false, stop, &strips));
     assert_int_equal(strips, 2);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bits_do_not_depend_on_threads_or_direction),
-                                       cmocka_unit_test(products_of_one_pass_are_those_of_many),
-                                       cmocka_unit_test(frames_equal_plain_pixels),
-                                       cmocka_unit_test(normals_do_not_know_of_strips),
-                                       cmocka_unit_test(beside_the_sky_normals_are_the_shaders),
-                                       cmocka_unit_test(an_image_gives_the_same_as_its_scene),
-                                       cmocka_unit_test(an_edge_on_either_diagonal_is_one),
-                                       cmocka_unit_test(the_smallest_images_and_a_stop)};
-    return run_tap(tests);
 }

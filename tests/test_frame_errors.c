@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an image cannot know a scene does: its true errors stay within the image's, which are those of plain pixels. */
-#include <stdlib.h>
-
 #include "named.h"
 #include "support.h"
 #include "synthetic_stage.h"
 
-static void true_errors_are_within_the_predicted(void **state) {
+TEST(true_errors_are_within_the_predicted) {
     static const char *const formats[][2] = {
         {"unorm24", "d3d"}, {"unorm24", "reversed"}, {"unorm16", "d3d"}, {"fp16", "reversed"}, {"fp32", "reversed"}};
-    (void)state;
     tally t = {.name = "predicted"};
     double nearest[3] = {0, 0, 0};
     for (size_t k = 0; k < sizeof formats / sizeof formats[0]; k++)
@@ -51,9 +48,8 @@ static void true_errors_are_within_the_predicted(void **state) {
 }
 
 /* What the errors of an image are made of: what binary32 lost, and how far the sample's range reaches along the ray. */
-static void errors_of_images_equal_plain_pixels(void **state) {
+TEST(errors_of_images_equal_plain_pixels) {
     enum { ACROSS = 97, DOWN = 61, EYE = 0, RADIAL, PLACE, THINGS };
-    (void)state;
     tally t = {.name = "plain errors"};
     for (int k = 0; k < 4; k++) {
         synthetic_stage s;
@@ -99,8 +95,7 @@ static void errors_of_images_equal_plain_pixels(void **state) {
 }
 
 /* The same where the image has 8 or 12 bits, cut off or rounded: its normals are those of the samples alone. */
-static void normals_of_coarse_images_are_within_the_predicted(void **state) {
-    (void)state;
+TEST(normals_of_coarse_images_are_within_the_predicted) {
     tally t = {.name = "coarse normals"};
     rng r = rng_make("coarse normals");
     double nearest = 0;
@@ -148,9 +143,8 @@ static void normals_of_coarse_images_are_within_the_predicted(void **state) {
 }
 
 /* The method low looks at its quad alone: what lies in the quads above and below changes neither normal nor bound. */
-static void the_bound_of_low_is_of_its_quad(void **state) {
+TEST(the_bound_of_low_is_of_its_quad) {
     enum { SIDE = 6, COUNT = SIDE * SIDE };
-    (void)state;
     synthetic_stage s;
     synthetic_stage_set(&s, "plane", "unorm16", "d3d", 1000, false, SIDE, SIDE);
     const frame_product error = {.kind = FRAME_NORMAL, .normal = normal_find("low"), .error = true};
@@ -174,12 +168,4 @@ static void the_bound_of_low_is_of_its_quad(void **state) {
     }
     for (int k = 0; k < 3; k++)
         free(bounds[k]);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_bound_of_low_is_of_its_quad),
-                                       cmocka_unit_test(true_errors_are_within_the_predicted),
-                                       cmocka_unit_test(errors_of_images_equal_plain_pixels),
-                                       cmocka_unit_test(normals_of_coarse_images_are_within_the_predicted)};
-    return run_tap(tests);
 }

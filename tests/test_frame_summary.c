@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Statistics of frames: those of a plain count. */
-#include <stdlib.h>
-
 #include "named.h"
 #include "support.h"
 #include "synthetic_stage.h"
@@ -11,8 +9,7 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static void summaries_are_those_of_sorted_numbers(void **state) {
-    (void)state;
+TEST(summaries_are_those_of_sorted_numbers) {
     synthetic_stage s;
     synthetic_stage_set(&s, "plane", "unorm16", "d3d", 1000, false, 700, 400);
     s.parameters[1] = 60;
@@ -43,14 +40,13 @@ static void summaries_are_those_of_sorted_numbers(void **state) {
 }
 
 /* Samples of binary16 that are off by 2^-24: one is the far plane's own, one may be infinitely far, one is near. */
-static void summaries_leave_out_sky_and_what_has_no_bound(void **state) {
+TEST(summaries_leave_out_sky_and_what_has_no_bound) {
     static uint32_t codes[] = {0, 1, 0x3800};
     const image depths = {.width = 3, .height = 1, .channels = 1, .type = IMAGE_U32, .data = codes};
     const grain g = {.kind = GRAIN_FLOATS, .bits = 11, .margin = 0x1p-24, .least = 0x1p-24};
     const frame_product error = {.kind = FRAME_EYE, .error = true};
     frame_summary sum;
     synthetic_stage s;
-    (void)state;
     synthetic_stage_set(&s, "plane", "fp16", "reversed", INFINITY, false, 3, 1);
     s.frame.synthetic = NULL;
     s.frame.image = &depths;
@@ -63,10 +59,4 @@ static void summaries_leave_out_sky_and_what_has_no_bound(void **state) {
     assert_true(frame_summarise_decoding(&s.frame, decode_find("linear-eye"), &sum));
     assert_int_equal(sum.count, 2);
     assert_int_equal(sum.infinite, 0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(summaries_are_those_of_sorted_numbers),
-                                       cmocka_unit_test(summaries_leave_out_sky_and_what_has_no_bound)};
-    return run_tap(tests);
 }

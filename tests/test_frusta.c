@@ -3,8 +3,6 @@
  * Plans of several frusta: each keeps the separation between all its codes, and none has fewer frusta: the least number
  * lies between two dynamic programs over a grid of planes, whose separations are in closed form.
  */
-#include <math.h>
-
 #include "requirement/frusta.h"
 #include "support.h"
 
@@ -58,8 +56,7 @@ static void check_plan(const char *format, double codes, dp_model model, double 
     }
 }
 
-static void test_plans(void **state) {
-    (void)state;
+TEST(test_plans) {
     check_plan("unorm8", 255, DP_MODEL_EXACT, 50, 1);
     check_plan("unorm8", 255, DP_MODEL_EXACT, 20, 0.25);
     check_plan("unorm12", 4095, DP_MODEL_EXACT, 1000, 1.5);
@@ -68,8 +65,7 @@ static void test_plans(void **state) {
 }
 
 /* Of a depth that a shader writes every frustum keeps the separation whatever log2 is, at any depth of it. */
-static void test_logarithmic(void **state) {
-    (void)state;
+TEST(test_logarithmic) {
     static frusta_plan plan;
     dp_spec spec = dp_spec_default();
     dp_format formats[2];
@@ -97,8 +93,7 @@ static void test_logarithmic(void **state) {
     }
 }
 
-static void test_refused(void **state) {
-    (void)state;
+TEST(test_refused) {
     static frusta_plan plan;
     dp_spec spec = dp_spec_default();
     assert_int_equal(frusta_solve(NULL, 1, &plan), DP_ERROR_NULL);
@@ -108,10 +103,4 @@ static void test_refused(void **state) {
     assert_int_equal(frusta_by_ratio(&spec, 1000, &plan), DP_OK);
     spec.zfar = INFINITY;
     assert_int_equal(frusta_solve(&spec, 1, &plan), DP_ERROR_RANGE);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_plans), cmocka_unit_test(test_logarithmic),
-                                       cmocka_unit_test(test_refused)};
-    return run_tap(tests);
 }

@@ -4,13 +4,12 @@
  * against plain binary32; each damage has its sentence.
  */
 #include <gmp.h>
-#include <string.h>
 
 #include "gltf_made.h"
 
 /* ---- Primitives -------------------------------------------------------------------------------------------------- */
 
-static void topologies(void **state) {
+TEST(topologies) {
     static const struct {
         int mode, component, count;
         uint32_t index[6];
@@ -24,7 +23,6 @@ static void topologies(void **state) {
         {5, 0, 5, {0}, 3, {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}},
         {4, 0, 5, {0}, 1, {{0, 1, 2}}},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         static made f;
         model m;
@@ -62,7 +60,7 @@ static void topologies(void **state) {
 }
 
 /* What a material says of its sides and of blending: masked ones write depths where they are there at all. */
-static void materials(void **state) {
+TEST(materials) {
     static const struct {
         const char *json;
         bool two_sided, blended;
@@ -74,7 +72,6 @@ static void materials(void **state) {
         {"{\"alphaMode\":\"MASK\",\"doubleSided\":true}", true, false},
         {"{\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}}", false, false},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         static made f;
         model m;
@@ -95,7 +92,7 @@ static void materials(void **state) {
 }
 
 /* Quantized, interleaved and sparse positions. */
-static void positions(void **state) {
+TEST(positions) {
     static const struct {
         int component, bytes;
         bool normalized;
@@ -111,7 +108,6 @@ static void positions(void **state) {
         {5123, 2, true, {0, 65535, 13107}, {0, 1, 0.2}},
         {5126, 4, false, {0x3F800000, 0xC0490FDB, 0x00000001}, {1, -0x1.921fb6p1, 0x1p-149}},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         static made f;
         model m;
@@ -273,11 +269,10 @@ static void judge(tally *t, mpq_t truth, double got) {
     mpq_clears(off, half, NULL);
 }
 
-static void nodes_are_exact(void **state) {
+TEST(nodes_are_exact) {
     static made f;
     rng r = rng_make("nodes");
     tally t = {.name = "world coordinates"};
-    (void)state;
     for (uint64_t run = 0; run < test_cases(50, 1000, 20000); run++) {
         parts p[4];
         double corner[3][3];
@@ -351,11 +346,10 @@ static void single_times(float outer[3][4], float inner[3][4]) {
     memcpy(inner, out, sizeof out);
 }
 
-static void nodes_in_binary32(void **state) {
+TEST(nodes_in_binary32) {
     static made f;
     rng r = rng_make("single");
     tally t = {.name = "binary32 coordinates"};
-    (void)state;
     for (uint64_t run = 0; run < test_cases(50, 1000, 20000); run++) {
         parts p[2] = {random_parts(&r), random_parts(&r)};
         double corner[3][3];
@@ -385,10 +379,9 @@ static void nodes_in_binary32(void **state) {
 
 /* ---- Instances, matrices, cameras -------------------------------------------------------------------------------- */
 
-static void instances(void **state) {
+TEST(instances) {
     static made f;
     model m;
-    (void)state;
     f = (made){.used = 0};
     put_five(&f);
     const double t[3][3] = {{0, 0, 0}, {10, 0, 0}, {0, 20, 0}};
@@ -417,10 +410,9 @@ static void instances(void **state) {
     model_free(&m);
 }
 
-static void cameras(void **state) {
+TEST(cameras) {
     static made f;
     model m;
-    (void)state;
     f = (made){.used = 0};
     put_five(&f);
     add(&f, ASSET
@@ -451,13 +443,4 @@ static void cameras(void **state) {
     assert_string_equal(c->name, "map");
     assert_true(c->ortho && c->znear == 1 && c->zfar == 9 && c->ahead[2] == -1 && c->eye[2] == 6);
     model_free(&m);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(topologies),      cmocka_unit_test(materials),         cmocka_unit_test(positions),
-        cmocka_unit_test(nodes_are_exact), cmocka_unit_test(nodes_in_binary32), cmocka_unit_test(instances),
-        cmocka_unit_test(cameras),
-    };
-    return run_tap(tests);
 }

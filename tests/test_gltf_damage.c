@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* glTF that is damaged, hostile or asks for what is not read: each has its sentence. Containers and files beside it. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -72,8 +69,7 @@ static const struct {
      "glTF: the indices of a sparse accessor must rise and be below 2"},
 };
 
-static void refused(void **state) {
-    (void)state;
+TEST(refused) {
     for (size_t i = 0; i < sizeof damaged / sizeof damaged[0]; i++) {
         const model_asked asked = {0};
         model m;
@@ -85,7 +81,7 @@ static void refused(void **state) {
 
 #ifndef __SANITIZE_ADDRESS__
 /* What a small file says that it has: with room for 64 MiB more it is refused for what it lacks, not for want of it. */
-static void claims(void **state) {
+TEST(claims) {
     static const struct {
         const char *json, *sentence;
     } rows[] = {
@@ -104,7 +100,6 @@ static void claims(void **state) {
     };
     struct rlimit before, less;
     unsigned long pages = 0;
-    (void)state;
     FILE *in = fopen("/proc/self/statm", "r");
     if (in == NULL)
         skip();
@@ -127,7 +122,7 @@ static void claims(void **state) {
 #endif
 
 /* A .glb is what its .gltf is; cut anywhere it is refused, and whatever byte is changed it is read or refused. */
-static void containers(void **state) {
+TEST(containers) {
     static made f;
     static unsigned char glb[8192];
     const model_asked asked = {0};
@@ -137,7 +132,6 @@ static void containers(void **state) {
     model m;
     model_error error;
     rng r = rng_make("glb");
-    (void)state;
     const uint32_t length = (sizeof json + 2) / 4 * 4;
     f = (made){.used = 0};
     put(&f, 0x46546C67, 4);
@@ -166,7 +160,7 @@ static void containers(void **state) {
 }
 
 /* Files beside it are found by their escaped names, and nothing else is opened. */
-static void files_beside(void **state) {
+TEST(files_beside) {
     static const struct {
         const char *uri, *why;
     } rows[] = {
@@ -179,17 +173,15 @@ static void files_beside(void **state) {
         {"http://a/b", "names the file 'http://a/b', which is not in its folder"},
     };
     const model_asked asked = {0};
-    (void)state;
     FILE *out = fopen(scratch_file("two words.bin"), "wb");
     assert_non_null(out);
     for (int i = 0; i < 36; i++)
         putc(i % 4 == 3 ? 0x40 : 0, out);
     assert_int_equal(fclose(out), 0);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        char path[512];
         model m;
         model_error error;
-        snprintf(path, sizeof path, "%s", scratch_file("m.gltf"));
+        const char *path = scratch_file("m.gltf");
         out = fopen(path, "wb");
         assert_non_null(out);
         fprintf(
@@ -207,13 +199,4 @@ static void files_beside(void **state) {
             assert_string_equal(error.text, rows[i].why);
         }
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(refused),
-#ifndef __SANITIZE_ADDRESS__
-                                       cmocka_unit_test(claims),
-#endif
-                                       cmocka_unit_test(containers), cmocka_unit_test(files_beside)};
-    return run_tap(tests);
 }

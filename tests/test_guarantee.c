@@ -4,8 +4,6 @@
  * each of its parts alone, against arithmetic in which only that part is binary32.
  */
 #include <float.h>
-#include <math.h>
-#include <stdio.h>
 
 #include "census/census.h"
 #include "depthprec/depthprec.h"
@@ -93,8 +91,7 @@ static void report(const char *what, const slack_report *slack) {
  * Every pair of a census, for 12 cameras x 4 mappings x 4 formats, in every row of arithmetic; by default in `ieee`,
  * and of each mapping and format three cameras, each camera with a format of every mapping.
  */
-static void never_violated_and_tight(void **state) {
-    (void)state;
+TEST(never_violated_and_tight) {
     const dp_arith rows = test_cases(1, 1, dp_arith_count());
     const int count = (int)test_cases(1, CAMERAS, CAMERAS);
     for (dp_arith a = 0; a < rows; a++) {
@@ -118,8 +115,7 @@ static void never_violated_and_tight(void **state) {
 }
 
 /* Every row, perspective and orthographic, in random stretches of some hundred thousand depths. */
-static void every_arithmetic(void **state) {
-    (void)state;
+TEST(every_arithmetic) {
     rng r = rng_make("every arithmetic");
     for (dp_arith a = 0; a < dp_arith_count(); a++) {
         tally violated = {.name = "guarantee"};
@@ -141,8 +137,7 @@ static void every_arithmetic(void **state) {
 }
 
 /* Reading back: 1/(zb d + wb) in binary32, constants rounded once, against the exact inverse. */
-static void linearization_alone(void **state) {
-    (void)state;
+TEST(linearization_alone) {
     rng r = rng_make("linearization");
     tally within = {.name = "linearization"};
     double most = 0.0;
@@ -175,8 +170,7 @@ static void linearization_alone(void **state) {
     assert_true(most > 0.3);
 }
 
-static void parts_add_up(void **state) {
-    (void)state;
+TEST(parts_add_up) {
     rng r = rng_make("sum of parts");
     for (int i = 0; i < 20000; i++) {
         dp_setup setup;
@@ -196,14 +190,4 @@ static void parts_add_up(void **state) {
         }
         assert_relative(sum, budget.separation, 1e-12);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(never_violated_and_tight),
-        cmocka_unit_test(every_arithmetic),
-        cmocka_unit_test(linearization_alone),
-        cmocka_unit_test(parts_add_up),
-    };
-    return run_tap(tests);
 }

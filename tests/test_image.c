@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Images: what is written comes back, and what others wrote is read. */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "frame/recognise.h"
@@ -55,8 +51,7 @@ static handmade tiny(void) {
     return h;
 }
 
-static void png_of_others(void **state) {
-    (void)state;
+TEST(png_of_others) {
     const handmade h = tiny();
     assert_samples(&h, IMAGE_PNG, IMAGE_U16, 3, 2, 1, tiny_samples);
 
@@ -81,8 +76,7 @@ static void png_of_others(void **state) {
 }
 
 /* Chunks about colours are stepped over, even where they are damaged. */
-static void png_chunks(void **state) {
-    (void)state;
+TEST(png_chunks) {
     static const char *const names[] = {"tEXt", "zTXt", "iCCP", "gAMA", "sRGB", "pHYs", "xyZz"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         for (int damaged = 0; damaged < 2; damaged++) {
@@ -95,8 +89,7 @@ static void png_chunks(void **state) {
         }
 }
 
-static void pfm_of_others(void **state) {
-    (void)state;
+TEST(pfm_of_others) {
     static const uint32_t rows[2][3] = {{0x3F800000, 0x7FC00001, 0xFF800000}, {0x00000001, 0x80000000, 0x3E800000}};
     static const char *const headers[][2] = {{"Pf\n3 2\n1\n", "Pf\n3 2\n-1\n"},
                                              {"Pf 3 2 1.000 ", "Pf\t3\t2\t-1.0e0\t"},
@@ -117,8 +110,7 @@ static void pfm_of_others(void **state) {
 }
 
 /* A sample may look like the other half of a line end. */
-static void pfm_line_ends(void **state) {
-    (void)state;
+TEST(pfm_line_ends) {
     static const char *const headers[] = {"Pf\r1 1\r-1\r", "Pf\n1 1\n-1\r", "Pf\r\n1 1\r\n-1\r\n", "Pf\r\n1 1\r\n-1\n"};
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) {
         static const uint32_t bits = 0x3E80000A; /* LF is its first byte in the file */
@@ -135,8 +127,7 @@ static void in_memory(unsigned char *at, uint64_t number, int size) {
         at[__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? i : size - 1 - i] = (unsigned char)(number >> 8 * i);
 }
 
-static void npy_of_others(void **state) {
-    (void)state;
+TEST(npy_of_others) {
     for (int type = 0; type < IMAGE_TYPE_COUNT; type++)
         for (int version = 1; version <= 3; version++)
             for (int order = 0; order < 4; order++)
@@ -214,8 +205,7 @@ static const struct {
     {{RGB, 0, 32, {0xFF, 0xFF00, 0xFF0000, 0xFF000000}, 0}, IMAGE_U8, 4, NULL, -1},
 };
 
-static void dds_of_others(void **state) {
-    (void)state;
+TEST(dds_of_others) {
     for (size_t i = 0; i < sizeof dds_rows / sizeof dds_rows[0]; i++) {
         const int size = (int)image_type_size(dds_rows[i].type);
         const uint64_t count = 2 * dds_rows[i].channels;
@@ -245,8 +235,7 @@ static void dds_of_others(void **state) {
 }
 
 /* Direct3D's older formats of colours begin with blue. */
-static void dds_blue_first(void **state) {
-    (void)state;
+TEST(dds_blue_first) {
     static const handmade_dds_of formats[] = {{.dxgi = 87},
                                               {RGB, 0, 32, {0xFF0000, 0xFF00, 0xFF, 0xFF000000}, 0},
                                               {RGB & ~1U, 0, 24, {0xFF0000, 0xFF00, 0xFF, 0}, 0}};
@@ -265,8 +254,7 @@ static void dds_blue_first(void **state) {
 }
 
 /* Small codes of 24 bits would be those of 16 bits if the file did not name its format. */
-static void dds_names_its_format(void **state) {
-    (void)state;
+TEST(dds_names_its_format) {
     for (int named = 0; named < 2; named++) {
         handmade h = {.size = 0};
         image got;
@@ -285,8 +273,7 @@ static void dds_names_its_format(void **state) {
 }
 
 /* A large transposition is one too. */
-static void npy_transposed(void **state) {
-    (void)state;
+TEST(npy_transposed) {
     enum { WIDTH = 83, HEIGHT = 41, CHANNELS = 3 };
     char header[128];
     const int length =
@@ -362,8 +349,7 @@ static void there_and_back(const image *img, image_file file, uint32_t chunk) {
     image_free(&got);
 }
 
-static void round_trips(void **state) {
-    (void)state;
+TEST(round_trips) {
     static const uint32_t sizes[][2] = {{1, 1}, {7, 3}, {1, 300}, {300, 1}, {257, 129}};
     static const unsigned held[IMAGE_WRITTEN_COUNT] = {[IMAGE_PNG] = 1 << IMAGE_U8 | 1 << IMAGE_U16,
                                                        [IMAGE_PFM] = 1 << IMAGE_F32,
@@ -396,8 +382,7 @@ static void round_trips(void **state) {
 }
 
 /* The bytes that the header promises: PFM -1.0 and from the bottom, npy as NumPy itself writes it. */
-static void written_bytes(void **state) {
-    (void)state;
+TEST(written_bytes) {
     static const float samples[2] = {1, 0.5F};
     char *bytes = NULL;
     size_t size = 0;
@@ -420,8 +405,7 @@ static void written_bytes(void **state) {
     free(bytes);
 }
 
-static void writers_refuse(void **state) {
-    (void)state;
+TEST(writers_refuse) {
     FILE *stream = tmpfile();
     const uint16_t row[4] = {0};
     assert_non_null(stream);
@@ -457,8 +441,7 @@ static void writers_refuse(void **state) {
 
 /* ---- Names --------------------------------------------------------------------------------------------------------*/
 
-static void names(void **state) {
-    (void)state;
+TEST(names) {
     image_file file = IMAGE_FILE_COUNT;
     assert_true(image_file_of("a/b.c/depth.PNG", &file) && file == IMAGE_PNG);
     assert_true(image_file_of("x.pfm", &file) && file == IMAGE_PFM);
@@ -471,17 +454,4 @@ static void names(void **state) {
     assert_int_equal(image_type_size(IMAGE_TYPE_COUNT), 0);
     assert_string_equal(image_file_name(IMAGE_NPY), "npy");
     assert_null(image_file_name(IMAGE_FILE_COUNT));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(png_of_others),  cmocka_unit_test(png_chunks),
-        cmocka_unit_test(pfm_of_others),  cmocka_unit_test(pfm_line_ends),
-        cmocka_unit_test(npy_of_others),  cmocka_unit_test(npy_transposed),
-        cmocka_unit_test(round_trips),    cmocka_unit_test(dds_of_others),
-        cmocka_unit_test(dds_blue_first), cmocka_unit_test(dds_names_its_format),
-        cmocka_unit_test(written_bytes),  cmocka_unit_test(writers_refuse),
-        cmocka_unit_test(names),
-    };
-    return run_tap(tests);
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Images that are damaged, cut short, too long, too large or something else: each is refused in one sentence. */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -48,8 +44,7 @@ static void refused(const handmade *h, const char *sentence) {
 
 /* ---- Sentences ----------------------------------------------------------------------------------------------------*/
 
-static void other_files(void **state) {
-    (void)state;
+TEST(other_files) {
     static const struct {
         const char *bytes;
         size_t size;
@@ -74,8 +69,7 @@ static void other_files(void **state) {
     }
 }
 
-static void pfm_sentences(void **state) {
-    (void)state;
+TEST(pfm_sentences) {
     static const char *const rows[][2] = {
         {"Pf", "cut short within its header"},
         {"Pfx1 1 1\n", "PFM: a blank must follow 'Pf'"},
@@ -120,8 +114,7 @@ static void pfm_sentences(void **state) {
 }
 
 /* A header without end, as a pipe may have one. */
-static void pfm_endless(void **state) {
-    (void)state;
+TEST(pfm_endless) {
     enum { SIZE = 10002 };
     unsigned char *bytes = malloc(SIZE + 1);
     image got;
@@ -136,8 +129,7 @@ static void pfm_endless(void **state) {
     free(bytes);
 }
 
-static void npy_sentences(void **state) {
-    (void)state;
+TEST(npy_sentences) {
     static const char *const rows[][2] = {
         {"", "npy: its header must have '{' at ''"},
         {"{", "npy: its header must have a word in quotes at ''"},
@@ -200,8 +192,7 @@ static void npy_sentences(void **state) {
 }
 
 /* A word of the header that is another, and what is said of it. */
-static void dds_sentences(void **state) {
-    (void)state;
+TEST(dds_sentences) {
     static const struct {
         uint32_t dxgi, word, value;
         const char *sentence;
@@ -248,8 +239,7 @@ static void dds_sentences(void **state) {
     refused(&h, "DDS: it has 3 mip levels: save the largest alone");
 }
 
-static void png_sentences(void **state) {
-    (void)state;
+TEST(png_sentences) {
     static const unsigned char pixels[16] = {0};
     static const struct {
         uint32_t width, height;
@@ -334,8 +324,7 @@ static size_t small_files(handmade files[SMALL]) {
     return n;
 }
 
-static void cut_anywhere(void **state) {
-    (void)state;
+TEST(cut_anywhere) {
     handmade files[SMALL];
     tally t = {.name = "cut anywhere"};
     const size_t count = small_files(files);
@@ -359,8 +348,7 @@ static void cut_anywhere(void **state) {
 }
 
 /* Each bit of a PNG is under a checksum; PFM and npy have none, and then an image comes of it or a sentence. */
-static void bits_flipped(void **state) {
-    (void)state;
+TEST(bits_flipped) {
     handmade files[SMALL];
     tally t = {.name = "bits flipped"};
     const size_t count = small_files(files);
@@ -383,8 +371,7 @@ static void bits_flipped(void **state) {
 }
 
 /* libpng would write to stderr by itself. */
-static void nothing_printed(void **state) {
-    (void)state;
+TEST(nothing_printed) {
     FILE *caught = tmpfile();
     assert_non_null(caught);
     const int before = dup(STDERR_FILENO);
@@ -403,8 +390,7 @@ static void nothing_printed(void **state) {
 
 /* ---- Files and pipes ----------------------------------------------------------------------------------------------*/
 
-static void unreadable_paths(void **state) {
-    (void)state;
+TEST(unreadable_paths) {
     image got;
     image_error error;
     assert_false(image_read("/nonexistent/depth.png", &got, &error));
@@ -464,8 +450,7 @@ static void from_stdin(const unsigned char *bytes, size_t size, bool pipe_it, co
         fail_msg("%s of %zu bytes: not '%s'", pipe_it ? "pipe" : "file", size, sentence);
 }
 
-static void huge_claims(void **state) {
-    (void)state;
+TEST(huge_claims) {
     handmade npy = {.size = 0}, pfm = {.size = 0}, png = {.size = 0}, data = {.size = 0};
     handmade_npy(&npy, 1, "{'descr': '<f8', 'fortran_order': False, 'shape': (4096, 65536, 4), }");
     handmade_text(&npy, "abc");
@@ -488,8 +473,7 @@ static void huge_claims(void **state) {
 }
 
 /* Larger than what a pipe holds, and than the first piece of memory. */
-static void large_pipes(void **state) {
-    (void)state;
+TEST(large_pipes) {
     enum { SIDE = 900, SAMPLES = SIDE * SIDE };
     char *bytes[IMAGE_WRITTEN_COUNT];
     float *samples = calloc(SAMPLES, sizeof *samples);
@@ -521,14 +505,4 @@ static void large_pipes(void **state) {
         free(bytes[file]);
     }
     free(samples);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(other_files),     cmocka_unit_test(pfm_sentences), cmocka_unit_test(npy_sentences),
-        cmocka_unit_test(dds_sentences),   cmocka_unit_test(pfm_endless),   cmocka_unit_test(png_sentences),
-        cmocka_unit_test(cut_anywhere),    cmocka_unit_test(bits_flipped),  cmocka_unit_test(unreadable_paths),
-        cmocka_unit_test(nothing_printed), cmocka_unit_test(huge_claims),   cmocka_unit_test(large_pipes),
-    };
-    return run_tap(tests);
 }

@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Samples as window depths and as codes: every type in every format, against one number at a time. */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "frame/image_depths.h"
 #include "oracle.h"
 #include "support.h"
@@ -112,8 +107,7 @@ static void random_bits(rng *r, void *data, size_t size, uint32_t most) {
     }
 }
 
-static void every_type_and_format(void **state) {
-    (void)state;
+TEST(every_type_and_format) {
     tally t = {.name = "every type and format"};
     rng r = rng_make("types and formats");
     void *data = malloc(SAMPLES * sizeof(double));
@@ -145,8 +139,7 @@ static void every_type_and_format(void **state) {
 }
 
 /* All of a type's values at a time. */
-static void all_words(void **state) {
-    (void)state;
+TEST(all_words) {
     tally t = {.name = "all words"};
     uint16_t *words = malloc(65536 * sizeof *words);
     uint8_t bytes[256];
@@ -172,8 +165,7 @@ static void all_words(void **state) {
 }
 
 /* Codes of unorm16 and unorm24 come back from every type that can carry them. */
-static void codes_return(void **state) {
-    (void)state;
+TEST(codes_return) {
     enum { COUNT = 4096 };
     tally t = {.name = "codes return"};
     for (int k = 0; k < 2; k++) {
@@ -212,13 +204,4 @@ static void codes_return(void **state) {
         }
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_type_and_format),
-        cmocka_unit_test(all_words),
-        cmocka_unit_test(codes_return),
-    };
-    return run_tap(tests);
 }

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pixels without a header: which picture they are, and of what, by files put together here byte by byte. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "image/image.h"
 #include "printed.h"
-#include "support.h"
 
 /* `words` of each pixel, the lowest byte first. */
 static const char *write_raw(const char *name, uint32_t pixels, uint32_t bytes, uint64_t (*pixel)(uint32_t)) {
@@ -52,7 +47,7 @@ static uint64_t code_24(uint32_t i) {
     return i * 2654435761U & 0xFFFFFF;
 }
 
-static void what_is_read(void **state) {
+TEST(what_is_read) {
     static const struct {
         const char *name;
         uint32_t width, height, bytes;
@@ -71,7 +66,6 @@ static void what_is_read(void **state) {
         {"a.raw", 17, 31, 4, float_32, true, IMAGE_F32, 1, "fp32"},
         {"a.raw", 31, 17, 8, float_stencil, true, IMAGE_F32, 2, "fp32"},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         const uint32_t count = rows[k].width * rows[k].height;
         const image_asked asked = {.width = rows[k].given ? rows[k].width : 0, .height = rows[k].height};
@@ -97,7 +91,7 @@ static void what_is_read(void **state) {
     }
 }
 
-static void what_is_refused(void **state) {
+TEST(what_is_refused) {
     static const struct {
         uint32_t pixels, bytes;
         uint64_t (*pixel)(uint32_t);
@@ -111,7 +105,6 @@ static void what_is_refused(void **state) {
         {1000, 2, code_16, 20, 5, "raw: 20 x 5 pixels take 2, 4 or 8 bytes each, and it has 2000 bytes in all"},
         {1000, 8, not_a_depth, 50, 20, "raw: pixels of 8 bytes must begin with a binary32 depth from 0 to 1"},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         const image_asked asked = {.width = rows[k].width, .height = rows[k].height};
         image img;
@@ -129,7 +122,7 @@ static uint64_t around(uint32_t i) {
     return i == 300 ? edge : rest;
 }
 
-static void limits_of_depths(void **state) {
+TEST(limits_of_depths) {
     static const struct {
         uint32_t edge, rest;
         const char *says;
@@ -144,7 +137,6 @@ static void limits_of_depths(void **state) {
         {0x7FC00000, 0x3F000000, "unorm24"}, /* NaN */
         {0, 0, "unorm24"},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         const image_asked asked = {.width = 20, .height = 20};
         image img;
@@ -184,9 +176,8 @@ static const char *zeros(uint64_t bytes) {
     return path;
 }
 
-static void usual_sizes(void **state) {
+TEST(usual_sizes) {
     const image_asked asked = {.width = 0};
-    (void)state;
     for (int k = 0; k < SCREENS; k++) {
         const uint64_t bytes = (uint64_t)screens[k].width * screens[k].height * 2;
         int other = -1; /* that has as many bytes in wider pixels */
@@ -209,10 +200,4 @@ static void usual_sizes(void **state) {
                  screens[k].width, screens[k].height, screens[other].width, screens[other].height);
         assert_string_equal(error.text, sentence);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_read), cmocka_unit_test(limits_of_depths),
-                                       cmocka_unit_test(usual_sizes), cmocka_unit_test(what_is_refused)};
-    return run_tap(tests);
 }

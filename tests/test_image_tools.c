@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Images of other writers: EXR and TIFF put together here, and whatever the tools on this machine make of them. */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "handmade.h"
 #include "image/image.h"
 #include "printed.h"
@@ -151,8 +146,7 @@ static const char *write_file(const char *name, const handmade *h) {
     return path;
 }
 
-static void exr_channels(void **state) {
-    (void)state;
+TEST(exr_channels) {
     static const struct {
         exr_channel channels[3];
         size_t count;
@@ -266,8 +260,7 @@ static bool tiff_is_read(void) {
     return is_read("TIFF", &h);
 }
 
-static void tiff_types(void **state) {
-    (void)state;
+TEST(tiff_types) {
     if (!tiff_is_read())
         skip();
     for (int type = 0; type < IMAGE_TYPE_COUNT; type++)
@@ -289,8 +282,7 @@ static void tiff_types(void **state) {
 }
 
 /* Of channels that lie apart the first is read. */
-static void tiff_apart(void **state) {
-    (void)state;
+TEST(tiff_apart) {
     handmade h = {.size = 0};
     image img;
     image_error error;
@@ -306,7 +298,7 @@ static void tiff_apart(void **state) {
 
 /* A block of 8 by 8 samples, all 128, as JPEG in a TIFF: it is read, and told to be what a compression made of depths.
  */
-static void tiff_jpeg(void **state) {
+TEST(tiff_jpeg) {
     static const unsigned char tables[] = {
         0xff, 0xc0, 0, 11, 8,    0, 8, 0, 8,  1, 1,    0x11, 0, /* 8 bits, 8 by 8, one component */
         0xff, 0xc4, 0, 20, 0x00, 1, 0, 0, 0,  0, 0,    0,    0,
@@ -321,7 +313,6 @@ static void tiff_jpeg(void **state) {
     handmade h = {.size = 0};
     image img = {.data = NULL};
     image_error error;
-    (void)state;
     if (!tiff_is_read())
         skip();
     handmade_text(&h, "II");
@@ -351,8 +342,7 @@ static void tiff_jpeg(void **state) {
     image_free(&img);
 }
 
-static void tiff_sentences(void **state) {
-    (void)state;
+TEST(tiff_sentences) {
     static const struct {
         tiff_of of;
         const char *sentence;
@@ -402,8 +392,7 @@ static void is_image_or_sentence(tally *t, const handmade *h, const char *what, 
 }
 
 /* Cut anywhere in front of its last sample it is refused; with any byte wrong an image comes of it, or a sentence. */
-static void damaged_files(void **state) {
-    (void)state;
+TEST(damaged_files) {
     tally t = {.name = "damaged files"};
     handmade files[2] = {{.size = 0}, {.size = 0}};
     const bool there[2] = {exr_is_read(), tiff_is_read()};
@@ -432,8 +421,7 @@ static void damaged_files(void **state) {
         skip();
 }
 
-static void missing_libraries(void **state) {
-    (void)state;
+TEST(missing_libraries) {
     static const char *const symbols[] = {"exit", "no_such_function_of_it", NULL};
     const library absent = {"EXR", {"libnothing-of-that-name.so.7", NULL}, "libnothing7", symbols};
     const library present = {"EXR", {"libnothing-of-that-name.so.7", "libc.so.6", NULL}, "libc6", symbols};
@@ -535,8 +523,7 @@ static void prepare(void) {
 }
 
 /* One image of each writer that is there, read back to the bit. */
-static void made_by_tools(void **state) {
-    (void)state;
+TEST(made_by_tools) {
     char folder[256], command[1024];
     const bool exr = exr_is_read(), tiff = tiff_is_read();
     const char *skipped = "";
@@ -567,8 +554,7 @@ static void made_by_tools(void **state) {
 }
 
 /* What NumPy writes in each version, order and type that is read; a mask is refused by name. */
-static void made_by_numpy(void **state) {
-    (void)state;
+TEST(made_by_numpy) {
     static const char script[] = "import numpy as n\n"
                                  "a = n.arange(1, 254).reshape(11, 23)\n"
                                  "w = lambda f, a, v: n.lib.format.write_array(open(f, 'wb'), a, version=(v, 0))\n"
@@ -606,39 +592,17 @@ static void made_by_numpy(void **state) {
 }
 
 /* The program by itself: a channel by name, and none where there are no names. */
-static void by_the_program(void **state) {
-    (void)state;
+TEST(by_the_program) {
     handmade h = {.size = 0};
     char path[256];
     if (!exr_is_read())
         skip();
     make_exr(&h, (const exr_channel[]){{"Q", IMAGE_F32, false}, {"Z", IMAGE_F32, true}}, 2, 0);
     snprintf(path, sizeof path, "%s", write_file("q.exr", &h));
-    printed p = print_of("texture %s --channel Q -q", path);
-    assert_int_equal(p.status, 0);
-    assert_non_null(strstr(p.out, "23 x 11 pixels, EXR of f4, 1 channel"));
-    printed_free(&p);
-    p = print_of("texture %s --channel X -q", path);
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "EXR: has no channel X, but Q, Z"));
-    printed_free(&p);
+    check_says(0, "23 x 11 pixels, EXR of f4, 1 channel", "texture %s --channel Q -q", path);
+    check_says(2, "EXR: has no channel X, but Q, Z", "texture %s --channel X -q", path);
     prepare();
-    p = print_of("texture %s --channel Z", scratch_file("a.png"));
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--channel names one of an EXR; those of PNG have no names"));
-    printed_free(&p);
-    p = print_of("texture --synthetic plane --channel Z");
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--channel: needs FILE"));
-    printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exr_channels),      cmocka_unit_test(tiff_types),     cmocka_unit_test(tiff_apart),
-        cmocka_unit_test(tiff_jpeg),         cmocka_unit_test(tiff_sentences), cmocka_unit_test(damaged_files),
-        cmocka_unit_test(missing_libraries), cmocka_unit_test(made_by_tools),  cmocka_unit_test(made_by_numpy),
-        cmocka_unit_test(by_the_program),
-    };
-    return run_tap(tests);
+    check_says(2, "--channel names one of an EXR; those of PNG have no names", "texture %s --channel Z",
+               scratch_file("a.png"));
+    check_says(2, "--channel: needs FILE", "texture --synthetic plane --channel Z");
 }

@@ -4,11 +4,6 @@
  * pixel is off by. The depths become codes by the definitions of depthprec(7) in long double, written here once more,
  * and files of all kinds as tools write them: rounded, cut off, shifted, repeated, multiplied by a reciprocal.
  */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "support.h"
 #include "truth.h"
 
@@ -290,8 +285,7 @@ static void one_image(tally *t, rng *r, const file_kind *k, bool either_sign, us
     }
 }
 
-static void eye_depth_is_within_what_is_said(void **state) {
-    (void)state;
+TEST(eye_depth_is_within_what_is_said) {
     const uint64_t rounds = test_cases(6, 12, 2000);
     tally t = {.name = "eye depth"};
     rng r = rng_make("image truth");
@@ -308,8 +302,7 @@ static void eye_depth_is_within_what_is_said(void **state) {
     tally_end(&t);
 }
 
-static void depths_of_either_sign_too(void **state) {
-    (void)state;
+TEST(depths_of_either_sign_too) {
     tally t = {.name = "eye depth of either sign"};
     rng r = rng_make("image truth, either sign");
     used all = {0};
@@ -451,8 +444,7 @@ static double one_effect(tally *t, rng *r, const file_kind *k) {
     return most;
 }
 
-static void products_are_within_what_is_said(void **state) {
-    (void)state;
+TEST(products_are_within_what_is_said) {
     const uint64_t rounds = test_cases(2, 5, 1000);
     tally t = {.name = "products"};
     rng r = rng_make("image products");
@@ -468,11 +460,5 @@ static void products_are_within_what_is_said(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eye_depth_is_within_what_is_said),
-        cmocka_unit_test(depths_of_either_sign_too),
-        cmocka_unit_test(products_are_within_what_is_said),
-    };
-    cmocka_set_message_output(CM_OUTPUT_TAP);
-    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
+    return run_listed(truth_folder, truth_folder_end);
 }

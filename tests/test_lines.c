@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Whole command lines: lengths with units, options that are given twice, and in what order words may stand. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "cli/option/uses.h"
 #include "parsed.h"
 #include "support.h"
@@ -81,9 +77,8 @@ static const struct {
     {"texture|x|--last-eye|0,0,30cm", AT(view.last_eye[2]), 0.3, "m"},
 };
 
-static void test_units(void **state) {
+TEST(test_units) {
     tally t = {.name = "units"};
-    (void)state;
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
         char line[1024];
         options o;
@@ -100,7 +95,7 @@ static void test_units(void **state) {
     tally_end(&t);
 }
 
-static void test_no_units(void **state) {
+TEST(test_no_units) {
     static const char *const words[] = {"table|-n|5 kms",
                                         "table|-n|1m2",
                                         "table|-n|1,5m",
@@ -126,7 +121,6 @@ static void test_no_units(void **state) {
                                         "bias|--slope|1m/s",
                                         "texture|x|--metric|1 millimetre"};
     tally t = {.name = "no units"};
-    (void)state;
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         char line[1024];
         options o;
@@ -145,7 +139,7 @@ static void test_no_units(void **state) {
 }
 
 /* What a browser stores takes the place of a preset's format, not of what is given. */
-static void test_platforms(void **state) {
+TEST(test_platforms) {
     static const struct {
         const char *line, *formats, *mapping, *arith, *api, *raster;
     } rows[] = {
@@ -164,7 +158,6 @@ static void test_platforms(void **state) {
          "spec-d3d"}, /* reversed is no clip space that is remapped */
     };
     tally t = {.name = "platforms"};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024], formats[64] = "";
         dp_arith arith;
@@ -190,13 +183,12 @@ static void test_platforms(void **state) {
 /* ---- The command line as a whole --------------------------------------------------------------------------------- */
 
 /* An option with an argument is given once; which one would count, nobody can see. */
-static void test_twice(void **state) {
+TEST(test_twice) {
     static const char *const examples[OPTION_COUNT] = {
         [OPTION_NEAR] = "1",       [OPTION_FORMAT] = "d24",    [OPTION_AT] = "1",     [OPTION_PRESET] = "unity",
         [OPTION_UNIT] = "cm",      [OPTION_OUTPUT] = "x",      [OPTION_SEED] = "1",   [OPTION_SYNTHETIC] = "steps",
         [OPTION_MODEL] = "staged", [OPTION_SEPARATION] = "1m", [OPTION_FAR] = "1000", [OPTION_MAPPING] = "gl"};
     tally t = {.name = "twice"};
-    (void)state;
     for (int id = 0; id < OPTION_COUNT; id++)
         for (size_t v = 0; v < command_count && examples[id] != NULL; v++) {
             char words[256], line[1024], expected[128];
@@ -219,7 +211,7 @@ static void test_twice(void **state) {
 }
 
 /* Options before the command; what is no option's is the command, wherever it stands. */
-static void test_order(void **state) {
+TEST(test_order) {
     static const struct {
         const char *words, *command, *operand; /* null: none */
     } rows[] = {
@@ -235,7 +227,6 @@ static void test_order(void **state) {
         {"-q|help|table", NULL, NULL}, /* help takes no -q */
     };
     tally t = {.name = "order"};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024];
         options o;
@@ -251,11 +242,4 @@ static void test_order(void **state) {
               o.camera.znear);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_units), cmocka_unit_test(test_no_units),
-                                       cmocka_unit_test(test_platforms), cmocka_unit_test(test_twice),
-                                       cmocka_unit_test(test_order)};
-    return run_tap(tests);
 }

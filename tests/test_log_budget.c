@@ -4,10 +4,6 @@
  * wrong order or alike, and some log2 does so nearly that far. The shaders are written here from the sources of the
  * engines; log2 and the divisions, which a language only bounds, are taken at either end of what it allows, by MPFR.
  */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
 
 #include <mpfr.h>
 
@@ -246,10 +242,9 @@ static void check_pairs(rng *r, tally *t, const shader *s, double z) {
     }
 }
 
-static void never_violated(void **state) {
+TEST(never_violated) {
     tally t = {.name = "never violated"};
     rng r = rng_make("log budget");
-    (void)state;
     for (uint64_t i = test_cases(300, 1500, 200000); i > 0; i--) {
         const dp_spec spec = random_spec(&r, i);
         shader s = shader_of(&spec, (int)rng_below(&r, RULES), (int)rng_below(&r, 3) - 1);
@@ -309,12 +304,11 @@ static void add_slack(slack *s, const dp_budget *b, double found, int rule) {
     }
 }
 
-static void not_slack(void **state) {
+TEST(not_slack) {
     static const double worst[2] = {2.0, 3.0}, average[2] = {1.15, 1.45}; /* per fragment, per vertex */
     static const double rounded = 5.0;                                    /* hardly all roundings fall badly at once */
     slack all[MAPPINGS] = {0};
     rng r = rng_make("log slack");
-    (void)state;
     for (uint64_t i = test_cases(50, 150, 5000); i > 0; i--) {
         dp_spec spec = random_spec(&r, i);
         spec.zfar = fmax(spec.zfar, 100 * spec.znear);
@@ -372,10 +366,9 @@ static const struct {
     {DP_CAUSE_NDC, DP_MAPPING_OSGEARTH, "fp32", "mesa", 2, 0.2, 2, 1.0},
 };
 
-static void each_needed(void **state) {
+TEST(each_needed) {
     tally t = {.name = "each needed"};
     rng r = rng_make("log causes");
-    (void)state;
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
         dp_spec spec = spec_of(needs[i].mapping, needs[i].format, 0.1, 1000);
         spec.log_c = needs[i].mapping == DP_MAPPING_LOG ? 0.3 : 1.0;
@@ -422,11 +415,10 @@ static double worst_read(const shader *s, double z, double wide, rng *r, int tri
 }
 
 /* No depth of a range is read back farther off than is said, and some nearly as far. */
-static void errors(void **state) {
+TEST(errors) {
     tally never = {.name = "no error above the bound"};
     rng r = rng_make("log errors");
     double closest[MAPPINGS] = {0};
-    (void)state;
     for (uint64_t i = test_cases(100, 600, 20000); i > 0; i--) {
         const dp_spec spec = random_spec(&r, i);
         const double z = rng_below(&r, 8) == 0 ? spec.zfar : random_depth(&r, &spec),
@@ -463,10 +455,9 @@ static void errors(void **state) {
 /* ---- Codes ------------------------------------------------------------------------------------------------------- */
 
 /* Whatever log2 stores is among the codes that are said, and those are hardly more. */
-static void code_range(void **state) {
+TEST(code_range) {
     tally t = {.name = "code range"};
     rng r = rng_make("log codes");
-    (void)state;
     for (uint64_t i = test_cases(200, 3000, 100000); i > 0; i--) {
         dp_spec spec = random_spec(&r, i);
         spec.format = spec_of(spec.mapping, "unorm24", 1, 2).format;
@@ -491,12 +482,11 @@ static void code_range(void **state) {
  * At far 1e9 three units of log2 are 3.2 codes of 24 bits from 65535 on, where the logarithm is in [16, 32): that is
  * what one depth may be off by. Of two surfaces both are, so their separation has twice as much.
  */
-static void codes_at_1e9(void **state) {
+TEST(codes_at_1e9) {
     const dp_spec spec = spec_of(DP_MAPPING_THREE_WEBGL, "unorm24", 0.1, 1e9);
     const shader s = shader_of(&spec, 0, 0);
     const double codes = 3 * 0x1p-19 / log2(1 + 1e9) * 0xFFFFFF;
     double most = 0.0;
-    (void)state;
     assert_relative(codes, 3.2, 0.01);
     for (double z = 65536; z < 9e8; z *= 1.37) {
         const float w = (float)z;
@@ -518,12 +508,11 @@ static void codes_at_1e9(void **state) {
  * What is guaranteed over a range is never violated at any depth of it, is hardly more than what the worst depth found
  * needs, and is what the budget says there; that of another depth may be above it by 4 % and a step of binary32.
  */
-static void over_ranges(void **state) {
+TEST(over_ranges) {
     tally never = {.name = "never violated over a range"};
     tally tight = {.name = "hardly above the worst depth"};
     tally about = {.name = "not far below any depth"};
     rng r = rng_make("log ranges");
-    (void)state;
     for (uint64_t i = test_cases(100, 500, 50000); i > 0; i--) {
         const dp_spec spec = random_spec(&r, i);
         const shader s = shader_of(&spec, 0, (int)rng_below(&r, 3) - 1);
@@ -555,13 +544,4 @@ static void over_ranges(void **state) {
     tally_end(&never);
     tally_end(&tight);
     tally_end(&about);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(never_violated), cmocka_unit_test(not_slack),  cmocka_unit_test(each_needed),
-        cmocka_unit_test(errors),         cmocka_unit_test(code_range), cmocka_unit_test(codes_at_1e9),
-        cmocka_unit_test(over_ranges),
-    };
-    return run_tap(tests);
 }

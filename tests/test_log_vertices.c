@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Depth written per vertex: no triangle of the class is off by more than is said, some are by all of it, and the span
  * that keeps an error is that. In long double, vertex by vertex. */
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "printed.h"
-#include "support.h"
 
 static dp_setup setup_of(dp_mapping mapping, double n, double f, double c) {
     dp_spec spec = dp_spec_default();
@@ -50,10 +45,9 @@ static long double error_of_triangle(const dp_setup *s, rng *r, long double z, l
     return l1 * rises(s, v1, z) + l2 * rises(s, v2, z) + l3 * rises(s, v3, z);
 }
 
-static void test_error(void **state) {
+TEST(test_error) {
     tally t = {.name = "error"};
     rng r = rng_make("log vertices");
-    (void)state;
     for (uint64_t i = test_cases(500, 20000, 400000); i > 0; i--) {
         const double n = rng_log(&r, 1e-3, 10), f = n * rng_log(&r, 10, 1e6);
         const dp_setup s =
@@ -77,10 +71,9 @@ static void test_error(void **state) {
 }
 
 /* The error is kept up to the depth that is said, and beyond it is not. */
-static void test_depth(void **state) {
+TEST(test_depth) {
     tally t = {.name = "depth"};
     rng r = rng_make("log spans");
-    (void)state;
     for (uint64_t i = test_cases(100, 5000, 50000); i > 0; i--) {
         const double n = rng_log(&r, 1e-3, 10), f = n * rng_log(&r, 1e3, 1e6);
         const dp_setup s = setup_of(i % 3 == 0 ? DP_MAPPING_LINEAR : DP_MAPPING_LOG, n, f, rng_log(&r, 1e-3, 1e3));
@@ -102,11 +95,10 @@ static void test_depth(void **state) {
 }
 
 /* Numbers of depthprec(7): from z to 2 z 6.0 %, to 1.1 z 0.11 %; from z/2 to 2 z 26 % at z, and of linear 50 %. */
-static void known_numbers(void **state) {
+TEST(known_numbers) {
     static const double ends[2] = {2.0, 1.1}, shares[2] = {0.0597, 0.00113};
     dp_vertex_error e;
     double k;
-    (void)state;
     for (int i = 0; i < 2; i++) {
         const double m = ends[i] * log(ends[i]) / (ends[i] - 1), z = 1e3;
         const dp_setup s = setup_of(DP_MAPPING_LOG, z, ends[i] * z, 1e6);
@@ -126,7 +118,7 @@ static void known_numbers(void **state) {
     assert_relative(k, 2, 1e-9);
 }
 
-static void test_none(void **state) {
+TEST(test_none) {
     dp_vertex_error e = {1, 1};
     double k = 0;
     const dp_setup osg = setup_of(DP_MAPPING_OSGEARTH, 0.1, 1000, 1), one = setup_of(DP_MAPPING_LOG, 0.1, 1000, 1);
@@ -141,7 +133,6 @@ static void test_none(void **state) {
         assert_true(a.eye == 0 && a.window == 0);
     }
     const dp_setup d3d = setup_of(DP_MAPPING_D3D, 0.1, 1000, 1), log_depth = setup_of(DP_MAPPING_LOG, 0.1, 1000, 1);
-    (void)state;
     assert_int_equal(dp_vertex_error_at(&d3d, 10, 5, &e), DP_OK);
     assert_true(e.window == 0 && e.eye == 0);
     for (int i = 0; i < 3; i++) { /* a plane, and a triangle of one depth */
@@ -172,7 +163,7 @@ static void test_none(void **state) {
 /* ---- What table prints ------------------------------------------------------------------------------------------- */
 
 /* The error by its formula, and beside it the class that keeps it below the separation. */
-static void test_printed(void **state) {
+TEST(test_printed) {
     static const struct {
         const char *options;
         dp_mapping mapping;
@@ -182,7 +173,6 @@ static void test_printed(void **state) {
                 {"-m linear --triangle-class depth=3", DP_MAPPING_LINEAR, 1, 3}};
     static const double depths[] = {0.1, 0.15, 7, 90, 999, 1000};
     tally t = {.name = "printed"};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         printed p = print_of("table -F d24 %s --viewport 64x48 --at 0.1,0.15,7,90,999,1000 --json", rows[i].options);
         json_t *json = json_of(p.out);
@@ -210,8 +200,7 @@ static void test_printed(void **state) {
 }
 
 /* The sentence names the depth that is off by the largest share, and the smallest class that is not too far off. */
-static void test_sentence(void **state) {
-    static const char *const worst[] = {"error", "z", NULL};
+TEST(test_sentence) {
     const dp_setup s = setup_of(DP_MAPPING_LOG, 0.1, 1000, 1);
     dp_spec full = s.spec;
     dp_format found[2];
@@ -219,7 +208,6 @@ static void test_sentence(void **state) {
     dp_budget b;
     dp_vertex_error e;
     double least = INFINITY, said;
-    (void)state;
     assert_int_equal(dp_format_parse("unorm24", found), 1);
     full.format = found[0];
     assert_int_equal(dp_setup_init(&stored, &full), DP_OK);
@@ -232,10 +220,9 @@ static void test_sentence(void **state) {
     }
     assert_int_equal(dp_vertex_error_at(&s, 5, 2, &e), DP_OK);
     values v = values_of("table");
-    want_number(&v, "error", e.eye);
-    want_number(&v, "z", 5);
+    want(&v, "error=%f z=%f", e.eye, 5.0);
     printed p = print_of("table -F d24 -m log --viewport 64x48 --at 5,50,900");
-    check_text_numbers(&v, p.out, "written per vertex, depth is up to", 4, worst);
+    check_line(&v, p.out, "written per vertex, depth is up to", "error:4, z:4");
     assert_int_equal(sscanf(strstr(p.out, "k = 1 +"), "k = 1 + %lf", &said), 1);
     assert_true(said <= least && said > 0.9 * least);
     printed_free(&p);
@@ -243,15 +230,6 @@ static void test_sentence(void **state) {
     assert_non_null(strstr(p.out, "told apart"));
     assert_null(strstr(p.out, "per fragment"));
     printed_free(&p);
-    p = print_of("table -F d24 -m log --at 5,50,900");
-    assert_null(strstr(p.out, "per vertex"));
-    printed_free(&p);
+    check_says(0, "!per vertex", "table -F d24 -m log --at 5,50,900");
     values_free(&v);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_error),    cmocka_unit_test(test_depth),
-                                       cmocka_unit_test(known_numbers), cmocka_unit_test(test_none),
-                                       cmocka_unit_test(test_printed),  cmocka_unit_test(test_sentence)};
-    return run_tap(tests);
 }

@@ -3,9 +3,6 @@
  * An error map beside its product: each file is what it is when it is written alone, in every kind of file, whichever
  * row a kind begins with; and what fails leaves neither.
  */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "support.h"
@@ -45,7 +42,7 @@ static void run(const command *c) {
     assert_int_equal(truth_run(c->arguments, c->count), 0);
 }
 
-static void files_are_those_written_alone(void **state) {
+TEST(files_are_those_written_alone) {
     static const struct {
         const char *what, *both, *product, *map, *alone;
     } cases[] = {
@@ -56,7 +53,6 @@ static void files_are_those_written_alone(void **state) {
         {"position:view", "both.pfm", "product.pfm", "map.npy", "alone.npy"},
         {"position:matrix", "both.npy", "product.npy", "map.pfm", "alone.pfm"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char option[256];
         snprintf(option, sizeof option, "--error-map=%s", truth_path(cases[i].map));
@@ -76,8 +72,7 @@ static void files_are_those_written_alone(void **state) {
     }
 }
 
-static void what_fails_leaves_neither(void **state) {
-    (void)state;
+TEST(what_fails_leaves_neither) {
     command c = start("eye", "both.npy");
     char option[256];
     snprintf(option, sizeof option, "--error-map=%s/map.npy", truth_path("nowhere"));
@@ -87,10 +82,5 @@ static void what_fails_leaves_neither(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(files_are_those_written_alone),
-        cmocka_unit_test(what_fails_leaves_neither),
-    };
-    cmocka_set_message_output(CM_OUTPUT_TAP);
-    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
+    return run_listed(truth_folder, truth_folder_end);
 }

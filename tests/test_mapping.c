@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mappings: names, what the rows say, the window depth, and the way back from the pair (d, 1 - d). */
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "oracle.h"
 #include "support.h"
@@ -55,8 +52,7 @@ static void check_parse(const char *name, dp_mapping want) {
         fail_msg("'%s' gives status %d, mapping %d; should be %s", name, status, got, rows[want].name);
 }
 
-static void names(void **state) {
-    (void)state;
+TEST(names) {
     for (int i = 0; i < DP_MAPPING_COUNT; i++) {
         const dp_mapping_row *row = dp_mapping_get((dp_mapping)i);
         assert_non_null(row);
@@ -149,8 +145,7 @@ static void eye_of_pair(mpq_t z, const oracle *o, double d, double q) {
     mpq_clear(part);
 }
 
-static void window_and_back(void **state) {
-    (void)state;
+TEST(window_and_back) {
     rng r = rng_make("mapping");
     tally window = {.name = "window within 2^-50"}, eye = {.name = "eye within its bound"},
           trip = {.name = "z to the pair and back"};
@@ -212,8 +207,7 @@ static void window_and_back(void **state) {
     tally_end(&eye);
 }
 
-static void ends(void **state) {
-    (void)state;
+TEST(ends) {
     for (int m = 0; m < DP_MAPPING_COUNT; m++) {
         for (int ortho = 0; ortho <= rows[m].ortho; ortho++) {
             for (int infinite = 0; infinite <= (rows[m].far_infinite && !ortho); infinite++) {
@@ -240,8 +234,7 @@ static void ends(void **state) {
 }
 
 /* What messages list are the rows. */
-static void lists_of_names_are_the_rows(void **state) {
-    (void)state;
+TEST(lists_of_names_are_the_rows) {
     char all[256] = "", perspective[256] = "";
     for (int i = 0; i < DP_MAPPING_COUNT; i++) {
         char *const lists[] = {all, rows[i].curve == DP_CURVE_PERSPECTIVE ? perspective : NULL};
@@ -252,14 +245,4 @@ static void lists_of_names_are_the_rows(void **state) {
     }
     assert_string_equal(DP_MAPPING_NAMES, all);
     assert_string_equal(DP_MAPPING_NAMES_PERSPECTIVE, perspective);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names),
-        cmocka_unit_test(lists_of_names_are_the_rows),
-        cmocka_unit_test(ends),
-        cmocka_unit_test(window_and_back),
-    };
-    return run_tap(tests);
 }

@@ -4,11 +4,6 @@
  * formula for clip planes, written to files, and every pixel is judged in rationals by what the file says: eye depth,
  * range, place, and the map of errors.
  */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "image/image.h"
 #include "oracle.h"
 #include "printed.h"
@@ -186,10 +181,10 @@ static void make_case(rng *r, view_case *c) {
 
 /* ---- What is printed --------------------------------------------------------------------------------------------- */
 
-static double number_at(json_t *object, const char *field) {
-    json_t *value = json_object_get(object, field);
-    assert_non_null(value);
-    return json_is_null(value) ? INFINITY : json_number_value(value);
+/* No end is null. */
+static double endless_at(const json_t *object, const char *field) {
+    const double number = number_at(object, "%s", field);
+    return isnan(number) ? INFINITY : number;
 }
 
 typedef struct eyes {
@@ -235,7 +230,7 @@ static void judge_place(tally *t, const ray *r, json_t *pixel, const mpq_t z) {
     mpq_init(x);
     for (int k = 0; k < 2; k++) {
         mpq_mul(x, r->slope[k], z);
-        const double got = number_at(place, names[k]);
+        const double got = endless_at(place, names[k]);
         TALLY(t, oracle_distance(got, x) <= 1e-14 * far, "%s: %.17g, not %.17g", names[k], got, mpq_get_d(x));
     }
     mpq_clear(x);
@@ -250,9 +245,9 @@ static void judge_pixels(tally *t, const view_case *c, json_t *root) {
         eyes e;
         ray_init(&r, c, i % ACROSS, i / ACROSS);
         eyes_of(c, &r, c->codes[i], &e);
-        judge(t, c, &r, e.own, e.has_own, number_at(pixel, "z"), 0x1p-50, "z");
-        judge(t, c, &r, e.lo, e.has_lo, number_at(pixel, "lo"), 0x1p-44, "lo");
-        judge(t, c, &r, e.hi, e.has_hi, number_at(pixel, "hi"), 0x1p-44, "hi");
+        judge(t, c, &r, e.own, e.has_own, endless_at(pixel, "z"), 0x1p-50, "z");
+        judge(t, c, &r, e.lo, e.has_lo, endless_at(pixel, "lo"), 0x1p-44, "lo");
+        judge(t, c, &r, e.hi, e.has_hi, endless_at(pixel, "hi"), 0x1p-44, "hi");
         if (e.has_own)
             judge_place(t, &r, pixel, e.own);
         eyes_clear(&e);
@@ -260,11 +255,10 @@ static void judge_pixels(tally *t, const view_case *c, json_t *root) {
     }
 }
 
-static void pixels(void **state) {
+TEST(pixels) {
     rng r = rng_make("matrix pixels");
     tally t = {.name = "pixels of matrices"};
     char list[ALL * 4 + 1] = "";
-    (void)state;
     for (int i = 0; i < ALL; i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%d,%d", i > 0 ? ";" : "", i % ACROSS, i / ACROSS);
     for (uint64_t n = test_cases(10, 150, 2000); n > 0; n--) {
@@ -286,10 +280,9 @@ static void pixels(void **state) {
 /* ---- Products ---------------------------------------------------------------------------------------------------- */
 
 static image numbers_of(const view_case *c, const char *product) {
-    char path[256];
     image_error error;
     image out;
-    snprintf(path, sizeof path, "%s", scratch_file("product.npy"));
+    const char *path = scratch_file("product.npy");
     printed p = print_of("texture '%s' -q --sky 0 --matrix '%s' -F %s -m %s %s -o '%s'", c->shot, c->path,
                          c->format.name, c->mapping, product, path);
     if (p.status != 0)
@@ -341,10 +334,9 @@ static void judge_products(tally *t, const view_case *c) {
     image_free(&place_off);
 }
 
-static void products(void **state) {
+TEST(products) {
     rng r = rng_make("matrix products");
     tally t = {.name = "products of matrices"};
-    (void)state;
     for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
         view_case c;
         make_case(&r, &c);
@@ -355,10 +347,9 @@ static void products(void **state) {
 
 /* ---- Statistics -------------------------------------------------------------------------------------------------- */
 
-static void statistics(void **state) {
+TEST(statistics) {
     rng r = rng_make("matrix statistics");
     tally t = {.name = "statistics of matrices"};
-    (void)state;
     for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
         view_case c;
         char arguments[1024];
@@ -383,27 +374,27 @@ static void statistics(void **state) {
                                  (-1 - c.centre[1]) * c.half[1], (1 - c.centre[1]) * c.half[1]};
         static const char *const names[] = {"left", "right", "bottom", "top"};
         for (int i = 0; i < 4; i++)
-            TALLY(&t, fabs(number_at(matrix, names[i]) - edges[i]) <= 1e-14 * (1 + fabs(edges[i])), "%s", names[i]);
+            TALLY(&t, fabs(endless_at(matrix, names[i]) - edges[i]) <= 1e-14 * (1 + fabs(edges[i])), "%s", names[i]);
         const double degree = 3.14159265358979323846 / 180;
         for (int k = 0; k < 2; k++)
             TALLY(&t,
-                  fabs(number_at(matrix, k == 0 ? "fov_x" : "fov_y") -
+                  fabs(endless_at(matrix, k == 0 ? "fov_x" : "fov_y") -
                        (atan(edges[2 * k + 1]) - atan(edges[2 * k])) / degree) <= 1e-11,
                   "field of view %d", k);
-        TALLY(&t, fabs(number_at(root, "fov") - number_at(matrix, "fov_y")) == 0, "fov");
+        TALLY(&t, fabs(endless_at(root, "fov") - endless_at(matrix, "fov_y")) == 0, "fov");
         TALLY(&t, strcmp(json_string_value(json_object_get(matrix, "looks_along")), c.backwards ? "-z" : "+z") == 0,
               "which way it looks");
         if (!c.oblique) {
-            TALLY(&t, fabs(number_at(root, "near") / c.znear - 1) < 1e-9, "near %.9g", c.znear);
-            TALLY(&t, isinf(c.zfar) || fabs(number_at(root, "far") / c.zfar - 1) < 1e-5, "far %.9g", c.zfar);
+            TALLY(&t, fabs(endless_at(root, "near") / c.znear - 1) < 1e-9, "near %.9g", c.znear);
+            TALLY(&t, isinf(c.zfar) || fabs(endless_at(root, "far") / c.zfar - 1) < 1e-5, "far %.9g", c.zfar);
         } else {
             TALLY(&t, json_is_true(json_object_get(matrix, "oblique")), "oblique");
-            TALLY(&t, number_at(root, "near") <= least * (1 + 1e-6), "near %.9g", number_at(root, "near"));
-            TALLY(&t, number_at(root, "invalid") == count, "%g beyond infinity, not %g", number_at(root, "invalid"),
+            TALLY(&t, endless_at(root, "near") <= least * (1 + 1e-6), "near %.9g", endless_at(root, "near"));
+            TALLY(&t, endless_at(root, "invalid") == count, "%g beyond infinity, not %g", endless_at(root, "invalid"),
                   count);
         }
-        TALLY(&t, fabs(number_at(root, "lo") / least - 1) < 1e-9 && fabs(number_at(root, "hi") / most - 1) < 1e-5,
-              "from %.9g to %.9g, not %.9g to %.9g", number_at(root, "lo"), number_at(root, "hi"), least, most);
+        TALLY(&t, fabs(endless_at(root, "lo") / least - 1) < 1e-9 && fabs(endless_at(root, "hi") / most - 1) < 1e-5,
+              "from %.9g to %.9g, not %.9g to %.9g", endless_at(root, "lo"), endless_at(root, "hi"), least, most);
         json_decref(root);
         free(out);
     }
@@ -413,11 +404,10 @@ static void statistics(void **state) {
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
 /* A plane seen through frustums that are not centred, and oblique ones. */
-static void normals(void **state) {
+TEST(normals) {
     rng r = rng_make("matrix normals");
     uint64_t known = 0;
     tally t = {.name = "normals of matrices"};
-    (void)state;
     for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
         view_case c;
         bool whole = true;
@@ -466,7 +456,7 @@ static void normals(void **state) {
  */
 
 /* Entries and planes are exact here, so the bytes are the same; also of a view that looks down -z, or has y down. */
-static void same_camera(void **state) {
+TEST(same_camera) {
     static const struct {
         const char *entries, *options, *mapping;
     } same[] = {
@@ -487,12 +477,10 @@ static void same_camera(void **state) {
                                            "--product normal:projective",
                                            "--product normal:projective --error-map"};
     tally t = {.name = "matrices beside options"};
-    char path[256], shot[256], one[256], other[256];
-    (void)state;
-    snprintf(path, sizeof path, "%s", scratch_file("matrix.txt"));
-    snprintf(shot, sizeof shot, "%s", scratch_file("shot.npy"));
-    snprintf(one, sizeof one, "%s", scratch_file("one.pfm"));
-    snprintf(other, sizeof other, "%s", scratch_file("other.pfm"));
+    const char *path = scratch_file("matrix.txt");
+    const char *shot = scratch_file("shot.npy");
+    const char *one = scratch_file("one.pfm");
+    const char *other = scratch_file("other.pfm");
     for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
         FILE *out = fopen(path, "w");
         assert_non_null(out);
@@ -525,11 +513,4 @@ static void same_camera(void **state) {
         }
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels), cmocka_unit_test(products),
-                                       cmocka_unit_test(statistics), cmocka_unit_test(normals),
-                                       cmocka_unit_test(same_camera)};
-    return run_tap(tests);
 }

@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The rows of every method family, what is measured at one camera, and the choice by claims. */
-#include <math.h>
-#include <string.h>
-
 #include "method/choose.h"
 #include "method/stability.h"
 #include "named.h"
 #include "support.h"
 
-static void every_row_is_whole(void **state) {
-    (void)state;
+TEST(every_row_is_whole) {
     size_t rows = 0;
     for (; method_get(rows) != NULL; rows++) {
         const method_row *row = method_get(rows);
@@ -49,8 +45,7 @@ static void every_row_is_whole(void **state) {
 }
 
 /* A method that only --full shows is beaten in each case by one that costs less and claims no more, at any far/near. */
-static void those_behind_are_beaten(void **state) {
-    (void)state;
+TEST(those_behind_are_beaten) {
     int behind = 0;
     for (size_t i = 0; method_get(i) != NULL; i++)
         for (size_t which = 0; method_get(i)->behind && which < METHOD_CASES; which++) {
@@ -72,8 +67,7 @@ static void those_behind_are_beaten(void **state) {
 }
 
 /* Errors, twice: the same numbers; within the claim where one is made; families as wide as promised. */
-static void errors_are_within_claims_and_repeat(void **state) {
-    (void)state;
+TEST(errors_are_within_claims_and_repeat) {
     static bench_result first[BENCH_METHODS_MAX], second[BENCH_METHODS_MAX];
     tally t = {.name = "bench"};
     for (size_t f = 0; f < METHOD_FAMILY_COUNT; f++) {
@@ -104,7 +98,7 @@ static void errors_are_within_claims_and_repeat(void **state) {
 }
 
 /* Relative errors of linearization at 0.1 to 1000, measured elsewhere against 128-bit arithmetic. */
-static void linearize_errors_are_the_published_ones(void **state) {
+TEST(linearize_errors_are_the_published_ones) {
     static const struct {
         const char *name;
         double lo, hi;
@@ -117,7 +111,6 @@ static void linearize_errors_are_the_published_ones(void **state) {
     bench_result results[BENCH_METHODS_MAX];
     dp_setup setup;
     tally t = {.name = "published"};
-    (void)state;
     assert_int_equal(method_setup(family, 0, 0.1, 1000, false, &setup), DP_OK);
     size_t count = bench_run(family, 0, &setup, 0, results);
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
@@ -130,8 +123,7 @@ static void linearize_errors_are_the_published_ones(void **state) {
     tally_end(&t);
 }
 
-static void the_front_holds_no_beaten_method(void **state) {
-    (void)state;
+TEST(the_front_holds_no_beaten_method) {
     const method_family_row *family = method_family_find("linearize");
     bench_result r[BENCH_METHODS_MAX];
     dp_setup setup;
@@ -156,8 +148,7 @@ static const char *chosen(const char *family, size_t which, method_wish wish) {
     return row != NULL ? row->name : "";
 }
 
-static void the_choice_is_the_cheapest_that_covers(void **state) {
-    (void)state;
+TEST(the_choice_is_the_cheapest_that_covers) {
     method_wish w = {.tolerance = 1e-2, .ratio_lo = 10, .ratio_hi = 1e4};
     assert_string_equal(chosen("linearize", 0, w), "magic");
     w.tolerance = 1e-6;
@@ -194,13 +185,12 @@ static void the_choice_is_the_cheapest_that_covers(void **state) {
 }
 
 /* A code beyond the last is no answer, however near its value would be. */
-static void test_codes_that_there_are_not(void **state) {
+TEST(test_codes_that_there_are_not) {
     const method_family_row *family = method_family_find("encode");
     dp_spec spec = {.znear = 0.1, .zfar = 1000, .log_c = 1};
     dp_format formats[2];
     dp_setup setup;
     float d = 1.0f;
-    (void)state;
     assert_int_equal(dp_format_parse("unorm16", formats), 1);
     spec.format = formats[0];
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
@@ -212,17 +202,4 @@ static void test_codes_that_there_are_not(void **state) {
         assert_true(family->judge(&(method_call){NULL, &setup, NULL, &in, &out}, 0, &error));
         assert_true(code > 65535 ? isinf(error.ulp) : error.ulp == 0);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_codes_that_there_are_not),
-        cmocka_unit_test(every_row_is_whole),
-        cmocka_unit_test(those_behind_are_beaten),
-        cmocka_unit_test(errors_are_within_claims_and_repeat),
-        cmocka_unit_test(linearize_errors_are_the_published_ones),
-        cmocka_unit_test(the_front_holds_no_beaten_method),
-        cmocka_unit_test(the_choice_is_the_cheapest_that_covers),
-    };
-    return run_tap(tests);
 }

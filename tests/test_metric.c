@@ -5,10 +5,6 @@
  * is where a sensor rounded the depth before, on a lattice that the file does not name.
  */
 #include <jansson.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "support.h"
 #include "truth.h"
@@ -189,8 +185,7 @@ static double one_picture(tally *t, rng *r, const metric_kind *k) {
     return used;
 }
 
-static void metric_depth_is_within_what_is_said(void **state) {
-    (void)state;
+TEST(metric_depth_is_within_what_is_said) {
     const uint64_t rounds = test_cases(2, 6, 400);
     tally t = {.name = "metric"};
     rng r = rng_make("metric");
@@ -217,8 +212,7 @@ static bool was_said(const char *words) {
 }
 
 /* What --lattice says is taken: its step, and the error of each pixel by a formula. */
-static void a_lattice_is_said(void **state) {
-    (void)state;
+TEST(a_lattice_is_said) {
     static const struct said {
         const char *words;
         bool inverse, half;
@@ -273,8 +267,7 @@ static void a_lattice_is_said(void **state) {
 }
 
 /* Multiples of a centimetre in millimetres: a centimetre for what was rounded to it, a millimetre for the file. */
-static void multiples_are_levels(void **state) {
-    (void)state;
+TEST(multiples_are_levels) {
     rng r = rng_make("multiples");
     static double data[PIXELS];
     float map[PIXELS];
@@ -297,8 +290,7 @@ static void multiples_are_levels(void **state) {
 }
 
 /* The levels of each band, counted, and how far the nearest in use is from the next. */
-static void bands_count_levels(void **state) {
-    (void)state;
+TEST(bands_count_levels) {
     static const char *const said[] = {"inverse:200,0.3", "even:0.025,0.01", "binary16"};
     rng r = rng_make("bands");
     static double data[PIXELS];
@@ -330,8 +322,7 @@ static void bands_count_levels(void **state) {
     }
 }
 
-static void what_is_no_lattice_is_refused(void **state) {
-    (void)state;
+TEST(what_is_no_lattice_is_refused) {
     static const char *const bad[] = {"",         "stereo",  "stereo:500", "stereo:500,0.1,1,2",
                                       "even:0",   "even:-1", "even:",      "even:1,",
                                       "levels:1", "file:1",  "halves"};
@@ -348,8 +339,7 @@ static void what_is_no_lattice_is_refused(void **state) {
 }
 
 /* --as rounds to levels: those of the formula, with an error map that holds, and they are found again. */
-static void levels_are_written_and_found(void **state) {
-    (void)state;
+TEST(levels_are_written_and_found) {
     static const struct {
         const char *words, *name;
         double step, offset; /* 0: of 200 levels between the ends */
@@ -405,8 +395,7 @@ static void levels_are_written_and_found(void **state) {
 }
 
 /* 65535 is what some sensors write where they saw nothing: a hole, if nothing else is far. */
-static void the_largest_word_may_be_a_hole(void **state) {
-    (void)state;
+TEST(the_largest_word_may_be_a_hole) {
     rng r = rng_make("top");
     for (int far = 0; far < 2; far++) {
         static double data[PIXELS];
@@ -429,8 +418,7 @@ static void the_largest_word_may_be_a_hole(void **state) {
 }
 
 /* Where the image shows another, or is on no level of it, that is named. */
-static void contradictions_are_named(void **state) {
-    (void)state;
+TEST(contradictions_are_named) {
     rng r = rng_make("contradictions");
     double z[PIXELS];
     const metric_kind seen = {"disparity", IMAGE_U16, 0.001, 6, 1, "inverse", 0.02},
@@ -456,8 +444,7 @@ static void contradictions_are_named(void **state) {
 }
 
 /* Without --metric: numbers above 1 are refused, integers with holes are doubted; and what has no depth is refused. */
-static void it_is_suspected(void **state) {
-    (void)state;
+TEST(it_is_suspected) {
     rng r = rng_make("suspected");
     double z[PIXELS];
     static double zeros[PIXELS];
@@ -487,8 +474,7 @@ static void it_is_suspected(void **state) {
 }
 
 /* Holes in a window depth are no reason to refuse it, and no depth either. */
-static void holes_are_counted(void **state) {
-    (void)state;
+TEST(holes_are_counted) {
     rng r = rng_make("holes");
     static double data[PIXELS];
     float eye[PIXELS];
@@ -515,18 +501,5 @@ static void holes_are_counted(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(metric_depth_is_within_what_is_said),
-        cmocka_unit_test(a_lattice_is_said),
-        cmocka_unit_test(multiples_are_levels),
-        cmocka_unit_test(bands_count_levels),
-        cmocka_unit_test(what_is_no_lattice_is_refused),
-        cmocka_unit_test(contradictions_are_named),
-        cmocka_unit_test(levels_are_written_and_found),
-        cmocka_unit_test(the_largest_word_may_be_a_hole),
-        cmocka_unit_test(it_is_suspected),
-        cmocka_unit_test(holes_are_counted),
-    };
-    cmocka_set_message_output(CM_OUTPUT_TAP);
-    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
+    return run_listed(truth_folder, truth_folder_end);
 }

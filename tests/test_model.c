@@ -1,25 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which model is enough, and how the guaranteed separation is split: the sums, not the bounds themselves. */
-#include <math.h>
-#include <stdio.h>
-
 #include "cli/choice.h"
 #include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 
 enum { DEPTHS = 200 };
 
 static dp_setup make(const char *format, dp_mapping mapping, double znear, double zfar) {
-    dp_format found[2];
-    dp_setup setup;
-    dp_spec spec = dp_spec_default();
-    assert_true(dp_format_parse(format, found) == 1);
-    spec.format = found[0];
-    spec.mapping = mapping;
-    spec.znear = znear;
-    spec.zfar = zfar;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .znear = znear, .zfar = zfar);
 }
 
 static void spread(const dp_setup *setup, double *z, size_t count) {
@@ -55,8 +44,7 @@ static const struct {
     {"unorm24", DP_MAPPING_GL_REVERSED, 0.1, 1000, DP_MODEL_FLOAT},
 };
 
-static void each_model_is_needed(void **state) {
-    (void)state;
+TEST(each_model_is_needed) {
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
         const dp_setup setup = make(needs[i].format, needs[i].mapping, needs[i].znear, needs[i].zfar);
         double z[DEPTHS];
@@ -114,8 +102,7 @@ static double share_at(const dp_setup *setup, int model, double z) {
     return isinf(some) || all <= some ? 0.0 : all / some - 1.0;
 }
 
-static void shares_are_those_of_the_separations(void **state) {
-    (void)state;
+TEST(shares_are_those_of_the_separations) {
     rng r = rng_make("shares");
     tally t = {.name = "shares"};
     for (uint64_t n = test_cases(200, 3000, 30000); n > 0; n--) {
@@ -143,8 +130,7 @@ static void shares_are_those_of_the_separations(void **state) {
 }
 
 /* A plane whose code is 0 has a cell of 1e-46 that no two depths share: nothing is 10^37 times worse than it. */
-static void planes_are_no_measure(void **state) {
-    (void)state;
+TEST(planes_are_no_measure) {
     static const struct {
         dp_mapping mapping;
         double znear, zfar, z;
@@ -166,8 +152,7 @@ static void planes_are_no_measure(void **state) {
     }
 }
 
-static void the_simplest_within_the_tolerance(void **state) {
-    (void)state;
+TEST(the_simplest_within_the_tolerance) {
     rng r = rng_make("tolerance");
     tally t = {.name = "tolerance"};
     for (uint64_t n = test_cases(200, 3000, 30000); n > 0; n--) {
@@ -185,8 +170,7 @@ static void the_simplest_within_the_tolerance(void **state) {
     tally_end(&t);
 }
 
-static void the_set_ups_own_model_does_not_matter(void **state) {
-    (void)state;
+TEST(the_set_ups_own_model_does_not_matter) {
     dp_setup setup = make("unorm24", DP_MAPPING_D3D, 0.1, 1000);
     const double z[2] = {1.0, 100.0};
     dp_choice choice[DP_MODEL_COUNT];
@@ -199,8 +183,7 @@ static void the_set_ups_own_model_does_not_matter(void **state) {
     }
 }
 
-static void refusals(void **state) {
-    (void)state;
+TEST(refusals) {
     const dp_setup setup = make("unorm24", DP_MAPPING_D3D, 0.1, 1000);
     const double good[2] = {1.0, 10.0};
     const double bad[2] = {1.0, 1001.0};
@@ -216,8 +199,7 @@ static void refusals(void **state) {
 }
 
 /* The program asks in blocks, because it may be asked about a million depths: the same must come out. */
-static void blocks_come_to_the_same(void **state) {
-    (void)state;
+TEST(blocks_come_to_the_same) {
     rng r = rng_make("blocks");
     for (uint64_t n = test_cases(5, 50, 500); n > 0; n--) {
         const dp_setup setup = random_setup(&r, false);
@@ -246,8 +228,7 @@ static dp_budget_terms random_terms(rng *r) {
 }
 
 /* A part that was not asked for is none; the others are shares of the window depth, and nothing is left over. */
-static void parts_add_up(void **state) {
-    (void)state;
+TEST(parts_add_up) {
     rng r = rng_make("parts");
     tally t = {.name = "parts"};
     for (uint64_t n = test_cases(2000, 30000, 300000); n > 0; n--) {
@@ -305,8 +286,7 @@ __attribute__((noinline)) static void spoil_stack(void) {
 }
 
 /* The shares go on evenly where a binade behind z bounds the separation that the demands alone leave unbounded. */
-static void parts_go_on_where_nothing_bounds(void **state) {
-    (void)state;
+TEST(parts_go_on_where_nothing_bounds) {
     dp_setup setup;
     dp_spec spec = dp_spec_default();
     dp_format format[2];
@@ -326,8 +306,7 @@ static void parts_go_on_where_nothing_bounds(void **state) {
     }
 }
 
-static void interpolation_adds_itself(void **state) {
-    (void)state;
+TEST(interpolation_adds_itself) {
     const dp_setup setup = make("fp32", DP_MAPPING_REVERSED, 0.1, INFINITY);
     dp_budget none;
     assert_int_equal(dp_budget_at(&setup, 3.0, NULL, &none), DP_OK);
@@ -340,8 +319,7 @@ static void interpolation_adds_itself(void **state) {
     }
 }
 
-static void no_terms_are_zero_terms(void **state) {
-    (void)state;
+TEST(no_terms_are_zero_terms) {
     rng r = rng_make("no terms");
     const dp_budget_terms zero = {0};
     for (uint64_t n = test_cases(200, 2000, 20000); n > 0; n--) {
@@ -360,15 +338,13 @@ static void no_terms_are_zero_terms(void **state) {
     }
 }
 
-static void causes_have_names(void **state) {
-    (void)state;
+TEST(causes_have_names) {
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         assert_non_null(dp_cause_name((dp_cause)i));
     assert_null(dp_cause_name(DP_CAUSE_COUNT));
 }
 
-static void budget_refusals(void **state) {
-    (void)state;
+TEST(budget_refusals) {
     const dp_setup setup = make("unorm24", DP_MAPPING_D3D, 0.1, 1000);
     const dp_setup log_setup = make("unorm24", DP_MAPPING_LOG, 0.1, 1000);
     dp_budget b;
@@ -388,23 +364,4 @@ static void budget_refusals(void **state) {
     assert_int_equal(dp_setup_init(&slanted, &spec), DP_OK);
     assert_int_equal(dp_budget_at(&slanted, 1.0, NULL, &b), DP_ERROR_MODEL);
     assert_int_equal(dp_budget_at(&log_setup, 1.0, NULL, &b), DP_OK);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_model_is_needed),
-        cmocka_unit_test(planes_are_no_measure),
-        cmocka_unit_test(shares_are_those_of_the_separations),
-        cmocka_unit_test(the_simplest_within_the_tolerance),
-        cmocka_unit_test(the_set_ups_own_model_does_not_matter),
-        cmocka_unit_test(refusals),
-        cmocka_unit_test(blocks_come_to_the_same),
-        cmocka_unit_test(parts_add_up),
-        cmocka_unit_test(parts_go_on_where_nothing_bounds),
-        cmocka_unit_test(interpolation_adds_itself),
-        cmocka_unit_test(no_terms_are_zero_terms),
-        cmocka_unit_test(causes_have_names),
-        cmocka_unit_test(budget_refusals),
-    };
-    return run_tap(tests);
 }

@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Slanted triangles in requirement files: what a camera says of them, mistakes, and what is judged by them. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "requirement/check.h"
 #include "support.h"
 
@@ -66,11 +61,10 @@ static bool same(const dp_triangles *a, const dp_triangles *b, dp_anchor anchor)
            a->slim == b->slim;
 }
 
-static void test_read(void **state) {
+TEST(test_read) {
     tally t = {.name = "views are read"};
     need_file f;
     need_error e;
-    (void)state;
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
         if (!parse(plain, views[i].view, "at = 1; separation = 1;", &f, &e))
             fail_msg("%s: %s", views[i].view, e.text);
@@ -151,9 +145,8 @@ static const struct {
      "viewport = [640, 480]; fov = 60; raster = \"softpipe\";", "raster: softpipe steps the codes of unorm16"},
 };
 
-static void test_mistakes(void **state) {
+TEST(test_mistakes) {
     tally t = {.name = "mistakes are told with their line"};
-    (void)state;
     for (size_t i = 0; i < sizeof mistakes / sizeof mistakes[0]; i++) {
         need_file f;
         need_error e;
@@ -194,11 +187,10 @@ static check_verdict judge_one(const char *camera, const char *view, const char 
 }
 
 /* What snapping alone asks for edge-on, 2 sqrt(2) tau D z, fails a limit below it that facing surfaces meet. */
-static void test_verdicts(void **state) {
+TEST(test_verdicts) {
     const char *view = "viewport = [1920, 1080]; hfov = 90; subpixel = 4;";
     const double snapping = 9.2e-5 * 1000;
     char wanted[64], ranged[64];
-    (void)state;
     snprintf(wanted, sizeof wanted, "at = 1000; separation = %.6f;", 0.99 * snapping);
     snprintf(ranged, sizeof ranged, "range = (5, 1000); separation = %.6f;", 0.99 * snapping);
     assert_true(judge_one(plain, "", wanted).passed && judge_one(plain, "", ranged).passed);
@@ -214,10 +206,4 @@ static void test_verdicts(void **state) {
     assert_true(judge_one(plain, view, "at = 1000; error = 0.01;").value ==
                 judge_one(plain, "", "at = 1000; error = 0.01;").value);
     assert_true(judge_one(plain, view, "range = (1, 2); ties = 0.0;").passed);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read), cmocka_unit_test(test_mistakes),
-                                       cmocka_unit_test(test_verdicts)};
-    return run_tap(tests);
 }

@@ -3,9 +3,6 @@
  * Normals from depth against analytic ones and against a plain version with branches in double; borders, units of
  * length, lone pixels. Scenes and references are written here, without the rooms that the methods use.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "named.h"
 #include "views.h"
 
@@ -25,8 +22,7 @@ static double half_of(double x, bool *near) {
     return rint(share) * step;
 }
 
-static void every_row_is_whole(void **state) {
-    (void)state;
+TEST(every_row_is_whole) {
     size_t count = 0;
     for (; normal_get(count) != NULL; count++) {
         const normal_row *m = normal_get(count);
@@ -38,8 +34,7 @@ static void every_row_is_whole(void **state) {
     assert_null(normal_find("highest"));
 }
 
-static void angles_are_not_cancelled(void **state) {
-    (void)state;
+TEST(angles_are_not_cancelled) {
     for (double t = 1e-150; t < 3; t *= 7) {
         const double a[3] = {3e10, 0, 0}, b[3] = {cos(t) * 1e-9, sin(t) * 1e-9, 0};
         assert_relative(normal_angle(a, b), t, 1e-15 + 1e-16 / fmin(t, 1) * (t > 1e-3 ? 4 : 0));
@@ -51,8 +46,7 @@ static void angles_are_not_cancelled(void **state) {
 
 /* Depths without quantization, in images so small that the rounding of an eye depth does not show: only binary32 is
  * left. */
-static void exact_depths_leave_binary32_alone(void **state) {
-    (void)state;
+TEST(exact_depths_leave_binary32_alone) {
     rng r = rng_make("normal exact");
     tally t = {.name = "exact depths"};
     double worst = 0;
@@ -146,8 +140,7 @@ static void patchwork(rng *r, const texture_camera *c, view_picture *p) {
         }
 }
 
-static void methods_are_those_in_plain_words(void **state) {
-    (void)state;
+TEST(methods_are_those_in_plain_words) {
     rng r = rng_make("normal plain");
     tally t = {.name = "plain"};
     uint64_t doubtful = 0;
@@ -201,8 +194,7 @@ static void methods_are_those_in_plain_words(void **state) {
 }
 
 /* The tail of a loop, a band of rows and a part of a row give the bits of the whole; so does another unit of length. */
-static void parts_and_units_give_the_same_bits(void **state) {
-    (void)state;
+TEST(parts_and_units_give_the_same_bits) {
     rng r = rng_make("normal bits");
     tally t = {.name = "bits"};
     texture_camera c = view_camera("fp32", DP_MAPPING_REVERSED, 0.1, 100, false, 67, 23, 60);
@@ -243,8 +235,7 @@ static void parts_and_units_give_the_same_bits(void **state) {
 }
 
 /* Images of every small size, all of a plane: right wherever the neighbours that the method needs are there. */
-static void borders_are_never_taken(void **state) {
-    (void)state;
+TEST(borders_are_never_taken) {
     rng r = rng_make("normal border");
     tally t = {.name = "borders"};
     for (uint32_t width = 1; width <= 12; width++)
@@ -281,8 +272,7 @@ static void borders_are_never_taken(void **state) {
 }
 
 /* A one-pixel feature, far in front of or behind everything: no overflow, no normal that is not one. */
-static void lone_pixels_are_harmless(void **state) {
-    (void)state;
+TEST(lone_pixels_are_harmless) {
     tally t = {.name = "lone pixels"};
     texture_camera c = view_camera("fp32", DP_MAPPING_REVERSED, 1e-6, 1e12, false, 11, 11, 60);
     view_picture p = view_picture_of(&c);
@@ -306,17 +296,4 @@ static void lone_pixels_are_harmless(void **state) {
         }
     view_picture_free(&p);
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_row_is_whole),
-        cmocka_unit_test(angles_are_not_cancelled),
-        cmocka_unit_test(exact_depths_leave_binary32_alone),
-        cmocka_unit_test(methods_are_those_in_plain_words),
-        cmocka_unit_test(parts_and_units_give_the_same_bits),
-        cmocka_unit_test(borders_are_never_taken),
-        cmocka_unit_test(lone_pixels_are_harmless),
-    };
-    return run_tap(tests);
 }

@@ -3,9 +3,6 @@
  * How wrong normals are: the bound of depthprec(7) on planes, and what is measured on synthetic images,
  * counted again here.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "frame/normal_errors.h"
 #include "named.h"
 #include "views.h"
@@ -13,8 +10,7 @@
 static const double PI = 3.14159265358979323846;
 
 /* The bound: never passed on planes of any tilt in any format, and reached by some. Long: cases, loops and verdict. */
-static void planes_are_within_the_bound(void **state) {
-    (void)state;
+TEST(planes_are_within_the_bound) {
     static const char *const formats[] = {"unorm16", "unorm24", "fp16", "fp32"};
     static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED};
     static const struct {
@@ -87,8 +83,7 @@ static void planes_are_within_the_bound(void **state) {
 }
 
 /* The corners of the cube of errors are the worst: no error within it does more, and some do nearly as much. */
-static void the_bound_is_that_of_the_worst_errors(void **state) {
-    (void)state;
+TEST(the_bound_is_that_of_the_worst_errors) {
     rng r = rng_make("normal corners");
     tally t = {.name = "worst errors"};
     double used = 0;
@@ -228,8 +223,7 @@ static void check_hard(const vector_row *row, void *context) {
     (strcmp(vector_text(row, 0), "rounding") == 0 ? check_rounding : check_stored)(row, context);
 }
 
-static void the_hardest_planes_need_each_term(void **state) {
-    (void)state;
+TEST(the_hardest_planes_need_each_term) {
     tally t = {.name = "hardest"};
     vectors_read("normal.txt", check_hard, &t);
     tally_end(&t);
@@ -248,8 +242,7 @@ static void stepped(const texture_camera *c, const double *p, double column, dou
 }
 
 /* Measured in plain words: every pixel from run() and sides(). */
-static void measures_count_what_they_say(void **state) {
-    (void)state;
+TEST(measures_count_what_they_say) {
     const synthetic_row shown = {.name = "stepped", .hit = stepped};
     const double parameters[4] = {4, 1.0, 0.1, 0.9993};
     texture_camera c = view_camera("unorm24", DP_MAPPING_D3D, 0.3, 3000, false, 60, 40, 60);
@@ -320,8 +313,7 @@ static void ball(const texture_camera *c, const double *p, double column, double
     *out = (synthetic_hit){.z = z, .normal = {sx * z / p[1], sy * z / p[1], (z - p[0]) / p[1]}, .surface = 1};
 }
 
-static void spheres_and_their_outline(void **state) {
-    (void)state;
+TEST(spheres_and_their_outline) {
     const synthetic_row shown = {.name = "ball", .hit = ball};
     const double parameters[4] = {10, 3, 14};
     texture_camera c = view_camera("fp32", DP_MAPPING_REVERSED, 0.1, 1000, false, 256, 256, 45);
@@ -359,7 +351,7 @@ static void judge_row(const texture_camera *c, const grain *g, const normal_plan
 }
 
 /* Also at borders, where a neighbour beyond the image says nothing. */
-static void bounds_of_a_row_are_those_of_its_pixels(void **state) {
+TEST(bounds_of_a_row_are_those_of_its_pixels) {
     enum { MOST = 700 };
     static const uint32_t sizes[][2] = {{1, 1}, {7, 3}, {257, 2}, {MOST, 3}};
     static const grain coarse = {.kind = GRAIN_STEPS, .steps = 65535, .buffer = true};
@@ -367,7 +359,6 @@ static void bounds_of_a_row_are_those_of_its_pixels(void **state) {
     static double z[MOST], got[MOST];
     rng r = rng_make("rows of planes");
     size_t finite[2] = {0, 0};
-    (void)state;
     for (size_t k = 0; k < 16; k++) {
         const bool ortho = k % 2 == 1;
         const texture_camera c = view_camera("unorm24", k % 4 < 2 ? DP_MAPPING_D3D : DP_MAPPING_REVERSED, 0.1, 100,
@@ -387,13 +378,4 @@ static void bounds_of_a_row_are_those_of_its_pixels(void **state) {
         }
     }
     assert_true(finite[0] > 2000 && finite[1] > 2000);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(planes_are_within_the_bound),       cmocka_unit_test(the_bound_is_that_of_the_worst_errors),
-        cmocka_unit_test(the_hardest_planes_need_each_term), cmocka_unit_test(measures_count_what_they_say),
-        cmocka_unit_test(spheres_and_their_outline),         cmocka_unit_test(bounds_of_a_row_are_those_of_its_pixels),
-    };
-    return run_tap(tests);
 }

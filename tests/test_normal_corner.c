@@ -4,9 +4,6 @@
  * so each combination of ends is tried, and one by chance; none may be farther off, and some must come near. Where what
  * is stored is true there is only what binary32 and binary16 lose.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "named.h"
 #include "shader/normal_corner.h"
 #include "views.h"
@@ -80,7 +77,7 @@ static double share_without_cells(tally *t, const texture_camera *c, const norma
     return bound < 1 ? angle / bound : 0;
 }
 
-static void no_true_plane_is_farther_off(void **state) {
+TEST(no_true_plane_is_farther_off) {
     static const struct {
         const char *format;
         dp_mapping mapping;
@@ -88,7 +85,6 @@ static void no_true_plane_is_farther_off(void **state) {
     double share[NORMAL_METHODS][2] = {{0}}, lost[NORMAL_METHODS][2] = {{0}};
     rng r = rng_make("normal corner");
     tally t = {.name = "corners"};
-    (void)state;
     for (uint64_t n = test_cases(10000, 30000, 300000); n > 0; n--) {
         const bool ortho = rng_below(&r, 3) == 0;
         const size_t k = rng_below(&r, 3), m = rng_below(&r, NORMAL_METHODS);
@@ -131,9 +127,4 @@ static void no_true_plane_is_farther_off(void **state) {
             assert_true(lost[m][0] > least && lost[m][1] > least);
         }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_true_plane_is_farther_off)};
-    return run_tap(tests);
 }

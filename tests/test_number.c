@@ -1,18 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers in and out: what is read, and that the quick shortest digits are those of printf and strtod. */
 #include <float.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "report/number.h"
+#include "support.h"
 
 static const char *reference(double value, char out[64]) {
     for (int digits = 15; digits <= 17; digits++) {
@@ -32,20 +23,19 @@ static void same_as_reference(double value) {
 }
 
 /* xorshift: the same numbers in every run. */
-static uint64_t next(uint64_t *state) {
-    *state ^= *state << 13;
-    *state ^= *state >> 7;
-    *state ^= *state << 17;
-    return *state;
+static uint64_t next(uint64_t *word) {
+    *word ^= *word << 13;
+    *word ^= *word >> 7;
+    *word ^= *word << 17;
+    return *word;
 }
 
-static void random_bits(void **unused) {
-    (void)unused;
-    uint64_t state = 20140611;
+TEST(random_bits) {
+    uint64_t word = 20140611;
     long quick = 0;
     long inside = 0;
     for (int i = 0; i < 300000; i++) {
-        uint64_t bits = next(&state);
+        uint64_t bits = next(&word);
         if (i % 2 == 0) /* half of them where the quick way works */
             bits = (bits & 0x800FFFFFFFFFFFFFU) | (897 + (bits >> 52) % 180) << 52;
         double value;
@@ -62,12 +52,11 @@ static void random_bits(void **unused) {
 }
 
 /* Decimals as people type them, which need few digits, and their neighbours, which need seventeen. */
-static void short_decimals(void **unused) {
-    (void)unused;
-    uint64_t state = 7;
+TEST(short_decimals) {
+    uint64_t word = 7;
     for (int i = 0; i < 100000; i++) {
         char text[64];
-        snprintf(text, sizeof text, "%de%d", (int)(next(&state) % 100000), (int)(next(&state) % 50) - 38);
+        snprintf(text, sizeof text, "%de%d", (int)(next(&word) % 100000), (int)(next(&word) % 50) - 38);
         double value = strtod(text, NULL);
         same_as_reference(value);
         same_as_reference(nextafter(value, INFINITY));
@@ -75,8 +64,7 @@ static void short_decimals(void **unused) {
     }
 }
 
-static void edges(void **unused) {
-    (void)unused;
+TEST(edges) {
     for (int e = -320; e <= 308; e++) {
         char text[16];
         snprintf(text, sizeof text, "1e%d", e);
@@ -96,8 +84,7 @@ static void edges(void **unused) {
     assert_string_equal(text, "inf");
 }
 
-static void reading(void **unused) {
-    (void)unused;
+TEST(reading) {
     static const struct {
         const char *text;
         number_kind kind;
@@ -134,11 +121,10 @@ static void reading(void **unused) {
 }
 
 /* Digits of a value that is rounded up, or down: never on its other side, and no further off than a unit. */
-static void rounded(void **unused) {
-    (void)unused;
-    uint64_t state = 1965;
+TEST(rounded) {
+    uint64_t word = 1965;
     for (int i = 0; i < 100000; i++) {
-        const double value = ldexp((double)(next(&state) >> 11), (int)(next(&state) % 200) - 150);
+        const double value = ldexp((double)(next(&word) >> 11), (int)(next(&word) % 200) - 150);
         char nearest[64];
         snprintf(nearest, sizeof nearest, "%.4g", value); /* 9.9996 is 10, whose unit is the larger */
         const double unit = pow(10.0, floor(log10(strtod(nearest, NULL))) - 3);
@@ -173,12 +159,4 @@ static void rounded(void **unused) {
     assert_string_equal(number_in(number_of((double)INFINITY, 3), "cm").text, "inf");
     assert_string_equal(number_in(number_of((double)NAN, 3), "cm").text, "-");
     assert_string_equal(number_in(number_full(-2.2250738585072014e-308), "km").text, "-2.2250738585072014e-308 km");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reading), cmocka_unit_test(random_bits), cmocka_unit_test(short_decimals),
-        cmocka_unit_test(edges),   cmocka_unit_test(rounded),
-    };
-    return cmocka_run_group_tests_name("number", tests, NULL, NULL);
 }

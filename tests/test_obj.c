@@ -3,13 +3,8 @@
  * OBJ: what triangles and surfaces a file holds, from files put together here; polygons by their area; each damage has
  * its sentence.
  */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "model/model.h"
 #include "printed.h"
-#include "support.h"
 
 typedef struct text {
     char at[1 << 16];
@@ -47,7 +42,7 @@ static void must_refuse(const char *from, bool obj, const char *sentence) {
 
 #define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 
-static void obj_faces(void **state) {
+TEST(obj_faces) {
     static const struct {
         const char *text;
         uint32_t count, corner[4][3];
@@ -60,7 +55,6 @@ static void obj_faces(void **state) {
         /* an arrow whose third corner points inwards */
         {"v 0 0 2\nv 4 -4 2\nv 1 0 2\nv 4 4 2\nf 1 2 3 4", 2, {{3, 0, 2}, {0, 1, 2}}},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         model m;
         must_read(rows[i].text, true, &m);
@@ -78,18 +72,16 @@ static void obj_faces(void **state) {
     }
 }
 
-static void obj_numbers(void **state) {
+TEST(obj_numbers) {
     model m;
-    (void)state;
     must_read("v 0.1 -2.5e-3 1e22\nv 0 0 0\nv 16777217 4.9e-324 -0\nf 1 2 3", true, &m);
     assert_true(m.position[0][0] == 0.1 && m.position[0][1] == -2.5e-3 && m.position[0][2] == 1e22);
     assert_true(m.position[2][0] == 16777217.0 && m.position[2][1] == 4.9e-324 && m.position[2][2] == 0.0);
     model_free(&m);
 }
 
-static void obj_surfaces(void **state) {
+TEST(obj_surfaces) {
     model m;
-    (void)state;
     must_read(SQUARE "f 1 2 3\no house\nusemtl brick wall \nf 1 2 4\ng roof\nf 1 3 4\nusemtl glass\nf 2 3 4\n"
                      "usemtl brick wall\nf 1 2 3\nl 1 2\np 1\n",
               true, &m);
@@ -108,9 +100,8 @@ static void obj_surfaces(void **state) {
 }
 
 /* Names are UTF-8: of a Latin-1 umlaut, a cut off character and a control character a question mark is left. */
-static void obj_names(void **state) {
+TEST(obj_names) {
     model m;
-    (void)state;
     must_read(SQUARE "o T\xc3\xbcr \xe6\x88\xb8\ng T\xfcr\nusemtl a\x01\xe6\x88\nf 1 2 3\n", true, &m);
     assert_string_equal(m.surface[0].node, "T\xc3\xbcr \xe6\x88\xb8");
     assert_string_equal(m.surface[0].mesh, "T?r");
@@ -118,12 +109,11 @@ static void obj_names(void **state) {
     model_free(&m);
 }
 
-static void obj_materials(void **state) {
+TEST(obj_materials) {
     const model_asked asked = {0};
     model m;
     model_error error;
     char path[512];
-    (void)state;
     snprintf(path, sizeof path, "%s", scratch_file("m.mtl"));
     FILE *out = fopen(path, "w");
     assert_non_null(out);
@@ -145,7 +135,7 @@ static void obj_materials(void **state) {
     model_free(&m);
 }
 
-static void obj_refused(void **state) {
+TEST(obj_refused) {
     static const struct {
         const char *text, *sentence;
     } rows[] = {
@@ -162,15 +152,13 @@ static void obj_refused(void **state) {
         {"v 1 2 3.1+e2\n", "line 1: a vertex needs three finite numbers"},
         {"v 1 2 0,5\n", "line 1: a vertex needs three finite numbers"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         must_refuse(rows[i].text, true, rows[i].sentence);
 }
 
 /* Any polygon seen whole from its middle, in any plane: the triangles turn as it does and cover its area. */
-static void polygons(void **state) {
+TEST(polygons) {
     rng r = rng_make("polygons");
-    (void)state;
     for (int run = 0; run < (int)test_cases(200, 5000, 100000); run++) {
         static text t;
         const int corners = 5 + (int)rng_below(&r, 20);
@@ -203,13 +191,4 @@ static void polygons(void **state) {
         assert_true(fabs(area) < 1e-14);
         model_free(&m);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(obj_faces), cmocka_unit_test(obj_numbers),   cmocka_unit_test(obj_surfaces),
-        cmocka_unit_test(obj_names), cmocka_unit_test(obj_materials), cmocka_unit_test(obj_refused),
-        cmocka_unit_test(polygons),
-    };
-    return run_tap(tests);
 }

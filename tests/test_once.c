@@ -51,8 +51,7 @@ static dp_setup make(dp_mapping mapping, dp_model model) {
     return setup;
 }
 
-static void test_codes(void **state) {
-    (void)state;
+TEST(test_codes) {
     matrices = 0;
     const dp_setup setup = make(DP_MAPPING_D3D, DP_MODEL_FLOAT);
     assert_int_equal(matrices, 1); /* this file sees the calls */
@@ -71,9 +70,8 @@ static void search(const dp_setup *setup, int limited) {
     assert_int_equal(dp_separation_over(setup, 0.1, 1000, limited ? free.separation : 0.0, &w), DP_OK);
 }
 
-static void test_matrix(void **state) {
+TEST(test_matrix) {
     static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED};
-    (void)state;
     for (int i = 0; i < 3; i++)
         for (int limited = 0; limited < 2; limited++) {
             const dp_setup setup = make(mappings[i], DP_MODEL_FLOAT);
@@ -92,8 +90,7 @@ static dp_setup make_slanted(void) {
     return setup;
 }
 
-static void test_slanted(void **state) {
-    (void)state;
+TEST(test_slanted) {
     const dp_setup setup = make_slanted();
     search(&setup, 1);
     assert_int_equal(chains, 1);
@@ -101,25 +98,16 @@ static void test_slanted(void **state) {
 }
 
 /* How far a separation is kept: depths one by one, and a search now and then. */
-static void test_distance(void **state) {
-    (void)state;
+TEST(test_distance) {
     const dp_setup setup = make_slanted();
     chains = slants = 0;
     assert_true(distance_about(&setup, 0.1, 1000, 0.01, 3) > 1);
     assert_true(chains <= 6 && slants == chains);
 }
 
-static void test_shader(void **state) {
-    (void)state;
+TEST(test_shader) {
     const dp_setup lattice = make(DP_MAPPING_LOG, DP_MODEL_STAGED), setup = dp_setup_guaranteed(&lattice);
     search(&setup, 1);
     assert_int_equal(shaders, 1);
     assert_int_equal(chains, 0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_codes), cmocka_unit_test(test_matrix),
-                                       cmocka_unit_test(test_slanted), cmocka_unit_test(test_distance),
-                                       cmocka_unit_test(test_shader)};
-    return run_tap(tests);
 }

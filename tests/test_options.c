@@ -3,11 +3,6 @@
  * Every row of the option table: what it takes and where that goes, by values written down here; what it refuses; its
  * default. The languages of lists, depths and sizes are tried in cli/errors.txt.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "cli/option/uses.h"
 #include "parsed.h"
 #include "scene/find.h"
@@ -103,11 +98,10 @@ static void taken(tally *t, const char *command, option_id id, const char *value
     options_release(&o);
 }
 
-static void test_numbers(void **state) {
+TEST(test_numbers) {
     tally t = {.name = "numbers"};
     options o;
     char line[1024] = "";
-    (void)state;
     assert_int_equal(parse(&o, "table", OPTION_QUIET, NULL, line), EXIT_FINE);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         taken(&t, numbers[i].command, numbers[i].id, numbers[i].least_text, numbers[i].field, numbers[i].least);
@@ -123,7 +117,7 @@ static void test_numbers(void **state) {
 }
 
 /* Lengths: positive, and nothing when not given. */
-static void test_lengths(void **state) {
+TEST(test_lengths) {
     static const struct {
         const char *command;
         option_id id;
@@ -134,7 +128,6 @@ static void test_lengths(void **state) {
                    {"scene m.obj", OPTION_WITHIN, AT(scene.within)},
                    {"texture", OPTION_OVERLAY, AT(image.overlay)}};
     tally t = {.name = "lengths"};
-    (void)state;
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
         taken(&t, lengths[i].command, lengths[i].id, "5e-324", lengths[i].field, 5e-324);
         taken(&t, lengths[i].command, lengths[i].id, "1e300", lengths[i].field, 1e300);
@@ -147,7 +140,7 @@ static void test_lengths(void **state) {
 
 /* ---- Whole numbers ----------------------------------------------------------------------------------------------- */
 
-static void test_whole(void **state) {
+TEST(test_whole) {
     static const struct {
         const char *command;
         option_id id;
@@ -163,7 +156,6 @@ static void test_whole(void **state) {
         {"shadow", OPTION_KERNEL, 1, 64, "1", "64", "0", "65", "a whole number from 1 to 64 texels"},
     };
     tally t = {.name = "whole"};
-    (void)state;
     for (size_t i = 0; i < sizeof wholes / sizeof wholes[0]; i++) {
         const char *const wrong[] = {wholes[i].below, wholes[i].above, "", "1e3", "+5", " 5", "5.0", "0x10"};
         for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++)
@@ -197,7 +189,7 @@ static uint64_t word_at(const options *o, size_t field, size_t size) {
 }
 
 /* Long: its rows are written out, by hand. */
-static void test_words(void **state) {
+TEST(test_words) {
     static const struct {
         const char *command;
         option_id id;
@@ -285,7 +277,6 @@ static void test_words(void **state) {
          {{"text", REPORT_TEXT}, {"json", REPORT_JSON}, {"junit", REPORT_JUNIT}}},
     };
     tally t = {.name = "words"};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024] = "";
         options o;
@@ -309,7 +300,7 @@ static void test_words(void **state) {
 }
 
 /* Rows of tables, by their names in the table of this test; other spellings where there are any. */
-static void test_rows(void **state) {
+TEST(test_rows) {
     static const struct {
         const char *command;
         option_id id;
@@ -347,7 +338,6 @@ static void test_rows(void **state) {
         {"texture", OPTION_PACKING, AT(image.packing), "rgb24", "rgb24", offsetof(packing, name), "rgb42", "rgb24"},
     };
     tally t = {.name = "rows"};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024] = "", meant[64];
         const char *row, *name = NULL;
@@ -370,7 +360,7 @@ static void test_rows(void **state) {
 }
 
 /* Numbers separated by commas. */
-static void test_lists(void **state) {
+TEST(test_lists) {
     static const struct {
         const char *command;
         option_id id;
@@ -409,7 +399,6 @@ static void test_lists(void **state) {
          "X,Y[;X,Y...], whole numbers from 0 to 65535"},
     };
     tally t = {.name = "lists"};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024] = "";
         depths d;
@@ -432,7 +421,7 @@ static void test_lists(void **state) {
 
 /* ---- Flags and texts --------------------------------------------------------------------------------------------- */
 
-static void test_flags(void **state) {
+TEST(test_flags) {
     static const struct {
         const char *command;
         option_id id;
@@ -446,7 +435,6 @@ static void test_flags(void **state) {
                  {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];
     tally t = {.name = "flags"};
-    (void)state;
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         char line[1024] = "";
         options o;
@@ -461,7 +449,7 @@ static void test_flags(void **state) {
     tally_end(&t);
 }
 
-static void test_texts(void **state) {
+TEST(test_texts) {
     static const struct {
         const char *command;
         option_id id;
@@ -482,7 +470,6 @@ static void test_texts(void **state) {
                  {"scene m.obj", OPTION_CAMERA, AT(scene.camera), false},
                  {"scene m.obj", OPTION_EMIT_NEED, AT(scene.emit_need), true}};
     tally t = {.name = "texts"};
-    (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         char line[1024] = "";
         const char *text;
@@ -499,10 +486,9 @@ static void test_texts(void **state) {
 }
 
 /* An argument that may be left out is written behind "=". */
-static void test_optional(void **state) {
+TEST(test_optional) {
     char line[1024] = "";
     options o;
-    (void)state;
     assert_int_equal(parse(&o, "texture", OPTION_ERROR_MAP, NULL, line), EXIT_FINE);
     assert_true(o.image.error_map && o.image.error_file == NULL && option_given(&o, OPTION_ERROR_MAP));
     assert_int_equal(options_parse(&o, 3, (char *[]){"depthprec", "texture", "--error-map=a.npy", NULL}), EXIT_FINE);
@@ -524,11 +510,10 @@ static bool near_to(double a, double b) {
     return fabs(a - b) <= 1e-15 * fabs(b);
 }
 
-static void test_boxes(void **state) {
+TEST(test_boxes) {
     static const char *const boxes[] = {"", "1", "1x2", "1x2x3x4", "0x1x1", "1x-1x1", "1x1xinf", "2e12x1x1", "x1x1"};
     static const char *const sizes[] = {"", "0", "70000", "8x", "x8", "8x0", "1.5"};
     tally t = {.name = "boxes"};
-    (void)state;
     for (size_t i = 0; i < sizeof boxes / sizeof boxes[0]; i++)
         refused(&t, "shadow", OPTION_LIGHT_BOX, boxes[i], "WxHxD, each from 1e-12 to 1e12");
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
@@ -538,10 +523,9 @@ static void test_boxes(void **state) {
     tally_end(&t);
 }
 
-static void test_worlds(void **state) {
+TEST(test_worlds) {
     options o;
     char line[1024] = "";
-    (void)state;
     assert_int_equal(parse(&o, "world", OPTION_FROM_ORIGIN, "8km,200m", line), EXIT_FINE);
     assert_true(o.world.distances.count == 2 && o.world.distances.lo == 200 && o.world.distances.hi == 8000 &&
                 o.camera.at.count == 0);
@@ -554,10 +538,9 @@ static void test_worlds(void **state) {
 }
 
 /* Where a camera stands and what it looks at, in a model and in a world. */
-static void test_places(void **state) {
+TEST(test_places) {
     char line[1024] = "";
     options o;
-    (void)state;
     assert_int_equal(parse(&o, "scene m.obj", OPTION_EYE, "1,-2,3e4", line), EXIT_FINE);
     assert_true(o.view.eye[0] == 1 && o.view.eye[1] == -2 && o.view.eye[2] == 3e4 && o.view.look[0] == 0 &&
                 o.camera.triangles.width == 1920);
@@ -574,10 +557,9 @@ static void test_places(void **state) {
                 o.view.last_eye[0] == 0);
 }
 
-static void test_own(void **state) {
+TEST(test_own) {
     char line[1024] = "";
     options o;
-    (void)state;
     assert_int_equal(parse(&o, "table", OPTION_FAR, "inf", line), EXIT_FINE);
     assert_true(isinf(o.camera.zfar) && o.camera.format_count == 4 && o.camera.mapping_count == 2 &&
                 near_to(o.wanted.tolerance, 0.05));
@@ -630,7 +612,7 @@ static void test_own(void **state) {
 }
 
 /* View, grid and class, and the vertical angle that follows. */
-static void test_slanted(void **state) {
+TEST(test_slanted) {
     static const char *const viewports[] = {"0x5", "5x0", "32769x1", "1x32769", "5", "5x", "x5", "5x5x5", "-1x5", ""};
     static const char *const slants[] = {"5", "5:4", "-1:5", "0:91", ":", "x:5", "5:x", ""};
     static const char *const planes[] = {"91,0", "-1,0", "5,361", "5,-361", "x,0", "5,"};
@@ -650,7 +632,6 @@ static void test_slanted(void **state) {
     tally t = {.name = "slanted"};
     char line[1024] = "";
     options o;
-    (void)state;
     assert_int_equal(parse(&o, "table", OPTION_VIEWPORT, "32768x7", line), EXIT_FINE);
     assert_true(o.camera.triangles.width == 32768 && o.camera.triangles.height == 7 &&
                 o.camera.triangles.subpixel == 8);
@@ -687,14 +668,13 @@ static void test_slanted(void **state) {
     tally_end(&t);
 }
 
-static void test_pairs(void **state) {
+TEST(test_pairs) {
     static const char *const splits[] = {"0", "9", "x", "", "4:", "4:-0.1", "4:1.1", "4:x", ":0.5", "4.5", "1e1", "-1"};
     static const char *const figures[] = {"319", "8193", "320x", "320x199", "320x8193", "x200", "", "320x200x2", "-5"};
     static const char *const bends[] = {"0", "2e18", "x", "", "5:", "5:-1", "5:2e18", "5:x", ":1", "inf", "nan"};
     tally t = {.name = "pairs"};
     char line[1024] = "";
     options o;
-    (void)state;
     assert_int_equal(parse(&o, "shadow", OPTION_CASCADES, "8", line), EXIT_FINE);
     assert_true(o.shadow.cascades == 8 && o.shadow.lambda == 0.5);
     assert_int_equal(parse(&o, "shadow", OPTION_CASCADES, "1:0", line), EXIT_FINE);
@@ -722,9 +702,8 @@ static void test_pairs(void **state) {
 }
 
 /* 65 formats are refused: nothing that was asked for is left out. */
-static void test_formats(void **state) {
+TEST(test_formats) {
     char all[2048] = "unorm1";
-    (void)state;
     for (int bits = 2; bits <= 32; bits++)
         snprintf(all + strlen(all), sizeof all - strlen(all), ",unorm%d", bits);
     for (int bits = 1; bits <= 33; bits++)
@@ -741,9 +720,8 @@ static void test_formats(void **state) {
     }
 }
 
-static void test_all(void **state) {
+TEST(test_all) {
     tally t = {.name = "all"};
-    (void)state;
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];
         TALLY(&t, tried[id], "--%s is not in a table of this test", row->name);
@@ -756,16 +734,4 @@ static void test_all(void **state) {
                   "--%s twice", row->name);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_lengths),
-
-        cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_flags),   cmocka_unit_test(test_texts),   cmocka_unit_test(test_optional),
-        cmocka_unit_test(test_places),  cmocka_unit_test(test_own),     cmocka_unit_test(test_worlds),
-        cmocka_unit_test(test_boxes),   cmocka_unit_test(test_slanted), cmocka_unit_test(test_pairs),
-        cmocka_unit_test(test_formats), cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
-    return run_tap(tests);
 }

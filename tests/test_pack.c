@@ -4,42 +4,18 @@
  * all binary32 numbers.
  */
 #include <ctype.h>
-#include <string.h>
 
 #include "named.h"
 #include "pack_measure.h"
 #include "support.h"
 
-static size_t count(void) {
-    size_t rows = 0;
-    while (pack_get(rows) != NULL)
-        rows++;
-    return rows;
-}
-
-/* Measured once: a test program asks often. */
-static const pack_error *error_of(const char *name) {
-    static pack_error errors[64];
-    static bool done[64];
-    for (size_t i = 0; i < count() && i < 64; i++)
-        if (strcmp(pack_get(i)->name, name) == 0) {
-            if (!done[i])
-                errors[i] = pack_measure(pack_get(i));
-            done[i] = true;
-            return &errors[i];
-        }
-    fail_msg("no row %s", name);
-    return NULL;
-}
-
-static void test_rows(void **state) {
+TEST(test_rows) {
     static const char *const names[] = {"rg-depth", "rg-depth-zero", "rg-depth-fp32", "rg-depth-fp32-zero",
                                         "stereo-8", "oct-8",         "oct-10",        "oct-12",
                                         "xyz-8",    "xyz-10",        "xyz-12",        "depth-normal"};
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_non_null(pack_find(names[i]));
-    for (size_t i = 0; i < count(); i++) {
+    for (size_t i = 0; i < pack_count(); i++) {
         const pack_row *row = pack_get(i);
         assert_true(pack_find(row->name) == row); /* no name twice */
         for (const char *c = row->name; *c != '\0'; c++)
@@ -51,7 +27,7 @@ static void test_rows(void **state) {
     }
     assert_null(pack_find("rg"));
     assert_null(pack_find(""));
-    assert_null(pack_get(count()));
+    assert_null(pack_get(pack_count()));
 }
 
 /* A claim is a bound, and no more than 2 per mille above what is reached. */
@@ -59,12 +35,11 @@ static void claim(tally *t, const char *name, const char *what, double got, doub
     TALLY(t, got <= claimed && got >= claimed * 0.998, "%s: %s %.9g, claimed %.9g", name, what, got, claimed);
 }
 
-static void test_claims(void **state) {
+TEST(test_claims) {
     tally t = {.name = "claims"};
-    (void)state;
-    for (size_t i = 0; i < count(); i++) {
+    for (size_t i = 0; i < pack_count(); i++) {
         const pack_row *row = pack_get(i);
-        const pack_error *e = error_of(row->name);
+        const pack_error *e = pack_error_of(row->name);
         if (row->kind != PACK_NORMAL) {
             claim(&t, row->name, "mean of depth", e->depth.mean, row->depth.mean);
             claim(&t, row->name, "maximum of depth", e->depth.max, row->depth.max);
@@ -121,10 +96,9 @@ static double any_depth(rng *r) {
     return fmin(fmax(v, 0x1p-60), 1 - 0x1p-53);
 }
 
-static void test_rg_exact(void **state) {
+TEST(test_rg_exact) {
     rng r = rng_make("rg exact");
     tally t = {.name = "texels"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(20000, 1000000, 20000000); i++) {
         const double v = any_depth(&r);
         for (int truncates = 0; truncates < 2; truncates++) {
@@ -171,14 +145,13 @@ static float any_float(rng *r) {
     return v < 1 ? v : nextafterf(1, 0);
 }
 
-static void test_rg_binary32(void **state) {
+TEST(test_rg_binary32) {
     static const char *const names[] = {"rg-depth-fp32", "rg-depth-fp32-zero"};
     rng r = rng_make("rg binary32");
     tally t = {.name = "shader"};
-    (void)state;
     for (size_t k = 0; k < 2; k++) {
         const pack_row *row = pack_find(names[k]);
-        const pack_error *e = error_of(names[k]);
+        const pack_error *e = pack_error_of(names[k]);
         const uint64_t cases = test_cases(20000, 2000000, 2000000);
         double sum = 0, unused = 0;
         for (uint64_t i = 0; i < cases; i++) {
@@ -196,15 +169,14 @@ static void test_rg_binary32(void **state) {
 }
 
 /* All 1,065,353,216 of them: no error is above the maximum, and the mean is that of pack_measure(). */
-static void test_rg_binary32_all(void **state) {
+TEST(test_rg_binary32_all) {
     static const char *const names[] = {"rg-depth-fp32", "rg-depth-fp32-zero"};
     tally t = {.name = "all of binary32"};
-    (void)state;
     if (test_effort() < EFFORT_FULL)
         skip();
     for (size_t k = 0; k < 2; k++) {
         const pack_row *row = pack_find(names[k]);
-        const pack_error *e = error_of(names[k]);
+        const pack_error *e = pack_error_of(names[k]);
         double mean = 0, max = 0;
         for (uint32_t exponent = 0; exponent < 127; exponent++) {
             const double weight = exponent == 0 ? 0x1p-126 : ldexp(1, (int)exponent - 127);
@@ -226,37 +198,35 @@ static void test_rg_binary32_all(void **state) {
     tally_end(&t);
 }
 
-static void test_rg_known(void **state) {
+TEST(test_rg_known) {
     const double step = 1 / 65025.0;
-    (void)state;
-    for (size_t i = 0; i < count(); i++)
+    for (size_t i = 0; i < pack_count(); i++)
         if (pack_get(i)->kind == PACK_DEPTH) {
             assert_true(decoded(pack_get(i), encoded(pack_get(i), 1)) == 0); /* 1 does not survive */
             assert_true(decoded(pack_get(i), encoded(pack_get(i), 0)) == 0);
         }
     /* Quarter and half a step; truncated, half and a whole one, all of it towards 0. */
-    const pack_error *e = error_of("rg-depth");
+    const pack_error *e = pack_error_of("rg-depth");
     assert_relative(e->depth.mean, step / 4, 1e-9);
     assert_relative(e->depth.max, step / 2, 1e-9);
     assert_scene(e->depth_bias, 0, 1e-9 * step);
     assert_int_equal(e->depth_codes, 255 * 256);
-    e = error_of("rg-depth-zero");
+    e = pack_error_of("rg-depth-zero");
     assert_relative(e->depth.mean, step / 2, 1e-9);
     assert_relative(e->depth.max, step, 1e-9);
     assert_relative(e->depth_bias, -step / 2, 1e-9);
     assert_int_equal(e->depth_codes, 255 * 255);
     /* A coarse code too few: 1/255, and what truncation takes of the fine one. */
-    e = error_of("rg-depth-fp32-zero");
+    e = pack_error_of("rg-depth-fp32-zero");
     assert_relative(e->depth.max, 1 / 255.0 + step, 1e-3);
     assert_true(e->depth_bias < -60 * step);
-    assert_true(error_of("rg-depth-fp32")->depth.max < 0.504 * step);
+    assert_true(pack_error_of("rg-depth-fp32")->depth.max < 0.504 * step);
 }
 
 /* Normal in xy, depth in zw. */
-static void test_both(void **state) {
+TEST(test_both) {
     rng r = rng_make("both");
     const pack_row *both = pack_find("depth-normal"), *normal = pack_find("stereo-8"), *depth = pack_find("rg-depth");
-    (void)state;
     for (int i = 0; i < 1000; i++) {
         const double v = rng_unit(&r), z = rng_unit(&r), phi = rng_uniform(&r, 0, 6.28), radius = sqrt(1 - z * z);
         const double in[4] = {radius * cos(phi), radius * sin(phi), z, v};
@@ -271,15 +241,6 @@ static void test_both(void **state) {
         depth->decode(depth, last, want + 3);
         assert_memory_equal(out, want, sizeof out);
     }
-    assert_true(error_of("depth-normal")->normal.max == error_of("stereo-8")->normal.max);
-    assert_true(error_of("depth-normal")->depth.max == error_of("rg-depth")->depth.max);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows),        cmocka_unit_test(test_rg_exact),        cmocka_unit_test(test_rg_known),
-        cmocka_unit_test(test_rg_binary32), cmocka_unit_test(test_rg_binary32_all), cmocka_unit_test(test_both),
-        cmocka_unit_test(test_claims),
-    };
-    return run_tap(tests);
+    assert_true(pack_error_of("depth-normal")->normal.max == pack_error_of("stereo-8")->normal.max);
+    assert_true(pack_error_of("depth-normal")->depth.max == pack_error_of("rg-depth")->depth.max);
 }

@@ -3,35 +3,11 @@
  * Packings of normals: each row against an encoding of our own in long double, the measured errors against sampling,
  * areas in the plane of the codes and published figures.
  */
-#include <string.h>
-
 #include "named.h"
 #include "pack_measure.h"
 #include "support.h"
 
 static const long double PIL = 3.14159265358979323846264338327950288L;
-
-static size_t count(void) {
-    size_t rows = 0;
-    while (pack_get(rows) != NULL)
-        rows++;
-    return rows;
-}
-
-/* Measured once: a test program asks often. */
-static const pack_error *error_of(const char *name) {
-    static pack_error errors[64];
-    static bool done[64];
-    for (size_t i = 0; i < count() && i < 64; i++)
-        if (strcmp(pack_get(i)->name, name) == 0) {
-            if (!done[i])
-                errors[i] = pack_measure(pack_get(i));
-            done[i] = true;
-            return &errors[i];
-        }
-    fail_msg("no row %s", name);
-    return NULL;
-}
 
 typedef struct vec {
     long double x, y, z;
@@ -109,18 +85,17 @@ static vec any_normal(rng *r, const pack_row *row) {
 }
 
 /* Random vectors: nothing above the maximum, the mean where it is said to be, the same codes but for ties. */
-static void test_normals_sampled(void **state) {
+TEST(test_normals_sampled) {
     rng r = rng_make("normals");
     tally t = {.name = "normals"};
-    (void)state;
-    for (size_t i = 0; i < count(); i++) {
+    for (size_t i = 0; i < pack_count(); i++) {
         const pack_row *row = pack_get(i);
         const uint64_t cases = test_cases(20000, 150000, 4000000);
         long double sum = 0, squares = 0;
         uint64_t differ = 0;
         if (row->kind == PACK_DEPTH)
             continue;
-        const pack_error *e = error_of(row->name);
+        const pack_error *e = pack_error_of(row->name);
         for (uint64_t k = 0; k < cases; k++) {
             const vec n = any_normal(&r, row);
             const double in[PACK_INPUTS_MAX] = {(double)n.x, (double)n.y, (double)n.z, 0};
@@ -149,16 +124,15 @@ static void test_normals_sampled(void **state) {
 
 /* The maximum is reached where it is said to be, and nothing about that place, or about any corner of codes, is worse.
  */
-static void test_normals_worst(void **state) {
+TEST(test_normals_worst) {
     rng r = rng_make("normals worst");
     tally t = {.name = "worst"};
-    (void)state;
-    for (size_t i = 0; i < count(); i++) {
+    for (size_t i = 0; i < pack_count(); i++) {
         const pack_row *row = pack_get(i);
         uint32_t codes[3];
         if (row->kind == PACK_DEPTH)
             continue;
-        const pack_error *e = error_of(row->name);
+        const pack_error *e = pack_error_of(row->name);
         const vec at = {e->normal_at[0], e->normal_at[1], e->normal_at[2]};
         TALLY(&t, fabsl(own_error(row, at, codes) - (long double)e->normal.max) <= 1e-6L * (long double)e->normal.max,
               "%s: %.12Lg at the worst place, %.12g", row->name, own_error(row, at, codes), e->normal.max);
@@ -211,49 +185,37 @@ static long double mean_by_area(const pack_row *row, int side) {
 }
 
 /* The error of such a sum falls with the square of the distance of the places, so two of them give a better one. */
-static void test_means_by_area(void **state) {
+TEST(test_means_by_area) {
     static const struct {
         const char *name;
         int codes;
     } rows[] = {{"stereo-8", 255}, {"oct-8", 254}};
-    (void)state;
     for (size_t i = 0; i < 2; i++) {
         const pack_row *row = pack_find(rows[i].name);
         const int places = (int)test_cases(4, 4, 16) * rows[i].codes;
         const double mean = (double)((4 * mean_by_area(row, 2 * places) - mean_by_area(row, places)) / 3);
-        print_message("# %s: mean %.7g by area, %.7g +- %.2g\n", row->name, mean, error_of(row->name)->normal.mean,
-                      error_of(row->name)->normal_spread);
-        assert_relative(error_of(row->name)->normal.mean, mean, 1e-3);
+        print_message("# %s: mean %.7g by area, %.7g +- %.2g\n", row->name, mean, pack_error_of(row->name)->normal.mean,
+                      pack_error_of(row->name)->normal_spread);
+        assert_relative(pack_error_of(row->name)->normal.mean, mean, 1e-3);
     }
 }
 
-static void test_published(void **state) {
+TEST(test_published) {
     static const struct {
         const char *name;
         double mean, max; /* of a sample: a maximum over all is a little above */
     } rows[] = {{"oct-8", 0.337, 0.944}, {"oct-10", 0.0838, 0.235}, {"oct-12", 0.0209, 0.0587}};
-    (void)state;
     for (size_t i = 0; i < 3; i++) {
-        const pack_error *e = error_of(rows[i].name);
+        const pack_error *e = pack_error_of(rows[i].name);
         assert_relative(e->normal.mean, rows[i].mean, 2e-3);
         assert_true(e->normal.max > rows[i].max && e->normal.max < 1.02 * rows[i].max);
     }
-    const pack_error *e = error_of("stereo-8");
+    const pack_error *e = pack_error_of("stereo-8");
     assert_relative(e->normal.mean, 0.459, 2e-3);
     assert_relative(e->normal.max, (double)(2 * atanl(sqrtl(2) * 1.7777L / 255) * 180 / PIL), 1e-12);
     assert_true(fabs(e->normal.max - 1.130) < 5e-4);
     assert_true(e->normal_at[2] > 1 - 1e-12);
     /* A code is half a step off at most, three times at right angles: the limit of small steps, less its bending. */
-    assert_relative(error_of("xyz-12")->normal.max, sqrt(3.0) / 2 / 2047 * 180 / (double)PIL, 1e-3);
-    assert_int_equal(error_of("oct-8")->codes, 255 * 255);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_normals_sampled),
-        cmocka_unit_test(test_normals_worst),
-        cmocka_unit_test(test_means_by_area),
-        cmocka_unit_test(test_published),
-    };
-    return run_tap(tests);
+    assert_relative(pack_error_of("xyz-12")->normal.max, sqrt(3.0) / 2 / 2047 * 180 / (double)PIL, 1e-3);
+    assert_int_equal(pack_error_of("oct-8")->codes, 255 * 255);
 }

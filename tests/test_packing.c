@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Packed textures: every code there and back, shaders of others within what is claimed, what was resampled, and the
  * program's own files. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "frame/image_depths.h"
@@ -80,8 +75,7 @@ static void look_at(tally *t, const stands_for *s, const packing *p, const uint8
 }
 
 /* All texels of up to three bytes; of four, all of the two middle ones beside both ends and some of the others. */
-static void every_code(void **state) {
-    (void)state;
+TEST(every_code) {
     tally t = {.name = "every code"};
     rng r = rng_make("every code");
     for (size_t i = 0; i < ALL; i++) {
@@ -101,8 +95,7 @@ static void every_code(void **state) {
 }
 
 /* The same through images and the numbers that come of them. */
-static void every_code_in_images(void **state) {
-    (void)state;
+TEST(every_code_in_images) {
     enum { SIDE = 256 };
     for (size_t i = 0; i < ALL; i++) {
         const packing *p = row_of(all[i].name);
@@ -200,8 +193,7 @@ static float any_depth(rng *r, uint64_t k) {
 }
 
 /* What a shader made of a depth decodes to it within half a step and what the row says that binary32 adds. */
-static void shaders_of_others(void **state) {
-    (void)state;
+TEST(shaders_of_others) {
     tally t = {.name = "shaders of others"};
     rng r = rng_make("shaders of others");
     const uint64_t cases = test_cases(2000, 300000, 5000000);
@@ -250,8 +242,7 @@ static grain_range depths_behind(const packing *p, const uint8_t *texel, double 
 }
 
 /* The depth that a shader packed lies in the range that its texel is given, which is not twice too wide. */
-static void ranges_of_others(void **state) {
-    (void)state;
+TEST(ranges_of_others) {
     tally t = {.name = "ranges of others"};
     rng r = rng_make("ranges of others");
     const uint64_t cases = test_cases(50000, 100000, 1000000);
@@ -278,11 +269,10 @@ static void ranges_of_others(void **state) {
 
 /* More than 24 bits are more than a binary32 number holds, and some programs pack with all of them: the range of a
  * texel has its depth and half a step to both sides, and two units in the last place of 1 at most besides. */
-static void ranges_of_all_bits(void **state) {
+TEST(ranges_of_all_bits) {
     static const char *const names[] = {"rgba", "rgba-r166"};
     tally t = {.name = "ranges of all bits"};
     rng r = rng_make("ranges of all bits");
-    (void)state;
     for (uint64_t i = 0; i < test_cases(2000, 100000, 1000000); i++) {
         const packing *p = row_of(names[i % 2]);
         uint8_t texel[4];
@@ -300,8 +290,7 @@ static void ranges_of_all_bits(void **state) {
 }
 
 /* Unity's DecodeViewNormalStereo, and what is seen head-on. */
-static void packed_normals(void **state) {
-    (void)state;
+TEST(packed_normals) {
     tally t = {.name = "packed normals"};
     for (int x = 0; x < 256; x++)
         for (int y = 0; y < 256; y++) {
@@ -355,8 +344,7 @@ static void enlarge(const uint8_t *given, uint8_t *larger) {
             }
 }
 
-static void resampled(void **state) {
-    (void)state;
+TEST(resampled) {
     static const double slopes[] = {1e-5, 1e-4, 3e-4, 7e-4, 1e-3};
     uint8_t given[SIDE * SIDE * 2], larger[4 * SIDE * SIDE * 2], smaller[SIDE * SIDE / 2], doubled[4 * SIDE * SIDE * 2];
     unpacked out;
@@ -392,12 +380,11 @@ static void resampled(void **state) {
 /* Thin things before a slope, as near to it as a coarse step or much nearer to the eye: fences whose pales are a pixel
  * wide, wire meshes, grass, and, far before it, posts where the slope's coarse code steps and nowhere else. They are
  * what they are; enlarged, what stands apart is refused. */
-static void thin_things(void **state) {
+TEST(thin_things) {
     static const double slopes[] = {3e-4, 7e-4, 1e-3}, nearer[] = {0.0012, 0.003, 0.05};
     uint8_t given[SIDE * SIDE * 2], larger[4 * SIDE * SIDE * 2];
     rng r = rng_make("thin things");
     unpacked out;
-    (void)state;
     for (int kind = 0; kind < 6; kind++)
         for (size_t i = kind < 5 ? 0 : 6; i < 9; i++) {
             const double by = nearer[i / 3];
@@ -424,12 +411,11 @@ static void thin_things(void **state) {
 }
 
 /* A truncated fine channel is full where the coarse one is a step short: that is counted. */
-static void truncated(void **state) {
+TEST(truncated) {
     const packing *p = row_of("rg");
     uint8_t given[SIDE * SIDE * 2];
     unpacked out;
     rng r = rng_make("truncated texels");
-    (void)state;
     for (int i = 0; i < SIDE * SIDE; i++) {
         const double v = 0.1 + (i % SIDE + 0.37 * (i / SIDE)) * 1e-3, fine = 255 * v - floor(255 * v);
         const double rounded = rng_below(&r, 2) == 0 ? 1 - 1e-9 : 1 + 1e-9; /* as binary32 leaves it */
@@ -447,8 +433,7 @@ static void truncated(void **state) {
     image_free(&img);
 }
 
-static void wider_samples(void **state) {
-    (void)state;
+TEST(wider_samples) {
     static const image_type types[] = {IMAGE_U16, IMAGE_F32, IMAGE_F64};
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
         for (int between = 0; between < 2; between++) {
@@ -480,8 +465,7 @@ static void wider_samples(void **state) {
     image_free(&img);
 }
 
-static void premultiplied(void **state) {
-    (void)state;
+TEST(premultiplied) {
     rng r = rng_make("premultiplied");
     for (int times = 0; times < 2; times++) {
         image img = {.width = 32, .height = 32, .channels = 4, .type = IMAGE_U8, .data = malloc(4096)};
@@ -532,8 +516,7 @@ static void same_files(const char *a, const char *b) {
 }
 
 /* A ramp of depths is packed, read back without an option within what the error map says, and packed again. */
-static void there_and_back(void **state) {
-    (void)state;
+TEST(there_and_back) {
     float depths[PIXELS], eyes[PIXELS], errors[PIXELS];
     double truth[PIXELS];
     for (int i = 0; i < PIXELS; i++) {
@@ -568,8 +551,7 @@ static void there_and_back(void **state) {
 }
 
 /* Where nothing is drawn lies the far plane, which is said. */
-static void holes(void **state) {
-    (void)state;
+TEST(holes) {
     static const struct {
         const char *packing, *mapping;
         uint8_t far[3];
@@ -603,8 +585,7 @@ static float decode_rg(const uint8_t *t) { /* DecodeFloatRG */
 
 /* frac makes the camera of the far plane. --product pack writes what reads back as the far plane, and says so; of all
  * depths before it, to the last binary32 number, both write the nearest number. */
-static void the_far_plane_wraps(void **state) {
-    (void)state;
+TEST(the_far_plane_wraps) {
     uint8_t shader[2], ours[2];
     float depths[PIXELS];
     image img;
@@ -650,8 +631,7 @@ static void write_cleared(const packing *p, int cleared) {
 }
 
 /* What no surface writes is no depth: sky, or with --sky 0 a hole. Without frac a 0 is what it says. */
-static void cleared_to_black(void **state) {
-    (void)state;
+TEST(cleared_to_black) {
     static const struct {
         const char *packing, *sky, *znear, *counts, *zeros, *said;
     } rows[] = {
@@ -688,8 +668,7 @@ static void cleared_to_black(void **state) {
 }
 
 /* The packed normals of a wall that is seen head-on: towards the camera, which is against the view axis. */
-static void normals_come_back(void **state) {
-    (void)state;
+TEST(normals_come_back) {
     float normals[3 * PIXELS];
     const char *png = truth_path("in.png"), *npy = truth_path("place.npy");
     assert_int_equal(
@@ -710,8 +689,7 @@ static void normals_come_back(void **state) {
     assert_true(was_said("--product: packed-normal needs FILE with --packing depth-normals"));
 }
 
-static void warnings(void **state) {
-    (void)state;
+TEST(warnings) {
     static const struct {
         const char *chunk, *data;
         size_t size;
@@ -740,8 +718,7 @@ static void warnings(void **state) {
 }
 
 /* What a file says of itself is read as options are: what they refuse is refused, and terminals see plain text. */
-static void notes_of_others(void **state) {
-    (void)state;
+TEST(notes_of_others) {
     static const struct {
         const char *text;
         int status;
@@ -774,8 +751,7 @@ static void notes_of_others(void **state) {
 }
 
 /* What stands against what; what is not known to be safe is never written. */
-static void refusals(void **state) {
-    (void)state;
+TEST(refusals) {
     const char *in = truth_path("in.png"), *out = truth_path("map.png");
     const struct {
         const char *words[12];
@@ -806,27 +782,5 @@ static void refusals(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_code),
-        cmocka_unit_test(every_code_in_images),
-        cmocka_unit_test(shaders_of_others),
-        cmocka_unit_test(packed_normals),
-        cmocka_unit_test(resampled),
-        cmocka_unit_test(thin_things),
-        cmocka_unit_test(truncated),
-        cmocka_unit_test(wider_samples),
-        cmocka_unit_test(premultiplied),
-        cmocka_unit_test(there_and_back),
-        cmocka_unit_test(normals_come_back),
-        cmocka_unit_test(warnings),
-        cmocka_unit_test(refusals),
-        cmocka_unit_test(notes_of_others),
-        cmocka_unit_test(ranges_of_others),
-        cmocka_unit_test(ranges_of_all_bits),
-        cmocka_unit_test(holes),
-        cmocka_unit_test(the_far_plane_wraps),
-        cmocka_unit_test(cleared_to_black),
-    };
-    cmocka_set_message_output(CM_OUTPUT_TAP);
-    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
+    return run_listed(truth_folder, truth_folder_end);
 }

@@ -3,10 +3,6 @@
  * The picture whose decals flicker: none does from the guarantee on, over whole loops of the camera; below it they do.
  * Which surface is nearer is judged by the planes of the triangles in double, who covers a pixel by src/draw's keys.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "raster/picture.h"
@@ -89,10 +85,9 @@ static void judge_class(tally *y, const triangles *t, int i, double z) {
     TALLY(y, longest * longest / area < 14.0, "%u is as slim as 1:%g", t->who[i], longest * longest / area);
 }
 
-static void within_the_class(void **state) {
+TEST(within_the_class) {
     tally y = {.name = "triangles in the class"};
     draw_picture p;
-    (void)state;
     open_standard(&p);
     for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame += 5)
         for (int g = 0; g <= 4; g++) {
@@ -105,12 +100,11 @@ static void within_the_class(void **state) {
 }
 
 /* All triangles of a surface lie in one plane, and what lies upon it in one that is the gap nearer. */
-static void a_gap_apart(void **state) {
+TEST(a_gap_apart) {
     static const double slants[] = {0.0, 45.0, 45.0, 30.0, 30.0, 90.0, 90.0};
     tally y = {.name = "planes"};
     draw_picture p;
     rng r = rng_make("a gap apart");
-    (void)state;
     open_standard(&p);
     for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame += 7) {
         const double gap = rng_log(&r, 1e-5, DRAW_PICTURE_GAP) * p.z;
@@ -177,12 +171,11 @@ static bool is_wrong(const truth *s, int at) {
     return upper > 0.0 && upper < s->depth[who][at];
 }
 
-static void each_pixel(void **state) {
+TEST(each_pixel) {
     static const char *const names[] = {"llvmpipe", "softpipe", "swiftshader"};
     static uint32_t plain[W * H], marked[W * H];
     truth *s = malloc(sizeof *s);
     tally y = {.name = "pixels"};
-    (void)state;
     assert_non_null(s);
     for (int i = 0; i < 3; i++) {
         const dp_spec spec =
@@ -250,12 +243,11 @@ static void judge_loop(tally *y, draw_picture *p, double gap, unsigned step, con
     }
 }
 
-static void none_from_the_guarantee_on(void **state) {
+TEST(none_from_the_guarantee_on) {
     static const char *const names[] = {"llvmpipe", "lavapipe", "softpipe", "swiftshader"};
     static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
     static const camera cameras[] = {{0.1, 1000.0, NAN}, {1.0, 30.0, NAN}, {0.01, INFINITY, 50.0}};
     tally y = {.name = "from the guarantee on"};
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0] * 3; i++)
         for (dp_mapping m = DP_MAPPING_D3D; m <= DP_MAPPING_GL_REVERSED; m++)
             for (int c = 0; c < 3; c++) {
@@ -279,11 +271,10 @@ static void none_from_the_guarantee_on(void **state) {
 }
 
 /* The standard one, every frame; how far below the guarantee the last wrong pixel is. */
-static void below_they_fight(void **state) {
+TEST(below_they_fight) {
     draw_picture p;
     double highest = 0.0;
     tally y = {.name = "every frame"};
-    (void)state;
     open_standard(&p);
     judge_loop(&y, &p, p.guaranteed, 1, "standard");
     for (double share = 0.9; share > 1e-3 && highest == 0.0; share *= 0.9)
@@ -302,10 +293,9 @@ static void below_they_fight(void **state) {
     tally_end(&y);
 }
 
-static void flickers(void **state) {
+TEST(flickers) {
     static uint32_t one[W * H], next[W * H];
     draw_picture p;
-    (void)state;
     open_standard(&p);
     const double gap = 0.02 * p.guaranteed;
     draw_picture_frame(&p, gap, 100, false, one);
@@ -318,10 +308,9 @@ static void flickers(void **state) {
     draw_picture_close(&p);
 }
 
-static void the_same_again(void **state) {
+TEST(the_same_again) {
     static uint32_t one[W * H], again[W * H];
     draw_picture p, q;
-    (void)state;
     open_standard(&p);
     open_standard(&q);
     for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame += 97) {
@@ -337,12 +326,11 @@ static void the_same_again(void **state) {
 
 /* ---- The slider, and what is refused ----------------------------------------------------------------------------- */
 
-static void slider(void **state) {
+TEST(slider) {
     static const double places[] = {0.0, 1e-6, 0.2, 0.5, 0.7499, 0.75, 0.7501, 0.9, 1.0};
     enum { PLACES = sizeof places / sizeof places[0] };
     const dp_spec coarse = spec_of("unorm16", DP_MAPPING_D3D, 0.001, 1000.0);
     draw_picture p;
-    (void)state;
     open_standard(&p);
     assert_true(draw_picture_marked(&p));
     assert_true(draw_picture_gap(&p, DRAW_PICTURE_MARK) == p.guaranteed);
@@ -364,7 +352,7 @@ static void slider(void **state) {
     draw_picture_close(&p);
 }
 
-static void refused(void **state) {
+TEST(refused) {
     static const struct {
         const char *raster, *format;
         dp_mapping mapping;
@@ -388,7 +376,6 @@ static void refused(void **state) {
         {"llvmpipe", "fp32", DP_MAPPING_D3D, {NAN, 1000, NAN}, 0, ""},
         {"llvmpipe", "fp32", DP_MAPPING_D3D, {1000, 0.1, NAN}, 0, ""},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         dp_spec spec = spec_of(cases[i].format, cases[i].mapping, cases[i].view.znear, cases[i].view.zfar);
         draw_picture p;
@@ -402,10 +389,9 @@ static void refused(void **state) {
 }
 
 /* Any planes at all: refused or drawn, the scene between them. */
-static void any_planes(void **state) {
+TEST(any_planes) {
     rng r = rng_make("any planes");
     tally y = {.name = "planes"};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(50, 400, 4000); i++) {
         const double znear = rng_log(&r, 1e-12, 1e12), zfar = znear * rng_log(&r, 1.00001, 1e20);
         dp_spec spec = spec_of("fp32", (dp_mapping)(DP_MAPPING_D3D + rng_below(&r, 4)), znear, zfar);
@@ -421,11 +407,10 @@ static void any_planes(void **state) {
     tally_end(&y);
 }
 
-static void fast(void **state) {
+TEST(fast) {
     static uint32_t pixel[W * H];
     struct timespec from, to;
     draw_picture p;
-    (void)state;
     open_standard(&p);
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
     for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame++)
@@ -435,21 +420,4 @@ static void fast(void **state) {
     print_message("# %.3f ms a frame, %.2f ns a pixel\n", ms / DRAW_PICTURE_FRAMES,
                   1e6 * ms / DRAW_PICTURE_FRAMES / (W * H));
     draw_picture_close(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(within_the_class),
-        cmocka_unit_test(a_gap_apart),
-        cmocka_unit_test(each_pixel),
-        cmocka_unit_test(none_from_the_guarantee_on),
-        cmocka_unit_test(below_they_fight),
-        cmocka_unit_test(flickers),
-        cmocka_unit_test(the_same_again),
-        cmocka_unit_test(slider),
-        cmocka_unit_test(refused),
-        cmocka_unit_test(any_planes),
-        cmocka_unit_test(fast),
-    };
-    return run_tap(tests);
 }

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The binary32 pipeline: against MPFR at 24 bits, against published counts, at the clip planes, behind a view. */
 #include <float.h>
-#include <math.h>
 #include <mpfr.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 #include "transform.h"
 
@@ -24,16 +21,7 @@ static uint32_t bits_of(float z) {
 }
 
 static dp_setup setup_of(double znear, double zfar, dp_mapping mapping, const char *format) {
-    dp_spec spec = dp_spec_default();
-    dp_format found[2];
-    dp_setup setup;
-    assert_int_not_equal(dp_format_parse(format, found), 0);
-    spec.znear = znear;
-    spec.zfar = zfar;
-    spec.mapping = mapping;
-    spec.format = found[0];
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .znear = znear, .zfar = zfar, .mapping = mapping);
 }
 
 static dp_pipeline pipeline_of(const dp_setup *setup) {
@@ -147,8 +135,7 @@ static uint32_t oracle_code(exact *e, const dp_pipeline *p, float window) {
                                                         : (uint32_t)mpfr_get_ui(e->wide, MPFR_RNDN);
 }
 
-static void matches_mpfr(void **state) {
-    (void)state;
+TEST(matches_mpfr) {
     tally t = {.name = "pipeline against MPFR at 24 bits"};
     rng r = rng_make("pipeline");
     exact e;
@@ -188,8 +175,7 @@ static int64_t unclamped(const dp_pipeline *p, int unorm, float z) {
     return p->reversed ? -code : code;
 }
 
-static void reed(void **state) {
-    (void)state;
+TEST(reed) {
     static const struct {
         dp_mapping mapping;
         int infinite;
@@ -246,8 +232,7 @@ static void count_view(const dp_setup *setup, const view_row *view, int precompo
     }
 }
 
-static void views(void **state) {
-    (void)state;
+TEST(views) {
     const dp_setup standard = setup_of(0.1, 1e4, DP_MAPPING_D3D, "fp32");
     const dp_setup reversed = setup_of(0.1, 1e4, DP_MAPPING_REVERSED, "fp32");
     const dp_setup infinite = setup_of(0.1, (double)INFINITY, DP_MAPPING_REVERSED, "fp32");
@@ -279,8 +264,7 @@ static void views(void **state) {
 }
 
 /* Behind the identity the separate transform is the pipeline itself. */
-static void identity_view(void **state) {
-    (void)state;
+TEST(identity_view) {
     tally t = {.name = "identity view"};
     rng r = rng_make("identity");
     for (int n = 0; n < 2000; n++) {
@@ -306,8 +290,7 @@ static void identity_view(void **state) {
 
 /* ---- Planes ------------------------------------------------------------------------------------------------------ */
 
-static void known_planes(void **state) {
-    (void)state;
+TEST(known_planes) {
     static const struct {
         double znear, zfar;
         dp_mapping mapping;
@@ -345,8 +328,7 @@ static float beside(double plane, float step) {
 }
 
 /* The planes by looking at every depth from either end, between the ones asked for. */
-static void planes(void **state) {
-    (void)state;
+TEST(planes) {
     tally t = {.name = "effective planes"};
     rng r = rng_make("planes");
     const uint64_t cases = test_cases(300, 5000, 100000);
@@ -371,8 +353,7 @@ static void planes(void **state) {
     tally_end(&t);
 }
 
-static void refuses(void **state) {
-    (void)state;
+TEST(refuses) {
     dp_pipeline p;
     const dp_setup linear = setup_of(0.1, 100.0, DP_MAPPING_LINEAR, "fp32");
     assert_int_equal(dp_pipeline_init(&p, &linear), DP_ERROR_MODEL);
@@ -383,13 +364,4 @@ static void refuses(void **state) {
     assert_int_equal(dp_pipeline_convert(&p, -1.0f), 0);
     assert_int_equal(dp_pipeline_convert(&p, NAN), 0);
     assert_int_equal(dp_pipeline_convert(&p, 2.0f), 16777215);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matches_mpfr),  cmocka_unit_test(reed),         cmocka_unit_test(views),
-        cmocka_unit_test(identity_view), cmocka_unit_test(known_planes), cmocka_unit_test(planes),
-        cmocka_unit_test(refuses),
-    };
-    return run_tap(tests);
 }

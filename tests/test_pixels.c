@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* PNG of figures, read back by libpng: every pixel, in one band of rows and in many, and the words. */
 #include <png.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "plot/pixels.h"
 #include "support.h"
@@ -69,28 +67,20 @@ static void check(rng *r, int width, int height, int kind, bool holes) {
     free(at);
 }
 
-static void pixels_come_back(void **state) {
+TEST(pixels_come_back) {
     static const int sizes[][2] = {{1, 1}, {7, 3}, {1, 900}, {1500, 900}, {16384, 70}, {350000, 2}};
     rng r = rng_make("pixels");
-    (void)state;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         for (int kind = 0; kind < 3; kind++)
             for (int holes = 0; holes < 2; holes++)
                 check(&r, sizes[i][0], sizes[i][1], kind, holes == 1);
 }
 
-static void what_cannot_be_written_fails(void **state) {
-    (void)state;
+TEST(what_cannot_be_written_fails) {
     static const uint32_t at[4] = {0};
     FILE *full = fopen("/dev/full", "wb");
     assert_non_null(full);
     setvbuf(full, NULL, _IONBF, 0);
     assert_false(pixels_write_png(full, &(pixels){at, 2, 2, 2, false}, &words));
     fclose(full);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_come_back),
-                                       cmocka_unit_test(what_cannot_be_written_fails)};
-    return run_tap(tests);
 }

@@ -3,8 +3,6 @@
  * The near or far plane in every model: the answer passes as `check` judges it, and so does all that is said to pass
  * with it; beyond it, where that is certain, nothing does; and where the answer has a closed form it is that.
  */
-#include <stdio.h>
-
 #include "requirement/plane.h"
 #include "support.h"
 
@@ -162,23 +160,19 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
         tally_end(&s.nothing);
 }
 
-static void test_fp32(void **state) {
-    (void)state;
+TEST(test_fp32) {
     in_model(DP_MODEL_FLOAT, MEASURE_SEPARATION, test_cases(60, 250, 20000));
 }
 
-static void test_staged(void **state) {
-    (void)state;
+TEST(test_staged) {
     in_model(DP_MODEL_STAGED, MEASURE_SEPARATION, test_cases(100, 250, 10000));
 }
 
-static void test_exact(void **state) {
-    (void)state;
+TEST(test_exact) {
     in_model(DP_MODEL_EXACT, MEASURE_SEPARATION, test_cases(100, 250, 10000));
 }
 
-static void test_error(void **state) {
-    (void)state;
+TEST(test_error) {
     in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(50, 120, 10000));
     in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(30, 60, 3000));
 }
@@ -198,8 +192,7 @@ static long double plain_error(int bits, int reversed, double n, double f, doubl
  * The least near against a sweep of its own: every near from the answer on keeps the error, and the next one below
  * does not, with 1e-9 for the long double's own rounding next to a boundary.
  */
-static void test_error_by_hand(void **state) {
-    (void)state;
+TEST(test_error_by_hand) {
     rng r = rng_make("plane error by hand");
     tally least = {.name = "least near of an error: just below it fails"};
     tally all = {.name = "least near of an error: all from it on pass"};
@@ -237,8 +230,7 @@ static void test_error_by_hand(void **state) {
 }
 
 /* Half a code: the depth 1000 keeps an error of 4000 as long as its code is not that of the infinite far plane. */
-static void test_half_code(void **state) {
-    (void)state;
+TEST(test_half_code) {
     plane_answer a;
     dp_format found[2];
     solve_problem p = {.spec = dp_spec_default(), .kind = MEASURE_ERROR, .limit = 4000.0, .lo = 1000.0, .hi = 1000.0};
@@ -258,8 +250,7 @@ static void test_half_code(void **state) {
 }
 
 /* Next beyond the answer some binary32 planes do fail: it is not far too large. */
-static void test_sweep(void **state) {
-    (void)state;
+TEST(test_sweep) {
     plane_answer a;
     dp_format found[2];
     static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, DP_MAPPING_GL};
@@ -291,8 +282,7 @@ static solve_problem camera(solve_unknown unknown, const char *format, dp_mappin
 }
 
 /* n = 1 / (S / (z (z + S) step) + 1/f) and f likewise, in long double: UNORM has one piece. */
-static void test_closed_form(void **state) {
-    (void)state;
+TEST(test_closed_form) {
     rng r = rng_make("solve closed form");
     tally close = {.name = "UNORM under a perspective: the closed form"};
     const uint64_t cases = test_cases(300, 1500, 50000);
@@ -324,8 +314,7 @@ static void test_closed_form(void **state) {
     tally_end(&close);
 }
 
-static void test_known(void **state) {
-    (void)state;
+TEST(test_known) {
     plane_answer a;
     solve_problem p = camera(SOLVE_NEAR, "unorm24", DP_MAPPING_D3D, 1e4);
     p.limit = 0.01;
@@ -352,8 +341,7 @@ static void test_known(void **state) {
     assert_true(!a.possible && a.certain);
 }
 
-static void test_door(void **state) {
-    (void)state;
+TEST(test_door) {
     plane_answer a;
     solve_problem good = camera(SOLVE_NEAR, "unorm24", DP_MAPPING_D3D, 100.0);
     good.limit = 0.01;
@@ -389,9 +377,8 @@ static void test_door(void **state) {
 }
 
 /* Where an infinite far plane passes it is the largest far that does; mappings without one end at 1e18. */
-static void test_infinite(void **state) {
+TEST(test_infinite) {
     static const char *const formats[] = {"unorm24", "fp32"};
-    (void)state;
     for (int m = 0; m < DP_MAPPING_COUNT; m++)
         for (int f = 0; f < 2; f++) {
             plane_answer a;
@@ -406,8 +393,7 @@ static void test_infinite(void **state) {
 }
 
 /* Far 16542.5 has an A and a B of few bits and fails; hundreds of values round it do not. */
-static void test_what_samples_miss(void **state) {
-    (void)state;
+TEST(test_what_samples_miss) {
     plane_answer a;
     solve_problem p = camera(SOLVE_FAR, "unorm24", DP_MAPPING_D3D, 1.0);
     p.spec.ortho = 1;
@@ -419,8 +405,7 @@ static void test_what_samples_miss(void **state) {
 }
 
 /* Planes that do by the thousand, though neither the lattice's own ends nor the places next to its outer one do. */
-static void test_far_from_the_lattice(void **state) {
-    (void)state;
+TEST(test_far_from_the_lattice) {
     static const struct row {
         dp_model model;
         solve_unknown unknown;
@@ -459,8 +444,7 @@ static void test_far_from_the_lattice(void **state) {
  * At 5000 binary32 depths lie 2^-11 apart, so no plane reaches 0.0004, though real depths on the lattice would. In
  * these two cameras the plane at the depth itself reaches 2^-11, so none can come nearer.
  */
-static void test_nearest_miss(void **state) {
-    (void)state;
+TEST(test_nearest_miss) {
     static const double other[] = {[SOLVE_NEAR] = 1e4, [SOLVE_FAR] = 2500.0};
     plane_answer a;
     for (int unknown = SOLVE_NEAR; unknown <= SOLVE_FAR; unknown++) {
@@ -492,8 +476,7 @@ static void test_nearest_miss(void **state) {
  * 255/9.5 - 25.5 = 1.3421, more than the limit; as it is aligned the error is 0 there, and next to 0 where far is
  * large.
  */
-static void test_infinite_far(void **state) {
-    (void)state;
+TEST(test_infinite_far) {
     static const dp_model models[] = {DP_MODEL_EXACT, DP_MODEL_STAGED};
     static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED};
     plane_answer a;
@@ -508,23 +491,4 @@ static void test_infinite_far(void **state) {
         assert_ulp(a.value, INFINITY, 0.0);
         assert_scene(a.reached.value, 0.0, 1e-5);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fp32),
-                                       cmocka_unit_test(test_staged),
-                                       cmocka_unit_test(test_exact),
-                                       cmocka_unit_test(test_error),
-                                       cmocka_unit_test(test_error_by_hand),
-                                       cmocka_unit_test(test_half_code),
-                                       cmocka_unit_test(test_closed_form),
-                                       cmocka_unit_test(test_known),
-                                       cmocka_unit_test(test_door),
-                                       cmocka_unit_test(test_infinite),
-                                       cmocka_unit_test(test_what_samples_miss),
-                                       cmocka_unit_test(test_sweep),
-                                       cmocka_unit_test(test_far_from_the_lattice),
-                                       cmocka_unit_test(test_nearest_miss),
-                                       cmocka_unit_test(test_infinite_far)};
-    return run_tap(tests);
 }

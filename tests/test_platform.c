@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What browsers store for a page that asks for 24 bits, against what their sources say. */
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "named.h"
 #include "raster/raster.h"
@@ -20,7 +18,7 @@ static int stored(const char *name) {
     return set;
 }
 
-static void test_published(void **state) {
+TEST(test_published) {
     static const struct {
         const char *name;
         int depth, stencil;
@@ -45,7 +43,6 @@ static void test_published(void **state) {
         {"metal", EITHER, EITHER, PLATFORM_REMAPS_NOT},
         {"gl", D24, D24, PLATFORM_REMAPS_NOT},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
         const platform *row = platform_find(published[i].name);
         assert_non_null(row);
@@ -60,7 +57,7 @@ static void test_published(void **state) {
  * The same of 24 bits: one code on D3D and Metal, as binary32; Vulkan's choice up to two of 2^-24, which ANGLE may
  * double; GL's without a bound, 2^-24 taken, which Dawn and ANGLE halve.
  */
-static void test_bias_of_codes(void **state) {
+TEST(test_bias_of_codes) {
     static const double code = 0x1.000002p-24, power = 0x1p-24;
     static const struct {
         const char *name;
@@ -72,7 +69,6 @@ static void test_bias_of_codes(void **state) {
         {"webgl-d3d", code, code},           {"webgl-metal", code, code},       {"firefox-gl", power, INFINITY},
     };
     dp_format unorm24[2];
-    (void)state;
     assert_int_equal(dp_format_parse("unorm24", unorm24), 1);
     for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
         const platform *row = platform_find(published[i].name);
@@ -88,7 +84,7 @@ static void test_bias_of_codes(void **state) {
  * n + 1 open (vk-gl-cts issue 4169). Dawn halves on desktop GL, ANGLE on GL; ANGLE doubles for some Vulkan devices, and
  * cuts fractions on D3D11; wgpu's GL drops the clamp.
  */
-static void test_bias(void **state) {
+TEST(test_bias) {
     static const double n = 0x1p-25;
     static const struct {
         const char *name;
@@ -107,7 +103,6 @@ static void test_bias(void **state) {
     };
     dp_format fp32[2];
     size_t i;
-    (void)state;
     assert_int_equal(dp_format_parse("fp32", fp32), 1);
     for (i = 0; i < sizeof published / sizeof published[0]; i++) {
         const platform *row = platform_find(published[i].name);
@@ -127,8 +122,7 @@ static void test_bias(void **state) {
     assert_null(platform_get(i));
 }
 
-static void test_rows(void **state) {
-    (void)state;
+TEST(test_rows) {
     for (size_t i = 0; platform_get(i) != NULL; i++) {
         const platform *row = platform_get(i);
         assert_true(platform_find(row->name) == row); /* no name twice */
@@ -138,10 +132,4 @@ static void test_rows(void **state) {
         /* what was read in 2026-11 is old from 2025-11 on backwards */
         assert_int_equal(strstr(row->newest, "over a year old") != NULL, strncmp(row->newest, "2025-11", 7) < 0);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_published), cmocka_unit_test(test_bias),
-                                       cmocka_unit_test(test_bias_of_codes), cmocka_unit_test(test_rows)};
-    return run_tap(tests);
 }

@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of each figure against the library, and what drawing may not change about them. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "named.h"
 #include "plot/draw.h"
@@ -62,8 +57,7 @@ static chart *build(const asked *a, const char *figure) {
 
 /* ---- each figure shows what the library says ---- */
 
-static void test_staircase(void **state) {
-    (void)state;
+TEST(test_staircase) {
     static const char *const formats[] = {"unorm4", "float3.3b5"};
     for (int f = 0; f < 2; f++)
         for (int m = 0; m < DP_MAPPING_COUNT; m++) {
@@ -95,8 +89,7 @@ static void test_staircase(void **state) {
 
 /* The published count: float3.3b5 has 40 values in [0, 1), so 41 with 1, and the staircase of the whole range shows
  * each that a depth in [near, far] gives back. */
-static void test_published_count(void **state) {
-    (void)state;
+TEST(test_published_count) {
     asked a;
     ask(&a, 1, 1000);
     ask_add(&a, "float3.3b5", DP_MAPPING_REVERSED);
@@ -117,8 +110,7 @@ static dp_setup random_camera(rng *r, asked *a) {
 }
 
 /* Over the whole range the curve reaches the certified worst case, and nothing above. */
-static void test_envelope_top(void **state) {
-    (void)state;
+TEST(test_envelope_top) {
     asked a;
     ask(&a, 0.1, 1000);
     for (int f = 0; f < 4; f++) {
@@ -141,8 +133,7 @@ static void test_envelope_top(void **state) {
     chart_free(interval);
 }
 
-static void test_blind(void **state) {
-    (void)state;
+TEST(test_blind) {
     asked a;
     ask(&a, 0.1, INFINITY);
     ask_add(&a, "unorm16", DP_MAPPING_D3D);
@@ -159,8 +150,7 @@ static void test_blind(void **state) {
     chart_free(c);
 }
 
-static void test_share(void **state) {
-    (void)state;
+TEST(test_share) {
     rng r = rng_make("share");
     for (int n = 0; n < 30; n++) {
         asked a;
@@ -207,8 +197,7 @@ static void check_map(const asked *a) {
     chart_free(c);
 }
 
-static void test_map(void **state) {
-    (void)state;
+TEST(test_map) {
     asked a;
     ask(&a, 0.1, 1000);
     ask_add(&a, "fp32", DP_MAPPING_REVERSED);
@@ -227,8 +216,7 @@ static const char needs[] =
     "                 y = { camera = \"a\"; at = 5.0; error = 0.01; };"
     "                 z = { camera = \"b\"; range = [2.0, 50.0]; separation = 0.01; }; };";
 
-static void test_every_figure_draws(void **state) {
-    (void)state;
+TEST(test_every_figure_draws) {
     static const int sizes[][2] = {{800, 500}, {DRAW_WIDTH_MIN, DRAW_HEIGHT_MIN}, {1700, 300}};
     need_file file;
     need_error error;
@@ -286,8 +274,7 @@ static void test_every_figure_draws(void **state) {
 }
 
 /* Where the format may be either of two, each has its panel, drawn in the fullest model that the camera asks for. */
-static void test_needs_of_two_formats(void **state) {
-    (void)state;
+TEST(test_needs_of_two_formats) {
     static const char text[] = "cameras = { a = { near = 1.0; far = 100.0; mapping = \"d3d\"; format = "
                                "\"depth24plus\"; model = \"auto\"; }; };"
                                "requirements = { x = { camera = \"a\"; range = [1.0, 50.0]; separation = 0.01; }; };";
@@ -317,8 +304,7 @@ static void test_needs_of_two_formats(void **state) {
     need_release(&file);
 }
 
-static void test_digest(void **state) {
-    (void)state;
+TEST(test_digest) {
     asked a;
     ask(&a, 0.1, 1000);
     ask_add(&a, "fp32", DP_MAPPING_D3D);
@@ -340,8 +326,7 @@ static void test_digest(void **state) {
 }
 
 /* What is grey is drawn, too. */
-static void test_digest_under(void **state) {
-    (void)state;
+TEST(test_digest_under) {
     double under[4] = {1, 2, 3, 4};
     char before[17], after[17];
     chart *c = chart_new();
@@ -358,8 +343,7 @@ static void test_digest_under(void **state) {
 
 /* ---- the parts ---- */
 
-static void test_ticks(void **state) {
-    (void)state;
+TEST(test_ticks) {
     rng r = rng_make("ticks");
     tally t = {.name = "ticks"};
     for (uint64_t n = test_cases(2000, 20000, 200000); n > 0; n--) {
@@ -384,8 +368,7 @@ static void test_ticks(void **state) {
     tally_end(&t);
 }
 
-static void test_tick_words(void **state) {
-    (void)state;
+TEST(test_tick_words) {
     char text[TICKS_TEXT];
     ticks_label(1000, false, text);
     assert_string_equal(text, "1000");
@@ -404,8 +387,7 @@ static double distance(const double p[2], const double a[2], const double b[2]) 
 }
 
 /* Thinned curves stay within a pixel column of every point, in the SVG itself. */
-static void test_trace(void **state) {
-    (void)state;
+TEST(test_trace) {
     enum { POINTS = 20000, CORNERS = 5000 };
     static double points[POINTS][2], corners[CORNERS][2];
     const notes none = {"", "", "", ""};
@@ -446,8 +428,7 @@ static void test_trace(void **state) {
     }
 }
 
-static void test_words(void **state) {
-    (void)state;
+TEST(test_words) {
     const notes none = {"", "", "", ""};
     canvas *c = canvas_new(CANVAS_PNG, 100, 100, &none);
     pencil p = pencil_make(c, theme_get(0), 1);
@@ -469,16 +450,14 @@ static void test_words(void **state) {
     free(bytes.at);
 }
 
-static void test_clean(void **state) {
-    (void)state;
+TEST(test_clean) {
     char out[16];
     assert_string_equal(notes_clean(out, sizeof out, "a\xffz\x01\xc3\xbc\xc3"), "a?z?\xc3\xbc?");
     assert_string_equal(notes_clean(out, sizeof out, "\xed\xa0\x80"), "???"); /* a surrogate */
     assert_string_equal(notes_clean(out, 4, "ab\xe2\x82\xac"), "ab");         /* no half a character at the end */
 }
 
-static void test_format_of(void **state) {
-    (void)state;
+TEST(test_format_of) {
     assert_int_equal(canvas_format_of("a.svg"), CANVAS_SVG);
     assert_int_equal(canvas_format_of("folder/a.b.PDF"), CANVAS_PDF);
     assert_int_equal(canvas_format_of("a.png"), CANVAS_PNG);
@@ -487,8 +466,7 @@ static void test_format_of(void **state) {
     assert_int_equal(canvas_format_of("a.svgz"), CANVAS_FORMAT_COUNT);
 }
 
-static void test_palettes(void **state) {
-    (void)state;
+TEST(test_palettes) {
     assert_int_equal(theme_pixel(theme_viridis(0)), 0xFF440154);
     assert_int_equal(theme_pixel(theme_viridis(1)), 0xFFFDE725);
     assert_int_equal(theme_pixel(theme_viridis(0.5)), 0xFF21908C);
@@ -502,27 +480,4 @@ static void test_palettes(void **state) {
     for (size_t t = 0; theme_get(t) != NULL; t++) /* what is written can be read */
         assert_true(fabs(theme_get(t)->text.g - theme_get(t)->background.g) > 0.6 &&
                     fabs(theme_get(t)->faint.g - theme_get(t)->background.g) > 0.5);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_staircase),
-        cmocka_unit_test(test_published_count),
-        cmocka_unit_test(test_envelope_top),
-        cmocka_unit_test(test_blind),
-        cmocka_unit_test(test_share),
-        cmocka_unit_test(test_map),
-        cmocka_unit_test(test_every_figure_draws),
-        cmocka_unit_test(test_needs_of_two_formats),
-        cmocka_unit_test(test_digest),
-        cmocka_unit_test(test_digest_under),
-        cmocka_unit_test(test_ticks),
-        cmocka_unit_test(test_tick_words),
-        cmocka_unit_test(test_trace),
-        cmocka_unit_test(test_words),
-        cmocka_unit_test(test_clean),
-        cmocka_unit_test(test_format_of),
-        cmocka_unit_test(test_palettes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

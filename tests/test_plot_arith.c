@@ -1,29 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figures about binary32 arithmetic show the library's numbers; bands stop where there are none. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "named.h"
 #include "plot/area.h"
 #include "plot/draw.h"
 #include "plot/figure.h"
+#include "setups.h"
 #include "support.h"
 
 enum { COLUMNS = 200 };
 
 static dp_setup make(const char *format, dp_mapping mapping, dp_model model) {
-    dp_format found[2];
-    dp_setup setup;
-    dp_spec spec = dp_spec_default();
-    assert_true(dp_format_parse(format, found) == 1);
-    spec.format = found[0];
-    spec.mapping = mapping;
-    spec.model = model;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .model = model);
 }
 
 static chart *build(const char *figure, const figure_request *request) {
@@ -41,8 +29,7 @@ static const chart_series *find(const chart_panel *panel, const char *name) {
     return NULL;
 }
 
-static void budget_shows_the_library(void **state) {
-    (void)state;
+TEST(budget_shows_the_library) {
     const dp_setup setups[] = {make("unorm24", DP_MAPPING_GL, DP_MODEL_FLOAT),
                                make("fp16", DP_MAPPING_D3D, DP_MODEL_FLOAT)};
     const char *names[] = {"one", "two"};
@@ -83,8 +70,7 @@ static void budget_shows_the_library(void **state) {
     chart_free(c);
 }
 
-static void interval_shows_both(void **state) {
-    (void)state;
+TEST(interval_shows_both) {
     const dp_setup setups[] = {make("unorm24", DP_MAPPING_D3D, DP_MODEL_FLOAT),
                                make("unorm24", DP_MAPPING_LOG, DP_MODEL_STAGED)};
     const dp_setup exact[] = {make("unorm24", DP_MAPPING_D3D, DP_MODEL_EXACT), setups[1]};
@@ -122,8 +108,7 @@ static void interval_shows_both(void **state) {
 }
 
 /* Both axes fit their own series alone. */
-static void axes_are_fitted_apart(void **state) {
-    (void)state;
+TEST(axes_are_fitted_apart) {
     const dp_setup setup = make("unorm24", DP_MAPPING_D3D, DP_MODEL_FLOAT);
     const char *name = "a";
     const figure_request request = {
@@ -138,8 +123,7 @@ static void axes_are_fitted_apart(void **state) {
 }
 
 /* Where a band has no value it is not drawn: each is two shapes, and a third in the legend. */
-static void a_gap_parts_a_band(void **state) {
-    (void)state;
+TEST(a_gap_parts_a_band) {
     chart *c = chart_new();
     assert_non_null(c);
     chart_panel *panel = chart_add_panel(c);
@@ -171,14 +155,4 @@ static void a_gap_parts_a_band(void **state) {
     free(svg);
     free(bytes.at);
     chart_free(c);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(budget_shows_the_library),
-        cmocka_unit_test(interval_shows_both),
-        cmocka_unit_test(axes_are_fitted_apart),
-        cmocka_unit_test(a_gap_parts_a_band),
-    };
-    return run_tap(tests);
 }

@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the numbers in a PNG mean: by convention, by the JSON beside it, and by what the file says of itself. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "image/image.h"
 #include "printed.h"
 
@@ -40,8 +35,7 @@ static void make(const char *options, const char *file, const char *more) {
 }
 
 /* Normals of engines: 0.5 n + 0.5, y up or down, z towards the camera; the numbers look along the view axis. */
-static void normals(void **state) {
-    (void)state;
+TEST(normals) {
     static const char *const formats[] = {"", "--normal-format opengl", "--normal-format directx"};
     make("--product normal:high", "n.npy", "");
     for (int f = 0; f < 3; f++) {
@@ -68,8 +62,7 @@ static void normals(void **state) {
 }
 
 /* Of any product a sample means offset + scale x sample; the JSON has both, and the file itself. */
-static void meanings(void **state) {
-    (void)state;
+TEST(meanings) {
     static const struct {
         const char *options, *product, *unit, *says;
         bool up; /* an error, which is rounded up */
@@ -132,8 +125,7 @@ static void meanings(void **state) {
 }
 
 /* A file of numbers has no scale. */
-static void numbers_as_they_are(void **state) {
-    (void)state;
+TEST(numbers_as_they_are) {
     printed p = made("--product position:exact", "p.npy", "--json");
     json_t *root = json_of(p.out);
     assert_string_equal(json_string_value(json_object_get(root, "type")), "f4");
@@ -145,8 +137,7 @@ static void numbers_as_they_are(void **state) {
 }
 
 /* Beside the product's meaning stands that of its error map. */
-static void maps_beside(void **state) {
-    (void)state;
+TEST(maps_beside) {
     for (int normals = 0; normals < 2; normals++) {
         char map[256];
         image codes;
@@ -183,14 +174,12 @@ static void maps_beside(void **state) {
 }
 
 /* Eye depths come back without an option, as depths of the same planes, and to the same file. */
-static void eye_depths_come_back(void **state) {
-    (void)state;
+TEST(eye_depths_come_back) {
     image codes, numbers;
     tally t = {.name = "eye depths"};
-    char first[256], again[256], back[256];
-    snprintf(first, sizeof first, "%s", scratch_file("e.png"));
-    snprintf(again, sizeof again, "%s", scratch_file("again.png"));
-    snprintf(back, sizeof back, "%s", scratch_file("back.npy"));
+    const char *first = scratch_file("e.png");
+    const char *again = scratch_file("again.png");
+    const char *back = scratch_file("back.npy");
     make("--product eye", "e.png", "");
     make("--product eye", "e.npy", "");
     printed p = print_of("texture %s --product eye -o %s", first, back);
@@ -225,8 +214,7 @@ static void eye_depths_come_back(void **state) {
 }
 
 /* What is no depth says so, unless somebody insists. */
-static void no_depths(void **state) {
-    (void)state;
+TEST(no_depths) {
     static const char *const products[][2] = {{"--product position:exact", "positions"},
                                               {"--product normal:low", "normals"},
                                               {"--product radial", "distances"},
@@ -245,24 +233,8 @@ static void no_depths(void **state) {
         assert_int_equal(p.status, 0);
         printed_free(&p);
     }
-    printed p = print_of("%s --product eye -o %s --normal-format directx", SCENE, scratch_file("x.png"));
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--normal-format: needs --product normal or packed-normal"));
-    printed_free(&p);
-    p = print_of("%s --product normal:low -o %s --normal-format directx", SCENE, scratch_file("x.npy"));
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--normal-format: is for the normals in a PNG"));
-    printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(normals),
-        cmocka_unit_test(meanings),
-        cmocka_unit_test(numbers_as_they_are),
-        cmocka_unit_test(maps_beside),
-        cmocka_unit_test(eye_depths_come_back),
-        cmocka_unit_test(no_depths),
-    };
-    return run_tap(tests);
+    check_says(2, "--normal-format: needs --product normal or packed-normal",
+               "%s --product eye -o %s --normal-format directx", SCENE, scratch_file("x.png"));
+    check_says(2, "--normal-format: is for the normals in a PNG",
+               "%s --product normal:low -o %s --normal-format directx", SCENE, scratch_file("x.npy"));
 }

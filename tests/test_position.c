@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Places of pixels: the exact one against rationals, the rows against their bounds and against known answers. */
 #include <float.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <gmp.h>
 
@@ -110,8 +108,7 @@ static void rational_place(const texture_camera *c, uint32_t row, uint32_t colum
     mpq_clears(n, f, t, q, z, slope[0], slope[1], x, NULL);
 }
 
-static void exact_places(void **state) {
-    (void)state;
+TEST(exact_places) {
     rng r = rng_make("places");
     tally t = {.name = "places"};
     mpq_t want[3], x;
@@ -195,19 +192,16 @@ static void hold(const char *name, double ratio, double origin, double share) {
     tally_end(&t);
 }
 
-static void bounds_at_the_origin(void **state) {
-    (void)state;
+TEST(bounds_at_the_origin) {
     hold("origin", 1e6, 0, 0.25);
 }
 
-static void bounds_far_from_the_origin(void **state) {
-    (void)state;
+TEST(bounds_far_from_the_origin) {
     hold("far away", 1e4, 1e6, 0.25);
 }
 
 /* In any camera "view" is within 9.3 units of the distance, and two units of the way to the origin more. */
-static void view_keeps_its_promise(void **state) {
-    (void)state;
+TEST(view_keeps_its_promise) {
     rng r = rng_make("promise");
     tally t = {.name = "promise"};
     for (uint64_t n = test_cases(1000, 10000, 100000); n > 0; n--) {
@@ -229,8 +223,7 @@ static void view_keeps_its_promise(void **state) {
 }
 
 /* The rows' loops over any length and place of a line give the bits of one pixel at a time. */
-static void loops_have_no_edges(void **state) {
-    (void)state;
+TEST(loops_have_no_edges) {
     enum { WIDTH = 1500 };
     static float d[WIDTH], one[3][WIDTH], all[3][WIDTH];
     rng r = rng_make("loops");
@@ -260,8 +253,7 @@ static void loops_have_no_edges(void **state) {
 /* ---- Facts ------------------------------------------------------------------------------------------------------- */
 
 /* binary16 ends at 65504: places beyond are infinite, and those below are rounded to 11 bits. */
-static void half_overflows(void **state) {
-    (void)state;
+TEST(half_overflows) {
     dp_spec spec = dp_spec_default();
     camera_spec where = camera_spec_default();
     where.width = where.height = 1; /* the one pixel looks straight ahead */
@@ -301,8 +293,7 @@ static void expect_half(float x, float want) {
 }
 
 /* Every number of binary16 stays; between two the nearer one is taken, and in the middle the even one. */
-static void every_half_is_rounded_to(void **state) {
-    (void)state;
+TEST(every_half_is_rounded_to) {
     for (int code = 0; code <= 0x7bff; code++) {
         const float here = binary16(code), middle = 0.5f * (here + binary16(code + 1));
         const float next = code < 0x7bff ? binary16(code + 1) : (float)INFINITY;
@@ -321,8 +312,7 @@ static void every_half_is_rounded_to(void **state) {
 }
 
 /* At 0.1 to 1000 the usual rows are off by half a unit and more near the far plane, ours by less than a thousandth. */
-static void the_standard_direction_costs_digits(void **state) {
-    (void)state;
+TEST(the_standard_direction_costs_digits) {
     dp_spec spec = dp_spec_default();
     camera_spec where = camera_spec_default();
     where.width = 1920;
@@ -350,8 +340,7 @@ static void the_standard_direction_costs_digits(void **state) {
 
 /* Errors of rows that add the camera's place last grow with it by two units; the matrix's by that times z/n, 100 here.
  */
-static void far_from_the_origin(void **state) {
-    (void)state;
+TEST(far_from_the_origin) {
     dp_spec spec = dp_spec_default();
     camera_spec where = camera_spec_default();
     where.width = where.height = 64;
@@ -374,8 +363,7 @@ static void far_from_the_origin(void **state) {
 }
 
 /* The matrix and its inverse are each other's; both directions, both NDCs, both projections. */
-static void matrices_invert(void **state) {
-    (void)state;
+TEST(matrices_invert) {
     rng r = rng_make("matrices");
     tally t = {.name = "matrices"};
     for (int n = 0; n < 3000; n++) {
@@ -413,8 +401,7 @@ static void matrices_invert(void **state) {
 }
 
 /* Two matrices whose singular values are known. */
-static void condition_numbers(void **state) {
-    (void)state;
+TEST(condition_numbers) {
     dp_spec spec = dp_spec_default();
     camera_spec where = camera_spec_default();
     where.width = where.height = 8;
@@ -440,8 +427,7 @@ static void condition_numbers(void **state) {
     assert_true(isinf(position_bound(position_find("matrix"), &c, 1, 1, 0.5f)));
 }
 
-static void names(void **state) {
-    (void)state;
+TEST(names) {
     size_t i = 0;
     for (; position_get(i) != NULL; i++)
         assert_ptr_equal(position_find(position_get(i)->name), position_get(i));
@@ -459,22 +445,4 @@ static void names(void **state) {
     c = camera_of(&spec, &where);
     assert_true(position_applies(position_find("matrix"), &c));
     assert_false(position_applies(position_find("rays"), &c));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_places),
-        cmocka_unit_test(bounds_at_the_origin),
-        cmocka_unit_test(bounds_far_from_the_origin),
-        cmocka_unit_test(view_keeps_its_promise),
-        cmocka_unit_test(loops_have_no_edges),
-        cmocka_unit_test(half_overflows),
-        cmocka_unit_test(every_half_is_rounded_to),
-        cmocka_unit_test(the_standard_direction_costs_digits),
-        cmocka_unit_test(far_from_the_origin),
-        cmocka_unit_test(matrices_invert),
-        cmocka_unit_test(condition_numbers),
-        cmocka_unit_test(names),
-    };
-    return run_tap(tests);
 }

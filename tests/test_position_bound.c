@@ -3,7 +3,6 @@
  * Places from depth, over random cameras, pixels and depths: no row is farther off than its bound, from a camera at the
  * world's origin or 10^8 near distances away, and bounds are not idle. The exact place is formed here, in long double.
  */
-#include <string.h>
 
 #include <gmp.h>
 
@@ -86,8 +85,7 @@ static float depth_of(rng *r, const dp_setup *setup, uint64_t kind) {
     return kind % 4 == 0 ? (float)rng_unit(r) : (float)dp_window(setup, n > 0 ? rng_log(r, n, f) : rng_depth(r, n, f));
 }
 
-static void bounds_hold_and_are_not_idle(void **state) {
-    (void)state;
+TEST(bounds_hold_and_are_not_idle) {
     rng r = rng_make("position bound");
     for (size_t i = 0; position_get(i) != NULL; i++) {
         const position_row *row = position_get(i);
@@ -162,16 +160,14 @@ static void check_hard(const vector_row *row, void *context) {
           row->line, off, off / bound, bound);
 }
 
-static void the_hardest_places_need_each_term(void **state) {
-    (void)state;
+TEST(the_hardest_places_need_each_term) {
     tally t = {.name = "hardest"};
     vectors_read("position.txt", check_hard, &t);
     tally_end(&t);
 }
 
 /* What depthprec(7) says of a matrix at the world's origin: units of z/n, at far and over all directions of view. */
-static void a_matrix_loses_what_is_said(void **state) {
-    (void)state;
+TEST(a_matrix_loses_what_is_said) {
     static const struct {
         dp_mapping mapping;
         double least, most;
@@ -273,8 +269,7 @@ static double inverse_off(const texture_camera *camera, const float inverse[16])
 }
 
 /* The bound counts one rounding of an entry, and nothing of the elimination before it. */
-static void inverses_are_rounded_once(void **state) {
-    (void)state;
+TEST(inverses_are_rounded_once) {
     rng r = rng_make("inverse");
     tally t = {.name = "inverse"};
     for (uint64_t k = test_cases(1000, 4000, 40000); k > 0; k--) {
@@ -291,14 +286,4 @@ static void inverses_are_rounded_once(void **state) {
               v.camera.setup.spec.zfar, v.spec.origin[0], off);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_hold_and_are_not_idle),
-        cmocka_unit_test(the_hardest_places_need_each_term),
-        cmocka_unit_test(a_matrix_loses_what_is_said),
-        cmocka_unit_test(inverses_are_rounded_once),
-    };
-    return run_tap(tests);
 }

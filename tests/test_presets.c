@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cameras of engines: each row makes set-ups, says where it comes from and what is not confirmed. */
 #include <ctype.h>
-#include <math.h>
-#include <string.h>
 
 #include "api/cost.h"
 #include "api/presets.h"
@@ -18,10 +16,9 @@ static size_t count(void) {
     return rows;
 }
 
-static void test_required(void **state) {
+TEST(test_required) {
     static const char *const names[] = {"unity", "unity-gl",     "unreal", "godot-forward", "godot-mobile",
                                         "three", "three-webgpu", "bevy",   "cesium",        "mujoco"};
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_non_null(preset_find(names[i]));
     const name_list presets = {.get = list_preset};
@@ -32,8 +29,7 @@ static void test_required(void **state) {
     assert_null(preset_get(count()));
 }
 
-static void test_rows(void **state) {
-    (void)state;
+TEST(test_rows) {
     for (size_t i = 0; i < count(); i++) {
         const preset *row = preset_get(i);
         assert_true(preset_find(row->name) == row); /* no name twice */
@@ -60,9 +56,8 @@ static void test_rows(void **state) {
 }
 
 /* What is not confirmed is named by the columns that a row has. */
-static void test_unconfirmed(void **state) {
+TEST(test_unconfirmed) {
     static const char *const columns[] = {"near", "far", "mapping", "format", "fov"};
-    (void)state;
     for (size_t i = 0; i < count(); i++) {
         char text[64];
         assert_true(strlen(preset_get(i)->unconfirmed) < sizeof text);
@@ -76,9 +71,8 @@ static void test_unconfirmed(void **state) {
     }
 }
 
-static void test_known_values(void **state) {
+TEST(test_known_values) {
     dp_format formats[2];
-    (void)state;
     assert_int_equal(dp_format_parse(preset_find("three-webgpu")->format, formats), 2); /* depth24plus */
     assert_string_equal(preset_find("unreal")->unit, "cm");
     assert_true(isinf(preset_find("unreal")->zfar) && isinf(preset_find("bevy")->zfar));
@@ -91,8 +85,7 @@ static void test_known_values(void **state) {
 }
 
 /* The shader writes log2(1 + z - near)/log2(1 + far - near): 0 at the near plane, and 10 behind it log(11)/log(5e8). */
-static void test_cesium_codes(void **state) {
-    (void)state;
+TEST(test_cesium_codes) {
     const preset *p = preset_find("cesium");
     dp_format formats[2];
     dp_format_parse(p->format, formats);
@@ -106,8 +99,7 @@ static void test_cesium_codes(void **state) {
 }
 
 /* Vertical, horizontal, and of the larger side. */
-static void test_view(void **state) {
-    (void)state;
+TEST(test_view) {
     assert_true(preset_fov_y(preset_find("godot-forward"), 1920, 1080) == 75);
     assert_true(preset_fov_y(preset_find("bevy"), 100, 300) == 45);
     assert_relative(preset_fov_y(preset_find("unreal"), 1920, 1080), 58.71550708558254, 1e-14);
@@ -124,8 +116,7 @@ static dp_format format_of(const char *name) {
     return f[0];
 }
 
-static void test_cost(void **state) {
-    (void)state;
+TEST(test_cost) {
     static const char *const order[] = {"unorm16", "fp32", "unorm24", "fp16", "float3.3"};
     for (int i = 0; i < 5; i++)
         for (int k = i + 1; k < 4; k++) {
@@ -135,13 +126,4 @@ static void test_cost(void **state) {
         }
     for (size_t i = 0; i < dp_format_count(); i++) /* every named format has its row */
         assert_null(strstr(cost_of(&dp_format_get(i)->format, DP_MAPPING_GL).available, "study"));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cost),        cmocka_unit_test(test_required),     cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_unconfirmed), cmocka_unit_test(test_known_values), cmocka_unit_test(test_cesium_codes),
-        cmocka_unit_test(test_view),
-    };
-    return run_tap(tests);
 }

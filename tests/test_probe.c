@@ -3,9 +3,7 @@
  * The hypotheses of the probe: codes made here by each of them, with MPFR or closed forms, are found to be its, and
  * nothing is when one pixel in them is otherwise.
  */
-#include <math.h>
 #include <mpfr.h>
-#include <string.h>
 
 #include "core/bits.h"
 #include "depthprec/arith.h"
@@ -225,8 +223,7 @@ static const struct {
      NULL},
 };
 
-static void test_found(void **state) {
-    (void)state;
+TEST(test_found) {
     for (size_t i = 0; i < sizeof devices / sizeof devices[0]; i++) {
         static probe_result r;
         make(&r, &devices[i].is);
@@ -260,7 +257,7 @@ static void test_found(void **state) {
 }
 
 /* One pixel that is otherwise, or one depth that is told apart, and no row is claimed. */
-static void test_not_found(void **state) {
+TEST(test_not_found) {
     static const struct {
         plan_shot shot;
         shot_format format;
@@ -272,7 +269,6 @@ static void test_not_found(void **state) {
                {PLAN_SLOPED, SHOT_D32F, "slope", false},     {PLAN_PLANES, SHOT_D32F, "clipping", false}};
     static probe_result r;
     const device is = {1, .reciprocal = true, .float_step = 1, .code_step = 1};
-    (void)state;
     make(&r, &is);
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         shot *s = plan_find(&r.plan, all[i].shot, all[i].format);
@@ -295,10 +291,9 @@ static void test_not_found(void **state) {
     probe_free(&r);
 }
 
-static void test_other_states(void **state) {
+TEST(test_other_states) {
     static probe_result r;
     const device finer = {0, .finer = true, .differs = true, .float_step = 1, .code_step = 1};
-    (void)state;
     make(&r, &finer);
     probe_judge(&r);
     assert_int_equal(find(&r, "stored", "d24")->sure, PROBE_NO_ROW);
@@ -308,10 +303,9 @@ static void test_other_states(void **state) {
 }
 
 /* Functions as the test stores them: exact but for one, whose error is what is said. */
-static void test_functions(void **state) {
+TEST(test_functions) {
     static probe_result r;
     const device is = {0, .float_step = 1, .code_step = 1};
-    (void)state;
     make(&r, &is);
     shot *log2s = plan_find(&r.plan, PLAN_LOG2, SHOT_D32F), *quotients = plan_find(&r.plan, PLAN_QUOTIENT, SHOT_D32F);
     for (int i = 0; i < SHOT_PIXELS; i++) {
@@ -337,7 +331,7 @@ static void test_functions(void **state) {
 }
 
 /* Of hypotheses whose hits are known: which is found, what is said of it, and which comes next. */
-static void test_guesses(void **state) {
+TEST(test_guesses) {
     static const struct {
         uint64_t hits[3], cases;
         probe_certainty sure;
@@ -355,7 +349,6 @@ static void test_guesses(void **state) {
         {{0, 0, 0}, 0, PROBE_NO_ROW, "nothing known; nearest: one", "two", 0, 0, JUDGE_NONE},
     };
     static probe_result r;
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const guess all[] = {{"one", rows[i].hits[0]}, {"two", rows[i].hits[1]}, {"three", rows[i].hits[2]}};
         r.count = 0;
@@ -366,11 +359,4 @@ static void test_guesses(void **state) {
         assert_string_equal(f->next, rows[i].next);
         assert_true(f->cases == rows[i].cases && f->hits == rows[i].best && f->next_hits == rows[i].second);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_found), cmocka_unit_test(test_not_found),
-                                       cmocka_unit_test(test_other_states), cmocka_unit_test(test_functions),
-                                       cmocka_unit_test(test_guesses)};
-    return run_tap(tests);
 }

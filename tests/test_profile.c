@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Profiles of GPUs in requirement files: what is taken from files written by hand, and that damaged ones are refused.
  */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -68,9 +65,8 @@ static void must_parse(const char *cameras, need_file *file) {
 }
 
 /* What a profile names, and the same said by name: set-ups alike, and only the first is measured. */
-static void test_same_as_rows(void **state) {
+TEST(test_same_as_rows) {
     need_file f;
-    (void)state;
     must_parse(CAMERA("a", "fp32", "arith = \"one.json\"; raster = \"one.json\"; " VIEW)
                    CAMERA("b", "fp32", "arith = \"reciprocal\"; raster = \"llvmpipe\"; " VIEW)
                        CAMERA("c", "unorm16", ""),
@@ -87,11 +83,10 @@ static void test_same_as_rows(void **state) {
 }
 
 /* Beside the requirement file, wherever the program runs; a folder up; and an absolute path. */
-static void test_paths(void **state) {
-    char absolute[1024], text[1200];
+TEST(test_paths) {
+    char text[1200];
     need_file f;
-    (void)state;
-    snprintf(absolute, sizeof absolute, "%s", scratch_file("two.json"));
+    const char *absolute = scratch_file("two.json");
     const char *const paths[] = {"../two.json", "./../two.json", absolute};
     for (size_t i = 0; i < 3; i++) {
         snprintf(text, sizeof text, CAMERA("a", "unorm24", "arith = \"%s\";"), paths[i]);
@@ -103,9 +98,8 @@ static void test_paths(void **state) {
 }
 
 /* Two GPUs: the promise is for both, so for the formats that both store. */
-static void test_two(void **state) {
+TEST(test_two) {
     need_file f;
-    (void)state;
     must_parse(CAMERA("a", "fp32", "arith = \"one.json\"; raster = \"../two.json\"; " VIEW), &f);
     assert_string_equal(f.cameras[0].gpu.measured, "One, driver D 1; Two, driver D 1");
     assert_string_equal(f.cameras[0].raster->name, "spec-d3d");
@@ -115,7 +109,7 @@ static void test_two(void **state) {
     need_release(&f);
 }
 
-static void test_mistakes(void **state) {
+TEST(test_mistakes) {
     static const struct {
         const char *camera;
         int line;
@@ -143,7 +137,6 @@ static void test_mistakes(void **state) {
         {CAMERA("a", "fp32", "arith = \"ieeee\";"), 3, "arith: must be one of ieee, "},
     };
     tally told = {.name = "each profile that cannot be used is told with its line"};
-    (void)state;
     for (size_t i = 0; i < sizeof mistakes / sizeof mistakes[0]; i++) {
         need_file f;
         need_error e;
@@ -158,9 +151,8 @@ static void test_mistakes(void **state) {
 }
 
 /* The program says which camera's promise is for which GPU, in every form but CSV, and none of a camera without. */
-static void test_told(void **state) {
+TEST(test_told) {
     char path[512];
-    (void)state;
     write_text("needs/told.need",
                "cameras = {\n" CAMERA("a", "fp32", "arith = \"one.json\";")
                    CAMERA("b", "fp32", "") "};\n"
@@ -195,7 +187,6 @@ static void test_told(void **state) {
 }
 
 /* ---- Bias -------------------------------------------------------------------------------------------------------- */
-
 #define BIAS(format, found, sure)                                                                                      \
     ", {\"key\": \"bias\", \"format\": \"" format "\", \"found\": \"" found "\", \"sure\": \"" sure "\"}"
 #define N_OF(m, what) "r = 2^(n-" m "), 2^n the power of two at or below " what
@@ -255,11 +246,9 @@ static json_t *bias_json(const char *raster, const char *api, const char *more, 
 }
 
 /* r as it was found, of the API by which it was drawn and of no other; where it was not found for sure, nothing. */
-static void test_bias_measured(void **state) {
-    char path[512];
+TEST(test_bias_measured) {
     double r[2], by_api[2];
-    (void)state;
-    snprintf(path, sizeof path, "%s", scratch_file("bias.json"));
+    const char *path = scratch_file("bias.json");
     for (size_t i = 0; i < sizeof found_of / sizeof found_of[0]; i++)
         for (int api = 0; api < 3; api++) {
             const char *const name = (const char *const[]){"vulkan", "gl", "d3d11"}[api];
@@ -288,13 +277,11 @@ static void test_bias_measured(void **state) {
 }
 
 /* A platform's scale comes on top; fractions are cut where that was found. Words say so. */
-static void test_bias_beside(void **state) {
+TEST(test_bias_beside) {
     static const char cuts[] =
         ", {\"key\": \"fraction\", \"found\": \"fractions of a constant are cut\", \"sure\": \"sure\"}";
-    char path[512];
     double r[2];
-    (void)state;
-    snprintf(path, sizeof path, "%s", scratch_file("bias.json"));
+    const char *path = scratch_file("bias.json");
     write_bias("bias.json", 1, cuts); /* 2^(n-22) */
     printed p =
         print_of("bias --platform webgl-vulkan -F fp32 -n 0.1 -f inf -m reversed --at 10 --raster %s --json", path);
@@ -334,14 +321,13 @@ static void test_bias_beside(void **state) {
 }
 
 /* Two GPUs: the least and the greatest r of both, or none where one is not known. */
-static void test_bias_of_two(void **state) {
+TEST(test_bias_of_two) {
     static const struct {
         size_t a, b;
         double least, most;
     } two[] = {{0, 1, 1, 2}, {1, 6, 0.5, 2}, {0, 7, 0, 0}, {7, 0, 0, 0}, {0, 2, 0, 0}};
     char name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
     dp_format fp32[2];
-    (void)state;
     assert_int_equal(dp_format_parse("fp32", fp32), 1);
     for (size_t i = 0; i < sizeof two / sizeof two[0]; i++) {
         profile gpus = {.measured = ""};
@@ -358,7 +344,7 @@ static void test_bias_of_two(void **state) {
 }
 
 /* What the tree's profiles found of r is known, each of it. */
-static void test_bias_of_tree(void **state) {
+TEST(test_bias_of_tree) {
     static const struct {
         const char *driver, *api;
         double least32, codes16;
@@ -368,7 +354,6 @@ static void test_bias_of_tree(void **state) {
                    {"swiftshader", "vulkan", 0.5, 1}};
     char path[128], name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
     dp_format fp32[2], unorm16[2];
-    (void)state;
     dp_format_parse("fp32", fp32);
     dp_format_parse("unorm16", unorm16);
     for (size_t i = 0; i < sizeof drivers / sizeof drivers[0]; i++) {
@@ -383,10 +368,9 @@ static void test_bias_of_tree(void **state) {
 }
 
 /* Of the largest of three depths, the anchor's depth and the differences from it have at least the exponent less 1. */
-static void test_anchor(void **state) {
+TEST(test_anchor) {
     rng r = rng_make("anchor");
     int less = 0;
-    (void)state;
     for (int i = 0; i < 100000; i++) {
         double z[3];
         for (int k = 0; k < 3; k++)
@@ -400,11 +384,5 @@ static void test_anchor(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_as_rows), cmocka_unit_test(test_paths),
-                                       cmocka_unit_test(test_two),          cmocka_unit_test(test_mistakes),
-                                       cmocka_unit_test(test_told),         cmocka_unit_test(test_bias_measured),
-                                       cmocka_unit_test(test_bias_beside),  cmocka_unit_test(test_bias_of_two),
-                                       cmocka_unit_test(test_bias_of_tree), cmocka_unit_test(test_anchor)};
-    cmocka_set_message_output(CM_OUTPUT_TAP);
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return run_listed(setup, NULL);
 }

@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reference values, and results of the literature that the library must reproduce; each names its source. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "support.h"
 
@@ -81,15 +76,13 @@ static void worst_row(const vector_row *row, void *context) {
         as_printed(row, 6, w.interval_lo, 0.5);
 }
 
-static void reference_values(void **state) {
-    (void)state;
+TEST(reference_values) {
     vectors_read("reference.txt", reference_row, NULL);
     vectors_read("worst.txt", worst_row, NULL);
 }
 
 /* The example of depthprec.h. */
-static void header_example(void **state) {
-    (void)state;
+TEST(header_example) {
     dp_setup setup = make("unorm24", "d3d", 0.1, 1000);
     dp_sample s = sample(&setup, 10);
     assert_codes(s.code, 16611104);
@@ -106,8 +99,7 @@ static void outerra_row(const vector_row *row, void *context) {
     as_printed(row, 2, dp_separation(&setup, vector_number(row, 1)), 1);
 }
 
-static void outerra_log_depth(void **state) {
-    (void)state;
+TEST(outerra_log_depth) {
     vectors_read("outerra.txt", outerra_row, NULL);
 }
 
@@ -115,8 +107,7 @@ static void outerra_log_depth(void **state) {
  * "Quantitative Analysis of Z-Buffer Precision", 2020, https://zero-radiance.github.io/post/z-buffer/: reversed,
  * near 0.1 m, far 10 km.
  */
-static void zero_radiance(void **state) {
-    (void)state;
+TEST(zero_radiance) {
     dp_setup fp32 = make("fp32", "reversed", 0.1, 1e4), unorm24 = make("unorm24", "reversed", 0.1, 1e4);
     assert_scene(dp_format_value(&fp32.spec.format, 700000000), 8.22242e-14, 0.000005e-14);
     assert_scene(dp_stored(&fp32, 700000000), 9999.9999, 0.00005);
@@ -141,8 +132,7 @@ static void count_row(const vector_row *row, void *context) {
     assert_codes(hi - lo, (uint32_t)vector_number(row, 4)); /* the same whichever end is open */
 }
 
-static void counts(void **state) {
-    (void)state;
+TEST(counts) {
     vectors_read("counts.txt", count_row, NULL);
 }
 
@@ -165,8 +155,7 @@ static void pettineo_row(const vector_row *row, void *context) {
     assert_relative(percent_of_far(&setup, z), truncated / 2, 1e-9);
 }
 
-static void pettineo_linear(void **state) {
-    (void)state;
+TEST(pettineo_linear) {
     vectors_read("pettineo.txt", pettineo_row, NULL);
     /* 16 bit UNORM: half a step is 0.000763 %, published as a bound of 0.00076 */
     dp_setup setup = make("unorm16", "linear", 1, 101);
@@ -176,8 +165,7 @@ static void pettineo_linear(void **state) {
 /* ---- statements that do not hold ---- */
 
 /* "98 % of the range is spent on the first 2 %" at far/near = 1000: it is 95.1 %. */
-static void not_98_percent(void **state) {
-    (void)state;
+TEST(not_98_percent) {
     dp_setup setup = make("fp32", "d3d", 1, 1000);
     double share = dp_window(&setup, 20);
     assert_true(share < 0.98);
@@ -186,8 +174,7 @@ static void not_98_percent(void **state) {
 }
 
 /* "The last 10 % of codes cover 90 % of the range" for the camera of zero_radiance(): they reach 6 % of it. */
-static void not_90_percent(void **state) {
-    (void)state;
+TEST(not_90_percent) {
     dp_setup setup = make("fp32", "reversed", 0.1, 1e4);
     double max = setup.spec.format.code_max, normal = 0x800000; /* the first code that is not subnormal */
     double with = dp_stored(&setup, (uint32_t)(max * 0.9));
@@ -198,8 +185,7 @@ static void not_90_percent(void **state) {
 }
 
 /* A shadow map of D16 from 0 to 500 has one step everywhere: 500/65535. */
-static void shadow_map(void **state) {
-    (void)state;
+TEST(shadow_map) {
     dp_spec spec = make("unorm16", "d3d", 0.1, 500).spec;
     dp_setup setup;
     spec.ortho = 1;
@@ -214,13 +200,4 @@ static void shadow_map(void **state) {
     dp_worst worst;
     assert_int_equal(dp_worst_over(&setup, 0, 500, &worst), DP_OK);
     assert_relative(worst.error, 250.0 / 65535.0, 1e-12);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shadow_map),        cmocka_unit_test(reference_values), cmocka_unit_test(header_example),
-        cmocka_unit_test(outerra_log_depth), cmocka_unit_test(zero_radiance),    cmocka_unit_test(counts),
-        cmocka_unit_test(pettineo_linear),   cmocka_unit_test(not_98_percent),   cmocka_unit_test(not_90_percent),
-    };
-    return run_tap(tests);
 }

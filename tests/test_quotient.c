@@ -3,9 +3,6 @@
  * The quotients that the AVX-512 kernels take without the divider: rounded as the divider rounds, whatever estimate of
  * 2^-14 the processor starts from. The steps are computed here once more, in fused operations of the C library.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "core/batch_plan.h"
 #include "depthprec/depthprec.h"
 #include "support.h"
@@ -47,8 +44,7 @@ static uint64_t power_modulo(uint64_t base, unsigned exponent, uint64_t m) {
  * integers a and b of 24 bits, and b is in the last 32nd of its range: there is one such numerator a = L 2^9 for each b
  * and sign, or none, and each of them is tried with every estimate.
  */
-static void test_hardest(void **state) {
-    (void)state;
+TEST(test_hardest) {
     tally t = {.name = "hardest"};
     for (uint64_t b = (1U << 24) - (1U << 19) + 1; b < 1U << 24; b += 2) {
         /* 1/2 is (b + 1)/2 modulo b */
@@ -63,8 +59,7 @@ static void test_hardest(void **state) {
 }
 
 /* Any numerator of the list and any divisor. */
-static void test_estimates(void **state) {
-    (void)state;
+TEST(test_estimates) {
     tally t = {.name = "estimates"};
     rng r = rng_make("estimates");
     for (uint64_t i = 0; i < test_cases(100000, 1000000, 10000000); i++)
@@ -89,8 +84,7 @@ static dp_batch eye_batch(dp_real real, dp_path path) {
 }
 
 /* This processor: every mantissa of a divisor, for a few numerators or with DEPTHPREC_FULL for each. */
-static void test_every_divisor(void **state) {
-    (void)state;
+TEST(test_every_divisor) {
     enum { CHUNK = 1 << 12 };
     static uint32_t code[CHUNK];
     static float want[CHUNK], got[CHUNK];
@@ -137,8 +131,7 @@ static double next_to_middle(uint64_t b, int sign) {
 }
 
 /* Quotients next to a middle between two doubles, by the divisors that are the hardest and by any. */
-static void test_doubles(void **state) {
-    (void)state;
+TEST(test_doubles) {
     static uint32_t code[16];
     double want[16], got[16];
     tally t = {.name = "doubles"};
@@ -168,14 +161,4 @@ static void test_doubles(void **state) {
         TALLY(&t, memcmp(want, got, sizeof got) == 0, "%a / %a: %a is not %a", top, (double)divisor, got[15], want[15]);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hardest),
-        cmocka_unit_test(test_estimates),
-        cmocka_unit_test(test_every_divisor),
-        cmocka_unit_test(test_doubles),
-    };
-    return run_tap(tests);
 }

@@ -152,20 +152,14 @@ static void read_camera(seen *s, const char *folder, const char *camera) {
     assert_int_equal(pclose(in), 0);
 }
 
-static void all_recorded(void **state) {
+TEST(all_recorded) {
     static const char *const cameras[] = {"n0.1_f100.d3d", "n0.1_finf.rev", "n1_f10.d3d"};
     const char *other = getenv("DEPTHPREC_RECORDING");
     static seen s = {
         .codes = {.name = "codes"}, .covered = {.name = "covered pixels"}, .uncovered = {.name = "pixels left out"}};
-    (void)state;
     begin(&s);
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++)
         read_camera(&s, other != NULL ? other : "tests/recording", cameras[i]);
     assert_true(other != NULL || s.pixels == 52655);
     end(&s);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(all_recorded)};
-    return run_tap(tests);
 }

@@ -110,12 +110,11 @@ static void judge_triangle(const raster_target *target, const raster_vertex v[3]
 }
 
 /* Targets that are neither square nor a power of two: right within the bound derived for the row. */
-static void other_targets(void **state) {
+TEST(other_targets) {
     static const int sizes[][2] = {{1920, 1080}, {333, 77}, {16384, 16384}, {1, 1}, {7, 2048}};
     tally coverage = {.name = "coverage"}, depths = {.name = "depths"};
     rng r = rng_make("other targets");
     double used[4] = {0};
-    (void)state;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++) {
             const int width = sizes[i][0], height = sizes[i][1];
@@ -165,10 +164,9 @@ static float random_slope(rng *r) {
     return (float)((rng_below(r, 2) ? size : -size) * (1 + ldexp((double)rng_below(r, 4), -bits)));
 }
 
-static void every_path(void **state) {
+TEST(every_path) {
     tally depths = {.name = "depths of each path"};
     rng r = rng_make("paths");
-    (void)state;
     for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++)
         for (int path = 0; path < DP_PATH_COUNT; path++) {
             if (!dp_path_available((dp_path)path))
@@ -200,10 +198,9 @@ static void every_path(void **state) {
  * Sums that lie next to the middle of two binary32 numbers, closer than double can tell: m x = 2^37 + r with a small r,
  * so a x = 2^-25 + r 2^-62 beside c = 1/2, whose numbers are 2^-24 apart. Of the row, and of the column.
  */
-static void next_to_ties(void **state) {
+TEST(next_to_ties) {
     tally depths = {.name = "depths next to ties"};
     const raster_target target = target_of("llvmpipe", "fp32", RASTER_SIZE_MAX, RASTER_SIZE_MAX, DP_PATH_BASELINE);
-    (void)state;
     for (int x = 8193; x < RASTER_SIZE_MAX; x += 2)
         for (int side = -1; side <= 1; side += 2) {
             const int64_t m = (INT64_C(1) << 37) / x + (side > 0);
@@ -228,11 +225,10 @@ static void next_to_ties(void **state) {
 }
 
 /* The plane of llvmpipe where half the target is no power of two, so that its fused positions differ from others. */
-static void fused_positions(void **state) {
+TEST(fused_positions) {
     tally planes = {.name = "planes"};
     rng r = rng_make("fused positions");
     unsigned long differ = 0;
-    (void)state;
     for (int n = 0; n < 2000; n++) {
         const raster_target target = target_of("llvmpipe", "fp32", 1914, 1083, dp_path_best());
         raster_vertex v[3];
@@ -260,14 +256,4 @@ static void fused_positions(void **state) {
     }
     assert_true(differ > 100);
     tally_end(&planes);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(other_targets),
-        cmocka_unit_test(every_path),
-        cmocka_unit_test(next_to_ties),
-        cmocka_unit_test(fused_positions),
-    };
-    return run_tap(tests);
 }

@@ -14,7 +14,7 @@ static raster_status status_of(const char *name, const raster_vertex v[3], raste
     return raster_set_up(&target, v, drawn);
 }
 
-static void what_cannot_be_drawn(void **state) {
+TEST(what_cannot_be_drawn) {
     static const raster_vertex fine[3] = {{-0.5F, -0.5F, 0.5F, 1}, {0.5F, -0.5F, 0.5F, 1}, {0, 0.5F, 0.5F, 1}};
     static const struct {
         const char *what;
@@ -28,7 +28,6 @@ static void what_cannot_be_drawn(void **state) {
         {"between centres", {{0, 0, 0.5F, 1}, {1e-4F, 0, 0.5F, 1}, {0, 1e-4F, 0.5F, 1}}, RASTER_EMPTY},
     };
     raster_triangle drawn;
-    (void)state;
     for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++) {
         const char *name = raster_get(row)->name;
         for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -49,11 +48,10 @@ static void what_cannot_be_drawn(void **state) {
     }
 }
 
-static void what_cannot_be_a_target(void **state) {
+TEST(what_cannot_be_a_target) {
     raster_target target = {.width = -5};
     dp_format format[4][2];
     static const char *const names[] = {"fp32", "unorm24", "fp16", "unorm8"};
-    (void)state;
     for (int i = 0; i < 4; i++)
         assert_int_equal(dp_format_parse(names[i], format[i]), 1);
     for (size_t row = 0; row <= raster_count(); row++) {
@@ -82,11 +80,10 @@ static void what_cannot_be_a_target(void **state) {
 }
 
 /* Any bits for vertices: what is drawn stays inside the target, and depths are numbers, clamped ones in 0 to 1. */
-static void any_bits(void **state) {
+TEST(any_bits) {
     tally spans = {.name = "spans of any bits"};
     rng r = rng_make("any bits");
     unsigned long of[RASTER_STATUS_COUNT] = {0};
-    (void)state;
     for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++) {
         const raster_target target = target_of(raster_get(row)->name, "unorm16", 300, 200, dp_path_best());
         const bool softpipe = strcmp(target.row->name, "softpipe") == 0;
@@ -204,9 +201,8 @@ static void judge_all(const raster_target *target, const raster_vertex v[3], jud
  * Near 1, far 10: one or two vertices behind the eye or before near, each in turn, both ways round. SwiftShader snaps
  * those too. Few pixels are in triangles like needles, or in such pieces of Mesa's, of which no bound is that small.
  */
-static void behind_the_eye(void **state) {
+TEST(behind_the_eye) {
     rng r = rng_make("behind the eye");
-    (void)state;
     for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++) {
         const raster_target target = target_of(raster_get(row)->name, "fp32", 128, 96, dp_path_best());
         judged j = {0};
@@ -229,9 +225,8 @@ static void behind_the_eye(void **state) {
 
 /* A triangle over the target with corners far to both sides: the right depth. SwiftShader's positions wrap where it
  * says so. */
-static void far_off(void **state) {
+TEST(far_off) {
     static const double offs[] = {1e3, 1e5, 1e7, 6.6e7, 6.8e7, 1e8};
-    (void)state;
     for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++)
         for (size_t n = 0; n < sizeof offs / sizeof offs[0]; n++) {
             const raster_target target = target_of(raster_get(row)->name, "fp32", SIZE, SIZE, dp_path_best());
@@ -255,15 +250,4 @@ static void far_off(void **state) {
             if ((fabs((double)depth - want) <= 1e-6) == wraps)
                 fail_msg("%s: vertices %g pixels off give %g", target.row->name, offs[n], (double)depth);
         }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_cannot_be_drawn),
-        cmocka_unit_test(what_cannot_be_a_target),
-        cmocka_unit_test(any_bits),
-        cmocka_unit_test(behind_the_eye),
-        cmocka_unit_test(far_off),
-    };
-    return run_tap(tests);
 }

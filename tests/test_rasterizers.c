@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Real rasterizers: every stored code and every clip decision, from the row of arithmetic that claims to be theirs. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "support.h"
 
@@ -183,36 +178,31 @@ static target *seen(void) {
     return &t;
 }
 
-static void every_code(void **state) {
-    (void)state;
+TEST(every_code) {
     const target *t = seen();
     printf("# %u targets, %lu codes, %lu clipped\n", t->targets, t->drawn, t->clipped);
     assert_int_equal(t->targets, 117);
     tally_end(&t->codes);
 }
 
-static void every_clip_decision(void **state) {
-    (void)state;
+TEST(every_clip_decision) {
     const target *t = seen();
     assert_true(t->clipped > 500);
     tally_end(&t->clips);
 }
 
-static void close_to_ideal(void **state) {
-    (void)state;
+TEST(close_to_ideal) {
     tally_end(&seen()->ideal);
 }
 
-static void guaranteed_order(void **state) {
-    (void)state;
+TEST(guaranteed_order) {
     const target *t = seen();
     printf("# %llu pairs of points beyond the guaranteed separation\n", (unsigned long long)t->order.cases);
     tally_end(&t->order);
 }
 
 /* The bound holds whatever the row, and is not wide: a few steps of binary32 below 1, or of the format. */
-static void guaranteed_range(void **state) {
-    (void)state;
+TEST(guaranteed_range) {
     const target *t = seen();
     printf("# allowed codes span at most %.2f steps of 2^-24, or of the format\n", t->widest);
     tally_end(&t->range);
@@ -220,19 +210,10 @@ static void guaranteed_range(void **state) {
 }
 
 /* The points tell the kinds of arithmetic apart: each other row misses codes. */
-static void rows_differ(void **state) {
-    (void)state;
+TEST(rows_differ) {
     const target *t = seen();
     for (int i = 0; i < 4; i++) {
         printf("# %s would miss %lu\n", strangers[i], t->strange_codes[i]);
         assert_true(t->strange_codes[i] > 1000);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_code),       cmocka_unit_test(every_clip_decision), cmocka_unit_test(close_to_ideal),
-        cmocka_unit_test(guaranteed_order), cmocka_unit_test(guaranteed_range),    cmocka_unit_test(rows_differ),
-    };
-    return run_tap(tests);
 }

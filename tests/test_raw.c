@@ -3,11 +3,6 @@
  * texture --product raw and --product linear01: what codes stand for, worked out here in long double, and how far that
  * can be off: of an image half a cell and what binary32 loses, of a scene the distance from its known depth.
  */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "image/image.h"
 #include "printed.h"
 
@@ -113,8 +108,7 @@ static void judge_map(tally *t, const char *what, int i, double map, real least)
           i, map, least);
 }
 
-static void images_are_off_by_half_a_cell(void **state) {
-    (void)state;
+TEST(images_are_off_by_half_a_cell) {
     tally t = {.name = "images"};
     rng r = rng_make("raw");
     for (size_t k = 0; k < BUFFERS; k++) {
@@ -158,8 +152,7 @@ static void images_are_off_by_half_a_cell(void **state) {
 }
 
 /* Bytes of a finer buffer: v in [min(k - 1/2, k 255/256)/255, (k + 1)/255), and half a cell of that. */
-static void samples_coarser_than_the_buffer_count(void **state) {
-    (void)state;
+TEST(samples_coarser_than_the_buffer_count) {
     char source[768], path[512];
     uint8_t bytes[PIXELS];
     image map;
@@ -185,8 +178,7 @@ static void samples_coarser_than_the_buffer_count(void **state) {
 }
 
 /* A wall across the view, whose depth is known; and one behind the far plane, which is cleared to. */
-static void scenes_are_off_by_what_they_are(void **state) {
-    (void)state;
+TEST(scenes_are_off_by_what_they_are) {
     tally t = {.name = "scenes"};
     rng r = rng_make("raw scenes");
     for (size_t k = 0; k < BUFFERS; k++)
@@ -218,8 +210,7 @@ static void scenes_are_off_by_what_they_are(void **state) {
 }
 
 /* Metric depth over a far plane that is given. */
-static void metric_depth_over_far(void **state) {
-    (void)state;
+TEST(metric_depth_over_far) {
     char source[600], path[512];
     double samples[PIXELS];
     image share;
@@ -235,8 +226,7 @@ static void metric_depth_over_far(void **state) {
     tally_end(&t);
 }
 
-static void refusals(void **state) {
-    (void)state;
+TEST(refusals) {
     static const char *const rows[][2] = {
         {"--metric 0.01 --product raw",
          "depthprec: --product: raw does not apply with --metric, which is not window depth\n"},
@@ -265,15 +255,4 @@ static void refusals(void **state) {
         assert_string_equal(p.errors, rows[i][1]);
         printed_free(&p);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(images_are_off_by_half_a_cell),
-        cmocka_unit_test(samples_coarser_than_the_buffer_count),
-        cmocka_unit_test(scenes_are_off_by_what_they_are),
-        cmocka_unit_test(metric_depth_over_far),
-        cmocka_unit_test(refusals),
-    };
-    return run_tap(tests);
 }

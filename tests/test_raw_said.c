@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the command says of pixels without a header. What it makes of their bytes: test_image_raw. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "printed.h"
-#include "support.h"
 
 /* A file that has a header has its own size, and one without says that its size is assumed. */
-static void what_is_said(void **state) {
+TEST(what_is_said) {
     static const char pixels[640 * 480 * 4];
     char path[512];
-    (void)state;
     snprintf(path, sizeof path, "%s", scratch_file("said.raw"));
     FILE *out = fopen(path, "wb");
     assert_non_null(out);
@@ -27,20 +21,9 @@ static void what_is_said(void **state) {
     assert_null(strstr(p.errors, "assumed"));
     assert_non_null(strstr(p.out, "480 x 640 pixels, raw of u4"));
     printed_free(&p);
-    p = print_of("texture %s -m d3d --channel Z", path);
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "those of raw have no names"));
-    printed_free(&p);
+    check_says(2, "those of raw have no names", "texture %s -m d3d --channel Z", path);
     snprintf(path, sizeof path, "%s", scratch_file("own.npy"));
     p = print_of("texture --synthetic plane --size 8x8 -o %s", path);
     printed_free(&p);
-    p = print_of("texture %s --size 8x8", path);
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--size: is for --synthetic and raw files"));
-    printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_said)};
-    return run_tap(tests);
+    check_says(2, "--size: is for --synthetic and raw files", "texture %s --size 8x8", path);
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Depth images: which lattice their samples are on, and what window depths and codes they hold. */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <gmp.h>
 
@@ -79,8 +75,7 @@ static uint32_t code_at(rng *r, const dp_format *f, bool reversed, bool sky) {
     return dp_format_encode(f, DP_ROUND_NEAREST, reversed ? d : 1 - d);
 }
 
-static void float_lattices(void **state) {
-    (void)state;
+TEST(float_lattices) {
     rng r = rng_make("float lattices");
     for (int wide = 0; wide < 2; wide++)
         for (size_t k = 0; k < 4; k++)
@@ -108,8 +103,7 @@ static void float_lattices(void **state) {
 }
 
 /* One sample off, and the next finer lattice that holds it is named. */
-static void one_off(void **state) {
-    (void)state;
+TEST(one_off) {
     rng r = rng_make("one off");
     static const struct {
         const char *from;
@@ -148,8 +142,7 @@ static void one_off(void **state) {
 }
 
 /* Two ulp beside a code is beside the lattice. */
-static void two_ulp(void **state) {
-    (void)state;
+TEST(two_ulp) {
     const dp_format f = format_of("unorm24");
     for (int steps = -2; steps <= 2; steps++) {
         square *s = square_of(IMAGE_F32);
@@ -161,8 +154,7 @@ static void two_ulp(void **state) {
 }
 
 /* Every code of every named lattice is recognised as one, whether divided or multiplied with the reciprocal. */
-static void all_codes(void **state) {
-    (void)state;
+TEST(all_codes) {
     tally t = {.name = "all codes"};
     square *s = square_of(IMAGE_F32);
     for (size_t k = 0; k < 3; k++) {
@@ -193,8 +185,7 @@ static void all_codes(void **state) {
 }
 
 /* The shares that the header gives, of numbers without a lattice and of codes of unorm24, counted. */
-static void chances(void **state) {
-    (void)state;
+TEST(chances) {
     enum { BLOCK = 4096 };
     const uint64_t blocks = test_cases(64, 512, 2048);
     rng r = rng_make("chances");
@@ -222,8 +213,7 @@ static void chances(void **state) {
     assert_relative(lattice_chance(LATTICE_UNORM24, false, 0.6), 3 * 0x1p-53 * 16777215, 1e-15);
 }
 
-static void too_few(void **state) {
-    (void)state;
+TEST(too_few) {
     const dp_format f = format_of("unorm24");
     square *s = square_of(IMAGE_F32);
     for (int different = 1; different <= 2 * RECOGNISE_LEAST; different++) {
@@ -251,8 +241,7 @@ static void fill(square *s, uint32_t lo, uint32_t hi, uint32_t first) {
     }
 }
 
-static void integers(void **state) {
-    (void)state;
+TEST(integers) {
     static const struct {
         image_type type;
         uint32_t lo, hi, first;
@@ -301,8 +290,7 @@ static void integers(void **state) {
 }
 
 /* Widened bytes, and the packing of OpenGL with the stencil in the low byte. */
-static void packings(void **state) {
-    (void)state;
+TEST(packings) {
     square *s = square_of(IMAGE_U16);
     recognised r;
     for (uint32_t i = 0; i < SAMPLES; i++)
@@ -331,8 +319,7 @@ static void packings(void **state) {
 
 /* ---- What is no window depth, and which way it runs ---------------------------------------------------------------*/
 
-static void no_depth(void **state) {
-    (void)state;
+TEST(no_depth) {
     static const struct {
         float a, b;
         size_t invalid;
@@ -375,8 +362,7 @@ static void no_depth(void **state) {
 }
 
 /* Holes are no hindrance: NaN and infinities, of all types that have them. */
-static void holes(void **state) {
-    (void)state;
+TEST(holes) {
     for (int type = IMAGE_F16; type <= IMAGE_F64; type++) {
         square *s = square_of((image_type)type);
         for (int i = 0; i < SAMPLES; i++) {
@@ -398,8 +384,7 @@ static void holes(void **state) {
 }
 
 /* Nine of ten, no fewer. */
-static void nine_of_ten(void **state) {
-    (void)state;
+TEST(nine_of_ten) {
     for (int reversed = 0; reversed < 2; reversed++)
         for (int percent = 85; percent <= 95; percent++) {
             square *s = square_of(IMAGE_F32);
@@ -415,8 +400,7 @@ static void nine_of_ten(void **state) {
         }
 }
 
-static void directions(void **state) {
-    (void)state;
+TEST(directions) {
     static const struct {
         double lo, hi; /* of the mass */
         int zeros, ones;
@@ -459,8 +443,7 @@ static void directions(void **state) {
 }
 
 /* Counting against a plain count, on an odd shape whose rows are longer than a block. */
-static void counted(void **state) {
-    (void)state;
+TEST(counted) {
     enum { WIDTH = 5003, HEIGHT = 6, COUNT = WIDTH * HEIGHT };
     rng r = rng_make("counted");
     double *d = malloc(COUNT * sizeof *d);
@@ -501,15 +484,4 @@ static void counted(void **state) {
     recognise(&img, &found);
     assert_int_equal(found.distinct, 777);
     free(d);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(float_lattices), cmocka_unit_test(one_off),     cmocka_unit_test(two_ulp),
-        cmocka_unit_test(all_codes),      cmocka_unit_test(chances),     cmocka_unit_test(too_few),
-        cmocka_unit_test(integers),       cmocka_unit_test(packings),    cmocka_unit_test(no_depth),
-        cmocka_unit_test(holes),          cmocka_unit_test(nine_of_ten), cmocka_unit_test(directions),
-        cmocka_unit_test(counted),
-    };
-    return run_tap(tests);
 }

@@ -7,11 +7,6 @@
  * Environment, for hunting: REFERENCE_SETUPS, REFERENCE_BANDS numbers; REFERENCE_DEPTHS in a window; REFERENCE_VERBOSE
  * prints every set-up whose promise is broken, worst first, and every band whose slack is above 2.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "reference.h"
 
 static uint64_t number(const char *name, uint64_t otherwise) {
@@ -211,16 +206,14 @@ static uint64_t judge_set_ups(const char *name, drawing *draw, uint64_t setups) 
     return t.depths;
 }
 
-static void random_set_ups(void **state) {
-    (void)state;
+TEST(random_set_ups) {
     const uint64_t setups = number("REFERENCE_SETUPS", test_cases(60, 20000, 1000000));
     const uint64_t depths = judge_set_ups("promise", reference_draw, setups);
     if (test_effort() != EFFORT_QUICK && !getenv("REFERENCE_SETUPS") && !getenv("REFERENCE_DEPTHS"))
         assert_true((double)depths >= (test_effort() == EFFORT_FULL ? 1e10 : 1e8));
 }
 
-static void depths_of_either_sign(void **state) {
-    (void)state;
+TEST(depths_of_either_sign) {
     judge_set_ups("promise, either sign", reference_draw_signed,
                   number("REFERENCE_SETUPS", test_cases(60, 6000, 300000)));
 }
@@ -277,8 +270,7 @@ static dp_setup setup_of(const trap *t) {
     return setup;
 }
 
-static void known_traps(void **state) {
-    (void)state;
+TEST(known_traps) {
     const uint32_t depths = (uint32_t)test_cases(2000, 200000, 4000000);
     int broken = 0;
     for (size_t i = 0; i < sizeof traps / sizeof traps[0]; i++) {
@@ -299,8 +291,7 @@ static void known_traps(void **state) {
 
 /* ---- The two pipelines ------------------------------------------------------------------------------------------- */
 
-static void pipelines_agree(void **state) {
-    (void)state;
+TEST(pipelines_agree) {
     tally t = {.name = "codes of the two pipelines"};
     rng r = rng_make("pipelines");
     for (uint64_t i = test_cases(200, 6000, 150000); i > 0; i--) {
@@ -448,21 +439,10 @@ static void judge_bands(const char *name, reference_band (*draw)(rng *), uint64_
     assert_true((double)n.above_2 <= expected + 3.0 * sqrt(expected));
 }
 
-static void tight(void **state) {
-    (void)state;
+TEST(tight) {
     judge_bands("bands", draw_band, number("REFERENCE_BANDS", test_cases(1, 300, 6000)));
 }
 
-static void tight_with_either_sign(void **state) {
-    (void)state;
+TEST(tight_with_either_sign) {
     judge_bands("bands, either sign", draw_band_signed, number("REFERENCE_BANDS", test_cases(4, 150, 3000)));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pipelines_agree), cmocka_unit_test(known_traps),
-        cmocka_unit_test(random_set_ups),  cmocka_unit_test(depths_of_either_sign),
-        cmocka_unit_test(tight),           cmocka_unit_test(tight_with_either_sign),
-    };
-    return run_tap(tests);
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The lines that figures draw, against one certified value for each pixel column; and how little it took. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "named.h"
 #include "plot/envelope.h"
@@ -136,8 +132,7 @@ static void envelopes(rng *r, tally *t, dp_model model, size_t *spent, size_t *f
     }
 }
 
-static void envelopes_are_drawn_to_half_a_pixel(void **state) {
-    (void)state;
+TEST(envelopes_are_drawn_to_half_a_pixel) {
     rng r = rng_make("envelopes");
     tally t = {.name = "envelopes"};
     size_t spent = 0, full = 0;
@@ -191,8 +186,7 @@ static void check_points(tally *t, const asked *a, const char *figure, int serie
     chart_free(c);
 }
 
-static void points_are_drawn_to_half_a_pixel(void **state) {
-    (void)state;
+TEST(points_are_drawn_to_half_a_pixel) {
     rng r = rng_make("points");
     tally t = {.name = "points"};
     for (uint64_t n = test_cases(40, 150, 4000); n > 0; n--) {
@@ -207,8 +201,7 @@ static void points_are_drawn_to_half_a_pixel(void **state) {
 }
 
 /* Where nothing jumps a curve takes a handful of points; where a float's step does, a few for each power of two. */
-static void smooth_curves_take_few_evaluations(void **state) {
-    (void)state;
+TEST(smooth_curves_take_few_evaluations) {
     static const struct {
         const char *format;
         dp_mapping mapping;
@@ -235,8 +228,7 @@ static void smooth_curves_take_few_evaluations(void **state) {
 }
 
 /* The guarantee of a column is certified, and no depth in it has a larger separation. */
-static void separations_are_drawn_to_half_a_pixel(void **state) {
-    (void)state;
+TEST(separations_are_drawn_to_half_a_pixel) {
     rng r = rng_make("separations");
     tally t = {.name = "separations"};
     for (uint64_t n = test_cases(20, 100, 2000); n > 0; n--) {
@@ -288,8 +280,7 @@ static refine_request known_request(const known_curve *k) {
 }
 
 /* A jump is between neighbours, known to be there or not; a straight line takes five points and both its ends' next. */
-static void jumps_are_found(void **state) {
-    (void)state;
+TEST(jumps_are_found) {
     rng r = rng_make("jumps");
     tally t = {.name = "jumps"};
     for (int n = 0; n < 500; n++) {
@@ -315,8 +306,7 @@ static void jumps_are_found(void **state) {
     tally_end(&t);
 }
 
-static void a_straight_line_takes_seven_points(void **state) {
-    (void)state;
+TEST(a_straight_line_takes_seven_points) {
     known_curve k = {.jump = 2};
     refine_request q = known_request(&k);
     chart *c = chart_new();
@@ -325,16 +315,4 @@ static void a_straight_line_takes_seven_points(void **state) {
     refine_finish(&curve);
     assert_int_equal(curve.points, 7);
     chart_free(c);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(envelopes_are_drawn_to_half_a_pixel),
-        cmocka_unit_test(points_are_drawn_to_half_a_pixel),
-        cmocka_unit_test(separations_are_drawn_to_half_a_pixel),
-        cmocka_unit_test(smooth_curves_take_few_evaluations),
-        cmocka_unit_test(jumps_are_found),
-        cmocka_unit_test(a_straight_line_takes_seven_points),
-    };
-    return run_tap(tests);
 }

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a refusal says and how it ends: the option at fault is named first, nothing is written, and the exit status is 2
  * (1 for a check that failed, 3 for a file that cannot be read or written). */
-#include <stdio.h>
-#include <string.h>
-
 #include "printed.h"
 
 typedef struct refusal {
@@ -355,9 +352,8 @@ static void check_refusal(tally *t, const char *arguments, const char *option, i
     printed_free(&p);
 }
 
-static void test_planes(void **state) {
+TEST(test_planes) {
     tally t = {.name = "planes"};
-    (void)state;
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
         for (size_t k = 0; k < sizeof planes / sizeof planes[0]; k++) {
             char line[256];
@@ -370,15 +366,9 @@ static void test_planes(void **state) {
     tally_end(&t);
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     tally t = {.name = "refusals"};
-    (void)state;
     for (size_t i = 0; i < sizeof refusals / sizeof refusals[0]; i++)
         check_refusal(&t, refusals[i].arguments, refusals[i].option, refusals[i].status);
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_planes), cmocka_unit_test(test_refusals)};
-    return run_tap(tests);
 }

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What budget advises: the words name the change whose separation is printed, and no other change does much better. */
-#include <stdbool.h>
-#include <string.h>
-
 #include "cli/remedy.h"
 #include "support.h"
 
@@ -102,11 +99,10 @@ static dp_setup any_setup(rng *r) {
     return setup;
 }
 
-static void words_and_numbers_agree(void **state) {
+TEST(words_and_numbers_agree) {
     rng r = rng_make("remedy");
     tally t = {.name = "remedy"};
     uint64_t seen[CHANGES] = {0};
-    (void)state;
     for (uint64_t i = 0; i < test_cases(2000, 20000, 200000); i++) {
         const dp_setup setup = any_setup(&r);
         const dp_budget_terms terms = {.interpolation = rng_below(&r, 2) ? 2 : 0,
@@ -132,9 +128,4 @@ static void words_and_numbers_agree(void **state) {
     for (size_t k = 0; k < CHANGES; k++)
         TALLY(&t, seen[k] > 0, "'%s' is never advised", changes[k].words);
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(words_and_numbers_agree)};
-    return run_tap(tests);
 }

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Columns as data: every kind in every form. JSON is read by jansson; CSV and text are written out by hand. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <iconv.h>
 #include <jansson.h>
@@ -146,8 +143,7 @@ static json_t *json_of(unsigned when, size_t count) {
     return all;
 }
 
-static void kinds_in_json(void **unused) {
-    (void)unused;
+TEST(kinds_in_json) {
     const char *word, *first, *second, *letters, *command;
     double mass, guarantee, share, price_value, known, value;
     json_int_t count;
@@ -173,8 +169,7 @@ static void kinds_in_json(void **unused) {
 }
 
 /* Every byte that a name may hold, and what is more than a byte, comes back. */
-static void any_text_in_json(void **unused) {
-    (void)unused;
+TEST(any_text_in_json) {
     const char *const before = apple.word;
     char text[160];
     for (int c = 1; c < 128; c++)
@@ -205,8 +200,7 @@ static size_t iconv_utf8(const char *text) {
 
 /* Random bytes, often the first of several: JSON is what jansson reads, and U+FFFD stands for each byte that is no
  * UTF-8; so it does in CSV. */
-static void bytes_that_are_no_text(void **unused) {
-    (void)unused;
+TEST(bytes_that_are_no_text) {
     static const unsigned char seams[] = {0x7F, 0x80, 0x8F, 0x90, 0x9F, 0xA0, 0xBF, 0xC0, 0xC1, 0xC2, 0xDF,
                                           0xE0, 0xED, 0xEF, 0xF0, 0xF4, 0xF5, 0xF8, 0xFF, 'a',  '"'};
     const char *const before = apple.word;
@@ -234,8 +228,7 @@ static void bytes_that_are_no_text(void **unused) {
     apple.word = before;
 }
 
-static void nothing_in_json(void **unused) {
-    (void)unused;
+TEST(nothing_in_json) {
     json_t *all = json_of(0, 3);
     for (size_t i = 1; i < 3; i++) {
         json_t *f = fruit_of(all, i);
@@ -257,8 +250,7 @@ static void nothing_in_json(void **unused) {
     json_decref(all);
 }
 
-static void conditions(void **unused) {
-    (void)unused;
+TEST(conditions) {
     static const struct {
         unsigned when;
         bool dear, both;
@@ -276,8 +268,7 @@ static void conditions(void **unused) {
 
 #define HEAD "owner,word,mass [kg],guarantee,share,count,code,ripe,names,letters,value [cent],seal\r\n"
 
-static void kinds_in_csv(void **unused) {
-    (void)unused;
+TEST(kinds_in_csv) {
     assert_string_equal(written(FORM_CSV, 0, 0), HEAD);
     assert_string_equal(written(FORM_CSV, 0, 3),
                         HEAD "\"Eve, A\",\"ap\"\"ple\",0.1,1.2301,0.1,9007199254740993,4294967295,true,red round,"
@@ -286,8 +277,7 @@ static void kinds_in_csv(void **unused) {
                              "\"Eve, A\",,inf,inf,-inf,0,0,false,,,,wax\r\n");
 }
 
-static void kinds_in_text(void **unused) {
-    (void)unused;
+TEST(kinds_in_text) {
     static const char section[] =
         "of Eve, A\n"
         "word       mass    bound  share        more                 count  ripe   left\n"
@@ -344,8 +334,7 @@ static const column sights_columns[] = {
     {.kind = COLUMN_END}};
 
 /* Null does not exist, NaN behind a pointer has no value: JSON leaves out the one alone. */
-static void pointed(void **unused) {
-    (void)unused;
+TEST(pointed) {
     static const double numbers[] = {2.5, NAN};
     static const bool answers[] = {false, true};
     const sight items[] = {{&numbers[0], &answers[1]}, {&numbers[1], &answers[0]}, {NULL, NULL}};
@@ -402,8 +391,7 @@ static void write_sentences(page *p) {
     page_wrapped(p, "nothing", "");
 }
 
-static void wrapped(void **unused) {
-    (void)unused;
+TEST(wrapped) {
     check_page(0, write_label, "  label " EIGHT "abcdefgh\n        x\n");
     check_page(81, write_label, "  label " EIGHT "abcdefgh\n        x\n");
     check_page(82, write_label, "  label " EIGHT "abcdefgh x\n");
@@ -435,7 +423,7 @@ static void write_four(page *p) {
 }
 
 /* Columns that are spared, the highest first, until the rest fits. */
-static void spared(void **unused) {
+TEST(spared) {
     static const struct {
         int width;
         const char *want;
@@ -445,13 +433,11 @@ static void spared(void **unused) {
                  {24, "   one      two     four\n     1        2        4\n"},
                  {23, "   one     four\n     1        4\n"},
                  {5, "   one     four\n     1        4\n"}};
-    (void)unused;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         check_page(cases[i].width, write_four, cases[i].want);
 }
 
-static void brief(void **unused) {
-    (void)unused;
+TEST(brief) {
     static const struct {
         const char *number, *want;
     } cases[] = {{"8.28e+04", "82800"},
@@ -477,16 +463,5 @@ static void brief(void **unused) {
 
 int main(void) {
     setenv("NO_COLOR", "1", 1);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(kinds_in_json),
-                                       cmocka_unit_test(any_text_in_json),
-                                       cmocka_unit_test(bytes_that_are_no_text),
-                                       cmocka_unit_test(nothing_in_json),
-                                       cmocka_unit_test(conditions),
-                                       cmocka_unit_test(kinds_in_csv),
-                                       cmocka_unit_test(kinds_in_text),
-                                       cmocka_unit_test(pointed),
-                                       cmocka_unit_test(wrapped),
-                                       cmocka_unit_test(spared),
-                                       cmocka_unit_test(brief)};
-    return run_tap(tests);
+    return run_listed(NULL, NULL);
 }

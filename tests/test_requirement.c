@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Requirement files: what is read, and that every mistake is refused with its line and what was expected. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "requirement/requirement.h"
 #include "support.h"
 
@@ -14,8 +10,7 @@ static bool parse(const char *text, need_file *file, need_error *error) {
     return need_parse("x.need", text, strlen(text), file, error);
 }
 
-static void example_is_read(void **state) {
-    (void)state;
+TEST(example_is_read) {
     need_file f;
     need_error e;
     if (!need_read("tests/needs/engine.need", &f, &e))
@@ -46,8 +41,7 @@ static void example_is_read(void **state) {
 }
 
 /* Each length in scene units of each unit. */
-static void units_are_converted(void **state) {
-    (void)state;
+TEST(units_are_converted) {
     static const char *const names[] = {"mm", "cm", "m", "km"};
     static const double mm[] = {1, 10, 1000, 1e6};
     for (int scene = 0; scene < 4; scene++)
@@ -67,8 +61,7 @@ static void units_are_converted(void **state) {
 }
 
 /* A preset in metres or centimetres is brought into the unit of the file; what is given beside it wins. */
-static void presets_are_converted(void **state) {
-    (void)state;
+TEST(presets_are_converted) {
     static const struct {
         const char *head;
         double znear;
@@ -90,8 +83,7 @@ static void presets_are_converted(void **state) {
     }
 }
 
-static void lists_are_read(void **state) {
-    (void)state;
+TEST(lists_are_read) {
     need_file f;
     need_error e;
     assert_true(parse(CAMERA "requirements = ( { name = \"x\"; camera = \"a\"; at = 1; error = 1; },\n"
@@ -105,8 +97,7 @@ static void lists_are_read(void **state) {
 }
 
 /* An orthographic camera may begin at or behind its place, and so may its depths, with units too. */
-static void orthographic_depths_have_either_sign(void **state) {
-    (void)state;
+TEST(orthographic_depths_have_either_sign) {
     need_file f;
     need_error e;
     if (!parse("unit = \"m\"; cameras = { a = { near = \"-25 cm\"; far = 0; mapping = \"d3d\"; format = \"fp32\"; "
@@ -212,8 +203,7 @@ static const struct {
     {"\n  @include \"x\"\n", 2, "@include is not allowed"},
 };
 
-static void mistakes_are_refused(void **state) {
-    (void)state;
+TEST(mistakes_are_refused) {
     tally told = {.name = "each mistake is told with its line"};
     for (size_t i = 0; i < sizeof mistakes / sizeof mistakes[0]; i++) {
         need_file f;
@@ -228,8 +218,7 @@ static void mistakes_are_refused(void **state) {
     tally_end(&told);
 }
 
-static void names_come_with_the_known_ones(void **state) {
-    (void)state;
+TEST(names_come_with_the_known_ones) {
     need_file f;
     need_error e;
     assert_false(parse("cameras = { a = { neer = 0.1; }; };", &f, &e));
@@ -245,8 +234,7 @@ static void names_come_with_the_known_ones(void **state) {
 }
 
 /* Cut anywhere, the example is refused, or it is whole: nothing crashes and nothing is half a file. */
-static void every_prefix_is_safe(void **state) {
-    (void)state;
+TEST(every_prefix_is_safe) {
     char text[4096];
     FILE *in = fopen("tests/needs/engine.need", "rb");
     assert_non_null(in);
@@ -265,18 +253,4 @@ static void every_prefix_is_safe(void **state) {
         text[cut] = keep;
     }
     tally_end(&whole);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(example_is_read),
-        cmocka_unit_test(units_are_converted),
-        cmocka_unit_test(presets_are_converted),
-        cmocka_unit_test(lists_are_read),
-        cmocka_unit_test(orthographic_depths_have_either_sign),
-        cmocka_unit_test(mistakes_are_refused),
-        cmocka_unit_test(names_come_with_the_known_ones),
-        cmocka_unit_test(every_prefix_is_safe),
-    };
-    return run_tap(tests);
 }

@@ -3,10 +3,6 @@
  * What many codes say of the depth is what each says by itself, bit for bit: all formats, mappings and roundings of an
  * image, at random codes and at both ends.
  */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "shader/sample_rounding.h"
 #include "support.h"
 
@@ -121,12 +117,11 @@ static void compare_between(const dp_setup *setup, const grain *g, rng *r) {
     }
 }
 
-static void the_closed_form_has_each_cell(void **state) {
+TEST(the_closed_form_has_each_cell) {
     rng r = rng_make("closed form");
     size_t exact[2] = {0, 0}; /* of all */
     uint32_t codes[COUNT];
     double z[COUNT];
-    (void)state;
     for (size_t f = 0; f < dp_format_count(); f++)
         for (int m = 0; m < DP_MAPPING_COUNT; m++)
             for (int variant = 0; variant < 8; variant++) {
@@ -151,9 +146,8 @@ static void the_closed_form_has_each_cell(void **state) {
     assert_true(exact[1] > 100000 && exact[0] * 20 > exact[1] * 17);
 }
 
-static void many_codes_say_what_each_says(void **state) {
+TEST(many_codes_say_what_each_says) {
     rng r = rng_make("grain");
-    (void)state;
     uint32_t codes[COUNT];
     double z[COUNT];
     dp_format wide[2];
@@ -178,10 +172,4 @@ static void many_codes_say_what_each_says(void **state) {
                     compare_errors(&setup, &grains[g], z);
                 }
             }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(many_codes_say_what_each_says),
-                                       cmocka_unit_test(the_closed_form_has_each_cell)};
-    return run_tap(tests);
 }

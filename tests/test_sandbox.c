@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Work in a process of its own: what it wrote comes back; what hangs, spins or crashes is ended and told apart. */
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -81,19 +79,17 @@ static sandbox_end run(bool (*work)(void *, FILE *), sandbox_limits limits, char
     return end;
 }
 
-static void comes_back(void **state) {
+TEST(comes_back) {
     char text[32];
-    (void)state;
     assert_int_equal(run(writes, (sandbox_limits){0}, text), SANDBOX_DONE);
     assert_string_equal(text, "a word");
     assert_int_equal(run(writes, (sandbox_limits){.processor = 5, .wall = 5}, text), SANDBOX_DONE);
     assert_string_equal(text, "a word");
 }
 
-static void is_ended(void **state) {
+TEST(is_ended) {
     char text[32];
     struct timespec from, to;
-    (void)state;
     clock_gettime(CLOCK_MONOTONIC, &from);
     assert_int_equal(run(sleeps, (sandbox_limits){.wall = 1}, text), SANDBOX_ENDLESS);
     assert_int_equal(run(sleeps_on, (sandbox_limits){.wall = 1}, text), SANDBOX_ENDLESS);
@@ -103,9 +99,8 @@ static void is_ended(void **state) {
     assert_int_equal(run(spins, (sandbox_limits){.processor = 1}, text), SANDBOX_ENDLESS);
 }
 
-static void cannot_hide(void **state) {
+TEST(cannot_hide) {
     char text[32];
-    (void)state;
     assert_int_equal(run(closes_all, (sandbox_limits){.wall = 1}, text), SANDBOX_ENDLESS);
     const time_t from = time(NULL);
     assert_int_equal(run(leaves_one, (sandbox_limits){.wall = 15}, text), SANDBOX_DONE);
@@ -114,16 +109,14 @@ static void cannot_hide(void **state) {
 }
 
 /* Where SIGCHLD is ignored the kernel would keep no status. */
-static void signals_ignored(void **state) {
+TEST(signals_ignored) {
     char text[32];
-    (void)state;
     signal(SIGCHLD, SIG_IGN);
     assert_int_equal(run(crashes, (sandbox_limits){.wall = 30}, text), SANDBOX_BROKEN);
 }
 
-static void says_nothing(void **state) {
+TEST(says_nothing) {
     char text[32];
-    (void)state;
     FILE *said = tmpfile();
     assert_non_null(said);
     fflush(NULL);
@@ -141,10 +134,9 @@ static void says_nothing(void **state) {
 }
 
 /* The parent is killed: the child ends by itself, soon after its limit. */
-static void outlives_nobody(void **state) {
+TEST(outlives_nobody) {
     int ends[2];
     char byte;
-    (void)state;
     assert_int_equal(pipe(ends), 0);
     const pid_t parent = fork();
     if (parent == 0) {
@@ -163,18 +155,8 @@ static void outlives_nobody(void **state) {
     close(ends[0]);
 }
 
-static void is_told(void **state) {
+TEST(is_told) {
     char text[32];
-    (void)state;
     assert_int_equal(run(crashes, (sandbox_limits){.wall = 30}, text), SANDBOX_BROKEN);
     assert_int_equal(run(gives_up, (sandbox_limits){.wall = 30}, text), SANDBOX_BROKEN);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back),      cmocka_unit_test(is_ended),        cmocka_unit_test(is_told),
-        cmocka_unit_test(cannot_hide),     cmocka_unit_test(signals_ignored), cmocka_unit_test(says_nothing),
-        cmocka_unit_test(outlives_nobody),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,11 +5,6 @@
  * guard, the farther surface first. Nearer than `certain_to` no pixel shows it where the nearer one is drawn too;
  * beyond `ties_from` some do. Which one is nearer is known from how the model was made.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "raster/draw.h"
 #include "scene/eye.h"
@@ -363,10 +358,9 @@ static outcome judge_all(const char *raster, const char *format, uint64_t cases,
     return all;
 }
 
-static void certain(void **state) {
+TEST(certain) {
     const uint64_t cases = test_cases(100000, 1500000, 12000000);
     uint64_t pixels = 0;
-    (void)state;
     for (int i = 0; i < 4; i++)
         for (int f = 0; f < 3; f++) {
             const outcome o = judge_all(rasterizers[i], formats[f], cases, certain_model);
@@ -384,8 +378,7 @@ static void certain(void **state) {
     assert_true(pixels >= 8 * cases);
 }
 
-static void ties(void **state) {
-    (void)state;
+TEST(ties) {
     for (int i = 0; i < 4; i++)
         for (int f = 0; f < 3; f++) {
             const outcome o = judge_all(rasterizers[i], formats[f], test_cases(32, 160, 6400), ties_model);
@@ -395,9 +388,4 @@ static void ties(void **state) {
                           (unsigned long)o.drawings);
             tally_end(&o.pixels);
         }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(certain), cmocka_unit_test(ties)};
-    return run_tap(tests);
 }

@@ -3,9 +3,6 @@
  * What src/scene leaves out, and why; what it makes of pairs: findings, their order, place and box; what it refuses,
  * and what becomes of models all in one place. Each scene is made by hand, and so is what must come out.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "scene/find.h"
 #include "scene_made.h"
 #include "support.h"
@@ -50,8 +47,7 @@ static void back_to_back(void) {
     scene_made_quad(&made, (const double[3]){2, 0, 0}, north, east);
 }
 
-static void test_facing(void **state) {
-    (void)state;
+TEST(test_facing) {
     back_to_back();
     expect((finder_asked){0}, 0, FINDER_FACING, 3);
     expect((finder_asked){.off = 1U << FINDER_FACING}, 1, FINDER_FACING, 0);
@@ -62,8 +58,7 @@ static void test_facing(void **state) {
     }
 }
 
-static void test_blended(void **state) {
-    (void)state;
+TEST(test_blended) {
     for (int k = 0; k < 2; k++) {
         scene_made_begin(&made);
         floor_at("floor", 0.0);
@@ -75,8 +70,7 @@ static void test_blended(void **state) {
 }
 
 /* The second floor begins 2^-10 before the first one's end: an overlap 8 long, and 2^-10 wide in all. */
-static void test_thin(void **state) {
-    (void)state;
+TEST(test_thin) {
     scene_made_begin(&made);
     floor_at("floor", 0.0);
     scene_made_surface(&made, "next", "");
@@ -104,8 +98,7 @@ static void chest(double x, double z) {
     scene_made_box(&made, (const double[3]){x, 0.5, z}, (const double[3]){x + 2, 2.5, z + 1});
 }
 
-static void test_hidden(void **state) {
-    (void)state;
+TEST(test_hidden) {
     const finder_asked exactly = {.gap = 0.0};
     rug_at(5);
     expect(exactly, 1, FINDER_HIDDEN, 0);
@@ -135,8 +128,7 @@ static void turn_round(size_t from) {
 }
 
 /* What is no body, or none that hides. */
-static void test_not_hidden(void **state) {
-    (void)state;
+TEST(test_not_hidden) {
     const finder_asked exactly = {.gap = 0.0};
     rug_at(5);
     chest(4.5, -0.5);
@@ -163,8 +155,7 @@ static void test_not_hidden(void **state) {
 }
 
 /* Floor and rug are seen from both sides: a body in front hides them where another one stands behind. */
-static void test_hidden_behind(void **state) {
-    (void)state;
+TEST(test_hidden_behind) {
     enum { CHEST = 1, CELLAR = 2 };
     for (int bodies = 1; bodies <= 3; bodies++) {
         rug_at(5);
@@ -186,8 +177,7 @@ static void test_hidden_behind(void **state) {
 /* ---- Findings -------------------------------------------------------------------------------------------------------
  */
 
-static void test_findings(void **state) {
-    (void)state;
+TEST(test_findings) {
     static const double small[2][3] = {{2, 0, 0}, {0, 2, 0}};
     scene_made_begin(&made);
     floor_at("floor", 0.0);
@@ -233,8 +223,7 @@ static void test_findings(void **state) {
 }
 
 /* The second surface's distance is positive in front of the first, and the smallest gap comes first. */
-static void test_order(void **state) {
-    (void)state;
+TEST(test_order) {
     scene_made_begin(&made);
     floor_at("floor", 0.0);
     floor_at("above", 0.25);
@@ -250,8 +239,7 @@ static void test_order(void **state) {
 }
 
 /* The lesser surface is a, whose triangles come first in a pair, wherever they are in the model. */
-static void test_surfaces(void **state) {
-    (void)state;
+TEST(test_surfaces) {
     scene_made_begin(&made);
     floor_at("above", 0.25);
     floor_at("floor", 0.0);
@@ -272,8 +260,7 @@ static void test_surfaces(void **state) {
 
 /* ---- Bounds ------------------------------------------------------------------------------------------------------ */
 
-static void test_refused(void **state) {
-    (void)state;
+TEST(test_refused) {
     const finder_asked wrong[] = {{.gap = -1},     {.gap = NAN},   {.gap = INFINITY}, {.angle = 90},
                                   {.angle = -0.1}, {.width = NAN}, {.width = -1}};
     finder_found f;
@@ -288,8 +275,7 @@ static void test_refused(void **state) {
     expect((finder_asked){0}, 0, FINDER_FACING, 0);
 }
 
-static void test_degenerate(void **state) {
-    (void)state;
+TEST(test_degenerate) {
     scene_made_begin(&made);
     scene_made_surface(&made, "", "");
     scene_made_triangle(&made, origin, east, east);
@@ -306,8 +292,7 @@ static void test_degenerate(void **state) {
 }
 
 /* All triangles in one place: as many pairs as are wanted, and a word that there are more. */
-static void test_cut(void **state) {
-    (void)state;
+TEST(test_cut) {
     enum { COPIES = 64, PAIRS = COPIES * (COPIES - 1) / 2 };
     static const struct {
         size_t most, pairs;
@@ -329,8 +314,7 @@ static void test_cut(void **state) {
 
 /* Two floors of 2 x 40 x 40 triangles in one place, each pair of equal ones once, which takes several chunks of work.
  */
-static void test_threads(void **state) {
-    (void)state;
+TEST(test_threads) {
     enum { SIDE = 40, PAIRS = 2 * SIDE * SIDE };
     static const size_t most[] = {0, 1000};
     scene_made_begin(&made);
@@ -365,8 +349,7 @@ static int stop(void *context, double share) {
     return --*(int *)context < 0;
 }
 
-static void test_progress(void **state) {
-    (void)state;
+TEST(test_progress) {
     finder_found f;
     int times = 0;
     scene_made_begin(&made);
@@ -381,15 +364,4 @@ static void test_progress(void **state) {
     times = 100;
     assert_int_equal(finder_find(&made.m, &asked, &f), FINDER_DONE);
     finder_free(&f);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_facing),   cmocka_unit_test(test_blended),    cmocka_unit_test(test_thin),
-        cmocka_unit_test(test_hidden),   cmocka_unit_test(test_not_hidden), cmocka_unit_test(test_hidden_behind),
-        cmocka_unit_test(test_findings), cmocka_unit_test(test_order),      cmocka_unit_test(test_surfaces),
-        cmocka_unit_test(test_refused),  cmocka_unit_test(test_degenerate), cmocka_unit_test(test_cut),
-        cmocka_unit_test(test_threads),  cmocka_unit_test(test_progress),
-    };
-    return run_tap(tests);
 }

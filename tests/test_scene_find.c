@@ -3,10 +3,6 @@
  * The pairs of triangles that src/scene finds, against exact rationals (scene_truth.c) over all pairs of small random
  * models: the same pairs, their distances to 1e-12 of the model's extent, their areas to 1e-12 of its square.
  */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "scene/find.h"
 #include "scene_made.h"
 #include "scene_truth.h"
@@ -185,8 +181,7 @@ static void same_pairs(tally *t, const scene_made *made, const finder_asked *ask
     finder_free(&f);
 }
 
-static void test_all_pairs(void **state) {
-    (void)state;
+TEST(test_all_pairs) {
     /* 45 degrees are on the lattice, and within, where nothing rounds; the others are not */
     static const double angles[][2] = {{1.0, 0.99969541350954785}, {47.0, 0.46512176312793729}, {45.0, 0.5}};
     static const double gaps[] = {0.0, 1e-12, 0.0007, 0.1, 1.3};
@@ -209,9 +204,4 @@ static void test_all_pairs(void **state) {
            (unsigned long long)seen.apart, (unsigned long long)seen.thin, (unsigned long long)seen.degenerate);
     assert_true(seen.plane > 3 * models && seen.pairs > seen.plane + models);
     assert_true(seen.touch > 3 * models && seen.apart > models && seen.degenerate > models);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_pairs)};
-    return run_tap(tests);
 }

@@ -1,25 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From where surfaces fight: ties against every code of small formats, the guarantee at and behind the depth named. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "scene/judge.h"
+#include "setups.h"
 #include "support.h"
 
 static dp_setup setup_of(const char *format, dp_mapping mapping, double znear, double zfar, dp_model model) {
-    dp_spec spec = dp_spec_default();
-    dp_setup setup;
-    dp_format found[2];
-    assert_int_equal(dp_format_parse(format, found), 1);
-    spec.format = found[0];
-    spec.mapping = mapping;
-    spec.znear = znear;
-    spec.zfar = zfar;
-    spec.model = model;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .znear = znear, .zfar = zfar, .model = model);
 }
 
 /* Every code between near and the depth, the cut off ones at the ends left out: the end of the last narrow cell. */
@@ -37,7 +24,7 @@ static double ties_by_all(const dp_setup *setup, double most, double within) {
     return from;
 }
 
-static void ties(void **state) {
+TEST(ties) {
     static const struct {
         const char *format;
         dp_mapping mapping;
@@ -53,7 +40,6 @@ static void ties(void **state) {
     };
     tally t = {.name = "where ties begin"};
     rng r = rng_make("ties");
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const dp_setup setup = setup_of(rows[i].format, rows[i].mapping, rows[i].znear, rows[i].zfar, DP_MODEL_EXACT);
         const double end = fmin(rows[i].zfar, 2000 * rows[i].znear);
@@ -69,10 +55,9 @@ static void ties(void **state) {
     tally_end(&t);
 }
 
-static void certain(void **state) {
+TEST(certain) {
     tally t = {.name = "how far it is certain"};
     rng r = rng_make("certain");
-    (void)state;
     for (uint64_t run = 0; run < test_cases(30, 200, 5000); run++) {
         static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
         dp_setup setup =
@@ -101,15 +86,8 @@ static void certain(void **state) {
     tally_end(&t);
 }
 
-static void nothing_between(void **state) {
+TEST(nothing_between) {
     const dp_setup setup = setup_of("fp32", DP_MAPPING_REVERSED, 0.1, 1000, DP_MODEL_FLOAT);
     const scene_verdict v = scene_judge(&setup, 0, 0, 100);
-    (void)state;
     assert_true(isnan(v.certain_to) && v.ties_from == 0.1 && v.lift > 0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ties), cmocka_unit_test(certain),
-                                       cmocka_unit_test(nothing_between)};
-    return run_tap(tests);
 }

@@ -4,12 +4,7 @@
  * fails where two surfaces can fight. Two triangles a model, in random planes, also tilted against each other, through
  * each other and slim, seen by an eye or from everywhere.
  */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "printed.h"
-#include "support.h"
 
 typedef struct two {
     double at[2][3][3], normal[3];
@@ -134,15 +129,14 @@ static void random_options(rng *r, double size, bool eye, char out[512]) {
 }
 
 /* Either is moved; where they touch, either way. */
-static void lifts(void **state) {
+TEST(lifts) {
     rng r = rng_make("mended models");
     tally t = {.name = "enough"}, said_some = {.name = "said"};
-    (void)state;
     for (uint64_t run = 0; run < test_cases(60, 200, 4000); run++) {
         const bool eye = run % 4 != 0;
         const double size = rng_log(&r, 0.3, 10), gap = rng_below(&r, 5) == 0 ? 0 : size * rng_log(&r, 1e-6, 1e-3);
-        char path[512], options[512];
-        snprintf(path, sizeof path, "%s", scratch_file("two.obj"));
+        char options[512];
+        const char *path = scratch_file("two.obj");
         two made = {0};
         make_two(&r, size, gap, 0.05, run % 3 == 0, &made);
         made.halved = made.hinged || run % 2 != 0;
@@ -169,11 +163,10 @@ static void lifts(void **state) {
 
 /* What crosses fights along a line wherever it is moved to: no distance is promised, from everywhere and from an eye.
  */
-static void crossing(void **state) {
+TEST(crossing) {
     static const char *const eyes[] = {"", "--eye 0,0,3 --look 0,0,0"};
     static const char obj[] = "o below\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n"
                               "o above\nv -1 -1 %g\nv 1 -1 %g\nv 0 1 %g\nf 4 5 6\n";
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const char *path = scratch_file("crossed.obj");
         const double below = k < 2 ? 1e-5 : -1e-5; /* else above as a whole */
@@ -190,12 +183,11 @@ static void crossing(void **state) {
 }
 
 /* A camera of the file has the class of the very triangles: of a sliver 4 long and 1/1000 of that high, seen from 3. */
-static void class_of_a_sliver(void **state) {
+TEST(class_of_a_sliver) {
     static const double seen = 4 * 360 / (3 * 0.57735026918962576); /* pixels of 720 in 60 degrees */
-    (void)state;
-    char path[512], need[512], line[1280], text[4096];
-    snprintf(path, sizeof path, "%s", scratch_file("sliver.obj"));
-    snprintf(need, sizeof need, "%s", scratch_file("sliver.need"));
+    char line[1280], text[4096];
+    const char *path = scratch_file("sliver.obj");
+    const char *need = scratch_file("sliver.need");
     FILE *out = fopen(path, "w");
     assert_non_null(out);
     fputs("o below\nv -2 0 0\nv 2 0 0\nv 2 0.004 0\nf 1 2 3\n"
@@ -223,18 +215,17 @@ static void class_of_a_sliver(void **state) {
 }
 
 /* What can fight fails, by the same camera in the file. */
-static void requirements(void **state) {
+TEST(requirements) {
     rng r = rng_make("requirements of models");
     tally t = {.name = "fails"};
-    (void)state;
     for (uint64_t run = 0; run < test_cases(100, 400, 10000); run++) {
         const double size = rng_log(&r, 0.3, 10), gap = size * rng_log(&r, 1e-4, 1e-1);
-        char path[512], options[512], need[512], line[1280];
-        snprintf(path, sizeof path, "%s", scratch_file("asked.obj"));
+        char options[512], line[1280];
+        const char *path = scratch_file("asked.obj");
         two made = {0};
         make_two(&r, size, gap, 0.0005, false, &made);
         random_options(&r, size, run % 4 != 0, options);
-        snprintf(need, sizeof need, "%s", scratch_file("asked.need"));
+        const char *need = scratch_file("asked.need");
         snprintf(line, sizeof line, "%s --emit-need %s", options, need);
         write_two(&made, (const double[2]){0, 0}, path);
         const said s = ask(path, line);
@@ -245,10 +236,4 @@ static void requirements(void **state) {
         printed_free(&p);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lifts), cmocka_unit_test(crossing),
-                                       cmocka_unit_test(class_of_a_sliver), cmocka_unit_test(requirements)};
-    return run_tap(tests);
 }

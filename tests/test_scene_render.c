@@ -3,10 +3,6 @@
  * What src/scene draws: who is seen in each pixel, by triangles drawn one by one with src/draw; which pixels are wrong,
  * by rays in long double through the world; decals at known distances; views of all of a model.
  */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "scene/judge.h"
 #include "scene/render.h"
@@ -248,7 +244,7 @@ static void fill(rng *r) {
     }
 }
 
-static void test_truth(void **state) {
+TEST(test_truth) {
     static const struct {
         const char *raster, *format;
         dp_mapping mapping;
@@ -260,7 +256,6 @@ static void test_truth(void **state) {
     tally t = {.name = "pixels of random scenes"};
     rng r = rng_make("render");
     size_t wrong = 0;
-    (void)state;
     for (uint64_t i = 0; i < test_cases(4, 24, 400); i++) {
         const size_t k = i % (sizeof rows / sizeof rows[0]);
         const stage s = stage_of(rows[k].raster, rows[k].format, rows[k].mapping, rows[k].znear, rows[k].zfar);
@@ -283,11 +278,10 @@ static void test_truth(void **state) {
 }
 
 /* Two sheets in one plane, seen almost along it: the horizon lies inside pixels, some of whose corners see neither. */
-static void test_horizon(void **state) {
+TEST(test_horizon) {
     tally t = {.name = "pixels of a horizon"};
     rng r = rng_make("horizon");
     size_t wrong = 0;
-    (void)state;
     for (uint64_t i = 0; i < test_cases(4, 12, 400); i++) {
         const stage s = stage_of("llvmpipe", "unorm24", DP_MAPPING_D3D, 0.1, 100);
         const double place[3] = {rng_uniform(&r, -0.1, 0.1), rng_log(&r, 0.01, 0.1), 0}, tilt = rng_uniform(&r, -1, 1);
@@ -329,10 +323,9 @@ static size_t wrong_from(const stage *s, double z) {
 }
 
 /* Nearer than is certain nothing is wrong, and where they tie what is drawn first is seen: the wall, or the decal. */
-static void test_decal(void **state) {
+TEST(test_decal) {
     static const double gaps[] = {0, 0x1p-10, 0x1p-8, 0x1p-6};
     const stage s = stage_of("llvmpipe", "unorm24", DP_MAPPING_D3D, 0.01, 10000);
-    (void)state;
     for (int first = 0; first < 2; first++)
         for (size_t i = 0; i < sizeof gaps / sizeof gaps[0]; i++) {
             const scene_verdict v = scene_judge(&s.setup, gaps[i], gaps[i], 9000);
@@ -381,10 +374,9 @@ static size_t shown_of(bool back, bool two_sided, bool any_side, bool blended, b
     return count;
 }
 
-static void test_drawn(void **state) {
+TEST(test_drawn) {
     static uint32_t pixel[HEIGHT * WIDTH];
     const size_t half = WIDTH * HEIGHT / 2;
-    (void)state;
     assert_int_equal(shown_of(false, false, false, false, false, NULL), half);
     assert_int_equal(shown_of(true, false, false, false, false, NULL), 0);
     assert_int_equal(shown_of(true, true, false, false, false, NULL), half);
@@ -402,9 +394,8 @@ static void test_drawn(void **state) {
 }
 
 /* All corners are in the picture, one nearly at its rim; the sheet that is asked for shows its front. */
-static void test_overview(void **state) {
+TEST(test_overview) {
     rng r = rng_make("overview");
-    (void)state;
     for (int i = 0; i < 40; i++) {
         const stage s = stage_of("llvmpipe", "fp32", DP_MAPPING_REVERSED, 0.1, 100);
         const double towards[2][3] = {{rng_uniform(&r, -9, 9), 0.0, rng_uniform(&r, -9, 9)}, {0.1, 1.0, 0.1}};
@@ -435,13 +426,12 @@ static int after(void *context, double share) {
     return --*left < 0;
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     const stage s = stage_of("llvmpipe", "fp32", DP_MAPPING_REVERSED, 0.1, 100);
     int left = 0;
     render_asked asked = {
         .m = &made.m, .camera = &s.camera, .eye = ahead_from(2.0), .progress = after, .context = &left};
     render_picture p;
-    (void)state;
     scene_made_begin(&made);
     assert_int_equal(render_draw(&asked, &p), RENDER_DONE);
     render_free(&p);
@@ -458,12 +448,4 @@ static void test_refused(void **state) {
         asked.eye.place[2] = k == 0 ? 2.0 : -2e30;
         assert_int_equal(render_draw(&asked, &p), RENDER_RANGE);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_truth), cmocka_unit_test(test_horizon),  cmocka_unit_test(test_decal),
-        cmocka_unit_test(test_drawn), cmocka_unit_test(test_overview), cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,10 +3,6 @@
  * What an eye sees of two triangles, by points of both in long double; from where on they fight, by the guarantee of
  * the very triangles, whose class is put together here; and by what a rasterizer draws of them.
  */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "raster/draw.h"
 #include "scene/render.h"
@@ -214,11 +210,10 @@ static void fronts(int t, const scene_eye *eye, double sine[2]) {
 
 /* ---- What is seen ------------------------------------------------------------------------------------------------ */
 
-static void what_is_seen(void **state) {
+TEST(what_is_seen) {
     const dp_setup setup = setup_of("swiftshader", "fp32", DP_MAPPING_REVERSED, 60);
     tally t = {.name = "depths that are seen"}, hidden = {.name = "not seen"}, turned = {.name = "turned away"};
     rng r = rng_make("sight");
-    (void)state;
     for (uint64_t run = 0; run < test_cases(60, 400, 20000); run++) {
         const double size = rng_log(&r, 0.5, 20), gap = size * rng_log(&r, 1e-5, 1e-3);
         finder_found found;
@@ -306,7 +301,7 @@ static bool class_of(const dp_setup *setup, const scene_eye *eye, double lo, dou
 
 /* Guaranteed at all depths of what is seen before the one named; behind it not, of triangles a little larger. Of those
  * that are tilted the least gap decides, which a tilt of at most 0.003 shortens by less than 1e-5. */
-static void from_where_on(void **state) {
+TEST(from_where_on) {
     static const struct {
         const char *format;
         dp_mapping mapping;
@@ -314,7 +309,6 @@ static void from_where_on(void **state) {
     static const char *const rasters[] = {"swiftshader", "llvmpipe"};
     tally t = {.name = "from where on"}, bare = {.name = "not covered"}, before = {.name = "in part"};
     rng r = rng_make("fights from");
-    (void)state;
     for (uint64_t run = 0; run < test_cases(100, 1000, 50000); run++) {
         const dp_setup setup = setup_of(rasters[run % 2], rows[run % 3].format, rows[run % 3].mapping, 1000);
         const bool tilted = rng_below(&r, 3) == 0;
@@ -363,7 +357,7 @@ static void from_where_on(void **state) {
 /* ---- Drawn ------------------------------------------------------------------------------------------------------- */
 
 /* Where all is told apart no pixel that a rasterizer draws is wrong; where not, some are. */
-static void drawn(void **state) {
+TEST(drawn) {
     static const struct {
         const char *raster, *format;
         dp_mapping mapping;
@@ -374,7 +368,6 @@ static void drawn(void **state) {
     tally t = {.name = "pairs that are told apart"};
     rng r = rng_make("sight drawn");
     size_t wrong = 0;
-    (void)state;
     for (uint64_t run = 0; run < test_cases(60, 600, 20000); run++) {
         const dp_setup setup = setup_of(rows[run % 4].raster, rows[run % 4].format, rows[run % 4].mapping, 1000);
         const double size = rng_log(&r, 0.5, 20), gap = size * rng_log(&r, 1e-6, 1e-2);
@@ -406,7 +399,7 @@ static void drawn(void **state) {
 /* ---- Of several eyes, and eyes by hand --------------------------------------------------------------------------- */
 
 /* A poster before a wall, eyes straight before it, one that sees the back, one that looks away. */
-static void worst_eye(void **state) {
+TEST(worst_eye) {
     static const double wall[3][3] = {{-4, -4, 0}, {8, 0, 0}, {0, 8, 0}},
                         sheet[3][3] = {{-1, -1, 0.01}, {2, 0, 0}, {0, 2, 0}};
     static const struct {
@@ -417,7 +410,6 @@ static void worst_eye(void **state) {
     scene_eye eye[4];
     scene_sight room[4];
     finder_found found;
-    (void)state;
     scene_made_begin(&made);
     scene_made_surface(&made, "wall", "");
     scene_made_quad(&made, wall[0], wall[1], wall[2]);
@@ -453,7 +445,7 @@ static void worst_eye(void **state) {
 }
 
 /* Nothing fights; from the one eye a corner of the wall lies behind it, from the other, which is nearer, none does. */
-static void not_covered(void **state) {
+TEST(not_covered) {
     static const double wall[3][3] = {{-4, -4, 0}, {8, 0, 0}, {0, 8, 0}},
                         sheet[3][3] = {{-1, -1, 0.25}, {2, 0, 0}, {0, 2, 0}};
     static const double from[2][3] = {{-3, 0, 1}, {0, 0, 1.5}}, at[2][3] = {{0, 0, 0.5}, {0, 0, 0}};
@@ -461,7 +453,6 @@ static void not_covered(void **state) {
     scene_eye eye[2];
     scene_sight room[2];
     finder_found found;
-    (void)state;
     scene_made_begin(&made);
     scene_made_surface(&made, "wall", "");
     scene_made_quad(&made, wall[0], wall[1], wall[2]);
@@ -483,12 +474,11 @@ static void not_covered(void **state) {
     finder_free(&found);
 }
 
-static void eyes(void **state) {
+TEST(eyes) {
     static const double up[3] = {0, 1, 0}, down[3] = {0, -1, 0};
     const double o[3] = {1, 2, 3}, east[3] = {4, 2, 3}, below[3] = {1, -5, 3};
     scene_eye eye = {.line = 77};
     double seen[3];
-    (void)state;
     assert_false(scene_eye_look(o, o, up, &eye));
     assert_int_equal(eye.line, 77);
     assert_true(scene_eye_look(o, east, up, &eye));
@@ -506,11 +496,4 @@ static void eyes(void **state) {
     assert_true(seen[0] == -1 && seen[1] == -2 && seen[2] == 3 && eye.up[1] == down[1]);
     camera.ahead[2] = 0;
     assert_false(scene_eye_of(&camera, &eye));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(eyes),          cmocka_unit_test(worst_eye),
-                                       cmocka_unit_test(not_covered),   cmocka_unit_test(what_is_seen),
-                                       cmocka_unit_test(from_where_on), cmocka_unit_test(drawn)};
-    return run_tap(tests);
 }

@@ -3,10 +3,6 @@
  * What metric depth was rounded to before it was stored: lattices made here, of random steps and offsets, are found
  * within the uncertainty that is printed, or assumed; none is named wrongly, and none is found of what was not rounded.
  */
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "frame/metric.h"
 #include "support.h"
 
@@ -196,8 +192,7 @@ static int one(tally *t, rng *r, const kind *k) {
     return 1;
 }
 
-static void lattices_are_found_or_assumed(void **state) {
-    (void)state;
+TEST(lattices_are_found_or_assumed) {
     const uint64_t rounds = test_cases(1, 20, 850);
     tally t = {.name = "lattices"};
     rng r = rng_make("sensor");
@@ -304,8 +299,7 @@ static const struct {
     {"four lattices", quarters},
 };
 
-static void nothing_is_found_where_nothing_is(void **state) {
-    (void)state;
+TEST(nothing_is_found_where_nothing_is) {
     const uint64_t rounds = test_cases(1, 8, 1000);
     static const made files[] = {{.type = IMAGE_U16, .unit = 0.001},
                                  {.type = IMAGE_U16, .unit = 0.001, .file_cut = true},
@@ -327,8 +321,7 @@ static void nothing_is_found_where_nothing_is(void **state) {
 /* ---- Where values do not tell all -------------------------------------------------------------------------------- */
 
 /* Two narrow ranges far apart, whose levels can be counted within each, but not from one to the other. */
-static void levels_are_not_counted_over_gaps(void **state) {
-    (void)state;
+TEST(levels_are_not_counted_over_gaps) {
     const uint64_t rounds = test_cases(4, 60, 2000);
     static double z[N];
     tally t = {.name = "gaps"};
@@ -351,8 +344,7 @@ static void levels_are_not_counted_over_gaps(void **state) {
 }
 
 /* Of a narrow range 1/z is nearly as even as z: both are named, unless the samples tell. */
-static void two_kinds_that_fit_are_both_named(void **state) {
-    (void)state;
+TEST(two_kinds_that_fit_are_both_named) {
     const uint64_t rounds = test_cases(4, 40, 1000);
     static double z[N];
     tally t = {.name = "narrow"};
@@ -370,14 +362,4 @@ static void two_kinds_that_fit_are_both_named(void **state) {
     }
     tally_end(&t);
     assert_true(2 * both > rounds);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lattices_are_found_or_assumed),
-        cmocka_unit_test(nothing_is_found_where_nothing_is),
-        cmocka_unit_test(levels_are_not_counted_over_gaps),
-        cmocka_unit_test(two_kinds_that_fit_are_both_named),
-    };
-    return run_tap(tests);
 }

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The largest separation over a range: never below that of any depth in it, and no more above than is promised. */
-#include <stdio.h>
-
 #include "census/census.h"
 #include "core/engine.h"
 #include "depthprec/depthprec.h"
@@ -109,20 +107,17 @@ static void sweep(planes which, dp_model model, const char *name, double excess)
     tally_end(&near);
 }
 
-static void exact(void **state) {
-    (void)state;
+TEST(exact) {
     sweep(POSITIVE, DP_MODEL_EXACT, "separation exact", 1.0 + 1e-9);
     sweep(EITHER_SIGN, DP_MODEL_EXACT, "separation exact, either sign", 1.0 + 1e-9);
 }
 
-static void staged(void **state) {
-    (void)state;
+TEST(staged) {
     sweep(POSITIVE, DP_MODEL_STAGED, "separation staged", 1.0 + 0x1p-9);
     sweep(EITHER_SIGN, DP_MODEL_STAGED, "separation staged, either sign", 1.0 + 0x1p-9);
 }
 
-static void binary32(void **state) {
-    (void)state;
+TEST(binary32) {
     sweep(POSITIVE, DP_MODEL_FLOAT, "separation fp32", 1.0 + 0x1p-9);
     sweep(EITHER_SIGN, DP_MODEL_FLOAT, "separation fp32, either sign", 1.0 + 0x1p-9);
 }
@@ -155,15 +150,13 @@ static void limits(planes which, const char *name) {
     assert_true(50 * undecided <= decided.cases);
 }
 
-static void limits_are_decided(void **state) {
-    (void)state;
+TEST(limits_are_decided) {
     limits(POSITIVE, "separation limits");
     limits(EITHER_SIGN, "separation limits, either sign");
 }
 
 /* Every binary32 depth of some ranges through the pipeline: no pair so far apart is stored in the wrong order. */
-static void census_keeps_the_bound(void **state) {
-    (void)state;
+TEST(census_keeps_the_bound) {
     tally kept = {.name = "no interval in the census is longer than the bound"};
     rng r = rng_make("separation census");
     for (uint64_t i = 0; i < test_cases(2, 60, 600); i++) {
@@ -186,8 +179,7 @@ static void census_keeps_the_bound(void **state) {
 }
 
 /* Where d passes 1/2, at two binary32 depths: the worst of all those about them, of which every pair is tried. */
-static void the_worst_inside(void **state) {
-    (void)state;
+TEST(the_worst_inside) {
     dp_spec spec = dp_spec_default();
     dp_setup s;
     dp_separation_worst w;
@@ -210,8 +202,7 @@ static void the_worst_inside(void **state) {
     assert_true(result.all.longest > 0.0 && result.all.longest + 0x1p-17 <= w.bound);
 }
 
-static void known_answers(void **state) {
-    (void)state;
+TEST(known_answers) {
     dp_spec spec = dp_spec_default();
     dp_format found[2];
     dp_setup s;
@@ -236,8 +227,7 @@ static void known_answers(void **state) {
 }
 
 /* What decides whether the lattice has to be asked exactly: never below it, and not so far above that it always is. */
-static void what_the_lattice_is_not_above(void **state) {
-    (void)state;
+TEST(what_the_lattice_is_not_above) {
     tally above = {.name = "the quick estimate is never below the separation of the lattice"};
     tally near = {.name = "nor above it by more than two steps where one is little of the depth"};
     rng r = rng_make("lattice above");
@@ -258,18 +248,4 @@ static void what_the_lattice_is_not_above(void **state) {
     }
     tally_end(&above);
     tally_end(&near);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact),
-        cmocka_unit_test(staged),
-        cmocka_unit_test(binary32),
-        cmocka_unit_test(limits_are_decided),
-        cmocka_unit_test(census_keeps_the_bound),
-        cmocka_unit_test(the_worst_inside),
-        cmocka_unit_test(known_answers),
-        cmocka_unit_test(what_the_lattice_is_not_above),
-    };
-    return run_tap(tests);
 }

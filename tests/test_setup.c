@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The doors: what is refused, with which status, and that nothing is written then. */
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "oracle.h"
 #include "support.h"
@@ -45,8 +42,7 @@ static void accept_spec(const dp_spec *spec, int line) {
         accept_spec(&spec, __LINE__);                                                                                  \
     } while (0)
 
-static void defaults(void **state) {
-    (void)state;
+TEST(defaults) {
     dp_spec spec = dp_spec_default();
     assert_true(spec.znear == 0.1 && spec.zfar == 1000 && spec.ortho == 0 && spec.log_c == 1);
     assert_true(spec.mapping == DP_MAPPING_D3D && spec.rounding == DP_ROUND_NEAREST && spec.model == DP_MODEL_EXACT);
@@ -54,8 +50,7 @@ static void defaults(void **state) {
     accept_spec(&spec, __LINE__);
 }
 
-static void near_plane(void **state) {
-    (void)state;
+TEST(near_plane) {
     static const double bad[] = {0.0, -0.0, -0.1, -INFINITY, INFINITY, NAN, 1e-13, 1e13, -1e300, 0x1p-1074};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         REFUSE(DP_ERROR_NEAR, spec.znear = bad[i]; spec.zfar = INFINITY);
@@ -65,8 +60,7 @@ static void near_plane(void **state) {
     ACCEPT(spec.znear = 1e12; spec.zfar = 1e18);
 }
 
-static void far_plane(void **state) {
-    (void)state;
+TEST(far_plane) {
     static const double bad[] = {0.0, -1.0, -INFINITY, NAN, 0.05, 0.1, 1e19, 0x1p-1074};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         REFUSE(DP_ERROR_FAR, spec.zfar = bad[i]);
@@ -77,8 +71,7 @@ static void far_plane(void **state) {
     ACCEPT(spec.znear = 1e-12; spec.zfar = 1e18);
 }
 
-static void too_close(void **state) {
-    (void)state;
+TEST(too_close) {
     REFUSE(DP_ERROR_PLANES, spec.znear = 1; spec.zfar = nextafter(1, 2));
     REFUSE(DP_ERROR_PLANES, spec.znear = 1; spec.zfar = 1 + 0.99e-6);
     REFUSE(DP_ERROR_PLANES, spec.znear = 1e-12; spec.zfar = 1e-12 * (1 + 0.99e-6));
@@ -88,8 +81,7 @@ static void too_close(void **state) {
     ACCEPT(spec.znear = 1e12; spec.zfar = 1e12 * (1 + 1.01e-6));
 }
 
-static void infinite_far(void **state) {
-    (void)state;
+TEST(infinite_far) {
     static const dp_mapping perspective[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED,
                                              DP_MAPPING_GL_REVERSED};
     for (int i = 0; i < 4; i++) {
@@ -103,16 +95,14 @@ static void infinite_far(void **state) {
     ACCEPT(spec.mapping = DP_MAPPING_LOG);
 }
 
-static void orthographic(void **state) {
-    (void)state;
+TEST(orthographic) {
     REFUSE(DP_ERROR_ORTHO, spec.mapping = DP_MAPPING_LINEAR; spec.ortho = 1);
     REFUSE(DP_ERROR_ORTHO, spec.mapping = DP_MAPPING_LOG; spec.ortho = 1);
     ACCEPT(spec.ortho = -1);
 }
 
 /* Near and far of an orthographic camera: 0 or of either sign, but not so small that exact products lose bits. */
-static void orthographic_planes(void **state) {
-    (void)state;
+TEST(orthographic_planes) {
     static const double near_bad[] = {-INFINITY, INFINITY, NAN, 1e-13, -1e-13, 0x1p-1074, -0x1p-1074, -1.1e12, 1.1e12};
     static const double far_bad[] = {-INFINITY, NAN, -100, -101, 1e-13, -1e-13, 0x1p-1074, 1.1e18};
     static const double far_good[] = {-99, -1, -1e-12, 0, 1e-12, 1, 100, 1e18};
@@ -146,8 +136,7 @@ static void orthographic_planes(void **state) {
     assert_false(signbit(setup.spec.zfar));
 }
 
-static void log_constant(void **state) {
-    (void)state;
+TEST(log_constant) {
     static const double bad[] = {0.0, -1.0, 1e-13, 1e13, NAN, INFINITY, -INFINITY};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         REFUSE(DP_ERROR_LOG_C, spec.mapping = DP_MAPPING_LOG; spec.log_c = bad[i]);
@@ -157,8 +146,7 @@ static void log_constant(void **state) {
     ACCEPT(spec.mapping = DP_MAPPING_LOG; spec.log_c = 1e12);
 }
 
-static void bad_rows(void **state) {
-    (void)state;
+TEST(bad_rows) {
     REFUSE(DP_ERROR_MAPPING, spec.mapping = DP_MAPPING_COUNT);
     REFUSE(DP_ERROR_MAPPING, spec.mapping = (dp_mapping)-1);
     REFUSE(DP_ERROR_ROUNDING, spec.rounding = DP_ROUNDING_COUNT);
@@ -181,8 +169,7 @@ static void bad_rows(void **state) {
     REFUSE(DP_ERROR_FORMAT, spec.format.code_max++);
 }
 
-static void null_pointers(void **state) {
-    (void)state;
+TEST(null_pointers) {
     dp_setup setup;
     dp_spec spec = dp_spec_default();
     refuse(NULL, DP_ERROR_NULL, __LINE__);
@@ -197,8 +184,7 @@ static void null_pointers(void **state) {
     assert_int_equal(dp_worst_over(&setup, 1, 2, NULL), DP_ERROR_NULL);
 }
 
-static void depths(void **state) {
-    (void)state;
+TEST(depths) {
     static const double bad[] = {0.0, -1.0, NAN, INFINITY, -INFINITY, 0x1p-1074, 1e300};
     dp_setup setup;
     dp_spec spec = dp_spec_default();
@@ -218,8 +204,7 @@ static void depths(void **state) {
     assert_int_equal(dp_sample_at(&setup, 1000, &sample), DP_OK);
 }
 
-static void ranges(void **state) {
-    (void)state;
+TEST(ranges) {
     double below = nextafter(0.1, 0), above = nextafter(1000, INFINITY);
     const double bad[][2] = {{2, 1},         {below, 1},    {1, above},    {NAN, 1},   {1, NAN},
                              {NAN, NAN},     {1, INFINITY}, {INFINITY, 1}, {-1, 1},    {0, 1},
@@ -242,8 +227,7 @@ static void ranges(void **state) {
     assert_int_equal(dp_worst_over(&setup, 5, 5, &worst), DP_OK);
 }
 
-static void texts(void **state) {
-    (void)state;
+TEST(texts) {
     for (int i = 0; i < DP_STATUS_COUNT; i++) {
         const char *text = dp_status_text((dp_status)i);
         assert_non_null(text);
@@ -266,8 +250,7 @@ static void texts(void **state) {
 }
 
 /* The numbers that a sentence names are where the door is: they pass, and what lies just beyond does not. */
-static void limits_in_sentences(void **state) {
-    (void)state;
+TEST(limits_in_sentences) {
     double least, most, share;
     assert_int_equal(sscanf(dp_status_text(DP_ERROR_NEAR), "near must be from %lf to %lf", &least, &most), 2);
     ACCEPT(spec.znear = least);
@@ -285,24 +268,4 @@ static void limits_in_sentences(void **state) {
     ACCEPT(spec.mapping = DP_MAPPING_LOG; spec.log_c = most);
     REFUSE(DP_ERROR_LOG_C, spec.mapping = DP_MAPPING_LOG; spec.log_c = nextafter(least, 0));
     REFUSE(DP_ERROR_LOG_C, spec.mapping = DP_MAPPING_LOG; spec.log_c = nextafter(most, INFINITY));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(defaults),
-        cmocka_unit_test(near_plane),
-        cmocka_unit_test(far_plane),
-        cmocka_unit_test(too_close),
-        cmocka_unit_test(infinite_far),
-        cmocka_unit_test(orthographic),
-        cmocka_unit_test(orthographic_planes),
-        cmocka_unit_test(log_constant),
-        cmocka_unit_test(bad_rows),
-        cmocka_unit_test(null_pointers),
-        cmocka_unit_test(depths),
-        cmocka_unit_test(ranges),
-        cmocka_unit_test(texts),
-        cmocka_unit_test(limits_in_sentences),
-    };
-    return run_tap(tests);
 }

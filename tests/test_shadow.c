@@ -4,10 +4,6 @@
  * needed at every slant and azimuth, and no more than it must; units as APIs define them; cascades about the corners of
  * their frusta; what is refused. test_shadow_drawn.c has the promise itself.
  */
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "shadow/shadow.h"
 #include "support.h"
 
@@ -105,9 +101,8 @@ static void expected_parts(const shadow_light *light, const lengths *l, shadow_p
     part[SHADOW_CAUSE_FORMAT] = (shadow_part){0, format_part(light)};
 }
 
-static void test_parts(void **state) {
+TEST(test_parts) {
     rng r = rng_make("shadow parts");
-    (void)state;
     for (uint64_t n = test_cases(50, 2000, 200000); n > 0; n--) {
         const shadow_light light = random_light(&r);
         const lengths l = lengths_of(&light);
@@ -158,10 +153,9 @@ static drawn drawn_of(const shadow_light *light, const lengths *l) {
                    2 * vertex / light->small};
 }
 
-static void test_biases(void **state) {
+TEST(test_biases) {
     rng r = rng_make("shadow biases");
     tally enough = {.name = "azimuths and slants"}, least = {.name = "least biases"};
-    (void)state;
     for (uint64_t n = test_cases(50, 1000, 50000); n > 0; n--) {
         const shadow_light light = random_light(&r);
         const dp_triangles *t = &light.triangles;
@@ -204,9 +198,8 @@ static void test_biases(void **state) {
     tally_end(&least);
 }
 
-static void test_gaps(void **state) {
+TEST(test_gaps) {
     rng r = rng_make("shadow gaps");
-    (void)state;
     for (uint64_t n = test_cases(50, 1000, 50000); n > 0; n--) {
         const shadow_light light = random_light(&r);
         const lengths l = lengths_of(&light);
@@ -256,10 +249,9 @@ static double worth(const bias_api *api, const dp_format *format, double d) {
                                    : ldexp(1.0, -format->bits);
 }
 
-static void test_states(void **state) {
+TEST(test_states) {
     rng r = rng_make("shadow states");
     tally enough = {.name = "units enough"}, least = {.name = "units least"}, gaps = {.name = "gaps of units"};
-    (void)state;
     for (uint64_t n = test_cases(50, 1000, 50000); n > 0; n--) {
         shadow_light light = random_light(&r);
         shadow_need need;
@@ -310,10 +302,9 @@ static void test_states(void **state) {
     tally_end(&gaps);
 }
 
-static void test_hopeless(void **state) {
+TEST(test_hopeless) {
     const shadow_light light = shadow_light_default(); /* lit from depth 0 on, where a unit of fp32 is worth nothing */
     shadow_need need;
-    (void)state;
     shadow_need_of(&light, &need);
     for (size_t i = 0; bias_api_get(i) != NULL; i++)
         assert_int_equal(isinf(shadow_state_of(&light, &need.bias[0], bias_api_get(i)).units),
@@ -338,9 +329,8 @@ static double farthest(const shadow_split *s, const shadow_cascade *c, double z)
     return most;
 }
 
-static void test_cascades(void **state) {
+TEST(test_cascades) {
     rng r = rng_make("cascades");
-    (void)state;
     for (uint64_t n = test_cases(50, 1000, 50000); n > 0; n--) {
         const shadow_light model = random_light(&r);
         shadow_split s = shadow_split_default();
@@ -395,9 +385,8 @@ static void test_cascades(void **state) {
 /* ---- At the door ------------------------------------------------------------------------------------------------- */
 
 /* The ends of all ranges: numbers, or INFINITY where there is no such bias. */
-static void test_extremes(void **state) {
+TEST(test_extremes) {
     rng r = rng_make("shadow extremes");
-    (void)state;
     for (uint64_t n = test_cases(200, 5000, 100000); n > 0; n--) {
         shadow_light light = random_light(&r);
         shadow_need need;
@@ -441,9 +430,8 @@ static void test_extremes(void **state) {
         assert_int_equal(shadow_light_check(&light), what);                                                            \
     }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     static const double nothing[] = {0, -1, NAN, INFINITY};
-    (void)state;
     for (int i = 0; i < 4; i++) {
         WRONG(SHADOW_BOX, width, nothing[i])
         WRONG(SHADOW_BOX, height, nothing[i])
@@ -496,13 +484,4 @@ static void test_refused(void **state) {
     assert_string_equal(shadow_status_text((shadow_status)-1), "not a status");
     assert_null(shadow_way_name(SHADOW_WAY_COUNT));
     assert_null(shadow_cause_name(SHADOW_CAUSE_COUNT));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parts),   cmocka_unit_test(test_biases),   cmocka_unit_test(test_gaps),
-        cmocka_unit_test(test_states),  cmocka_unit_test(test_hopeless), cmocka_unit_test(test_cascades),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_extremes),
-    };
-    return run_tap(tests);
 }

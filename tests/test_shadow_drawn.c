@@ -7,10 +7,6 @@
  * times filter radius is 90 % of the bias or more; elsewhere the share of it that is used is printed. Behind a caster
  * beyond the gap and what is needed it is dark.
  */
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "raster_named.h"
 #include "shadow_stage.h"
 
@@ -449,17 +445,10 @@ static void test_surfaces(bool sphere) {
     tally_end(&tight);
 }
 
-static void test_planes(void **state) {
-    (void)state;
+TEST(test_planes) {
     test_surfaces(false);
 }
 
-static void test_spheres(void **state) {
-    (void)state;
+TEST(test_spheres) {
     test_surfaces(true);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_planes), cmocka_unit_test(test_spheres)};
-    return run_tap(tests);
 }

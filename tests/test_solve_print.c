@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The number that solve prints, typed in again, passes: rounded to the safe side and tried, not concluded. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "cli/option/options.h"
@@ -118,8 +115,7 @@ static int digits_of(const char *line) {
     return count;
 }
 
-static void test_printed(void **state) {
-    (void)state;
+TEST(test_printed) {
     rng r = rng_make("solve printed");
     tally passes = {.name = "what is printed passes, typed in again"};
     tally tight = {.name = "and is not rounded by more than its digits"};
@@ -161,8 +157,7 @@ static void test_printed(void **state) {
 }
 
 /* The number that leads is the one to use: no plane between it and the depth fails, many of few bits among them. */
-static void test_all_beyond(void **state) {
-    (void)state;
+TEST(test_all_beyond) {
     rng r = rng_make("solve beyond");
     tally all = {.name = "every plane on the safe side of what is printed first passes"};
     char path[] = "/tmp/depthprec-beyond-XXXXXX", line[512];
@@ -194,9 +189,4 @@ static void test_all_beyond(void **state) {
     }
     unlink(path);
     tally_end(&all);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_printed), cmocka_unit_test(test_all_beyond)};
-    return run_tap(tests);
 }

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every claim holds in its whole span, is not modest, and breaks where the row says it does. */
-#include <math.h>
-#include <string.h>
-
 #include "method/stability.h"
 #include "named.h"
 #include "support.h"
@@ -37,33 +34,27 @@ static void check_family(const char *name) {
     tally_end(&t);
 }
 
-static void interval_claims(void **state) {
-    (void)state;
+TEST(interval_claims) {
     check_family("interval");
 }
 
-static void linearize_claims(void **state) {
-    (void)state;
+TEST(linearize_claims) {
     check_family("linearize");
 }
 
-static void encode_claims(void **state) {
-    (void)state;
+TEST(encode_claims) {
     check_family("encode");
 }
 
-static void worst_claims(void **state) {
-    (void)state;
+TEST(worst_claims) {
     check_family("worst");
 }
 
-static void position_claims(void **state) {
-    (void)state;
+TEST(position_claims) {
     check_family("position");
 }
 
-static void normal_claims(void **state) {
-    (void)state;
+TEST(normal_claims) {
     check_family("normal");
 }
 
@@ -101,8 +92,7 @@ static stability_verdict verdict_times(const char *name, double factor) {
     return verdict_by(name, claim);
 }
 
-static void false_claims_are_found(void **state) {
-    (void)state;
+TEST(false_claims_are_found) {
     assert_int_equal(verdict_of("textbook", 1e-3, 1e4), STABILITY_HOLDS);
     assert_int_equal(verdict_of("textbook", 1e-3, 1e5), STABILITY_BROKEN);
     assert_int_equal(verdict_of("textbook", 1e-4, 1e4), STABILITY_BROKEN);
@@ -119,10 +109,9 @@ static void false_claims_are_found(void **state) {
 }
 
 /* The worst error is found again at the planes and the input that are named. */
-static void worst_is_where_it_is_said(void **state) {
+TEST(worst_is_where_it_is_said) {
     static const char *const names[] = {"interval", "linearize", "encode"};
     tally t = {.name = "places"};
-    (void)state;
     for (size_t f = 0; f < 3; f++) {
         const method_family_row *family = method_family_find(names[f]);
         const size_t count = stability_run(family, STABILITY_ALL, results);
@@ -190,8 +179,7 @@ static stability_verdict verdict_where(bool (*is_wrong)(const dp_spec *), unsign
 
 /* A claim that reaches an orthographic projection, or an infinite far plane, is broken there; one that does not is not.
  */
-static void claims_beyond_the_walk(void **state) {
-    (void)state;
+TEST(claims_beyond_the_walk) {
     assert_int_equal(verdict_where(nowhere, METHOD_INFINITE | METHOD_ORTHO), STABILITY_HOLDS);
     assert_int_equal(verdict_where(in_ortho, METHOD_INFINITE | METHOD_ORTHO), STABILITY_BROKEN);
     assert_true(results[0].ortho > 0.4 && results[0].inside <= METHOD_ROUNDING);
@@ -202,29 +190,12 @@ static void claims_beyond_the_walk(void **state) {
 }
 
 /* As depthprec-methods(1) has them. */
-static void verdicts_have_their_names(void **state) {
+TEST(verdicts_have_their_names) {
     static const char *const names[STABILITY_VERDICTS] = {[STABILITY_HOLDS] = "holds",
                                                           [STABILITY_BROKEN] = "broken",
                                                           [STABILITY_MODEST] = "too modest",
                                                           [STABILITY_UNCLAIMED] = "no claim"};
-    (void)state;
     for (int i = 0; i < STABILITY_VERDICTS; i++)
         assert_string_equal(stability_verdict_name((stability_verdict)i), names[i]);
     assert_null(stability_verdict_name(STABILITY_VERDICTS));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(verdicts_have_their_names),
-        cmocka_unit_test(interval_claims),
-        cmocka_unit_test(linearize_claims),
-        cmocka_unit_test(encode_claims),
-        cmocka_unit_test(worst_claims),
-        cmocka_unit_test(position_claims),
-        cmocka_unit_test(normal_claims),
-        cmocka_unit_test(false_claims_are_found),
-        cmocka_unit_test(claims_beyond_the_walk),
-        cmocka_unit_test(worst_is_where_it_is_said),
-    };
-    return run_tap(tests);
 }

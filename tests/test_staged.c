@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Model `staged` against MPFR: NDC depth, then window depth, each rounded once to binary32, then the format. */
-#include <math.h>
-
 #include "oracle.h"
 #include "support.h"
 
@@ -82,8 +80,7 @@ static double random_depth(rng *r, const dp_spec *spec) {
     return fmin(fmax(rng_log(r, spec->znear, range_end(spec)), spec->znear), spec->zfar);
 }
 
-static void codes_match_mpfr(void **state) {
-    (void)state;
+TEST(codes_match_mpfr) {
     tally t = {.name = "staged codes"};
     rng r = rng_make("staged codes");
     for (uint64_t i = test_cases(2000, 15000, 1000000); i > 0; i--) {
@@ -129,8 +126,7 @@ static void codes_match_mpfr(void **state) {
     tally_end(&t);
 }
 
-static void separation_is_safe(void **state) {
-    (void)state;
+TEST(separation_is_safe) {
     tally t = {.name = "staged separation"};
     rng r = rng_make("staged separation");
     for (uint64_t i = test_cases(2000, 15000, 1000000); i > 0; i--) {
@@ -169,8 +165,7 @@ static uint32_t next_code(const dp_setup *setup, const dp_cell *cell) {
  * The certified worst case against a walk over every cell of the 16-bit formats (their cells are checked above):
  * never below; above only with unorm, by less than one step of window depth and one of NDC depth.
  */
-static void worst_is_certified(void **state) {
-    (void)state;
+TEST(worst_is_certified) {
     static const double cameras[][2] = {{0.1, 1000}, {0.3, 77}, {1, 1.5},  {0.01, 1e6}, {5, 5000},      {0.05, 4000},
                                         {0.25, 128}, {1, 2},    {10, 1e5}, {2, 65536},  {0.1, HUGE_VAL}};
     static const char *const formats[] = {"fp16", "unorm16", "unorm10"};
@@ -269,8 +264,7 @@ static void check_above(tally *t, const dp_setup *setup, double lo, double hi, d
 }
 
 /* A window whose only cell of one step more is the last that is not visited. */
-static void one_wide_cell_counts(void **state) {
-    (void)state;
+TEST(one_wide_cell_counts) {
     tally t = {.name = "one wide cell"};
     dp_spec spec = dp_spec_default();
     dp_format format[2];
@@ -291,8 +285,7 @@ static void one_wide_cell_counts(void **state) {
     tally_end(&t);
 }
 
-static void worst_is_near_in_each_class(void **state) {
-    (void)state;
+TEST(worst_is_near_in_each_class) {
     static const char *const formats[] = {"unorm16", "unorm20", "unorm23",   "unorm24",   "unorm25",
                                           "unorm28", "fp32",    "float5.18", "float8.21", "fp16"};
     static const char *const kinds[] = {"unorm", "float"};
@@ -343,8 +336,7 @@ static void worst_is_near_in_each_class(void **state) {
 }
 
 /* numerics: with NDC in [-1, 1] reversed-Z loses its advantage: window depths below 1/2 are multiples of 2^-25. */
-static void gl_reversed_is_spoilt(void **state) {
-    (void)state;
+TEST(gl_reversed_is_spoilt) {
     dp_spec spec = dp_spec_default();
     spec.mapping = DP_MAPPING_GL_REVERSED;
     spec.model = DP_MODEL_STAGED;
@@ -363,16 +355,4 @@ static void gl_reversed_is_spoilt(void **state) {
     dp_worst_over(&reversed, 0.1, 1000.0, &b);
     assert_true(a.interval > 1e4 * b.interval);
     assert_relative(b.interval, 2.95082468e-05, 1e-8); /* NDC is the window depth: as exact */
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(codes_match_mpfr),
-        cmocka_unit_test(separation_is_safe),
-        cmocka_unit_test(worst_is_certified),
-        cmocka_unit_test(one_wide_cell_counts),
-        cmocka_unit_test(worst_is_near_in_each_class),
-        cmocka_unit_test(gl_reversed_is_spoilt),
-    };
-    return run_tap(tests);
 }

@@ -4,7 +4,6 @@
  * a stop stops; and where nothing is taken no slot is waited for.
  */
 #include <stdatomic.h>
-#include <stdlib.h>
 #include <time.h>
 
 #include "frame/strips.h"
@@ -48,8 +47,7 @@ static bool take(void *context, size_t index, size_t slot) {
     return index != w->stop_at;
 }
 
-static void strips_are_taken_in_order(void **state) {
-    (void)state;
+TEST(strips_are_taken_in_order) {
     for (int threads = 1; threads <= THREADS; threads++)
         for (size_t slots = 1; slots <= SLOTS; slots += 2) {
             work w = {.stop_at = SIZE_MAX};
@@ -60,8 +58,7 @@ static void strips_are_taken_in_order(void **state) {
         }
 }
 
-static void a_stop_stops(void **state) {
-    (void)state;
+TEST(a_stop_stops) {
     for (int threads = 1; threads <= THREADS; threads++) {
         work w = {.stop_at = 20};
         assert_false(strips_run(&(strips){COUNT, threads, SLOTS, make, take, &w}));
@@ -77,21 +74,11 @@ static void count_made(void *context, size_t index, size_t slot, int thread) {
     atomic_fetch_add(&w->made[index], 1);
 }
 
-static void nothing_need_be_taken(void **state) {
+TEST(nothing_need_be_taken) {
     work w = {0};
-    (void)state;
     assert_true(strips_run(&(strips){COUNT, THREADS, 1, count_made, NULL, &w}));
     assert_false(w.wrong);
     for (size_t i = 0; i < COUNT; i++)
         assert_int_equal(w.made[i], 1);
     assert_true(strips_run(&(strips){0, THREADS, 1, count_made, take, &w}));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(strips_are_taken_in_order),
-        cmocka_unit_test(a_stop_stops),
-        cmocka_unit_test(nothing_need_be_taken),
-    };
-    return run_tap(tests);
 }

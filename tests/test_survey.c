@@ -3,9 +3,6 @@
  * Statistics of depth images against plain counts over sorted codes, and against what the rational oracle stores: the
  * sky, the codes in use, the nearest depths, the decals that fight.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "frame/survey.h"
 #include "named.h"
 #include "oracle.h"
@@ -36,9 +33,8 @@ static double distance_to_far(const dp_setup *setup, uint32_t code) {
     return setup->reversed ? d : 1 - d;
 }
 
-static void sky_begins_where_the_threshold_is(void **state) {
+TEST(sky_begins_where_the_threshold_is) {
     static const double limits[] = {0, 1e-9, 1e-5, 1e-4, 0.01, 0.5};
-    (void)state;
     for (size_t k = 0; k < SETUPS; k++)
         for (size_t i = 0; i < 6; i++) {
             synthetic_stage s;
@@ -139,9 +135,8 @@ static void check_bands(const synthetic_stage *s, const survey *v, const uint32_
     oracle_clear(&o);
 }
 
-static void counts_are_those_of_sorted_codes(void **state) {
+TEST(counts_are_those_of_sorted_codes) {
     static const char *const scenes[] = {"plane", "sphere", "decals"};
-    (void)state;
     uint32_t *codes = malloc(PIXELS * sizeof *codes);
     assert_non_null(codes);
     for (size_t k = 0; k < SETUPS; k++)
@@ -186,9 +181,8 @@ static void counts_are_those_of_sorted_codes(void **state) {
 
 /* ---- Decals ---- */
 
-static void decals_fight_as_the_oracle_says(void **state) {
+TEST(decals_fight_as_the_oracle_says) {
     static const double gaps[] = {1e-5, 1e-3, 0.01, 0.1, 1};
-    (void)state;
     tally t = {.name = "decals"};
     uint64_t fought = 0, stood = 0;
     for (size_t k = 0; k < SETUPS; k++)
@@ -238,8 +232,7 @@ static void decals_fight_as_the_oracle_says(void **state) {
     tally_end(&t);
 }
 
-static void scenes_without_pairs_say_so(void **state) {
-    (void)state;
+TEST(scenes_without_pairs_say_so) {
     synthetic_stage s;
     survey_pairs found;
     stage_set(&s, "sphere", "fp32", "d3d", 0.1, 1000);
@@ -247,14 +240,4 @@ static void scenes_without_pairs_say_so(void **state) {
     stage_set(&s, "steps", "fp32", "d3d", 0.1, 1000);
     assert_true(survey_pairs_make(&s.frame, &found));
     assert_int_equal(found.pairs, 15);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sky_begins_where_the_threshold_is),
-        cmocka_unit_test(counts_are_those_of_sorted_codes),
-        cmocka_unit_test(decals_fight_as_the_oracle_says),
-        cmocka_unit_test(scenes_without_pairs_say_so),
-    };
-    return run_tap(tests);
 }

@@ -3,8 +3,6 @@
  * Synthetic images: what a pixel sees satisfies the surfaces' equations, written here in long double, and what is
  * stored of it is what the rational oracle stores.
  */
-#include <string.h>
-
 #include "frame/synthetic.h"
 #include "named.h"
 #include "oracle.h"
@@ -28,8 +26,7 @@ static texture_camera camera_of(const char *format, const char *mapping, bool or
     return camera;
 }
 
-static void every_row_is_whole(void **state) {
-    (void)state;
+TEST(every_row_is_whole) {
     size_t count = 0;
     for (; synthetic_get(count) != NULL; count++) {
         const synthetic_row *row = synthetic_get(count);
@@ -62,8 +59,7 @@ static bool faces(const texture_camera *c, const synthetic_hit *h, const long do
     return fabsl(length - 1) < 1e-12L && towards < 0;
 }
 
-static void planes_lie_in_their_plane(void **state) {
-    (void)state;
+TEST(planes_lie_in_their_plane) {
     rng r = rng_make("scene plane");
     tally t = {.name = "plane"};
     uint64_t seen = 0;
@@ -92,8 +88,7 @@ static void planes_lie_in_their_plane(void **state) {
     tally_end(&t);
 }
 
-static void spheres_are_round_and_before_their_wall(void **state) {
-    (void)state;
+TEST(spheres_are_round_and_before_their_wall) {
     rng r = rng_make("scene sphere");
     tally t = {.name = "sphere"};
     uint64_t round = 0, walls = 0, sky = 0;
@@ -133,8 +128,7 @@ static long double ratio(double lo, double hi, int i, int n) {
     return lo * powl((long double)hi / lo, (long double)i / (n - 1));
 }
 
-static void stairs_have_their_depths(void **state) {
-    (void)state;
+TEST(stairs_have_their_depths) {
     const texture_camera c = camera_of("fp32", "reversed", false, 700, 20);
     const double p[PARAMETERS_MAX] = {0.7, 400, 7};
     const synthetic_row *steps = synthetic_find("steps");
@@ -159,8 +153,7 @@ static void stairs_have_their_depths(void **state) {
     assert_false(steps->pair(p, 6, &pair));
 }
 
-static void decals_stand_before_their_tiles(void **state) {
-    (void)state;
+TEST(decals_stand_before_their_tiles) {
     const texture_camera c = camera_of("fp32", "reversed", false, 300, 240);
     const double p[PARAMETERS_MAX] = {0.125, 1, 300, 3};
     const synthetic_row *decals = synthetic_find("decals");
@@ -185,8 +178,7 @@ static void decals_stand_before_their_tiles(void **state) {
     assert_false(decals->pair(p, 9, &(synthetic_pair){0}));
 }
 
-static void nothing_is_drawn_outside_the_planes(void **state) {
-    (void)state;
+TEST(nothing_is_drawn_outside_the_planes) {
     const texture_camera c = camera_of("fp32", "reversed", false, 64, 64);
     const synthetic_row *steps = synthetic_find("steps");
     synthetic_hit h;
@@ -202,8 +194,7 @@ static void nothing_is_drawn_outside_the_planes(void **state) {
     assert_true(h.z == 20);
 }
 
-static void what_is_stored_is_what_the_oracle_stores(void **state) {
-    (void)state;
+TEST(what_is_stored_is_what_the_oracle_stores) {
     static const char *const formats[] = {"unorm16", "unorm24", "fp16", "fp32"};
     static const char *const mappings[] = {"d3d", "gl", "reversed", "linear", "log"};
     tally t = {.name = "codes"};
@@ -233,17 +224,4 @@ static void what_is_stored_is_what_the_oracle_stores(void **state) {
                 oracle_clear(&o);
             }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_row_is_whole),
-        cmocka_unit_test(planes_lie_in_their_plane),
-        cmocka_unit_test(spheres_are_round_and_before_their_wall),
-        cmocka_unit_test(stairs_have_their_depths),
-        cmocka_unit_test(decals_stand_before_their_tiles),
-        cmocka_unit_test(nothing_is_drawn_outside_the_planes),
-        cmocka_unit_test(what_is_stored_is_what_the_oracle_stores),
-    };
-    return run_tap(tests);
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the figure of a texture's product is called: by its kind, by its method, and by what is known of the truth. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "printed.h"
 
 static const struct {
@@ -32,8 +28,8 @@ static const struct {
 };
 
 static void check_title(tally *t, const char *source, const char *options, const char *title, const char *panels) {
-    char path[512], expected[512];
-    snprintf(path, sizeof path, "%s", scratch_file("figure.svg"));
+    char expected[512];
+    const char *path = scratch_file("figure.svg");
     printed p = print_of("texture %s %s --figure %s", source, options, path);
     TALLY(t, (p.status == 0) == (title != NULL), "%s %s: exit status %d: %s", source, options, p.status, p.errors);
     if (title != NULL && p.status == 0) {
@@ -47,11 +43,9 @@ static void check_title(tally *t, const char *source, const char *options, const
     printed_free(&p);
 }
 
-static void test_names(void **state) {
-    char image[512];
+TEST(test_names) {
     tally t = {.name = "names"};
-    (void)state;
-    snprintf(image, sizeof image, "%s", scratch_file("image.npy"));
+    const char *image = scratch_file("image.npy");
     printed p = print_of("texture --synthetic sphere --size 24x16 -F unorm16 -m d3d -o %s", image);
     assert_int_equal(p.status, 0);
     printed_free(&p);
@@ -61,9 +55,4 @@ static void test_names(void **state) {
         check_title(&t, image, products[i].options, products[i].of_image, products[i].panels);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_names)};
-    return run_tap(tests);
 }

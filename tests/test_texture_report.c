@@ -4,10 +4,6 @@
  * two depths in CSV, what an error map is called.
  */
 #include <jansson.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "support.h"
 #include "truth.h"
@@ -31,8 +27,7 @@ static bool meets(int column, int row, double distance, double radius) {
 }
 
 /* Of a sphere wholly beyond where the sky begins every pixel is hidden, and only these: what is no sphere is sky. */
-static void what_the_sky_hides_is_counted(void **state) {
-    (void)state;
+TEST(what_the_sky_hides_is_counted) {
     char words[256];
     long long hidden = 0;
     for (int i = 0; i < PIXELS; i++)
@@ -58,8 +53,7 @@ static double stored16(double z) {
 }
 
 /* Two stairs in one band: the gap is that of what the codes give back, at the nearer of them. */
-static void gaps_are_those_of_two_depths(void **state) {
-    (void)state;
+TEST(gaps_are_those_of_two_depths) {
     char words[256], line[512];
     snprintf(
         words, sizeof words,
@@ -100,8 +94,7 @@ static bool holds(const char *name, const char *words) {
 }
 
 /* A scene knows its errors, an image has bounds; pixels without a value are counted. */
-static void error_maps_are_called_what_they_are(void **state) {
-    (void)state;
+TEST(error_maps_are_called_what_they_are) {
     char words[256];
     snprintf(words, sizeof words,
              "--synthetic sphere --size %dx%d -F unorm24 -m d3d --product normal:projective --error-map "
@@ -127,11 +120,5 @@ static void error_maps_are_called_what_they_are(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_the_sky_hides_is_counted),
-        cmocka_unit_test(gaps_are_those_of_two_depths),
-        cmocka_unit_test(error_maps_are_called_what_they_are),
-    };
-    cmocka_set_message_output(CM_OUTPUT_TAP);
-    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
+    return run_listed(truth_folder, truth_folder_end);
 }

@@ -4,11 +4,6 @@
  * climbed to, from shapes in which one of the terms decides. None may add more; and the hardest ones use most of each
  * constant, so that none of them is slack.
  */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "depthprec/triangles.h"
 #include "plane_order.h"
 #include "support.h"
@@ -143,9 +138,8 @@ static double climb(rng *r, dp_anchor anchor, window *t) {
     return used;
 }
 
-static void test_constants(void **state) {
+TEST(test_constants) {
     tally t = {.name = "set-up of a plane"};
-    (void)state;
     for (int anchor = 0; anchor < DP_ANCHOR_COUNT; anchor++)
         for (size_t shape = 0; shape < sizeof shapes / sizeof shapes[0]; shape++) {
             const char *name = dp_anchor_get((dp_anchor)anchor)->name;
@@ -171,9 +165,4 @@ static void test_constants(void **state) {
                 TALLY(&t, most >= shapes[shape].used, "%s, %s: only %.2f is used", name, shapes[shape].decides, most);
         }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_constants)};
-    return run_tap(tests);
 }

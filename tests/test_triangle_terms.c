@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Slanted triangles in a set-up: the numbers of depthprec(7), how classes nest, and what is refused. */
-#include <math.h>
-#include <stdbool.h>
-
 #include "depthprec/depthprec.h"
 #include "support.h"
 
@@ -36,8 +33,7 @@ static double snapping_at(double fov_x, int width, int bits, double z) {
 }
 
 /* Numbers of the page, to their last digit. */
-static void known_numbers(void **state) {
-    (void)state;
+TEST(known_numbers) {
     assert_scene(snapping_at(90.0, 1920, 8, 1.0), 5.75e-6, 0.5e-8);
     assert_scene(snapping_at(90.0, 1920, 4, 1.0), 9.2e-5, 0.5e-6);
     assert_scene(snapping_at(60.0, 1920, 8, 1.0), 3.32e-6, 0.5e-8);
@@ -67,7 +63,7 @@ static double setup_of(const dp_triangles *t, const double c[4], double z, bool 
 }
 
 /* Where each constant in turn takes most of it: never below the page, above it by second order alone. */
-static void known_setup(void **state) {
+TEST(known_setup) {
     static const struct {
         int width, height;
         double fov_y, slant, depth, pixels, slim;
@@ -75,7 +71,6 @@ static void known_setup(void **state) {
                  {300, 200, 40, 60, 4, 1000, 900},    {300, 200, 40, 60, 900, 3, 100},  {32768, 300, 3, 80, 1.01, 1, 4},
                  {100, 80, 120, 90, 1.001, 30000, 2}, {333, 777, 20, 45, 1000, 1, 1000}};
     tally all = {.name = "eye and set-up"};
-    (void)state;
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++)
         for (int anchor = 0; anchor < DP_ANCHOR_COUNT; anchor++) {
             const double z = 3.0, slant = views[i].slant * pi / 180.0;
@@ -104,9 +99,8 @@ static void known_setup(void **state) {
 }
 
 /* Read back reversed and without a far plane a depth is off by 5 eps of itself: the nearer surface may be at z/k. */
-static void test_read_back(void **state) {
+TEST(test_read_back) {
     dp_spec spec = dp_spec_default();
-    (void)state;
     for (double k = 1.5; k < 40.0; k *= 2.0) {
         const double eps = 0x1p-24, z = 3.0, slant = 50.0;
         dp_triangles t = dp_triangles_default();
@@ -151,7 +145,7 @@ static double composition_of(dp_mapping mapping, double znear, const dp_triangle
 }
 
 /* By the formulas of the page: positions at most `lean` z long, without a constant two sums, with it three. */
-static void known_world(void **state) {
+TEST(known_world) {
     static const struct {
         dp_mapping mapping;
         int width, height;
@@ -161,7 +155,6 @@ static void known_world(void **state) {
                  {DP_MAPPING_D3D, 640, 800, 90, 80, 20},         {DP_MAPPING_REVERSED, 3000, 100, 5, 89, 10}};
     const double eps = 0x1p-24, z = 3.0, k = 1.7, znear = 0.0625;
     tally all = {.name = "composition"};
-    (void)state;
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
         dp_triangles t = dp_triangles_default();
         t.width = views[i].width;
@@ -234,10 +227,9 @@ static double separation_of(const dp_setup *facing, double z, const dp_triangles
 }
 
 /* More is never less: of slants, of depths, of pixels, of slimness, of fewer bits; and all parts are the whole. */
-static void test_order(void **state) {
+TEST(test_order) {
     tally t = {.name = "larger classes"};
     rng r = rng_make("classes");
-    (void)state;
     for (uint64_t i = test_cases(500, 20000, 200000); i > 0; i--) {
         const dp_setup setup = random_setup(&r);
         dp_triangles class = random_view(&r);
@@ -298,11 +290,10 @@ static double depth_within(rng *r, double lo, double hi) {
 }
 
 /* The bound over a range holds at its depths, and is no more than 2^-10 above one that is reached. */
-static void test_range(void **state) {
+TEST(test_range) {
     tally all = {.name = "range holds at its depths"}, tight = {.name = "range is reached"};
     rng r = rng_make("slanted ranges");
     uint64_t finite = 0;
-    (void)state;
     for (uint64_t i = test_cases(60, 1000, 20000); i > 0; i--) {
         dp_spec spec = random_setup(&r).spec;
         dp_separation_worst w, limited;
@@ -347,13 +338,12 @@ static void refused(dp_spec spec, dp_triangles t) {
     assert_int_equal(dp_setup_init(&setup, &spec), t.width == 0 ? DP_OK : DP_ERROR_TRIANGLES); /* 0: they face it */
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     dp_budget b;
     const dp_triangles good = dp_triangles_default();
     const dp_budget_terms terms = {.world = 1.0};
-    (void)state;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     assert_int_equal(dp_triangles_check(&good), DP_OK);
     assert_int_equal(dp_triangles_check(NULL), DP_ERROR_NULL);
@@ -393,13 +383,4 @@ static void test_refusals(void **state) {
     assert_null(dp_anchor_get(DP_ANCHOR_COUNT));
     for (int i = 0; i < DP_ANCHOR_COUNT; i++)
         assert_string_equal(dp_anchor_get((dp_anchor)i)->name, names[i]);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_numbers), cmocka_unit_test(known_setup), cmocka_unit_test(test_read_back),
-        cmocka_unit_test(known_world),   cmocka_unit_test(test_order),  cmocka_unit_test(test_range),
-        cmocka_unit_test(test_refusals),
-    };
-    return run_tap(tests);
 }

@@ -8,11 +8,6 @@
  *
  * Most vertices are placed where the grid moves them the wrong way: random ones hardly use what snapping takes.
  */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "plane_order.h"
 #include "slanted.h"
 
@@ -136,11 +131,10 @@ static bool judge(slanted *s, plane_order *value, double share, bool *right) {
     return true;
 }
 
-static void test_guarantee(void **state) {
+TEST(test_guarantee) {
     static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
     tally t = {.name = "at the guarantee and beyond"};
     rng r = rng_make("triangles");
-    (void)state;
     for (int kind = 0; kind < KINDS && kinds[kind].value != NULL; kind++)
         for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
             double used = 0.0;
@@ -222,9 +216,8 @@ static double class_factor(slanted *s) {
     return slanted_budget(s, &any, &wide) && isfinite(wide.separation) ? wide.separation / own.separation : 1.0;
 }
 
-static void test_used(void **state) {
+TEST(test_used) {
     tally t = {.name = "share that is used"};
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         rng r = rng_make(kinds[kind].of.name);
         double used = 0.1, class = 0.0;
@@ -260,9 +253,8 @@ static bool is_composed(slanted *s) {
  * The same with vertices somewhere in a world, through matrices that are rounded: both random and climbing. What is
  * used of it is that of pairs whose guarantee the composition takes most of.
  */
-static void test_world(void **state) {
+TEST(test_world) {
     tally t = {.name = "world positions"};
-    (void)state;
     for (int kind = 0; kind < KINDS && kinds[kind].value != NULL; kind++) {
         rng r = rng_make(kinds[kind].of.name);
         double used[DP_COMPOSITION_COUNT] = {0.01, 0.01, 0.01};
@@ -293,9 +285,8 @@ static void test_world(void **state) {
 }
 
 /* The same through the schemes for large worlds; where they are seen is off by up to as much as they are far away. */
-static void test_schemes(void **state) {
+TEST(test_schemes) {
     tally t = {.name = "schemes"};
-    (void)state;
     for (int kind = 0; kind < KINDS && kinds[kind].value != NULL; kind++)
         for (size_t row = 0; row < WORLD_ROWS; row++) {
             const world_scheme scheme = {world_get(row), world_get(row)->standard};
@@ -331,12 +322,11 @@ static void test_schemes(void **state) {
  * Of meshes about one origin both surfaces are seen farther away than they are, by a share of their depth that their
  * guarantee must count, where the grid takes most of it.
  */
-static void test_seen_farther(void **state) {
+TEST(test_seen_farther) {
     tally t = {.name = "seen farther away"};
     rng r = rng_make("seen farther away");
     const world_scheme scheme = {world_get(1), 0.0};
     double used = 0.0;
-    (void)state;
     assert_string_equal(scheme.row->name, "local");
     for (uint64_t i = test_cases(20000, 200000, 5000000); i > 0; i--) {
         slanted s;
@@ -372,11 +362,10 @@ static bool moved_inverse(const slanted *s, double c, int which, double *inverse
     return u >= 0.0 && v >= 0.0 && u + v <= 1.0;
 }
 
-static void test_snapping(void **state) {
+TEST(test_snapping) {
     tally t = {.name = "snapping alone"};
     rng r = rng_make("snapping");
     double used = 0.0;
-    (void)state;
     for (uint64_t i = test_cases(20000, 400000, 20000000); i > 0; i--) {
         slanted s;
         dp_budget b;
@@ -399,12 +388,4 @@ static void test_snapping(void **state) {
     print_message("# %.3f of it used\n", used);
     TALLY(&t, used >= 0.95, "only %.3f of what snapping takes is used", used);
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_snapping), cmocka_unit_test(test_guarantee), cmocka_unit_test(test_used),
-        cmocka_unit_test(test_world),    cmocka_unit_test(test_schemes),   cmocka_unit_test(test_seen_farther),
-    };
-    return run_tap(tests);
 }

@@ -7,10 +7,6 @@
  * The guarantee is that at the farthest depth that the overlap may have: what vertices and set-up are off by holds for
  * whole triangles, and what that costs rises with depth.
  */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "raster_named.h"
 #include "slanted.h"
 
@@ -182,10 +178,9 @@ static outcome judge_all(size_t row, const char *format, bool cut, uint64_t pixe
     return all;
 }
 
-static void test_drawn(void **state) {
+TEST(test_drawn) {
     const uint64_t wanted = test_cases(100000, 10000000, 100000000);
     uint64_t pixels = 0;
-    (void)state;
     for (size_t row = 0; row < sizeof drawn_by / sizeof drawn_by[0]; row++)
         for (size_t f = 0; f < sizeof stored_as / sizeof stored_as[0]; f++)
             if (has_format(drawn_by[row].name, stored_as[f]))
@@ -197,17 +192,11 @@ static void test_drawn(void **state) {
 
 /* Clipped triangles: the sides of the screen cut most of them, and where that makes vertices it adds to their errors.
  */
-static void test_cut(void **state) {
-    (void)state;
+TEST(test_cut) {
     for (size_t row = 0; row < sizeof drawn_by / sizeof drawn_by[0]; row++)
         for (size_t f = 0; f < sizeof stored_as / sizeof stored_as[0]; f++)
             if (has_format(drawn_by[row].name, stored_as[f])) {
                 const outcome o = judge_all(row, stored_as[f], true, test_cases(100000, 2000000, 50000000));
                 assert_true(o.cut > o.pairs / 4);
             }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_drawn), cmocka_unit_test(test_cut)};
-    return run_tap(tests);
 }

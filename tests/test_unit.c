@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Units of length: names letter by letter, and conversions held to decimal fractions. The inch is 25.4 mm and the foot
  * 12 inches by the international yard and pound agreement of 1959. */
-#include <string.h>
-
 #include "api/unit.h"
 #include "support.h"
 
-static void test_names(void **state) {
+TEST(test_names) {
     static const char *const none[] = {"", "M", "Mm", "kms", "metre", "m2", "m ", " m", "pm", "foot", "inch", "u", "n"};
-    (void)state;
     for (size_t i = 0; unit_get(i) != NULL; i++) {
         assert_ptr_equal(unit_find(unit_get(i)->name), unit_get(i));
         assert_non_null(strstr(UNIT_NAMES, unit_get(i)->name));
@@ -19,7 +16,7 @@ static void test_names(void **state) {
         assert_null(unit_find(none[i]));
 }
 
-static void test_conversions(void **state) {
+TEST(test_conversions) {
     static const struct {
         double value;
         const char *from, *to;
@@ -30,16 +27,10 @@ static void test_conversions(void **state) {
         {1, "in", "cm", 2.54},        {1, "in", "m", 0.0254}, {1, "ft", "in", 12},   {3, "ft", "m", 0.9144},
         {5280, "ft", "km", 1.609344}, {1, "m", "nm", 1e9},    {12, "in", "ft", 1},   {127, "cm", "in", 50},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const double got = unit_convert(cases[i].value, unit_find(cases[i].from), unit_find(cases[i].to));
         if (got != cases[i].expected)
             fail_msg("%g %s is %.17g %s, not %.17g", cases[i].value, cases[i].from, cases[i].expected, cases[i].to,
                      got);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_names), cmocka_unit_test(test_conversions)};
-    return run_tap(tests);
 }

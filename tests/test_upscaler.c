@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What upscalers ship, by hand, and as it is listed. */
-#include <stdio.h>
-#include <string.h>
-
 #include "api/upscaler.h"
 #include "printed.h"
 
@@ -16,12 +13,11 @@ static double shipped_by_hand(size_t i, double hfov, int width, int height) {
     return (double)(1.37e-5L * (i == 0 ? half * w / 2 : corner * sqrtl(w * w + h * h)));
 }
 
-static void test_shipped(void **state) {
+TEST(test_shipped) {
     static const struct {
         double hfov;
         int width, height;
     } views[] = {{90, 1920, 1080}, {60, 3840, 2160}, {120, 1280, 1024}, {1, 100, 300}, {45, 640, 640}};
-    (void)state;
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++)
         for (size_t k = 0; k < UPSCALER_ROWS; k++) {
             const upscaler_view v = {views[i].width, views[i].height,
@@ -41,8 +37,7 @@ static void test_shipped(void **state) {
     assert_scene(shipped_by_hand(1, 90, 1920, 1080) / grid, 8000, 50 + 100);
 }
 
-static void test_listed(void **state) {
-    (void)state;
+TEST(test_listed) {
     printed p = print_of("list upscalers");
     const char *at = p.out;
     for (size_t k = 0; k < UPSCALER_ROWS; k++) {
@@ -56,9 +51,4 @@ static void test_listed(void **state) {
         assert_relative(percent, 100 * shipped_by_hand(k, 360 / pi * atan(tan(pi / 6) * 16 / 9), 1920, 1080), 5e-3);
     }
     printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_shipped), cmocka_unit_test(test_listed)};
-    return run_tap(tests);
 }

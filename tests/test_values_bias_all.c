@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value of bias --api all; what a program writes, in the words of each API. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "named.h"
 #include "printed.h"
 
@@ -28,30 +24,26 @@ static const struct {
     {"d3d9", "D3DRS_DEPTHBIAS = %s", "D3DRS_DEPTHBIAS = %s, D3DRS_SLOPESCALEDEPTHBIAS = %s", false},
 };
 
-typedef struct all_case {
-    camera_case camera;
-    double z[DEPTHS]; /* the first 0: the range */
-    double lo, hi, factor, slope, gap;
-} all_case;
-
-static const all_case cases[] = {
-    {{0.1, 1000, {"fp32", "unorm24"}, {"d3d", "reversed"}, .ortho = 0}, {300, 41.5}, 0, 0, 0, 0, 0.02},
-    {{0.3, 500, {"unorm16"}, {"gl"}, .ortho = 0}, {3, 200}, 0, 0, -0.25, 0.01, 0},
-    {{0.1, 1000, {"fp32"}, {"reversed"}, .ortho = 0}, {0}, 1, 1000, 0, 0.01, 0.02},
-    {{0.1, 1000, {"fp32"}, {"d3d"}, .ortho = 0}, {0}, 0.1, 900, 0, 0.01, 1e-5},
-    {{1, 50, {"unorm24"}, {"reversed"}, .ortho = 1}, {0}, 1, 50, 1.5, 0.001, 3},
+static const char *const lines[] = {
+    "bias --api all -n 0.1 -f 1000 -F fp32,unorm24 -m d3d,reversed --at 300,41.5 --separation 0.02",
+    "bias --api all -n 0.3 -f 500 -F unorm16 -m gl --at 3,200 --factor=-0.25 --slope 0.01",
+    "bias --api all -n 0.1 -f 1000 -F fp32 -m reversed --range 1:1000 --factor 0 --slope 0.01 --separation 0.02",
+    "bias --api all -n 0.1 -f 1000 -F fp32 -m d3d --range 0.1:900 --factor 0 --slope 0.01 --separation 1e-5",
+    "bias --api all -n 1 -f 50 -F unorm24 -m reversed --ortho --range 1:50 --factor=1.5 --slope 0.001 --separation 3",
 };
 
-static void arguments_of(const all_case *c, char out[1024]) {
-    char options[512];
-    size_t used = (size_t)snprintf(out, 1024, "bias --api all %s", camera_options(&c->camera, options));
-    if (c->z[0] > 0)
-        used += (size_t)snprintf(out + used, 1024 - used, " --at %.17g,%.17g", c->z[0], c->z[1]);
-    else
-        used += (size_t)snprintf(out + used, 1024 - used, " --range %.17g:%.17g", c->lo, c->hi);
-    used += (size_t)snprintf(out + used, 1024 - used, " --factor=%.17g --slope %.17g", c->factor, c->slope);
-    if (c->gap > 0)
-        snprintf(out + used, 1024 - used, " --separation %.17g", c->gap);
+typedef struct all_case {
+    double z[DEPTHS], range[2]; /* of the first depth 0: the range */
+    double factor, slope, gap;
+} all_case;
+
+static all_case case_of(const char *line) {
+    all_case c = {.factor = number_behind(line, "--factor", 0),
+                  .slope = number_behind(line, "--slope", 0),
+                  .gap = number_behind(line, "--separation", 0)};
+    numbers_behind(line, "--at", c.z, DEPTHS);
+    numbers_behind(line, "--range", c.range, 2);
+    return c;
 }
 
 /* The units as a program writes them: whole, or nine digits of a float. */
@@ -77,24 +69,17 @@ static void want_row(values *v, const all_case *c, const dp_setup *setup, size_t
     const bias_api *row = bias_api_find(calls[api].api);
     const bias_goal goal = {row, setup->reversed ? c->factor : -c->factor, c->slope, c->gap};
     double units, units_z, from, to;
-    want_text(v, "api", row->name);
     if (z > 0) {
         const bias_unit r = bias_unit_at(row, &setup->spec.format, dp_window(setup, z));
-        want_number(v, "z", z);
-        want_number(v, "r", r.least);
-        want_number(v, "r_most", r.most);
+        want(v, "z=%f r=%f r_most=%f", z, r.least, r.most);
         units = signed_units(setup, bias_needed(setup, &goal, z));
     } else {
-        const double lo = fmax(c->lo, setup->spec.znear + c->gap);
-        units = signed_units(setup, bias_needed_over(setup, &goal, lo, c->hi, &units_z));
-        bias_enough_over(setup, &goal, lo, c->hi, &from, &to);
-        want_number(v, "lo", lo);
-        want_number(v, "hi", c->hi);
-        want_number(v, "units_z", units_z);
-        want_number(v, "from", from);
-        want_number(v, "to", to);
+        const double lo = fmax(c->range[0], setup->spec.znear + c->gap), hi = c->range[1];
+        units = signed_units(setup, bias_needed_over(setup, &goal, lo, hi, &units_z));
+        bias_enough_over(setup, &goal, lo, hi, &from, &to);
+        want(v, "lo=%f hi=%f units_z=%f from=%f to=%f", lo, hi, units_z, from, to);
     }
-    want_number(v, "units", units);
+    want(v, "api=%s units=%f", row->name, units);
     want_call(v, c, api, units);
 }
 
@@ -127,60 +112,37 @@ static void check_text(const values *v, const char *arguments, size_t setups, si
     printed_free(&p);
 }
 
-static void test_all(void **state) {
-    static const csv_column at[] = {SETUP_COLUMNS,        {"api", "api"},     {"z [scene]", "z"}, {"r", "r"},
-                                    {"r_most", "r_most"}, {"units", "units"}, {"call", "call"}};
-    static const csv_column over[] = {SETUP_COLUMNS,
-                                      {"api", "api"},
-                                      {"lo [scene]", "lo"},
-                                      {"hi [scene]", "hi"},
-                                      {"units", "units"},
-                                      {"units_z [scene]", "units_z"},
-                                      {"from [scene]", "from"},
-                                      {"to [scene]", "to"},
-                                      {"call", "call"}};
-    (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const all_case *c = &cases[i];
-        const bool by_range = c->z[0] == 0;
+TEST(each_number) {
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        const all_case c = case_of(lines[i]);
+        const bool by_range = c.z[0] == 0;
         const size_t places = by_range ? 1 : DEPTHS;
-        values v = values_of("bias");
-        line_places lines = {0};
-        dp_setup setups[CAMERA_SETUPS];
-        char arguments[1024];
-        arguments_of(c, arguments);
-        want_text(&v, "api", "all");
-        want_number(&v, "slope", c->slope);
-        want_number(&v, "factor", c->factor);
-        want_number(&v, "gap", c->gap);
-        const size_t n = camera_setups(&c->camera, setups);
+        values v = values_of(lines[i]);
+        dp_setup setups[SETUPS_MAX];
+        want(&v, "api=%s slope=%f factor=%f gap=%f", "all", c.slope, c.factor, c.gap);
+        const size_t n = setups_of(lines[i], DP_MODEL_EXACT, setups);
         for (size_t k = 0; k < n; k++) {
             values_under(&v, "setups[%zu].", k);
             want_setup(&v, &setups[k]);
             for (size_t row = 0; row < places * APIS; row++) {
-                char inner[32];
                 values_under(&v, "setups[%zu].rows[%zu].", k, row);
-                want_row(&v, c, &setups[k], row % APIS, by_range ? 0 : c->z[row / APIS]);
-                snprintf(inner, sizeof inner, "rows[%zu].", row);
-                place_add(&lines, inner, "setups[%zu].", k);
+                want_row(&v, &c, &setups[k], row % APIS, by_range ? 0 : c.z[row / APIS]);
             }
         }
-        check_json(&v, 0, arguments);
-        check_csv(&v, 0, arguments, by_range ? over : at,
-                  by_range ? sizeof over / sizeof over[0] : sizeof at / sizeof at[0], &lines);
-        check_text(&v, arguments, n, places);
+        check_forms(&v, 0, lines[i], "setups[].rows[]",
+                    SETUP_CSV "api, ?z [scene], ?r, ?r_most, ?lo [scene], ?hi [scene], units, ?units_z [scene], "
+                              "?from [scene], ?to [scene], call");
+        check_text(&v, lines[i], n, places);
         values_free(&v);
-        places_free(&lines);
     }
 }
 
 /* Set-ups beside each other: the units of each, whole ones in full, others rounded away from 0 in four digits. */
-static void test_beside(void **state) {
-    const camera_case camera = {0.1, 1000, {"fp32", "unorm24"}, {"d3d", "reversed"}, .ortho = 0};
-    printed p = print_of("bias --api all -F fp32,unorm24 -m d3d,reversed --separation 0.02 --at 300");
-    dp_setup setups[CAMERA_SETUPS];
-    const size_t n = camera_setups(&camera, setups);
-    (void)state;
+TEST(beside_each_other) {
+    static const char asked[] = "bias --api all -F fp32,unorm24 -m d3d,reversed --separation 0.02 --at 300";
+    printed p = print_of("%s", asked);
+    dp_setup setups[SETUPS_MAX];
+    const size_t n = setups_of(asked, DP_MODEL_EXACT, setups);
     assert_int_equal(n, 4);
     for (size_t i = 0; i < APIS; i++) {
         char name[32];
@@ -200,8 +162,4 @@ static void test_beside(void **state) {
     printed_free(&p);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all), cmocka_unit_test(test_beside),
-                                       cmocka_unit_test(check_apart)};
-    return run_tap(tests);
-}
+LIST_TEST(check_apart)

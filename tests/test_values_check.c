@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value that check prints, in all its forms: the verdicts against the analysis of the same file, the share of
  * ties against a count of the depths. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "census/census.h"
 #include "printed.h"
 #include "requirement/check.h"
@@ -40,15 +36,6 @@ static const char *const needs =
 static const char *const passing =
     "cameras = { a = { near = 0.1; far = 100; mapping = \"reversed\"; format = \"fp32\"; "
     "}; };\nrequirements = { b = { camera = \"a\"; at = 9.5; separation = 0.1; }; };\n";
-
-static const char *write_file(const char *file, const char *format, const char *argument) {
-    const char *path = scratch_file(file);
-    FILE *out = fopen(path, "w");
-    assert_non_null(out);
-    fprintf(out, format, argument);
-    fclose(out);
-    return path;
-}
 
 /* Depth by depth: the share of neighbours whose codes are equal or in the wrong order, and the start of the binade of z
  * where it is greatest. */
@@ -106,43 +93,24 @@ static bool is_slope(const check_verdict *v) {
 /* As the file has it. */
 static void want_view(values *v, size_t i) {
     values_under(v, "requirements[%zu].triangles.", i);
-    want_count(v, "width", 640);
-    want_count(v, "height", 360);
-    want_number(v, "fov", dp_fov_vertical(75.5, 640, 360));
-    want_text(v, "raster", "spec-vulkan");
-    want_text(v, "arith", "ieee");
-    want_count(v, "subpixel", 7);
-    want_number(v, "slant_lo", 5);
-    want_number(v, "slant_hi", 65);
-    want_number(v, "depth", 1.5);
-    want_number(v, "pixels", 99);
-    want_number(v, "slim", 6);
+    want(v, "width=%u height=%u fov=%f", 640U, 360U, dp_fov_vertical(75.5, 640, 360));
+    want(v, "raster=%s arith=%s subpixel=%u", "spec-vulkan", "ieee", 7U);
+    want(v, "slant_lo=%f slant_hi=%f depth=%f pixels=%f slim=%f", 5.0, 65.0, 1.5, 99.0, 6.0);
 }
 
 static void want_verdict(values *v, const char *path, const char *text, const check_verdict *verdict, size_t i) {
+    const need *n = verdict->asked;
     char key[256];
-    const bool named = strcmp(verdict->asked->name, name) == 0;
-    snprintf(key, sizeof key, "{ name = \"%s\"", named ? name_in_file : verdict->asked->name);
+    snprintf(key, sizeof key, "{ name = \"%s\"", strcmp(n->name, name) == 0 ? name_in_file : n->name);
     assert_non_null(strstr(text, key));
     values_under(v, "requirements[%zu].setup.", i);
     want_setup(v, &verdict->setup);
     values_under(v, "requirements[%zu].", i);
-    want_text(v, "file", path);
-    want_count(v, "line", (uint64_t)line_of(text, strstr(text, key)));
-    want_text(v, "name", verdict->asked->name);
-    want_text(v, "camera", verdict->camera->name);
-    want_text(v, "kind", need_kind_get(verdict->asked->kind)->name);
-    want_text(v, "unit", "m");
-    want_number(v, "lo", verdict->asked->lo);
-    want_number(v, "hi", verdict->asked->hi);
-    want_number(v, "limit", verdict->asked->limit);
-    want_number(v, "value", verdict->value);
-    want_number(v, "z", verdict->z);
-    want_number(v, "code", code_of(verdict));
-    want_text(v, "method", check_method_name(verdict->method));
-    want_bool(v, "passed", verdict->value <= verdict->asked->limit);
-    want_text(v, "surfaces", is_slope(verdict) ? "any slant" : "facing");
-    want_derived(v, "count", 1);
+    want(v, "file=%s line=%u name=%s", path, (unsigned)line_of(text, strstr(text, key)), n->name);
+    want(v, "camera=%s kind=%s unit=%s", verdict->camera->name, need_kind_get(n->kind)->name, "m");
+    want(v, "lo=%f hi=%f limit=%f value=%f", n->lo, n->hi, n->limit, verdict->value);
+    want(v, "z=%f code=%f method=%s", verdict->z, code_of(verdict), check_method_name(verdict->method));
+    want(v, "passed=%d surfaces=%s", verdict->value <= n->limit, is_slope(verdict) ? "any slant" : "facing");
     if (is_slope(verdict))
         want_view(v, i);
 }
@@ -168,29 +136,24 @@ static void label_of(const dp_setup *setup, char out[64]) {
 }
 
 /* "FAIL  FILE:LINE: NAME: camera CAMERA, SET-UP (MODEL): separation 0.1 m at 5 m (code 1), facing, allowed 0.05 m" */
-static void check_text(const values *v, const char *text, const need_file *file, const check_verdict *verdicts,
-                       long failed) {
+static void check_text(values *v, const char *text, const need_file *file, const check_verdict *verdicts, long failed) {
     char label[1024], setup[64];
     for (size_t i = 0; i < check_count(file); i++) {
         const check_verdict *d = &verdicts[i];
-        char at[4][PATH_SIZE];
-        const char *paths[5] = {at[0], at[1], at[2], at[3], NULL};
+        char said_of[64];
         label_of(&d->setup, setup);
         const need_kind_row *kind = need_kind_get(d->asked->kind);
         snprintf(label, sizeof label, "%s  %s:%d: %s: camera %s, %s (%s): %s ", d->passed ? "pass" : "FAIL", file->path,
                  d->asked->line, d->asked->name, d->camera->name, setup, dp_model_name(d->setup.spec.model),
                  kind->phrase);
         /* A share is of a range, anything else of a depth, if there is one. */
-        const char *const of_depth[] = {"value", "z", "code", "limit"};
-        const char *const of_range[] = {"value", "lo", "hi", "limit"};
-        const bool two = kind->is_length && isnan(d->z);
-        for (int k = 0, n = 0; k < 4; k++)
-            if (k == 0 || k == 3 || !two)
-                snprintf(at[n++], PATH_SIZE, "requirements[%zu].%s", i, (kind->is_length ? of_depth : of_range)[k]);
-        paths[two ? 2 : 4] = NULL;
-        check_text_numbers(v, text, label, 6, paths);
-        snprintf(at[0], PATH_SIZE, ", %s, allowed ", is_slope(d) ? "any slant" : "facing");
-        const char *said = strstr(strstr(text, label), at[0]), *end = strchr(strstr(text, label), '\n');
+        values_under(v, "requirements[%zu].", i);
+        check_line(v, text, label,
+                   !kind->is_length ? "value:6, lo:6, hi:6, limit:6"
+                   : isnan(d->z)    ? "value:6, limit:6"
+                                    : "value:6, z:6, code:6, limit:6");
+        snprintf(said_of, sizeof said_of, ", %s, allowed ", is_slope(d) ? "any slant" : "facing");
+        const char *said = strstr(strstr(text, label), said_of), *end = strchr(strstr(text, label), '\n');
         assert_true((said != NULL && said < end) == (d->asked->kind == NEED_SEPARATION));
     }
     snprintf(label, sizeof label, "%s: %ld passed, %ld failed\n", file->path, (long)check_count(file) - failed, failed);
@@ -243,67 +206,41 @@ static void check_junit(const char *path, const char *text, const need_file *fil
     printed_free(&p);
 }
 
-static void test_check(void **state) {
-    static const csv_column columns[] = {
-        {"file", "file"},     {"line", "line"},     {"name", "name"},     {"camera", "camera"},
-        SETUP_COLUMNS,        {"kind", "kind"},     {"unit", "unit"},     {"lo [scene]", "lo"},
-        {"hi [scene]", "hi"}, {"limit", "limit"},   {"value", "value"},   {"z [scene]", "z"},
-        {"code", "code"},     {"method", "method"}, {"passed", "passed"}, {"surfaces", "surfaces"}};
-    char path[512], arguments[640], text[4096];
+TEST(each_number) {
+    char arguments[640], text[4096];
     need_file file;
     check_verdict *verdicts;
     values v = values_of("check");
-    v.unit = "m";
-    line_places lines = {0};
-    (void)state;
+    strcpy(v.unit, "m");
     snprintf(text, sizeof text, needs, name_in_file);
-    snprintf(path, sizeof path, "%s", write_file("file.need", needs, name_in_file));
+    const char *path = scratch_text("file.need", "%s", text);
     snprintf(arguments, sizeof arguments, "check '%s'", path);
     const long failed = judge(&v, path, text, &file, &verdicts);
-    for (size_t i = 0; i < check_count(&file); i++) {
-        place_add(&lines, "", "requirements[%zu].", i);
-        snprintf(lines.items[i].outer, PATH_SIZE, "requirements[%zu].setup.", i);
-    }
-    check_json(&v, 1, arguments);
-    check_csv(&v, 1, arguments, columns, sizeof columns / sizeof columns[0], &lines);
-    printed p = print_of("%s --full", arguments);
-    assert_int_equal(p.status, 1);
-    check_text(&v, p.out, &file, verdicts, failed);
-    check_junit(path, p.out, &file, verdicts, failed);
-    printed_free(&p);
-    p = print_of("check --report json '%s'", path);
-    check_json_text(&v, p.out);
-    printed_free(&p);
+    check_forms(&v, 1, arguments, "requirements[]",
+                "file, line, name, camera, " SETUP_CSV_IN("setup.") "kind, unit, lo [scene], hi [scene], limit, value, "
+                                                                    "z [scene], code, method, passed, surfaces");
+    char *shown = output_of(1, arguments, "--full");
+    check_text(&v, shown, &file, verdicts, failed);
+    check_junit(path, shown, &file, verdicts, failed);
+    free(shown);
+    shown = output_of(1, arguments, "--report json");
+    check_json_text(&v, shown);
+    free(shown);
     free(verdicts);
     need_release(&file);
     values_free(&v);
-    places_free(&lines);
 }
 
 /* Two files, one of which passes: the other one decides the exit status and the first line of the JSON. */
-static void test_status(void **state) {
-    char good[512], bad[512];
-    (void)state;
-    snprintf(good, sizeof good, "%s", write_file("good.need", "%s", passing));
-    snprintf(bad, sizeof bad, "%s", write_file("file.need", needs, name_in_file));
+TEST(status) {
+    const char *good = scratch_text("good.need", "%s", passing), *bad = scratch_text("file.need", needs, name_in_file);
     for (int i = 0; i < 2; i++) {
-        printed p = print_of("check --json '%s' '%s'", good, i == 0 ? good : bad);
-        json_t *root = json_of(p.out);
-        assert_int_equal(p.status, i);
-        assert_true(json_is_true(json_object_get(root, "passed")) == (i == 0));
+        json_t *root = json_printed(i, "check '%s' '%s'", good, i == 0 ? good : bad);
+        assert_true(flag_at(root, "passed") == (i == 0));
         json_decref(root);
-        printed_free(&p);
-        p = print_of("check -q '%s'", i == 0 ? good : bad);
-        assert_true(p.status == i && strstr(p.out, "pass ") == NULL && (strstr(p.out, "FAIL ") != NULL) == (i == 1));
-        printed_free(&p);
+        check_says(i, "!pass ", "check -q '%s'", i == 0 ? good : bad);
+        check_says(i, i == 0 ? "!FAIL " : "FAIL ", "check -q '%s'", i == 0 ? good : bad);
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_check),
-        cmocka_unit_test(test_status),
-        cmocka_unit_test(check_apart),
-    };
-    return run_tap(tests);
-}
+LIST_TEST(check_apart)

@@ -3,11 +3,6 @@
  * The comparison of several set-ups, and what is said of one: each number against the library. A distance is right when
  * the separation is guaranteed over all depths up to it, and not over those up to one unit of its last digit farther.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "printed.h"
 
 enum { LIMITS = 3, DEPTHS_MAX = 5, COLUMNS = 24, WORD = 48 };
@@ -80,17 +75,13 @@ static double unit_of(double value, int digits) {
 }
 
 static dp_setup full_setup(const camera *c, const char *format, const char *mapping) {
-    dp_spec spec = {.znear = c->znear, .zfar = c->zfar, .ortho = c->ortho, .log_c = 1};
+    dp_spec spec = {.znear = c->znear, .zfar = c->zfar, .ortho = c->ortho};
     if (c->triangles != NULL)
         spec.triangles = *c->triangles;
     if (c->triangles == &mesa)
         assert_int_equal(dp_arith_parse("mesa", &spec.arith), DP_OK); /* its rasterizer brings it */
-    dp_format formats[2];
-    dp_setup setup;
-    assert_int_equal(dp_format_parse(format, formats), 1);
-    spec.format = formats[0];
     assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const dp_setup setup = setup_with(format, spec);
     return dp_setup_guaranteed(&setup);
 }
 
@@ -174,9 +165,8 @@ static void check_verdicts(tally *t, const camera *c, const char *text, const ch
     TALLY(t, strstr(flat, want) != NULL, "'%s' is not said: %s", want, flat);
 }
 
-static void test_comparison(void **state) {
+TEST(test_comparison) {
     tally t = {.name = "comparison"};
-    (void)state;
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
         const camera *c = &cameras[i];
         printed p = print_of("table %s", c->options);
@@ -206,10 +196,9 @@ static void test_comparison(void **state) {
 }
 
 /* Where the unit is known, the same separations are named in units of their own. */
-static void test_units(void **state) {
+TEST(test_units) {
     static const char *const bare[] = {"0.001", "0.01", "0.1"}, *const named[] = {"1 mm", "1 cm", "10 cm"};
     static const char *const options[] = {"", "--unit m"};
-    (void)state;
     for (int k = 0; k < LIMITS; k++) {
         double up_to[2];
         for (size_t i = 0; i < 2; i++) {
@@ -226,7 +215,7 @@ static void test_units(void **state) {
 }
 
 /* "Guaranteed to be told apart: surfaces 0.001 apart up to z = 31.9, ...": of one set-up. */
-static void test_one(void **state) {
+TEST(test_one) {
     static const camera one[] = {{"-F unorm24 -m d3d", 0.1, 1000, 0, 0, {0}, 1, NULL},
                                  {"-F fp32 -m reversed -f inf", 0.1, INFINITY, 0, 0, {0}, 1, NULL},
                                  {"-F unorm16 -m d3d -n 10 -f 1e5", 10, 1e5, 0, 0, {0}, 1, NULL},
@@ -242,7 +231,6 @@ static void test_one(void **state) {
                                   1,
                                   &mesa}};
     tally t = {.name = "one"};
-    (void)state;
     for (size_t i = 0; i < sizeof one / sizeof one[0]; i++) {
         printed p = print_of("table --full %s", one[i].options);
         words heading = split(p.out);
@@ -267,10 +255,4 @@ static void test_one(void **state) {
         printed_free(&p);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_comparison), cmocka_unit_test(test_units),
-                                       cmocka_unit_test(test_one)};
-    return run_tap(tests);
 }

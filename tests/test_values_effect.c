@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value in the table of an effect, texture --product effect:NAME without an image. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "named.h"
 #include "printed.h"
 #include "shader/effect.h"
@@ -12,57 +8,52 @@ enum { DEPTHS = 5 };
 
 static const double AHEAD[DEPTHS] = {0.4, 30, 2, 500, 7}, AROUND[DEPTHS] = {-9, -0.5, 0, 3, 40};
 
-#define PERSPECTIVE(mapping, ...)                                                                                      \
-    { 0.3, 900, {__VA_ARGS__}, {mapping}, .ortho = 0 }
-#define BEHIND(mapping, ...)                                                                                           \
-    { -10, 50, {__VA_ARGS__}, {mapping}, .ortho = 1 }
+#define PERSPECTIVE "-n 0.3 -f 900"
+#define BEHIND      "--ortho -n -10 -f 50"
 
 /* clang-format off */
 static const struct {
-    const char *effect;
-    camera_case camera;
+    const char *effect, *camera;
     const double *z;
     const char *view; /* options of the cameras, which are those below; null: the effect needs none */
     uint32_t column, row;
     camera_spec now, last; /* of no width: as now */
 } effects[] = {
-    {.effect = "intersection", .z = AHEAD,
-     .camera = {0.3, 900, {"unorm16", "fp32"}, {"d3d", "reversed"}, .unit = "cm"}},
-    {.effect = "depth-of-field", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
-    {.effect = "fog", .camera = PERSPECTIVE("d3d", "unorm24", "fp16"), .z = AHEAD},
-    {.effect = "scan-line", .camera = PERSPECTIVE("gl", "unorm16"), .z = AHEAD},
-    {.effect = "edge", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
-    {.effect = "height-fog", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
+    {.effect = "intersection", .z = AHEAD, .camera = PERSPECTIVE " -F unorm16,fp32 -m d3d,reversed --unit cm"},
+    {.effect = "depth-of-field", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16"},
+    {.effect = "fog", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm24,fp16"},
+    {.effect = "scan-line", .z = AHEAD, .camera = PERSPECTIVE " -m gl -F unorm16"},
+    {.effect = "edge", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16"},
+    {.effect = "height-fog", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      .view = "--fov 40 --eye 7,9,-2 --look 38.337342473601,4.1981760147099,84.098640831935", .column = 320, .row = 359,
      .now = {640, 360, 40, 5, 20, -3, {7, 9, -2}, NULL}},
-    {.effect = "water-line", .camera = {0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 1, .half = 3}, .z = AHEAD,
+    {.effect = "water-line", .z = AHEAD, .camera = "--ortho=3 " PERSPECTIVE " -m reversed -F unorm16",
      .view = "--look 0,857.027955712,6098.07076731 --size 90x60 --pixel 70,12", .column = 70, .row = 12,
      .now = {90, 60, 60, 3, 0, 8, {0, 0, 0}, NULL}},
-    {.effect = "ambient-occlusion", .camera = PERSPECTIVE("linear", "unorm16"), .z = AHEAD},
-    {.effect = "shadow", .camera = PERSPECTIVE("d3d", "unorm16", "fp32"), .z = AHEAD},
-    {.effect = "outline", .camera = PERSPECTIVE("reversed", "unorm16"), .z = AHEAD},
-    {.effect = "contact-shadow", .camera = PERSPECTIVE("reversed", "unorm16"), .z = AHEAD},
-    {.effect = "soft-particles", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
-    {.effect = "water-depth", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
+    {.effect = "ambient-occlusion", .z = AHEAD, .camera = PERSPECTIVE " -m linear -F unorm16"},
+    {.effect = "shadow", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16,fp32"},
+    {.effect = "outline", .z = AHEAD, .camera = PERSPECTIVE " -m reversed -F unorm16"},
+    {.effect = "contact-shadow", .z = AHEAD, .camera = PERSPECTIVE " -m reversed -F unorm16"},
+    {.effect = "soft-particles", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16"},
+    {.effect = "water-depth", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      /* 2 atan(9/16) */
      .view = "--hfov 90 --pixel 0,0", .now = {640, 360, 58.71550708558254, 5, 0, 0, {0, 0, 0}, NULL}},
-    {.effect = "decal", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
+    {.effect = "decal", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      .view = "--look 1,0,1.7320508075688772", .column = 320, .row = 359,
      .now = {640, 360, 60, 5, 30.000000000000004, 0, {0, 0, 0}, NULL}},
-    {.effect = "motion-blur", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
+    {.effect = "motion-blur", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      .view = "--look 677.141068812,0,3840.25783287 --last-eye 0.1,0.05,0 "
              "--last-look 5529.568023671,617.0318354725,34911.6871098", .column = 320, .row = 359,
      .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}, NULL}, .last = {640, 360, 60, 5, 9, 1, {0.1, 0.05, 0}, NULL}},
-    {.effect = "intersection", .camera = BEHIND("d3d", "unorm16", "fp32"), .z = AROUND},
-    {.effect = "height-fog", .camera = BEHIND("reversed", "unorm16"), .z = AROUND,
+    {.effect = "intersection", .z = AROUND, .camera = BEHIND " -m d3d -F unorm16,fp32"},
+    {.effect = "height-fog", .z = AROUND, .camera = BEHIND " -m reversed -F unorm16",
      .view = "--look 0,-16833.119889,46248.616794", .column = 320, .row = 359,
      .now = {640, 360, 60, 5, 0, -20, {0, 0, 0}, NULL}},
 };
 /* clang-format on */
 
 /* The axis of a camera at the origin where the effect needs none. */
-static void want_effect_rows(values *v, size_t effect, const double *parameters, const dp_setup *setup, size_t i,
-                             line_places *lines) {
+static void want_effect_rows(values *v, size_t effect, const double *parameters, const dp_setup *setup, size_t i) {
     const effect_row *row = effect_find(effects[effect].effect);
     const double *z = effects[effect].z;
     double decides = NAN, at = NAN, least = NAN, least_at = NAN;
@@ -77,15 +68,11 @@ static void want_effect_rows(values *v, size_t effect, const double *parameters,
     values_under(v, "setups[%zu].", i);
     want_setup(v, setup);
     for (int k = 0; k < DEPTHS; k++) {
-        char inner[32];
         const uint32_t code = dp_code(setup, z[k]);
         const double usable = effect_usable(row, &view, parameters, z[k], 1);
         values_under(v, "setups[%zu].rows[%d].", i, k);
-        want_number(v, "z", z[k]);
-        want_count(v, "code", code);
-        want_number(v, "z_stored", dp_stored(setup, code));
-        want_number(v, "interval", dp_cell_of(setup, code).width);
-        want_number(v, "levels", effect_error(row, &view, parameters, z[k]));
+        want(v, "z=%f code=%u z_stored=%f", z[k], code, dp_stored(setup, code));
+        want(v, "interval=%f levels=%f", dp_cell_of(setup, code).width, effect_error(row, &view, parameters, z[k]));
         if (row->alone)
             want_number(v, "share", effect_share(row, &view, parameters, z[k]));
         want_number(v, "usable", usable);
@@ -100,111 +87,79 @@ static void want_effect_rows(values *v, size_t effect, const double *parameters,
             decides = usable;
             at = z[k];
         }
-        snprintf(inner, sizeof inner, "rows[%d].", k);
-        place_add(lines, inner, "setups[%zu].", i);
     }
     values_under(v, "setups[%zu].all.", i);
-    want_number(v, "usable", decides);
-    want_number(v, "z", at);
-    if (row->ceiling > 0) {
-        want_number(v, "usable_radius", least);
-        want_number(v, "radius_z", least_at);
-    }
+    want(v, "usable=%f z=%f", decides, at);
+    if (row->ceiling > 0)
+        want(v, "usable_radius=%f radius_z=%f", least, least_at);
 }
 
-static void check_effect(values *v, const char *arguments, const effect_row *row, const line_places *lines) {
+static void check_text(values *v, const char *line, const effect_row *row) {
     const texture_parameter *wanted_one = &row->parameters[row->wanted];
     const char *direction = row->smallest ? "from" : "up to";
-    char head[128], label[128];
-    const text_column plain[] = {{"z", 9},        {"code", 10},  {"z_stored", 9},
-                                 {"interval", 6}, {"levels", 6}, {"usable", 6}};
-    const text_column shared[] = {{"z", 9},      {"code", 10}, {"z_stored", 9}, {"interval", 6},
-                                  {"levels", 6}, {"share", 6}, {"usable", 6}};
-    const text_column ranged[] = {{"z", 9},      {"code", 10},  {"z_stored", 9},     {"interval", 6},
-                                  {"levels", 6}, {"usable", 6}, {"usable_radius", 6}};
-    const size_t shown = row->alone || row->ceiling > 0 ? 7 : 6;
-    static const char *const decides[] = {"setups[0].all.usable", "setups[0].all.z", NULL};
-    snprintf(head, sizeof head, "%s %s [%s]", wanted_one->name, direction, wanted_one->unit);
-    const csv_column columns[] = {
-        SETUP_COLUMNS,
-        {"effect", "/effect"},
-        {"z [scene]", "z"},
-        {"code", "code"},
-        {"z_stored [scene]", "z_stored"},
-        {"interval [scene]", "interval"},
-        {"levels [1/255]", "levels"},
-        {row->alone ? "share" : head, row->alone ? "share" : "usable"},
-        {row->ceiling > 0 ? "usable_radius [scene]" : head, row->ceiling > 0 ? "usable_radius" : "usable"}};
-    const size_t count = sizeof columns / sizeof columns[0] - (!row->alone && row->ceiling == 0);
-    check_json(v, 0, arguments);
-    check_csv(v, 0, arguments, columns, count, lines);
-    printed p = print_of("%s --full", arguments);
-    check_text_table(v, p.out, row->alone ? shared : row->ceiling > 0 ? ranged : plain, shown, lines);
-    const bool none = isnan(value_at(v, decides[0])->number);
-    snprintf(label, sizeof label, none ? "no %s is usable" : "%s %s ", wanted_one->name, direction);
-    if (none)
-        check_text_numbers(v, p.out, label, 6, decides + 1);
+    const double usable = value_at(v, "setups[0].all.usable")->number;
+    char label[128], said[sizeof label + 3];
+    char *text = output_of(0, line, "--full");
+    check_table(v, text, "setups[].rows[]",
+                row->alone         ? "z:9, code:10, z_stored:9, interval:6, levels:6, share:6, usable:6"
+                : row->ceiling > 0 ? "z:9, code:10, z_stored:9, interval:6, levels:6, usable:6, usable_radius:6"
+                                   : "z:9, code:10, z_stored:9, interval:6, levels:6, usable:6");
+    values_under(v, "setups[0].all.");
+    snprintf(label, sizeof label, isnan(usable) ? "no %s is usable" : "%s %s ", wanted_one->name, direction);
+    if (isnan(usable))
+        check_line(v, text, label, "z:6");
     else { /* usable as it is printed; at the end of the range no depth decides */
-        static const char *const alone[] = {"setups[0].all.usable", NULL};
-        const double usable = value_at(v, alone[0])->number;
         const bool all = usable == (row->smallest ? wanted_one->lo : wanted_one->hi);
-        check_text_numbers(v, p.out, label, 6, all ? alone : decides);
-        char line[sizeof label + 3];
-        snprintf(line, sizeof line, "\n  %s", label);
-        const char *at = strstr(p.out, line) + 3, *word = strstr(at, " decides");
-        const double said = strtod(at + strlen(label), NULL);
+        check_line(v, text, label, all ? "usable:6" : "usable:6, z:6");
+        snprintf(said, sizeof said, "\n  %s", label);
+        const char *at = strstr(text, said) + 3, *word = strstr(at, " decides");
+        const double shown = strtod(at + strlen(label), NULL);
         assert_true(all == (word == NULL || word > at + strcspn(at, "\n")));
-        assert_true(row->smallest ? said >= usable : said <= usable);
+        assert_true(row->smallest ? shown >= usable : shown <= usable);
     }
     if (row->ceiling > 0) {
-        static const char *const radius[] = {"parameters[0].value", "setups[0].all.usable_radius",
-                                             "setups[0].all.radius_z", NULL};
-        check_text_numbers(v, p.out, "with bias ", 6, radius);
-        assert_true(strtod(strstr(p.out, " a radius up to ") + 16, NULL) <= value_at(v, radius[1])->number);
+        want(v, "~bias=%f", value_at(v, "parameters[0].value")->number);
+        check_line(v, text, "with bias ", "bias:6, usable_radius:6, radius_z:6");
+        assert_true(strtod(strstr(text, " a radius up to ") + 16, NULL) <=
+                    value_at(v, "setups[0].all.usable_radius")->number);
     }
-    printed_free(&p);
+    free(text);
 }
 
-static void test_effects(void **state) {
-    (void)state;
+TEST(each_number) {
     for (size_t i = 0; i < sizeof effects / sizeof effects[0]; i++) {
         const effect_row *row = effect_find(effects[i].effect);
+        const texture_parameter *asked = &row->parameters[row->wanted];
+        const double *z = effects[i].z;
         double parameters[PARAMETERS_MAX];
-        char options[512], arguments[1024];
-        dp_setup setups[CAMERA_SETUPS];
-        line_places lines = {0};
-        values v = values_of("texture");
-        v.unit = effects[i].camera.unit;
-        assert_non_null(row);
+        char line[1024], columns[512];
+        dp_setup setups[SETUPS_MAX];
         parameter_defaults(row->parameters, parameters);
-        size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --product effect:%s %s %s --at ",
-                                       row->name, effects[i].view != NULL ? effects[i].view : "",
-                                       camera_options(&effects[i].camera, options));
-        for (int k = 0; k < DEPTHS; k++)
-            used += (size_t)snprintf(arguments + used, sizeof arguments - used, "%s%.17g", k > 0 ? "," : "",
-                                     effects[i].z[k]);
+        size_t used = (size_t)snprintf(
+            line, sizeof line, "texture --product effect:%s %s %s --at %.17g,%.17g,%.17g,%.17g,%.17g", row->name,
+            effects[i].view != NULL ? effects[i].view : "", effects[i].camera, z[0], z[1], z[2], z[3], z[4]);
+        values v = values_of(line);
         for (int k = 0, used_ones = 0; row->parameters[k].name != NULL; k++) {
             const texture_parameter *q = &row->parameters[k];
             if (q->use == PARAMETER_IMAGE)
                 continue;
             parameters[k] = fmin(q->hi, q->value * 1.25 + (q->value == 0 ? 0.5 : 0)); /* not the default */
-            snprintf(arguments + strlen(arguments), sizeof arguments - strlen(arguments), " --parameter %s=%.17g",
-                     q->name, parameters[k]);
+            used += (size_t)snprintf(line + used, sizeof line - used, " --parameter %s=%.17g", q->name, parameters[k]);
             values_under(&v, "parameters[%d].", used_ones++);
-            want_text(&v, "name", q->name);
-            want_text(&v, "unit", q->unit);
-            want_number(&v, "value", parameters[k]);
+            want(&v, "name=%s unit=%s value=%f", q->name, q->unit, parameters[k]);
         }
         values_under(&v, "%s", "");
-        want_text(&v, "effect", row->name);
-        want_text(&v, "wanted", row->parameters[row->wanted].name);
-        want_text(&v, "direction", row->smallest ? "from" : "up to");
-        const size_t n = camera_setups(&effects[i].camera, setups);
+        want(&v, "effect=%s wanted=%s direction=%s", row->name, asked->name, row->smallest ? "from" : "up to");
+        const size_t n = setups_of(line, DP_MODEL_EXACT, setups);
         for (size_t k = 0; k < n; k++)
-            want_effect_rows(&v, i, parameters, &setups[k], k, &lines);
-        check_effect(&v, arguments, row, &lines);
+            want_effect_rows(&v, i, parameters, &setups[k], k);
+        snprintf(columns, sizeof columns,
+                 SETUP_CSV "effect = /effect, z [scene], code, z_stored [scene], interval [scene], levels [1/255], "
+                           "?share, %s %s [%s] = usable, ?usable_radius [scene]",
+                 asked->name, row->smallest ? "from" : "up to", asked->unit);
+        check_forms(&v, 0, line, "setups[].rows[]", columns);
+        check_text(&v, line, row);
         values_free(&v);
-        places_free(&lines);
     }
 }
 
@@ -228,68 +183,47 @@ static double by_hand(const char *effect, double z, uint32_t row) {
     return fmin(z / 900 * 3, 1);
 }
 
-static void test_pixels(void **state) {
+TEST(pixels) {
     static const struct {
         const char *name, *parameters;
     } shown[] = {{"intersection", "--parameter half-width=4 --parameter reference=29"},
                  {"height-fog", "--parameter density=0.5 --parameter start=9 --parameter end=-50 --eye 5,2,-3"},
                  {"fog", "--parameter density=3"}};
     static const uint32_t rows[] = {3, 17, 30};
-    int inside = 0;
-    dp_format formats[2];
-    dp_spec spec = dp_spec_default();
-    dp_setup setup;
-    (void)state;
-    assert_true(dp_format_parse("unorm16", formats) >= 1);
-    spec.format = formats[0];
-    spec.mapping = DP_MAPPING_D3D;
-    spec.znear = 0.3;
-    spec.zfar = 900;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const dp_setup setup = SETUP("unorm16", .mapping = DP_MAPPING_D3D, .znear = 0.3, .zfar = 900);
+    int inside = 0, edges = 0;
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
         const char *name = shown[i].name;
-        printed p =
-            print_of("texture --synthetic plane --parameter distance=30 --parameter tilt=40 --size 64x36 --fov 50 "
-                     "-n 0.3 -f 900 -F unorm16 -m d3d --product effect:%s %s --pixel '20,3;20,17;20,30' --json",
-                     name, shown[i].parameters);
-        json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
-        assert_string_equal(json_string_value(json_object_get(root, "effect")), name);
-        assert_int_equal(json_array_size(pixels), 3);
+        json_t *root =
+            json_printed(0,
+                         "texture --synthetic plane --parameter distance=30 --parameter tilt=40 --size 64x36 --fov 50 "
+                         "-n 0.3 -f 900 -F unorm16 -m d3d --product effect:%s %s --pixel '20,3;20,17;20,30'",
+                         name, shown[i].parameters);
+        assert_string_equal(text_at(root, "effect"), name);
+        assert_int_equal(json_array_size(node_at(root, "pixels")), 3);
         for (size_t k = 0; k < 3; k++) {
-            const json_t *o = json_array_get(pixels, k);
             const double z = plane_at(rows[k]), stored = dp_stored(&setup, dp_code(&setup, z));
-            const double output = json_number_value(json_object_get(o, "output"));
-            const double exact = by_hand(name, stored, rows[k]);
-            assert_scene(json_number_value(json_object_get(o, "exact")), exact, 1e-11);
+            const double output = number_at(root, "pixels[%zu].output", k), exact = by_hand(name, stored, rows[k]);
+            assert_scene(number_at(root, "pixels[%zu].exact", k), exact, 1e-11);
             assert_scene(output, exact, 1e-3);
-            assert_scene(json_number_value(json_object_get(o, "levels")),
-                         255 * fabs(output - by_hand(name, z, rows[k])), 1e-5);
+            assert_scene(number_at(root, "pixels[%zu].levels", k), 255 * fabs(output - by_hand(name, z, rows[k])),
+                         1e-5);
             assert_true(output == (double)(float)output);
             inside += output > 0 && output < 1;
         }
         json_decref(root);
-        printed_free(&p);
     }
     assert_true(inside >= 6);
     /* A silhouette: the corners of this pixel lie on either side of it. */
-    printed p = print_of(
-        "texture --synthetic sphere --size 64x36 -F unorm16 -m d3d --product effect:edge --pixel '36,18;41,18;60,3' "
-        "--json");
-    json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
-    int edges = 0;
-    for (size_t k = 0; k < json_array_size(pixels); k++) {
-        const json_t *o = json_array_get(pixels, k);
-        const double output = json_number_value(json_object_get(o, "output"));
-        assert_true(output == json_number_value(json_object_get(o, "exact")));
+    json_t *root = json_printed(0, "texture --synthetic sphere --size 64x36 -F unorm16 -m d3d --product effect:edge "
+                                   "--pixel '36,18;41,18;60,3'");
+    for (size_t k = 0; k < json_array_size(node_at(root, "pixels")); k++) {
+        const double output = number_at(root, "pixels[%zu].output", k);
+        assert_true(output == number_at(root, "pixels[%zu].exact", k));
         edges += output == 1;
     }
     assert_int_equal(edges, 1);
     json_decref(root);
-    printed_free(&p);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_effects), cmocka_unit_test(test_pixels),
-                                       cmocka_unit_test(check_apart)};
-    return run_tap(tests);
-}
+LIST_TEST(check_apart)

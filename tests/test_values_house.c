@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene: the fights of a house whose fights are known, what only looks like one, and the house that is mended. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include <jansson.h>
 #include <png.h>
 
 #include "printed.h"
-#include "support.h"
 
-#define CAMERA "-n 0.05 -F d24 -m d3d --viewport 960x540 --fov 20.7 --within 60 --json"
+#define CAMERA "-n 0.05 -F d24 -m d3d --viewport 960x540 --fov 20.7 --within 60"
 #define HOUSE  "tests/models/house.gltf"
 #define LIFTED "tests/models/house-lifted.gltf"
 
@@ -55,33 +49,16 @@ static const struct {
 };
 enum { HARMLESS = sizeof harmless / sizeof harmless[0] };
 
-static double number(const json_t *object, const char *key) {
-    const json_t *value = json_object_get(object, key);
-    assert_true(json_is_number(value));
-    return json_number_value(value);
-}
-
-static const char *node_of(const json_t *finding, const char *part) {
-    const char *text = json_string_value(json_object_get(json_object_get(finding, part), "node"));
-    assert_non_null(text);
-    return text;
-}
-
 static json_t *judged(const char *path, const char *options, int status) {
-    printed p = print_of("scene %s " CAMERA " %s", path, options);
-    if (p.status != status)
-        fail_msg("%s %s: status %d: %s", path, options, p.status, p.errors);
-    json_t *root = json_of(p.out);
-    printed_free(&p);
-    return root;
+    return json_printed(status, "scene %s " CAMERA " %s", path, options);
 }
 
 /* The one finding of two nodes, in the order of the file; null where there is none. */
 static const json_t *finding_of(const json_t *root, const char *a, const char *b) {
-    const json_t *list = json_object_get(root, "findings"), *found = NULL;
+    const json_t *list = node_at(root, "findings"), *found = NULL;
     for (size_t i = 0; i < json_array_size(list); i++) {
         const json_t *f = json_array_get(list, i);
-        if (strcmp(node_of(f, "a"), a) != 0 || strcmp(node_of(f, "b"), b) != 0)
+        if (strcmp(text_at(f, "a.node"), a) != 0 || strcmp(text_at(f, "b.node"), b) != 0)
             continue;
         assert_null(found);
         found = f;
@@ -105,41 +82,38 @@ static void same_text(const char *path, const char *made) {
     assert_int_equal(system(line), 0);
 }
 
-static void made(void **state) {
-    (void)state;
+TEST(made) {
     same_text(HOUSE, make_house("made.gltf", ""));
     assert_int_not_equal(system("sh tests/models/house.sh chimney=1 >/dev/null 2>&1"), 0);
     assert_int_not_equal(system("sh tests/models/house.sh dor=1 >/dev/null 2>&1"), 0);
 }
 
 /* Just these, with their gaps and areas, however the transforms are rounded: in binary32 to a few of its steps. */
-static void known(void **state) {
+TEST(known) {
     static const struct {
         const char *options;
         double step; /* of the extent */
     } rows[] = {{"", 1e-12}, {"--threads 1", 1e-12}, {"--transforms binary32", 0x1p-22}};
-    (void)state;
     for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
         json_t *root = judged(HOUSE, rows[r].options, 1);
-        const double extent = number(root, "extent"), off = rows[r].step * extent;
-        assert_int_equal(json_array_size(json_object_get(root, "findings")), FIGHTS);
+        const double extent = number_at(root, "extent"), off = rows[r].step * extent;
+        assert_int_equal(json_array_size(node_at(root, "findings")), FIGHTS);
         assert_true(extent > 80 && extent < 120); /* of the terrain, mostly */
         for (size_t i = 0; i < FIGHTS; i++) {
             const json_t *f = finding_of(root, fights[i].below, fights[i].above);
             if (f == NULL)
                 fail_msg("%s: '%s' and '%s' are not found", rows[r].options, fights[i].below, fights[i].above);
-            assert_scene(number(f, "gap_min"), fights[i].gap, off);
-            assert_scene(number(f, "gap_max"), fights[i].gap, off);
-            assert_scene(number(f, "area"), fights[i].area, off * extent);
-            assert_true(json_is_true(json_object_get(f, "fights")));
+            assert_scene(number_at(f, "gap_min"), fights[i].gap, off);
+            assert_scene(number_at(f, "gap_max"), fights[i].gap, off);
+            assert_scene(number_at(f, "area"), fights[i].area, off * extent);
+            assert_true(json_is_true(node_at(f, "fights")));
         }
         json_decref(root);
     }
 }
 
 /* What is harmless is there, within the gap, and left out by the filter that is meant. */
-static void left_out(void **state) {
-    (void)state;
+TEST(left_out) {
     for (size_t i = 0; i < HARMLESS; i++) {
         char options[64] = "";
         if (harmless[i].filter != NULL)
@@ -161,23 +135,22 @@ static void lifts_of(const json_t *root, char *out, size_t size) {
         if (fights[i].lifted == NULL)
             continue;
         used += (size_t)snprintf(out + used, size - used, " '%s=%.4f'", fights[i].lifted,
-                                 ceil(number(f, "lift") * 1e4) / 1e4);
+                                 ceil(number_at(f, "lift") * 1e4) / 1e4);
         assert_true(used < size);
     }
 }
 
 /* Moved as far as is said nothing is found that near, and what is found farther off passes; by less it fights. */
-static void mended(void **state) {
+TEST(mended) {
     char lifts[2048];
     json_t *root = judged(HOUSE, "", 1);
-    const double need = number(finding_of(root, "front wall", "door"), "lift");
-    (void)state;
+    const double need = number_at(finding_of(root, "front wall", "door"), "lift");
     lifts_of(root, lifts, sizeof lifts);
     json_decref(root);
     same_text(LIFTED, make_house("lifted.gltf", lifts));
     root = judged(LIFTED, "", 0);
-    assert_int_equal(json_array_size(json_object_get(root, "findings")), 0);
-    assert_true(json_is_true(json_object_get(root, "passed")));
+    assert_int_equal(json_array_size(node_at(root, "findings")), 0);
+    assert_true(json_is_true(node_at(root, "passed")));
     json_decref(root);
     root = judged(LIFTED, "--separation 0.06", 0);
     for (size_t i = 0; i < FIGHTS; i++) {
@@ -185,13 +158,13 @@ static void mended(void **state) {
         if (fights[i].lifted == NULL)
             continue;
         assert_non_null(f);
-        assert_true(number(f, "gap_min") >= need && number(f, "gap_max") < need + 1.1e-4);
-        assert_true(json_is_false(json_object_get(f, "fights")) && number(f, "certain_to") >= 60);
+        assert_true(number_at(f, "gap_min") >= need && number_at(f, "gap_max") < need + 1.1e-4);
+        assert_true(json_is_false(node_at(f, "fights")) && number_at(f, "certain_to") >= 60);
     }
     json_decref(root);
     strcat(lifts, " tiles=0.044"); /* the last one counts */
     root = judged(make_house("less.gltf", lifts), "", 1);
-    assert_int_equal(json_array_size(json_object_get(root, "findings")), 1);
+    assert_int_equal(json_array_size(node_at(root, "findings")), 1);
     assert_non_null(finding_of(root, "terrace", "tiles"));
     json_decref(root);
 }
@@ -213,7 +186,8 @@ static unsigned char *read_png(const char *path, size_t *pixels, size_t *red) {
 
 /* Draws a picture of the gallery by its recipe: the same pixels. What it says of those that are wrong. */
 static json_t *drawn(const char *name) {
-    char *recipes = text_of_file("plots/recipes"), kept[64], made[256], line[64];
+    const char *made = scratch_file("drawn.png");
+    char *recipes = text_of_file("plots/recipes"), kept[64], line[64];
     snprintf(line, sizeof line, "\n%s ", name);
     char *arguments = strstr(recipes, line);
     assert_non_null(arguments);
@@ -222,97 +196,84 @@ static json_t *drawn(const char *name) {
     arguments += strlen("render ");
     arguments[strcspn(arguments, "\n")] = '\0';
     snprintf(kept, sizeof kept, "plots/%s.png", name);
-    snprintf(made, sizeof made, "%s", scratch_file("drawn.png"));
-    printed p = print_of("scene %s --render %s --json", arguments, made);
-    assert_int_equal(p.status, 0);
-    json_t *root = json_of(p.out);
+    json_t *root = json_printed(0, "scene %s --render %s", arguments, made);
     size_t pixels, red, as_many, as_red;
     unsigned char *want = read_png(kept, &pixels, &red), *got = read_png(made, &as_many, &as_red);
     assert_true(pixels == as_many && memcmp(want, got, 3 * pixels) == 0);
-    assert_true(number(json_object_get(root, "render"), "wrong_pixels") == (double)red);
+    assert_true(number_at(root, "render.wrong_pixels") == (double)red);
     free(want);
     free(got);
     free(recipes);
-    printed_free(&p);
     return root;
 }
 
 /* Before, each fight is wrong in some pixels, but that behind the walls; after, none is. The camera is the file's. */
-static void pictures(void **state) {
+TEST(pictures) {
     json_t *root = drawn("house");
-    const json_t *render = json_object_get(root, "render"), *eye = json_object_get(render, "eye");
-    const double before = number(render, "wrong_pixels");
-    (void)state;
-    assert_true(number(eye, "x") == -20 && number(eye, "y") == 17 && number(eye, "z") == 50);
-    assert_relative(number(render, "fov"), 0.36 * 180 / 3.14159265358979324, 1e-12);
+    const double before = number_at(root, "render.wrong_pixels");
+    assert_true(number_at(root, "render.eye.x") == -20 && number_at(root, "render.eye.y") == 17 &&
+                number_at(root, "render.eye.z") == 50);
+    assert_relative(number_at(root, "render.fov"), 0.36 * 180 / 3.14159265358979324, 1e-12);
     for (size_t i = 0; i < FIGHTS; i++) {
-        const double wrong = number(finding_of(root, fights[i].below, fights[i].above), "wrong_pixels");
+        const double wrong = number_at(finding_of(root, fights[i].below, fights[i].above), "wrong_pixels");
         const bool behind = strcmp(fights[i].above, "parquet") == 0;
         if (fights[i].lifted != NULL && (wrong > 0) == behind)
             fail_msg("'%s' and '%s': %g pixels", fights[i].below, fights[i].above, wrong);
     }
     json_decref(root);
     root = drawn("house-lifted");
-    render = json_object_get(root, "render");
-    assert_true(before > 10000 && number(render, "wrong_pixels") == 0);
+    assert_true(before > 10000 && number_at(root, "render.wrong_pixels") == 0);
     json_decref(root);
 }
 
 /* The same from an eye: by `share` of what it asks for, which of a surface over two others is the most of both. */
 static int status_from_street(double share) {
-    printed p = print_of("scene " HOUSE " -F d24 -m d3d --camera street --within 60 --json");
+    json_t *root = json_printed(1, "scene " HOUSE " -F d24 -m d3d --camera street --within 60");
     char lifts[2048];
     size_t used = 0;
-    json_t *root = json_of(p.out);
-    assert_int_equal(p.status, 1);
-    printed_free(&p);
     for (size_t i = 0; i < FIGHTS; i++) {
         double lift = 0;
         for (size_t k = 0; k < FIGHTS; k++)
             if (strcmp(fights[k].above, fights[i].above) == 0)
-                lift = fmax(lift, number(finding_of(root, fights[k].below, fights[k].above), "lift"));
+                lift = fmax(lift, number_at(finding_of(root, fights[k].below, fights[k].above), "lift"));
         used += (size_t)snprintf(lifts + used, sizeof lifts - used, " '%s=%.6f'", fights[i].above, share * lift);
         assert_true(used < sizeof lifts);
     }
     json_decref(root);
-    p = print_of("scene %s -F d24 -m d3d --camera street --within 60", make_house("street.gltf", lifts));
+    printed p = print_of("scene %s -F d24 -m d3d --camera street --within 60", make_house("street.gltf", lifts));
     const int status = p.status;
     printed_free(&p);
     return status;
 }
 
 /* What is moved is seen from elsewhere, by some thousandths. */
-static void mended_from_street(void **state) {
-    (void)state;
+TEST(mended_from_street) {
     assert_int_equal(status_from_street(1.01), 0);
     assert_int_equal(status_from_street(0.9), 1);
 }
 
 /* From an eye that is farther off than the model is large, what is not said reaches as far as the eye sees: each lift
  * is for the farthest place. */
-static void far_off(void **state) {
-    printed p = print_of("scene " HOUSE " -F d24 -m d3d --eye 0,50,400 --look 0,0,0 --json");
-    json_t *root = json_of(p.out), *list = json_object_get(root, "findings");
-    const double within = number(root, "within");
+TEST(far_off) {
+    json_t *root = json_printed(-1, "scene " HOUSE " -F d24 -m d3d --eye 0,50,400 --look 0,0,0");
+    const json_t *list = node_at(root, "findings");
+    const double within = number_at(root, "within");
     size_t fighting = 0;
-    (void)state;
     assert_true(within > 400 && within < 450); /* the terrain ends at z = -21 */
     for (size_t i = 0; i < json_array_size(list); i++) {
         const json_t *f = json_array_get(list, i);
-        if (!json_is_number(json_object_get(f, "fights_from")))
+        if (!json_is_number(node_at(f, "fights_from")))
             continue;
         fighting++;
-        assert_true(number(f, "seen_to") <= within && number(f, "lift") > 0);
+        assert_true(number_at(f, "seen_to") <= within && number_at(f, "lift") > 0);
     }
     assert_true(fighting > FIGHTS);
     json_decref(root);
-    printed_free(&p);
 }
 
 /* In words: the rounding of the transforms makes no gap where there is none, nor two of one. */
-static void in_words(void **state) {
+TEST(in_words) {
     printed p = print_of("scene " HOUSE " -n 0.05 -F d24 -m d3d --viewport 960x540 --fov 23 --within 60 --unit m");
-    (void)state;
     const char *door = strstr(p.out, "'front wall' (plaster) and 'door' (oak)");
     const char *poster = strstr(p.out, "'front wall' (plaster) and 'poster' (paper)");
     assert_non_null(door);
@@ -321,12 +282,4 @@ static void in_words(void **state) {
     assert_true(one_plane != NULL && one_plane < strstr(door, "area"));
     assert_true(gap != NULL && gap < strstr(poster, "area"));
     printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(made),     cmocka_unit_test(known),
-                                       cmocka_unit_test(left_out), cmocka_unit_test(mended),
-                                       cmocka_unit_test(pictures), cmocka_unit_test(mended_from_street),
-                                       cmocka_unit_test(far_off),  cmocka_unit_test(in_words)};
-    return run_tap(tests);
 }

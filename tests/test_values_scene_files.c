@@ -1,32 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What scene writes for machines: JUnit XML as libxml reads it, requirements as check judges them, and its bias. */
-#include <jansson.h>
 #include <libxml/parser.h>
 #include <libxml/tree.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "api/bias.h"
-#include "depthprec/depthprec.h"
 #include "printed.h"
-#include "support.h"
 
 #define HOUSE  "tests/models/house.gltf"
 #define CAMERA "-n 0.05 -F d24 -m d3d --viewport 1280x720 --fov 23"
-
-static json_t *printed_json(const char *command) {
-    printed p = print_of("%s --json", command);
-    json_t *root = json_of(p.out);
-    printed_free(&p);
-    return root;
-}
-
-static double number(const json_t *object, const char *key) {
-    const json_t *value = json_object_get(object, key);
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
-}
 
 static const char *name_of(const json_t *finding, const char *side) {
     return json_string_value(json_object_get(json_object_get(finding, side), "node"));
@@ -69,25 +50,24 @@ static void remedy_is(const char *message, const json_t *place, double lift) {
     assert_true(near != NULL && more != NULL);
     assert_int_equal(sscanf(near, ", near %lf %lf %lf; %lf", &at[0], &at[1], &at[2], &said), 4);
     for (int k = 0; k < 3; k++)
-        assert_true(fabs(at[k] - number(place, axes[k])) <= 5.1e-4 * fabs(at[k]));
+        assert_true(fabs(at[k] - number_at(place, "%s", axes[k])) <= 5.1e-4 * fabs(at[k]));
     assert_true(said >= lift && said <= lift + 1e-3 * lift);
 }
 
 /* A case for each finding of JSON in its order; what fights fails. */
-static void junit(void **state) {
+TEST(junit) {
     static const struct {
         const char *options;
         int status;
         size_t fewest;
     } rows[] = {
         {CAMERA " --within 60", 1, 17}, {CAMERA " --within 10", 1, 10}, {"-F fp32 -m reversed --within 10", 1, 2}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char command[512], text[32];
         size_t fails = 0, k = 0;
         snprintf(command, sizeof command, "scene " HOUSE " %s", rows[i].options);
-        json_t *root = printed_json(command);
-        const json_t *list = json_object_get(root, "findings");
+        json_t *root = json_printed(-1, "%s", command);
+        const json_t *list = node_at(root, "findings");
         printed p = print_of("%s --report junit", command);
         assert_int_equal(p.status, rows[i].status);
         xmlDoc *doc = xmlReadMemory(p.out, (int)strlen(p.out), NULL, NULL, XML_PARSE_NONET);
@@ -99,13 +79,13 @@ static void junit(void **state) {
             const json_t *f = json_array_get(list, k++);
             assert_true(attribute_has(n, "name", name_of(f, "a")) && attribute_has(n, "name", name_of(f, "b")));
             assert_true(attribute_is(n, "file", HOUSE));
-            const bool fights = json_is_true(json_object_get(f, "fights"));
+            const bool fights = json_is_true(node_at(f, "fights"));
             fails += fights;
             if (!fights) {
                 assert_null(n->children);
                 continue;
             }
-            const double to = number(f, "certain_to"), lift = number(f, "lift");
+            const double to = number_at(f, "certain_to"), lift = number_at(f, "lift");
             double said = 0.0;
             xmlNode *failure = below(n, "failure");
             xmlChar *message = xmlGetProp(failure, (const xmlChar *)"message");
@@ -113,7 +93,7 @@ static void junit(void **state) {
             assert_int_equal(sscanf((const char *)message, "certain up to %lf", &said), isnan(to) ? 0 : 1);
             assert_true(isnan(to) ? strstr((const char *)message, "certain nowhere") != NULL
                                   : said <= to && said > to - 1e-3 * to);
-            remedy_is((const char *)message, json_object_get(f, "place"), lift);
+            remedy_is((const char *)message, node_at(f, "place"), lift);
             xmlFree(message);
         }
         assert_true(k == json_array_size(list) && k >= rows[i].fewest && fails >= 1);
@@ -128,16 +108,11 @@ static void junit(void **state) {
 }
 
 /* No finding is one case that passes; a name with what XML has a use for is text. */
-static void junit_edges(void **state) {
+TEST(junit_edges) {
     static const char lone[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng lone\nf 1 2 3\n";
     static const char odd[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng a<\"&>'\nf 1 2 3\ng b]]>\nf 1 2 3\n";
-    (void)state;
     for (int i = 0; i < 2; i++) {
-        char path[512];
-        snprintf(path, sizeof path, "%s", scratch_file("junit.obj"));
-        FILE *file = fopen(path, "w");
-        assert_non_null(file);
-        assert_true(fputs(i == 0 ? lone : odd, file) >= 0 && fclose(file) == 0);
+        const char *path = scratch_text("junit.obj", "%s", i == 0 ? lone : odd);
         printed p = print_of("scene %s --within 10 --report junit", path);
         xmlDoc *doc = xmlReadMemory(p.out, (int)strlen(p.out), NULL, NULL, XML_PARSE_NONET);
         assert_non_null(doc);
@@ -154,7 +129,7 @@ static void junit_edges(void **state) {
 /* ---- Requirements ------------------------------------------------------------------------------------------------ */
 
 /* By check: each pair that is not in one plane is a requirement with its gap, and fails exactly where it fights. */
-static void needs(void **state) {
+TEST(needs) {
     static const char *const cameras[] = {
         CAMERA " --within 60",
         CAMERA " --within 12 --raster swiftshader --slant 10:80 --triangle-class depth=1.5,pixels=100,slim=8",
@@ -164,30 +139,29 @@ static void needs(void **state) {
         "-m log -F d24 --log-c 0.5 --within 90 --separation 0.01",
         "-m log -F d24 -f 1e9 --within 300 --separation 0.02 --viewport 640x480", /* none in the lattice */
         "-m linear -F d16 --within 90 --viewport 640x480"};
-    (void)state;
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
-        char command[1024], path[512];
+        char command[1024];
         size_t at = 0, failed = 0;
-        snprintf(path, sizeof path, "%s", scratch_file("house.need"));
+        const char *path = scratch_file("house.need");
         snprintf(command, sizeof command, "scene " HOUSE " %s --emit-need %s", cameras[i], path);
-        json_t *root = printed_json(command);
+        json_t *root = json_printed(-1, "%s", command);
         snprintf(command, sizeof command, "check %s", path);
-        json_t *judged = printed_json(command);
-        const json_t *list = json_object_get(root, "findings"), *asked = json_object_get(judged, "requirements");
+        json_t *judged = json_printed(-1, "%s", command);
+        const json_t *list = node_at(root, "findings"), *asked = node_at(judged, "requirements");
         for (size_t k = 0; k < json_array_size(list); k++) {
             const json_t *f = json_array_get(list, k);
-            if (number(f, "gap_min") < 1e-9)
+            if (number_at(f, "gap_min") < 1e-9)
                 continue;
             const json_t *need = json_array_get(asked, at++);
-            const bool passed = json_is_true(json_object_get(need, "passed"));
-            if (passed == json_is_true(json_object_get(f, "fights")) || number(need, "limit") != number(f, "gap_min"))
+            const bool passed = json_is_true(node_at(need, "passed"));
+            if (passed == json_is_true(node_at(f, "fights")) || number_at(need, "limit") != number_at(f, "gap_min"))
                 fail_msg("%s: %s", cameras[i], name_of(f, "b"));
             failed += !passed;
         }
         const json_t *others = json_array_get(asked, at);
         assert_int_equal(json_array_size(asked), at + 1);
-        assert_true(number(others, "limit") == number(root, "gap"));
-        assert_true(json_is_true(json_object_get(others, "passed")));
+        assert_true(number_at(others, "limit") == number_at(root, "gap"));
+        assert_true(json_is_true(node_at(others, "passed")));
         assert_true(i == 3 || i == 5 || failed > 0);
         json_decref(root);
         json_decref(judged);
@@ -195,51 +169,34 @@ static void needs(void **state) {
 }
 
 /* The mapping of the camera is put right in the file: then nothing fails, and nothing of the model was needed. */
-static void mended(void **state) {
-    char command[1024], path[512], text[1 << 15];
-    (void)state;
-    snprintf(path, sizeof path, "%s", scratch_file("mended.need"));
-    snprintf(command, sizeof command, "scene " HOUSE " -n 0.05 -F fp32 -m d3d --within 60 --emit-need %s", path);
-    json_decref(printed_json(command));
-    snprintf(command, sizeof command, "check %s", path);
-    printed p = print_of("%s", command);
-    assert_int_equal(p.status, 1);
-    printed_free(&p);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    const size_t size = fread(text, 1, sizeof text - 1, file);
-    assert_true(fclose(file) == 0 && size < sizeof text - 1);
-    text[size] = '\0';
-    char *mapping = strstr(text, "\"d3d\"");
+TEST(mended) {
+    const char *path = scratch_file("mended.need");
+    json_decref(json_printed(-1, "scene " HOUSE " -n 0.05 -F fp32 -m d3d --within 60 --emit-need %s", path));
+    json_decref(json_printed(1, "check %s", path));
+    char *text = text_of_file(path), *mapping = strstr(text, "\"d3d\"");
     assert_non_null(mapping);
-    file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fprintf(file, "%.*s\"reversed\"%s", (int)(mapping - text), text, mapping + 5) > 0);
-    assert_true(fclose(file) == 0);
-    p = print_of("%s", command);
-    assert_int_equal(p.status, 0);
-    assert_null(strstr(p.out, "FAIL"));
-    printed_free(&p);
+    scratch_text("mended.need", "%.*s\"reversed\"%s", (int)(mapping - text), text, mapping + 5);
+    check_says(0, "!FAIL", "check %s", path);
+    free(text);
 }
 
 /* From an eye the range is what it sees, and what it does not see is not asked for. */
-static void needs_of_an_eye(void **state) {
-    char command[1024], path[512];
+TEST(needs_of_an_eye) {
+    char command[1024];
     size_t at = 0;
-    (void)state;
-    snprintf(path, sizeof path, "%s", scratch_file("eye.need"));
+    const char *path = scratch_file("eye.need");
     snprintf(command, sizeof command, "scene " HOUSE " " CAMERA " --camera street --within 70 --emit-need %s", path);
-    json_t *root = printed_json(command);
+    json_t *root = json_printed(-1, "%s", command);
     snprintf(command, sizeof command, "check %s", path);
-    json_t *judged = printed_json(command);
-    const json_t *list = json_object_get(root, "findings"), *asked = json_object_get(judged, "requirements");
+    json_t *judged = json_printed(-1, "%s", command);
+    const json_t *list = node_at(root, "findings"), *asked = node_at(judged, "requirements");
     for (size_t k = 0; k < json_array_size(list); k++) {
         const json_t *f = json_array_get(list, k);
-        if (number(f, "gap_min") < 1e-9 || isnan(number(f, "seen_from")))
+        if (number_at(f, "gap_min") < 1e-9 || isnan(number_at(f, "seen_from")))
             continue;
         const json_t *need = json_array_get(asked, at++);
-        assert_true(number(need, "lo") == number(f, "seen_from"));
-        assert_true(number(need, "hi") == fmin(number(f, "seen_to"), 70.0));
+        assert_true(number_at(need, "lo") == number_at(f, "seen_from"));
+        assert_true(number_at(need, "hi") == fmin(number_at(f, "seen_to"), 70.0));
     }
     assert_true(at > 5 && json_array_size(asked) == at + 1);
     json_decref(root);
@@ -248,7 +205,7 @@ static void needs_of_an_eye(void **state) {
 
 /* ---- The bias ---------------------------------------------------------------------------------------------------- */
 
-static void bias(void **state) {
+TEST(bias) {
     static const struct {
         const char *options, *api;
         double znear, within;
@@ -256,41 +213,31 @@ static void bias(void **state) {
     } rows[] = {{CAMERA " --within 60", "d3d11", 0.05, 60.0, true},
                 {"-n 0.05 -F d24 -m d3d --within 60 --api vulkan", "vulkan", 0.05, 60.0, false},
                 {"-n 1 -f 1000 -F d24 -m d3d --within 90 --api gl", "gl", 1.0, 90.0, false}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char command[512];
-        dp_spec spec = dp_spec_default();
-        dp_setup setup;
-        dp_format formats[2];
+        dp_triangles t = {0};
         double z;
         const bias_api *api = NULL;
         snprintf(command, sizeof command, "scene " HOUSE " %s", rows[i].options);
-        json_t *root = printed_json(command);
-        const json_t *said = json_object_get(root, "bias");
-        spec.znear = rows[i].znear;
-        spec.zfar = 1000.0;
-        spec.model = DP_MODEL_FLOAT;
-        assert_int_equal(dp_format_parse("d24", formats), 1);
-        spec.format = formats[0];
+        json_t *root = json_printed(-1, "%s", command);
+        const json_t *said = node_at(root, "bias");
         if (rows[i].drawn) {
-            spec.triangles = dp_triangles_default();
-            spec.triangles.width = 1280;
-            spec.triangles.height = 720;
-            spec.triangles.fov_y = 23.0;
+            t = dp_triangles_default();
+            t.width = 1280;
+            t.height = 720;
+            t.fov_y = 23.0;
         }
-        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        const dp_setup setup = SETUP("unorm24", .znear = rows[i].znear, .model = DP_MODEL_FLOAT, .triangles = t);
         for (size_t k = 0; bias_api_get(k) != NULL; k++)
             if (strcmp(bias_api_get(k)->name, rows[i].api) == 0)
                 api = bias_api_get(k);
         assert_non_null(api);
         const bias_goal goal = {.api = api, .factor = bias_factor_least(&setup)};
         const double units = bias_needed_over(&setup, &goal, rows[i].znear, rows[i].within, &z);
-        assert_string_equal(json_string_value(json_object_get(said, "api")), rows[i].api);
-        assert_true(units >= 1.0 && number(said, "units") == -units && number(said, "factor") == -goal.factor);
+        assert_string_equal(text_at(said, "api"), rows[i].api);
+        assert_true(units >= 1.0 && number_at(said, "units") == -units && number_at(said, "factor") == -goal.factor);
         json_decref(root);
-        printed p = print_of("%s", command);
-        assert_non_null(strstr(p.out, "Or, for what is drawn second: "));
-        printed_free(&p);
+        check_says(-1, "Or, for what is drawn second: ", "%s", command);
     }
     printed p = print_of("scene " HOUSE " -F fp32 -m reversed --api gl");
     assert_non_null(strstr(p.out, "glPolygonOffset(0, ")); /* and reversed depths grow towards the camera */
@@ -299,10 +246,9 @@ static void bias(void **state) {
 }
 
 /* Triangles so wide that their set-up loses more than any slope brings back: so the library says, too. */
-static void no_bias(void **state) {
+TEST(no_bias) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
-    (void)state;
     spec.zfar = 1000.0;
     spec.triangles = dp_triangles_default();
     spec.triangles.width = 1280;
@@ -310,9 +256,9 @@ static void no_bias(void **state) {
     spec.triangles.pixels = 60000.0;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     assert_true(isinf(bias_factor_least(&setup)));
-    json_t *root = printed_json("scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle-class pixels=60000");
-    const json_t *said = json_object_get(root, "bias");
-    assert_true(json_is_null(json_object_get(said, "units")) && json_is_null(json_object_get(said, "factor")));
+    json_t *root = json_printed(-1, "scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle-class pixels=60000");
+    const json_t *said = node_at(root, "bias");
+    assert_true(json_is_null(node_at(said, "units")) && json_is_null(node_at(said, "factor")));
     json_decref(root);
     printed p = print_of("scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle-class pixels=60000");
     assert_non_null(strstr(p.out, "No bias of d3d11 brings one of two surfaces in front up to "));
@@ -320,7 +266,7 @@ static void no_bias(void **state) {
     printed_free(&p);
 }
 
-static void refused(void **state) {
+TEST(refused) {
     static const struct {
         const char *options;
         int status;
@@ -333,7 +279,6 @@ static void refused(void **state) {
         {"--emit-need " HOUSE, 2, "--emit-need: must not be a file that is read"},
         {"--api all", 2, "--api: must name one here, got 'all'"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         printed p = print_of("scene " HOUSE " %s", rows[i].options);
         if (p.status != rows[i].status || strstr(p.errors, rows[i].said) == NULL)
@@ -343,11 +288,7 @@ static void refused(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(junit),           cmocka_unit_test(junit_edges),
-                                       cmocka_unit_test(needs),           cmocka_unit_test(mended),
-                                       cmocka_unit_test(needs_of_an_eye), cmocka_unit_test(bias),
-                                       cmocka_unit_test(no_bias),         cmocka_unit_test(refused)};
-    const int status = run_tap(tests);
+    const int status = run_listed(NULL, NULL);
     xmlCleanupParser();
     return status;
 }

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every number that shadow prints, against the room shadow with a light of the test's own; the split and the sphere of
  * a cascade by closed forms. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "cli/bias_all.h"
 #include "named.h"
 #include "printed.h"
@@ -14,138 +10,119 @@ static const char *const ways[SHADOW_WAY_COUNT] = {"constant", "slope", "normal"
 
 enum { FORMATS = 2, MAPPINGS = 2, APIS = 10 };
 
-/* What is left out is as the help has it, see filled(). */
-typedef struct shadow_case {
-    const char *options;
-    const char *formats[FORMATS]; /* null behind the last */
-    dp_mapping mappings[MAPPINGS];
-    size_t mapping_count;
-    const char *api; /* null for all */
-    int width, height;
-    int kernel;
-    double angle;
-    int subpixel;
-    double pixels, slim, world;
-    double curvature, facet;    /* 0: planes */
-    const char *raster, *arith; /* with a raster a subpixel of 0 is none */
-    double box[3], lo, hi;      /* 0: the view; what is lit */
-    double znear, zfar, fov, aspect, lambda, casters;
-    int cascades;
-    const char *unit;
-} shadow_case;
-
-static const shadow_case given[] = {
-    {.options = "-n 0.25 -f 90 --cascades 3:0.7 --fov 50 --viewport 800x600 --casters 40 --size 1024 "
-                "--kernel 5 --angle 70 -F fp32,unorm24 -m d3d,reversed",
-     .formats = {"fp32", "unorm24"},
-     .mappings = {DP_MAPPING_D3D, DP_MAPPING_REVERSED},
-     .mapping_count = 2,
-     .api = "d3d11",
-     .width = 1024,
-     .height = 1024,
-     .kernel = 5,
-     .angle = 70,
-     .znear = 0.25,
-     .zfar = 90,
-     .fov = 50,
-     .aspect = 800.0 / 600,
-     .lambda = 0.7,
-     .casters = 40,
-     .cascades = 3},
-    {.options = "--light-box 30mx20mx50m --size 512x256 -F d16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
-                "--triangle-class pixels=64,slim=8 --kernel 3 --angle 60 --from-origin 1km --curvature 2m:5cm",
-     .formats = {"unorm16"},
-     .mappings = {DP_MAPPING_GL},
-     .api = "gl",
-     .width = 512,
-     .height = 256,
-     .angle = 60,
-     .subpixel = 4,
-     .pixels = 64,
-     .slim = 8,
-     .world = 1000,
-     .curvature = 2,
-     .facet = 0.05,
-     .box = {30, 20, 50},
-     .lo = 5,
-     .hi = 48.65,
-     .unit = "m"},
-    {.options = "-f 300 --cascades 2 --hfov 100 --api all", .zfar = 300, .cascades = 2},
-    {.options = "--light-box 8x8x64 --api vulkan-float -m reversed --subpixel 1 --kernel 1 --angle 30", /* no factor */
-     .mappings = {DP_MAPPING_REVERSED},
-     .api = "vulkan-float",
-     .kernel = 1,
-     .angle = 30,
-     .subpixel = 1,
-     .box = {8, 8, 64},
-     .hi = 64},
-    {.options =
-         "--light-box 10x10x40 --size 1024 -F d24 --raster softpipe --range 10:30 --kernel 1 --angle 3 --api metal",
-     .formats = {"unorm24"},
-     .api = "metal",
-     .width = 1024,
-     .height = 1024,
-     .kernel = 1,
-     .angle = 3,
-     .raster = "softpipe",
-     .arith = "softpipe",
-     .box = {10, 10, 40},
-     .lo = 10,
-     .hi = 30},
-    {.options = "--light-box 40x40x404", /* away from window depth 0, where a unit is worth nothing: 404/256 */
-     .api = "d3d11",
-     .box = {40, 40, 404},
-     .lo = 1.578125,
-     .hi = 404},
-    {.options = "--light-box 40x40x404 -m reversed --api all",
-     .mappings = {DP_MAPPING_REVERSED},
-     .box = {40, 40, 404},
-     .hi = 404 - 1.578125},
-    {.options = "--light-box 40x40x0.2 -F d16", /* flatter than a gap is long */
-     .formats = {"unorm16"},
-     .api = "d3d11",
-     .box = {40, 40, 0.2},
-     .hi = 0.2},
-    {.options = "--light-box 1e9x1e9x0.001 --api vulkan-float", /* 2^31 units are not enough */
-     .api = "vulkan-float",
-     .box = {1e9, 1e9, 0.001},
-     .hi = 0.001},
-    {.options = "--light-box 1e9x1e9x0.001 --range 0.0005:0.001 --api gl",
-     .api = "gl",
-     .box = {1e9, 1e9, 0.001},
-     .lo = 0.0005,
-     .hi = 0.001},
+/* Each line, what it lights of a box where that is not all of it, and what its rasterizer brings. */
+static const struct {
+    const char *line;
+    double lo, hi;
+    const char *arith;
+} given[] = {
+    {"shadow -n 0.25 -f 90 --cascades 3:0.7 --fov 50 --viewport 800x600 --casters 40 --size 1024x1024 "
+     "--kernel 5 --angle 70 -F fp32,unorm24 -m d3d,reversed --api d3d11",
+     0, 0, NULL},
+    {"shadow --light-box 30mx20mx50m --size 512x256 -F unorm16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
+     "--triangle-class pixels=64,slim=8 --kernel 3 --angle 60 --from-origin 1km --curvature 2m:5cm --unit m",
+     5, 48.65, NULL},
+    {"shadow -f 300 --cascades 2 --hfov 100 --api all", 0, 0, NULL},
+    {"shadow --light-box 8x8x64 --api vulkan-float -m reversed --subpixel 1 --kernel 1 --angle 30", 0, 64,
+     NULL}, /* no factor */
+    {"shadow --light-box 10x10x40 --size 1024x1024 -F unorm24 --raster softpipe --range 10:30 --kernel 1 --angle 3 "
+     "--api metal",
+     10, 30, "softpipe"},
+    /* Away from window depth 0, where a unit is worth nothing: 404/256. */
+    {"shadow --light-box 40x40x404 --api d3d11", 1.578125, 404, NULL},
+    {"shadow --light-box 40x40x404 -m reversed --api all", 0, 404 - 1.578125, NULL},
+    {"shadow --light-box 40x40x0.2 -F unorm16 --api d3d11", 0, 0.2, NULL},   /* flatter than a gap is long */
+    {"shadow --light-box 1e9x1e9x0.001 --api vulkan-float", 0, 0.001, NULL}, /* 2^31 units are not enough */
+    {"shadow --light-box 1e9x1e9x0.001 --range 0.0005:0.001 --api gl", 0.0005, 0.001, NULL},
 };
 
 enum { CASES = sizeof given / sizeof given[0] };
 
-static double other(double number, double missing) {
-    return number != 0 ? number : missing;
+typedef struct shadow_case {
+    const char *line;
+    char formats[FORMATS][16];
+    size_t format_count;
+    dp_mapping mappings[MAPPINGS];
+    size_t mapping_count;
+    const char *api; /* null for all */
+    int width, height, kernel, subpixel;
+    double angle, pixels, slim, world;
+    double curvature, facet; /* 0: planes */
+    const char *arith;       /* of a rasterizer, which has no subpixels here; null: none is named */
+    double box[3], lo, hi;   /* 0: the view; what is lit */
+    double znear, zfar, fov, aspect, lambda, casters;
+    int cascades;
+} shadow_case;
+
+/* A length in metres where a unit is written behind it. */
+static double length_in(const char *text, char **end) {
+    static const struct {
+        const char *name;
+        double metres;
+    } units[] = {{"km", 1000}, {"cm", 0.01}, {"m", 1}};
+    const double number = strtod(text, end);
+    for (size_t i = 0; i < 3; i++)
+        if (strncmp(*end, units[i].name, strlen(units[i].name)) == 0) {
+            *end += strlen(units[i].name);
+            return number * units[i].metres;
+        }
+    return number;
 }
 
-static shadow_case filled(shadow_case c) {
-    if (c.formats[0] == NULL)
-        c.formats[0] = "fp32";
-    c.mapping_count = c.mapping_count > 0 ? c.mapping_count : 1;
-    c.width = (int)other(c.width, 2048);
-    c.height = (int)other(c.height, 2048);
-    c.kernel = (int)other(c.kernel, 3);
-    c.angle = other(c.angle, 75);
-    c.subpixel = c.raster != NULL ? c.subpixel : (int)other(c.subpixel, 8);
-    c.pixels = other(c.pixels, 512);
-    c.slim = other(c.slim, 16);
-    c.znear = other(c.znear, 0.1);
-    c.aspect = other(c.aspect, 1920.0 / 1080);
-    c.lambda = other(c.lambda, 0.5);
-    c.casters = other(c.casters, 100);
+static double length_behind(const char *line, const char *option) {
+    char *end;
+    return is_given(line, option) ? length_in(word_behind(line, option), &end) : 0;
+}
+
+/* What is left out is as the help has it. */
+static shadow_case case_of(size_t i) {
+    const char *line = given[i].line, *formats = word_behind(line, "-F"), *mappings = word_behind(line, "-m");
+    const char *api = word_behind(line, "--api");
+    double size[2] = {2048, 2048}, viewport[2] = {1920, 1080};
+    char words[64];
+    double split[2] = {0, 0.5};
+    numbers_behind(line, "--cascades", split, 2);
+    numbers_behind(line, "--size", size, 2);
+    numbers_behind(line, "--viewport", viewport, 2);
+    shadow_case c = {.line = line,
+                     .api = strcmp(api, "all") != 0 ? bias_api_find(api)->name : NULL,
+                     .width = (int)size[0],
+                     .height = (int)size[1],
+                     .kernel = (int)number_behind(line, "--kernel", 3),
+                     .subpixel = given[i].arith != NULL ? 0 : (int)number_behind(line, "--subpixel", 8),
+                     .angle = number_behind(line, "--angle", 75),
+                     .pixels = strstr(line, "pixels=64") != NULL ? 64 : 512,
+                     .slim = strstr(line, "slim=8") != NULL ? 8 : 16,
+                     .world = length_behind(line, "--from-origin"),
+                     .arith = given[i].arith,
+                     .lo = given[i].lo,
+                     .hi = given[i].hi,
+                     .znear = number_behind(line, "-n", 0.1),
+                     .zfar = number_behind(line, "-f", 0),
+                     .fov = number_behind(line, "--fov", 0),
+                     .aspect = viewport[0] / viewport[1],
+                     .lambda = split[1],
+                     .casters = number_behind(line, "--casters", 100),
+                     .cascades = (int)split[0]};
+    char *end = NULL;
+    if (is_given(line, "--curvature"))
+        c.curvature = length_in(word_behind(line, "--curvature"), &end);
+    if (end != NULL && *end == ':')
+        c.facet = length_in(end + 1, &end);
+    char *at = is_given(line, "--light-box") ? (char *)(uintptr_t)word_behind(line, "--light-box") : NULL;
+    for (int k = 0; k < 3 && at != NULL; k++, at++)
+        c.box[k] = length_in(at, &at);
+    snprintf(words, sizeof words, "%s", formats != NULL ? formats : "fp32");
+    for (char *word = strtok(words, ","); word != NULL; word = strtok(NULL, ","))
+        snprintf(c.formats[c.format_count++], sizeof c.formats[0], "%s", word);
+    snprintf(words, sizeof words, "%s", mappings != NULL ? mappings : "d3d");
+    for (char *word = strtok(words, ","); word != NULL; word = strtok(NULL, ","))
+        assert_int_equal(dp_mapping_parse(word, &c.mappings[c.mapping_count++]), DP_OK);
     return c;
 }
 
 static size_t setup_count(const shadow_case *c) {
-    size_t formats = 0;
-    while (formats < FORMATS && c->formats[formats] != NULL)
-        formats++;
-    return formats * c->mapping_count;
+    return c->format_count * c->mapping_count;
 }
 
 /* ---- The maps ---------------------------------------------------------------------------------------------------- */
@@ -156,21 +133,14 @@ static double radians(double degrees) {
 
 static shadow_light light_of(const shadow_case *c, const char *format, dp_mapping mapping) {
     shadow_light light = shadow_light_default();
-    dp_spec spec = dp_spec_default();
-    dp_format found[2];
-    assert_int_equal(dp_format_parse(format, found), 1);
-    spec.ortho = 1;
-    spec.znear = 0;
-    spec.zfar = c->box[2] > 0 ? c->box[2] : 1;
-    spec.format = found[0];
-    spec.mapping = mapping;
-    if (c->raster != NULL)
-        assert_int_equal(dp_arith_parse(c->arith, &spec.arith), DP_OK);
-    assert_int_equal(dp_setup_init(&light.setup, &spec), DP_OK);
+    dp_arith arith = 0;
+    if (c->arith != NULL)
+        assert_int_equal(dp_arith_parse(c->arith, &arith), DP_OK);
+    light.setup = SETUP(format, .ortho = 1, .zfar = c->box[2] > 0 ? c->box[2] : 1, .mapping = mapping, .arith = arith);
     light.triangles.width = c->width;
     light.triangles.height = c->height;
     light.triangles.subpixel = c->subpixel;
-    if (c->raster != NULL)
+    if (c->arith != NULL)
         light.triangles.plane = dp_anchor_get(DP_ANCHOR_ORIGIN_STEPPED)->plane;
     light.triangles.pixels = c->pixels;
     light.triangles.slim = c->slim;
@@ -273,16 +243,10 @@ static void want_row(values *v, const shadow_case *c, const shadow_cascade *map,
     shadow_need need;
     shadow_need_of(light, &need);
     want_text(v, "api", api->name);
-    if (c->box[2] == 0) {
-        want_count(v, "cascade", (uint64_t)cascade + 1);
-        want_number(v, "from", map->from);
-        want_number(v, "to", map->to);
-        want_number(v, "radius", map->radius);
-    }
-    want_number(v, "width", light->width);
-    want_number(v, "height", light->height);
-    want_number(v, "depth", depth);
-    want_number(v, "texel_size", fmax(light->width / c->width, light->height / c->height));
+    if (c->box[2] == 0)
+        want(v, "cascade=%u from=%f to=%f radius=%f", (unsigned)cascade + 1, map->from, map->to, map->radius);
+    want(v, "width=%f height=%f depth=%f", light->width, light->height, depth);
+    want(v, "texel_size=%f", fmax(light->width / c->width, light->height / c->height));
     want_ways(v, light, &need, api);
     values_under(v, "%scauses.", v->prefix);
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++)
@@ -329,56 +293,37 @@ static void want_answer(values *v, const shadow_case *c, const char *format, dp_
 }
 
 static void want_head(values *v, const shadow_case *c) {
-    want_text(v, "api", c->api != NULL ? c->api : "all");
-    want_text(v, "arith", c->arith != NULL ? c->arith : "ieee");
-    want_number(v, "size.width", c->width);
-    want_number(v, "size.height", c->height);
-    want_number(v, "kernel", c->kernel);
-    want_number(v, "angle", c->angle);
-    want_number(v, "subpixel", c->subpixel);
-    want_number(v, "pixels", c->pixels);
-    want_number(v, "slim", c->slim);
-    want_number(v, "from_origin", c->world);
-    want_number(v, "curvature", c->curvature > 0 ? c->curvature : NAN);
-    want_number(v, "facet", c->facet);
+    want(v, "api=%s arith=%s", c->api != NULL ? c->api : "all", c->arith != NULL ? c->arith : "ieee");
+    want(v, "size.width=%u size.height=%u kernel=%u", (unsigned)c->width, (unsigned)c->height, (unsigned)c->kernel);
+    want(v, "angle=%f subpixel=%u pixels=%f slim=%f", c->angle, (unsigned)c->subpixel, c->pixels, c->slim);
+    want(v, "from_origin=%f curvature=%f facet=%f", c->world, c->curvature > 0 ? c->curvature : NAN, c->facet);
     if (c->box[2] > 0) {
         want_text(v, "view", NULL);
         return;
     }
-    want_number(v, "view.near", c->znear);
-    want_number(v, "view.far", c->zfar);
-    want_number(v, "view.fov", fov_of(c));
-    want_number(v, "view.aspect", c->aspect);
-    want_number(v, "view.cascades", c->cascades);
-    want_number(v, "view.lambda", c->lambda);
-    want_number(v, "view.casters", c->casters);
+    want(v, "view.near=%f view.far=%f view.fov=%f view.aspect=%f", c->znear, c->zfar, fov_of(c), c->aspect);
+    want(v, "view.cascades=%u view.lambda=%f view.casters=%f", (unsigned)c->cascades, c->lambda, c->casters);
 }
 
 static const bias_api *api_of(const shadow_case *c, size_t i) {
     return c->api != NULL ? bias_api_find(c->api) : bias_api_get(i);
 }
 
-static void want_setup_of(values *v, const shadow_case *c, size_t k, line_places *lines) {
+static void want_setup_of(values *v, const shadow_case *c, size_t k) {
     const char *format = c->formats[k / c->mapping_count];
     const dp_mapping mapping = c->mappings[k % c->mapping_count];
     const size_t apis = c->api != NULL ? 1 : APIS;
     values_under(v, "setups[%zu].", k);
-    want_text(v, "format", format);
-    want_text(v, "mapping", dp_mapping_get(mapping)->name);
-    want_text(v, "unit", c->unit);
-    want_number(v, "lit_from", c->box[2] > 0 ? c->lo : NAN);
-    want_number(v, "lit_to", c->box[2] > 0 ? c->hi : NAN);
+    want(v, "format=%s mapping=%s unit=%s", format, dp_mapping_get(mapping)->name, *v->unit != '\0' ? v->unit : NULL);
+    want(v, "lit_from=%f lit_to=%f", c->box[2] > 0 ? c->lo : NAN, c->box[2] > 0 ? c->hi : NAN);
     for (size_t i = 0; i < apis; i++) {
         values_under(v, "setups[%zu].answers[%zu].", k, i);
         want_answer(v, c, format, mapping, api_of(c, i));
     }
     for (size_t i = 0; i < map_count(c) * apis; i++) {
         const shadow_cascade map = map_of(c, format, mapping, (int)(i / apis));
-        char inner[32];
         values_under(v, "setups[%zu].rows[%zu].", k, i);
         want_row(v, c, &map, (int)(i / apis), api_of(c, i % apis));
-        snprintf(inner, sizeof inner, "rows[%zu].", i);
-        place_add(lines, inner, "setups[%zu].", k);
     }
 }
 
@@ -390,7 +335,7 @@ static bool enough(double shown, double value, const char *field) {
     return fabs(shown) >= fabs(value) * (1 - 1e-12) && fabs(shown) <= fabs(value) * (1 + step);
 }
 
-static double number_at(const values *v, size_t setup, size_t row, const char *field) {
+static double number_of(const values *v, size_t setup, size_t row, const char *field) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "setups[%zu].rows[%zu].%s", setup, row, field);
     return value_at(v, path)->number;
@@ -406,7 +351,7 @@ static void check_bias_line(const values *v, const char *line, size_t setup, siz
         line = end;
     }
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) {
-        const double want = number_at(v, setup, row, fields[k]);
+        const double want = number_of(v, setup, row, fields[k]);
         line += strspn(line, " ");
         if (!isfinite(want)) {
             assert_int_equal(*line, '-');
@@ -425,7 +370,7 @@ static void check_place_line(const values *v, const char *line, size_t setup, si
     char *end;
     assert_int_equal(strtol(line, &end, 10), (long)row + 1);
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-        assert_relative(strtod(end, &end), number_at(v, setup, row, fields[k]), k < 2 ? 5e-6 : 5e-4);
+        assert_relative(strtod(end, &end), number_of(v, setup, row, fields[k]), k < 2 ? 5e-6 : 5e-4);
 }
 
 static const char *line_behind(const char *text, int lines) {
@@ -472,14 +417,14 @@ static void check_notes(const values *v, const shadow_case *c, const char *at, s
     size_t least = 0;
     for (size_t i = 0; i < map_count(c); i++)
         for (int k = 0; k < 3; k++) {
-            const double value = number_at(v, setup, i, shares[k]);
+            const double value = number_of(v, setup, i, shares[k]);
             least = k == 0 && value < share[0] ? i : least;
             share[k] = fmin(share[k], value);
-            gap[k] = fmax(gap[k], number_at(v, setup, i, gaps[k]));
+            gap[k] = fmax(gap[k], number_of(v, setup, i, gaps[k]));
         }
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
         snprintf(path, sizeof path, "causes.%s", shadow_cause_name((shadow_cause)k));
-        sum += number_at(v, setup, least, path);
+        sum += number_of(v, setup, least, path);
     }
     note_of(at, "\n  causes ", text);
     if (map_count(c) > 1)
@@ -487,7 +432,7 @@ static void check_notes(const values *v, const shadow_case *c, const char *at, s
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
         const char *const name = shadow_cause_name((shadow_cause)k), *const found = strstr(text, name);
         snprintf(path, sizeof path, "causes.%s", name);
-        const double percent = 100 * number_at(v, setup, least, path) / sum;
+        const double percent = 100 * number_of(v, setup, least, path) / sum;
         assert_int_equal(found != NULL, percent >= 0.05);
         if (found != NULL)
             assert_relative(strtod(found + strlen(name), NULL), percent, 0.006);
@@ -520,13 +465,13 @@ static void check_remarks(const values *v, const shadow_case *c, const char *at,
          beyond = false; /* no units of the constant bias; for it is deeper than the box */
     char text[4096];
     for (size_t i = 0; i < map_count(c); i++) {
-        const double depth = number_at(v, setup, i, "depth");
-        const double bias = number_at(v, setup, i, "constant_bias");
-        none = none || isnan(number_at(v, setup, i, "constant_units"));
+        const double depth = number_of(v, setup, i, "depth");
+        const double bias = number_of(v, setup, i, "constant_bias");
+        none = none || isnan(number_of(v, setup, i, "constant_units"));
         beyond = beyond || bias >= 1;
-        wide = fmax(wide, number_at(v, setup, i, gaps[0]) / (bias * depth));
+        wide = fmax(wide, number_of(v, setup, i, gaps[0]) / (bias * depth));
         for (int k = 0; k < 3; k++)
-            hidden = hidden || beyond || number_at(v, setup, i, gaps[k]) >= depth;
+            hidden = hidden || beyond || number_of(v, setup, i, gaps[k]) >= depth;
     }
     joined(at, text);
     assert_int_equal(strstr(text, "nothing is in shadow") != NULL, hidden);
@@ -544,7 +489,7 @@ static void check_remarks(const values *v, const shadow_case *c, const char *at,
 static void check_apis(const values *v, const shadow_case *c) {
     static const char *const fields[] = {"constant_units", "slope_factor", "slope_units", "normal_texels",
                                          "normal_units"};
-    printed p = print_of("shadow %s", c->options);
+    printed p = print_of("%s", c->line);
     const char *at = strstr(p.out, "\napi ");
     for (size_t i = 0; i < APIS; i++) {
         assert_non_null(at);
@@ -562,7 +507,7 @@ static void check_apis(const values *v, const shadow_case *c) {
 }
 
 static void check_text(const values *v, const shadow_case *c) {
-    printed p = print_of("shadow %s", c->options);
+    printed p = print_of("%s", c->line);
     const bool split = c->box[2] == 0;
     const char *at = p.out;
     assert_int_equal(p.status, 0);
@@ -601,55 +546,29 @@ static void check_text(const values *v, const shadow_case *c) {
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 #define WAY(name)                                                                                                      \
-    {name "_bias", name "_bias"}, {name "_units", name "_units"}, {name "_gap [scene]", name "_gap"},                  \
-        {name "_gap_normal [scene]", name "_gap_normal"}, {                                                            \
-        name "_share", name "_share"                                                                                   \
-    }
-#define FACING(name)                                                                                                   \
-    { name "_gap_facing [scene]", name "_gap_facing" }
-#define CAUSES                                                                                                         \
-    {"texel [scene]", "causes.texel"}, {"kernel [scene]", "causes.kernel"}, {"lookup [scene]", "causes.lookup"},       \
-        {"snapping [scene]", "causes.snapping"}, {"set-up [scene]", "causes.set-up"},                                  \
-        {"position [scene]", "causes.position"}, {                                                                     \
-        "format [scene]", "causes.format"                                                                              \
-    }
-#define MAP                                                                                                            \
-    {"width [scene]", "width"}, {"height [scene]", "height"}, {"depth [scene]", "depth"},                              \
-        {"texel_size [scene]", "texel_size"}, WAY("constant"), {"slope_factor", "slope_factor"}, WAY("slope"),         \
-        FACING("slope"), {"normal_offset [scene]", "normal_offset"}, {"normal_texels", "normal_texels"},               \
-        WAY("normal"), FACING("normal"), {"limited", "limited"}, CAUSES
+    name "_bias, " name "_units, " name "_gap [scene], " name "_gap_normal [scene], " name "_share, ?" name            \
+         "_gap_facing [scene], "
+static const char columns[] =
+    "format = ^format, mapping = ^mapping, api, ?cascade, ?from [scene], ?to [scene], ?radius [scene], width [scene], "
+    "height [scene], depth [scene], texel_size [scene], "
+    /* of each way */
+    WAY("constant") "slope_factor, " WAY("slope") "normal_offset [scene], normal_texels, " WAY("normal")
+    /* and of all */
+    "limited, texel [scene] = causes.texel, kernel [scene] = causes.kernel, lookup [scene] = causes.lookup, "
+    "snapping [scene] = causes.snapping, set-up [scene] = causes.set-up, position [scene] = causes.position, "
+    "format [scene] = causes.format";
 
-static void test_all(void **state) {
-    static const csv_column box[] = {{"format", "^format"}, {"mapping", "^mapping"}, {"api", "api"}, MAP};
-    static const csv_column split[] = {{"format", "^format"},
-                                       {"mapping", "^mapping"},
-                                       {"api", "api"},
-                                       {"cascade", "cascade"},
-                                       {"from [scene]", "from"},
-                                       {"to [scene]", "to"},
-                                       {"radius [scene]", "radius"},
-                                       MAP};
-    (void)state;
+TEST(each_number) {
     for (size_t i = 0; i < CASES; i++) {
-        const shadow_case all = filled(given[i]), *const c = &all;
-        const bool is_box = c->box[2] > 0;
-        values v = values_of("shadow");
-        line_places lines = {0};
-        char arguments[512];
-        snprintf(arguments, sizeof arguments, "shadow %s", c->options);
-        want_head(&v, c);
-        for (size_t k = 0; k < setup_count(c); k++)
-            want_setup_of(&v, c, k, &lines);
-        check_json(&v, 0, arguments);
-        check_csv(&v, 0, arguments, is_box ? box : split,
-                  is_box ? sizeof box / sizeof box[0] : sizeof split / sizeof split[0], &lines);
-        (c->api != NULL ? check_text : check_apis)(&v, c);
+        const shadow_case c = case_of(i);
+        values v = values_of(c.line);
+        want_head(&v, &c);
+        for (size_t k = 0; k < setup_count(&c); k++)
+            want_setup_of(&v, &c, k);
+        check_forms(&v, 0, c.line, "setups[].rows[]", columns);
+        (c.api != NULL ? check_text : check_apis)(&v, &c);
         values_free(&v);
-        places_free(&lines);
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all), cmocka_unit_test(check_apart)};
-    return run_tap(tests);
-}
+LIST_TEST(check_apart)

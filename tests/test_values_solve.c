@@ -3,10 +3,6 @@
  * Every value that solve prints. The planes that it found are taken from its JSON and put to the test: there the
  * measure is what is printed beside them, they pass, and beyond them nothing does. Text and CSV say the same.
  */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "api/cost.h"
 #include "printed.h"
 #include "requirement/distance.h"
@@ -73,33 +69,22 @@ static json_t *root; /* what the run at hand printed */
 
 /* ---- What is said of a candidate --------------------------------------------------------------------------------- */
 
-static double number_in(const json_t *o, const char *key) {
-    const json_t *j = json_object_get(o, key);
-    return json_is_number(j) ? json_number_value(j) : NAN;
-}
-
-static const char *text_in(const json_t *o, const char *key) {
-    const char *text = json_string_value(json_object_get(o, key));
-    assert_non_null(text);
-    return text;
-}
-
-static dp_setup setup_in(const json_t *o) {
+static dp_setup setup_of(const json_t *o) {
     dp_spec spec = dp_spec_default();
     dp_format format[2];
     dp_setup setup;
-    spec.znear = number_in(o, "near");
-    spec.zfar = json_is_null(json_object_get(o, "far")) ? INFINITY : number_in(o, "far");
-    assert_int_equal(dp_format_parse(text_in(o, "format"), format), 1);
+    spec.znear = number_at(o, "near");
+    spec.zfar = isnan(number_at(o, "far")) ? INFINITY : number_at(o, "far");
+    assert_int_equal(dp_format_parse(text_at(o, "format"), format), 1);
     spec.format = format[0];
-    assert_int_equal(dp_mapping_parse(text_in(o, "mapping"), &spec.mapping), DP_OK);
+    assert_int_equal(dp_mapping_parse(text_at(o, "mapping"), &spec.mapping), DP_OK);
     for (int r = 0; dp_rounding_name((dp_rounding)r) != NULL; r++)
-        if (strcmp(dp_rounding_name((dp_rounding)r), text_in(o, "rounding")) == 0)
+        if (strcmp(dp_rounding_name((dp_rounding)r), text_at(o, "rounding")) == 0)
             spec.rounding = (dp_rounding)r;
     for (int m = 0; m < DP_MODEL_COUNT; m++)
-        if (strcmp(dp_model_name((dp_model)m), text_in(o, "model")) == 0)
+        if (strcmp(dp_model_name((dp_model)m), text_at(o, "model")) == 0)
             spec.model = (dp_model)m;
-    spec.log_c = json_is_number(json_object_get(o, "log_c")) ? number_in(o, "log_c") : 1;
+    spec.log_c = node_at(o, "log_c") != NULL ? number_at(o, "log_c") : 1;
     assert_int_equal(judge_setup(&spec, &setup), DP_OK);
     return setup;
 }
@@ -157,14 +142,6 @@ static const char *measure_of(const solve_case *c) {
     return c->kind == MEASURE_ERROR ? "error" : "separation";
 }
 
-static dp_setup in_model(const dp_setup *setup, dp_model model) {
-    dp_setup other;
-    dp_spec spec = setup->spec;
-    spec.model = model;
-    assert_int_equal(dp_setup_init(&other, &spec), DP_OK);
-    return other;
-}
-
 static plane_answer solve_again(const solve_case *c, const dp_setup *setup) {
     plane_answer out;
     const solve_problem p = {.spec = spec_of(setup),
@@ -198,26 +175,17 @@ static void check_plane(const solve_case *c, const dp_setup *setup, double plane
 
 /* None was found, for certain or not. */
 static void want_no_plane(values *v, const solve_case *c, const dp_setup *setup) {
-    static const char *const numbers[] = {"until", "first", "tried", "passed", "fails_to"};
     const plane_answer p = solve_again(c, setup);
     assert_false(p.possible);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-        want_number(v, numbers[i], NAN);
-    want_bool(v, "proven", p.certain);
-    want_bool(v, "certain", p.certain);
+    want(v, "until=%f first=%f tried=%f passed=%f fails_to=%f", NAN, NAN, NAN, NAN, NAN);
+    want(v, "proven=%d certain=%d", p.certain, p.certain);
 }
 
 static void want_plane(values *v, const solve_case *c, const dp_setup *setup, double plane) {
     const plane_answer p = solve_again(c, setup);
-    want_number(v, "until", p.until);
-    want_number(v, "first", plane);
-    want_bool(v, "proven", true);
-    want_number(v, "tried", NAN);
-    want_number(v, "passed", NAN);
-    want_bool(v, "certain", p.certain);
-    want_number(v, "fails_to", NAN);
-    want_derived(v, "from", fmin(plane, p.until));
-    want_derived(v, "to", fmax(plane, p.until));
+    want(v, "until=%f first=%f proven=%d certain=%d", p.until, plane, true, p.certain);
+    want(v, "tried=%f passed=%f fails_to=%f", NAN, NAN, NAN);
+    want(v, "~from=%f ~to=%f", fmin(plane, p.until), fmax(plane, p.until));
     assert_true(p.possible && p.value == plane);
     check_plane(c, setup, plane, &p);
     if (setup->spec.model == DP_MODEL_EXACT && c->kind == MEASURE_SEPARATION)
@@ -233,10 +201,8 @@ static distance_answer want_distance(values *v, const solve_case *c, const dp_se
         assert_true(judge(c->kind, setup, c->lo, d.value, c->limit).passed && (!d.throughout || d.value == c->hi));
     if (!d.throughout)
         assert_true(d.fails > d.value && !judge(c->kind, setup, c->lo, d.fails, c->limit).passed);
-    if (whole) {
-        want_bool(v, "throughout", d.throughout);
-        want_number(v, "fails_from", d.fails);
-    }
+    if (whole)
+        want(v, "throughout=%d fails_from=%f", d.throughout, d.fails);
     want_bool(v, "possible", d.possible);
     return d;
 }
@@ -270,20 +236,18 @@ static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
         end = fmin(end, c->hi - c->limit);
     }
     values_under(v, "fight.");
-    want_number(v, "first", first);
-    want_number(v, "searched_to", end);
+    want(v, "first=%f searched_to=%f", first, end);
     const size_t count =
         c->kind == MEASURE_SEPARATION && !d.throughout ? distance_again(setup, from, c->hi, c->limit, again, 32) : 0;
     for (size_t i = 0; i < count; i++) {
         values_under(v, "again[%zu].", i);
-        want_number(v, "lo", again[i].lo);
-        want_number(v, "hi", again[i].hi);
+        want(v, "lo=%f hi=%f", again[i].lo, again[i].hi);
     }
 }
 
 /* What real arithmetic would need: the same question in the model exact. */
 static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, bool solved) {
-    const dp_setup exact = in_model(setup, DP_MODEL_EXACT);
+    const dp_setup exact = setup_in(setup, DP_MODEL_EXACT);
     judgement reached;
     double value = NAN;
     values_under(v, "%.60slattice.", v->prefix);
@@ -301,13 +265,11 @@ static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, 
         want_bool(v, "possible", isnan(c->limit) || reached.passed);
     }
     want_number(v, measure_of(c), reached.value);
-    want_number(v, "z", reached.z);
-    want_derived(v, "plane", value);
-    want_derived(v, "value", reached.value);
+    want(v, "z=%f ~plane=%f ~value=%f", reached.z, value, reached.value);
 }
 
 static void want_candidate(values *v, const solve_case *c, const json_t *o, const char *under) {
-    const dp_setup setup = setup_in(o);
+    const dp_setup setup = setup_of(o);
     const cost price = cost_of(&setup.spec.format, setup.spec.mapping);
     const double plane = near_is_asked(c) ? setup.spec.znear : setup.spec.zfar;
     judgement worst = judge(c->kind, &setup, c->lo, c->hi, c->limit);
@@ -318,46 +280,39 @@ static void want_candidate(values *v, const solve_case *c, const json_t *o, cons
         const distance_answer d = want_distance(v, c, &setup, true);
         worst = d.reached;
         passes = d.possible;
-        want_derived(v, "from", passes ? c->lo : NAN);
-        want_derived(v, "to", passes ? d.value : NAN);
-        want_derived(v, "plane", passes ? d.value : NAN);
+        want(v, "~from=%f ~to=%f ~plane=%f", passes ? c->lo : NAN, passes ? d.value : NAN, passes ? d.value : NAN);
     } else {
         want_bool(v, "possible", passes);
         want_derived(v, "plane", passes ? plane : NAN);
     }
     want_number(v, measure_of(c), worst.value);
-    want_number(v, "z", worst.z);
-    want_number(v, "guaranteed", in_binary32(c, &setup, worst.z));
+    want(v, "z=%f guaranteed=%f ~value=%f", worst.z, in_binary32(c, &setup, worst.z), worst.value);
     const bool solved = !is_distance(c) && !isnan(c->limit) && is_solved(c, &setup);
     if (solved && passes)
         want_plane(v, c, &setup, plane);
     else if (!is_distance(c)) {
         if (solved && (isnan(c->znear) || isnan(c->zfar)))
             want_no_plane(v, c, &setup);
-        want_derived(v, "from", NAN);
-        want_derived(v, "to", NAN);
+        want(v, "~from=%f ~to=%f", NAN, NAN);
     }
     values_under(v, "%s", under);
     want_lattice(v, c, &setup, solved);
     values_under(v, "%s", under);
-    want_count(v, "bytes", (uint64_t)price.bytes);
-    want_text(v, "available", price.available);
-    want_text(v, "caution", price.caution);
-    want_text(v, "effort", price.effort);
-    want_derived(v, "value", worst.value);
+    want(v, "bytes=%u available=%s caution=%s effort=%s ~role=%s", (unsigned)price.bytes, price.available,
+         price.caution, price.effort, strcmp(under, "answer.") == 0 ? "answer" : "alternative");
 }
 
 /* Cheapest first: what passes as it is, what passes with another near, the rest. */
 static int class_of(const solve_case *c, const json_t *o) {
-    const dp_setup setup = setup_in(o);
+    const dp_setup setup = setup_of(o);
     const bool asked = isnan(c->znear) || isnan(c->zfar);
-    return !json_is_true(json_object_get(o, "possible")) ? 2 : !asked && is_solved(c, &setup) ? 1 : 0;
+    return !flag_at(o, "possible") ? 2 : !asked && is_solved(c, &setup) ? 1 : 0;
 }
 
 static void check_order(const solve_case *c, const json_t *alternatives) {
     for (size_t i = 1; i < json_array_size(alternatives); i++) {
         const json_t *a = json_array_get(alternatives, i - 1), *b = json_array_get(alternatives, i);
-        const dp_setup x = setup_in(a), y = setup_in(b);
+        const dp_setup x = setup_of(a), y = setup_of(b);
         const cost p = cost_of(&x.spec.format, x.spec.mapping), q = cost_of(&y.spec.format, y.spec.mapping);
         assert_true(class_of(c, a) <= class_of(c, b));
         if (class_of(c, a) == class_of(c, b) && class_of(c, a) < 2)
@@ -365,77 +320,53 @@ static void check_order(const solve_case *c, const json_t *alternatives) {
     }
 }
 
-static void want_solve(values *v, const solve_case *c, line_places *lines) {
-    const json_t *answer = json_object_get(root, "answer"), *islands = json_object_get(root, "islands");
-    const json_t *others = json_object_get(root, "alternatives");
-    const dp_setup own = setup_in(answer), setup = in_model(&own, DP_MODEL_EXACT);
+static void want_solve(values *v, const solve_case *c) {
+    const json_t *answer = node_at(root, "answer"), *islands = node_at(root, "islands");
+    const json_t *others = node_at(root, "alternatives");
+    const dp_setup own = setup_of(answer), setup = setup_in(&own, DP_MODEL_EXACT);
     char under[PATH_SIZE];
-    assert_string_equal(text_in(answer, "model"), c->model);
-    want_text(v, "for", c->target);
-    want_text(v, "measure", measure_of(c));
-    want_number(v, "limit", c->limit);
-    want_number(v, "lo", c->lo);
-    want_number(v, "hi", c->hi);
-    want_bool(v, "possible", c->possible);
+    assert_string_equal(text_at(answer, "model"), c->model);
+    want(v, "for=%s measure=%s limit=%f lo=%f hi=%f", c->target, measure_of(c), c->limit, c->lo, c->hi);
+    want(v, "possible=%d", c->possible);
     want_candidate(v, c, answer, "answer.");
     if (is_distance(c))
         want_beyond(v, c, &own);
-    place_add(lines, "", "answer.");
     for (size_t i = 0; i < json_array_size(islands); i++) {
-        const double lo = number_in(json_array_get(islands, i), "lo"), hi = number_in(json_array_get(islands, i), "hi");
+        const double lo = number_at(islands, "[%zu].lo", i), end = number_at(islands, "[%zu].hi", i);
+        const double hi = isnan(end) ? INFINITY : end;
         values_under(v, "islands[%zu].", i);
-        want_number(v, "lo", lo);
-        want_number(v, "hi", isnan(hi) ? INFINITY : hi);
-        check_island(c, &setup, near_is_asked(c), lo, isnan(hi) ? INFINITY : hi);
+        want(v, "lo=%f hi=%f", lo, hi);
+        check_island(c, &setup, near_is_asked(c), lo, hi);
         assert_true(i == 0);
         if (c->possible && own.spec.model == DP_MODEL_EXACT)
-            assert_true(value_at(v, "answer.from")->number == lo &&
-                        value_at(v, "answer.to")->number == (isnan(hi) ? INFINITY : hi));
+            assert_true(value_at(v, "answer.from")->number == lo && value_at(v, "answer.to")->number == hi);
     }
     for (size_t i = 0; i < json_array_size(others); i++) {
         snprintf(under, sizeof under, "alternatives[%zu].", i);
         want_candidate(v, c, json_array_get(others, i), under);
-        place_add(lines, "", "%s", under);
     }
     check_order(c, others);
 }
 
 /* ---- CSV and text ------------------------------------------------------------------------------------------------ */
 
-static void check_lines(values *v, int status, const char *arguments, line_places *lines) {
-    static const csv_column columns[] = {{"role", "role"},
-                                         SETUP_COLUMNS,
-                                         {"for", "/for"},
-                                         {"possible", "^possible"},
-                                         {"measure", "/measure"},
-                                         {"limit [scene]", "/limit"},
-                                         {"value [scene]", "^value"},
-                                         {"z [scene]", "^z"},
-                                         {"from [scene]", "from"},
-                                         {"to [scene]", "to"},
-                                         {"bytes", "^bytes"},
-                                         {"available", "^available"},
-                                         {"first [scene]", "?first"},
-                                         {"lattice [scene]", "^lattice.plane"},
-                                         {"lattice value [scene]", "^lattice.value"}};
-    for (size_t i = 0; i < lines->count; i++) {
-        values_under(v, "%s", lines->items[i].inner);
-        wanted role = {.kind = VALUE_TEXT, .derived = true};
-        want_derived(v, "role", 0);
-        role = v->items[v->count - 1];
-        role.kind = VALUE_TEXT;
-        snprintf(role.text, sizeof role.text, "%s", i == 0 ? "answer" : "alternative");
-        v->items[v->count - 1] = role;
-    }
-    check_csv(v, status, arguments, columns, sizeof columns / sizeof columns[0], lines);
+static void check_lines(const values *v, int status, const char *arguments) {
+    line_places lines = {0};
+    place_add(&lines, "", "answer.");
+    for (size_t i = 0; i < json_array_size(node_at(root, "alternatives")); i++)
+        place_add(&lines, "", "alternatives[%zu].", i);
+    check_csv(v, status, arguments,
+              "role, " SETUP_CSV "for = /for, possible = ^possible, measure = /measure, limit [scene] = /limit, "
+              "value [scene] = ^value, z [scene] = ^z, from [scene], to [scene], bytes = ^bytes, "
+              "available = ^available, first [scene] = ?first, lattice [scene] = ^lattice.plane, "
+              "lattice value [scene] = ^lattice.value",
+              &lines);
+    places_free(&lines);
 }
 
 /* The set-up under the prefix. */
 static dp_setup setup_again(const values *v) {
-    size_t i;
-    return setup_in(sscanf(v->prefix, "alternatives[%zu]", &i) == 1
-                        ? json_array_get(json_object_get(root, "alternatives"), i)
-                        : json_object_get(root, "answer"));
+    return setup_of(node_at(root, "%.*s", (int)strlen(v->prefix) - 1, v->prefix));
 }
 
 /* The number behind so many others in the line of a label. */
@@ -471,139 +402,111 @@ static void want_shown(values *v, const solve_case *c, const char *name, double 
 static void check_text_alternative(values *v, const solve_case *c, const char *text, const char *under) {
     const bool reached = isnan(c->limit),
                by_value = strcmp(c->target, "format") == 0 || strcmp(c->target, "mapping") == 0;
+    const json_t *o = node_at(root, "%.*s", (int)strlen(under) - 1, under);
     const char *fields[] = {reached ? "value" : "plane", reached || by_value ? "lattice.value" : "lattice.plane",
                             "value", "bytes"};
-    char at[4][PATH_SIZE], label[128];
-    const char *paths[5] = {0};
-    snprintf(at[0], PATH_SIZE, "%.60sformat", under);
-    snprintf(at[1], PATH_SIZE, "%.60smapping", under);
-    snprintf(at[2], PATH_SIZE, "%.60smodel", under);
-    const char *model = value_at(v, at[2])->text;
-    snprintf(label, sizeof label, "%-9.40s %-12.40s %-6.20s ", value_at(v, at[0])->text, value_at(v, at[1])->text,
-             model);
-    snprintf(at[3], PATH_SIZE, "%.60slattice.possible", under);
-    const bool ideal = value_at(v, at[3])->number != 0 || by_value || reached;
+    char path[PATH_SIZE], label[128], columns[256] = "";
+    const bool ideal = by_value || reached || flag_at(o, "lattice.possible");
+    snprintf(label, sizeof label, "%-9.40s %-12.40s %-6.20s ", text_at(o, "format"), text_at(o, "mapping"),
+             text_at(o, "model"));
     values_under(v, "%s", under);
-    snprintf(at[0], PATH_SIZE, "%.60sfails_to", under); /* there where a plane was solved for */
-    if (value_find(v, at[0]) != NULL &&
-        !isnan(value_at(v, (snprintf(at[1], PATH_SIZE, "%.60splane", under), at[1]))->number)) {
-        snprintf(at[0], PATH_SIZE, "%.60splane", under);
-        want_shown(v, c, "shown", value_at(v, at[0])->number, number_shown(text, label, 0));
+    snprintf(path, sizeof path, "%.60splane", under);
+    if (node_at(o, "fails_to") != NULL && !isnan(value_at(v, path)->number)) { /* there where a plane was solved for */
+        want_shown(v, c, "shown", value_at(v, path)->number, number_shown(text, label, 0));
         fields[0] = "shown";
     }
-    for (size_t i = 0, n = 0; i < (reached ? 2 : 4); i++) {
-        snprintf(at[n], PATH_SIZE, "%.60s%s", under, fields[i]);
-        if (isnan(value_at(v, at[n])->number) || (i == 1 && !ideal))
-            continue;
-        paths[n] = at[n];
-        n++;
+    for (size_t i = 0; i < (reached ? 2 : 4); i++) {
+        snprintf(path, sizeof path, "%.60s%s", under, fields[i]);
+        if (!isnan(value_at(v, path)->number) && (i != 1 || ideal))
+            snprintf(columns + strlen(columns), sizeof columns - strlen(columns), "%s%s:6", *columns ? ", " : "",
+                     fields[i]);
     }
-    check_text_numbers(v, text, label, 6, paths);
+    check_line(v, text, label, columns);
 }
 
 /* All of it in one sentence: what is guaranteed, what is seen, what the lattice has. */
 static void check_text_distance(values *v, const solve_case *c, const char *text) {
-    static const char *const again[] = {"again[0].lo", "again[0].hi", NULL};
-    const bool seen = isfinite(value_at(v, "fight.first")->number);
-    const char *paths[9] = {"answer.near", "answer.far", "limit", "lo", "answer.plane"};
-    char label[64];
-    size_t count = 5;
-    if (isfinite(value_at(v, "fight.searched_to")->number))
-        paths[count++] = seen ? "fight.first" : "fight.searched_to";
-    if (strcmp(value_at(v, "answer.model")->text, "exact") != 0)
-        paths[count++] = "answer.lattice.plane";
-    snprintf(label, sizeof label, "%.20s %.20s,", value_at(v, "answer.format")->text,
-             value_at(v, "answer.mapping")->text);
+    const bool seen = isfinite(number_at(root, "fight.first"));
+    char label[64], columns[256] = "answer.near:6, answer.far:6, limit:6, lo:6, answer.plane:6";
+    if (isfinite(number_at(root, "fight.searched_to")))
+        strcat(columns, seen ? ", fight.first:6" : ", fight.searched_to:6");
+    if (strcmp(text_at(root, "answer.model"), "exact") != 0)
+        strcat(columns, ", answer.lattice.plane:6");
+    snprintf(label, sizeof label, "%.20s %.20s,", text_at(root, "answer.format"), text_at(root, "answer.mapping"));
     char *const sentence = strndup(text, strcspn(text, "\n") - 1); /* without its full stop */
-    check_text_numbers(v, sentence, label, 6, paths);
+    values_under(v, "%s", "");
+    check_line(v, sentence, label, columns);
     free(sentence);
     assert_true((strstr(text, "first seen to fight at z") != NULL) == seen);
     assert_true((strstr(text, "holds again") != NULL) == (value_find(v, "again[0].lo") != NULL));
     if (value_find(v, "again[0].lo") != NULL)
-        check_text_numbers(v, text, "holds again", 6, again);
+        check_line(v, text, "holds again", "again[0].lo:6, again[0].hi:6");
     assert_true((strstr(text, "  assumed  ") != NULL) == (strstr(c->arguments, "-f ") == NULL));
 }
 
 /* Which values pass. */
 static void check_text_passing(values *v, const solve_case *c, const char *text) {
-    static const char *const every[] = {"answer.shown_from", "answer.shown_to", NULL};
     values_under(v, "answer.");
     want_shown(v, c, "shown_from", value_at(v, "answer.from")->number, number_shown(text, "passes ", 0));
     want_shown(v, c, "shown_to", value_at(v, "answer.to")->number, number_shown(text, "passes ", 1));
-    check_text_numbers(v, text, "passes ", 6, every);
+    check_line(v, text, "passes ", "shown_from:6, shown_to:6");
 }
 
-static void check_text(values *v, const solve_case *c, const char *arguments, const line_places *lines) {
-    const char *const worst[] = {"answer.value", "answer.z", isnan(c->limit) ? NULL : "limit", NULL};
-    static const char *const plane[] = {"answer.plane", NULL};
-    static const char *const ideal[] = {"answer.lattice.plane", NULL};
-    static const char *const certain[] = {"answer.guaranteed", NULL};
-    const bool in_float = strcmp(value_at(v, "answer.model")->text, "float") == 0;
-    char label[128];
-    printed p = print_of("%s --full", arguments);
-    assert_int_equal(p.status, !c->possible);
+static void check_text(values *v, const solve_case *c, const char *arguments) {
+    const bool in_float = strcmp(text_at(root, "answer.model"), "float") == 0;
+    char label[128], under[PATH_SIZE];
+    char *text = output_of(!c->possible, arguments, "--full");
     snprintf(label, sizeof label, "%-14s ", measure_of(c));
-    check_text_numbers(v, p.out, label, 6, worst);
+    values_under(v, "%s", "");
+    check_line(v, text, label, isnan(c->limit) ? "answer.value:6, answer.z:6" : "answer.value:6, answer.z:6, limit:6");
     if (is_distance(c))
-        check_text_distance(v, c, p.out);
-    if (isfinite(value_at(v, "answer.guaranteed")->number) && !in_float && !is_distance(c))
-        check_text_numbers(v, p.out, "guaranteed", 6, certain);
+        check_text_distance(v, c, text);
+    if (isfinite(number_at(root, "answer.guaranteed")) && !in_float && !is_distance(c))
+        check_line(v, text, "guaranteed", "answer.guaranteed:6");
     if (isnan(c->znear) || isnan(c->zfar)) {
         snprintf(label, sizeof label, "%-14s ", c->target);
+        values_under(v, "answer.");
         if (c->possible) {
-            check_text_numbers(v, p.out, label, 15, plane);
-            check_text_passing(v, c, p.out);
+            check_line(v, text, label, "plane:15");
+            check_text_passing(v, c, text);
         }
         if (in_float && value_at(v, "answer.lattice.possible")->number != 0)
-            check_text_numbers(v, p.out, "in the lattice", 6, ideal);
+            check_line(v, text, "in the lattice", "lattice.plane:6");
     }
-    for (size_t i = 0; i < lines->count; i++)
-        if (strncmp(lines->items[i].inner, "alternatives", 12) == 0)
-            check_text_alternative(v, c, p.out, lines->items[i].inner);
-    printed_free(&p);
+    for (size_t i = 0; i < json_array_size(node_at(root, "alternatives")); i++) {
+        snprintf(under, sizeof under, "alternatives[%zu].", i);
+        check_text_alternative(v, c, text, under);
+    }
+    free(text);
 }
 
-static void test_solve(void **state) {
-    (void)state;
+TEST(each_number) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const solve_case *c = &cases[i];
-        char arguments[512];
-        line_places lines = {0};
-        values v = values_of("solve");
-        v.unit = i % 2 == 0 ? "ft" : NULL;
+        char line[512];
         const bool fullest = strcmp(c->model, "float") == 0; /* which is that of an answer unless asked otherwise */
-        snprintf(arguments, sizeof arguments, "solve %s%s %s%s", fullest ? "" : "--model ", fullest ? "" : c->model,
-                 c->arguments, i % 2 == 0 ? " --unit ft" : "");
-        printed p = print_of("%s --json", arguments);
-        assert_int_equal(p.status, !c->possible);
-        root = json_of(p.out);
-        want_solve(&v, c, &lines);
-        check_json_text(&v, p.out);
-        check_lines(&v, !c->possible, arguments, &lines);
-        check_text(&v, c, arguments, &lines);
+        snprintf(line, sizeof line, "solve %s%s %s%s", fullest ? "" : "--model ", fullest ? "" : c->model, c->arguments,
+                 i % 2 == 0 ? " --unit ft" : "");
+        values v = values_of(line);
+        char *text = output_of(!c->possible, line, "--json");
+        root = json_of(text);
+        want_solve(&v, c);
+        check_json_text(&v, text);
+        check_lines(&v, !c->possible, line);
+        check_text(&v, c, line);
         json_decref(root);
-        printed_free(&p);
+        free(text);
         values_free(&v);
-        places_free(&lines);
     }
 }
 
 /* One format and no mapping: the answer is the only one that does it, a logarithm; the library says which do. */
-static void test_logarithm_answers(void **state) {
-    (void)state;
-    for (dp_mapping m = 0; m < DP_MAPPING_COUNT; m++) {
-        if (m != DP_MAPPING_D3D && m != DP_MAPPING_GL && m != DP_MAPPING_REVERSED && m != DP_MAPPING_LOG)
-            continue;
-        dp_spec spec = dp_spec_default();
-        dp_setup setup;
-        spec.zfar = 1e6;
-        spec.mapping = m;
-        dp_format both[2];
-        assert_int_equal(dp_format_parse("unorm24", both), 1);
-        spec.format = both[0];
-        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+TEST(logarithm_answers) {
+    static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED, DP_MAPPING_LOG};
+    for (size_t i = 0; i < 4; i++) {
+        dp_setup setup = SETUP("unorm24", .zfar = 1e6, .mapping = mappings[i]);
         setup = dp_setup_guaranteed(&setup);
-        assert_int_equal(dp_separation(&setup, 500) <= 0.01, m == DP_MAPPING_LOG);
+        assert_int_equal(dp_separation(&setup, 500) <= 0.01, mappings[i] == DP_MAPPING_LOG);
     }
     printed p = print_of("solve --for mapping -n 0.1 -f 1e6 -F d24 --separation 0.01 --at 500");
     assert_int_equal(p.status, 0);
@@ -611,8 +514,4 @@ static void test_logarithm_answers(void **state) {
     printed_free(&p);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_solve), cmocka_unit_test(test_logarithm_answers),
-                                       cmocka_unit_test(check_apart)};
-    return run_tap(tests);
-}
+LIST_TEST(check_apart)

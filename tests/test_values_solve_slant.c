@@ -3,11 +3,6 @@
  * What solve finds with --viewport: for each unknown the answer against the library's guarantee of slanted triangles,
  * at the answer and where it is said to end; the options spelled out here by hand.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "printed.h"
 
 #define VIEW "--viewport 1280x720 --fov 55 --subpixel 6 --slant 10:80 --triangle-class depth=1.5,pixels=300,slim=8"
@@ -31,33 +26,24 @@ static const solve_case cases[] = {
     {"--for distance -n 0.2 -f 9000 -F unorm24,fp32 -m d3d,reversed --separation 0.01", "distance", 0.01, 0.2, 9000, 0},
 };
 
+/* Of null, which is no number: no end. */
 static double at(const json_t *object, const char *key) {
-    const json_t *value = json_object_get(object, key);
-    if (value == NULL)
-        fail_msg("no '%s'", key);
-    return json_is_null(value) ? INFINITY : json_number_value(value);
+    const double number = number_at(object, "%s", key);
+    return isnan(number) ? INFINITY : number;
 }
 
 /* The set-up of a candidate, with the view or facing; with another plane where `plane` is not NaN. */
 static dp_setup setup_of(const json_t *o, bool slanted, const char *unknown, double plane) {
-    dp_spec spec = dp_spec_default();
-    dp_format format[2];
-    dp_setup setup;
-    spec.znear = at(o, "near");
-    spec.zfar = at(o, "far");
+    dp_spec spec = {.znear = at(o, "near"), .zfar = at(o, "far"), .model = DP_MODEL_FLOAT};
     if (!isnan(plane))
         *(strcmp(unknown, "far") == 0 ? &spec.zfar : &spec.znear) = plane;
-    assert_int_equal(dp_format_parse(json_string_value(json_object_get(o, "format")), format), 1);
-    assert_int_equal(dp_mapping_parse(json_string_value(json_object_get(o, "mapping")), &spec.mapping), DP_OK);
-    assert_string_equal(json_string_value(json_object_get(o, "model")), "float");
-    spec.format = format[0];
-    spec.model = DP_MODEL_FLOAT;
+    assert_int_equal(dp_mapping_parse(text_at(o, "mapping"), &spec.mapping), DP_OK);
+    assert_string_equal(text_at(o, "model"), "float");
     if (slanted) {
         spec.triangles = view;
         spec.triangles.plane = dp_anchor_get(DP_ANCHOR_VERTEX)->plane;
     }
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return setup_with(text_at(o, "format"), spec);
 }
 
 /* The largest separation of some depths from lo to hi, both ends among them. */
@@ -73,7 +59,7 @@ static void check_plane(const solve_case *c, const json_t *answer) {
     const double plane = at(answer, "first"), fails = at(answer, "fails_to");
     const dp_setup setup = setup_of(answer, true, c->target, NAN);
     assert_true(largest(&setup, c->lo, c->hi) <= c->limit);
-    if (!json_is_true(json_object_get(answer, "certain")) || json_is_null(json_object_get(answer, "fails_to")))
+    if (!flag_at(answer, "certain") || isinf(fails))
         return;
     for (int i = 1; i <= 8; i++) {
         const dp_setup beyond = setup_of(answer, true, c->target, (double)(float)(plane + i / 8.0 * (fails - plane)));
@@ -82,17 +68,17 @@ static void check_plane(const solve_case *c, const json_t *answer) {
 }
 
 static void check_distance(const solve_case *c, const json_t *root) {
-    const json_t *answer = json_object_get(root, "answer"), *fight = json_object_get(root, "fight");
+    const json_t *answer = node_at(root, "answer");
     const dp_setup setup = setup_of(answer, true, "", NAN);
     assert_true(largest(&setup, c->lo, at(answer, "distance")) <= c->limit);
     assert_true(dp_separation(&setup, at(answer, "fails_from")) > c->limit);
-    assert_true(json_is_null(json_object_get(fight, "first")) && json_is_null(json_object_get(fight, "searched_to")));
+    assert_true(isinf(at(root, "fight.first")) && isinf(at(root, "fight.searched_to")));
 }
 
 /* Both guarantees, at the depth that is worst; in what is said to be possible that at any slant is short enough. */
 static void check_candidate(const solve_case *c, const json_t *o) {
     const dp_setup slanted = setup_of(o, true, "", NAN), facing = setup_of(o, false, "", NAN);
-    const bool distance = strcmp(c->target, "distance") == 0, possible = json_is_true(json_object_get(o, "possible"));
+    const bool distance = strcmp(c->target, "distance") == 0, possible = flag_at(o, "possible");
     const double z = at(o, "z"), worst = at(o, "separation");
     assert_true(at(o, "guarantee_slanted") == dp_separation(&slanted, z));
     assert_true(at(o, "guarantee_facing") == dp_separation(&facing, z));
@@ -141,16 +127,13 @@ static void check_lines(const solve_case *c, const json_t *answer) {
     printed_free(&p);
 }
 
-static void test_answers(void **state) {
-    (void)state;
+TEST(answers) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const solve_case *c = &cases[i];
-        printed p = print_of("solve %s " VIEW " --json", c->arguments);
-        json_t *root = json_of(p.out);
-        const json_t *answer = json_object_get(root, "answer"), *others = json_object_get(root, "alternatives");
-        const json_t *triangles = json_object_get(root, "triangles");
-        assert_true(p.status == c->status && json_is_true(json_object_get(root, "possible")) == (c->status == 0));
-        assert_true(at(triangles, "width") == 1280 && at(triangles, "slant_lo") == 10 && at(triangles, "slim") == 8);
+        json_t *root = json_printed(c->status, "solve %s " VIEW, c->arguments);
+        const json_t *answer = node_at(root, "answer"), *others = node_at(root, "alternatives");
+        assert_true(flag_at(root, "possible") == (c->status == 0) && at(root, "triangles.width") == 1280);
+        assert_true(at(root, "triangles.slant_lo") == 10 && at(root, "triangles.slim") == 8);
         check_candidate(c, answer);
         for (size_t k = 0; k < json_array_size(others); k++)
             check_candidate(c, json_array_get(others, k));
@@ -161,39 +144,23 @@ static void test_answers(void **state) {
         check_text(c, answer);
         check_lines(c, answer);
         json_decref(root);
-        printed_free(&p);
     }
 }
 
-static void test_refusals(void **state) {
-    static const struct {
-        const char *arguments, *says;
-    } refusals[] = {
-        {"-F fp32 -m d3d -f inf --error 0.01 --at 9", "--error: is that of a depth at a point"},
-        {"-F fp32 -m d3d -f inf --separation 0.01 --at 9 --model exact",
-         "--model: must be float or auto with --viewport"},
-        {"-F fp32 -m d3d -f inf --separation 0.01 --at 9 --model staged", "--model: must be float or auto"},
-        {"-F fp32 -m reversed,log -f inf --separation 0.01 --at 9",
-         "--mapping: must be one of d3d, gl, reversed, gl-rev"},
-        {"-F fp32 -m linear -f 99 --separation 0.01 --at 9", "--mapping: must be one of d3d"},
+TEST(refusals) {
+    static const refused_row rows[] = {
+        {"-F fp32 -m d3d -f inf --error 0.01 --at 9 " VIEW, "--error: is that of a depth at a point", 2},
+        {"-F fp32 -m d3d -f inf --separation 0.01 --at 9 --model exact " VIEW,
+         "--model: must be float or auto with --viewport", 2},
+        {"-F fp32 -m d3d -f inf --separation 0.01 --at 9 --model staged " VIEW, "--model: must be float or auto", 2},
+        {"-F fp32 -m reversed,log -f inf --separation 0.01 --at 9 " VIEW,
+         "--mapping: must be one of d3d, gl, reversed, gl-rev", 2},
+        {"-F fp32 -m linear -f 99 --separation 0.01 --at 9 " VIEW, "--mapping: must be one of d3d", 2},
+        {"-F unorm16 -m d3d -f 99 --separation 1 --at 9 --viewport 64x64 --raster softpipe",
+         "--raster: softpipe steps the codes of unorm16", 2},
     };
-    (void)state;
-    for (size_t i = 0; i < sizeof refusals / sizeof refusals[0]; i++) {
-        printed p = print_of("solve %s " VIEW "", refusals[i].arguments);
-        assert_int_equal(p.status, 2);
-        if (strstr(p.errors, refusals[i].says) == NULL)
-            fail_msg("%s: %s", refusals[i].arguments, p.errors);
-        printed_free(&p);
-    }
-    printed p = print_of("solve -F unorm16 -m d3d -f 99 --separation 1 --at 9 --viewport 64x64 --raster softpipe");
-    assert_true(p.status == 2 && strstr(p.errors, "--raster: softpipe steps the codes of unorm16") != NULL);
-    printed_free(&p);
-    p = print_of("solve -F fp32 -m d3d -f 99 --separation 1 --at 9 --viewport 64x64 --raster softpipe --json");
-    assert_true(p.status == 0 && strstr(p.out, "unorm16") == NULL && strstr(p.out, "unorm24") != NULL);
-    printed_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_answers), cmocka_unit_test(test_refusals)};
-    return run_tap(tests);
+    static const char line[] =
+        "solve -F fp32 -m d3d -f 99 --separation 1 --at 9 --viewport 64x64 --raster softpipe --json";
+    CHECK_REFUSED("solve", rows);
+    check_says_all(0, line, SAID("!unorm16", "unorm24"));
 }

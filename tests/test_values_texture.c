@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value that texture prints of a scene and of an image. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "frame/frame.h"
 #include "frame/recognise.h"
 #include "frame/survey.h"
@@ -14,68 +10,22 @@
 enum { WIDTH = 40, HEIGHT = 24 };
 
 typedef struct texture_case {
-    camera_case camera;
-    const char *synthetic, *options, *format_from, *mapping_from, *direction_from;
-    double fov, half_height, yaw, pitch, origin[3], sky;
-    struct {
-        const char *name;
-        double number;
-    } parameters[3];
+    const char *line, *format_from, *mapping_from, *direction_from;
+    double yaw, pitch;
 } texture_case;
 
+#define SCENE "texture --size 40x24 --synthetic "
+
 static const texture_case scenes[] = {
-    {{0.3, 1000, {"unorm16"}, {"d3d"}, .unit = "cm"},
-     "decals",
-     "--fov 40 --eye 1,-2,3 --look 107.73322205178,-55.775093275305,608.31418177148 --sky 0.001",
-     "given",
-     "given",
-     "given",
-     40,
-     NAN,
-     10,
-     -5,
-     {1, -2, 3},
-     0.001,
-     {{"gap", 0.02}, {"count", 7}}},
-    {{0.2, 500, {"unorm24"}, {"reversed"}, .rounding = DP_ROUND_ZERO},
-     "plane",
-     "",
-     "given",
-     "given",
-     "given",
-     60,
-     NAN,
-     0,
-     0,
-     {0, 0, 0},
-     1e-4,
-     {{"distance", 9}, {"tilt", 82}}},
-    {{0.3, INFINITY, {"fp32"}, {"reversed"}, .ortho = 0},
-     "sphere",
-     "",
-     "given",
-     "given",
-     "given",
-     60,
-     NAN,
-     0,
-     0,
-     {0, 0, 0},
-     1e-4,
-     {{"radius", 4}}},
-    {{1, 60, {"fp16"}, {"gl"}, .ortho = 1, .half = 3},
-     "sphere",
-     "",
-     "given",
-     "given",
-     "given",
-     NAN,
-     3,
-     0,
-     0,
-     {0, 0, 0},
-     1e-4,
-     {{"radius", 4}}},
+    {SCENE "decals -n 0.3 -f 1000 -F unorm16 -m d3d --unit cm --fov 40 --eye 1,-2,3 "
+           "--look 107.73322205178,-55.775093275305,608.31418177148 --sky 0.001 --parameter gap=0.02 "
+           "--parameter count=7",
+     "given", "given", "given", 10, -5},
+    {SCENE "plane -n 0.2 -f 500 -F unorm24 -m reversed --rounding zero --parameter distance=9 --parameter tilt=82",
+     "given", "given", "given", 0, 0},
+    {SCENE "sphere -n 0.3 -f inf -F fp32 -m reversed --parameter radius=4", "given", "given", "given", 0, 0},
+    {SCENE "sphere -n 1 -f 60 -F fp16 -m gl --ortho=3 --parameter radius=4", "given", "given", "given", 0,
+     0},
 };
 
 /* ---- Statistics -------------------------------------------------------------------------------------------------- */
@@ -83,16 +33,9 @@ static const texture_case scenes[] = {
 static void want_errors(values *v, size_t i, const char *name, const char *unit, uint64_t pixels,
                         const frame_summary *s) {
     values_under(v, "errors[%zu].", i);
-    want_count(v, "masked", pixels - s->count - s->infinite);
-    want_text(v, "name", name);
-    want_text(v, "unit", unit);
-    want_count(v, "pixels", s->count);
-    want_count(v, "unbounded", s->infinite);
-    want_number(v, "mean", s->mean);
-    want_number(v, "p99", s->p99);
-    want_number(v, "max", s->hi);
-    want_count(v, "column", s->hi_column);
-    want_count(v, "row", s->hi_row);
+    want(v, "name=%s unit=%s masked=%lu", name, unit, pixels - s->count - s->infinite);
+    want(v, "pixels=%lu unbounded=%lu mean=%f p99=%f max=%f", s->count, s->infinite, s->mean, s->p99, s->hi);
+    want(v, "column=%u row=%u", s->hi_column, s->hi_row);
 }
 
 static uint64_t pixels_of(const frame *f) {
@@ -182,36 +125,23 @@ static uint64_t hidden_by_sky(const frame *f) {
     return count;
 }
 
-static void want_survey(values *v, const frame *f, uint64_t invalid, line_places *lines) {
+static void want_survey(values *v, const frame *f, uint64_t invalid) {
     static survey s;
     assert_true(survey_make(f, &s));
     values_under(v, "%s", "");
-    want_count(v, "pixels", pixels_of(f));
-    want_count(v, "invalid", invalid);
-    want_number(v, "lo", s.lo);
-    want_number(v, "hi", s.hi);
-    want_count(v, "codes", s.codes);
-    want_derived(v, "sky_share", 100 * (double)s.sky / (double)s.pixels);
+    want(v, "pixels=%lu invalid=%lu lo=%f hi=%f codes=%lu", pixels_of(f), invalid, s.lo, s.hi, (uint64_t)s.codes);
     values_under(v, "sky.");
-    want_count(v, "pixels", s.sky);
-    want_number(v, "limit", f->sky);
-    want_number(v, "from", s.sky_from);
+    want(v, "pixels=%lu limit=%f from=%f", (uint64_t)s.sky, f->sky, s.sky_from);
+    want(v, "~share=%f", 100 * (double)s.sky / (double)s.pixels);
     if (f->synthetic != NULL)
-        want_count(v, "hidden", hidden_by_sky(f));
+        want(v, "hidden=%lu", hidden_by_sky(f));
     for (size_t i = 0; i < s.band_count; i++) {
         const survey_band *b = &s.bands[i];
         values_under(v, "bands[%zu].", i);
-        want_number(v, "lo", b->lo);
-        want_number(v, "hi", b->hi);
-        want_count(v, "pixels", b->pixels);
-        want_count(v, "codes", b->codes);
-        want_count(v, "available", b->available);
-        want_number(v, "gap", b->gap);
-        want_number(v, "gap_z", b->gap_z);
-        want_count(v, "steps", b->steps);
-        want_number(v, "interval", b->interval);
-        want_derived(v, "steps_shown", b->steps > 0 ? (double)b->steps : NAN);
-        place_add(lines, "", "bands[%zu].", i);
+        want(v, "lo=%f hi=%f pixels=%lu codes=%lu", b->lo, b->hi, (uint64_t)b->pixels, (uint64_t)b->codes);
+        want(v, "available=%lu gap=%f gap_z=%f", (uint64_t)b->available, b->gap, b->gap_z);
+        want(v, "steps=%lu interval=%f", (uint64_t)b->steps, b->interval);
+        want(v, "~steps_shown=%f", b->steps > 0 ? (double)b->steps : NAN);
     }
 }
 
@@ -223,11 +153,8 @@ static void want_pairs(values *v, const frame *f) {
         return;
     }
     values_under(v, "pairs.");
-    want_count(v, "count", p.pairs);
-    want_count(v, "ties", p.ties);
-    want_count(v, "possible", p.possible);
-    want_number(v, "first_tie", p.first_tie);
-    want_number(v, "certain_to", p.certain_to);
+    want(v, "count=%lu ties=%lu possible=%lu", (uint64_t)p.pairs, (uint64_t)p.ties, (uint64_t)p.possible);
+    want(v, "first_tie=%f certain_to=%f", p.first_tie, p.certain_to);
 }
 
 /* By hand, and rounded to binary32; null where Unity has no such helper. */
@@ -241,138 +168,112 @@ static void want_zbuffer(values *v, const dp_setup *setup) {
     }
     const long double x = reversed ? f / n - 1 : 1 - f / n, y = reversed ? 1 : f / n;
     values_under(v, "zbuffer_params.");
-    want_number(v, "x", (double)(float)x);
-    want_number(v, "y", (double)(float)y);
-    want_number(v, "z", (double)(float)(x / f));
-    want_number(v, "w", (double)(float)(y / f));
+    want(v, "x=%f y=%f", (double)(float)x, (double)(float)y);
+    want(v, "z=%f w=%f", (double)(float)(x / f), (double)(float)(y / f));
     values_under(v, "%s", "");
 }
 
+/* Of an orthographic camera half the height, of another the field of view. */
 static void want_camera(values *v, const texture_case *c, const frame *f) {
+    const bool ortho = f->camera->setup.spec.ortho;
     values_under(v, "%s", "");
     want_setup(v, &f->camera->setup);
     want_zbuffer(v, &f->camera->setup);
-    want_count(v, "width", f->camera->width);
-    want_count(v, "height", f->camera->height);
-    want_text(v, "format_from", c->format_from);
-    want_text(v, "mapping_from", c->mapping_from);
-    want_text(v, "direction_from", c->direction_from);
-    want_number(v, "fov", c->fov);
-    want_number(v, "half_height", c->half_height);
-    want_number(v, "condition", position_condition(f->camera));
+    want(v, "width=%u height=%u", f->camera->width, f->camera->height);
+    want(v, "format_from=%s mapping_from=%s", c->format_from, c->mapping_from);
+    want(v, "direction_from=%s fov=%f", c->direction_from, ortho ? NAN : number_behind(c->line, "--fov", 60));
+    want(v, "half_height=%f", ortho ? number_behind(c->line, "--ortho", NAN) : NAN);
+    want(v, "condition=%f", position_condition(f->camera));
     want_text(v, "truth", f->synthetic != NULL ? "synthetic" : NULL);
 }
 
-static const csv_column band_columns[] = {
-    SETUP_COLUMNS,      {"from [scene]", "lo"},          {"to [scene]", "hi"},   {"pixels", "pixels"},
-    {"codes", "codes"}, {"available", "available"},      {"gap [scene]", "gap"}, {"gap_z [scene]", "gap_z"},
-    {"steps", "steps"}, {"interval [scene]", "interval"}};
-
 /* What 99 % do not exceed, and what none does: not less than it is. Unbounded errors and decodings have no such. */
-static void check_upwards(const values *v, const char *line, char at[][PATH_SIZE]) {
+static void check_upwards(const values *v, const char *line) {
+    static const char *const fields[] = {"mean", "p99", "max"};
     for (int k = 0; k < 3; k++) {
-        char word[64];
+        char word[64], path[2 * PATH_SIZE];
         int used = 0;
         assert_int_equal(sscanf(line, " %63s%n", word, &used), 1);
         line += used;
+        snprintf(path, sizeof path, "%s%s", v->prefix, fields[k]);
         if (k > 0 && strcmp(word, "-") != 0)
-            assert_true(strtod(word, NULL) >= value_at(v, at[k])->number);
+            assert_true(strtod(word, NULL) >= value_at(v, path)->number);
     }
 }
 
-static void check_text(const values *v, const char *arguments, size_t errors, const line_places *lines) {
-    static const text_column bands[] = {{"lo", 6},     {"hi", 6},           {"pixels", 10},
-                                        {"codes", 10}, {"available", 10},   {"gap", 6},
-                                        {"gap_z", 6},  {"steps_shown", 10}, {"interval", 6}};
-    static const char *const sky[] = {"sky.pixels", "sky_share", "sky.from", "sky.limit", NULL};
-    static const char *const depths[] = {"lo", "hi", "codes", NULL}, *const condition[] = {"condition", NULL};
-    static const char *const zbuffer[] = {"zbuffer_params.x", "zbuffer_params.y", "zbuffer_params.z",
-                                          "zbuffer_params.w", NULL};
-    static const char *const pairs[] = {"pairs.count", "pairs.ties", "pairs.first_tie", NULL};
-    static const char *const certain[] = {"pairs.possible", "pairs.certain_to", NULL};
-    static const char *const fields[] = {"mean", "p99", "max", "column", "row"};
-    printed p = print_of("%s --full", arguments);
-    check_text_numbers(v, p.out, "sky  ", 3, sky);
-    check_text_numbers(v, p.out, "depths  ", 8, depths);
-    check_text_table(v, p.out, bands, sizeof bands / sizeof bands[0], lines);
-    check_text_numbers(v, p.out, "condition  ", 4, condition);
-    if (value_find(v, zbuffer[0]) != NULL)
-        check_text_numbers(v, p.out, "in Unity  ", 9, zbuffer);
+static void check_text(values *v, const char *line, size_t errors) {
+    char *text = output_of(0, line, "--full"), label[64], path[PATH_SIZE];
+    values_under(v, "%s", "");
+    check_line(v, text, "sky  ", "sky.pixels:3, sky.share:3, sky.from:3, sky.limit:3");
+    check_line(v, text, "depths  ", "lo:8, hi:8, codes:8");
+    check_table(v, text, "bands[]",
+                "lo:6, hi:6, pixels:10, codes:10, available:10, gap:6, gap_z:6, steps_shown:10, interval:6");
+    check_line(v, text, "condition  ", "condition:4");
+    if (value_find(v, "zbuffer_params.x") != NULL)
+        check_line(v, text, "in Unity  ",
+                   "zbuffer_params.x:9, zbuffer_params.y:9, zbuffer_params.z:9, zbuffer_params.w:9");
     else
-        assert_null(strstr(p.out, "_ZBufferParams"));
-    if (strstr(p.out, "  pairs  ") != NULL) {
-        const char *rest = strstr(strstr(p.out, "  pairs  "), "\n");
-        check_text_numbers(v, p.out, "pairs  ", 6, pairs);
-        check_text_numbers(v, rest + 1, "", 6, certain);
+        assert_null(strstr(text, "_ZBufferParams"));
+    if (strstr(text, "  pairs  ") != NULL) {
+        const char *rest = strstr(strstr(text, "  pairs  "), "\n");
+        check_line(v, text, "pairs  ", "pairs.count:6, pairs.ties:6, pairs.first_tie:6");
+        check_line(v, rest + 1, "", "pairs.possible:6, pairs.certain_to:6");
         const char *words = strstr(rest, "up to z ="); /* where pairs cannot fight: not farther than it is */
         if (words != NULL)
             assert_true(strtod(words + strlen("up to z ="), NULL) <= value_at(v, "pairs.certain_to")->number);
     }
     for (size_t i = 0; i < errors; i++) {
-        char at[5][PATH_SIZE], label[64];
-        const char *paths[6] = {at[0], at[1], at[2], at[3], at[4], NULL};
-        snprintf(at[0], PATH_SIZE, "errors[%zu].name", i);
-        snprintf(label, sizeof label, "%-24.60s", value_at(v, at[0])->text);
-        for (size_t k = 0; k < 5; k++)
-            snprintf(at[k], PATH_SIZE, "errors[%zu].%s", i, fields[k]);
-        check_text_numbers(v, p.out, label, 4, paths);
-        check_upwards(v, strstr(p.out, label) + strlen(label), at);
+        snprintf(path, sizeof path, "errors[%zu].name", i);
+        snprintf(label, sizeof label, "%-24.60s", value_at(v, path)->text);
+        values_under(v, "errors[%zu].", i);
+        check_line(v, text, label, "mean:4, p99:4, max:4, column:4, row:4");
+        check_upwards(v, strstr(text, label) + strlen(label));
     }
-    printed_free(&p);
+    free(text);
 }
 
-static void check_forms(values *v, const char *arguments, size_t errors, line_places *lines) {
-    check_json(v, 0, arguments);
-    for (size_t i = 0; i < lines->count; i++)
-        lines->items[i].outer[0] = '\0'; /* the set-up stands at the top */
-    check_csv(v, 0, arguments, band_columns, sizeof band_columns / sizeof band_columns[0], lines);
-    check_text(v, arguments, errors, lines);
+/* The set-up stands at the top. */
+static void check_all(values *v, const char *line, size_t errors) {
+    check_forms(v, 0, line, "bands[]",
+                SETUP_CSV "from [scene] = lo, to [scene] = hi, pixels, codes, available, gap [scene], gap_z [scene], "
+                          "steps, interval [scene]");
+    check_text(v, line, errors);
 }
 
-/* The scene's own, but for those of the case; their options behind the others. */
-static void want_parameters(values *v, const texture_case *c, const synthetic_row *synthetic, double *parameters,
-                            char options[256]) {
+/* The scene's own, but for those of the line. */
+static void want_parameters(values *v, const char *line, const synthetic_row *synthetic, double *parameters) {
     parameter_defaults(synthetic->parameters, parameters);
-    options[0] = '\0';
     for (size_t i = 0; i < PARAMETERS_MAX && synthetic->parameters[i].name != NULL; i++) {
-        const char *name = synthetic->parameters[i].name;
-        for (size_t k = 0; k < 3 && c->parameters[k].name != NULL; k++)
-            if (strcmp(c->parameters[k].name, name) == 0) {
-                parameters[i] = c->parameters[k].number;
-                snprintf(options + strlen(options), 256 - strlen(options), " --parameter %s=%.17g", name,
-                         parameters[i]);
-            }
+        char given[64];
+        snprintf(given, sizeof given, " --parameter %s=", synthetic->parameters[i].name);
+        const char *at = strstr(line, given);
+        if (at != NULL)
+            parameters[i] = strtod(at + strlen(given), NULL);
         values_under(v, "parameters[%zu].", i);
-        want_text(v, "name", name);
-        want_number(v, "value", parameters[i]);
+        want(v, "name=%s value=%f", synthetic->parameters[i].name, parameters[i]);
     }
 }
 
-static void test_synthetic(void **state) {
-    (void)state;
+TEST(synthetic) {
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         const texture_case *c = &scenes[i];
-        texture_camera camera;
+        const char *name = word_behind(c->line, "--synthetic");
+        const texture_camera camera = view_placed(c->line, WIDTH, HEIGHT, c->yaw, c->pitch);
         double parameters[PARAMETERS_MAX];
-        char options[512], more[256], arguments[1024];
-        line_places lines = {0};
-        values v = values_of("texture");
-        v.unit = c->camera.unit;
-        camera = view_placed(&c->camera, WIDTH, HEIGHT, c->fov, c->half_height, c->yaw, c->pitch, c->origin);
-        want_parameters(&v, c, synthetic_find(c->synthetic), parameters, more);
-        const frame f = {
-            .camera = &camera, .synthetic = synthetic_find(c->synthetic), .parameters = parameters, .sky = c->sky};
+        values v = values_of(c->line);
+        want_parameters(&v, c->line, synthetic_find(name), parameters);
+        const frame f = {.camera = &camera,
+                         .synthetic = synthetic_find(name),
+                         .parameters = parameters,
+                         .sky = number_behind(c->line, "--sky", 1e-4)};
         values_under(&v, "%s", "");
         want_text(&v, "file", NULL);
-        want_text(&v, "synthetic", c->synthetic);
+        want_text(&v, "synthetic", name);
         want_camera(&v, c, &f);
-        want_survey(&v, &f, 0, &lines);
+        want_survey(&v, &f, 0);
         want_pairs(&v, &f);
-        snprintf(arguments, sizeof arguments, "texture --synthetic %s --size %dx%d %s %s%s", c->synthetic, WIDTH,
-                 HEIGHT, camera_options(&c->camera, options), c->options, more);
-        check_forms(&v, arguments, want_all_errors(&v, &f), &lines);
+        check_all(&v, c->line, want_all_errors(&v, &f));
         values_free(&v);
-        places_free(&lines);
     }
 }
 
@@ -417,34 +318,28 @@ static uint64_t write_image(const char *path, bool floats, bool damaged, uint32_
 
 static void want_image(values *v, const char *path, const image *shot, const recognised *found) {
     values_under(v, "%s", "");
-    want_text(v, "file", path);
+    want(v, "file=%s type=%s channels=%u", path, image_type_name(shot->type), 1U);
     want_text(v, "synthetic", NULL);
-    want_text(v, "type", image_type_name(shot->type));
-    want_count(v, "channels", 1);
     want_text(v, "packing", NULL); /* test_packing has it otherwise */
     want_text(v, "lossy", NULL);   /* and test_image_compressed this */
     values_under(v, "sky.");
     want_count(v, "zeros", 0); /* of packings, in test_packing */
     values_under(v, "recognised.");
     want_text(v, "format", found->depth ? found->format.name : NULL);
-    want_bool(v, "certain", found->certain);
+    want(v, "certain=%d why=%s", found->certain, found->why);
     if (found->direction)
         want_bool(v, "reversed", found->reversed);
     else
         want_text(v, "reversed", NULL);
-    want_text(v, "why", found->why);
 }
 
-/* The step in scene units is that of metric depth, which these are not. */
+/* The step in scene units is that of metric depth, which these are not; test_image_truth has what is shifted up. */
 static void want_samples(values *v, const grain *g, bool coarser) {
     values_under(v, "%s", "");
     want_number(v, "metric", NAN);
     values_under(v, "samples.");
-    want_number(v, "step", NAN);
-    want_number(v, "steps", g->kind == GRAIN_STEPS ? g->steps : NAN);
-    want_number(v, "steps_or", NAN); /* test_image_truth has what is shifted up */
-    want_number(v, "bits", g->kind == GRAIN_FLOATS ? g->bits : NAN);
-    want_bool(v, "coarser", coarser);
+    want(v, "step=%f steps=%f steps_or=%f", NAN, g->kind == GRAIN_STEPS ? g->steps : NAN, NAN);
+    want(v, "bits=%f coarser=%d", g->kind == GRAIN_FLOATS ? g->bits : NAN, coarser);
     want_text(v, "rounded",
               g->kind == GRAIN_CODES         ? NULL
               : g->rounding == GRAIN_ANY     ? "unknown"
@@ -452,112 +347,53 @@ static void want_samples(values *v, const grain *g, bool coarser) {
                                              : "zero");
 }
 
+/* The camera in the end, and what is written of it, the rest of which is found or assumed. */
 static const struct {
     texture_case asked;
+    const char *written;
     bool floats, damaged;
     uint32_t sky, spread;
-    const char *given; /* on the command line, in place of what is found */
     grain samples;
     bool coarser;
 } images[] = {
-    {{{0.3, 700, {"unorm16"}, {"reversed"}, .ortho = 0},
-      NULL,
-      "-n 0.3 -f 700 --sky 0.0002",
-      "found",
-      "assumed",
-      "assumed",
-      60,
-      NAN,
-      0,
-      0,
-      {0, 0, 0},
-      2e-4,
-      {{NULL, 0}}},
+    {{"texture -n 0.3 -f 700 -F unorm16 -m reversed --sky 0.0002", "found", "assumed", "assumed", 0, 0},
+     "-n 0.3 -f 700 --sky 0.0002",
      true,
      false,
      0,
      30000,
-     "",
      {.kind = GRAIN_FLOATS, .buffer = true, .bits = 24, .least = 0x1p-149},
      false},
-    {{{0.5, 90, {"unorm24"}, {"gl"}, .ortho = 0},
-      NULL,
-      "-n 0.5 -f 90 --fov 35",
-      "given",
-      "given",
-      "given",
-      35,
-      NAN,
-      0,
-      0,
-      {0, 0, 0},
-      1e-4,
-      {{NULL, 0}}},
+    {{"texture -n 0.5 -f 90 -F unorm24 -m gl --fov 35", "given", "given", "given", 0, 0},
+     "-n 0.5 -f 90 --fov 35 -F unorm24 -m gl --rounding nearest",
      true,
      true,
      65535,
      30000,
-     "-F unorm24 -m gl --rounding nearest",
      {.kind = GRAIN_FLOATS, .rounding = GRAIN_NEAREST, .buffer = true, .bits = 24, .least = 0x1p-149},
      false},
-    {{{0.5, 90, {"unorm24"}, {"reversed"}, .ortho = 0},
-      NULL,
-      "-n 0.5 -f 90 --fov 50",
-      "given",
-      "given",
-      "given",
-      50,
-      NAN,
-      0,
-      0,
-      {0, 0, 0},
-      1e-4,
-      {{NULL, 0}}},
+    {{"texture -n 0.5 -f 90 -F unorm24 -m reversed --fov 50", "given", "given", "given", 0, 0},
+     "-n 0.5 -f 90 --fov 50 -F unorm24 -m reversed",
      true,
      false,
      0,
      30000,
-     "-F unorm24 -m reversed",
      {.kind = GRAIN_STEPS, .steps = 65535, .buffer = true, .bits = 24, .least = 0x1p-149},
      true},
-    {{{0.5, 90, {"unorm16"}, {"reversed"}, .rounding = DP_ROUND_ZERO},
-      NULL,
-      "-n 0.5 -f 90",
-      "assumed",
-      "given",
-      "given",
-      60,
-      NAN,
-      0,
-      0,
-      {0, 0, 0},
-      1e-4,
-      {{NULL, 0}}},
+    {{"texture -n 0.5 -f 90 -F unorm16 -m reversed --rounding zero", "assumed", "given", "given", 0, 0},
+     "-n 0.5 -f 90 -m reversed --rounding zero",
      false,
      false,
      65535,
      30000,
-     "-m reversed --rounding zero",
      {.kind = GRAIN_STEPS, .rounding = GRAIN_ZERO, .steps = 65535, .margin = 0x1p-24, .least = 0x1p-149},
      false},
-    {{{0.2, 400, {"unorm16"}, {"reversed"}, .ortho = 0},
-      NULL,
-      "-n 0.2 -f 400",
-      "assumed",
-      "assumed",
-      "found",
-      60,
-      NAN,
-      0,
-      0,
-      {0, 0, 0},
-      1e-4,
-      {{NULL, 0}}},
+    {{"texture -n 0.2 -f 400 -F unorm16 -m reversed", "assumed", "assumed", "found", 0, 0},
+     "-n 0.2 -f 400",
      false,
      false,
      0,
      16000,
-     "",
      {.kind = GRAIN_STEPS, .steps = 65535, .margin = 0x1p-24, .least = 0x1p-149},
      false},
 };
@@ -577,11 +413,7 @@ static uint32_t pixel_of_readings(size_t at) {
 
 static void want_reading(values *v, size_t i, uint32_t pixel, const char *what, const char *name, double z) {
     values_under(v, "readings[%zu].", i);
-    want_text(v, "what", what);
-    want_text(v, "name", name);
-    want_count(v, "column", pixel % COLUMNS);
-    want_count(v, "row", pixel / COLUMNS);
-    want_number(v, "z", z);
+    want(v, "what=%s name=%s z=%f column=%u row=%u", what, name, z, pixel % COLUMNS, pixel / COLUMNS);
 }
 
 static double eye_of(const dp_setup *setup, dp_mapping mapping, double d) {
@@ -609,75 +441,59 @@ static void want_readings(values *v, size_t at, const dp_setup *setup) {
 }
 
 /* The name of the file has a quote and a backslash. */
-static void test_images(void **state) {
-    (void)state;
+TEST(images_of_depths) {
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++) {
         const texture_case *c = &images[i].asked;
-        texture_camera camera;
-        char path[512], arguments[1024];
+        const char *path = scratch_file("a\"b\\c.npy");
+        const texture_camera camera = view_placed(c->line, COLUMNS, ROWS, c->yaw, c->pitch);
+        char line[1024];
         image shot;
         image_error error;
         recognised found;
-        line_places lines = {0};
-        values v = values_of("texture");
-        v.unit = c->camera.unit;
-        snprintf(path, sizeof path, "%s", scratch_file("a\"b\\c.npy"));
+        values v = values_of(c->line);
         const uint64_t holes = write_image(path, images[i].floats, images[i].damaged, images[i].sky, images[i].spread);
         assert_true(image_read(path, &shot, &error));
         recognise(&shot, &found);
-        camera = view_placed(&c->camera, COLUMNS, ROWS, c->fov, c->half_height, c->yaw, c->pitch, c->origin);
-        const frame f = {.camera = &camera, .image = &shot, .grain = &images[i].samples, .sky = c->sky};
+        const frame f = {.camera = &camera,
+                         .image = &shot,
+                         .grain = &images[i].samples,
+                         .sky = number_behind(c->line, "--sky", 1e-4)};
         want_image(&v, path, &shot, &found);
         want_samples(&v, &images[i].samples, images[i].coarser);
         want_readings(&v, i, &camera.setup);
         want_camera(&v, c, &f);
-        want_survey(&v, &f, holes, &lines);
+        want_survey(&v, &f, holes);
         want_pairs(&v, &f);
-        snprintf(arguments, sizeof arguments, "texture '%s' %s %s", path, c->options, images[i].given);
-        check_forms(&v, arguments, want_all_errors(&v, &f), &lines);
+        snprintf(line, sizeof line, "texture '%s' %s", path, images[i].written);
+        check_all(&v, line, want_all_errors(&v, &f));
         image_free(&shot);
         values_free(&v);
-        places_free(&lines);
     }
 }
 
 /* Then nothing is off, by no number and at no pixel. */
-static void test_nothing_but_sky(void **state) {
-    (void)state;
-    printed p = print_of("texture --synthetic plane --parameter distance=2000 --size 8x8 -q");
-    assert_int_equal(p.status, 0);
-    assert_null(strstr(p.out, "inf"));
-    assert_null(strstr(p.out, "0,0"));
-    assert_non_null(strstr(p.out, "\n  eye depth                       -         -         -  - (scene units)\n"));
-    printed_free(&p);
+TEST(nothing_but_sky) {
+    static const char line[] = "texture --synthetic plane --parameter distance=2000 --size 8x8 -q";
+    check_says_all(
+        0, line, SAID("!inf", "!0,0", "\n  eye depth                       -         -         -  - (scene units)\n"));
 }
 
 /* 8 bits times 256: shares of 65535/256, or of 255. */
-static void test_shifted_up(void **state) {
+TEST(shifted_up) {
     uint16_t samples[64];
-    char path[512];
-    (void)state;
+    const char *path = scratch_file("up.npy");
     for (unsigned i = 0; i < 64; i++)
         samples[i] = (uint16_t)((7 * i % 256) << 8);
-    snprintf(path, sizeof path, "%s", scratch_file("up.npy"));
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     image_writer *w = image_writer_open(file, IMAGE_NPY, IMAGE_U16, 8, 8, 1, NULL);
     assert_non_null(w);
     image_writer_rows(w, samples, 8);
     assert_true(image_writer_close(w) && fclose(file) == 0);
-    printed p = print_of("texture %s -n 0.1 -f 100 -F d24 -m d3d --json", path);
-    json_t *root = json_of(p.out), *said = json_object_get(root, "samples");
-    assert_relative(json_number_value(json_object_get(said, "steps")), 65535.0 / 256.0, 1e-15);
-    assert_true(json_number_value(json_object_get(said, "steps_or")) == 255);
+    json_t *root = json_printed(0, "texture %s -n 0.1 -f 100 -F d24 -m d3d", path);
+    assert_relative(number_at(root, "samples.steps"), 65535.0 / 256.0, 1e-15);
+    assert_true(number_at(root, "samples.steps_or") == 255);
     json_decref(root);
-    printed_free(&p);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing_but_sky), cmocka_unit_test(test_synthetic), cmocka_unit_test(test_images),
-        cmocka_unit_test(test_shifted_up),      cmocka_unit_test(check_apart),
-    };
-    return run_tap(tests);
-}
+LIST_TEST(check_apart)

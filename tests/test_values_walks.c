@@ -7,20 +7,15 @@
 static void want_axis(values *v, const char *axis, const char *key, const char *label, const char *unit,
                       const char *scale) {
     values_under(v, "%s.", axis);
-    want_text(v, "key", key);
-    want_text(v, "label", label);
-    want_text(v, "unit", unit);
-    want_text(v, "scale", scale);
+    want(v, "key=%s label=%s unit=%s scale=%s", key, label, unit, scale);
 }
 
 /* The digest and the subtitle are what they are; the first is tested with the drawing, the second is read here. */
 static void want_head(values *v, const json_t *root, const char *figure, const char *title) {
     values_under(v, "%s", "");
-    want_text(v, "figure", figure);
-    want_text(v, "title", title);
+    want(v, "figure=%s title=%s", figure, title);
     want_text(v, "unit", NULL);
-    want_text(v, "data", json_string_value(json_object_get(root, "data")));
-    want_text(v, "subtitle", json_string_value(json_object_get(root, "subtitle")));
+    want(v, "data=%s subtitle=%s", text_at(root, "data"), text_at(root, "subtitle"));
 }
 
 static void want_point(values *v, size_t panel, size_t series, size_t point, const char *x, double at, const char *y,
@@ -63,8 +58,7 @@ static int by_time(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static void test_pareto(void **state) {
-    (void)state;
+TEST(pareto) {
     const method_family_row *family = method_family_find("worst"); /* relative errors, no pipeline */
     values v = values_of("plot");
     char *text = command_output(cmd_plot, 0, "plot pareto worst --json -n 0.2 -f 800 --title a\\\\b\"c\"d");
@@ -79,7 +73,7 @@ static void test_pareto(void **state) {
     want_head(&v, root, "pareto", "a\\\\b\"c\"d");
     values_under(&v, "panels[0].");
     want_text(&v, "title", "");
-    assert_non_null(strstr(json_string_value(json_object_get(root, "subtitle")), "near 0.2, far 800"));
+    assert_non_null(strstr(text_at(root, "subtitle"), "near 0.2, far 800"));
     want_axis(&v, "x", "time", "time per element", "ns", "log");
     want_axis(&v, "y", "error", "worst error", family->measure, "log");
     size_t series = want_times(&v, 0, "front", -1, order, fronts);
@@ -99,17 +93,13 @@ static double digits(double error) {
 
 /* Where a column of a map is drawn: at its far/near, but for the rounding of the logarithms. */
 static double column_of(const json_t *root, size_t panel, size_t point, size_t k) {
-    double ratio;
-    const json_t *map =
-        json_array_get(json_object_get(json_array_get(json_object_get(root, "panels"), panel), "series"), 2);
-    assert_int_equal(json_unpack(json_array_get(json_object_get(map, "points"), point), "{s:F}", "ratio", &ratio), 0);
+    const double ratio = number_at(root, "panels[%zu].series[2].points[%zu].ratio", panel, point);
     assert_relative(ratio, 10 * pow(1000, (double)k), 1e-12);
     return ratio;
 }
 
 /* A panel for each case, in it the methods from the last. */
-static void test_walk(void **state) {
-    (void)state;
+TEST(stability) {
     const method_family_row *family = method_family_find("worst"); /* each method speaks of each case */
     static const char *const names[] = {"claimed up to here", "the claim breaks here", "map"};
     values v = values_of("plot");
@@ -155,7 +145,6 @@ static void test_walk(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pareto), cmocka_unit_test(test_walk)};
     setenv("SOURCE_DATE_EPOCH", "1577923200", 1);
-    return run_tap(tests);
+    return run_listed(NULL, NULL);
 }

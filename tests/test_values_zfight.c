@@ -1,230 +1,150 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value that zfight prints, against a census of the same depths. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "census/census.h"
 #include "printed.h"
 
+static const char *const lines[] = {
+    /* A fraction of the depths is clipped before far, none between the planes that are left. */
+    "zfight -n 0.1 -f 16.1 -F unorm24,fp16 -m d3d,gl-reversed --arith mesa-remap --range 15.99:16.1 -q",
+    /* Far is drawn, the depth before it is not: a hole. */
+    "zfight -n 1 -f 10 -F fp32 -m d3d --unit in --range 9.99:10 -q",
+    "zfight -n 0.3 -f 900 -F unorm16 -m gl,reversed --rounding zero --range 7.98:8.03 -q --separation 2.5e-3",
+    "zfight -n 0.3 -f 900 -F fp32 -m reversed --rounding even --range 5:300 -q --sample 5000 --seed 8589934597",
+    "zfight -n 2 -f 60 -F unorm24 -m d3d --ortho --range 3:50 -q --separation 4e-6 --sample 3000 --seed 7",
+    /* Behind the camera. */
+    "zfight -n -100 -f 60 -F unorm24 -m d3d --ortho --range -8.01:-7.99 -q",
+    "zfight -n -100 -f 60 -F unorm24 -m d3d --ortho --range -8.01:-7.99 -q --separation 8e-6",
+    "zfight -n -100 -f 60 -F unorm16 -m reversed --ortho --range -100:60 -q --separation 1e-3 --sample 900 --seed 3",
+};
+
 typedef struct zfight_case {
-    camera_case camera;
-    double lo, hi;
-    double gap;
+    double range[2], gap;
     uint64_t sample, seed;
 } zfight_case;
 
-static const zfight_case cases[] = {
-    /* A fraction of the depths is clipped before far, none between the planes that are left. */
-    {{0.1,
-      16.1,
-      {"unorm24", "fp16"},
-      {"d3d", "gl-reversed"},
-      .implied = true,
-      .model = DP_MODEL_FLOAT,
-      .arith = "mesa-remap"},
-     15.99,
-     16.1,
-     0,
-     0,
-     0},
-    /* Far is drawn, the depth before it is not: a hole. */
-    {{1, 10, {"fp32"}, {"d3d"}, .implied = true, .model = DP_MODEL_FLOAT, .unit = "in"}, 9.99, 10, 0, 0, 0},
-    {{0.3, 900, {"unorm16"}, {"gl", "reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .rounding = DP_ROUND_ZERO},
-     7.98,
-     8.03,
-     2.5e-3,
-     0,
-     0},
-    {{0.3, 900, {"fp32"}, {"reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .rounding = DP_ROUND_EVEN},
-     5,
-     300,
-     0,
-     5000,
-     UINT64_C(8589934597)},
-    {{2, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1}, 3, 50, 4e-6, 3000, 7},
-    /* Behind the camera. */
-    {{-100, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1}, -8.01, -7.99, 0, 0, 0},
-    {{-100, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1}, -8.01, -7.99, 8e-6, 0, 0},
-    {{-100, 60, {"unorm16"}, {"reversed"}, .implied = true, .model = DP_MODEL_FLOAT, .ortho = 1},
-     -100,
-     60,
-     1e-3,
-     900,
-     3},
-};
+static zfight_case case_of(const char *line) {
+    zfight_case c = {.gap = number_behind(line, "--separation", 0),
+                     .sample = (uint64_t)number_behind(line, "--sample", 0),
+                     .seed = (uint64_t)number_behind(line, "--seed", 0)};
+    assert_int_equal(numbers_behind(line, "--range", c.range, 2), 2);
+    return c;
+}
 
 static void census_of(const zfight_case *c, const dp_setup *setup, census_result *out) {
-    const census_sample_request q = {.common = {.setup = setup, .lo = c->lo, .hi = c->hi, .bound = dp_separation},
-                                     .count = c->sample,
-                                     .seed = c->seed,
-                                     .gap = c->gap};
+    const census_sample_request q = {
+        .common = {.setup = setup, .lo = c->range[0], .hi = c->range[1], .bound = dp_separation},
+        .count = c->sample,
+        .seed = c->seed,
+        .gap = c->gap};
     assert_int_equal(c->sample > 0 || c->gap > 0 ? census_sample(&q, out) : census_run(&q.common, out), CENSUS_DONE);
 }
 
 /* With a gap there are no intervals, and no share of the bound that they take. */
 static void want_counts(values *v, const zfight_case *c, const census_band *b) {
     const bool intervals = c->gap <= 0;
-    want_number(v, "lo", b->lo);
-    want_number(v, "hi", b->hi);
-    want_count(v, "pairs", b->pairs);
-    want_count(v, "ties", b->ties);
-    want_count(v, "swaps", b->swaps);
-    want_number(v, "longest", intervals ? b->longest : NAN);
-    want_number(v, "longest_z", b->longest_z);
-    want_number(v, "bound", b->bound);
-    want_number(v, "used", intervals ? b->slack : NAN);
-    want_derived(v, "ties_share", 100 * (double)b->ties / (double)b->pairs);
-    want_derived(v, "swaps_share", 100 * (double)b->swaps / (double)b->pairs);
+    want(v, "lo=%f hi=%f pairs=%lu ties=%lu swaps=%lu", b->lo, b->hi, b->pairs, b->ties, b->swaps);
+    want(v, "longest=%f longest_z=%f bound=%f", intervals ? b->longest : NAN, b->longest_z, b->bound);
+    want(v, "used=%f", intervals ? b->slack : NAN);
+    want(v, "~ties_share=%f", 100 * (double)b->ties / (double)b->pairs);
+    want(v, "~swaps_share=%f", 100 * (double)b->swaps / (double)b->pairs);
 }
 
 /* The depth behind the last pair in order; none where no pair of the range begins there. */
 static double always_from(const zfight_case *c, double last) {
     float z = nextafterf((float)last, HUGE_VALF);
     if (isnan(last))
-        for (z = (float)c->lo; (double)z < c->lo;)
+        for (z = (float)c->range[0]; (double)z < c->range[0];)
             z = nextafterf(z, HUGE_VALF);
-    return (double)(float)((double)z + c->gap) <= c->hi ? (double)z : NAN;
+    return (double)(float)((double)z + c->gap) <= c->range[1] ? (double)z : NAN;
 }
 
-static void want_census(values *v, const zfight_case *c, const dp_setup *setup, size_t i, line_places *shown,
-                        line_places *lines) {
+static void want_census(values *v, const zfight_case *c, const dp_setup *setup, size_t i) {
     static census_result r;
     const bool counted = c->sample == 0 && c->gap <= 0;
     int kept = 0;
     census_of(c, setup, &r);
     for (int b = 0; b < r.band_count; b++) {
-        char inner[32];
         if (r.bands[b].pairs == 0)
             continue;
-        snprintf(inner, sizeof inner, "bands[%d].", kept);
         values_under(v, "setups[%zu].bands[%d].", i, kept++);
         want_counts(v, c, &r.bands[b]);
-        want_derived(v, "clipped", counted ? (double)r.bands[b].clipped : NAN);
-        place_add(shown, inner, "setups[%zu].", i);
-        place_add(lines, inner, "setups[%zu].", i);
+        want(v, "~clipped=%f", counted ? (double)r.bands[b].clipped : NAN);
     }
-    place_add(shown, "", "setups[%zu].", i);
     values_under(v, "setups[%zu].", i);
     want_setup(v, setup);
-    want_text(v, "method", c->sample > 0 ? "sample" : "census");
-    (c->sample > 0 ? want_number : want_derived)(v, "seed", (double)c->seed);
-    (c->gap > 0 ? want_number : want_derived)(v, "gap", c->gap);
+    want(v, "method=%s", c->sample > 0 ? "sample" : "census");
+    want(v, c->sample > 0 ? "seed=%f" : "~seed=%f", (double)c->seed);
+    want(v, c->gap > 0 ? "gap=%f" : "~gap=%f", c->gap);
     want_counts(v, c, &r.all);
-    want_derived(v, "guaranteed_there", dp_separation(setup, r.all.longest_z));
-    if (counted) {
-        want_count(v, "clipped", r.all.clipped);
-        want_count(v, "holes", r.holes);
-    }
-    if (c->gap > 0) {
-        want_number(v, "first", r.all.first);
-        want_number(v, "always_from", always_from(c, r.all.last_apart));
-    }
-    want_number(v, "near_effective", r.near_effective);
-    want_number(v, "far_effective", r.far_effective);
+    want(v, "~guaranteed_there=%f", dp_separation(setup, r.all.longest_z));
+    if (counted)
+        want(v, "clipped=%lu holes=%lu", r.all.clipped, r.holes);
+    if (c->gap > 0)
+        want(v, "first=%f always_from=%f", r.all.first, always_from(c, r.all.last_apart));
+    want(v, "near_effective=%f far_effective=%f", r.near_effective, r.far_effective);
 }
 
 /* The sentence above the first set-up's table. */
-static void check_answer(const values *v, const char *text) {
-    static const char *const neighbours[] = {"setups[0].ties_share", "setups[0].swaps_share", NULL};
-    static const char *const longest[] = {"setups[0].longest", "setups[0].longest_z", "setups[0].guaranteed_there",
-                                          NULL};
-    static const char *const always[] = {"setups[0].first", "setups[0].always_from", NULL};
-    static const char *const first[] = {"setups[0].first", NULL};
-    const wanted *from = value_find(v, "setups[0].first"), *on = value_find(v, "setups[0].always_from");
-    if (from == NULL) {
-        check_text_numbers(v, text, "Neighbouring binary32 depths", 3, neighbours);
-        check_text_numbers(v, text, "longest interval", 6, longest);
+static void check_answer(values *v, const zfight_case *c, const char *text) {
+    char label[128];
+    values_under(v, "setups[0].");
+    check_line(v, text, "effective clip range", "near_effective:9, far_effective:9");
+    if (c->gap <= 0) {
+        check_line(v, text, "Neighbouring binary32 depths", "ties_share:3, swaps_share:3");
+        check_line(v, text, "longest interval", "longest:6, longest_z:6, guaranteed_there:6");
         return;
     }
-    char label[128];
-    const double gap = value_at(v, "setups[0].gap")->number;
+    const bool never = isnan(value_at(v, "setups[0].first")->number);
+    const bool nowhere = isnan(value_at(v, "setups[0].always_from")->number);
     snprintf(label, sizeof label, "%s %g apart %s",
-             strstr(text, "Of the pairs drawn") != NULL ? "Of the pairs drawn, surfaces" : "Surfaces", gap,
-             isnan(from->number) ? "never fight" : "first fight at z =");
-    if (isnan(from->number))
+             strstr(text, "Of the pairs drawn") != NULL ? "Of the pairs drawn, surfaces" : "Surfaces", c->gap,
+             never ? "never fight" : "first fight at z =");
+    if (never)
         assert_non_null(strstr(text, label));
     else
-        check_text_numbers(v, text, label, 6, isnan(on->number) ? first : always);
-    assert_true(isnan(from->number) || (strstr(text, "at no depth do all") != NULL) == isnan(on->number));
+        check_line(v, text, label, nowhere ? "first:6" : "first:6, always_from:6");
+    assert_true(never || (strstr(text, "at no depth do all") != NULL) == nowhere);
 }
 
-static void test_zfight(void **state) {
-    static const csv_column columns[] = {SETUP_COLUMNS,
-                                         {"arith", "^arith"},
-                                         {"method", "^method"},
-                                         {"seed", "^seed"},
-                                         {"gap [scene]", "^gap"},
-                                         {"lo [scene]", "lo"},
-                                         {"hi [scene]", "hi"},
-                                         {"pairs", "pairs"},
-                                         {"ties", "ties"},
-                                         {"swaps", "swaps"},
-                                         {"longest [scene]", "longest"},
-                                         {"longest_z [scene]", "longest_z"},
-                                         {"bound [scene]", "bound"},
-                                         {"used", "used"},
-                                         {"clipped", "clipped"},
-                                         {"near_effective [scene]", "^near_effective"},
-                                         {"far_effective [scene]", "^far_effective"}};
-    static const text_column of_intervals[] = {{"lo", 6},          {"hi", 6},           {"pairs", 10},
-                                               {"ties_share", -4}, {"swaps_share", -4}, {"longest", 6},
-                                               {"longest_z", 6},   {"bound", 6},        {"used", -3}};
-    static const text_column of_gaps[] = {{"lo", 6},          {"hi", 6},           {"pairs", 10},
-                                          {"ties_share", -4}, {"swaps_share", -4}, {"bound", 6}};
-    static const char *const drawn[] = {"setups[0].near_effective", "setups[0].far_effective", NULL};
-    (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const zfight_case *c = &cases[i];
-        values v = values_of("zfight");
-        v.unit = c->camera.unit;
-        line_places shown = {0}, lines = {0};
-        dp_setup setups[CAMERA_SETUPS];
-        char options[512], arguments[1024];
-        size_t used = (size_t)snprintf(arguments, sizeof arguments, "zfight %s --range %.17g:%.17g -q",
-                                       camera_options(&c->camera, options), c->lo, c->hi);
-        if (c->gap > 0)
-            used += (size_t)snprintf(arguments + used, sizeof arguments - used, " --separation %.17g", c->gap);
-        if (c->sample > 0)
-            snprintf(arguments + used, sizeof arguments - used, " --sample %llu --seed %llu",
-                     (unsigned long long)c->sample, (unsigned long long)c->seed);
-        const size_t n = camera_setups(&c->camera, setups);
+TEST(each_number) {
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        const zfight_case c = case_of(lines[i]);
+        values v = values_of(lines[i]);
+        dp_setup setups[SETUPS_MAX];
+        const size_t n = setups_of(lines[i], DP_MODEL_FLOAT, setups);
         for (size_t k = 0; k < n; k++)
-            want_census(&v, c, &setups[k], k, &shown, &lines);
-        check_json(&v, 0, arguments);
-        check_csv(&v, 0, arguments, columns, sizeof columns / sizeof columns[0], &lines);
-        printed p = print_of("%s --full", arguments);
-        check_text_table(&v, p.out, c->gap > 0 ? of_gaps : of_intervals, c->gap > 0 ? 6 : 9, &shown);
-        check_text_numbers(&v, p.out, "effective clip range", 9, drawn);
-        check_answer(&v, p.out);
-        printed_free(&p);
+            want_census(&v, &c, &setups[k], k);
+        check_forms(&v, 0, lines[i], "setups[].bands[]",
+                    SETUP_CSV "arith = ^arith, method = ^method, seed = ^seed, gap [scene] = ^gap, lo [scene], "
+                              "hi [scene], pairs, ties, swaps, longest [scene], longest_z [scene], bound [scene], "
+                              "used, clipped, near_effective [scene] = ^near_effective, "
+                              "far_effective [scene] = ^far_effective");
+        char *text = output_of(0, lines[i], "--full");
+        check_table(&v, text, "setups[].bands[]+",
+                    c.gap > 0 ? "lo:6, hi:6, pairs:10, ties_share:-4, swaps_share:-4, bound:6"
+                              : "lo:6, hi:6, pairs:10, ties_share:-4, swaps_share:-4, longest:6, longest_z:6, bound:6, "
+                                "used:-3");
+        check_answer(&v, &c, text);
+        free(text);
         values_free(&v);
-        places_free(&shown);
-        places_free(&lines);
     }
 }
 
 /* What stderr says about geometry that is not drawn: how many holes, between which planes. */
-static void test_warning(void **state) {
-    static const char *const hole[] = {"holes", "near_effective", "far_effective", NULL};
-    static const char *const kept[] = {"near_effective", "far_effective", NULL};
-    static const char *const labels[] = {"depthprec: warning: unorm24 d3d: clipping in binary32 keeps only",
-                                         "depthprec: warning: fp32 d3d: clipping in binary32 loses"};
+TEST(warnings) {
+    static const char *const said[][2] = {
+        {"depthprec: warning: unorm24 d3d: clipping in binary32 keeps only", "near_effective:9, far_effective:9"},
+        {"depthprec: warning: fp32 d3d: clipping in binary32 loses", "holes:9, near_effective:9, far_effective:9"}};
     static census_result r;
-    (void)state;
     for (int i = 0; i < 2; i++) {
-        const zfight_case *c = &cases[i];
-        dp_setup setups[CAMERA_SETUPS];
-        char options[512];
-        values v = values_of("zfight");
-        v.unit = c->camera.unit;
-        camera_setups(&c->camera, setups);
-        census_of(c, setups, &r);
-        want_count(&v, "holes", r.holes);
-        want_number(&v, "near_effective", r.near_effective);
-        want_number(&v, "far_effective", r.far_effective);
-        printed p = print_of("zfight %s --range %.17g:%.17g", camera_options(&c->camera, options), c->lo, c->hi);
-        check_text_numbers(&v, p.errors, labels[i], 9, i == 0 ? kept : hole);
+        const zfight_case c = case_of(lines[i]);
+        dp_setup setups[SETUPS_MAX];
+        values v = values_of(lines[i]);
+        setups_of(lines[i], DP_MODEL_FLOAT, setups);
+        census_of(&c, setups, &r);
+        want(&v, "holes=%lu near_effective=%f far_effective=%f", r.holes, r.near_effective, r.far_effective);
+        printed p = print_of("%.*s", (int)(strstr(lines[i], " -q") - lines[i]), lines[i]);
+        check_line(&v, p.errors, said[i][0], said[i][1]);
         printed_free(&p);
         values_free(&v);
     }
@@ -242,12 +162,11 @@ static double peaked(const dp_setup *setup, double z) {
 
 /* The guarantee is looked at where the longest interval is, and at both ends of the band; the sum of the bands has the
  * greatest. */
-static void test_bound(void **state) {
+TEST(bound_of_a_band) {
     static census_result r;
-    dp_setup setups[CAMERA_SETUPS];
+    dp_setup setups[SETUPS_MAX];
     census_request q = {.setup = setups, .lo = 3.99, .hi = 4.01, .bound = peaked};
-    (void)state;
-    camera_setups(&cases[1].camera, setups);
+    setups_of(lines[1], DP_MODEL_FLOAT, setups);
     peak = 1;
     assert_int_equal(census_run(&q, &r), CENSUS_DONE);
     assert_int_equal(r.band_count, 2);
@@ -266,14 +185,13 @@ static void test_bound(void **state) {
 }
 
 /* 1 everywhere, by hand: no two surfaces are farther apart than what is left up to far, 10. */
-static void test_bound_ends_at_far(void **state) {
+TEST(bound_ends_at_far) {
     static const struct {
         double lo, hi, bound;
     } rows[] = {{9.25, 10, 0.75}, {9.5, 9.75, 0.5}, {8.5, 10, 1}, {8.5, 8.75, 1}};
     static census_result r;
-    dp_setup setups[CAMERA_SETUPS];
-    (void)state;
-    camera_setups(&cases[1].camera, setups);
+    dp_setup setups[SETUPS_MAX];
+    setups_of(lines[1], DP_MODEL_FLOAT, setups);
     peak = 1;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const census_request q = {.setup = setups, .lo = rows[i].lo, .hi = rows[i].hi, .bound = peaked};
@@ -282,11 +200,4 @@ static void test_bound_ends_at_far(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_zfight), cmocka_unit_test(test_warning),
-        cmocka_unit_test(test_bound),  cmocka_unit_test(test_bound_ends_at_far),
-        cmocka_unit_test(check_apart),
-    };
-    return run_tap(tests);
-}
+LIST_TEST(check_apart)

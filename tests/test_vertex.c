@@ -1,27 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Vertex programs: each operation against MPFR of 24 bits; how vertices are drawn; what two programs part, counted one
  * by one; the bias that makes up for it; and numbers that were published. */
-#include <stdlib.h>
-#include <string.h>
 
 #include <mpfr.h>
 
 #include "named.h"
 #include "raster/vertex_compare.h"
+#include "setups.h"
 #include "support.h"
 
 static dp_setup setup_of(dp_mapping mapping, const char *format, double n, double f, int ortho) {
-    dp_spec spec = dp_spec_default();
-    dp_format found[2];
-    dp_setup setup;
-    spec.mapping = mapping;
-    spec.znear = n;
-    spec.zfar = f;
-    spec.ortho = ortho;
-    assert_int_equal(dp_format_parse(format, found), 1);
-    spec.format = found[0];
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return SETUP(format, .mapping = mapping, .znear = n, .zfar = f, .ortho = ortho);
 }
 
 static const vertex_program *program_of(const char *name) {
@@ -111,9 +100,8 @@ static void check_camera(tally *t, const dp_setup *s, const vertex_camera *c, co
     TALLY(t, is_rounded(c->a, a) && is_rounded(c->b, b), "entries %a %a", (double)c->a, (double)c->b);
 }
 
-static void test_operations(void **state) {
+TEST(test_operations) {
     tally t = {.name = "operations"};
-    (void)state;
     size_t count = 0;
     while (vertex_program_get(count) != NULL)
         count++;
@@ -168,9 +156,8 @@ static void count_parts(const vertex_request *r, const vertex_drawn *v, uint64_t
         parts[k][(int)(fmin(fmax(q[k], 0.0), 0.999999) * PARTS)]++;
 }
 
-static void test_draws(void **state) {
+TEST(test_draws) {
     const dp_setup setup = setup_of(DP_MAPPING_D3D, "fp32", 0.1, 1000, 0);
-    (void)state;
     for (int s = 0; s < VERTEX_SPREAD_COUNT; s++) {
         const vertex_request r = {
             .setup = &setup, .spread = (vertex_spread)s, .lo = 5, .hi = 500, .world = 1, .seed = 3};
@@ -288,7 +275,7 @@ static bool alike(const vertex_difference *a, const vertex_difference *b) {
            a->widest.bias == b->widest.bias;
 }
 
-static void test_differences(void **state) {
+TEST(test_differences) {
     static const struct {
         dp_mapping mapping;
         const char *format, *base, *other;
@@ -307,7 +294,6 @@ static void test_differences(void **state) {
     const uint64_t draws = test_cases(6000, 30000, 300000);
     uint32_t *codes = malloc(draws * sizeof *codes);
     passes *all = malloc(draws * sizeof *all);
-    (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         const dp_setup setup = setup_of(rows[k].mapping, rows[k].format, 0.1, 1000, 0);
         vertex_request r = {.setup = &setup,
@@ -346,7 +332,7 @@ static void test_differences(void **state) {
 /* ---- Published numbers ------------------------------------------------------------------------------------------- */
 
 /* Percent that differ, within 5, and the 99th percentile, within a quarter; near 0.1, far 1000, camera within 100. */
-static void test_published(void **state) {
+TEST(test_published) {
     static const struct {
         dp_mapping mapping;
         const char *format, *other;
@@ -363,7 +349,6 @@ static void test_published(void **state) {
         {DP_MAPPING_REVERSED, "fp32", "fma-right", VERTEX_EYE_LOG, 76, 300, 500},
     };
     tally t = {.name = "published"};
-    (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         const dp_setup setup = setup_of(rows[k].mapping, rows[k].format, 0.1, 1000, 0);
         const vertex_request r = {.setup = &setup,
@@ -383,14 +368,4 @@ static void test_published(void **state) {
               d->percentile);
     }
     tally_end(&t);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_operations),
-        cmocka_unit_test(test_draws),
-        cmocka_unit_test(test_differences),
-        cmocka_unit_test(test_published),
-    };
-    return run_tap(tests);
 }

@@ -4,10 +4,6 @@
  * program's PNG of the same command. The letters are measured by cairo here, so that both lay out the same page.
  */
 #include <cairo.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "cli/option/options.h"
@@ -126,8 +122,7 @@ static difference compare(cairo_surface_t *a, cairo_surface_t *b) {
     return out;
 }
 
-static void test_figures(void **state) {
-    (void)state;
+TEST(test_figures) {
     char folder[] = "/tmp/canvas.XXXXXX", svg[64], png[64], cairos[64];
     assert_non_null(mkdtemp(folder));
     snprintf(svg, sizeof svg, "%s/a.svg", folder);
@@ -150,9 +145,4 @@ static void test_figures(void **state) {
         cairo_surface_destroy(b);
     }
     run("rm -r %s%s", folder, "");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_figures)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,10 +3,6 @@
  * Large worlds: no vertex is off by more than the bound of its scheme, in any order of the sums, and a search comes
  * near it; no two surfaces at the gap that is said to be safe are out of order; a simulation that was published is met.
  */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "depthprec/depthprec.h"
 #include "support.h"
 #include "world/reach.h"
@@ -222,8 +218,7 @@ static world_scheme any_size(rng *r, size_t i) {
     return s;
 }
 
-static void never_below(void **state) {
-    (void)state;
+TEST(never_below) {
     rng r = rng_make("world vertices");
     tally never = {.name = "never below"};
     for (size_t i = 0; i < WORLD_ROWS; i++) {
@@ -262,8 +257,7 @@ static double times(const world_scheme *s, double distance) {
     return world_all(&e) > octave[0] ? (double)INFINITY : small ? 6.0 : full ? 3.0 : 4.0;
 }
 
-static void within_three_times(void **state) {
-    (void)state;
+TEST(within_three_times) {
     rng r = rng_make("world climbs");
     tally never = {.name = "never below"};
     tally tight = {.name = "within 3 times"};
@@ -316,8 +310,7 @@ static double lost(const world_scheme *s, const pose *p, double distance, bool s
     return 1.0 - ((double)got[1][2] - (double)got[0][2]) / (double)(want[1][2] - want[0][2]);
 }
 
-static void order_is_kept(void **state) {
-    (void)state;
+TEST(order_is_kept) {
     rng r = rng_make("world order");
     tally kept = {.name = "order at the gap"};
     tally tight = {.name = "gap within 3 times"};
@@ -393,8 +386,7 @@ static bool out_of_order(const world_scheme *s, const pose *p, double distance, 
     return !(depth[0] > depth[1]);
 }
 
-static void as_simulated(void **state) {
-    (void)state;
+TEST(as_simulated) {
     static const double from_origin[] = {8.2e3, 16e3, 1e5, 1e6, 6.4e6};
     rng r = rng_make("world simulation");
     tally wrong = {.name = "share out of order"};
@@ -466,8 +458,7 @@ static void as_derived_at(double d) {
     assert_null(world_get(WORLD_ROWS));
 }
 
-static void as_derived(void **state) {
-    (void)state;
+TEST(as_derived) {
     as_derived_at(1e6);
     as_derived_at(5e9);
     as_derived_at(8e11);
@@ -509,8 +500,7 @@ static bool in_order(const buffer *b, const world_scheme *s, const pose *p, cons
 }
 
 /* The codes of two surfaces at the safe gap are in order, in random cameras, formats and mappings. */
-static void codes_are_in_order(void **state) {
-    (void)state;
+TEST(codes_are_in_order) {
     rng r = rng_make("world codes");
     tally ordered = {.name = "codes at the gap"};
     tally near_it = {.name = "some a quarter of it"};
@@ -543,8 +533,7 @@ static void codes_are_in_order(void **state) {
  * The same over a range, at any depth of it. What is said of a depth alone may be above that: by what its bound of the
  * buffer may, 4 % and a step of binary32, and where window depth is next to a power of two by less than the bound.
  */
-static void over_a_range(void **state) {
-    (void)state;
+TEST(over_a_range) {
     rng r = rng_make("world ranges");
     tally ordered = {.name = "codes at the gap of a range"};
     tally about = {.name = "a range's beside its depths'"};
@@ -575,13 +564,4 @@ static void over_a_range(void **state) {
     tally_end(&ordered);
     tally_end(&about);
     tally_end(&near_it);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(never_below),  cmocka_unit_test(within_three_times), cmocka_unit_test(order_is_kept),
-        cmocka_unit_test(as_simulated), cmocka_unit_test(as_derived),         cmocka_unit_test(codes_are_in_order),
-        cmocka_unit_test(over_a_range),
-    };
-    return run_tap(tests);
 }

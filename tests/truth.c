@@ -2,9 +2,6 @@
 #include "truth.h"
 
 #include <jansson.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "cli/option/options.h"
@@ -130,7 +127,7 @@ void truth_greys(const char *name, double out[PIXELS]) {
     image_free(&img);
 }
 
-double truth_maximum(const command *base) {
+json_t *truth_statistics(const command *base) {
     command c = *base;
     truth_add(&c, "--json");
     truth_add(&c, "-o");
@@ -138,6 +135,22 @@ double truth_maximum(const command *base) {
     assert_int_equal(truth_run(c.arguments, c.count), 0);
     json_t *root = json_load_file(truth_path("said.json"), JSON_REJECT_DUPLICATES, NULL);
     assert_non_null(root);
+    return root;
+}
+
+bool truth_said(const char *words) {
+    char line[512];
+    bool found = false;
+    FILE *said = fopen(truth_path("said"), "r");
+    assert_non_null(said);
+    while (fgets(line, sizeof line, said) != NULL)
+        found = found || strstr(line, words) != NULL;
+    fclose(said);
+    return found;
+}
+
+double truth_maximum(const command *base) {
+    json_t *root = truth_statistics(base);
     const json_t *eye = json_array_get(json_object_get(root, "errors"), 0);
     assert_string_equal(json_string_value(json_object_get(eye, "name")), "eye depth");
     const json_t *most = json_object_get(eye, "max");

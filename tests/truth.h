@@ -5,6 +5,8 @@
 
 #include <stdbool.h>
 
+#include <jansson.h>
+
 #include "image/image.h"
 
 /* The size of every image. */
@@ -41,6 +43,10 @@ void truth_product(const command *base, const char *file, const char *what, cons
 void truth_floats(const char *name, size_t channels, float *out);
 /** A PNG of 16 bits, by what was said of it; NaN where there is no value. */
 void truth_greys(const char *name, double out[PIXELS]);
+/** The statistics as JSON, and whether words are in what was said on stderr of the last run. */
+json_t *truth_statistics(const command *base);
+bool truth_said(const char *words);
+
 /** What the statistics say eye depth can be off by; INFINITY when it has no bound. */
 double truth_maximum(const command *base);
 

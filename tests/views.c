@@ -1,24 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "views.h"
 
-#include <string.h>
-
 #include "frame/normal_errors.h"
 
 texture_camera view_camera(const char *format, dp_mapping mapping, double znear, double zfar, bool ortho,
                            uint32_t width, uint32_t height, double extent) {
-    dp_spec spec = dp_spec_default();
-    dp_format formats[2];
-    dp_setup setup;
+    const dp_setup setup = SETUP(format, .mapping = mapping, .znear = znear, .zfar = zfar, .ortho = ortho);
     texture_camera camera;
     camera_spec view = camera_spec_default();
-    assert_int_equal(dp_format_parse(format, formats), 1);
-    spec.format = formats[0];
-    spec.mapping = mapping;
-    spec.znear = znear;
-    spec.zfar = zfar;
-    spec.ortho = ortho;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     view.width = width;
     view.height = height;
     view.fov_y = view.half_height = extent;
@@ -26,19 +15,18 @@ texture_camera view_camera(const char *format, dp_mapping mapping, double znear,
     return camera;
 }
 
-texture_camera view_placed(const camera_case *c, uint32_t width, uint32_t height, double fov, double half_height,
-                           double yaw, double pitch, const double origin[3]) {
-    dp_setup setup[CAMERA_SETUPS];
+texture_camera view_placed(const char *line, uint32_t width, uint32_t height, double yaw, double pitch) {
+    dp_setup setup[SETUPS_MAX];
     texture_camera camera;
     camera_spec spec = camera_spec_default();
-    assert_int_equal(camera_setups(c, setup), 1);
+    assert_int_equal(setups_of(line, DP_MODEL_EXACT, setup), 1);
     spec.width = width;
     spec.height = height;
-    spec.fov_y = isnan(fov) ? spec.fov_y : fov;
-    spec.half_height = isnan(half_height) ? spec.half_height : half_height;
+    spec.fov_y = number_behind(line, "--fov", spec.fov_y);
+    spec.half_height = number_behind(line, "--ortho", spec.half_height);
     spec.yaw = yaw;
     spec.pitch = pitch;
-    memcpy(spec.origin, origin, sizeof spec.origin);
+    numbers_behind(line, "--eye", spec.origin, 3);
     assert_null(camera_init(&camera, setup, &spec));
     return camera;
 }

@@ -10,9 +10,8 @@
 texture_camera view_camera(const char *format, dp_mapping mapping, double znear, double zfar, bool ortho,
                            uint32_t width, uint32_t height, double extent);
 
-/** The same for a camera of the tests of printed values, turned and moved; NaN for the default of either extent. */
-texture_camera view_placed(const camera_case *c, uint32_t width, uint32_t height, double fov, double half_height,
-                           double yaw, double pitch, const double origin[3]);
+/** That of a command line, but for its direction: set-up, --fov, --ortho=H and --eye. */
+texture_camera view_placed(const char *line, uint32_t width, uint32_t height, double yaw, double pitch);
 
 /** The pixel grid from the definition in camera.h. */
 void view_slopes(const texture_camera *c, double column, double row, double *sx, double *sy);
