@@ -433,6 +433,26 @@ TEST(truncated) {
     image_free(&img);
 }
 
+/* A wall that leans, as a shader in binary32 packs and a target truncates it: where the coarse channel steps it is torn
+ * as averages are. */
+TEST(truncation_tears) {
+    enum { ACROSS = 32, DOWN = 96 };
+    for (int truncated = 0; truncated < 2; truncated++) {
+        unpacked out;
+        image img = {
+            .width = ACROSS, .height = DOWN, .channels = 2, .type = IMAGE_U8, .data = malloc(2 * ACROSS * DOWN)};
+        for (int i = 0; i < ACROSS * DOWN; i++) {
+            const float v = (float)(0.38979433010788372 + 0.0011586887735863763 * (i / ACROSS));
+            const float scaled = v * 255, fine = scaled - floorf(scaled), less = fine / 255, coarse = v - less;
+            ((uint8_t *)img.data)[2 * i] = (uint8_t)floorf(coarse * 255);
+            ((uint8_t *)img.data)[2 * i + 1] = (uint8_t)floorf(fine * 255);
+        }
+        assert_int_equal(packing_convert(row_of("rg"), truncated != 0, &img, &out), truncated);
+        assert_true(truncated || strncmp(out.wrong, "was resampled", 13) == 0);
+        image_free(&img);
+    }
+}
+
 TEST(wider_samples) {
     static const image_type types[] = {IMAGE_U16, IMAGE_F32, IMAGE_F64};
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)

@@ -256,6 +256,17 @@ TEST(test_found) {
     }
 }
 
+/* In 24 bits truncation is one function of two names: without 16 bits no row is claimed. */
+TEST(test_two_names) {
+    static probe_result r;
+    const device is = {2, .reciprocal = true, .float_step = 1, .code_step = 1};
+    make(&r, &is);
+    plan_find(&r.plan, PLAN_ROUNDING, SHOT_D16)->drawn = false;
+    probe_judge(&r);
+    assert_null(r.arith);
+    probe_free(&r);
+}
+
 /* One pixel that is otherwise, or one depth that is told apart, and no row is claimed. */
 TEST(test_not_found) {
     static const struct {
