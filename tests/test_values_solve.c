@@ -177,14 +177,12 @@ static void check_plane(const solve_case *c, const dp_setup *setup, double plane
 static void want_no_plane(values *v, const solve_case *c, const dp_setup *setup) {
     const plane_answer p = solve_again(c, setup);
     assert_false(p.possible);
-    want(v, "until=%f first=%f tried=%f passed=%f fails_to=%f", NAN, NAN, NAN, NAN, NAN);
-    want(v, "proven=%d certain=%d", p.certain, p.certain);
+    want(v, "until=%f proven=%d certain=%d", NAN, p.certain, p.certain);
 }
 
 static void want_plane(values *v, const solve_case *c, const dp_setup *setup, double plane) {
     const plane_answer p = solve_again(c, setup);
-    want(v, "until=%f first=%f proven=%d certain=%d", p.until, plane, true, p.certain);
-    want(v, "tried=%f passed=%f fails_to=%f", NAN, NAN, NAN);
+    want(v, "until=%f proven=%d certain=%d", p.until, true, p.certain);
     want(v, "~from=%f ~to=%f", fmin(plane, p.until), fmax(plane, p.until));
     assert_true(p.possible && p.value == plane);
     check_plane(c, setup, plane, &p);
@@ -358,7 +356,7 @@ static void check_lines(const values *v, int status, const char *arguments) {
     check_csv(v, status, arguments,
               "role, " SETUP_CSV "for = /for, possible = ^possible, measure = /measure, limit [scene] = /limit, "
               "value [scene] = ^value, z [scene] = ^z, from [scene], to [scene], bytes = ^bytes, "
-              "available = ^available, first [scene] = ?first, lattice [scene] = ^lattice.plane, "
+              "available = ^available, lattice [scene] = ^lattice.plane, "
               "lattice value [scene] = ^lattice.value",
               &lines);
     places_free(&lines);
@@ -411,7 +409,7 @@ static void check_text_alternative(values *v, const solve_case *c, const char *t
              text_at(o, "model"));
     values_under(v, "%s", under);
     snprintf(path, sizeof path, "%.60splane", under);
-    if (node_at(o, "fails_to") != NULL && !isnan(value_at(v, path)->number)) { /* there where a plane was solved for */
+    if (node_at(o, "until") != NULL && !isnan(value_at(v, path)->number)) { /* there where a plane was solved for */
         want_shown(v, c, "shown", value_at(v, path)->number, number_shown(text, label, 0));
         fields[0] = "shown";
     }

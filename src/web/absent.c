@@ -62,6 +62,7 @@ ABSENT_ROWS(normal_row, normal_get)
 ABSENT_ROWS(pack_row, pack_get)
 ABSENT_ROWS(packing, packing_get)
 ABSENT_ROWS(position_row, position_get)
+ABSENT_ROWS(sensor_row, sensor_get)
 ABSENT_ROWS(synthetic_row, synthetic_get)
 ABSENT_ROWS(trap_row, trap_get)
 

@@ -7,9 +7,9 @@
 #include "cli/slant.h"
 #include "cli/solve/report.h"
 
-/* All from `first`, the answer itself, to `until` pass: none has to be tried for that, and no others are. */
+/* All from the answer to `until` pass. */
 typedef struct plane_fields {
-    double until, first, fails_to, tried, passed;
+    double until;
     bool proven, certain;
 } plane_fields;
 
@@ -25,7 +25,7 @@ typedef struct candidate {
     double distance, lattice_distance;        /* NaN where it does not hold at all */
     char plane_text[NUMBER_SIZE], ideal_text[NUMBER_SIZE];
     const char *role;
-    double from, to, first;
+    double from, to;
 } candidate;
 
 typedef struct solving {
@@ -44,13 +44,8 @@ static void take_candidate(solving *s, const solve_candidate *c) {
                      .guaranteed = solve_in_binary32(&s->report, c, false),
                      .slanted = solve_in_binary32(&s->report, c, true),
                      .distance = c->possible ? c->distance.value : (double)NAN,
-                     .lattice_distance = c->lattice.possible ? c->lattice.value : (double)NAN,
-                     .first = solved ? c->plane.value : (double)NAN};
+                     .lattice_distance = c->lattice.possible ? c->lattice.value : (double)NAN};
     x->fields = (plane_fields){.until = solved ? c->plane.until : (double)NAN,
-                               .first = x->first,
-                               .fails_to = (double)NAN,
-                               .tried = (double)NAN,
-                               .passed = (double)NAN,
                                .proven = solved || c->plane.certain,
                                .certain = c->plane.certain};
     x->plane = c->solved ? &x->fields : NULL;
@@ -135,7 +130,7 @@ static void *next_line(void *of, size_t i) {
     take_candidate(s, &r->items[i]);
     x->role = i == 0 ? "answer" : "alternative";
     const bool holds = r->target == SOLVE_FOR_DISTANCE && x->found.possible;
-    const double a = x->plane != NULL ? x->plane->first : holds ? r->lo : (double)NAN;
+    const double a = x->plane != NULL ? (x->found.possible ? x->found.plane.value : (double)NAN) : holds ? r->lo : (double)NAN;
     const double b = x->plane != NULL ? x->plane->until : holds ? x->distance : a;
     x->from = fmin(a, b);
     x->to = fmax(a, b);
@@ -147,10 +142,10 @@ static void *next_line(void *of, size_t i) {
 enum { OF_SEPARATION = 1, OF_OTHERS = 2, OF_DISTANCE = 4, WITH_TRIANGLES = 8 };
 
 static const column plane_columns[] = {
-    {FIELD(plane_fields, until, "until", "scene")},       {FIELD(plane_fields, proven, "proven", "")},
-    {FIELD(plane_fields, first, "first", "scene")},       {FIELD(plane_fields, tried, "tried", "")},
-    {FIELD(plane_fields, passed, "passed", "")},          {FIELD(plane_fields, certain, "certain", "")},
-    {FIELD(plane_fields, fails_to, "fails_to", "scene")}, {.kind = COLUMN_END}};
+    {FIELD(plane_fields, until, "until", "scene")},
+    {FIELD(plane_fields, proven, "proven", "")},
+    {FIELD(plane_fields, certain, "certain", "")},
+    {.kind = COLUMN_END}};
 
 static const column line_columns[] = {
     {FIELD(solving, candidate.role, "role", "")},
@@ -165,7 +160,6 @@ static const column line_columns[] = {
     {FIELD(solving, candidate.to, "to", "scene")},
     {FIELD(solving, candidate.found.price.bytes, "bytes", "")},
     {FIELD(solving, candidate.found.price.available, "available", "")},
-    {FIELD(solving, candidate.first, "first", "scene")},
     {FIELD(solving, candidate.found.lattice.value, "lattice", "scene")},
     {FIELD(solving, candidate.found.lattice.reached.value, "lattice value", "scene")},
     {FIELD(solving, candidate.guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
