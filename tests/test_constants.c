@@ -110,7 +110,8 @@ static long double linear_eye(long double n, long double f, long double d, bool 
 
 /* What each of them does, step by step. */
 static long double trapped(const char *name, long double n, long double f, long double z, bool ortho, bool reversed) {
-    const long double d = stored(n, f, z, ortho, reversed), infinite = isinf(f);
+    const long double d = stored(n, f, z, ortho, reversed);
+    const bool infinite = isinf(f);
     if (strcmp(name, "inverted-x") == 0)
         return f / ((1 - n / f) * d + f / n);
     if (strcmp(name, "doubled-product") == 0) /* solved for z */
@@ -167,7 +168,7 @@ TEST(traps_are_listed) {
     const char *at = p.out;
     for (size_t i = 0; trap_get(i) != NULL; i++) {
         const trap_row *row = trap_get(i);
-        double reads;
+        double reads = NAN;
         at = strstr(at, row->name);
         assert_non_null(at);
         assert_non_null(strstr(at, row->formula));

@@ -457,7 +457,7 @@ TEST(staircases_behind_signed_ndc) {
         size_t codes;
     } cases[] = {{"float3.3b5", "gl-reversed", "", 25},      {"float3.3b5", "gl", " --model staged", 25},
                  {"float3.3b5", "reversed", "", 41},         {"float3.2b2", "gl", "", 9},
-                 {"float2.4", "gl-reversed", "", 17},      {"unorm4", "gl", "", 16},
+                 {"float2.4", "gl-reversed", "", 17},        {"unorm4", "gl", "", 16},
                  {"float3.3b5", "d3d", " --model exact", 41}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         cameras c = cameras_of(drawn_camera(1, 20), cases[i].format, cases[i].mapping);

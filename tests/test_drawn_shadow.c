@@ -97,9 +97,8 @@ TEST(one_box) {
 TEST(cascades) {
     const shadow_split split = {0.5, 60, 40, 2, 3, 0.25, 30, true};
     const shadow_light model = light_of("fp32", 512, 1.5, 75);
-    drawn *d =
-        drawn_run(&drawn_light, "plot shadow -n 0.5 -f 60 --fov 40 --viewport 640x320 --cascades 3:0.25 "
-                                "--casters 30 --size 512");
+    drawn *d = drawn_run(&drawn_light, "plot shadow -n 0.5 -f 60 --fov 40 --viewport 640x320 --cascades 3:0.25 "
+                                       "--casters 30 --size 512");
     assert_int_equal(d->panel_count, 3);
     assert_string_equal(d->subtitle, "fp32 d3d, 512 x 512 texels, filter of 3 x 3; view near 0.5, far 60");
     for (int i = 0; i < 3; i++) {

@@ -230,8 +230,7 @@ TEST(without_a_bound) {
     const char *matrix = scratch_text("oblique.txt", "1 0 0 0  0 1 0 0  0.1 0 -0.0001 0.1  0 0 -1 0\n");
     image shot;
     write_image(path, &shot);
-    check_says(0, " levels\n",
-               "texture %s -F fp32 -m reversed -q --product effect:outline:low --pixel 6,5", path);
+    check_says(0, " levels\n", "texture %s -F fp32 -m reversed -q --product effect:outline:low --pixel 6,5", path);
     check_says(0, " in view space\n", "texture %s -F fp32 -m reversed -q --matrix %s --pixel 6,5", path, matrix);
     check_says(0, "! degrees", "texture %s -F fp32 -m reversed -q --matrix %s --pixel 6,5", path, matrix);
     free(shot.data);

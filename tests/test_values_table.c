@@ -143,7 +143,7 @@ static void check_text(const values *v, const char *line) {
     static const char *const forms[][2] = {
         {"", "z:8, code:10, depth:7, error:5, interval:5, lattice:5, guaranteed:5"},
         {"--full", "z:8, code:10, depth:7, z_stored:9, error:5, interval:5, lattice:5, guaranteed:5, "
-                      "cell_lo:9, cell_hi:9"}};
+                   "cell_lo:9, cell_hi:9"}};
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
         char *text = output_of(0, line, forms[i][0]);
         check_table(v, text, "setups[].rows[]", forms[i][1]);

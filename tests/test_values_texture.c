@@ -24,8 +24,7 @@ static const texture_case scenes[] = {
     {SCENE "plane -n 0.2 -f 500 -F unorm24 -m reversed --rounding zero --parameter distance=9 --parameter tilt=82",
      "given", "given", "given", 0, 0},
     {SCENE "sphere -n 0.3 -f inf -F fp32 -m reversed --parameter radius=4", "given", "given", "given", 0, 0},
-    {SCENE "sphere -n 1 -f 60 -F fp16 -m gl --ortho=3 --parameter radius=4", "given", "given", "given", 0,
-     0},
+    {SCENE "sphere -n 1 -f 60 -F fp16 -m gl --ortho=3 --parameter radius=4", "given", "given", "given", 0, 0},
 };
 
 /* ---- Statistics -------------------------------------------------------------------------------------------------- */

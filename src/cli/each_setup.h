@@ -16,7 +16,7 @@ typedef struct each_setup {
     const options *o;
     setups all;
     const options *here; /**< those of the set-up at hand, see options_of() */
-    depths at;    /**< of the set-up at hand, before there is one of the first */
+    depths at;           /**< of the set-up at hand, before there is one of the first */
     output out;
     progress progress;
     uint64_t done;

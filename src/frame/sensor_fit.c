@@ -192,7 +192,7 @@ static int compare_doubles(const void *a, const void *b) {
 
 /* From a quarter of the window up to sixteen steps in the usual gap, or to what rounding leaves. */
 static bool choose_teeth(const fit_value *values, comb *c) {
-    double sorted[WINDOW], gaps[WINDOW], off = 0;
+    double sorted[WINDOW] = {0}, gaps[WINDOW] = {0}, off = 0;
     for (size_t i = 0; i < c->count; i++)
         sorted[i] = c->at[i];
     qsort(sorted, c->count, sizeof *sorted, compare_doubles);

@@ -35,9 +35,9 @@ static void use(const options *o) {
     double hi;
     if (setups_make(o, &all) != EXIT_FINE)
         return;
-    demand(all.count == o->format_count * o->mapping_count);
+    demand(all.count == o->camera.format_count * o->camera.mapping_count);
     if (range_resolve(o, &lo, &hi) == EXIT_FINE)
-        demand(o->znear <= lo && lo < hi && hi <= o->zfar);
+        demand(o->camera.znear <= lo && lo < hi && hi <= o->camera.zfar);
     if (depths_resolve(o, 9, &at) == EXIT_FINE) {
         demand(at.count >= 1 && at.count <= DEPTHS_MAX);
         size_t step = at.count / 16 + 1;

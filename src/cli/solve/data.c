@@ -130,7 +130,9 @@ static void *next_line(void *of, size_t i) {
     take_candidate(s, &r->items[i]);
     x->role = i == 0 ? "answer" : "alternative";
     const bool holds = r->target == SOLVE_FOR_DISTANCE && x->found.possible;
-    const double a = x->plane != NULL ? (x->found.possible ? x->found.plane.value : (double)NAN) : holds ? r->lo : (double)NAN;
+    const double a = x->plane != NULL ? (x->found.possible ? x->found.plane.value : (double)NAN)
+                     : holds          ? r->lo
+                                      : (double)NAN;
     const double b = x->plane != NULL ? x->plane->until : holds ? x->distance : a;
     x->from = fmin(a, b);
     x->to = fmax(a, b);
@@ -141,11 +143,10 @@ static void *next_line(void *of, size_t i) {
 
 enum { OF_SEPARATION = 1, OF_OTHERS = 2, OF_DISTANCE = 4, WITH_TRIANGLES = 8 };
 
-static const column plane_columns[] = {
-    {FIELD(plane_fields, until, "until", "scene")},
-    {FIELD(plane_fields, proven, "proven", "")},
-    {FIELD(plane_fields, certain, "certain", "")},
-    {.kind = COLUMN_END}};
+static const column plane_columns[] = {{FIELD(plane_fields, until, "until", "scene")},
+                                       {FIELD(plane_fields, proven, "proven", "")},
+                                       {FIELD(plane_fields, certain, "certain", "")},
+                                       {.kind = COLUMN_END}};
 
 static const column line_columns[] = {
     {FIELD(solving, candidate.role, "role", "")},
