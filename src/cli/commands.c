@@ -60,11 +60,11 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec bias --api webgpu -F depth24plus --separation 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n"},
     [CMD_WORLD] = {"world", CMD_WORLD, world_uses, "", 0, 0, NULL,
-     .summary = "large worlds: safe separation, jitter far from the origin",
+     .summary = "precision far from the origin, by world-to-view scheme",
      .example = "  depthprec world --from-origin 100km --separation 1cm --at 10m\n"
      "  depthprec world --scheme camera-float,split --at 1m\n"},
     [CMD_SCENE] = {"scene", CMD_SCENE, scene_uses, "MODEL", 1, 1, NULL,
-     .summary = "a model: which surfaces fight, from where on",
+     .summary = "surfaces of a 3D model that z-fight, and from where on",
      .example = "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
      "  depthprec scene house.glb --eye 0,2,30 --look 0,2,0 --render seen.png\n"

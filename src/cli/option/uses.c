@@ -260,7 +260,9 @@ static const option_use of_fight[] = {OWN(SLANT, .argument = "SLANT,AZIMUTH", .p
 static const option_use of_views[] = {
     OWN(VIEWPORT, HELP("the pixels of the viewport; budget and interval then count slanted triangles"),
         WITHOUT("1920x1080 in fight and shadow, else surfaces face the camera")), GROUP(beside_viewport), END};
-static const option_use of_slants[] = {TAKE(SLANT), END};
+static const option_use of_slants[] = {OWN(SLANT,
+    ALSO("in fight SLANT,AZIMUTH, by default 60,45: one angle, and where the normal points on the screen, 0 to the "
+        "right and 90 up")), END};
 const option_use plot_uses[] = {
     FOR(FIGURE_MODEL, of_scene), FOR(FIGURE_SHADOW, of_shadow), FOR(FIGURE_DRAWN, of_fight),
     FOR(FIGURE_TERMS, budget_terms),
