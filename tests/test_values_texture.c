@@ -496,3 +496,14 @@ TEST(shifted_up) {
 }
 
 LIST_TEST(check_apart)
+/* z^2 s/(1 - z s) by hand, s = 1/200. */
+TEST(a_lattice_in_words) {
+    const char *path = scratch_file("levels.npy");
+    check_says(0, "",
+               "texture --synthetic plane --size 64x36 -n 0.3 -f 30 -F fp32 --product eye --as inverse:200 -o %s",
+               path);
+    check_says(0, "1/z in steps of 0.005; baseline times focal length over a step 200\n",
+               "texture %s --metric 1 --lattice inverse:200 --full -q", path);
+    check_says(0, " levels, apart by 0.005025 at 1, 0.0202 at 2, 0.1282 at 5, 0.5263 at 10\n",
+               "texture %s --metric 1 --lattice inverse:200 --full -q", path);
+}
