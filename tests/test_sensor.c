@@ -363,3 +363,27 @@ TEST(two_kinds_that_fit_are_both_named) {
     tally_end(&t);
     assert_true(2 * both > rounds);
 }
+
+/* Averages of neighbours lie on half of the step, too: where levels are nearly as many as pixels, half of the step
+ * explains more values, and its odd levels are so few that it would be taken for two lattices. */
+TEST(averages_are_not_levels) {
+    const uint64_t rounds = test_cases(4, 40, 1000);
+    static double z[N];
+    tally t = {.name = "averages"};
+    rng r = rng_make("averages");
+    uint64_t found = 0;
+    for (uint64_t i = 0; i < rounds; i++) {
+        const made m = {.type = IMAGE_F32};
+        const double step = rng_log(&r, 0.0003, 0.003), from = rng_uniform(&r, 1, 3);
+        for (int k = 0; k < N; k++)
+            z[k] = step * rint(from / step + rng_uniform(&r, 0, 3000));
+        spoil(&r, 0, rng_uniform(&r, 0.02, 0.1), z);
+        const sensor s = found_in(&m, z);
+        found += s.found;
+        TALLY(&t, !s.found || fabs(s.step - step) <= s.step_off + 1e-15,
+              "steps of %.9g from %g: found %s of %.9g within %.3g", step, from, s.row->name, s.step, s.step_off);
+    }
+    print_message("# averages: %d of %d found\n", (int)found, (int)rounds);
+    tally_end(&t);
+    assert_true(10 * found >= 9 * rounds);
+}
