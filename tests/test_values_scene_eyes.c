@@ -126,8 +126,9 @@ TEST(what_comes_first) {
     assert_true(json_is_number(json_object_get(json_array_get(list, 1), "seen_from")));
     assert_true(number_at(json_array_get(list, 1), "certain_to") < number_at(json_array_get(list, 0), "certain_to"));
     json_decref(root);
-    check_says_all(0, line,
-                   SAID("2 seen, 0 can fight.\n1 more is told apart only", "  1   'road' and 'paint'\n", "!'wall'"));
+    check_says_all(
+        0, line,
+        SAID("2 visible, none may z-fight.\n1 more is resolved only", "  1   'road' and 'paint'\n", "!'wall'"));
 }
 
 /* Two parts of one surface, the nearer one first or last: the distance that mends it is that of the farther one. */
@@ -163,8 +164,8 @@ TEST(forms) {
     printed p = print_of("scene " STREET " -m d3d -F d16 --eye 0,4,20 --look 0,0,0");
     assert_int_equal(p.status, 0);
     assert_non_null(strstr(p.out, "from 0 4 20, looking along 0 -0.1961 -0.9806\n"));
-    assert_non_null(strstr(p.out, "within 0.02 of each other: 1 seen, 1 can fight.\n"));
-    snprintf(want, sizeof want, "      seen from %.2f to %.2f: can fight; ",
+    assert_non_null(strstr(p.out, "within 0.02 of each other: 1 visible, 1 may z-fight.\n"));
+    snprintf(want, sizeof want, "      seen from %.2f to %.2f: may z-fight; ",
              floor(number_at(paint, "seen_from") * 100) / 100, ceil(number_at(paint, "seen_to") * 100) / 100);
     if (strstr(p.out, want) == NULL)
         fail_msg("no '%s' in %s", want, p.out);
@@ -185,9 +186,9 @@ TEST(forms) {
     json_decref(root);
     /* above the road, whose corners lie behind the eye */
     check_says_all(0, "scene " STREET " --eye 0,1.7,2 --look 0,0,-10",
-                   SAID("1 seen, 0 can fight.\n1 more is told apart only if cut into the triangles above.\n",
-                        ": told apart only if cut into the triangles"));
-    check_says(0, "1 seen, 0 can fight.\n1 more is told apart only facing the camera.\n",
+                   SAID("1 visible, none may z-fight.\n1 more is resolved only if cut into the triangles above.\n",
+                        ": resolved only if cut into the triangles"));
+    check_says(0, "1 visible, none may z-fight.\n1 more is resolved only facing the camera.\n",
                "scene " STREET " --eye 0,4,20 --look 0,0,0 -m log");
 }
 
@@ -209,7 +210,7 @@ TEST(path) {
     assert_true(number_at(root, "eyes.places") == 4);
     assert_string_equal(text_at(root, "eyes.path"), name);
     json_decref(root);
-    check_says_all(1, line, SAID("from the worst of the 4 eyes of ", ": can fight, worst at line 5; "));
+    check_says_all(1, line, SAID("from the worst of the 4 eyes of ", ": may z-fight, worst at line 5; "));
 }
 
 TEST(damaged_paths) {

@@ -53,6 +53,23 @@ addresses() {
     node --no-warnings tests/web/fuzz.mjs "$scratch/command.mjs" $addresses
 }
 
+# What the page's forms and lists call an option of a command is one of that command.
+controls() {
+    awk -F '"' '/data-asks="/ { for (i = 1; i < NF; i++) if ($i ~ /data-asks=$/) verb = $(i + 1) }
+        /<\/form>/ { verb = "" }
+        verb != "" { for (i = 1; i < NF; i++) if ($i ~ /data-option=$/) print verb, $(i + 1) }' \
+        src/web/page.html >"$scratch/controls"
+    sed -n '/^const ASKED/,/^};/s/^    \([a-z]*\): \[\("[a-z", ]*"\)\],$/\1 \2/p' src/web/page.js | tr -d '",' |
+        awk '{ for (i = 2; i <= NF; i++) print $1, $i }' >>"$scratch/controls"
+    sed -n 's/^const \(NEVER\|VIEW\) = \[\("[a-z", -]*"\)\];$/\2/p' src/web/page.js | tr -d '",' | tr ' ' '\n' |
+        sed 's/^/options /' >>"$scratch/controls"
+    while read -r verb option; do
+        "$DEPTHPREC" help "$verb" | grep -q -e "--$option\b" || echo "$verb has no --$option"
+    done <"$scratch/controls"
+    [ "$(wc -l <"$scratch/controls")" -ge 40 ] || echo "only $(wc -l <"$scratch/controls") controls"
+}
+check "each control of the page is an option of its command" empty controls
+
 missing=$(lacking | paste -sd ';')
 if [ -n "$missing" ]; then
     skip "the core as WebAssembly" "missing: $missing"

@@ -253,7 +253,7 @@ static void say_worst(page *p, const worst *w) {
                   number_in(number_up(w->remedy.separation, DIGITS), p->unit).text,
                   number_in(number_up(w->separation, DIGITS), p->unit).text);
     else if (w->separation < 2.0 * step)
-        page_line(p, "%snothing to gain: binary32 depths are themselves %s apart there", taken,
+        page_line(p, "%snothing to gain: binary32 depths themselves are %s apart there", taken,
                   number_in(number_of(step, DIGITS), p->unit).text);
     else
         page_line(p, "%sno other format or mapping helps", taken);

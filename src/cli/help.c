@@ -19,7 +19,7 @@ static void version(output *out) {
 /* In groups by what a person asks of. */
 static void list_commands(output *out) {
     page p = page_start(out, 18);
-    output_text(out, "What a depth buffer can tell apart, and up to which distance: exact and proven.\n\n"
+    output_text(out, "What a depth buffer resolves, and up to which distance: exact and proven.\n\n"
                      "  depthprec -n 10cm -f 1km -F d24,fp32 -m gl,reversed   each resolves 1 cm up to\n"
                      "  depthprec --preset unity,unreal --at 100m             two engines side by side\n\n"
                      "Commands: depthprec [COMMAND] [options]\n");

@@ -55,7 +55,7 @@ static void say_notes(page *p, void *item) {
     if (l->empty)
         page_line(p, "an interval of 0: no depth from near to far is stored as that code");
     if (isnan(l->row.cell.width))
-        page_line(p, "this model has no cells: the depths stored as one code need not be neighbours");
+        page_line(p, "this model has no cells: depths that share a code need not be contiguous");
 }
 
 static const column row_columns[] = {

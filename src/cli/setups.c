@@ -217,7 +217,7 @@ void clipping_say(const dp_setup *setup, double znear, double zfar, const char *
     char label[SETUP_LABEL_SIZE];
     setup_label(setup, false, label);
     if (isnan(znear))
-        fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses everything\n", label);
+        fprintf(stderr, "depthprec: warning: %s: clipping in binary32 removes everything\n", label);
     else
         fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s\n", label,
                 number_of(znear, 9).text, number_of(zfar, 9).text, rest);

@@ -96,7 +96,7 @@ static void say_answer(page *p, void *item) {
     each_setup_title(p, item);
     slant_say(p, page_title, d->each.o, d->each.setup);
     if (w->pixels == 0)
-        page_text(p, "Nothing was drawn: no separation is certain in this range, or no triangle fits.");
+        page_text(p, "Nothing was drawn: no separation is guaranteed in this range, or no triangle fits.");
     else if (isnan(w->used))
         page_text(p, "No pixel was wrong.");
     else

@@ -343,7 +343,7 @@ static void find_steps(const image *img, finding *f, const tally *s, recognised 
         return;
     out->certain = false;
     append(f->reason, sizeof f->reason, "; all are multiples of 1/%.9g%s", found.steps,
-           out->steps_certain ? "" : ", perhaps by chance");
+           out->steps_certain ? "" : ", inconclusive");
 }
 
 /* How many numbers agree, against how many would without that lattice. */
@@ -352,8 +352,12 @@ static void weigh(finding *f, const tally *s, recognised *out) {
     if (!f->chance)
         return;
     const char *more = s->seen.count >= RECOGNISE_DISTINCT_MAX ? "more than " : "";
-    say(f, "%s%zu different numbers lie on the lattice of %s, by chance %.3g would%s", more, s->seen.count,
-        lattice_name(f->which), s->expected, out->certain ? "" : ": cannot tell");
+    if (out->certain)
+        say(f, "%s%zu different numbers lie on the lattice of %s, of random ones %.3g would", more, s->seen.count,
+            lattice_name(f->which), s->expected);
+    else
+        say(f, "%s%zu different numbers lie on the lattice of %s: inconclusive, of random ones %.3g would, too", more,
+            s->seen.count, lattice_name(f->which), s->expected);
 }
 
 void recognise(const image *img, recognised *out) {

@@ -24,12 +24,12 @@ const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
 const ASKED = {
     solve: ["for", "separation", "error", "at", "range"],
     bias: ["separation", "at", "range", "api", "units", "factor", "clamp", "slope"],
-    zfight: ["separation", "sample", "seed", "rasterize", "plane"],
+    zfight: ["separation", "sample", "seed", "rasterize"],
     prepass: ["against", "program", "vertices", "sample", "seed"],
     table: [], plot: [], budget: [],
 };
 const REFUSED = 2; // the exit status of a command
-const NEVER = ["link", "output", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
+const NEVER = ["link", "output", "json", "csv", "type", "theme", "figure-size", "threads", "quiet", "color"];
 // A figure does not refuse what it has no use for: it leaves it out.
 const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle-class"];
 const UNUSED = {

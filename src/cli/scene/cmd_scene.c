@@ -277,9 +277,9 @@ static int check_asked(const scene *s) {
     if (o->out.report != REPORT_TEXT && o->out.form != FORM_TEXT)
         return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
     if (o->out.report == REPORT_JUNIT && !option_given(o, OPTION_WITHIN))
-        return option_error(OPTION_REPORT, "junit needs --within: what fights nearer fails");
+        return option_error(OPTION_REPORT, "junit needs --within: surfaces that may z-fight nearer fail");
     if (o->scene.emit_need != NULL && option_given(o, OPTION_SEPARATION) && o->wanted.separation == 0.0)
-        return option_error(OPTION_EMIT_NEED, "needs a --separation above 0: no camera tells one plane apart");
+        return option_error(OPTION_EMIT_NEED, "needs a --separation above 0: no camera resolves coplanar surfaces");
     if (o->bias.api == NULL)
         return option_error(OPTION_API, "must name one here, got 'all'");
     const int status = setup_decided(o);
