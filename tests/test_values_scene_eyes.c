@@ -218,12 +218,12 @@ TEST(damaged_paths) {
         const char *text, *said;
     } rows[] = {{"", "has no line of six numbers"},
                 {"# nothing\n\n", "has no line of six numbers"},
-                {"1 2 3 4 5 6\n1 2 3 4 5\n", "line 2: must be six numbers, a place and the place looked at, got 5"},
-                {"1 2 3 4 5 6 7\n", "line 1: must be six numbers, a place and the place looked at, got 7"},
+                {"1 2 3 4 5 6\n1 2 3 4 5\n", "line 2: must be six numbers, the eye and the point it looks at, got 5"},
+                {"1 2 3 4 5 6 7\n", "line 1: must be six numbers, the eye and the point it looks at, got 7"},
                 {"\n\n1 2 x\033 4 5 6\n", "line 3: must be numbers from -1e12 to 1e12, got 'x?'"},
                 {"1 2 3 4 5 nan\n", "line 1: must be numbers from -1e12 to 1e12, got 'nan'"},
                 {"1 2 3 4 5 2e12\n", "line 1: must be numbers from -1e12 to 1e12, got '2e12'"},
-                {"1 2 3 1 2 3\n", "line 1: must look at another place than its own"}};
+                {"1 2 3 1 2 3\n", "line 1: must look at a point other than the eye"}};
     const char *name = scratch_file("bad.txt");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[640];
@@ -268,7 +268,7 @@ TEST(model_cameras) {
         {"--camera door", "--camera: must be Door, Plan, 3 or Odd, got 'door'; did you mean 'Door'?", 2},
         {"--camera Plan", "--camera: must be a perspective one, and 'Plan' is orthographic", 2},
         {"--camera Odd", "--camera: 'Odd' has a vertical field of view of 180 degrees", 2},
-        {"--camera Door --near 0.1 --eye 1,2,3 --look 0,0,0", "--camera: cannot be combined with --eye", 2}};
+        {"--camera Door --near 0.1 --eye 1,2,3 --look 0,0,0", "--camera: conflicts with --eye", 2}};
     const char *name = scratch_text("cameras.gltf", "%s", cameras);
     char line[1024];
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -295,10 +295,10 @@ TEST(refused) {
     static const refused_row rows[] = {
         {"--eye 1,2,3", "--eye: needs --look", 2},
         {"--look 1,2,3", "--look: needs --eye", 2},
-        {"--eye 1,2,3 --look 1,2,3", "--look: must be another place than --eye, which are both 1,2,3", 2},
+        {"--eye 1,2,3 --look 1,2,3", "--look: must differ from --eye; both are 1,2,3", 2},
         {"--eye 1,2 --look 1,2,3", "--eye: must be X,Y,Z, each from -1e12 to 1e12, got '1,2'", 2},
-        {"--eye 1,2,3 --look 0,0,0 --path x", "--path: cannot be combined with --eye", 2},
-        {"--camera A --path x", "--path: cannot be combined with --camera", 2},
+        {"--eye 1,2,3 --look 0,0,0 --path x", "--path: conflicts with --eye", 2},
+        {"--camera A --path x", "--path: conflicts with --camera", 2},
         {"--camera A", "--camera: tests/models/street.obj has no camera, got 'A'", 2},
         {"--eye 1,2,3 --look 0,0,0 --slant 0:40", "--slant: does not apply from an eye", 2}};
     CHECK_REFUSED("scene " STREET, rows);

@@ -273,7 +273,7 @@ TEST(refused) {
         const char *said;
     } rows[] = {
         {"--report junit", 2, "--report: junit needs --within: surfaces that may z-fight nearer fail"},
-        {"--report junit --within 5 --csv", 2, "--report: cannot be combined with --json or --csv"},
+        {"--report junit --within 5 --csv", 2, "--report: conflicts with --json or --csv"},
         {"--emit-need none/x.need", 3, "cannot write 'none/x.need': No such file or directory"},
         {"--emit-need x.need --separation 0", 2, "--emit-need: needs a --separation above 0"},
         {"--emit-need " HOUSE, 2, "--emit-need: must not be a file that is read"},

@@ -147,7 +147,7 @@ TEST(answers) {
 
 TEST(refusals) {
     static const refused_row rows[] = {
-        {"-F fp32 -m d3d -f inf --error 0.01 --at 9 " VIEW, "--error: is that of a depth at a point", 2},
+        {"-F fp32 -m d3d -f inf --error 0.01 --at 9 " VIEW, "--error: is that at a point", 2},
         {"-F fp32 -m d3d -f inf --separation 0.01 --at 9 --model exact " VIEW,
          "--model: must be float or auto with --viewport", 2},
         {"-F fp32 -m d3d -f inf --separation 0.01 --at 9 --model staged " VIEW, "--model: must be float or auto", 2},

@@ -69,7 +69,7 @@ const char *bias_of_gpu(const options *o, const bias_api *api, const dp_format *
 int bias_check_slant(const options *o) {
     for (size_t i = 0; i < o->camera.mapping_count && o->camera.triangles.width > 0; i++)
         if (dp_mapping_get(o->camera.mappings[i])->curve != DP_CURVE_PERSPECTIVE)
-            return option_error(OPTION_VIEWPORT, "does not apply with %s, which is not affine on the screen",
+            return option_error(OPTION_VIEWPORT, "does not apply to %s, which is not affine on the screen",
                                 dp_mapping_get(o->camera.mappings[i])->name);
     return EXIT_FINE;
 }
@@ -361,7 +361,7 @@ int bias_all_write(const options *o) {
         return option_error(OPTION_API, "must be one API with --%s, got 'all'",
                             option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP));
     if (option_given(o, OPTION_AT) && option_given(o, OPTION_RANGE))
-        return option_error(OPTION_RANGE, "cannot be combined with --at for all APIs");
+        return option_error(OPTION_RANGE, "conflicts with --at for all APIs");
     int status = each_setup_start(&a.each, o);
     if (status == EXIT_FINE)
         status = range_resolve(o, &a.lo, &a.hi);

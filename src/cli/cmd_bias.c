@@ -370,9 +370,9 @@ static const column columns[] = {
 static int check_states(const options *o, const bias_api *api) {
     const bool given = option_given(o, OPTION_UNITS);
     if (given && option_given(o, OPTION_VIEWPORT))
-        return option_error(OPTION_VIEWPORT, "cannot be combined with --units: it says how many are enough");
+        return option_error(OPTION_VIEWPORT, "conflicts with --units: it says how many suffice");
     if (given && option_given(o, OPTION_SEPARATION))
-        return option_error(OPTION_UNITS, "cannot be combined with --separation, which solves for them");
+        return option_error(OPTION_UNITS, "conflicts with --separation, which solves for them");
     if (given && api->whole && !(o->bias.units == nearbyint(o->bias.units) && fabs(o->bias.units) <= 0x1.fffffffcp30) &&
         (o->camera.platform == NULL || !o->camera.platform->cuts))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",

@@ -81,7 +81,7 @@ bool lookup_wanted(const options *o) {
 /* What is asked is no depth of the scene, and a code must be one of each format. */
 static int check(const options *o, const setups *all) {
     if (option_given(o, OPTION_DEPTH) && option_given(o, OPTION_CODE))
-        return option_error(OPTION_CODE, "cannot be combined with --depth");
+        return option_error(OPTION_CODE, "conflicts with --depth");
     const option_id asked = option_given(o, OPTION_CODE) ? OPTION_CODE : OPTION_DEPTH;
     for (size_t i = 0; i < all->count && asked == OPTION_CODE; i++) {
         const dp_format *format = &all->items[i].spec.format;

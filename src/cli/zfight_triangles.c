@@ -148,7 +148,7 @@ static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns)
 static int check(drawn *d) {
     const options *o = d->each.o;
     if (option_given(o, OPTION_SEPARATION))
-        return option_error(OPTION_SEPARATION, "does not apply with --rasterize, which looks for the separation");
+        return option_error(OPTION_SEPARATION, "conflicts with --rasterize, which looks for the separation");
     int status = raster_setups(o, &d->each.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &d->lo, &d->hi);

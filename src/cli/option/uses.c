@@ -283,8 +283,8 @@ const option_use no_uses[] = {END};
 
 const command_part table_parts[] = {
     {"without --depth and --code", TABLE_OF_DEPTHS}, {"with --depth or --code", TABLE_OF_CODES}, {NULL, 0}};
-const command_part solve_parts[] = {{"without --for frusta",
-    SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
+const command_part solve_parts[] = {
+    {"without --for frusta", SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
 const command_part shadow_parts[] = {{"to cascades", SHADOW_CASCADES}, {"with --light-box", SHADOW_BOX}, {NULL, 0}};
 const command_part texture_parts[] = {{"to an effect alone that needs no position", TEXTURE_EFFECT},
                                       {"to an effect alone that needs the position", TEXTURE_PLACED},

@@ -173,8 +173,8 @@ static void sentence_of_nothing(const solve_report *r, const solve_candidate *c,
         output_format(out, "Impossible: %s has no %s that %s: nothing farther is guaranteed to be resolved.\n",
                       given.text, what, goal.text);
     else if (!c->solved)
-        output_format(out, "Impossible: with this near and far no %s %s; %s comes nearest, with %s.\n", what,
-                      goal.text, given.text, best.text);
+        output_format(out, "Impossible: with this near and far no %s %s; %s comes nearest, with %s.\n", what, goal.text,
+                      given.text, best.text);
     else
         output_format(out, "%s %s of %s %s%s; %s %s comes near, with %s.\n", c->plane.certain ? "Impossible: no" : "No",
                       what, given.text, c->plane.certain ? "" : "was found that ", goal.text, what, plane.text,

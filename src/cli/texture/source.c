@@ -82,7 +82,7 @@ static int check_window(const options *o) {
 static int check_together(const options *o) {
     const bool file = o->operand_count > 0;
     if (file && o->image.synthetic != NULL)
-        return option_error(OPTION_SYNTHETIC, "stands in place of FILE, got '%s' too", o->operands[0]);
+        return option_error(OPTION_SYNTHETIC, "replaces FILE, got '%s' too", o->operands[0]);
     if (!file && o->image.synthetic == NULL)
         return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF or raw image, or --synthetic NAME");
     if (file && o->image.effect == NULL && o->image.parameter_count > 0)
@@ -96,7 +96,7 @@ static int check_together(const options *o) {
     if (o->image.packing != NULL && !file)
         return option_error(OPTION_PACKING, "needs FILE");
     if (o->image.packing != NULL && o->image.metric > 0)
-        return option_error(OPTION_METRIC, "does not apply with --packing");
+        return option_error(OPTION_METRIC, "conflicts with --packing");
     const int status = check_window(o);
     return status == EXIT_FINE ? texture_camera_check(o) : status;
 }
