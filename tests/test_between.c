@@ -329,6 +329,20 @@ TEST(test_depths) {
     tally_end(&each);
 }
 
+/* A depth whose distance gains little by being refined, and a run whose distance gains more. */
+TEST(test_refined_alike) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.model = DP_MODEL_FLOAT;
+    spec.znear = 0.010426754016938983;
+    spec.zfar = INFINITY;
+    spec.mapping = DP_MAPPING_GL;
+    assert_int_equal(dp_arith_parse("softpipe", &spec.arith), DP_OK);
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const dp_guarantee g = dp_guarantee_make(&setup);
+    assert_true(dp_guarantee_at(&g, 4972.6494140625) <= dp_guarantee_bound(&g, 4234.49609375, 4972.6494140625));
+}
+
 /* What has no entry of one sign, and an error in float: nothing is said. */
 TEST(test_nothing) {
     dp_spec spec = dp_spec_default();

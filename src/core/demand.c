@@ -203,20 +203,21 @@ static double distance(const dp_chain *c, double z, const dp_demand *d) {
 
 /*
  * How far a depth of `second` may be from one of `first` and out of order. What lies beyond that is in order, so only
- * the depths up to there need a demand of their own, which is smaller; and so on while it helps.
+ * the depths up to there need a demand of their own, which is smaller; and so on, as often for a single depth as for a
+ * run of them: so the distance of the run is never the shorter one.
  */
+enum { REFINED = 3 };
 static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra,
                              dp_demand *out) {
     double best = HUGE_VAL;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < REFINED; i++) {
         const dp_demand d = demand_of(c, s1, first, second, extra);
         const double s = distance(c, first.hi, &d);
         if (i > 0 && !(s < best)) /* the first one counts even where it is infinite: *out is what it demands */
             break;
-        const double gain = best - s;
         best = s;
         *out = d;
-        if (first.hi + s >= second.hi || first.hi + s < second.lo || gain <= 0x1p-6 * s)
+        if (first.hi + s >= second.hi || first.hi + s < second.lo)
             break;
         if (i > 0 && c->run) /* a camera of the run may end here, where it gains little */
             break;
