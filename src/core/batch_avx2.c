@@ -12,10 +12,12 @@
 #define TABLE            dp_batch_avx2
 #define HALF_BY_HARDWARE 1
 
-/* vcvtps2ph knows no clamp of its own; its second argument to max and min is taken for NaN. */
+/* The second argument to max is taken for NaN; what is above 1 is a larger code, and less work to clamp as one. */
 TARGET static inline __m128i half_of(__m256 d, int nearest) {
-    const __m256 unit = _mm256_min_ps(_mm256_max_ps(d, _mm256_setzero_ps()), _mm256_set1_ps(1.0F));
-    return nearest ? _mm256_cvtps_ph(unit, _MM_FROUND_TO_NEAREST_INT) : _mm256_cvtps_ph(unit, _MM_FROUND_TO_ZERO);
+    const __m256 unit = _mm256_max_ps(d, _mm256_setzero_ps());
+    const __m128i half =
+        nearest ? _mm256_cvtps_ph(unit, _MM_FROUND_TO_NEAREST_INT) : _mm256_cvtps_ph(unit, _MM_FROUND_TO_ZERO);
+    return _mm_min_epu16(half, _mm_set1_epi16(0x3C00));
 }
 
 TARGET static int32_t kernel_HALF_OF_FLOAT(const dp_batch *batch, const void *in, void *out, size_t count) {
