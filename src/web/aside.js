@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Commands that take long run beside the page, in a worker that has the same script and the same compiled module. A page
-// from file:// may load no other file, so that the worker's is a blob of the page's own.
+// Commands run beside the page, in a worker that has the same script and the same compiled module, one at a time and each
+// once. A page from file:// may load no other file, so that the worker's is a blob of the page's own.
 import { load } from "./engine.js";
 
 export const inWorker = typeof document === "undefined";
@@ -8,30 +8,59 @@ export const inWorker = typeof document === "undefined";
 // The worker's side: the module comes first, then lines, each answered by what the command said.
 export function serve(measure) {
     let engine;
-    onmessage = async ({ data: { module, line } }) => {
+    onmessage = async ({ data: { module, line, most } }) => {
         engine ??= await load(module);
         engine.measure = measure;
-        postMessage(engine.run(line));
+        postMessage(engine.run(line, most));
     };
 }
 
-// The page's side. run(line) tells in time what the command says, or null: where no worker can be made, where it fails,
-// or where stop() came first. One line at a time.
-export function createAside(module) {
+const LIMIT_MS = 10000, PATIENCE_MS = 60, REMEMBERED = 24;
+const keyOf = (line) => line.join("\0");
+const refusal = (text) => ({ status: 2, out: "", err: `depthprec: ${text}; the program itself has no limit` });
+
+// The page's side. `here` runs a line on the page's own thread, where no worker can be made; onSaid(line, ms) is told of
+// each answer, onRun(line) of each that begins, null where none is left.
+export function createAside(module, { here, onSaid, onRun }) {
     const source = document.querySelector("script[type=module]").textContent;
-    let address = null, worker = null, answer = null, works = true;
+    const last = new Map(); // what the last commands said
+    let address = null, worker = null, works = true, now = null, wanted = [], asked = [];
+
+    function remember(key, said) {
+        last.delete(key);
+        last.set(key, said);
+        if (last.size > REMEMBERED) last.delete(last.keys().next().value);
+    }
+
+    function drop() {
+        for (const timer of now.timers) clearTimeout(timer);
+        now = null;
+        worker?.terminate();
+        worker = null;
+    }
 
     function end(said) {
-        const to = answer;
-        answer = null;
-        to?.(said);
+        const { key, line, begun, timers } = now, ms = performance.now() - begun;
+        for (const timer of timers) clearTimeout(timer);
+        now = null;
+        remember(key, said);
+        for (const one of asked) if (one.key === key) one.resolve(said);
+        asked = asked.filter((one) => one.key !== key);
+        onSaid(line, ms);
+        next();
+    }
+
+    function refuse(text) {
+        worker?.terminate();
+        worker = null;
+        end(refusal(text));
     }
 
     function fail() {
         works = false;
         worker?.terminate();
         worker = null;
-        end(null);
+        if (now !== null) setTimeout(() => end(here(now.line, now.most)));
     }
 
     function make() {
@@ -41,24 +70,44 @@ export function createAside(module) {
         worker.onerror = worker.onmessageerror = (event) => (event.preventDefault(), fail());
     }
 
+    function next() {
+        if (now !== null) return;
+        const one = asked[0] ?? wanted.find(({ key }) => !last.has(key));
+        onRun(one?.line ?? null);
+        if (one === undefined) return;
+        const limit = setTimeout(() => refuse(`takes longer than ${LIMIT_MS / 1000} s here`), LIMIT_MS);
+        now = { ...one, begun: performance.now(), timers: works ? [limit] : (clearTimeout(limit), []) };
+        try {
+            if (!works) return fail();
+            if (worker === null) make();
+            worker.postMessage({ module, line: one.line, most: one.most });
+        } catch {
+            fail();
+        }
+    }
+
+    const needed = () => [...asked, ...wanted].some(({ key }) => key === now.key);
+
     return {
-        run: (line) => new Promise((resolve) => {
-            if (!works) return resolve(null);
-            answer = resolve;
-            try {
-                if (worker === null) make();
-                worker.postMessage({ module, line });
-            } catch {
-                fail();
-            }
+        known: (line) => last.get(keyOf(line)),
+
+        // The lines that the page shows and the most bytes of each, the first most urgent. What runs for nobody any more has a moment left.
+        want(lines) {
+            wanted = lines.map(([line, most]) => ({ key: keyOf(line), line, most }));
+            if (now !== null && works && !needed())
+                now.timers.push(setTimeout(() => (drop(), next()), Math.max(0, PATIENCE_MS + now.begun - performance.now())));
+            next();
+        },
+
+        // What a line says, before all that is wanted.
+        ask: (line, most = Infinity) => new Promise((resolve) => {
+            const key = keyOf(line), said = last.get(key);
+            if (said !== undefined && !(said.left > 0)) return resolve(said);
+            asked.push({ key, line, most, resolve });
+            next();
         }),
 
-        // Leaves what runs: nobody waits for it any more.
-        stop() {
-            if (answer === null) return;
-            worker?.terminate();
-            worker = null;
-            end(null);
-        },
+        // Ends what runs, as if it took too long.
+        cancel: () => now !== null && works && refuse("was cancelled"),
     };
 }

@@ -7,6 +7,15 @@ const encoder = new TextEncoder();
 
 class Streams {
     bytes = [[], [], []];
+    left = 0; // bytes that were written beyond `most`
+    constructor(most = Infinity) {
+        this.most = most;
+    }
+    write(fd, piece) {
+        if (piece.length > this.most) this.left += piece.length;
+        else this.bytes[fd].push(piece.slice());
+        this.most -= Math.min(piece.length, this.most);
+    }
     text(fd) {
         const decoder = new TextDecoder();
         return this.bytes[fd].map((piece) => decoder.decode(piece, { stream: true })).join("") + decoder.decode();
@@ -47,7 +56,7 @@ function system(memory, streams) {
             let size = 0;
             for (let i = 0; i < count; i++) {
                 const at = view().getUint32(pieces + 8 * i, true), length = view().getUint32(pieces + 8 * i + 4, true);
-                streams.bytes[fd].push(new Uint8Array(memory().buffer, at, length).slice());
+                streams.write(fd, new Uint8Array(memory().buffer, at, length));
                 size += length;
             }
             view().setUint32(out, size, true);
@@ -64,9 +73,9 @@ function system(memory, streams) {
 export async function load(from) {
     const module = from instanceof WebAssembly.Module ? from : await WebAssembly.compile(from);
 
-    function begin() {
+    function begin(most) {
         let instance;
-        const memory = () => instance.exports.memory, streams = new Streams(), decoder = new TextDecoder();
+        const memory = () => instance.exports.memory, streams = new Streams(most), decoder = new TextDecoder();
         instance = new WebAssembly.Instance(module, {
             wasi_snapshot_preview1: system(memory, streams),
             page: {
@@ -78,13 +87,13 @@ export async function load(from) {
         return { exports: instance.exports, memory: instance.exports.memory, streams };
     }
 
-    function call(name, words) {
-        const { exports, memory, streams } = begin();
+    function call(name, words, most) {
+        const { exports, memory, streams } = begin(most);
         const bytes = encoder.encode(words.map((word) => word.replaceAll("\0", "\ufffd") + "\0").join(""));
         const room = exports.words(bytes.length);
         new Uint8Array(memory.buffer, room, bytes.length).set(bytes);
         const status = exports[name](words.length);
-        return { status, out: streams.text(1), err: streams.text(2) };
+        return { status, out: streams.text(1), err: streams.text(2), left: streams.left };
     }
 
     const engine = {
@@ -93,8 +102,8 @@ export async function load(from) {
         // How far text reaches, px; the page has a better one.
         measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),
 
-        // The command's exit status and what it wrote.
-        run: (words) => call("run", words),
+        // The command's exit status and what it wrote, up to so many bytes; `left` are the others.
+        run: (words, most) => call("run", words, most),
 
         // What the program makes of the words: { status, err, verb, operands, options: [{ name, value }] }.
         parse(words) {
@@ -113,7 +122,7 @@ export async function load(from) {
         },
 
         // An instance that stays: { exports, memory }.
-        instance: begin,
+        instance: () => begin(),
     };
     return engine;
 }

@@ -45,19 +45,6 @@ const takes = {}; // options of each command
 const state = { setups: [], asked: {}, figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]) };
 const fields = []; // of each set-up: its controls by option
 
-// What the last commands said, so that none is asked twice.
-const REMEMBERED = 12, last = new Map();
-function remember(line, said) {
-    const key = line.join("\0");
-    last.delete(key);
-    last.set(key, said);
-    if (last.size > REMEMBERED) last.delete(last.keys().next().value);
-    return said;
-}
-
-const known = (line) => last.get(line.join("\0"));
-const run = (line) => remember(line, known(line) ?? engine.run(line));
-
 const errorOf = ({ err }) => err.trim().replace(/^depthprec: /, "");
 
 // ---- Commands -----------------------------------------------------------------------------------------------------
@@ -95,7 +82,7 @@ function shown() {
 // ---- Setting the page ---------------------------------------------------------------------------------------------
 
 // What commands say, put together before anything is taken: one that is refused leaves the page as it was.
-function understand(all) {
+async function understand(all) {
     const next = { setups: [], asked: { ...state.asked }, figure: state.figure, shown: new Set(["table", "plot"]) };
     if (all.length === 0) throw new Error("there is no command in it: table -n 0.1 -f 1000 is one");
     if (all.length > VERBS.length + 1) throw new Error(`the page shows at most ${VERBS.length + 1} commands`);
@@ -115,7 +102,7 @@ function understand(all) {
             next.figure = operands[0];
         }
         if (verb === "table" || (verb !== "plot" && all.length === 1)) {
-            const said = run([verb, ...words(given)]);
+            const said = await aside.ask([verb, ...words(given)], MOST);
             if (said.status === REFUSED) throw new Error(errorOf(said));
         }
         next.shown.add(verb);
@@ -139,26 +126,31 @@ function refuse(error) {
     at.hidden = error === null;
 }
 
-function set(all) {
+// Of several the last one counts.
+let asking = 0;
+async function set(all) {
+    const mine = ++asking;
     let next;
     try {
-        next = understand(typeof all === "function" ? all() : all);
+        next = await understand(typeof all === "function" ? all() : all);
     } catch (error) {
+        if (mine !== asking) return false;
         refuse(error);
         count();
+        want();
         return false;
     }
+    if (mine !== asking) return true;
     Object.assign(state, next);
     refuse(null);
     fill();
     update();
-    showAddress();
     return true;
 }
 
 // ---- Controls -----------------------------------------------------------------------------------------------------
 
-const names = (what) => JSON.parse(run(["list", what, "--json"]).out).items.map((item) => item.name);
+const names = (what) => JSON.parse(engine.run(["list", what, "--json"]).out).items.map((item) => item.name);
 const choices = (option) => takes.table.get(option).split("|");
 
 // Sliders are logarithmic; the last step of far is infinity. A slider writes a plain number of three digits.
@@ -310,10 +302,11 @@ function fill() {
 // ---- What the panels show -----------------------------------------------------------------------------------------
 
 // The sentences of a report, put together again where they were wrapped: lines from the margin that end in a full stop.
+const ANSWER_LINES = 300;
 function answers(text) {
     const all = [];
     let open = false;
-    for (const line of text.split("\n")) {
+    for (const line of text.split("\n", ANSWER_LINES)) {
         if (/^[^\s-]/.test(line)) all.push(line);
         else if (open && /^ {2}\S/.test(line)) all[all.length - 1] += line.slice(1);
         open = all.length > 0 && line !== "" && !all.at(-1).endsWith(".");
@@ -349,8 +342,9 @@ function outputOf(panel, index) {
         for (const kind of drawn ? ["svg", "csv", "json"] : ["csv", "json"]) {
             const name = kind.toUpperCase(), told = { "data-export": kind, "aria-label": `${name} of ${title}` };
             const button = make("button", { type: "button", ...told }, name);
-            button.addEventListener("click", () => {
-                const line = split(one.dataset.run), said = kind === "svg" ? one.said : run([...line, ...RUN[kind]]);
+            button.addEventListener("click", async () => {
+                const line = split(one.dataset.run);
+                const said = kind === "svg" ? one.said : await aside.ask([...line, ...RUN[kind]]);
                 save(`depthprec-${verb}-${letter}.${kind}`, said.out, TYPE[kind]);
             });
             saves.append(button);
@@ -362,10 +356,10 @@ function outputOf(panel, index) {
 
 const unescaped = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&amp;", "&");
 
-function drawing(one) {
+function drawing(one, colours) {
     const width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640)));
     const height = Math.max(240, Math.round(width * 0.55));
-    return ["--type", "svg", "-o", "-", "--theme", theme(), "--figure-size", `${width}x${height}`];
+    return ["--type", "svg", "-o", "-", "--theme", colours, "--figure-size", `${width}x${height}`];
 }
 
 function showFigure(one, svg) {
@@ -374,8 +368,8 @@ function showFigure(one, svg) {
     image.alt = unescaped(/<desc[^>]*>([^<]*)/.exec(svg)?.[1] ?? "");
 }
 
-function showText(one, verb, text) {
-    $("pre", one).textContent = text;
+function showText(one, verb, { out: text, left }) {
+    $("pre", one).textContent = left > 0 ? `${text}\n... and ${Math.ceil(left / 1024)} KiB more: CSV has all\n` : text;
     if (verb !== "table") $(".answer", one).textContent = answers(text);
 }
 
@@ -387,42 +381,35 @@ function outputsOf(panel) {
     return ones;
 }
 
-function lineOf(verb, setup, one) {
+function lineOf(verb, setup, one, colours = theme()) {
     const line = commandOf(verb, setup);
-    return verb === "plot" ? [...line, ...drawing(one)] : line;
+    return verb === "plot" ? [...line, ...drawing(one, colours)] : line;
 }
 
 // A set-up that is refused as a whole says so beside its controls; what was shown of it stays, paler.
-function showPanel(panel) {
+function showOutput(panel, one, index, said) {
+    if (said === one.said) return;
     const verb = panel.dataset.panel, drawn = verb === "plot";
-    outputsOf(panel).forEach((one, index) => {
-        const setup = state.setups[index], said = run(lineOf(verb, setup, one));
-        if (said === one.said) return;
-        const refused = said.status === REFUSED ? errorOf(said) : "";
-        const saidAbove = refused === fields[index].refused.textContent;
-        one.classList.toggle("stale", refused !== "" && saidAbove);
-        if (refused !== "" && saidAbove && one.said !== undefined) return;
-        one.said = said;
-        one.dataset.run = join(commandOf(verb, setup));
-        if (!drawn) showText(one, verb, said.out);
-        else if (refused === "") showFigure(one, said.out);
-        $(".refused", one).textContent = refused;
-        for (const part of one.querySelectorAll("pre, img, .saves")) part.hidden = refused !== "";
-    });
+    const refused = said.status === REFUSED ? errorOf(said) : "";
+    const saidAbove = refused === fields[index].refused.textContent;
+    one.classList.toggle("stale", refused !== "" && saidAbove);
+    if (refused !== "" && saidAbove && one.said !== undefined) return;
+    one.said = said;
+    one.dataset.run = join(commandOf(verb, state.setups[index]));
+    if (!drawn) showText(one, verb, said);
+    else if (refused === "") showFigure(one, said.out);
+    $(".refused", one).textContent = refused;
+    for (const part of one.querySelectorAll("pre, img, .saves")) part.hidden = refused !== "";
 }
 
-function showSetups() {
+function showSetup(index, said) {
     const place = $("#verdicts");
-    state.setups.forEach((setup, index) => {
-        const said = run(commandOf("table", setup));
-        refuseSetup(index, said.status === REFUSED ? errorOf(said) : "");
-        if (place.children.length <= index) place.append(make("p", {}));
-        const one = place.children[index];
-        const letter = state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : [];
-        if (said.status !== REFUSED) one.replaceChildren(...letter, answers(said.out));
-        one.classList.toggle("stale", said.status === REFUSED);
-    });
-    while (place.children.length > state.setups.length) place.lastChild.remove();
+    refuseSetup(index, said.status === REFUSED ? errorOf(said) : "");
+    while (place.children.length <= index) place.append(make("p", {}));
+    const one = place.children[index];
+    const letter = state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : [];
+    if (said.status !== REFUSED) one.replaceChildren(...letter, answers(said.out));
+    one.classList.toggle("stale", said.status === REFUSED);
 }
 
 function count() {
@@ -430,39 +417,81 @@ function count() {
     dataset.updates = Number(dataset.updates ?? 0) + 1;
 }
 
-// Commands that take tenths of a second never hold the page: they run aside. On paper all has to be there at once.
-const slow = (verb) => !printing && (verb === "zfight" || verb === "prepass" || (verb === "plot" && state.figure === "map"));
-const unknown = (panel, verb) => outputsOf(panel).some((one, i) => !known(lineOf(verb, state.setups[i], one)));
+// What the page shows: the set-ups' tables first, which say above what is resolved, then the panels, those on the screen
+// first.
+const onScreen = new Set();
+function outputs(colours) {
+    const all = state.setups.map((setup, index) => ({ index, line: commandOf("table", setup) }));
+    const panels = all.length === 0 ? [] : [...document.querySelectorAll("[data-panel]:not([data-panel=view], [hidden])")];
+    for (const panel of panels.sort((a, b) => onScreen.has(b) - onScreen.has(a)))
+        for (const [index, one] of outputsOf(panel).entries())
+            all.push({ panel, one, index, line: lineOf(panel.dataset.panel, state.setups[index], one, colours) });
+    return all;
+}
 
-// While something is dragged, a frame shows what is on the screen and quick; the rest follows when the hand rests.
-const FRAME_MS = 12, FIGURE_MS = 80, REST_MS = 200;
-const onScreen = new Set(), late = new Set(), cost = {};
-let resting;
+// Shows what is known; what is not is paler until it comes.
+function showKnown() {
+    const late = new Set(), place = $("#verdicts");
+    for (const { panel, one, index, line } of outputs()) {
+        const said = aside.known(line);
+        if (said === undefined) late.add(panel);
+        else if (panel === undefined) showSetup(index, said);
+        else showOutput(panel, one, index, said);
+    }
+    while (place.children.length > state.setups.length) place.lastChild.remove();
+    for (const panel of document.querySelectorAll("[data-panel]")) panel.classList.toggle("stale", late.has(panel));
+}
+
+// While something is dragged, what took long the last time waits until the hand rests, as does what is not on the screen.
+const MOST = 2 ** 18, LONG_MS = 80, REST_MS = 200, cost = {};
+const costOf = ([verb, figure]) => (verb === "plot" ? `${verb} ${figure}` : verb);
+const atMost = ({ line }) => [line, line[0] === "plot" ? Infinity : MOST];
+let resting = null;
+
+function want() {
+    const urgent = ({ panel, line }) => panel === undefined || (onScreen.has(panel) && !(cost[costOf(line)] > LONG_MS));
+    aside.want(outputs().filter((one) => resting === null || urgent(one)).map(atMost));
+}
 
 function update(dragged = false) {
-    const begun = performance.now();
-    aside.stop();
-    showSetups();
     fitQuestions();
-    for (const panel of document.querySelectorAll("[data-panel]")) {
-        const verb = panel.dataset.panel, start = performance.now();
-        if (verb === "view") continue;
-        panel.hidden = !state.shown.has(verb);
-        late.delete(panel);
-        const allowed = verb === "plot" ? FIGURE_MS : FRAME_MS - (start - begun);
-        if (panel.hidden) continue;
-        const later = slow(verb) ? unknown(panel, verb) : dragged && (cost[verb] ?? 0) > allowed;
-        if (later || (dragged && !onScreen.has(panel))) late.add(panel);
-        else showPanel(panel);
-        cost[verb] = Math.max(performance.now() - start, 0.9 * (cost[verb] ?? 0));
-        panel.classList.toggle("stale", late.has(panel));
-    }
+    for (const panel of document.querySelectorAll("[data-panel]"))
+        panel.hidden = panel.dataset.panel !== "view" && !state.shown.has(panel.dataset.panel);
     $("#link").textContent = shown().map((line) => `depthprec ${join(line)}`).join("\n");
     picture?.set(commandOf("table", state.setups[0]));
     clearTimeout(resting);
-    resting = setTimeout(rest, REST_MS);
-    document.documentElement.dataset.took = (performance.now() - begun).toFixed(2);
+    resting = !dragged ? null : setTimeout(() => {
+        resting = null;
+        want();
+    }, REST_MS);
     count();
+    showKnown();
+    want();
+}
+
+// All is there: the address, what a screen reader says, and the figures as they are printed, which can't be waited for.
+function settle() {
+    const { dataset } = document.documentElement, said = $("#verdicts").textContent;
+    if (resting !== null || dataset.settled === dataset.updates || state.setups.length === 0) return;
+    showAddress();
+    if ($("#said").textContent !== said) $("#said").textContent = said;
+    dataset.settled = dataset.updates;
+    dataset.ready = "";
+    aside.want([...outputs(), ...outputs("print")].map(atMost));
+}
+
+// What takes a second is named, with a way out.
+const NAMED_MS = 1000;
+let naming = null;
+function showRun(line) {
+    clearInterval(naming);
+    $("#busy").hidden = true;
+    if (line === null) return settle();
+    const begun = performance.now();
+    naming = setInterval(() => {
+        $("#busy").hidden = false;
+        $("#busy span").textContent = `${line[0]} takes ${Math.round((performance.now() - begun) / 1000)} s, of 10 at most.`;
+    }, NAMED_MS);
 }
 
 // Not at each step of a drag: browsers count, and a set-up or a command that is refused is no link.
@@ -473,36 +502,9 @@ function showAddress() {
     if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
 }
 
-// Has the commands of a panel run, as long as nothing changes.
-async function prepare(panel, current) {
-    const verb = panel.dataset.panel;
-    for (const [index, one] of outputsOf(panel).entries()) {
-        const line = lineOf(verb, state.setups[index], one);
-        const said = known(line) ?? (await aside.run(line));
-        if (!current()) return;
-        if (said !== null) remember(line, said);
-    }
-}
-
-async function rest() {
-    const [panel] = late, mine = resting;
-    if (panel !== undefined) {
-        if (slow(panel.dataset.panel)) await prepare(panel, () => resting === mine);
-        if (resting !== mine) return; // an update has come, and rests later
-        late.delete(panel);
-        showPanel(panel);
-        panel.classList.remove("stale");
-        resting = setTimeout(rest);
-        return;
-    }
-    const said = $("#verdicts").textContent;
-    showAddress();
-    if ($("#said").textContent !== said) $("#said").textContent = said;
-    document.documentElement.dataset.settled = document.documentElement.dataset.updates;
-}
-
 let waiting = false;
 function later() {
+    asking++;
     if (waiting) return;
     waiting = true;
     requestAnimationFrame(() => {
@@ -578,7 +580,7 @@ function listen() {
     for (const [when, is] of [["beforeprint", true], ["afterprint", false]])
         addEventListener(when, () => {
             printing = is;
-            update();
+            showKnown();
         });
     const watch = new IntersectionObserver((entries) => {
         for (const { target, isIntersecting } of entries) onScreen[isIntersecting ? "add" : "delete"](target);
@@ -609,7 +611,15 @@ async function begin() {
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
     engine = await load(new Uint8Array(await new Response(stream).arrayBuffer()));
     engine.measure = measurer();
-    aside = createAside(engine.module);
+    aside = createAside(engine.module, {
+        here: (line, most) => engine.run(line, most),
+        onSaid: (line, ms) => {
+            cost[costOf(line)] = ms;
+            showKnown();
+        },
+        onRun: showRun,
+    });
+    $("#cancel").addEventListener("click", () => aside.cancel());
     for (const verb of VERBS) takes[verb] = engine.takes(verb);
     $("#version").textContent = engine.run(["--version"]).out.split("\n")[0].replace(/^depthprec /, "");
     for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
@@ -622,9 +632,9 @@ async function begin() {
     buildSetup(0);
     buildSetup(1);
     listen();
-    if (location.hash.length < 2 || !set(() => fromFragment(location.hash.slice(1)))) {
+    if (location.hash.length < 2 || !(await set(() => fromFragment(location.hash.slice(1))))) {
         const said = $("#error").textContent, asked = location.hash.slice(1);
-        set(commands(STANDARD));
+        await set(commands(STANDARD));
         if (said !== "") refuse(`The link is refused, so the standard set-up is shown. ${said}`);
         if (asked.length <= LONGEST) $("#command").value = written(asked); // to be mended: the address is no longer it
     }
@@ -633,7 +643,6 @@ async function begin() {
     $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));
     picture.set(commandOf("table", state.setups[0]));
     window.depthprec = { engine, state: () => shown().map(join), set: (fragment) => set(() => fromFragment(fragment)) };
-    document.documentElement.dataset.ready = "";
 }
 
 const NEEDED = "It needs WebAssembly and DecompressionStream, which browsers have since 2023.";

@@ -60,13 +60,13 @@ export const settled = (page) => page.waitForFunction(() => {
     return updates === settled;
 });
 
-// Goes to a fragment as a person does who changes the address, and waits for the update.
+// Goes to a fragment as a person does who changes the address, and waits until all is there.
 export async function go(page, fragment) {
     await page.evaluate((to) => new Promise((done) => {
         const { dataset } = document.documentElement, before = dataset.updates;
         if (location.hash.slice(1) === to) return done();
         location.hash = to;
-        const wait = () => (dataset.updates !== before ? done() : setTimeout(wait, 1));
+        const wait = () => (dataset.updates !== before && dataset.updates === dataset.settled ? done() : setTimeout(wait, 1));
         wait();
     }), fragment);
 }

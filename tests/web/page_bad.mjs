@@ -101,6 +101,7 @@ export async function bad() {
             demand(field === line && !link.includes(line), `${line}: the field has ${field}`);
             await other.fill("#command", "table -n 3");
             await other.keyboard.press("Enter");
+            await other.waitForFunction(() => document.querySelector("#link").textContent.includes("-n 3\n"));
             const now = await shown(other);
             demand(now.error === "" && now.link.startsWith("depthprec table -n 3\n"), `mended: ${now.error}`);
             await close(other);

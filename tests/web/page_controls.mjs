@@ -25,6 +25,7 @@ const sentence = (out) => flat(/^[^]*?\.$/m.exec(out)?.[0] ?? "");
 const updated = (page, act) => page.evaluate(() => document.documentElement.dataset.updates).then(async (before) => {
     await act();
     await page.waitForFunction((old) => document.documentElement.dataset.updates !== old, before);
+    await settled(page);
 });
 
 async function put(page, selector, value) {

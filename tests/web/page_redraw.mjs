@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How long a whole update takes while a slider is dragged: the commands, the figure, style and layout.
+import { readFileSync } from "node:fs";
 import { address, close, go, open, settled, shown } from "./browser.mjs";
 import { demand, test } from "./tap.mjs";
 
@@ -50,28 +51,106 @@ async function compareSlow(page) {
     demand(svg.length > 2000 && svg === svgHere, "the map is another figure");
 }
 
+// From here on: what runs on the page's own thread, and how long a task of it takes.
+const watch = (page) => page.evaluate(() => {
+    const { engine } = window.depthprec, { run } = engine;
+    window.held = [0], window.ranHere = [];
+    engine.run = (line, most) => (window.ranHere.push(line.join(" ")), run(line, most));
+    new PerformanceObserver((list) => window.held.push(...list.getEntries().map(({ duration }) => duration))).observe({ type: "longtask" });
+});
+
+// The longest task; no command may have run here.
+async function held(page, what) {
+    await page.waitForTimeout(100);
+    const { longest, ran } = await page.evaluate(() => ({ longest: Math.max(...window.held.splice(0), 0), ran: window.ranHere.splice(0) }));
+    demand(ran.length === 0, `${what}: on the page's own thread: ${ran.slice(0, 5).join("; ")}`);
+    return longest;
+}
+
 async function aside() {
     const page = await open();
-    await page.evaluate(() => {
-        const { engine } = window.depthprec, { run } = engine;
-        window.held = [0], window.ranHere = [];
-        engine.run = (line) => (window.ranHere.push(line.join(" ")), run(line));
-        new PerformanceObserver((list) => window.held.push(...list.getEntries().map(({ duration }) => duration))).observe({ type: "longtask" });
-    });
-    await go(page, SLOW);
+    await watch(page);
+    await page.evaluate((to) => (location.hash = to), SLOW);
     await page.waitForTimeout(230);
-    const before = await page.evaluate(() => document.documentElement.dataset.updates);
     await page.fill("#near-A", "0.3"); // leaves what runs
-    await page.waitForFunction((old) => document.documentElement.dataset.updates !== old, before);
+    await page.waitForFunction(() => document.querySelector("#link").textContent.includes("-n 0.3"));
     await settled(page);
-    await page.waitForTimeout(100);
-    const held = Math.max(...(await page.evaluate(() => window.held)));
-    const here = (await page.evaluate(() => window.ranHere)).filter((line) => /^(zfight|plot map)/.test(line));
-    demand(here.length === 0, `on the page's own thread: ${here.join("; ")}`);
+    const longest = await held(page, "slow commands");
     demand((await shown(page)).runs.some(({ panel, run }) => panel === "zfight" && run.includes("-n 0.3")), "the last change is not shown");
     await compareSlow(page);
     await close(page);
-    return `longest task, which is the browser's with the map's picture: ${held} ms`;
+    return `longest task, which is the browser's with the map's picture: ${longest} ms`;
+}
+
+// Each figure of each model while near, far and the format change.
+async function everything() {
+    const page = await open(), worst = { ms: -1 };
+    await watch(page);
+    for (const model of ["exact", "staged", "float"])
+        for (const figure of await page.evaluate(() => [...document.querySelectorAll("[name=figure]")].map(({ value }) => value))) {
+            await page.evaluate((value) => document.querySelector(`[name=figure][value=${value}]`).click(), figure);
+            await page.selectOption("#model-A", model);
+            for (const [slider, to] of [["near", 100], ["near", 300], ["far", 250], ["far", 500], ["near", 200]])
+                await page.evaluate(([name, step]) => {
+                    const one = document.querySelector(`#a [data-slider=${name}]`);
+                    one.value = step;
+                    one.dispatchEvent(new Event("input"));
+                    return new Promise(requestAnimationFrame);
+                }, [slider, to]);
+            await page.selectOption("#format-A", figure === "error" ? "fp32" : "unorm24");
+            await settled(page);
+            const ms = await held(page, `${figure}, ${model}`);
+            if (ms > worst.ms) Object.assign(worst, { ms, figure, model });
+        }
+    await close(page);
+    return `longest task ${worst.ms} ms: ${worst.figure}, ${worst.model}`;
+}
+
+const pasted = (page, line) => page.evaluate((text) => {
+    document.querySelector("#command").value = text;
+    document.querySelector("#line").requestSubmit();
+}, line);
+
+// Those of the manual page that the page has, as a person pastes them.
+async function questions() {
+    const text = readFileSync("man/depthprec-questions.7", "utf8").replaceAll(/ *\\e\n */g, " ").replaceAll("\\(aq", "'");
+    const lines = [...text.matchAll(/^depthprec ((?:table|solve|bias|budget|zfight|prepass)\b[^|>\n]*)$/gm)].map(([, line]) => line);
+    const page = await open();
+    await watch(page);
+    let longest = 0;
+    for (const line of lines) {
+        const before = await page.evaluate(() => document.documentElement.dataset.updates);
+        await pasted(page, line);
+        await page.waitForFunction((old) => document.documentElement.dataset.updates !== old, before);
+        await settled(page);
+        longest = Math.max(longest, await held(page, line));
+        const { error } = await shown(page);
+        demand(error === "" || /the program/.test(error), `${line}: ${error}`);
+    }
+    demand(lines.length >= 8, `only ${lines.length} questions`);
+    await close(page);
+    return `${lines.length} commands; longest task ${longest} ms`;
+}
+
+// What would hold a thread for hours: the page goes on, and says after ten seconds, or when asked, that it has ended it.
+async function endless() {
+    const page = await open(), line = "zfight -n 0.1 -f 1000 -F d24 -m d3d --sample 1000000000000 --separation 1";
+    await watch(page);
+    await pasted(page, line);
+    await page.waitForFunction(() => !document.querySelector("#busy").hidden, null, { timeout: 5000 });
+    await page.click("#cancel");
+    await page.waitForFunction(() => !document.querySelector("#error").hidden, null, { timeout: 5000 });
+    demand((await shown(page)).error.includes("was cancelled"), (await shown(page)).error);
+    await held(page, "cancelled");
+    await close(page);
+    for (const [fragment, says] of [[line, true], ["table -n 0.5 --at 1:2:lin:300000", false]]) { // a busy machine may not end it
+        const other = await open({ fragment: encodeURIComponent(fragment) }), { error, runs } = await shown(other);
+        const ended = error.includes("takes longer than 10 s here");
+        demand(ended || (!says && error === ""), `${fragment}: ${error}`);
+        demand(runs.every(({ text }) => text === null || text.length < 300000), `${fragment}: ${runs.map(({ text }) => text?.length)}`);
+        demand(ended || runs.some(({ text }) => text?.includes("KiB more: CSV has all")), `${fragment}: nothing says that it is cut`);
+        await close(other);
+    }
 }
 
 // Where no worker is to be had, the page runs them itself.
@@ -88,6 +167,9 @@ async function alone() {
 
 export async function redraw() {
     await test("what takes long does not hold the page, and is the same", aside);
+    await test("no figure of any model runs on the page's own thread", everything);
+    await test("nor does a question of the manual page that is pasted", questions);
+    await test("what never ends is ended, and what is endless is cut", endless);
     await test("without workers it is the same, too", alone);
     const page = await open();
     await page.evaluate(record);

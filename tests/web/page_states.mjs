@@ -99,7 +99,7 @@ export async function paste(page, line) {
         const field = document.querySelector("#command"), { dataset } = document.documentElement, before = dataset.updates;
         field.value = JSON.parse(text); // halves of characters, too
         field.form.requestSubmit();
-        const wait = () => (dataset.updates !== before ? done() : setTimeout(wait, 1));
+        const wait = () => (dataset.updates !== before && dataset.updates === dataset.settled ? done() : setTimeout(wait, 1));
         wait();
     }), JSON.stringify(typeof line === "string" ? line : quoted(line)));
 }
