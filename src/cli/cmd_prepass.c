@@ -150,7 +150,7 @@ static void say_apis(page *p, void *item) {
     if (worst.differ == 0)
         return;
     page_line(p,
-              "%s is safe on these vertices if the main pass is moved toward the camera by %s of window depth, %u "
+              "%s is safe on these vertices if the main pass is moved towards the camera by %s of window depth, %u "
               "code%s, whichever of the programs it runs:",
               a->each.setup->reversed ? "GEQUAL" : "LEQUAL", number_up(worst.widest.bias, 3).text, worst.most,
               worst.most == 1 ? "" : "s");

@@ -390,13 +390,13 @@ void recognise(const image *img, recognised *out) {
         weigh(&f, &s, out);
         find_steps(img, &f, &s, out);
         suspect(img, &s, out);
-        out->toward = direct(&s, out);
+        out->towards = direct(&s, out);
     } else if (!f.none) {
         explain(img, &f, &numbers, out);
     }
     distinct_free(&s.seen);
     if (out->lo > out->hi)
         out->lo = out->hi = (double)NAN;
-    snprintf(out->why, sizeof out->why, "%s%s%s", f.reason, out->toward != NULL ? "; " : "",
-             out->toward != NULL ? out->toward : "");
+    snprintf(out->why, sizeof out->why, "%s%s%s", f.reason, out->towards != NULL ? "; " : "",
+             out->towards != NULL ? out->towards : "");
 }

@@ -93,7 +93,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit"},
     [OPTION_ROUNDING] = {"rounding", 0, NULL,
         "how a depth between two codes is rounded: to nearest with ties up in unorm formats and to even in floats, as "
-        "the APIs require; to nearest with ties to even in both; or toward 0",
+        "the APIs require; to nearest with ties to even in both; or towards 0",
         WORD(camera.rounding, roundings), .standard = "nearest",
         .group = "The arithmetic"},
     [OPTION_MODEL] = {"model", 0, NULL,
@@ -194,7 +194,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "one shadow map of a box: width, height, and depth along the light", .parse = parse_light_box,
         .without = "cascades of the view"},
     [OPTION_CASTERS] = {"casters", 0, "Z",
-        "how far toward the light from a cascade casters are included",
+        "how far towards the light from a cascade casters are included",
         LENGTH(shadow.casters, 0, 1e12, "scene units"), .standard = "100"},
     [OPTION_KERNEL] = {"kernel", 0, "N",
         "the filter reads NxN texels: 1 nearest, 2 bilinear, 3 and more percentage-closer filtering",

@@ -90,7 +90,7 @@ static void say_maps(page *p, void *item) {
     if (v->count > 0) {
         page_title(p, "view near %s, far %s, fov %s, %dx%d", number_full(v->znear).text, number_full(v->zfar).text,
                    number_of(v->fov_y, DIGITS).text, t->width, t->height);
-        page_title(p, "%d cascade%s, lambda %s, casters up to %s toward the light", v->count, v->count == 1 ? "" : "s",
+        page_title(p, "%d cascade%s, lambda %s, casters up to %s towards the light", v->count, v->count == 1 ? "" : "s",
                    number_full(v->lambda).text, number_full(v->casters).text);
     } else {
         const double texel =

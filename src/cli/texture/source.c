@@ -184,10 +184,10 @@ static int unpack(const options *o, texture_source *s) {
     s->found.format = formats[0];
     s->found.certain = true;
     s->found.steps = 0;
-    const char *toward = p->linear ? NULL : s->found.toward;
+    const char *towards = p->linear ? NULL : s->found.towards;
     snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in steps of 1/%s%s%s", p->name,
              p->linear ? "eye depth over far" : "window depth", number_of(p->steps, 10).text,
-             toward != NULL ? "; " : "", toward != NULL ? toward : "");
+             towards != NULL ? "; " : "", towards != NULL ? towards : "");
     return EXIT_FINE;
 }
 
