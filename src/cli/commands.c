@@ -22,8 +22,9 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --viewport 1920x1080\n"
      "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"
+     "  depthprec table -n 0.3 -f 1000 -m reversed,gl --constants --at 1,10,100\n"
      "  depthprec table -n 0.1 -f 1000 -F d24 -m d3d --link\n",
-     .group = "A camera", .part = table_asked, .parts = table_parts},
+     .group = "A camera", .words = LIST_CONSTANTS, .part = table_asked, .parts = table_parts},
     [CMD_BUDGET] = {"budget", CMD_BUDGET, budget_uses, "", 0, 0, NULL,
      .summary = "how much of the separation each cause takes",
      .example = "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
@@ -126,7 +127,7 @@ const command_row command_rows[CMD_COUNT] = {
 
 bool list_command(size_t index, list_item *item) {
     const command_row *v = &command_rows[index];
-    return index < command_count && list_fill(item, (list_item){.name = v->name, .note = v->summary, .row = v});
+    return index < command_count && list_fill(item, (list_item){.name = v->name, .aliases = v->words, .note = v->summary, .row = v});
 }
 
 const char *command_takers(int id, char out[NAMES_SIZE]) {
