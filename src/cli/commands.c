@@ -127,7 +127,8 @@ const command_row command_rows[CMD_COUNT] = {
 
 bool list_command(size_t index, list_item *item) {
     const command_row *v = &command_rows[index];
-    return index < command_count && list_fill(item, (list_item){.name = v->name, .aliases = v->words, .note = v->summary, .row = v});
+    return index < command_count &&
+           list_fill(item, (list_item){.name = v->name, .aliases = v->words, .note = v->summary, .row = v});
 }
 
 const char *command_takers(int id, char out[NAMES_SIZE]) {

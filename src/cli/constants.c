@@ -34,7 +34,8 @@ typedef struct constants {
     each_setup each;
     vector zbuffer, projection;
     double near_clip;
-    double fov, aspect, half, to_right, to_top; /* NaN in orthographic projections, whose size nothing says */
+    texture_camera camera;
+    double fov, aspect, to_right, to_top; /* NaN in orthographic projections */
     shader_corners corners;
     corner corner;
     row row;
@@ -79,23 +80,21 @@ static int check(const options *o, const setups *all) {
 }
 
 /* An angle that is given, else the preset's. */
-static int take_view(constants *c, size_t camera) {
+static int take_view(constants *c, size_t i) {
     const options *o = c->each.o;
     const int width = (int)o->view.spec.width, height = (int)o->view.spec.height;
     const bool by_preset = o->camera.preset_count > 0 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV);
+    camera_spec view = o->view.spec;
     if (by_preset)
-        c->fov = preset_fov_y(o->camera.presets[camera], width, height);
-    const int status = by_preset ? EXIT_FINE : view_vertical(o, width, height, &c->fov);
-    c->aspect = (double)width / height;
-    c->half = tan(c->fov * (M_PI / 360));
-    return status;
-}
-
-static void take_corners(constants *c) {
-    const texture_camera camera = {.setup = *c->each.setup, .half = {c->half * c->aspect, c->half}};
-    c->corners = shader_corners_of(&camera);
-    c->to_right = c->corners.to_right;
-    c->to_top = c->corners.to_top;
+        view.fov_y = preset_fov_y(o->camera.presets[c->each.all.cameras[i]], width, height);
+    else if (view_vertical(o, width, height, &view.fov_y) != EXIT_FINE)
+        return EXIT_USAGE;
+    const char *wrong = camera_init(&c->camera, &c->each.all.items[i], &view);
+    if (wrong != NULL)
+        return usage_error("table: %s", wrong);
+    c->fov = c->camera.ortho ? (double)NAN : view.fov_y; /* nothing says how wide an orthographic view is */
+    c->aspect = c->camera.ortho ? (double)NAN : (double)width / height;
+    return EXIT_FINE;
 }
 
 static void *next_setup(void *of, size_t i) {
@@ -109,11 +108,10 @@ static void *next_setup(void *of, size_t i) {
     c->near_clip = (double)s.near_clip;
     c->next_trap = 0;
     c->cancels = false;
-    take_view(c, c->each.all.cameras[i]); /* cannot fail: it was asked before */
-    if (c->each.o->camera.ortho)
-        c->fov = c->aspect = c->to_right = c->to_top = (double)NAN;
-    else
-        take_corners(c);
+    take_view(c, i); /* cannot fail: constants_write() has seen to it */
+    c->corners = shader_corners_of(&c->camera);
+    c->to_right = c->camera.ortho ? (double)NAN : c->corners.to_right;
+    c->to_top = c->camera.ortho ? (double)NAN : c->corners.to_top;
     return c;
 }
 
@@ -151,7 +149,7 @@ static void *next_trap(void *of, size_t i) {
     const trap_row *trap;
     (void)i; /* some are none of this set-up */
     while ((trap = trap_get(c->next_trap++)) != NULL)
-        if (!isnan(trap_reads(trap, c->each.setup, c->half, depths_get(&c->each.at, 0)))) {
+        if (!isnan(trap_reads(trap, c->each.setup, c->camera.half[1], depths_get(&c->each.at, 0)))) {
             c->trap = *trap;
             return c;
         }
@@ -162,7 +160,7 @@ static void *next_reading(void *of, size_t i) {
     constants *c = of;
     if (i == c->each.at.count)
         return NULL;
-    const double z = depths_get(&c->each.at, i), reads = trap_reads(&c->trap, c->each.setup, c->half, z);
+    const double z = depths_get(&c->each.at, i), reads = trap_reads(&c->trap, c->each.setup, c->camera.half[1], z);
     const double off = (reads - z) / z;
     c->reading = (reading){z, reads, off, 100 * off};
     return &c->reading;
@@ -188,7 +186,7 @@ static void say_camera(page *p, void *item) {
     if (isnan(c->fov))
         return;
     page_note(p, "corner rays", "%s to the left and right, %s down and up at eye depth 1, fov %s",
-              number_of(c->half * c->aspect, DIGITS_Z).text, number_of(c->half, DIGITS_Z).text,
+              number_of(c->camera.half[0], DIGITS_Z).text, number_of(c->camera.half[1], DIGITS_Z).text,
               number_of(c->fov, DIGITS_Z).text);
     page_note(p, "corner vectors", "toRight %s, toTop %s: half the near plane", number_of(c->to_right, DIGITS_Z).text,
               number_of(c->to_top, DIGITS_Z).text);
@@ -296,8 +294,8 @@ int constants_write(const options *o) {
         status = check(o, &c.each.all);
     if (status == EXIT_FINE)
         status = depths_in_binary32(&c.each.at);
-    if (status == EXIT_FINE)
-        status = take_view(&c, 0);
+    for (size_t i = 0; i < c.each.all.count && status == EXIT_FINE; i++)
+        status = take_view(&c, i);
     const report_spec spec = {"table", columns, &c, .when = o->camera.preset_count > 1 ? WITH_PRESETS : 0,
                               .label = LABEL};
     return each_setup_write(&c.each, &spec, status);

@@ -255,7 +255,7 @@ static bool list_trap(size_t index, list_item *item) {
     *item = (list_item){.name = row->name, .note = row->formula, .source = row->source, .row = row};
     if (dp_setup_init(&setup, &spec) == DP_OK)
         append(item->bound, sizeof item->bound, "%s at 10, between %g and %g; right: %s",
-               number_of(trap_reads(row, &setup, tan(M_PI / 6), 10), 6).text, spec.znear, spec.zfar, row->right);
+               number_of(trap_reads(row, &setup, sqrt(3) / 3, 10), 6).text, spec.znear, spec.zfar, row->right);
     return true;
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "shader/constants.h"
 
+#include <math.h>
+
 #include "depthprec/pipeline.h"
 
 shader_constants shader_constants_of(const dp_setup *setup) {
@@ -19,7 +21,8 @@ static const char unity[] = "UnityShaderVariables.cginc", common[] = "the Core p
 static const constant_row constants[] = {
     {"_ZBufferParams", "(1 - far/near, far/near, x/far, y/far); reversed (far/near - 1, 1, x/far, 1/far)", unity},
     {"_ProjectionParams", "(1, or -1 where the target is flipped; near; far; 1/far)", unity},
-    {"UNITY_NEAR_CLIP_VALUE", "NDC depth of the near plane: 0, of OpenGL -1, reversed 1", "the Core package's API headers"},
+    {"UNITY_NEAR_CLIP_VALUE", "NDC depth of the near plane: 0, of OpenGL -1, reversed 1",
+     "the Core package's API headers"},
     {"LinearEyeDepth", "1/(z d + w) of _ZBufferParams: eye depth in perspective", common},
     {"Linear01Depth", "1/(x d + y): eye depth over far, 0 at the camera", common},
     {"Linear01DepthFromNear", "d/(x d + y), reversed (1 - d)/(x d + y): 0 at near, 1 at far", common},
@@ -43,7 +46,7 @@ bool shader_depth_of(const dp_setup *setup, double z, shader_depth *out) {
     if (dp_pipeline_init(&p, setup) != DP_OK)
         return false;
     const float at = (float)z, w = p.ortho ? 1.0f : at, clip = dp_pipeline_clip(&p, at);
-    const float window = dp_pipeline_window(&p, at);
+    const float window = fminf(fmaxf(dp_pipeline_window(&p, at), 0), 1); /* as the viewport clamps it */
     *out = (shader_depth){.clip_z = clip,
                           .clip_w = w,
                           .ndc = clip / w,
@@ -129,8 +132,8 @@ static const trap_row traps[] = {
      .standard = true, .reversed = true, .far_infinite = true, .reads = other_direction},
     {.name = "perspective-of-ortho", .formula = "LinearEyeDepth(d)", .right = "LinearDepthToEyeDepth(d)",
      .source = "Common.hlsl: does not work with orthographic projection", .ortho = true, .reads = perspective_of_ortho},
-    {.name = "linear-of-perspective", .formula = "near + (far - near) d, reversed far - (far - near) d", .right = "LinearEyeDepth(d)",
-     .source = "a raw depth taken for a linear one", .standard = true, .reversed = true,
+    {.name = "linear-of-perspective", .formula = "near + (far - near) d, reversed far - (far - near) d",
+     .right = "LinearEyeDepth(d)", .source = "a raw depth taken for a linear one", .standard = true, .reversed = true,
      .reads = linear_of_perspective},
     {.name = "perspective-of-oblique", .formula = "LinearEyeDepth(d), mid-picture, near plane tilted by 45 degrees",
      .right = "the inverse projection matrix", .source = "Common.hlsl: does not handle oblique view frustums",
