@@ -117,6 +117,14 @@ check "16. less far than snapping alone allows" agrees 'at any slant: surfaces 1
 check "17. the bias of decals on any slope" answers 0 \
     'depthprec bias -n 0.1 -F d24 -m d3d --viewport 1920x1080' 'SlopeScaledDepthBias = -0.0224609375'
 check "17. the slope's is at least that of snapping" agrees 'SlopeScaledDepthBias =' '-4 / 128' '-4 / 512'
+check "18. the constants of a camera in Unity" answers 0 \
+    'depthprec table --constants --preset unity --at 10' 'reversed, near 0.3, far 1000'
+check "18. x of _ZBufferParams" agrees '_ZBufferParams' '1000 / 0.3 - 1 - 1e-3' '1000 / 0.3 - 1 + 1e-3'
+check "18. eye depth and Linear01Depth" agrees ' 10 0.297089 10 0.0297089 0.0297089 10' '0.01 - 1e-8' '0.01 + 1e-8'
+# The depth 2 d - 1 in place of d.
+check "19. a formula that is wrong" answers 0 'depthprec table --constants -n 0.1 -f 1000 -m gl --at 10' 'ndc-as-depth'
+check "19. what it reads" agrees 'go on with it; right: LinearEyeDepth.d. z reads off by % 10' \
+    '0.99999 * eye(2 * 9.9 / 10 / 0.9999 - 1, 0.1, 1000)' '1.00001 * eye(2 * 9.9 / 10 / 0.9999 - 1, 0.1, 1000)'
 
 # ---- Words and widths ----
 
