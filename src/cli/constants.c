@@ -8,7 +8,7 @@
 #include "report/number.h"
 #include "shader/constants.h"
 
-enum { LABEL = 24, DIGITS_32 = 9, DIGITS_Z = 6, DIGITS_OFF = 3, VECTOR = 4 };
+enum { LABEL = 24, DIGITS_32 = 9, DIGITS_Z = 6, DIGITS_01 = 5, DIGITS_OFF = 3, VECTOR = 4 };
 
 /* Of binary32, as doubles. */
 typedef struct vector {
@@ -240,12 +240,12 @@ static const column corner_columns[] = {{FIELD(corner, name, "name", "")},
 static const column row_columns[] = {
     {FIELD(row, z, "z", "scene"), SHOWN("z", 9, DIGITS_Z), .brief = true},
     {FIELD(row, clip_z, "clip_z", "scene"), SHOWN("clip z", 11, DIGITS_Z), .brief = true},
-    {FIELD(row, clip_w, "clip_w", "scene"), SHOWN("clip w", 9, DIGITS_Z), .brief = true},
+    {FIELD(row, clip_w, "clip_w", "scene"), SHOWN("clip w", 8, DIGITS_Z), .brief = true},
     {FIELD(row, ndc, "ndc", ""), SHOWN("NDC z", 11, DIGITS_Z), .brief = true},
     {FIELD(row, window, "window", ""), SHOWN("window", 11, DIGITS_Z), .brief = true},
     {FIELD(row, eye, "eye", "scene"), SHOWN("eye depth", 10, DIGITS_Z), .brief = true},
-    {FIELD(row, linear01, "linear01", ""), SHOWN("Linear01", 9, DIGITS_Z), .brief = true},
-    {FIELD(row, from_near, "from_near", ""), SHOWN("from near", 10, DIGITS_Z), .brief = true},
+    {FIELD(row, linear01, "linear01", ""), SHOWN("Linear01", 10, DIGITS_01), .brief = true},
+    {FIELD(row, from_near, "from_near", ""), SHOWN("from near", 10, DIGITS_01), .brief = true},
     {.kind = COLUMN_END}};
 
 static const column reading_columns[] = {
