@@ -284,6 +284,10 @@ TEST(infinities_are_told) {
                    SAID("LinearDepthToEyeDepth", "near 0 makes its constants infinite", "!corner", "!perspective-of"));
     check_says_all(0, "table --constants --ortho -n -1 -m d3d", SAID("near must be above 0", "!perspective-of"));
     check_says_all(0, "table --constants --ortho -m d3d", SAID("perspective-of-ortho", "!above 0", "!near 0 "));
+    printed p = print_of("table --constants -f inf -m d3d,reversed --at 1,1e7"); /* each of its own alone */
+    assert_non_null(strstr(p.out, "inf: "));
+    assert_null(strstr(strstr(p.out, "\nreversed, "), "inf: "));
+    printed_free(&p);
 }
 
 /* The field of view and the shape of the view: given, a preset's, each its own. */
