@@ -125,6 +125,10 @@ check "18. eye depth and Linear01Depth" agrees ' 10 0.297089 10 0.0297089 0.0297
 check "19. a formula that is wrong" answers 0 'depthprec table --constants -n 0.1 -f 1000 -m gl --at 10' 'ndc-as-depth'
 check "19. what it reads" agrees 'go on with it; right: LinearEyeDepth.d. z reads off by % 10' \
     '0.99999 * eye(2 * 9.9 / 10 / 0.9999 - 1, 0.1, 1000)' '1.00001 * eye(2 * 9.9 / 10 / 0.9999 - 1, 0.1, 1000)'
+for product in raw linear01; do
+    check "20. stairs at equal distances as $product" answers 0 "depthprec texture --synthetic steps --parameter even=1 -F d24 -m d3d -n 0.3 --product $product -q --figure $product.png" ''
+    check "20. a picture" test -s "$scratch/work/$product.png"
+done
 
 # ---- Words and widths ----
 
