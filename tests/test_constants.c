@@ -131,6 +131,8 @@ static long double trapped(const char *name, long double n, long double f, long 
         return linear_eye(n, f, 1 - d, reversed);
     if (strcmp(name, "perspective-of-ortho") == 0)
         return linear_eye(n, f, d, reversed);
+    if (strcmp(name, "normal-as-depth") == 0) /* EncodeViewNormalStereo of (0, 0, 1) is 0.5 in both channels */
+        return (0.5L + 0.5L / 255) * f;
     if (strcmp(name, "perspective-of-oblique") == 0)
         return linear_eye(n, f, reversed ? 1 - clipped(n, f, half, z) : clipped(n, f, half, z), reversed);
     assert_string_equal(name, "linear-of-perspective");

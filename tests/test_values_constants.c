@@ -201,8 +201,8 @@ TEST(each_number) {
             assert_int_equal(traps, c.n <= 0     ? 0
                                     : c.ortho    ? 1
                                     : c.infinite ? (c.reversed ? 2 : 3)
-                                    : c.reversed ? 3
-                                                 : 5 + c.ndc_signed);
+                                    : c.reversed ? 4
+                                                 : 6 + c.ndc_signed);
         }
         check_forms(&v, 0, lines[i], "setups[].rows[]",
                     "near [scene] = ^near, far [scene] = ^far, projection = ^projection, mapping = ^mapping, "
@@ -340,6 +340,7 @@ TEST(words_lead_there) {
         check_says(0, "--constants  ", "help %s", words[i]);
         check_says(0, "depthprec table --constants", "list %s", words[i]);
     }
+    check_says(2, "lists the commands", "LinearEyeDepth"); /* no command, and no slip of one */
     printed p = print_of("list constants --full");
     for (size_t i = 0; constant_get(i) != NULL; i++) {
         assert_non_null(strstr(p.out, constant_get(i)->name));

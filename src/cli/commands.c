@@ -7,10 +7,11 @@
 #include "core/append.h"
 #include "plot/figure.h"
 
+static bool list_helped(size_t index, list_item *item);
 static const name_list figures = {.get = list_figure};
 static const name_list families = {.get = list_family};
 static const name_list topics = {.get = list_topic};
-static const name_list commands = {.words = (const char *const[]){"options", NULL}, .get = list_command};
+static const name_list commands = {.words = (const char *const[]){"options", NULL}, .get = list_helped};
 static const name_list shells = {.words = (const char *const[]){"bash", "zsh", "fish", NULL}};
 
 /* clang-format off */
@@ -127,8 +128,15 @@ const command_row command_rows[CMD_COUNT] = {
 
 bool list_command(size_t index, list_item *item) {
     const command_row *v = &command_rows[index];
-    return index < command_count &&
-           list_fill(item, (list_item){.name = v->name, .aliases = v->words, .note = v->summary, .row = v});
+    return index < command_count && list_fill(item, (list_item){.name = v->name, .note = v->summary, .row = v});
+}
+
+/* What help is asked about: a command, or one of its words, which no command line begins with. */
+static bool list_helped(size_t index, list_item *item) {
+    if (!list_command(index, item))
+        return false;
+    item->aliases = command_rows[index].words;
+    return true;
 }
 
 const char *command_takers(int id, char out[NAMES_SIZE]) {

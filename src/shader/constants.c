@@ -108,6 +108,13 @@ static double linear_of_perspective(const dp_setup *s, double half, double z) {
     return n + f * (z - n) / z;
 }
 
+/* x + y/255 of the stereographic normal (1/2, 1/2) of what faces the camera. */
+static double normal_as_depth(const dp_setup *s, double half, double z) {
+    (void)half;
+    (void)z;
+    return 128.0 / 255 * s->spec.zfar;
+}
+
 /* A near plane at 45 degrees through where the axis meets near, and a far plane through the frustum's farthest corner,
  * as Lengyel clips: in the middle of the picture d = (z - n)/z / (1 - n/f + half). */
 static double perspective_of_oblique(const dp_setup *s, double half, double z) {
@@ -138,6 +145,9 @@ static const trap_row traps[] = {
     {.name = "perspective-of-oblique", .formula = "LinearEyeDepth(d), mid-picture, near plane tilted by 45 degrees",
      .right = "the inverse projection matrix", .source = "Common.hlsl: does not handle oblique view frustums",
      .standard = true, .reversed = true, .far_infinite = true, .reads = perspective_of_oblique},
+    {.name = "normal-as-depth", .formula = "DecodeFloatRG(enc.xy) of DepthNormals, of a surface that faces the camera",
+     .right = "enc.zw: the normal is in xy", .source = slip, .standard = true, .reversed = true,
+     .reads = normal_as_depth},
 };
 /* clang-format on */
 
