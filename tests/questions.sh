@@ -125,9 +125,14 @@ check "18. eye depth and Linear01Depth" agrees ' 10 0.297089 10 0.0297089 0.0297
 check "19. a formula that is wrong" answers 0 'depthprec table --constants -n 0.1 -f 1000 -m gl --at 10' 'ndc-as-depth'
 check "19. what it reads" agrees 'go on with it; right: LinearEyeDepth.d. z reads off by % 10' \
     '0.99999 * eye(2 * 9.9 / 10 / 0.9999 - 1, 0.1, 1000)' '1.00001 * eye(2 * 9.9 / 10 / 0.9999 - 1, 0.1, 1000)'
+# 0.1 is 6502.5 steps of 1/65025, of which binary32 has a little more.
+check "20. depth in DepthNormals" answers 0 \
+    'depthprec table --constants -n 0.3 -f 1000 -m d3d --at 100,500' 'DepthNormals'
+check "20. the nearest of 65026 depths" agrees 'DepthNormals 100 [0-9.]* [0-9.]* [0-9.]*' \
+    '0.999999 * 6503 / 65.025' '1.000001 * 6503 / 65.025'
 for product in raw linear01; do
-    check "20. stairs at equal distances as $product" answers 0 "depthprec texture --synthetic steps --parameter even=1 -F d24 -m d3d -n 0.3 --product $product -q --figure $product.png" ''
-    check "20. a picture" test -s "$scratch/work/$product.png"
+    check "21. stairs at equal distances as $product" answers 0 "depthprec texture --synthetic steps --parameter even=1 -F d24 -m d3d -n 0.3 --product $product -q --figure $product.png" ''
+    check "21. a picture" test -s "$scratch/work/$product.png"
 done
 
 # ---- Words and widths ----

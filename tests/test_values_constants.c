@@ -81,8 +81,23 @@ static void matrix_of(const camera *c, double *a, double *b) {
 }
 
 typedef struct made {
-    double clip_z, clip_w, ndc, window, eye, linear01, from_near;
+    double clip_z, clip_w, ndc, window, eye, linear01, from_near, d16, d24, depth_normals;
 } made;
+
+/* LinearEyeDepth or LinearDepthToEyeDepth of a depth. */
+static double eye_of(const camera *c, double d) {
+    double v[4];
+    const double span = fl((long double)c->f - c->n);
+    zbuffer_of(c, v);
+    if (c->ortho)
+        return c->reversed ? fl(fl((long double)-span * d) + fl(c->f)) : fl(fl((long double)span * d) + fl(c->n));
+    return fl(1 / (long double)fl(fl((long double)v[2] * d) + (long double)v[3]));
+}
+
+/* A share of `steps` whole numbers, the nearest. */
+static double rounded(double share, double steps) {
+    return fl(floorl((long double)share * steps + 0.5L) / steps);
+}
 
 static made made_of(const camera *c, double depth) {
     double a, b, v[4];
@@ -94,13 +109,14 @@ static made made_of(const camera *c, double depth) {
     m.ndc = fl((long double)m.clip_z / m.clip_w);
     m.window = c->ndc_signed ? fl(fl(m.ndc * 0.5L) + 0.5L) : m.ndc;
     m.window = fmin(fmax(m.window, 0), 1);
-    const double d = m.window, span = fl((long double)c->f - c->n);
-    if (c->ortho) {
-        m.eye = c->reversed ? fl(fl((long double)-span * d) + fl(c->f)) : fl(fl((long double)span * d) + fl(c->n));
-        return m;
-    }
-    m.eye = fl(1 / (long double)fl(fl((long double)v[2] * d) + (long double)v[3]));
-    if (!c->infinite) {
+    const double d = m.window, share = fl((long double)z * fl(1 / (long double)c->f));
+    m.eye = eye_of(c, d);
+    m.d16 = eye_of(c, rounded(d, 65535));
+    m.d24 = eye_of(c, rounded(d, 16777215));
+    m.depth_normals = share >= 1 ? 0 : fl(rounded(fmax(share, 0), 65025) * (long double)fl(c->f));
+    if (c->infinite)
+        m.depth_normals = NAN;
+    if (!c->infinite && !c->ortho) {
         const double under = fl(fl((long double)v[0] * d) + (long double)v[1]);
         m.linear01 = fl(1 / (long double)under);
         m.from_near = fl((c->reversed ? fl(1 - (long double)d) : d) / (long double)under);
@@ -184,6 +200,7 @@ static void want_rows(values *v, const camera *c, const char *under) {
         want(v, "z=%f clip_z=%f clip_w=%f", c->z[k], m.clip_z, m.clip_w);
         want(v, "ndc=%f window=%f eye=%f", m.ndc, m.window, m.eye);
         want(v, "linear01=%f from_near=%f", m.linear01, m.from_near);
+        want(v, "d16=%f d24=%f depth_normals=%f", m.d16, m.d24, m.depth_normals);
     }
 }
 
@@ -206,12 +223,34 @@ TEST(each_number) {
         }
         check_forms(&v, 0, lines[i], "setups[].rows[]",
                     "near [scene] = ^near, far [scene] = ^far, projection = ^projection, mapping = ^mapping, "
-                    "z [scene], clip_z [scene], clip_w [scene], ndc, window, eye [scene], linear01, from_near");
+                    "z [scene], clip_z [scene], clip_w [scene], ndc, window, eye [scene], linear01, from_near, "
+                    "d16 [scene], d24 [scene], depth_normals [scene]");
         values_free(&v);
     }
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+/* The rows below a line, columns with their digits. @return what follows */
+static const char *check_rows(const json_t *setup, const char *at, const char *columns) {
+    assert_non_null(at);
+    for (int d = 0; d < DEPTHS; d++) {
+        int used = 0, digits;
+        char name[32], word[32];
+        at = strchr(at, '\n') + 1;
+        for (const char *c = columns; sscanf(c, " %31[^:]:%d%n", name, &digits, &used) == 2; c += used) {
+            const double want = number_at(setup, "rows[%d].%s", d, name);
+            int length = 0;
+            assert_int_equal(sscanf(at, " %31s%n", word, &length), 1);
+            at += length;
+            if (isnan(want)) /* null: undefined or infinite */
+                assert_true(strcmp(word, "-") == 0 || strcmp(word, "inf") == 0);
+            else
+                assert_true(fabs(strtod(word, NULL) - want) <= 5.001 * pow(10, -digits) * fabs(want));
+        }
+    }
+    return at;
+}
 
 /* Each row of depths, and of traps, by the numbers that JSON has. */
 TEST(text_is_the_same) {
@@ -220,25 +259,11 @@ TEST(text_is_the_same) {
         char *text = output_of(0, lines[i], "--full");
         const char *at = text;
         for (size_t k = 0; k < CAMERAS; k++) {
-            static const char *const columns[] = {"z",      "clip_z", "clip_w",   "ndc",
-                                                  "window", "eye",    "linear01", "from_near"};
             const json_t *setup = node_at(root, "setups[%zu]", k);
-            at = strstr(at, "from near\n");
-            assert_non_null(at);
-            for (int d = 0; d < DEPTHS; d++) {
-                at = strchr(at, '\n') + 1;
-                for (int c = 0; c < 8; c++) {
-                    const double want = number_at(setup, "rows[%d].%s", d, columns[c]);
-                    char word[32];
-                    int used = 0;
-                    assert_int_equal(sscanf(at, " %31s%n", word, &used), 1);
-                    at += used;
-                    if (isnan(want)) /* null: undefined or infinite */
-                        assert_true(strcmp(word, "-") == 0 || strcmp(word, "inf") == 0);
-                    else
-                        assert_true(fabs(strtod(word, NULL) - want) <= (c < 6 ? 0.5001e-5 : 0.5001e-4) * fabs(want));
-                }
-            }
+            at = check_rows(setup, strstr(at, "from near\n"),
+                            "z:6 clip_z:6 clip_w:6 ndc:6 window:6 eye:6 linear01:5 "
+                            "from_near:5");
+            at = check_rows(setup, strstr(at, "DepthNormals\n"), "z:6 d16:7 d24:7 eye:7 depth_normals:7");
             for (size_t t = 0; t < json_array_size(node_at(setup, "traps")); t++) {
                 at = strstr(at, text_at(setup, "traps[%zu].name", t));
                 assert_non_null(at);
@@ -272,19 +297,26 @@ TEST(text_of_the_camera) {
                         "toRight 0.30792, toTop 0.173205", "!Without", "!orthographic", "!inf"));
 }
 
+/* Only the far plane wraps: a 0 near the camera is rounded. */
+TEST(wraps_are_told) {
+    check_says_all(0, "table --constants -m d3d --at 1,1000",
+                   SAID("0: EncodeFloatRG makes the camera of the far plane"));
+    check_says_all(0, "table --constants -n 1e-3 -f 1e5 -m d3d --at 0.001,99000", SAID("!EncodeFloatRG"));
+}
+
 /* What is infinite or not defined is never there without a word, and no text holds a NaN. */
 TEST(infinities_are_told) {
     check_says_all(0, "table --constants -f inf -m d3d --at 1,1e7",
                    SAID("-inf, inf, ", "x and y are infinite, and a shader", "gets NaN.",
                         "inf: what is divided by is 0 in binary32", "!nan"));
-    check_says_all(0, "table --constants -f inf -m reversed --at 1,1e7",
+    check_says_all(0, "table --constants -f inf -m reversed --at 1,1e3",
                    SAID("x is infinite, and a shader gets 0", "!x and y", "!inf: ", "!nan"));
     check_says_all(0, "table --constants -n 1e-3 -f 1e5 -m d3d --at 1e5", SAID("inf: what is divided by", "!Without"));
     check_says_all(0, "table --constants --ortho -n 0 -m d3d",
                    SAID("LinearDepthToEyeDepth", "near 0 makes its constants infinite", "!corner", "!perspective-of"));
     check_says_all(0, "table --constants --ortho -n -1 -m d3d", SAID("near must be above 0", "!perspective-of"));
     check_says_all(0, "table --constants --ortho -m d3d", SAID("perspective-of-ortho", "!above 0", "!near 0 "));
-    printed p = print_of("table --constants -f inf -m d3d,reversed --at 1,1e7"); /* each of its own alone */
+    printed p = print_of("table --constants -n 1e-3 -f 1e5 -m d3d,reversed --at 1e5"); /* each of its own alone */
     assert_non_null(strstr(p.out, "inf: "));
     assert_null(strstr(strstr(p.out, "\nreversed, "), "inf: "));
     printed_free(&p);

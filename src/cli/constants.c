@@ -8,7 +8,11 @@
 #include "report/number.h"
 #include "shader/constants.h"
 
-enum { LABEL = 24, DIGITS_32 = 9, DIGITS_Z = 6, DIGITS_01 = 5, DIGITS_OFF = 3, VECTOR = 4 };
+enum { LABEL = 24, DIGITS_32 = 9, DIGITS_Z = 6, DIGITS_READ = 7, DIGITS_01 = 5, DIGITS_OFF = 3, VECTOR = 4 };
+
+/* Depth textures beside that of binary32, which stores what the shader has. */
+enum { STORED = 2 };
+static const char *const stored[STORED] = {"unorm16", "unorm24"};
 
 /* Of binary32, as doubles. */
 typedef struct vector {
@@ -18,6 +22,7 @@ typedef struct vector {
 /* A depth on its way; NaN where it is not defined. */
 typedef struct row {
     double z, clip_z, clip_w, ndc, window, eye, linear01, from_near;
+    double read[STORED], depth_normals; /* eye depths, once they are stored */
 } row;
 
 typedef struct corner {
@@ -39,7 +44,8 @@ typedef struct constants {
     shader_corners corners;
     corner corner;
     row row;
-    bool cancels; /* some row has a quotient of 0 */
+    bool cancels; /* some row has a quotient of 0, */
+    bool wraps;   /* or the far plane as DepthNormals has it */
     trap_row trap;
     size_t next_trap; /* the one that is looked at next */
     reading reading;
@@ -107,7 +113,7 @@ static void *next_setup(void *of, size_t i) {
                              (double)s.projection.per_far};
     c->near_clip = (double)s.near_clip;
     c->next_trap = 0;
-    c->cancels = false;
+    c->cancels = c->wraps = false;
     take_view(c, i); /* cannot fail: constants_write() has seen to it */
     c->corners = shader_corners_of(&c->camera);
     c->to_right = c->camera.ortho ? (double)NAN : c->corners.to_right;
@@ -125,22 +131,43 @@ static void *next_corner(void *of, size_t i) {
     return &c->corner;
 }
 
+static void make_row(constants *c, double z) {
+    shader_depth d;
+    shader_depth_of(c->each.setup, z, &d); /* cannot fail: check() has seen to it */
+    c->row = (row){.z = z,
+                   .clip_z = (double)d.clip_z,
+                   .clip_w = (double)d.clip_w,
+                   .ndc = (double)d.ndc,
+                   .window = (double)d.window,
+                   .eye = (double)d.eye,
+                   .linear01 = (double)d.linear01,
+                   .from_near = (double)d.from_near,
+                   .depth_normals = (double)shader_depth_normals_eye(c->each.setup, z)};
+    for (int i = 0; i < STORED; i++) {
+        dp_format format[2];
+        dp_format_parse(stored[i], format);
+        c->row.read[i] = (double)shader_stored_eye(c->each.setup, format, d.window);
+        c->cancels = c->cancels || isinf(c->row.read[i]);
+    }
+    c->wraps = c->wraps || (c->row.depth_normals == 0 && z > c->each.setup->spec.zfar / 2);
+    c->cancels = c->cancels || isinf(c->row.eye) || isinf(c->row.linear01) || isinf(c->row.from_near);
+}
+
 static void *next_row(void *of, size_t i) {
     constants *c = of;
     double z;
     if (!each_setup_depth(&c->each, i, &z))
         return NULL;
-    shader_depth d;
-    shader_depth_of(c->each.setup, z, &d); /* cannot fail: check() has seen to it */
-    c->row = (row){z,
-                   (double)d.clip_z,
-                   (double)d.clip_w,
-                   (double)d.ndc,
-                   (double)d.window,
-                   (double)d.eye,
-                   (double)d.linear01,
-                   (double)d.from_near};
-    c->cancels = c->cancels || isinf(c->row.eye) || isinf(c->row.linear01) || isinf(c->row.from_near);
+    make_row(c, z);
+    return &c->row;
+}
+
+/* The same once more: text has them in a table of their own. */
+static void *next_stored(void *of, size_t i) {
+    constants *c = of;
+    if (i == c->each.at.count)
+        return NULL;
+    make_row(c, depths_get(&c->each.at, i));
     return &c->row;
 }
 
@@ -207,7 +234,18 @@ static void say_rows(page *p, void *item) {
                   s->reversed ? "0, or NaN at a depth of 0" : "NaN");
     if (c->cancels)
         page_line(p, "inf: what is divided by is 0 in binary32, where d x + y or d z + w cancels");
-    if (s->spec.znear > 0)
+}
+
+static void say_stored_head(page *p, void *item) {
+    (void)item;
+    page_line(p, "eye depth as it is read back from a depth texture, and from DepthNormals:");
+}
+
+static void say_stored(page *p, void *item) {
+    const constants *c = item;
+    if (c->wraps)
+        page_line(p, "0: EncodeFloatRG makes the camera of the far plane");
+    if (c->each.setup->spec.znear > 0)
         output_char(p->out, '\n');
 }
 
@@ -246,6 +284,17 @@ static const column row_columns[] = {
     {FIELD(row, eye, "eye", "scene"), SHOWN("eye depth", 10, DIGITS_Z), .brief = true},
     {FIELD(row, linear01, "linear01", ""), SHOWN("Linear01", 10, DIGITS_01), .brief = true},
     {FIELD(row, from_near, "from_near", ""), SHOWN("from near", 10, DIGITS_01), .brief = true},
+    {FIELD(row, read[0], "d16", "scene")},
+    {FIELD(row, read[1], "d24", "scene")},
+    {FIELD(row, depth_normals, "depth_normals", "scene")},
+    {.kind = COLUMN_END}};
+
+static const column stored_columns[] = {
+    {TEXT_FIELD(row, z, "z", 9, DIGITS_Z), .brief = true},
+    {TEXT_FIELD(row, read[0], "D16", 12, DIGITS_READ), .brief = true},
+    {TEXT_FIELD(row, read[1], "D24", 12, DIGITS_READ), .brief = true},
+    {TEXT_FIELD(row, eye, "D32F", 12, DIGITS_READ), .brief = true},
+    {TEXT_FIELD(row, depth_normals, "DepthNormals", 14, DIGITS_READ), .brief = true},
     {.kind = COLUMN_END}};
 
 static const column reading_columns[] = {
@@ -278,6 +327,7 @@ static const column setup_report[] = {
     {FIELD(constants, to_top, "to_top", "scene"), .only = AS_JSON},
     {LIST("corners", corner_columns, next_corner), .only = AS_JSON},
     {LIST("rows", row_columns, next_row), .notes = say_rows},
+    {LIST(NULL, stored_columns, next_stored), .only = AS_TEXT, .head = say_stored_head, .notes = say_stored},
     {FIELD(constants, each.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
     {FIELD(constants, each.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
     {LIST("traps", trap_columns, next_trap), .only = AS_TEXT | AS_JSON, .head = say_trap},

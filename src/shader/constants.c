@@ -2,8 +2,10 @@
 #include "shader/constants.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "depthprec/pipeline.h"
+#include "shader/packing.h"
 
 shader_constants shader_constants_of(const dp_setup *setup) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
@@ -55,6 +57,21 @@ bool shader_depth_of(const dp_setup *setup, double z, shader_depth *out) {
                           .linear01 = decoded(setup, &decode_rows[DECODE_LINEAR_01], window),
                           .from_near = decoded(setup, &decode_rows[DECODE_LINEAR_01_NEAR], window)};
     return true;
+}
+
+float shader_stored_eye(const dp_setup *setup, const dp_format *format, float window) {
+    const uint32_t code = dp_format_encode(format, DP_ROUND_NEAREST, (double)window);
+    return decoded(setup, decode_usual(setup), (float)dp_format_value(format, code));
+}
+
+float shader_depth_normals_eye(const dp_setup *setup, double z) {
+    const float far = (float)setup->spec.zfar, share = (float)z * (float)(1 / setup->spec.zfar);
+    size_t i = 0;
+    while (strcmp(packing_get(i)->name, "rg") != 0)
+        i++;
+    const packing *rg = packing_get(i);
+    const uint64_t number = share < 1 || !rg->wraps ? packing_nearest(rg, (double)share) : 0;
+    return isinf(far) ? NAN : (float)packing_depth(rg, number) * far;
 }
 
 shader_corners shader_corners_of(const texture_camera *c) {

@@ -36,6 +36,13 @@ typedef struct shader_depth {
 /** @return false for a mapping without a matrix */
 bool shader_depth_of(const dp_setup *setup, double z, shader_depth *out);
 
+/** A window depth in a depth texture of that format, and LinearEyeDepth of it, orthographic LinearDepthToEyeDepth. */
+float shader_stored_eye(const dp_setup *setup, const dp_format *format, float window);
+
+/** Eye depth as DepthNormals holds it, by EncodeFloatRG: 0 at the far plane, whose frac is that of the camera. NaN
+ * without a far plane. */
+float shader_depth_normals_eye(const dp_setup *setup, double z);
+
 /** The frustum's corners in view space: top left, top right, bottom left, bottom right. */
 typedef struct shader_corners {
     double ray[4][3];        /**< at eye depth 1, by which a depth is multiplied; orthographic: at near */
