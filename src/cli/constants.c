@@ -8,7 +8,7 @@
 #include "report/number.h"
 #include "shader/constants.h"
 
-enum { LABEL = 24, DIGITS_32 = 9, DIGITS_Z = 6, DIGITS_READ = 7, DIGITS_01 = 5, DIGITS_OFF = 3, VECTOR = 4 };
+enum { LABEL = 24, DIGITS_32 = 9, DIGITS_Z = 6, DIGITS_READ = 7, DIGITS_01 = 5, DIGITS_OFF = 3 };
 
 /* Depth textures beside that of binary32, which stores what the shader has. */
 enum { STORED = 2 };
@@ -53,8 +53,7 @@ typedef struct constants {
 
 /* ---- The camera -------------------------------------------------------------------------------------------------- */
 
-/* No stored depth is asked about: a set-up for each mapping of each camera, which the first of its formats stands for.
- */
+/* No stored depth is asked about: the first format of a camera stands for all. */
 static void keep_one_format(setups *all) {
     size_t kept = 0;
     char first[sizeof all->items->spec.format.name];
