@@ -286,9 +286,10 @@ const option_use no_uses[] = {END};
 
 /* ---- Parts of commands ------------------------------------------------------------------------------------------- */
 
-const command_part table_parts[] = {
-    {"to the table of depths", TABLE_OF_DEPTHS}, {"with --depth or --code", TABLE_OF_CODES},
-    {"with --constants", TABLE_OF_CONSTANTS}, {NULL, 0}};
+const command_part table_parts[] = {{"to the table of depths", TABLE_OF_DEPTHS},
+                                    {"with --depth or --code", TABLE_OF_CODES},
+                                    {"with --constants", TABLE_OF_CONSTANTS},
+                                    {NULL, 0}};
 const command_part solve_parts[] = {{"with another --for", SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
 const command_part shadow_parts[] = {{"to cascades", SHADOW_CASCADES}, {"with --light-box", SHADOW_BOX}, {NULL, 0}};
 const command_part texture_parts[] = {{"to an effect alone that needs no position", TEXTURE_EFFECT},
