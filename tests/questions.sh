@@ -117,6 +117,23 @@ check "16. less far than snapping alone allows" agrees 'at any slant: 1 mm up to
 check "17. the bias of decals on any slope" answers 0 \
     'depthprec bias -n 0.1 -F d24 -m d3d --viewport 1920x1080' 'SlopeScaledDepthBias = -0.0224609375'
 check "17. the slope's is at least that of snapping" agrees 'SlopeScaledDepthBias =' '-4 / 128' '-4 / 512'
+check "18. the constants of a camera in Unity" answers 0 \
+    'depthprec table --constants --preset unity --at 10' 'reversed, near 0.3, far 1000'
+check "18. x of _ZBufferParams" agrees '_ZBufferParams' '1000 / 0.3 - 1 - 1e-3' '1000 / 0.3 - 1 + 1e-3'
+check "18. eye depth and Linear01Depth" agrees ' 10 0.297089 10 0.0297089 0.0297089 10' '0.01 - 1e-8' '0.01 + 1e-8'
+# The depth 2 d - 1 in place of d.
+check "19. a formula that is wrong" answers 0 'depthprec table --constants -n 0.1 -f 1000 -m gl --at 10' 'ndc-as-depth'
+check "19. what it reads" agrees 'go on with it; right: LinearEyeDepth.d. z reads off by % 10' \
+    '0.99999 * eye(2 * 9.9 / 10 / 0.9999 - 1, 0.1, 1000)' '1.00001 * eye(2 * 9.9 / 10 / 0.9999 - 1, 0.1, 1000)'
+# 0.1 is 6502.5 steps of 1/65025, of which binary32 has a little more.
+check "20. depth in DepthNormals" answers 0 \
+    'depthprec table --constants -n 0.3 -f 1000 -m d3d --at 100,500' 'DepthNormals'
+check "20. the nearest of 65026 depths" agrees 'DepthNormals 100 [0-9.]* [0-9.]* [0-9.]*' \
+    '0.999999 * 6503 / 65.025' '1.000001 * 6503 / 65.025'
+for product in raw linear01; do
+    check "21. stairs at equal distances as $product" answers 0 "depthprec texture --synthetic steps --parameter even=1 -F d24 -m d3d -n 0.3 --product $product -q --figure $product.png" ''
+    check "21. a picture" test -s "$scratch/work/$product.png"
+done
 
 # ---- Words and widths ----
 

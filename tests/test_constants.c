@@ -108,8 +108,17 @@ static long double linear_eye(long double n, long double f, long double d, bool 
     return reversed ? 1 / ((1 / n - 1 / f) * d + 1 / f) : 1 / ((1 / f - 1 / n) * d + 1 / n);
 }
 
+/* The depth of (0, 0, z) where a plane C through (0, 0, n), 45 degrees to the axis, takes the near plane's place: the
+ * row of the matrix is C scaled so that the frustum's corner that is farthest along C has depth 1. */
+static long double clipped(long double n, long double f, long double half, long double z) {
+    const long double c[4] = {0, sqrtl(0.5L), sqrtl(0.5L), -n * sqrtl(0.5L)};
+    const long double corner = isinf(f) ? c[1] * half + c[2] : c[1] * half * f + c[2] * f + c[3];
+    return (c[2] * z + c[3]) * (isinf(f) ? 1 : f) / corner / z;
+}
+
 /* What each of them does, step by step. */
-static long double trapped(const char *name, long double n, long double f, long double z, bool ortho, bool reversed) {
+static long double trapped(const char *name, long double n, long double f, long double half, long double z, bool ortho,
+                           bool reversed) {
     const long double d = stored(n, f, z, ortho, reversed);
     const bool infinite = isinf(f);
     if (strcmp(name, "inverted-x") == 0)
@@ -122,6 +131,10 @@ static long double trapped(const char *name, long double n, long double f, long 
         return linear_eye(n, f, 1 - d, reversed);
     if (strcmp(name, "perspective-of-ortho") == 0)
         return linear_eye(n, f, d, reversed);
+    if (strcmp(name, "normal-as-depth") == 0) /* EncodeViewNormalStereo of (0, 0, 1) is 0.5 in both channels */
+        return (0.5L + 0.5L / 255) * f;
+    if (strcmp(name, "perspective-of-oblique") == 0)
+        return linear_eye(n, f, reversed ? 1 - clipped(n, f, half, z) : clipped(n, f, half, z), reversed);
     assert_string_equal(name, "linear-of-perspective");
     return reversed ? f - (f - n) * d : n + (f - n) * d;
 }
@@ -135,13 +148,14 @@ TEST(traps_read_what_they_read) {
         const bool ortho = k % 7 == 0, reversed = k % 4 >= 2;
         const double n = rng_log(&r, 0.01, 10), f = k % 5 == 0 && !ortho ? INFINITY : n * rng_log(&r, 2, 1e4);
         const double z = rng_log(&r, n * 1.001, isinf(f) ? n * 1e4 : f);
+        const double half = tan(rng_log(&r, 0.01, 1.5));
         const dp_setup setup = setup_of(mapping, ortho, n, f);
         for (count = 0; trap_get(count) != NULL; count++) {
             const trap_row *row = trap_get(count);
-            const double got = trap_reads(row, &setup, z);
+            const double got = trap_reads(row, &setup, half, z);
             if (isnan(got))
                 continue;
-            const long double want = trapped(row->name, n, f, z, ortho, reversed);
+            const long double want = trapped(row->name, n, f, half, z, ortho, reversed);
             TALLY(&t, fabsl(got - want) <= 1e-9L * fabsl(want), "%s at %g between %g and %g: %.12g, not %.12Lg",
                   row->name, z, n, f, got, want);
             TALLY(&t, ortho == row->ortho && (!row->ndc_signed || k % 4 == 1), "%s is no trap here", row->name);
@@ -156,10 +170,10 @@ TEST(traps_read_what_they_read) {
 /* What the articles' cameras show. */
 TEST(known_traps) {
     const dp_setup gl = setup_of(DP_MAPPING_GL, false, 0.1, 1000), d3d = setup_of(DP_MAPPING_D3D, false, 0.3, 1000);
-    assert_scene(trap_reads(trap_find("ndc-as-depth"), &gl, 10), 5.0251256, 1e-6);
-    assert_scene(trap_reads(trap_find("inverted-x"), &d3d, 10), 0.2999127, 1e-6);
-    assert_scene(trap_reads(trap_find("doubled-product"), &d3d, 10), 20, 1e-12);
-    assert_true(isnan(trap_reads(trap_find("ndc-as-depth"), &d3d, 10)));
+    assert_scene(trap_reads(trap_find("ndc-as-depth"), &gl, 1, 10), 5.0251256, 1e-6);
+    assert_scene(trap_reads(trap_find("inverted-x"), &d3d, 1, 10), 0.2999127, 1e-6);
+    assert_scene(trap_reads(trap_find("doubled-product"), &d3d, 1, 10), 20, 1e-12);
+    assert_true(isnan(trap_reads(trap_find("ndc-as-depth"), &d3d, 1, 10)));
 }
 
 /* Each with its formula, and what it reads of a depth of 10. */
@@ -174,7 +188,7 @@ TEST(traps_are_listed) {
         assert_non_null(strstr(at, row->formula));
         at = strstr(at, "  reads       ");
         assert_true(at != NULL && sscanf(at, " reads %lf", &reads) == 1);
-        assert_relative(reads, (double)trapped(row->name, 0.3L, 1000, 10, row->ortho, false), 1e-5);
+        assert_relative(reads, (double)trapped(row->name, 0.3L, 1000, sqrtl(3) / 3, 10, row->ortho, false), 1e-5);
     }
     printed_free(&p);
 }

@@ -59,6 +59,25 @@ static const picture_case cases[] = {
      false,
      false,
      1},
+    {"--synthetic steps --parameter from=10 --parameter to=900 --parameter even=1 -F unorm24 -m d3d --product raw",
+     "Window depth",
+     "synthetic steps, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "window depth",
+     {""},
+     false,
+     false,
+     false,
+     1},
+    {"--synthetic steps --parameter from=10 --parameter to=900 --parameter even=1 -F unorm24 -m d3d --sky 0 --product "
+     "linear01",
+     "Eye depth over far",
+     "synthetic steps, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "eye depth over far",
+     {""},
+     false,
+     false,
+     false,
+     1},
     {"--synthetic decals -F unorm16 -m d3d --product eye --size 640x360 --error-map --theme dark",
      "Eye depth, error",
      "synthetic decals, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
@@ -231,7 +250,9 @@ static void check_ball(const drawn *d) {
 }
 
 static void check_bar(const drawn *d, const picture_case *q, const numbers *n) {
-    const bool shares = strstr(q->arguments, "soft-particles") != NULL; /* its scale is that of all fades */
+    const bool shares = strstr(q->arguments, "soft-particles") != NULL ||
+                        strstr(q->arguments, "--product raw") != NULL ||
+                        strstr(q->arguments, "--product linear01") != NULL; /* the scale is that of all of its kind */
     double lo = shares ? 0 : INFINITY, hi = shares ? 1 : -INFINITY;
     assert_string_equal(d->right_caption->text, q->value);
     drawn_bar_is_viridis(d);

@@ -428,6 +428,7 @@ TEST(test_flags) {
         size_t field, size;
     } flags[] = {{"table", OPTION_ORTHO, WORD_AT(camera.ortho)},
                  {"budget", OPTION_LINEARIZE, WORD_AT(world.terms.linearize)},
+                 {"table", OPTION_CONSTANTS, WORD_AT(wanted.constants)},
                  {"zfight", OPTION_RASTERIZE, WORD_AT(census.drawn)},
                  {"texture", OPTION_ERROR_MAP, WORD_AT(image.error_map)},
                  {"list", OPTION_QUIET, WORD_AT(out.quiet)},

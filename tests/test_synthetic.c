@@ -151,6 +151,12 @@ TEST(stairs_have_their_depths) {
         assert_true(fabs(pair.at[0] * 700 - 100 * ((double)i + 1)) < 1e-9 && pair.at[1] == 0.5);
     }
     assert_false(steps->pair(p, 6, &pair));
+    const double even[PARAMETERS_MAX] = {0.7, 400, 7, 1};
+    for (uint32_t i = 0; i < 7; i++) {
+        steps->hit(&c, even, 100 * i + 50, 3, &h);
+        assert_relative(h.z, (double)(0.7L + (400 - 0.7L) * i / 6), 1e-15);
+        assert_true((i > 0 || h.z == 0.7) && (i < 6 || h.z == 400));
+    }
 }
 
 TEST(decals_stand_before_their_tiles) {
@@ -182,9 +188,9 @@ TEST(nothing_is_drawn_outside_the_planes) {
     const texture_camera c = camera_of("fp32", "reversed", false, 64, 64);
     const synthetic_row *steps = synthetic_find("steps");
     synthetic_hit h;
-    steps->hit(&c, (double[]){0.09, 1001, 2}, 0, 0, &h);
+    steps->hit(&c, (double[]){0.09, 1001, 2, 0}, 0, 0, &h);
     assert_true(isinf(h.z) && h.surface == 0);
-    steps->hit(&c, (double[]){0.09, 1001, 2}, 63, 0, &h);
+    steps->hit(&c, (double[]){0.09, 1001, 2, 0}, 63, 0, &h);
     assert_true(isinf(h.z));
     /* A decal before the near plane leaves the wall. */
     synthetic_find("decals")->hit(&c, (double[]){1, 1.05, 10, 2}, 16, 16, &h);

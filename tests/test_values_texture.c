@@ -156,28 +156,11 @@ static void want_pairs(values *v, const frame *f) {
     want(v, "first_tie=%f certain_to=%f", p.first_tie, p.certain_to);
 }
 
-/* By hand, and rounded to binary32; null where Unity has no such helper. */
-static void want_zbuffer(values *v, const dp_setup *setup) {
-    const dp_mapping mapping = setup->spec.mapping;
-    const long double n = (long double)setup->spec.znear, f = (long double)setup->spec.zfar;
-    const bool reversed = mapping == DP_MAPPING_REVERSED || mapping == DP_MAPPING_GL_REVERSED;
-    if (setup->spec.ortho || isinf(setup->spec.zfar) || mapping == DP_MAPPING_LINEAR || mapping == DP_MAPPING_LOG) {
-        want_text(v, "zbuffer_params", NULL);
-        return;
-    }
-    const long double x = reversed ? f / n - 1 : 1 - f / n, y = reversed ? 1 : f / n;
-    values_under(v, "zbuffer_params.");
-    want(v, "x=%f y=%f", (double)(float)x, (double)(float)y);
-    want(v, "z=%f w=%f", (double)(float)(x / f), (double)(float)(y / f));
-    values_under(v, "%s", "");
-}
-
 /* Of an orthographic camera half the height, of another the field of view. */
 static void want_camera(values *v, const texture_case *c, const frame *f) {
     const bool ortho = f->camera->setup.spec.ortho;
     values_under(v, "%s", "");
     want_setup(v, &f->camera->setup);
-    want_zbuffer(v, &f->camera->setup);
     want(v, "width=%u height=%u", f->camera->width, f->camera->height);
     want(v, "format_from=%s mapping_from=%s", c->format_from, c->mapping_from);
     want(v, "direction_from=%s fov=%f", c->direction_from, ortho ? NAN : number_behind(c->line, "--fov", 60));
@@ -208,11 +191,6 @@ static void check_text(values *v, const char *line, size_t errors) {
     check_table(v, text, "bands[]",
                 "lo:6, hi:6, pixels:10, codes:10, available:10, gap:6, gap_z:6, steps_shown:10, interval:6");
     check_line(v, text, "condition  ", "condition:4");
-    if (value_find(v, "zbuffer_params.x") != NULL)
-        check_line(v, text, "in Unity  ",
-                   "zbuffer_params.x:9, zbuffer_params.y:9, zbuffer_params.z:9, zbuffer_params.w:9");
-    else
-        assert_null(strstr(text, "_ZBufferParams"));
     if (strstr(text, "  pairs  ") != NULL) {
         const char *rest = strstr(strstr(text, "  pairs  "), "\n");
         check_line(v, text, "pairs  ", "pairs.count:6, pairs.ties:6, pairs.first_tie:6");

@@ -8,6 +8,7 @@
 
 #include "cli/choice.h"
 #include "cli/compare.h"
+#include "cli/constants.h"
 #include "cli/each_setup.h"
 #include "cli/lookup.h"
 #include "cli/per_vertex.h"
@@ -353,6 +354,8 @@ static unsigned conditions(const table *t) {
 }
 
 int cmd_table(const options *o) {
+    if (o->wanted.constants)
+        return constants_write(o);
     if (lookup_wanted(o))
         return lookup_write(o);
     table t = {0};

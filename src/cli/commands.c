@@ -7,10 +7,11 @@
 #include "core/append.h"
 #include "plot/figure.h"
 
+static bool list_helped(size_t index, list_item *item);
 static const name_list figures = {.get = list_figure};
 static const name_list families = {.get = list_family};
 static const name_list topics = {.get = list_topic};
-static const name_list commands = {.words = (const char *const[]){"options", NULL}, .get = list_command};
+static const name_list commands = {.words = (const char *const[]){"options", NULL}, .get = list_helped};
 static const name_list shells = {.words = (const char *const[]){"bash", "zsh", "fish", NULL}};
 
 /* clang-format off */
@@ -22,8 +23,9 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --viewport 1920x1080\n"
      "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"
+     "  depthprec table -n 0.3 -f 1000 -m reversed,gl --constants --at 1,10,100\n"
      "  depthprec table -n 0.1 -f 1000 -F d24 -m d3d --link\n",
-     .group = "A camera", .part = table_asked, .parts = table_parts},
+     .group = "A camera", .words = LIST_CONSTANTS, .part = table_asked, .parts = table_parts},
     [CMD_BUDGET] = {"budget", CMD_BUDGET, budget_uses, "", 0, 0, NULL,
      .summary = "how much of the separation each cause takes",
      .example = "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
@@ -127,6 +129,14 @@ const command_row command_rows[CMD_COUNT] = {
 bool list_command(size_t index, list_item *item) {
     const command_row *v = &command_rows[index];
     return index < command_count && list_fill(item, (list_item){.name = v->name, .note = v->summary, .row = v});
+}
+
+/* What help is asked about: a command, or one of its words, which no command line begins with. */
+static bool list_helped(size_t index, list_item *item) {
+    if (!list_command(index, item))
+        return false;
+    item->aliases = command_rows[index].words;
+    return true;
 }
 
 const char *command_takers(int id, char out[NAMES_SIZE]) {

@@ -54,6 +54,7 @@ typedef struct command_row {
     const char *group;                       /**< the heading above this row and those behind it, or null */
     size_t (*part)(const struct options *o); /**< which part is asked for; null where all is one */
     const command_part *parts;               /**< null where they are the figures */
+    const char *words;                       /**< of shaders, by which help finds it, one space between; or null */
     unsigned shown;                          /**< the parts whose options its help describes; 0: all */
 } command_row;
 

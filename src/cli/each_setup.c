@@ -3,12 +3,12 @@
 
 #include <unistd.h>
 
-enum { DEFAULT_ROWS = 9 };
+enum { DEFAULT_ROWS = 9, CONSTANTS_ROWS = 5 };
 
 /* The depths of set-up i. */
 static int resolve(each_setup *w, size_t i) {
     w->here = options_of(w->o, w->all.cameras[i]);
-    return depths_resolve(w->here, DEFAULT_ROWS, &w->at);
+    return depths_resolve(w->here, w->o->wanted.constants ? CONSTANTS_ROWS : DEFAULT_ROWS, &w->at);
 }
 
 int each_setup_start(each_setup *w, const options *o) {

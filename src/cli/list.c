@@ -235,6 +235,14 @@ static bool list_encoding(size_t index, list_item *item) {
     return true;
 }
 
+static bool list_constant(size_t index, list_item *item) {
+    const constant_row *row = constant_get(index);
+    return row != NULL && list_fill(item, (list_item){.name = row->name,
+                                                      .note = row->formula,
+                                                      .bound = "depthprec table --constants",
+                                                      .source = row->source});
+}
+
 static bool list_trap(size_t index, list_item *item) {
     const trap_row *row = trap_get(index);
     dp_spec spec = dp_spec_default();
@@ -247,7 +255,7 @@ static bool list_trap(size_t index, list_item *item) {
     *item = (list_item){.name = row->name, .note = row->formula, .source = row->source, .row = row};
     if (dp_setup_init(&setup, &spec) == DP_OK)
         append(item->bound, sizeof item->bound, "%s at 10, between %g and %g; right: %s",
-               number_of(trap_reads(row, &setup, 10), 6).text, spec.znear, spec.zfar, row->right);
+               number_of(trap_reads(row, &setup, sqrt(3) / 3, 10), 6).text, spec.znear, spec.zfar, row->right);
     return true;
 }
 
@@ -325,6 +333,8 @@ static const topic topics[] = {
      .bound = "bound"},
     {"packings", "textures with a depth in several channels, for texture --packing and --product pack", list_packing,
      .bound = "bound"},
+    {"constants", "what a shader is given of a camera, and makes of a depth: _ZBufferParams and its kin", list_constant,
+     .bound = "values", .names = LIST_CONSTANTS},
     {"traps", "depth formulas found in shaders that are wrong", list_trap, .bound = "reads"},
     {"lattices", "what metric depth was rounded to, for texture --metric", list_lattice, .bound = "gap"},
     {"products", "what texture makes of the depths, for --product", list_product, .bound = "methods"},
@@ -340,5 +350,6 @@ enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
 
 bool list_topic(size_t index, list_item *item) {
     const struct topic *row = &topics[index];
-    return index < TOPIC_COUNT && list_fill(item, (list_item){.name = row->name, .note = row->note, .row = row});
+    return index < TOPIC_COUNT &&
+           list_fill(item, (list_item){.name = row->name, .aliases = row->names, .note = row->note, .row = row});
 }

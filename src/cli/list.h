@@ -65,6 +65,12 @@ typedef struct topic {
     list_get get;
     const char *bound; /**< what a thing's bound is called in JSON and CSV */
     const char *shown; /**< and in text, where that says more; else null */
+    const char *names; /**< what else the topic may be called, separated by one space; null when there is none */
 } topic;
+
+/** The names by which shaders know what 'table --constants' prints. */
+#define LIST_CONSTANTS                                                                                                 \
+    "_ZBufferParams _ProjectionParams UNITY_NEAR_CLIP_VALUE LinearEyeDepth Linear01Depth Linear01DepthFromNear "       \
+    "LinearDepthToEyeDepth"
 
 #endif

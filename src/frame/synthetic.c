@@ -20,9 +20,10 @@ static void face(const texture_camera *camera, double z, int surface, synthetic_
         *out = (synthetic_hit){z, {0, 0, -1}, surface};
 }
 
-/* Depth `index` of `count` from lo to hi, both exact, in equal ratios. */
-static double spaced(double lo, double hi, double index, double count) {
-    return index <= 0 ? lo : index >= count - 1 ? hi : lo * dp_pow(hi / lo, index / (count - 1));
+/* Depth `index` of `count` from lo to hi, both exact, at equal distances or in equal ratios. */
+static double spaced(double lo, double hi, double index, double count, bool even) {
+    const double share = index / (count - 1);
+    return index <= 0 ? lo : index >= count - 1 ? hi : even ? lo + (hi - lo) * share : lo * dp_pow(hi / lo, share);
 }
 
 /* Which of `count` equal parts of `length` pixels a place lies in. */
@@ -64,10 +65,10 @@ static void sphere_hit(const texture_camera *c, const double *p, double column, 
         face(c, p[SPHERE_WALL], 2, out);
 }
 
-enum { STEPS_FROM, STEPS_TO, STEPS_COUNT };
+enum { STEPS_FROM, STEPS_TO, STEPS_COUNT, STEPS_EVEN };
 
 static double step_depth(const double *p, double index) {
-    return spaced(p[STEPS_FROM], p[STEPS_TO], index, p[STEPS_COUNT]);
+    return spaced(p[STEPS_FROM], p[STEPS_TO], index, p[STEPS_COUNT], p[STEPS_EVEN] > 0);
 }
 
 static void steps_hit(const texture_camera *c, const double *p, double column, double row, synthetic_hit *out) {
@@ -87,7 +88,7 @@ static bool steps_pair(const double *p, size_t index, synthetic_pair *out) {
 enum { DECALS_GAP, DECALS_FROM, DECALS_TO, DECALS_COUNT };
 
 static double wall_depth(const double *p, double index) {
-    return spaced(p[DECALS_FROM], p[DECALS_TO], index, p[DECALS_COUNT] * p[DECALS_COUNT]);
+    return spaced(p[DECALS_FROM], p[DECALS_TO], index, p[DECALS_COUNT] * p[DECALS_COUNT], false);
 }
 
 /* Tiles of wall, row by row ever farther, and a decal in the middle half of each. */
@@ -118,11 +119,12 @@ const synthetic_row synthetic_rows[] = {
         {"distance", "eye depth of the centre, more than the radius", LENGTH, 10, .whole = false},
         {"radius", "of the sphere", LENGTH, 3, .whole = false},
         {"wall", "eye depth of the wall; 0: sky", "scene units", 0, 1e15, 0, .whole = false}}},
-    [SYNTHETIC_STEPS] = {"steps", "upright stairs that face the camera, in equal ratios of depth", steps_hit,
+    [SYNTHETIC_STEPS] = {"steps", "upright stairs that face the camera", steps_hit,
                          steps_pair, {
         {"from", "eye depth of the leftmost", LENGTH, 1, .whole = false},
         {"to", "eye depth of the rightmost", LENGTH, 300, .whole = false},
-        {"count", "how many", "steps", 2, 65536, 16, .whole = true}}},
+        {"count", "how many", "steps", 2, 65536, 16, .whole = true},
+        {"even", "0: in equal ratios of depth; 1: at equal distances", "", 0, 1, 0, .whole = true}}},
     [SYNTHETIC_DECALS] = {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth",
         decals_hit, decals_pair, {
         {"gap", "from a decal to the wall behind it", LENGTH, 0.01, .whole = false},

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "shader/constants.h"
 
+#include <math.h>
+#include <string.h>
+
 #include "depthprec/pipeline.h"
+#include "shader/packing.h"
 
 shader_constants shader_constants_of(const dp_setup *setup) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
@@ -11,6 +15,25 @@ shader_constants shader_constants_of(const dp_setup *setup) {
                               .near_clip = setup->reversed ? 1.0f
                                            : ndc_signed    ? -1.0f
                                                            : 0.0f};
+}
+
+static const char unity[] = "UnityShaderVariables.cginc", common[] = "the Core package's Common.hlsl";
+
+/* clang-format off */
+static const constant_row constants[] = {
+    {"_ZBufferParams", "(1 - far/near, far/near, x/far, y/far); reversed (far/near - 1, 1, x/far, 1/far)", unity},
+    {"_ProjectionParams", "(1, or -1 where the target is flipped; near; far; 1/far)", unity},
+    {"UNITY_NEAR_CLIP_VALUE", "NDC depth of the near plane: 0, of OpenGL -1, reversed 1",
+     "the Core package's API headers"},
+    {"LinearEyeDepth", "1/(z d + w) of _ZBufferParams: eye depth in perspective", common},
+    {"Linear01Depth", "1/(x d + y): eye depth over far, 0 at the camera", common},
+    {"Linear01DepthFromNear", "d/(x d + y), reversed (1 - d)/(x d + y): 0 at near, 1 at far", common},
+    {"LinearDepthToEyeDepth", "near + (far - near) d, reversed far - (far - near) d: orthographic eye depth", common},
+};
+/* clang-format on */
+
+const constant_row *constant_get(size_t index) {
+    return index < sizeof constants / sizeof constants[0] ? &constants[index] : NULL;
 }
 
 static float decoded(const dp_setup *setup, const decode_row *row, float d) {
@@ -25,7 +48,7 @@ bool shader_depth_of(const dp_setup *setup, double z, shader_depth *out) {
     if (dp_pipeline_init(&p, setup) != DP_OK)
         return false;
     const float at = (float)z, w = p.ortho ? 1.0f : at, clip = dp_pipeline_clip(&p, at);
-    const float window = dp_pipeline_window(&p, at);
+    const float window = fminf(fmaxf(dp_pipeline_window(&p, at), 0), 1); /* as the viewport clamps it */
     *out = (shader_depth){.clip_z = clip,
                           .clip_w = w,
                           .ndc = clip / w,
@@ -34,6 +57,21 @@ bool shader_depth_of(const dp_setup *setup, double z, shader_depth *out) {
                           .linear01 = decoded(setup, &decode_rows[DECODE_LINEAR_01], window),
                           .from_near = decoded(setup, &decode_rows[DECODE_LINEAR_01_NEAR], window)};
     return true;
+}
+
+float shader_stored_eye(const dp_setup *setup, const dp_format *format, float window) {
+    const uint32_t code = dp_format_encode(format, DP_ROUND_NEAREST, (double)window);
+    return decoded(setup, decode_usual(setup), (float)dp_format_value(format, code));
+}
+
+float shader_depth_normals_eye(const dp_setup *setup, double z) {
+    const float far = (float)setup->spec.zfar, share = (float)z * (float)(1 / setup->spec.zfar);
+    size_t i = 0;
+    while (strcmp(packing_get(i)->name, "rg") != 0)
+        i++;
+    const packing *rg = packing_get(i);
+    const uint64_t number = share < 1 || !rg->wraps ? packing_nearest(rg, (double)share) : 0;
+    return isinf(far) ? NAN : (float)packing_depth(rg, number) * far;
 }
 
 shader_corners shader_corners_of(const texture_camera *c) {
@@ -50,41 +88,61 @@ shader_corners shader_corners_of(const texture_camera *c) {
 /* ---- Traps ------------------------------------------------------------------------------------------------------- */
 
 /* 1/((1 - n/f) d + f/n) f with d = f (z - n)/((f - n) z): the first product is (z - n)/z. */
-static double inverted_x(const dp_setup *s, double z) {
+static double inverted_x(const dp_setup *s, double half, double z) {
+    (void)half;
     const double n = s->spec.znear, f = s->spec.zfar;
     return f / ((z - n) / z + f / n);
 }
 
-static double doubled_product(const dp_setup *s, double z) {
+static double doubled_product(const dp_setup *s, double half, double z) {
+    (void)half;
     (void)s;
     return 2 * z;
 }
 
 /* 1/z is linear in d, and 2 d - 1 is as far before d as d is before 1: 2/z - 1/f. */
-static double ndc_as_depth(const dp_setup *s, double z) {
+static double ndc_as_depth(const dp_setup *s, double half, double z) {
+    (void)half;
     return 1 / (2 / z - 1 / s->spec.zfar);
 }
 
-static double other_direction(const dp_setup *s, double z) {
+static double other_direction(const dp_setup *s, double half, double z) {
+    (void)half;
     const double n = s->spec.znear, f = s->spec.zfar;
     return 1 / ((z - n) / (n * z) + 1 / f);
 }
 
 /* 1/z is 1/n at near and 1/f at far; depth is as far from both. */
-static double perspective_of_ortho(const dp_setup *s, double z) {
+static double perspective_of_ortho(const dp_setup *s, double half, double z) {
+    (void)half;
     const double n = s->spec.znear, f = s->spec.zfar, share = (z - n) / (f - n);
     return 1 / ((1 - share) / n + share / f);
 }
 
-static double linear_of_perspective(const dp_setup *s, double z) {
+static double linear_of_perspective(const dp_setup *s, double half, double z) {
+    (void)half;
     const double n = s->spec.znear, f = s->spec.zfar;
     return n + f * (z - n) / z;
+}
+
+/* x + y/255 of the stereographic normal (1/2, 1/2) of what faces the camera. */
+static double normal_as_depth(const dp_setup *s, double half, double z) {
+    (void)half;
+    (void)z;
+    return 128.0 / 255 * s->spec.zfar;
+}
+
+/* A near plane at 45 degrees through where the axis meets near, and a far plane through the frustum's farthest corner,
+ * as Lengyel clips: in the middle of the picture d = (z - n)/z / (1 - n/f + half). */
+static double perspective_of_oblique(const dp_setup *s, double half, double z) {
+    const double n = s->spec.znear, f = s->spec.zfar, d = (z - n) / (z * (1 - n / f + half));
+    return 1 / ((1 - d) / n + d / f);
 }
 
 static const char slip[] = "an article's slip";
 
 /* clang-format off */
-static const trap_row rows[] = {
+static const trap_row traps[] = {
     {.name = "inverted-x", .formula = "_ZBufferParams.x = 1 - near/far", .right = "1 - far/near", .source = slip,
      .standard = true, .reads = inverted_x},
     {.name = "doubled-product", .formula = "d = f/(f - n) - 2 f n/((f - n) z)", .right = "f n in place of 2 f n",
@@ -98,21 +156,27 @@ static const trap_row rows[] = {
      .standard = true, .reversed = true, .far_infinite = true, .reads = other_direction},
     {.name = "perspective-of-ortho", .formula = "LinearEyeDepth(d)", .right = "LinearDepthToEyeDepth(d)",
      .source = "Common.hlsl: does not work with orthographic projection", .ortho = true, .reads = perspective_of_ortho},
-    {.name = "linear-of-perspective", .formula = "near + (far - near) d", .right = "LinearEyeDepth(d)",
-     .source = "a raw depth taken for a linear one", .standard = true, .reversed = true,
+    {.name = "linear-of-perspective", .formula = "near + (far - near) d, reversed far - (far - near) d",
+     .right = "LinearEyeDepth(d)", .source = "a raw depth taken for a linear one", .standard = true, .reversed = true,
      .reads = linear_of_perspective},
+    {.name = "perspective-of-oblique", .formula = "LinearEyeDepth(d), mid-picture, near plane tilted by 45 degrees",
+     .right = "the inverse projection matrix", .source = "Common.hlsl: does not handle oblique view frustums",
+     .standard = true, .reversed = true, .far_infinite = true, .reads = perspective_of_oblique},
+    {.name = "normal-as-depth", .formula = "DecodeFloatRG(enc.xy) of DepthNormals, of a surface that faces the camera",
+     .right = "enc.zw: the normal is in xy", .source = slip, .standard = true, .reversed = true,
+     .reads = normal_as_depth},
 };
 /* clang-format on */
 
 const trap_row *trap_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+    return index < sizeof traps / sizeof traps[0] ? &traps[index] : NULL;
 }
 
-double trap_reads(const trap_row *row, const dp_setup *setup, double z) {
+double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z) {
     const dp_mapping_row *mapping = dp_mapping_get(setup->spec.mapping);
     const bool kind = setup->spec.ortho ? row->ortho : setup->reversed ? row->reversed : row->standard;
     const bool far = !isinf(setup->spec.zfar) || row->far_infinite;
     const bool is_trap = kind && far && mapping->curve == DP_CURVE_PERSPECTIVE && setup->spec.znear > 0 &&
                          (mapping->ndc_signed || !row->ndc_signed);
-    return is_trap ? row->reads(setup, z) : (double)NAN;
+    return is_trap ? row->reads(setup, half, z) : (double)NAN;
 }

@@ -19,6 +19,13 @@ typedef struct shader_constants {
 
 shader_constants shader_constants_of(const dp_setup *setup);
 
+/** A constant or function by the name that shaders have for it. */
+typedef struct constant_row {
+    const char *name, *formula, *source;
+} constant_row;
+
+const constant_row *constant_get(size_t index); /**< null beyond the last */
+
 /** A depth on its way into the buffer and back, each in binary32. */
 typedef struct shader_depth {
     float clip_z, clip_w, ndc, window;
@@ -28,6 +35,13 @@ typedef struct shader_depth {
 
 /** @return false for a mapping without a matrix */
 bool shader_depth_of(const dp_setup *setup, double z, shader_depth *out);
+
+/** A window depth in a depth texture of that format, and LinearEyeDepth of it, orthographic LinearDepthToEyeDepth. */
+float shader_stored_eye(const dp_setup *setup, const dp_format *format, float window);
+
+/** Eye depth as DepthNormals holds it, by EncodeFloatRG: 0 at the far plane, whose frac is that of the camera. NaN
+ * without a far plane. */
+float shader_depth_normals_eye(const dp_setup *setup, double z);
 
 /** The frustum's corners in view space: top left, top right, bottom left, bottom right. */
 typedef struct shader_corners {
@@ -42,13 +56,13 @@ typedef struct trap_row {
     const char *name, *formula, *right, *source;
     bool standard, reversed, ortho; /**< which set-ups it is a trap of */
     bool ndc_signed, far_infinite;  /**< of OpenGL's NDC alone; of an infinite far plane, too */
-    double (*reads)(const dp_setup *setup, double z);
+    double (*reads)(const dp_setup *setup, double half, double z);
 } trap_row;
 
 const trap_row *trap_get(size_t index); /**< null beyond the last */
 
 /** What it takes a surface at z for, within 2^-40 of exactly; NaN where it is no trap of the set-up. Between the
- * planes, near above 0. */
-double trap_reads(const trap_row *row, const dp_setup *setup, double z);
+ * planes, near above 0; `half` is the tangent of half the vertical field of view, INFINITY what has no depth left. */
+double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z);
 
 #endif

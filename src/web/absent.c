@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "cli/check_report.h"
+#include "cli/constants.h"
 #include "cli/link.h"
 #include "cli/methods.h"
 #include "cli/option/rows.h"
@@ -32,6 +33,7 @@ ABSENT(cmd_probe)
 ABSENT(cmd_scene)
 ABSENT(cmd_shadow)
 ABSENT(cmd_texture)
+ABSENT(constants_write)
 ABSENT(link_write)
 
 #define ABSENT_FIGURE(name)                                                                                            \
@@ -56,6 +58,7 @@ ABSENT_FIGURE(stability_build)
         return NULL;                                                                                                   \
     }
 
+ABSENT_ROWS(constant_row, constant_get)
 ABSENT_ROWS(effect_row, effect_get)
 ABSENT_ROWS(finder_filter_row, finder_filter_get)
 ABSENT_ROWS(normal_row, normal_get)
@@ -66,9 +69,10 @@ ABSENT_ROWS(sensor_row, sensor_get)
 ABSENT_ROWS(synthetic_row, synthetic_get)
 ABSENT_ROWS(trap_row, trap_get)
 
-double trap_reads(const trap_row *row, const dp_setup *setup, double z) {
+double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z) {
     (void)row;
     (void)setup;
+    (void)half;
     return z;
 }
 

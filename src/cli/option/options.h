@@ -53,6 +53,7 @@ typedef enum option_id {
     OPTION_RANGE,
     OPTION_DEPTH,
     OPTION_CODE,
+    OPTION_CONSTANTS,
     OPTION_FOR,
     OPTION_SEPARATION,
     OPTION_ERROR,
@@ -194,6 +195,7 @@ typedef struct options_wanted {
     solve_target target;      /**< --for */
     double separation, error; /**< scene units; 0 when not given */
     double tolerance;         /**< a share */
+    bool constants;           /**< what shaders are given; the view's shape is then in view.spec */
     depths looked_up;         /**< window depths of --depth in [0, 1], or codes of --code; count is 0 without them */
 } options_wanted;
 

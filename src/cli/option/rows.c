@@ -118,6 +118,10 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_CODE] = {"code", 0, "N[,N...]",
         "the same for stored codes, decimal or 0x...; the code of a float is its bit pattern",
         SEVERAL(parse_codes, wanted.looked_up, 0, 4294967295)},
+    [OPTION_CONSTANTS] = {"constants", 0, NULL,
+        "instead: what shaders are given of the camera (_ZBufferParams, _ProjectionParams, UNITY_NEAR_CLIP_VALUE, "
+        "corner rays), what LinearEyeDepth and its kin make of each depth, and what formulas read that are not right",
+        FLAG(wanted.constants)},
     [OPTION_FOR] = {"for", 0, NULL,
         "what to solve for; distance: the depth up to which --separation or --error holds; frusta: the fewest "
         "that resolve --separation from near to far", WORD(wanted.target, targets),

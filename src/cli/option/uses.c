@@ -72,20 +72,26 @@ static const option_use picture[] = {
 /* ---- The commands ------------------------------------------------------------------------------------------------ */
 
 /* What the reverse has no use for. */
-enum { TABLE_OF_DEPTHS = 1, TABLE_OF_CODES = 2 };
+enum { TABLE_OF_DEPTHS = 1, TABLE_OF_CODES = 2, TABLE_OF_CONSTANTS = 4 };
 static const option_use of_depths[] = {
     OWN(TOLERANCE, WITHOUT("5% for the model; intervals are exact")),
+    TAKE(RANGE), OWN(VIEWPORT, ALSO("with --constants the shape of the view, 1920x1080 where not given")), END};
+static const option_use of_stored[] = {
+    OWN(MODEL, DEFAULT("exact"), WITHOUT("for several set-ups the fullest that each supports")),
+    TAKE(DEPTH), TAKE(CODE), TAKE(LOG_C), TAKE(LINK), GROUP(slanted), GROUP(projected), END};
+static const option_use asked_depths[] = {
     OWN(AT, WITHOUT("nine, log-spaced from near to far, or to 1e6 times near; linear if near is 0 or negative; round "
-        "numbers for several set-ups")),
-    TAKE(RANGE), TAKE(VIEWPORT), END};
+        "numbers for several set-ups; with --constants five")), END};
+static const option_use of_constants[] = {
+    TAKE(NEAR), TAKE(FAR), TAKE(MAPPING), TAKE(UNIT), TAKE(ORTHO), TAKE(FOV), TAKE(HFOV),
+    OWN(VIEWPORT, DEFAULT("1920x1080")), END};
 const option_use table_uses[] = {
     OWN(PRESET, .argument = "NAME[,NAME...]", ALSO(OF_VIEW "; several are compared"), .parse = parse_presets),
-    OWN(MODEL, DEFAULT("exact"), WITHOUT("for several set-ups the fullest that each supports")),
-    FOR(TABLE_OF_DEPTHS, of_depths),
-    TAKE(DEPTH), TAKE(CODE), TAKE(LOG_C), TAKE(LINK),
+    FOR(TABLE_OF_DEPTHS, of_depths), FOR(TABLE_OF_DEPTHS | TABLE_OF_CODES, of_stored),
+    FOR(TABLE_OF_DEPTHS | TABLE_OF_CONSTANTS, asked_depths), FOR(TABLE_OF_CONSTANTS, of_constants), TAKE(CONSTANTS),
     OWN(FULL, HELP("all columns, however wide, and the cell of each depth; a table for each set-up in place of a "
         "comparison")),
-    GROUP(slanted), GROUP(projected), GROUP(written), END};
+    GROUP(written), END};
 
 const option_use budget_uses[] = {
     OWN(MAPPING, HELP(PERSPECTIVE ", " DP_MAPPING_NAMES_LOG "; all are d3d and reversed"), DEFAULT("all")),
@@ -281,8 +287,10 @@ const option_use no_uses[] = {END};
 
 /* ---- Parts of commands ------------------------------------------------------------------------------------------- */
 
-const command_part table_parts[] = {
-    {"without --depth and --code", TABLE_OF_DEPTHS}, {"with --depth or --code", TABLE_OF_CODES}, {NULL, 0}};
+const command_part table_parts[] = {{"to the table of depths", TABLE_OF_DEPTHS},
+                                    {"with --depth or --code", TABLE_OF_CODES},
+                                    {"with --constants", TABLE_OF_CONSTANTS},
+                                    {NULL, 0}};
 const command_part solve_parts[] = {
     {"without --for frusta", SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
 const command_part shadow_parts[] = {{"to cascades", SHADOW_CASCADES}, {"with --light-box", SHADOW_BOX}, {NULL, 0}};
@@ -292,7 +300,7 @@ const command_part texture_parts[] = {{"to an effect alone that needs no positio
                                       {NULL, 0}};
 
 size_t table_asked(const options *o) {
-    return o->wanted.looked_up.count > 0;
+    return o->wanted.constants ? 2 : o->wanted.looked_up.count > 0;
 }
 
 size_t solve_asked(const options *o) {

@@ -94,7 +94,17 @@ static bool is_slanted(const options *o, const option_use *viewport) {
            option_given(o, OPTION_EYE) || option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
 }
 
+/* Of constants the viewport is the shape of the view alone: nothing slants. */
+static int take_shape(options *o) {
+    o->view.spec.width = (uint32_t)o->camera.triangles.width;
+    o->view.spec.height = (uint32_t)o->camera.triangles.height;
+    o->camera.triangles.width = 0;
+    return EXIT_FINE;
+}
+
 int slant_complete(options *o) {
+    if (o->wanted.constants)
+        return take_shape(o);
     const option_use *viewport = option_used(o->command, o->parts, OPTION_VIEWPORT);
     if (viewport == NULL || !is_slanted(o, viewport))
         o->camera.triangles.width = 0;

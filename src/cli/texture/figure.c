@@ -133,6 +133,13 @@ static int height_of(const options *o, const texture_source *s, int width, bool 
     return (int)fmin(fmax(height, HEIGHT_MIN), fmax(HEIGHT_MAX, width));
 }
 
+/* From 0 to 1 by nature. Grey under errors is no picture of its own: there it tells the depths apart. */
+static bool is_share(const options *o, const texture_product *p) {
+    const frame_kind kind = p->made.kind;
+    return !p->made.error && ((kind == FRAME_EFFECT && p->made.effect->kind != EFFECT_GAIN) ||
+                              ((kind == FRAME_RAW || kind == FRAME_LINEAR01) && !(o->image.overlay > 0)));
+}
+
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p) {
     static const char *const axes[] = {"x (world)", "y (world)", "z (world)"};
     const int width = o->figure.width > 0 ? o->figure.width : WIDTH;
@@ -143,7 +150,7 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
                            .channels = frame_channels(&p->made),
                            .directions = directions,
                            .magnitudes = is_error,
-                           .shares = p->made.kind == FRAME_EFFECT && !is_error && p->made.effect->kind != EFFECT_GAIN,
+                           .shares = is_share(o, p),
                            .label = is_error                         ? "error"
                                     : p->made.kind == FRAME_POSITION ? "coordinate"
                                                                      : p->name,

@@ -104,12 +104,6 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
                                         {.kind = COLUMN_END}};
 
-static const column zbuffer_columns[] = {{FIELD(shader_params, x, "x", "")},
-                                         {FIELD(shader_params, y, "y", "")},
-                                         {FIELD(shader_params, z, "z", "1/scene")},
-                                         {FIELD(shader_params, w, "w", "1/scene")},
-                                         {.kind = COLUMN_END}};
-
 static const column reading_columns[] = {
     {FIELD(statistics, reading.what, "what", "")},    {FIELD(statistics, reading.name, "name", "")},
     {FIELD(statistics, source.column, "column", "")}, {FIELD(statistics, source.row, "row", "")},
@@ -127,7 +121,6 @@ static const column found_columns[] = {
     {FIELD(statistics, named.mapping_from, "mapping_from", "")},
     {FIELD(statistics, named.direction_from, "direction_from", "")},
     {LIST("readings", reading_columns, next_reading)},
-    {PART(statistics, named.zbuffer, "zbuffer_params", zbuffer_columns), .pointed = true},
     {FIELD(statistics, named.fov, "fov", "degrees")},
     {FIELD(statistics, named.half_height, "half_height", "scene")},
     {PART(statistics, source.matrix, "matrix", texture_matrix_columns), .when = OF_MATRIX},
@@ -189,14 +182,6 @@ static const column columns[] = {
     {LIST("errors", error_columns, next_error), .only = AS_JSON | AS_TEXT, .indent = 2},
     {.kind = COLUMN_END}};
 
-/* Where Linear01Depth is defined, all four are: not without a far plane. */
-static void name_zbuffer(statistics *r) {
-    const zbuffer_params p = zbuffer_params_of(&r->source.setup);
-    r->zbuffer = (shader_params){(double)p.x, (double)p.y, (double)p.z, (double)p.w};
-    const bool shared = !r->source.camera.oblique.on; /* by all pixels */
-    r->named.zbuffer = shared && decode_applies(&decode_rows[DECODE_LINEAR_01], &r->source.setup) ? &r->zbuffer : NULL;
-}
-
 /* What is said of the source by names, and of its options. */
 static void name_all(statistics *r) {
     static const bool answers[] = {false, true};
@@ -223,7 +208,6 @@ static void name_all(statistics *r) {
     r->named.half_height = s->camera.ortho ? s->camera.half[1] : none;
     r->named.coarser = !is_metric && texture_coarser(s);
     r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;
-    name_zbuffer(r);
     if (is_metric)
         statistics_name_lattice(r);
     r->named.hidden = r->survey.sky - r->survey.true_sky;

@@ -8,8 +8,6 @@
 #include "core/append.h"
 #include "report/number.h"
 
-enum { DIGITS_32 = 9 }; /* that tell binary32 numbers apart */
-
 void *statistics_next_parameter(void *of, size_t i) {
     statistics *r = of;
     const synthetic_row *synthetic = r->source.frame.synthetic;
@@ -138,7 +136,6 @@ static void say_metric(statistics *r, page *p) {
 
 static void say_source(statistics *r, page *p) {
     const texture_source *s = &r->source;
-    const shader_params *z = r->named.zbuffer;
     char parameters[512] = "";
     char packed[48] = "";
     p->unit = options_unit(r->o);
@@ -163,9 +160,6 @@ static void say_source(statistics *r, page *p) {
             texture_matrix_say(&s->matrix, p);
         say_origins(r, p);
     }
-    if (z != NULL)
-        page_note(p, "in Unity", "_ZBufferParams %s, %s, %s, %s", number_of(z->x, DIGITS_32).text,
-                  number_of(z->y, DIGITS_32).text, number_of(z->z, DIGITS_32).text, number_of(z->w, DIGITS_32).text);
 }
 
 static number_text share(uint64_t part, uint64_t all) {

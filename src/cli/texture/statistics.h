@@ -19,11 +19,6 @@ typedef struct error_line {
     char at[64]; /* and the pixel, or how many these are, and the unit */
 } error_line;
 
-/** As the shader sees them: binary32. */
-typedef struct shader_params {
-    double x, y, z, w;
-} shader_params;
-
 /** What is printed of the lattice of metric depth. */
 typedef struct lattice_fields {
     const char *name, *from, *other, *like;
@@ -41,7 +36,6 @@ typedef struct statistics {
     texture_source source;
     survey survey;
     survey_pairs pairs;
-    shader_params zbuffer;
     double condition; /* of the view-projection matrix, 2-norm; NaN where the mapping has none */
     size_t error_count;
     error_line errors[ERRORS_MAX];
@@ -54,7 +48,6 @@ typedef struct statistics {
         bool coarser;
         const bool *reversed;
         const survey_pairs *pairs;
-        const shader_params *zbuffer;
         uint64_t hidden;
     } named;
     const char *parameter;

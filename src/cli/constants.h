@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file constants.h  table --constants: what shaders are given of a camera, make of depths, and read by wrong
+ * formulas. */
+#ifndef CLI_CONSTANTS_H
+#define CLI_CONSTANTS_H
+
+#include "cli/option/options.h"
+
+/** Writes them. @return an exit status */
+int constants_write(const options *o);
+
+#endif
