@@ -350,7 +350,7 @@ TEST(normals_of_the_program) {
     drawn *d = drawn_run(&drawn_light, "plot normals -F unorm16 -m d3d");
     assert_string_equal(d->title, "Normals from depth");
     assert_string_equal(d->subtitle,
-                        "unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; 1080 lines, field of "
+                        "unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact (lattice of codes); 1080 lines, field of "
                         "view 60\u00b0; plane: 99 % of the pixels, outline: mean");
     drawn_legend_is(d, 5, texts);
     assert_int_equal(d->panel_count, 2);
