@@ -337,7 +337,7 @@ TEST(guaranteed_by_default) {
         assert_int_equal(drawn_strokes(d, p, &pen, thin, 2), 1);
         drawn_follows(p, &p->y, thin[0], true_interval, &exact.setups[i], 100, 1.5);
         assert_int_equal(ends != NULL, i == 0);
-        const double z = ends != NULL ? drawn_number(ends + 14) : 500;
+        const double z = ends != NULL ? strtod(ends + 14, NULL) : 500;
         assert_int_equal(isinf(dp_separation(&fp32.setups[i], z * 1.005)), i == 0);
         assert_true(isfinite(dp_separation(&fp32.setups[i], z * 0.995)));
     }
