@@ -102,7 +102,7 @@ counted() { # counted FIGURE ARGUMENT...: fewer evaluations than a third of the 
     "$DEPTHPREC" plot "$@" --full -o "$scratch/counted.svg" 2>&1 >"$scratch/log" | sed -n 's/.*: \([0-9]*\) evaluations.*would be \([0-9]*\)).*/\1 \2/p' >"$scratch/counts"
     read -r spent full <"$scratch/counts" && [ "$spent" -gt 0 ] && [ $((3 * spent)) -lt "$full" ]
 }
-for figure in distribution share "error --model exact" "interval --model exact"; do
+for figure in distribution share error "interval --model exact"; do
     # shellcheck disable=SC2086 # words
     check "$figure: far fewer evaluations than pixel columns" counted $figure
 done

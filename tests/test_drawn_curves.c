@@ -117,8 +117,8 @@ static const curves_case curve_cases[] = {
      true_interval, true, true},
     {"interval", "--model exact", "Z-fighting interval", "z-fighting interval (scene units)", true_interval, true,
      true},
-    {"distribution", "", "Where the codes are", "codes, fewest (per scene unit of depth)", true_density, true, true},
-    {"share", "", "Share of the codes left between z and far", "codes between z and far (% of all between the planes)",
+    {"distribution", "", "Codes along z", "codes, fewest (per scene unit of depth)", true_density, true, true},
+    {"share", "", "Share of the codes between z and far", "codes between z and far (% of all between the planes)",
      true_share, true, false},
 };
 
@@ -456,7 +456,7 @@ TEST(staircases) {
     static const char *const texts[] = {"codes and their decoded depths", "window depth d(z)"};
     cameras c = cameras_of(drawn_camera(1, 20), "unorm4,float3.3b5", "d3d,reversed");
     drawn *d = drawn_run(&drawn_light, "plot distribution -n 1 -f 20 -F unorm4,float3.3b5 -m d3d,reversed");
-    captions(d, "Where the codes are", "near 1, far 20, perspective, nearest, exact (lattice of codes)",
+    captions(d, "Codes along z", "near 1, far 20, perspective, nearest, exact (lattice of codes)",
              "window depth d");
     drawn_legend_is(d, 2, texts);
     assert_int_equal(d->panel_count, c.count);

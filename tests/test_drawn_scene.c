@@ -130,7 +130,7 @@ static void check(const char *file, const drawn_theme *look, const side sides[2]
     double certain[2], place[2][3];
     char subtitle[256];
     const double within = depths_of(file, certain, place);
-    assert_string_equal(d->title, "Which surfaces of the model fight, and from where on");
+    assert_string_equal(d->title, "Depths from which surfaces may z-fight");
     snprintf(subtitle, sizeof subtitle,
              "%s: 2 pairs of surfaces can fight up to %.4g m; unorm16 d3d, near 0.1, far 1000, perspective, "
              "nearest, float ieee, lengths in m",
