@@ -63,8 +63,8 @@ static void say_end(const refine_request *q, chart_series *s) {
         q->sample(q->context, middle, middle, &at);
         *(isinf(at.y[0]) ? &hi : &lo) = middle;
     }
-    ticks_label(hi, hi >= 1e6, text);
-    snprintf(s->note, sizeof s->note, " (ends at z = %s)", text);
+    ticks_about(hi, text);
+    snprintf(s->note, sizeof s->note, " (ends at %s)", text);
 }
 
 chart_series *guaranteed_add(const figure_request *request, chart *out, chart_panel *panel, size_t i,

@@ -33,9 +33,10 @@ static void write_text(const chart *c, const chart_panel *panel, size_t index, c
     if (found.other == NULL)
         return;
     append(out, LEGEND_TEXT, ", over %s", found.other->name);
-    ticks_label(end, end >= 1e6, number);
-    if (!isnan(end))
-        append(out, LEGEND_TEXT, "%s%s", isnan(found.from) ? " up to " : " from ", number);
+    if (isnan(end))
+        return;
+    ticks_about(end, number);
+    append(out, LEGEND_TEXT, "%s%s", isnan(found.from) ? " up to " : " from ", number);
 }
 
 /* As many columns as fit, each as wide as its widest entry. */
