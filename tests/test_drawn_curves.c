@@ -456,8 +456,7 @@ TEST(staircases) {
     static const char *const texts[] = {"codes and their decoded depths", "window depth d(z)"};
     cameras c = cameras_of(drawn_camera(1, 20), "unorm4,float3.3b5", "d3d,reversed");
     drawn *d = drawn_run(&drawn_light, "plot distribution -n 1 -f 20 -F unorm4,float3.3b5 -m d3d,reversed");
-    captions(d, "Codes along z", "near 1, far 20, perspective, nearest, exact (lattice of codes)",
-             "window depth d");
+    captions(d, "Codes along z", "near 1, far 20, perspective, nearest, exact (lattice of codes)", "window depth d");
     drawn_legend_is(d, 2, texts);
     assert_int_equal(d->panel_count, c.count);
     char shown[1024] = "";
