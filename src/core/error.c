@@ -55,8 +55,9 @@ static double pipeline_error(const computed *m, dp_span r) {
     return moved * outward + dp_depth_rounding(larger(fabs(r.lo), fabs(r.hi)));
 }
 
+/* Outward from what enters: GCC 12 forgets to round a pair of ends to nearest where it makes one vector of them. */
 static double error_in(const computed *m, double lo, double hi) {
-    const dp_span r = {(double)(float)lo, (double)(float)hi};
+    const dp_span r = {(double)dp_float_down(lo), (double)dp_float_up(hi)};
     if (m->setup->curve == DP_CURVE_LOG)
         return dp_log_shader_error(&m->shader, r);
     return isinf(r.hi) ? HUGE_VAL : pipeline_error(m, (dp_span){dp_flushed_span(r.lo).lo, dp_flushed_span(r.hi).hi});
