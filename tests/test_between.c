@@ -153,10 +153,10 @@ TEST(test_shader_errors) {
             dp_shader_error_between(c.far_moves ? &other : &one, c.far_moves ? &one : &other, c.lo, c.hi);
         for (int k = 0; k < 20; k++)
             if (make(&c, k == 0 ? c.from : k == 1 ? c.to : between(&r, &c), DP_MODEL_FLOAT, &here) == DP_OK)
-                TALLY(&all, dp_shader_error_over(&here, c.lo, c.hi, &z) <= bound, "%s near %.17g far %.17g",
+                TALLY(&all, dp_computed_error_over(&here, c.lo, c.hi, &z) <= bound, "%s near %.17g far %.17g",
                       dp_mapping_get(c.spec.mapping)->name, here.spec.znear, here.spec.zfar);
         const double ends =
-            fmax(dp_shader_error_over(&one, c.lo, c.hi, &z), dp_shader_error_over(&other, c.lo, c.hi, &z));
+            fmax(dp_computed_error_over(&one, c.lo, c.hi, &z), dp_computed_error_over(&other, c.lo, c.hi, &z));
         if (c.to < c.from * (1.0 + 1e-5) && c.hi < 0.9 * fmin(one.spec.zfar, other.spec.zfar))
             TALLY(&tight, bound <= 1.3 * ends, "%s near %.17g far %.17g: %.17g above %.17g",
                   dp_mapping_get(c.spec.mapping)->name, one.spec.znear, one.spec.zfar, bound, ends);

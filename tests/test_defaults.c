@@ -50,7 +50,7 @@ static const struct {
      "plot shadow --csv", ""},
     {BIT(CMD_PLOT), IDS(OPTION_TRANSFORMS, OPTION_ANGLE), "plot scene tests/models/street.obj --separation 0.02 --csv",
      ""},
-    {BIT(CMD_PLOT), IDS(OPTION_ARITH), "plot interval -F d24 -m d3d --csv", "--model float"},
+    {BIT(CMD_PLOT), IDS(OPTION_MODEL), "plot map -F d24 -m d3d --csv", ""},
     {BIT(CMD_BUDGET), IDS(OPTION_COMPOSITION), NULL, "--from-origin 100"},
     {BIT(CMD_TABLE) | BIT(CMD_BUDGET) | BIT(CMD_SOLVE) | BIT(CMD_ZFIGHT) | BIT(CMD_SCENE),
      IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE_CLASS), NULL, "--viewport 640x480"},

@@ -201,7 +201,7 @@ static void check_figure(const drawn_theme *look, const char *formats, const cha
     char shown[2048] = "";
     int names = 0;
     drawn *d = drawn_run(look, "plot budget -F %s -m %s %s", formats, mappings, arguments);
-    assert_string_equal(d->title, "Causes of the guaranteed separation");
+    assert_string_equal(d->title, "Guaranteed separation by cause");
     assert_non_null(strstr(d->subtitle, "near 0.1, far 1000, perspective, nearest, float ieee"));
     assert_string_equal(d->x_caption->text, "eye depth z (scene units)");
     assert_string_equal(d->y_caption->text, "share of the separation (%)");

@@ -29,7 +29,7 @@ static double apart(const svg_mark *a, const svg_mark *b, double from, double to
 static bool check_alike(const drawn *d, const cameras *c, size_t i) {
     const drawn_panel *p = &d->panels[0];
     const svg_mark *own = drawn_curve(d, p, &d->entries[i]);
-    const char *said = strstr(d->entries[i].text, " = "), *from = NULL, *to = NULL;
+    const char *said = strstr(d->entries[i].text, ", over "), *from = NULL, *to = NULL;
     const double left = p->frame.x0 + 1, right = p->frame.x1 - 1, seen = 2, width = p->frame.x1 - p->frame.x0;
     for (size_t k = 0; k < i; k++) {
         const svg_mark *other = drawn_curve(d, p, &d->entries[k]);
@@ -37,7 +37,7 @@ static bool check_alike(const drawn *d, const cameras *c, size_t i) {
         if (said == NULL) /* each pair parts on both halves */
             assert_true(apart(own, other, left, left + 0.55 * width) > 0.6 &&
                         apart(own, other, right - 0.55 * width, right) > 0.6);
-        if (said == NULL || strncmp(said + 3, c->names[k], length) != 0 || strchr(" ", said[3 + length]) == NULL)
+        if (said == NULL || strncmp(said + 7, c->names[k], length) != 0 || strchr(" ", said[7 + length]) == NULL)
             continue;
         from = strstr(said, " from ");
         to = strstr(said, " up to ");
@@ -58,7 +58,7 @@ static size_t legend_names(const drawn *d, const cameras *c) {
     for (size_t i = 0; i < c->count; i++) {
         const char *text = d->entries[i].text;
         assert_int_equal(strncmp(text, c->names[i], strlen(c->names[i])), 0);
-        assert_true(text[strlen(c->names[i])] == '\0' || strncmp(text + strlen(c->names[i]), " = ", 3) == 0);
+        assert_true(text[strlen(c->names[i])] == '\0' || strncmp(text + strlen(c->names[i]), ", over ", 7) == 0);
         alike += check_alike(d, c, i);
     }
     return alike;
@@ -111,13 +111,14 @@ typedef struct curves_case {
 } curves_case;
 
 static const curves_case curve_cases[] = {
-    {"error", "", "Worst error of the decoded depth", "worst |decoded depth \u2212 z| (scene units)", true_error, true,
+    {"error", "--model exact", "Worst error of the decoded depth", "worst |decoded depth \u2212 z| (scene units)",
+     true_error, true, true},
+    {"interval", "--model exact --tolerance 0", "Z-fighting interval", "z-fighting interval (scene units)",
+     true_interval, true, true},
+    {"interval", "--model exact", "Z-fighting interval", "z-fighting interval (scene units)", true_interval, true,
      true},
-    {"interval", "--tolerance 0", "Z-fighting interval", "z-fighting interval (scene units)", true_interval, true,
-     true},
-    {"interval", "", "Z-fighting interval", "z-fighting interval (scene units)", true_interval, true, true},
-    {"distribution", "", "Where the codes are", "codes, fewest (per scene unit of depth)", true_density, true, true},
-    {"share", "", "Share of the codes left between z and far", "codes between z and far (% of all between the planes)",
+    {"distribution", "", "Codes along z", "codes, fewest (per scene unit of depth)", true_density, true, true},
+    {"share", "", "Share of the codes between z and far", "codes between z and far (% of all between the planes)",
      true_share, true, false},
 };
 
@@ -151,7 +152,7 @@ static size_t one_panel(const curves_case *q, const drawn_theme *look, double zn
     char subtitle[128];
     drawn *d = drawn_run(look, "plot %s %s%s -n %g -f %g -F %s -m %s --theme %s", q->figure, q->arguments,
                          znear > 0 ? "" : " --ortho", znear, zfar, formats, mappings, look->name);
-    snprintf(subtitle, sizeof subtitle, "near %g, far %g, %s, nearest, exact", znear, zfar,
+    snprintf(subtitle, sizeof subtitle, "near %g, far %g, %s, nearest, exact (lattice of codes)", znear, zfar,
              znear > 0 ? "perspective" : "orthographic");
     assert_int_equal(d->panel_count, 1);
     captions(d, q->title, subtitle, q->y);
@@ -183,12 +184,12 @@ TEST(curves_show_the_library) {
 
 TEST(blind_ends_in_an_arrow) {
     cameras c = cameras_of(drawn_camera(0.1, INFINITY), "unorm16,fp32", "d3d,reversed");
-    drawn *d = drawn_run(&drawn_light, "plot interval -f inf -F unorm16,fp32 -m d3d,reversed");
+    drawn *d = drawn_run(&drawn_light, "plot interval --model exact -f inf -F unorm16,fp32 -m d3d,reversed");
     const drawn_panel *p = &d->panels[0];
     drawn_marker all[256];
     const size_t count = drawn_markers(d, p, all, 256);
     size_t arrows = 0, blind = 0;
-    assert_string_equal(d->subtitle, "near 0.1, far inf, perspective, nearest, exact");
+    assert_string_equal(d->subtitle, "near 0.1, far inf, perspective, nearest, exact (lattice of codes)");
     spans(p, true, 0.1, 1e5);
     for (size_t i = 0; i < count; i++)
         arrows += all[i].shape == DRAWN_ARROW;
@@ -294,10 +295,11 @@ TEST(guarantee_over_lattice) {
         snprintf(shown, sizeof shown, " Shown: %s, lattice; %s; %s.", texts[k], texts[k], census);
         char want[256];
         snprintf(want, sizeof want,
-                 "%s, near 0.1, far 1000, perspective, nearest, float ieee, depths 1 to 100. Thin: the interval of the "
-                 "lattice alone. Points: the longest interval that there is in each power of two",
+                 "%s, near 0.1, far 1000, perspective, nearest, float ieee, depths 1 to 100. Thick: guaranteed in "
+                 "binary32 arithmetic. Thin: the lattice of codes alone. Points: the longest interval that there is in "
+                 "each power of two",
                  texts[k]);
-        captions(d, "Guaranteed separation in binary32 arithmetic", want, "separation, interval (scene units)");
+        captions(d, "Guaranteed separation", want, "separation, interval (scene units)");
         drawn_description_is(d, shown);
         spans(p, true, 1, 100);
         const drawn_entry *e = drawn_legend(d, texts[k]);
@@ -311,6 +313,35 @@ TEST(guarantee_over_lattice) {
         check_census(d, drawn_legend(d, census), format, mapping);
         drawn_close(d);
     }
+}
+
+/* So it is where no model is given, without a census; the legend says where a curve ends. */
+TEST(guaranteed_by_default) {
+    dp_spec spec = drawn_camera(0.1, 1000);
+    cameras exact = cameras_of(spec, "fp16,unorm24", "d3d,reversed");
+    spec.model = DP_MODEL_FLOAT;
+    cameras fp32 = cameras_of(spec, "fp16,unorm24", "d3d,reversed");
+    drawn *d = drawn_run(&drawn_light, "plot interval -F fp16,unorm24 -m d3d,reversed");
+    const drawn_panel *p = &d->panels[0];
+    captions(
+        d, "Guaranteed separation",
+        "near 0.1, far 1000, perspective, nearest, float ieee. Thick: guaranteed in binary32 arithmetic. Thin: the "
+        "lattice of codes alone",
+        "separation, interval (scene units)");
+    assert_int_equal(d->entry_count, fp32.count + 1);
+    for (size_t i = 0; i < fp32.count; i++) {
+        const drawn_entry *e = drawn_legend(d, fp32.names[i]);
+        const svg_mark pen = thinned(e->line), *thin[2];
+        const char *const ends = strstr(e->text, " (ends at ");
+        drawn_follows(p, &p->y, drawn_curve(d, p, e), true_separation, &fp32.setups[i], 100, 1.5);
+        assert_int_equal(drawn_strokes(d, p, &pen, thin, 2), 1);
+        drawn_follows(p, &p->y, thin[0], true_interval, &exact.setups[i], 100, 1.5);
+        assert_int_equal(ends != NULL, i == 0);
+        const double z = ends != NULL ? strtod(ends + 10, NULL) : 500;
+        assert_int_equal(isinf(dp_separation(&fp32.setups[i], z * 1.005)), i == 0);
+        assert_true(isfinite(dp_separation(&fp32.setups[i], z * 0.995)));
+    }
+    drawn_close(d);
 }
 
 /* The census of one set-up hides that of another behind equal points; the legend says so. */
@@ -331,7 +362,7 @@ TEST(hidden_points) {
             hidden += found;
         }
     assert_true(points > 6 && hidden == points);
-    assert_string_equal(over->text, "fp32 d3d, census = unorm24 d3d, census");
+    assert_string_equal(over->text, "fp32 d3d, census, over unorm24 d3d, census");
     assert_string_equal(drawn_legend(d, "unorm24 reversed, census")->text, "unorm24 reversed, census");
     drawn_close(d);
 }
@@ -425,7 +456,7 @@ TEST(staircases) {
     static const char *const texts[] = {"codes and their decoded depths", "window depth d(z)"};
     cameras c = cameras_of(drawn_camera(1, 20), "unorm4,float3.3b5", "d3d,reversed");
     drawn *d = drawn_run(&drawn_light, "plot distribution -n 1 -f 20 -F unorm4,float3.3b5 -m d3d,reversed");
-    captions(d, "Where the codes are", "near 1, far 20, perspective, nearest, exact", "window depth d");
+    captions(d, "Codes along z", "near 1, far 20, perspective, nearest, exact (lattice of codes)", "window depth d");
     drawn_legend_is(d, 2, texts);
     assert_int_equal(d->panel_count, c.count);
     char shown[1024] = "";

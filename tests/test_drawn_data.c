@@ -49,7 +49,8 @@ static int check_points(const drawn *d, const drawn_panel *p, const json_t *root
     const char *name = text_of(series, "name");
     for (size_t k = 0; k < d->entry_count; k++) {
         const char *text = d->entries[k].text, *rest = text + strlen(name);
-        if (strncmp(text, name, strlen(name)) == 0 && (*rest == '\0' || strncmp(rest, " = ", 3) == 0))
+        if (strncmp(text, name, strlen(name)) == 0 &&
+            (*rest == '\0' || strncmp(rest, ", over ", 7) == 0 || strncmp(rest, " (ends at ", 10) == 0))
             e = &d->entries[k];
     }
     if (e == NULL || e->lines != 1)
@@ -130,6 +131,92 @@ static void check_csv(const json_t *root, char *csv) {
     assert_null(strtok_r(NULL, "\n", &rest));
 }
 
+enum { SHEET_COLUMNS = 40, SHEET_ROWS = 8192 };
+
+/* Lines of CSV with a column for each curve; what is empty is NaN. */
+typedef struct sheet {
+    char heads[SHEET_COLUMNS][96];
+    size_t columns, rows, places; /* the column of x: with several panels the second */
+    char panels[SHEET_ROWS][96];
+    double cells[SHEET_ROWS][SHEET_COLUMNS];
+} sheet;
+
+static void read_sheet(char *csv, sheet *out) {
+    char *rest = NULL, *line = strtok_r(csv, "\n", &rest);
+    out->columns = out->rows = 0;
+    while (*line != '\0' && *line != '\r')
+        snprintf(out->heads[out->columns++], sizeof out->heads[0], "%s", field(&line));
+    out->places = strcmp(out->heads[0], "panel") == 0;
+    for (line = strtok_r(NULL, "\n", &rest); line != NULL; line = strtok_r(NULL, "\n", &rest)) {
+        for (size_t k = 0; k < out->columns; k++) {
+            const char *text = field(&line);
+            out->cells[out->rows][k] = *text != '\0' ? strtod(text, NULL) : NAN;
+            if (k == 0 && out->places == 1)
+                snprintf(out->panels[out->rows], sizeof out->panels[0], "%s", text);
+        }
+        out->rows++;
+        assert_true(out->rows < SHEET_ROWS);
+    }
+}
+
+/* The value of a series at a place of a panel, which has one line. */
+static double sheet_cell(const sheet *s, const char *panel, double x, const char *series) {
+    const size_t length = strlen(series);
+    size_t column = s->places + 1, found = SHEET_ROWS;
+    while (column < s->columns &&
+           (strncmp(s->heads[column], series, length) != 0 ||
+            (s->heads[column][length] != '\0' && strncmp(s->heads[column] + length, " [", 2) != 0)))
+        column++;
+    assert_true(column < s->columns);
+    for (size_t i = 0; i < s->rows; i++)
+        if (s->cells[i][s->places] == x && strcmp(s->panels[i], panel) == 0) {
+            assert_int_equal(found, SHEET_ROWS);
+            found = i;
+        }
+    assert_true(found < SHEET_ROWS);
+    return s->cells[found][column];
+}
+
+/* Each point of JSON is in the line of its place, in the column of its curve; curves have a value in every line, but
+ * those of the points of a census. */
+static void check_sheet(const json_t *root, char *csv) {
+    static sheet s;
+    size_t p, k, i, shown = 0;
+    const json_t *panel, *series, *point;
+    const char *x = text_of(json_object_get(root, "x"), "key"), *unit = text_of(json_object_get(root, "x"), "unit");
+    char head[128];
+    memset(&s, 0, sizeof s);
+    read_sheet(csv, &s);
+    snprintf(head, sizeof head, "%s [%s]", x, unit);
+    assert_string_equal(s.heads[s.places], head);
+    json_array_foreach(json_object_get(root, "panels"), p, panel) {
+        json_array_foreach(json_object_get(panel, "series"), k, series) {
+            json_array_foreach(json_object_get(series, "points"), i, point) {
+                const char *const y_key = text_of(json_object_get(root, "y"), "key");
+                const char *const key =
+                    json_object_get(point, y_key) != NULL ? y_key : text_of(json_object_get(root, "second"), "key");
+                const json_t *value = json_object_get(point, key);
+                const double got = sheet_cell(&s, s.places == 1 ? text_of(panel, "title") : "", number_of(point, x),
+                                              text_of(series, "name"));
+                assert_true(json_is_null(value) ? isinf(got) : got == number_of(point, key));
+                shown++;
+            }
+        }
+    }
+    assert_true(shown > 10);
+    for (i = 0; i < s.rows; i++) {
+        bool census = false, curves = true;
+        for (k = s.places + 1; k < s.columns; k++)
+            if (strstr(s.heads[k], ", census") != NULL)
+                census = census || !isnan(s.cells[i][k]);
+            else
+                curves = curves && !isnan(s.cells[i][k]);
+        assert_true(curves || census);
+        assert_true(i == 0 || strcmp(s.panels[i], s.panels[i - 1]) != 0 ||
+                    s.cells[i][s.places] > s.cells[i - 1][s.places]);
+    }
+}
+
 /* A map's points against the library: near, far, and the worst interval. */
 static int check_map(const json_t *series, const dp_setup *like) {
     size_t i;
@@ -184,7 +271,7 @@ TEST(share_counts_what_is_reached) {
         size_t seen = 0;
         for (char *line = strtok(strchr(text, '\n') + 1, "\n"); line != NULL; line = strtok(NULL, "\n")) {
             double z, share;
-            if (sscanf(line, ",%*[^,],%lf,%lf", &z, &share) != 2 || z < 1 || z > 999)
+            if (sscanf(line, "%lf,%lf", &z, &share) != 2 || z < 1 || z > 999)
                 continue;
             const double depth = 0.1 * (1000 - z) / (z * 999.9);
             const double expected = 100 * codes_up_to((float)(2 * depth - 1), cases[i].mantissa) / all;
@@ -202,11 +289,8 @@ TEST(share_of_signed_ndc) {
     const double depth = 0.1 * 990 / (10 * 999.9), left = codes_up_to((float)(2 * depth - 1), 23);
     for (size_t i = 0; i < sizeof models / sizeof models[0]; i++) {
         char *text = drawn_output("plot share -F fp32 -m reversed,gl-reversed --range 10:1000 %s --csv", models[i]);
-        const char *const plain = strstr(text, ",fp32 reversed,10,"), *const line =
-                                                                          strstr(text, ",fp32 gl-reversed,10,");
         double share[2];
-        assert_true(plain != NULL && sscanf(plain, ",fp32 reversed,10,%lf", &share[0]) == 1);
-        assert_true(line != NULL && sscanf(line, ",fp32 gl-reversed,10,%lf", &share[1]) == 1);
+        assert_int_equal(sscanf(strchr(text, '\n'), "\n10,%lf,%lf", &share[0], &share[1]), 2);
         assert_relative(share[0], 94.69868, 1e-6);
         assert_relative(share[1], i == 3 ? share[0] : 100 * left / codes_up_to(1.0f, 23), 1e-4);
         free(text);
@@ -228,7 +312,7 @@ TEST(share_of_a_small_float) {
     for (char *line = strtok(strchr(text, '\n') + 1, "\n"); line != NULL; line = strtok(NULL, "\n")) {
         double z, share, last = 0;
         int left = 0;
-        assert_int_equal(sscanf(line, ",%*[^,],%lf,%lf", &z, &share), 2);
+        assert_int_equal(sscanf(line, "%lf,%lf", &z, &share), 2);
         const double real = 2 * (20 - z) / (z * 19) - 1;
         for (int i = 0; i < 80 && real >= (ndc[i] + ndc[i + 1]) / 2; i++) {
             const double d = dp_format_value(&f[0], dp_format_encode(&f[0], DP_ROUND_NEAREST, 0.5 + 0.5 * ndc[i + 1]));
@@ -244,17 +328,21 @@ TEST(share_of_a_small_float) {
 
 typedef struct data_case {
     const char *arguments;
-    bool curves, map, second;
+    bool curves, map, second, sheet;
 } data_case;
 
 TEST(numbers_are_those_shown) {
     static const data_case cases[] = {
-        {"error -F unorm24,fp16 -m d3d,reversed", true, false, false},
-        {"share -F unorm16 -m d3d,reversed", true, false, false},
-        {"distribution -F unorm4 -m d3d,reversed -n 1 -f 20", true, false, false},
-        {"budget -F unorm24,fp32 -m d3d", true, false, true},
-        {"map -F unorm24 -m d3d,reversed", false, true, false},
-        {"stability linearize", false, false, false},
+        {"error -F unorm24,fp16 -m d3d,reversed", true, false, false, true},
+        {"interval -F unorm24,fp16,fp32 -m d3d,reversed -f inf", true, false, false, true},
+        {"interval --model float -F unorm16 -m d3d -n 1 -f 4", true, false, false, true},
+        {"error -F unorm24,fp16 -m log,linear", true, false, false, true},
+        {"share -F unorm16 -m d3d,reversed", true, false, false, true},
+        {"distribution -F fp16,unorm24 -m d3d,reversed", true, false, false, true},
+        {"distribution -F unorm4 -m d3d,reversed -n 1 -f 20", true, false, false, false},
+        {"budget -F unorm24,fp32 -m d3d", true, false, true, true},
+        {"map -F unorm24 -m d3d,reversed", false, true, false, false},
+        {"stability linearize", false, false, false, false},
     };
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
         const data_case *q = &cases[c];
@@ -289,7 +377,7 @@ TEST(numbers_are_those_shown) {
             assert_int_equal(points > 0, q->curves);
             assert_int_equal(fields > 100, q->map);
         }
-        check_csv(root, csv);
+        (q->sheet ? check_sheet : check_csv)(root, csv);
         json_decref(root);
         free(text);
         free(csv);

@@ -147,7 +147,7 @@ TEST(test_fight) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const fight_case *c = &cases[i];
         drawn *d = drawn_run(c->look, "plot fight %s", c->arguments);
-        assert_string_equal(d->title, "Z-fighting as a rasterizer draws it");
+        assert_string_equal(d->title, "Z-fighting of a wall and a decal, as rasterized");
         assert_string_equal(d->subtitle, c->subtitle);
         drawn_legend_is(d, 3, legend);
         assert_int_equal(d->panel_count, 2);

@@ -203,9 +203,9 @@ static bool is_hatched(const drawn *d, const drawn_panel *p, const svg_mark *ima
 /* ---- Whole figures ----------------------------------------------------------------------------------------------- */
 
 static void check_words(const drawn *d, const map_case *q, const cameras *c) {
-    char subtitle[160], camera[80], shown[512] = "";
+    char subtitle[192], camera[80], shown[512] = "";
     snprintf(camera, sizeof camera, "camera asked about: near 0.1, far %g", q->zfar);
-    snprintf(subtitle, sizeof subtitle, "%s%snear 0.1, far %g, perspective, nearest, exact%s",
+    snprintf(subtitle, sizeof subtitle, "%s%snear 0.1, far %g, perspective, nearest, exact (lattice of codes)%s",
              c->count == 1 ? c->names[0] : "", c->count == 1 ? ", " : "", q->zfar,
              isnan(q->lo)     ? ""
              : q->lo == q->hi ? ", at depth 100. Hatched: does not see that depth"

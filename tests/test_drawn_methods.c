@@ -127,7 +127,7 @@ static void check_bars(const drawn *d, const drawn_panel *p) {
 static void check_pareto_words(const drawn *d) {
     static const char *const texts[] = {"from the worst found to the bound", "dominated",
                                         "on the Pareto front (without error: at 10\u207b\u00b9\u2077)"};
-    assert_string_equal(d->title, "Speed against accuracy");
+    assert_string_equal(d->title, "Time and worst error of methods");
     assert_string_equal(d->x_caption->text, "time per element (ns)");
     assert_string_equal(d->y_caption->text, "worst error (relative error)");
     assert_null(d->right_caption);
@@ -197,7 +197,7 @@ TEST(pareto_of_the_program) {
     drawn_marker all[32];
     const size_t count = drawn_markers(d, p, all, 32);
     char *text = drawn_output("methods interval --csv"), *row = strchr(text, '\n') + 1;
-    assert_string_equal(d->title, "Speed against accuracy");
+    assert_string_equal(d->title, "Time and worst error of methods");
     assert_non_null(
         strstr(d->subtitle, "interval: z-fighting interval at an eye depth; unorm24 d3d, near 0.1, far 1000; "));
     assert_string_equal(d->y_caption->text, "worst error (relative error)");
@@ -277,7 +277,7 @@ TEST(stability_of_the_test) {
     for (int dark = 0; dark < 2; dark++) {
         drawn *d = draw_own("stability", dark ? &drawn_dark : &drawn_light);
         const drawn_panel *p = &d->panels[0];
-        assert_string_equal(d->title, "Where methods lose their digits");
+        assert_string_equal(d->title, "Correct digits of methods");
         assert_string_equal(d->x_caption->text, "far/near");
         assert_string_equal(d->y_caption->text, "method");
         assert_string_equal(d->right_caption->text, "digits left");

@@ -175,7 +175,7 @@ TEST(needs_of_a_file) {
     const cameras c[3] = {cameras_of(street, "unorm24", "d3d"), cameras_of(cockpit, "fp32", "reversed"),
                           cameras_of(scope, "fp32", "reversed")};
     drawn *d = drawn_run(&drawn_light, "plot needs %s", path);
-    assert_string_equal(d->title, "What is needed, and what the cameras give");
+    assert_string_equal(d->title, "Separations and errors, allowed and given");
     assert_string_equal(d->x_caption->text, "eye depth z (m)");
     assert_string_equal(d->y_caption->text, "allowed and given (m)");
     check_legend(d);
@@ -348,10 +348,10 @@ static double outlined(const char *method, double z) {
 TEST(normals_of_the_program) {
     static const char *const texts[] = {"low", "medium", "high", "projective", "bound of projective"};
     drawn *d = drawn_run(&drawn_light, "plot normals -F unorm16 -m d3d");
-    assert_string_equal(d->title, "Normals from depth");
-    assert_string_equal(d->subtitle,
-                        "unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; 1080 lines, field of "
-                        "view 60\u00b0; plane: 99 % of the pixels, outline: mean");
+    assert_string_equal(d->title, "Angular error of normals from depth");
+    assert_string_equal(d->subtitle, "unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact (lattice of "
+                                     "codes); 1080 lines, field of "
+                                     "view 60\u00b0; plane: 99 % of the pixels, outline: mean");
     drawn_legend_is(d, 5, texts);
     assert_int_equal(d->panel_count, 2);
     assert_string_equal(d->panels[0].heading, "plane at 60\u00b0");

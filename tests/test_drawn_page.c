@@ -51,8 +51,9 @@ TEST(sizes) {
     static const int all[][2] = {{1600, 1000}, {400, 300}, {320, 200}, {2000, 500}, {500, 900}};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm24,fp16", "d3d,reversed");
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        drawn *d = drawn_run(&drawn_light, "plot interval -F unorm24,fp16 -m d3d,reversed --figure-size %dx%d",
-                             all[i][0], all[i][1]);
+        drawn *d =
+            drawn_run(&drawn_light, "plot interval --model exact -F unorm24,fp16 -m d3d,reversed --figure-size %dx%d",
+                      all[i][0], all[i][1]);
         for (size_t k = 0; k < c.count; k++) {
             const drawn_entry *e = drawn_legend(d, c.names[k]);
             drawn_style_is(d, e, (int)k / 2, (int)k % 2, k < 2 ? DRAWN_DISC : DRAWN_SQUARE, false);
@@ -103,7 +104,9 @@ TEST(models) {
     drawn *d = drawn_run(&drawn_light, "plot interval --model auto -F unorm16,unorm24 -m d3d,log --range 100:1000");
     assert_string_equal(d->title, "Z-fighting interval; in the model float, guaranteed separation");
     assert_string_equal(d->y_caption->text, "separation, interval (scene units)");
-    assert_non_null(strstr(d->subtitle, "near 0.1, far 1000, perspective, nearest, depths 100 to 1000. Thin: "));
+    assert_non_null(strstr(d->subtitle,
+                           "near 0.1, far 1000, perspective, nearest, depths 100 to 1000. Thick: guaranteed in "
+                           "binary32 arithmetic. Thin: the lattice of codes alone. Points: "));
     drawn_legend_is(d, 5,
                     (const char *const[]){"unorm16 d3d, exact", "unorm16 log, exact", "unorm24 log, staged",
                                           "unorm24 d3d, float", "unorm24 d3d, float, census"});
@@ -261,7 +264,7 @@ TEST(units_of_lengths) {
          NULL, NULL},
         {"plot error --preset unreal -F unorm24", "eye depth z (cm)", "worst |decoded depth \u2212 z| (cm)", NULL,
          "cm"},
-        {"plot interval -n 10cm -f 1km -F unorm24 -m d3d", "eye depth z (m)", "z-fighting interval (m)", NULL, "m"},
+        {"plot interval -n 10cm -f 1km -F unorm24 -m d3d", "eye depth z (m)", "separation, interval (m)", NULL, "m"},
         {"plot distribution --unit ft -F unorm24 -m d3d", "eye depth z (ft)", "codes, fewest (per ft of depth)", NULL,
          "ft"},
         {"plot share --unit km -F unorm24 -m d3d", "eye depth z (km)",

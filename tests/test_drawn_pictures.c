@@ -79,7 +79,7 @@ static const picture_case cases[] = {
      false,
      1},
     {"--synthetic decals -F unorm16 -m d3d --product eye --size 640x360 --error-map --theme dark",
-     "Eye depth, error",
+     "Error of eye depth",
      "synthetic decals, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "error (scene units)",
      {""},
@@ -88,7 +88,7 @@ static const picture_case cases[] = {
      false,
      1},
     {"--synthetic decals -F unorm16 -m d3d --product eye --size 1600x800 --error-map",
-     "Eye depth, error",
+     "Error of eye depth",
      "synthetic decals, 1600 x 800; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; a point is the "
      "largest "
      "of "
@@ -131,7 +131,7 @@ static const picture_case cases[] = {
      false,
      1},
     {"--synthetic sphere --product position:matrix --eye 3,1,-2 --look 16836.119889,1,46246.616794",
-     "Positions by matrix",
+     "Positions, method matrix",
      "synthetic sphere, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "coordinate (scene units)",
      {"x (world)", "y (world)", "z (world)"},
@@ -140,7 +140,7 @@ static const picture_case cases[] = {
      true,
      1},
     {"--synthetic sphere --parameter wall=20 -F unorm16 -m d3d --product normal:high",
-     "Normals by high",
+     "Normals, method high",
      "synthetic sphere, 640 x 360; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      NULL,
      {""},

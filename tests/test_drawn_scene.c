@@ -130,7 +130,7 @@ static void check(const char *file, const drawn_theme *look, const side sides[2]
     double certain[2], place[2][3];
     char subtitle[256];
     const double within = depths_of(file, certain, place);
-    assert_string_equal(d->title, "Surfaces of the model that may z-fight, and from which depth");
+    assert_string_equal(d->title, "Depths from which surfaces may z-fight");
     snprintf(subtitle, sizeof subtitle,
              "%s: 2 pairs of surfaces may z-fight up to %.4g m; unorm16 d3d, near 0.1, far 1000, perspective, "
              "nearest, float ieee, lengths in m",

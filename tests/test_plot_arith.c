@@ -101,7 +101,7 @@ TEST(interval_shows_both) {
         assert_true(behind->x[k] == exactly[0].x[k] && behind->y[k] == exactly[0].y[k]);
     for (size_t k = 0; k < staged->count; k++)
         assert_true(staged->x[k] == exactly[1].x[k] && staged->y[k] == exactly[1].y[k]);
-    assert_non_null(strstr(c->subtitle, "Thin: the interval of the lattice"));
+    assert_non_null(strstr(c->subtitle, "Thin: the lattice of codes alone"));
     assert_null(strstr(lattice->subtitle, "Thin"));
     chart_free(c);
     chart_free(lattice);

@@ -234,7 +234,7 @@ static const refusal refusals[] = {
     {"bias --viewport 64x48 --ortho", "viewport", 2},
     {"bias --raster llvmpipe", "raster", 2},
     {"plot budget -o x.svg -F d24 -m d3d --subpixel 8", "subpixel", 2},
-    {"plot interval -o x.svg -F d24 -m d3d --viewport 64x48", "viewport", 2},
+    {"plot interval -o x.svg -F d24 -m d3d --model staged --viewport 64x48", "viewport", 2},
     {"plot error -o x.svg -F d24 -m d3d --viewport 64x48", "viewport", 2},
     {"plot shadow -o x.svg --slant 0:5", "slant", 2},
     {"zfight --range 1:1.1 --viewport 64x48 --slant 5,5", "slant", 2},

@@ -101,7 +101,7 @@ TEST(error_maps_are_called_what_they_are) {
              "--figure %s",
              WIDTH, HEIGHT, truth_path("synthetic.svg"));
     run(words);
-    assert_true(holds("synthetic.svg", "Normals by projective, error"));
+    assert_true(holds("synthetic.svg", "Error of normals, method projective"));
     assert_false(holds("synthetic.svg", "bound of the error"));
     snprintf(words, sizeof words, "--synthetic sphere --size %dx%d -F unorm24 -m d3d -o %s", WIDTH, HEIGHT,
              truth_path("in.npy"));
@@ -109,7 +109,7 @@ TEST(error_maps_are_called_what_they_are) {
     snprintf(words, sizeof words, "%s -F unorm24 -m d3d --product normal:projective --error-map --figure %s",
              truth_path("in.npy"), truth_path("image.svg"));
     run(words);
-    assert_true(holds("image.svg", "Normals by projective, bound of the error on planes"));
+    assert_true(holds("image.svg", "Bound of the error on planes of normals, method projective"));
     snprintf(words, sizeof words, "%s -F unorm24 -m d3d --figure %s", truth_path("in.npy"), truth_path("image.svg"));
     run(words);
     long long missing = 0;

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The numbers of figures: those of a map and of a budget against the library, the envelopes of error and interval
- * between the value at each point and the worst up to its neighbours; and CSV against JSON, for every figure.
+ * between the value at each point and the worst up to its neighbours; and CSV against JSON, of figures whose series
+ * have places of their own (the others: test_drawn_data.c).
  */
 #include "census/census.h"
+#include "core/engine.h"
 #include "method/choose.h"
 #include "named.h"
 #include "printed.h"
@@ -63,13 +65,7 @@ static void check_both(const char *arguments, double end) {
 
 TEST(both_forms) {
     static const char *const figures[] = {"distribution -F unorm4 -n 1 -f 10 -m d3d,log",
-                                          "share -F unorm16,fp32",
-                                          "error -F unorm16 -m d3d,reversed -f inf",
-                                          "interval -F unorm24,fp32 -m reversed --tolerance 1%",
-                                          "interval -F fp32 -n 1 -f 1.25 --model float",
-                                          "budget -F unorm16,fp32 -m d3d",
-                                          "map -F unorm16 -m d3d --at 7",
-                                          "stability linearize"};
+                                          "map -F unorm16 -m d3d --at 7", "stability linearize"};
     for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++)
         check_both(figures[i], INFINITY);
     check_both("needs tests/needs/village.need", NAN);
@@ -120,8 +116,8 @@ TEST(map) {
     json_t *root = json_printed(0, "plot map -F unorm16 -m d3d -n 0.5 -f 300 --title 'a \"quoted\" ti\\tle'");
     dp_spec spec = SETUP("unorm16", .znear = 0.5, .zfar = 300).spec;
     assert_string_equal(text_at(root, "title"), "a \"quoted\" ti\\tle");
-    assert_string_equal(text_at(root, "subtitle"),
-                        "unorm16 d3d, near 0.5, far 300, perspective, nearest, exact. Hatched: far is not behind near");
+    assert_string_equal(text_at(root, "subtitle"), "unorm16 d3d, near 0.5, far 300, perspective, nearest, exact "
+                                                   "(lattice of codes). Hatched: far is not behind near");
     check_map(root, spec, false);
     json_decref(root);
     root = json_printed(0, "plot map --ortho -F unorm16 -m d3d -n -10 -f 50");
@@ -187,7 +183,7 @@ static void check_envelope(const char *figure, bool is_error) {
                   {"fp32 d3d", "fp32", DP_MAPPING_D3D},
                   {"fp32 reversed", "fp32", DP_MAPPING_REVERSED}};
     tally t = {.name = figure};
-    json_t *root = json_printed(0, "plot %s -F unorm16,fp32 -m d3d,reversed -n 0.5 -f 300", figure);
+    json_t *root = json_printed(0, "plot %s --model exact -F unorm16,fp32 -m d3d,reversed -n 0.5 -f 300", figure);
     const char *key = is_error ? "error" : "interval";
     check_axis(root, "x", "z", "eye depth z", "scene units", "log");
     assert_string_equal(text_at(root, "y.key"), key);
@@ -217,6 +213,102 @@ static void check_envelope(const char *figure, bool is_error) {
 TEST(envelopes) {
     check_envelope("error", true);
     check_envelope("interval", false);
+}
+
+/* ---- What a table says --------------------------------------------------------------------------------------------
+ */
+
+static const char *const cameras[] = {
+    "-F fp16,fp32,d16,d24 -m gl,d3d,reversed,log", "-n 2 -f inf -F fp16,fp32,d16,d24 -m gl,d3d,reversed",
+    "--ortho -n 0.5 -f 300 -F fp16,fp32,d24 -m gl,d3d,reversed", "-F fp32,d24 -m linear,cesium,three-webgl",
+    "-n 0.05 -f 5000 -F d24,fp32 -m gl-reversed --arith fused"};
+
+/* A point of a thick curve, as the table of its set-up has it at that depth and over the column. */
+static void check_point(tally *t, const char *camera, size_t k, const json_t *series, double z, double got,
+                        double column) {
+    const json_t *planes = json_printed(0, "table %s --at 3", camera);
+    const double near = number_at(planes, "setups[0].near"), far = number_at(planes, "setups[0].far");
+    json_t *root = json_printed(0, "table %s --at %.17g --range %.17g:%.17g", camera, z, fmax(z / column, near),
+                                isnan(far) ? z * column : fmin(z * column, far));
+    const json_t *row = node_at(root, "setups[%zu]", k);
+    const double here = number_at(row, "rows[0].guaranteed"), most = number_at(row, "worst_separation.bound");
+    char name[64];
+    snprintf(name, sizeof name, "%s %s", text_at(row, "format"), text_at(row, "mapping"));
+    assert_string_equal(name, text_at(series, "name"));
+    TALLY(t, got >= here / (1 + 1e-12) && got <= most * (1 + 0x1p-9), "%s %s at %.17g: %.9g, not %.9g to %.9g", camera,
+          name, z, got, here, most);
+    json_decref(root);
+}
+
+/* The thick curves of `plot interval` are the column `guaranteed`; each is drawn by its second name, behind all of the
+ * lattice. */
+TEST(guaranteed_as_in_the_table) {
+    tally t = {.name = "plot interval"};
+    for (size_t c = 0; c < sizeof cameras / sizeof cameras[0]; c++) {
+        json_t *root = json_printed(0, "plot interval %s", cameras[c]), *series;
+        const json_t *all = node_at(root, "panels[0].series");
+        const size_t setups = json_array_size(all) / 2;
+        size_t s, checked = 0;
+        json_array_foreach(all, s, series) {
+            const json_t *points = node_at(series, "points");
+            const size_t count = json_array_size(points);
+            const double lo = number_at(points, "[0].z"), hi = number_at(points, "[%zu].z", count - 1);
+            if (s < setups) {
+                assert_non_null(strstr(text_at(series, "name"), ", lattice"));
+                continue;
+            }
+            for (size_t i = 0; i < count; i += count / 5 + 1) {
+                const double got = number_at(points, "[%zu].interval", i);
+                if (!isfinite(got))
+                    continue;
+                check_point(&t, cameras[c], s - setups, series, number_at(points, "[%zu].z", i), got,
+                            pow(hi / lo, 2.0 / 800));
+                checked++;
+            }
+        }
+        assert_true(checked > 3 * setups);
+        json_decref(root);
+    }
+    tally_end(&t);
+}
+
+/* No error that the table has in binary32 is above the curve of `plot error`, nor does that lie above what is known of
+ * its column. */
+TEST(errors_as_in_the_table) {
+    static const char *const formats[] = {"fp16", "fp32", "unorm16", "unorm24"};
+    static const dp_mapping mappings[] = {DP_MAPPING_GL, DP_MAPPING_D3D, DP_MAPPING_REVERSED};
+    tally t = {.name = "plot error"};
+    for (size_t c = 0; c < 12; c++) {
+        const dp_setup setup = SETUP(formats[c / 3], .mapping = mappings[c % 3], .model = DP_MODEL_FLOAT);
+        const dp_setup lattice = SETUP(formats[c / 3], .mapping = mappings[c % 3]);
+        char camera[64];
+        snprintf(camera, sizeof camera, "-F %s -m %s", formats[c / 3], dp_mapping_get(mappings[c % 3])->name);
+        json_t *root = json_printed(0, "plot error %s", camera);
+        const json_t *points = node_at(root, "panels[0].series[1].points");
+        const size_t count = json_array_size(points);
+        const double column = pow(1e4, 1.0 / 800);
+        assert_true(count > 5);
+        for (size_t i = 0; i < count; i += count / 8 + 1) {
+            const double z = number_at(points, "[%zu].z", i), got = number_at(points, "[%zu].error", i);
+            const double lo = fmax(z / column, 0.1), hi = fmin(z * column, 1000);
+            json_t *table = json_printed(0, "table %s --model float --at %.17g,%.17g,%.17g", camera, z,
+                                         z / sqrt(sqrt(column)), fmin(z * sqrt(sqrt(column)), 1000));
+            double where;
+            dp_worst cells;
+            assert_int_equal(dp_worst_over(&lattice, dp_cell_of(&lattice, dp_code(&lattice, lo)).lo,
+                                           dp_cell_of(&lattice, dp_code(&lattice, hi)).hi, &cells),
+                             DP_OK);
+            for (int k = 0; k < 3; k++) {
+                const double error = fabs(number_at(table, "setups[0].rows[%d].error", k));
+                TALLY(&t, error <= got, "%s at %.17g: %.9g above %.9g", camera, z, error, got);
+            }
+            TALLY(&t, got <= fmax(cells.error, dp_computed_error_over(&setup, lo, hi, &where)) * (1 + 1e-9),
+                  "%s at %.17g: %.9g", camera, z, got);
+            json_decref(table);
+        }
+        json_decref(root);
+    }
+    tally_end(&t);
 }
 
 /* A curve by a method names the one that --tolerance takes; the exact one names none. */

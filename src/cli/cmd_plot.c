@@ -79,7 +79,7 @@ static int check_options(const options *o, const figure_row *row) {
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->camera.model != DP_MODEL_FLOAT)
         return option_error(OPTION_MODEL, "must be float in the figure %s, got '%s'", row->name,
                             option_word(OPTION_MODEL, o->camera.model_auto ? DP_MODEL_COUNT : o->camera.model));
-    if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_SLANTED) != 0 && (row->takes & FIGURE_BINARY32) == 0 &&
+    if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_SLANTED) != 0 && option_given(o, OPTION_MODEL) &&
         o->camera.model != DP_MODEL_FLOAT)
         return option_error(OPTION_VIEWPORT, "needs --model float in the figure %s", row->name);
     if (!isnan(o->camera.azimuth) && (row->takes & FIGURE_DRAWN) == 0)
@@ -99,7 +99,7 @@ static int choose_models(plotting *p) {
     const depths at = {.kind = DEPTHS_LOG, .lo = lo, .hi = hi, .count = CHOICE_DEPTHS};
     for (size_t i = 0; i < p->all.count; i++)
         setup_choose(p->o, &at, &p->all.items[i]);
-    for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FLOAT) == 0; i++)
+    for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FLOAT) == 0 && !p->request.guaranteed; i++)
         if (p->all.items[i].spec.model == DP_MODEL_FLOAT)
             return option_error(
                 OPTION_MODEL,
@@ -127,8 +127,13 @@ static void subtitle_of(const options *o, const figure_request *request, bool bu
         setup_fields_budget(&request->setups[0], &fields);
     setup_label_as(&request->setups[0], &fields, full);
     char *last = strrchr(full, ',');
-    if (o->camera.model_auto && request->count > 1 && last != NULL)
-        *last = '\0'; /* the names say it */
+    bool one_model = true;
+    for (size_t i = 0; i < request->count; i++)
+        one_model = one_model && (!request->guaranteed || request->setups[i].spec.model == DP_MODEL_FLOAT);
+    if ((!one_model || (o->camera.model_auto && request->count > 1)) && last != NULL)
+        *last = '\0'; /* the names say it, or what is guaranteed */
+    else if (request->setups[0].spec.model == DP_MODEL_EXACT)
+        append(full, sizeof full, " (lattice of codes)");
     const char *rest = strstr(full, ", ");
     const char *one = request->count == 1 ? full : rest != NULL ? rest + 2 : "";
     const char *unit = options_unit(o);
@@ -223,6 +228,11 @@ static int resolve_setups(plotting *p) {
         return status;
     p->request.setups = p->all.items;
     p->request.count = p->all.count;
+    p->request.guaranteed = (p->row->takes & FIGURE_GUARANTEED) != 0 && !option_given(p->o, OPTION_MODEL);
+    for (size_t i = 0; p->request.guaranteed && i < p->all.count; i++)
+        p->all.items[i] = dp_setup_guaranteed(&p->all.items[i]);
+    if (p->request.guaranteed)
+        p->request.census = 0;
     p->request.raster = drawn ? in_model.camera.raster : NULL;
     p->request.slant = p->o->camera.triangles.slant_lo;
     p->request.azimuth = p->o->camera.azimuth;
@@ -305,16 +315,26 @@ static int height_of(const plotting *p) {
     return own ? scene_figure_height(p->chart, p->request.columns) : p->request.rows;
 }
 
-/* To stdout, where the file is that of the figure. */
+/* To stdout, where the file is that of the figure. As CSV curves share their places, of which a picture needs few. */
 static int write_numbers(const plotting *p) {
     options beside = *p->o;
+    figure_request request = p->request;
     output out;
     beside.out.file = NULL;
-    const int status = options_open(&beside, &out);
+    int status = options_open(&beside, &out);
     if (status != EXIT_FINE)
         return status;
-    figure_data_write(&out, beside.out.form, "plot", p->row->name, p->chart);
-    return output_close(&out);
+    chart *every = beside.out.form == FORM_CSV && p->chart->curves > 0 ? chart_new() : NULL;
+    request.every = true;
+    if (every != NULL && (p->row->build(&request, every) != NULL || chart_failed(every)))
+        status = EXIT_IO;
+    else
+        figure_data_write(&out, beside.out.form, "plot", p->row->name, every != NULL ? every : p->chart);
+    chart_free(every);
+    if (status == EXIT_FINE)
+        return output_close(&out);
+    output_abandon(&out);
+    return usage_error("plot: no memory");
 }
 
 static int write_figure(plotting *p) {
@@ -371,6 +391,7 @@ int cmd_plot(const options *o) {
                                  .at = NAN,
                                  .terms = o->world.terms,
                                  .tolerance = option_given(o, OPTION_TOLERANCE) ? o->wanted.tolerance : (double)NAN,
+                                 .every = o->out.form == FORM_CSV && !figure_file_wanted(o),
                                  .census = census_depths,
                                  .columns = o->figure.width > 0 ? o->figure.width : WIDTH,
                                  .rows = o->figure.height > 0 ? o->figure.height : HEIGHT};

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "cli/figure_sheet.h"
 #include "report/report.h"
 
 typedef struct axis {
@@ -86,6 +87,10 @@ enum { WITH_SECOND = 1, WITH_VALUE = 2 };
 
 void figure_data_write(output *out, output_form form, const char *command, const char *figure, const chart *c) {
     const chart_panel *first = &c->panels[0];
+    if (form == FORM_CSV && figure_sheet_suits(c)) {
+        figure_sheet_write(out, command, c);
+        return;
+    }
     plotted p = {.chart = c,
                  .figure = figure,
                  .title = c->title,

@@ -6,7 +6,8 @@
 #include "plot/chart.h"
 #include "report/output.h"
 
-/** All points of all panels, as `command` writes them. @param form  not that of text */
+/** All points of all panels, as `command` writes them; CSV has a column a curve where figure_sheet_suits(). @param
+ *  form  not that of text */
 void figure_data_write(output *out, output_form form, const char *command, const char *figure, const chart *c);
 
 #endif

@@ -57,11 +57,6 @@ static double last_within(double z, double longest) {
     return end < 0x1.fffffep127 ? (double)dp_float_down(end) : end;
 }
 
-/* The binary32 depth of a surface; and 0, where hardware may make that of it. */
-static dp_span flushed_span(double z) {
-    return fabs(z) < 0x1p-126 ? (dp_span){smaller(z, 0.0), larger(z, 0.0)} : (dp_span){z, z};
-}
-
 /* A little behind a depth, or before it. */
 static double moved(double z, double share) {
     return isinf(z) ? z : z + fabs(z) * share;
@@ -233,7 +228,7 @@ static void matrix_budget(const dp_guarantee *g, double z, const dp_budget_terms
     }
     const double extra = part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
     dp_demand d;
-    const double longest = dp_demand_longest(c, flushed_span(z1), extra, &d);
+    const double longest = dp_demand_longest(c, dp_flushed_span(z1), extra, &d);
     part[DP_CAUSE_PROJECTION] = d.projection;
     part[DP_CAUSE_FORMAT] = d.format;
     part[DP_CAUSE_NDC] = d.window - extra - d.projection - d.format; /* with what clamping takes */
@@ -360,7 +355,7 @@ double dp_guarantee_bound(const dp_guarantee *g, float nearest, float farthest) 
         dp_log_demand d;
         return apart_over(run, dp_log_longest(&g->shader, run, 0.0, &d));
     }
-    const dp_span run = {flushed_span((double)nearest).lo, flushed_span((double)farthest).hi};
+    const dp_span run = {dp_flushed_span((double)nearest).lo, dp_flushed_span((double)farthest).hi};
     dp_demand d;
     static const double asked[DP_CAUSE_COUNT] = {0};
     dp_budget b = {.separation = apart_over(run, dp_demand_longest(&g->chain, run, 0.0, &d))};

@@ -8,12 +8,20 @@
 #ifndef CORE_CHAIN_H
 #define CORE_CHAIN_H
 
+#include <math.h>
+
+#include "core/extremes.h"
 #include "depthprec/pipeline.h"
 
 /* Binary32 eye depths, as doubles, lo <= hi; of either sign where the camera is orthographic. */
 typedef struct dp_span {
     double lo, hi;
 } dp_span;
+
+/* The binary32 depth of a surface; and 0, where hardware may make that of it. */
+static inline dp_span dp_flushed_span(double z) {
+    return fabs(z) < 0x1p-126 ? (dp_span){smaller(z, 0.0), larger(z, 0.0)} : (dp_span){z, z};
+}
 
 /*
  * The pipeline's real function g(z), with the rounded A and B that both surfaces share. Or of a run of cameras: then a

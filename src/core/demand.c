@@ -55,6 +55,22 @@ double dp_format_loss(const dp_pipeline *p, double low, double high) {
     return (whole ? ulp : larger(1.0 + smaller(ulp, 0.5), ulp)) / levels;
 }
 
+double dp_stored_error(const dp_pipeline *p, double high) {
+    const dp_format *format = &p->format;
+    const double share = p->rounding == DP_ROUND_ZERO || p->arith->conversion == DP_CONVERT_PRODUCT_ZERO ? 1.0 : 0.5;
+    const double top = smaller(larger(high, 0.0), 1.0 - DP_UNIT_BELOW_ONE);
+    if (format->kind == DP_FORMAT_FLOAT && format->mantissa_bits < 23)
+        return dp_step_num(format, dp_binade(format, top)) * (p->rounding == DP_ROUND_ZERO ? 1.0 : 0.5);
+    if (format->kind == DP_FORMAT_FLOAT)
+        return share * dp_step_num(format, 1 - format->bias); /* of subnormals */
+    const double levels = (double)format->code_max;
+    /* Where half a unit of the product is 1/2 it is whole; above 24 bits the factor is off by 1, which is a level. */
+    const double product = p->arith->conversion == DP_CONVERT_EXACT ? 0.0
+                           : format->bits > 24                      ? 1.0
+                                                                    : smaller(dp_half_ulp(top * levels), 0.25);
+    return (share + product) / levels;
+}
+
 /* ---- A pair ------------------------------------------------------------------------------------------------------ */
 
 /* The more demanding of two: window depth over slope decides. */

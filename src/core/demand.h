@@ -24,4 +24,7 @@ double dp_demand_longest(const dp_chain *chain, dp_span first, double extra, dp_
 /* The longest distance of two binary32 window depths of [low, high] that are stored as one code. */
 double dp_format_loss(const dp_pipeline *pipeline, double low, double high);
 
+/* The most that storing a window depth, a binary32 number of at most `high`, changes it by. */
+double dp_stored_error(const dp_pipeline *pipeline, double high);
+
 #endif

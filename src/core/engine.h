@@ -42,12 +42,16 @@ double dp_lattice_exact(const dp_setup *setup, double z);
 double dp_lattice_above(const dp_setup *setup, double z);
 
 /*
- * How far from itself any depth of lo..hi can lie at most once a shader stored it, whatever its log2, and it is decoded
- * with the shader's constants: scene units; *z is where. Of a set-up with a logarithmic curve.
+ * How far from itself any depth of lo..hi can lie at most once it was computed in binary32, stored and decoded: by a
+ * pipeline, decoded by the exact curve, or by the shader of a logarithm, whatever its log2, decoded with its constants.
+ * Scene units; *z is where. Of a set-up whose depths are computed.
  */
-double dp_shader_error_over(const dp_setup *setup, double lo, double hi, double *z);
+double dp_computed_error_over(const dp_setup *setup, double lo, double hi, double *z);
 double dp_shader_error_between(const dp_setup *outer, const dp_setup *inner, double lo,
                                double hi); /* of a run, below */
+
+/* What rounding A and B to binary32 changed them by, good to 2^-50 of them. */
+void dp_pipeline_rounded(const dp_setup *setup, double *a, double *b);
 
 /*
  * A run of cameras is all whose near or far lies between those of two set-ups that are alike but for that plane:

@@ -230,60 +230,13 @@ double dp_log_longest(const dp_log_shader *s, dp_span run, double extra, dp_log_
 
 /* ---- The error --------------------------------------------------------------------------------------------------- */
 
-/* The most that storing a window depth changes it by, which is a binary32 number. */
-static double stored_error(const dp_pipeline *p, double high) {
-    const dp_format *format = &p->format;
-    const double share = p->rounding == DP_ROUND_ZERO || p->arith->conversion == DP_CONVERT_PRODUCT_ZERO ? 1.0 : 0.5;
-    const double top = smaller(larger(high, 0.0), 1.0 - DP_UNIT_BELOW_ONE);
-    if (format->kind == DP_FORMAT_FLOAT && format->mantissa_bits < 23)
-        return dp_step_num(format, dp_binade(format, top)) * (p->rounding == DP_ROUND_ZERO ? 1.0 : 0.5);
-    if (format->kind == DP_FORMAT_FLOAT)
-        return share * dp_step_num(format, 1 - format->bias); /* of subnormals */
-    const double levels = (double)format->code_max;
-    /* Where half a unit of the product is 1/2 it is whole; above 24 bits the factor is off by 1, which is a level. */
-    const double product = p->arith->conversion == DP_CONVERT_EXACT ? 0.0
-                           : format->bits > 24                      ? 1.0
-                                                                    : smaller(dp_half_ulp(top * levels), 0.25);
-    return (share + product) / levels;
-}
-
-static double error_in(const dp_log_shader *s, dp_span span) {
+double dp_log_shader_error(const dp_log_shader *s, dp_span span) {
     const dp_log_steps a = dp_log_shader_steps(s, span);
     const double off = a.argument + a.log2, ends = a.scale + a.ndc;
     const double low = window_below(s, a.lo - off) - ends;
     const double high = (a.hi + off) * s->k_hi + ends;
-    double growth = off + (ends + stored_error(&s->pipeline, high)) / s->k_lo;
+    double growth = off + (ends + dp_stored_error(&s->pipeline, high)) / s->k_lo;
     growth += fabs(a.hi) * s->decoded; /* who decodes has a k of his own */
     growth += larger(low <= 0.0 ? s->below : 0.0, high >= 1.0 ? s->above : 0.0);
     return distance(s, span.hi, growth) + dp_half_ulp(span.hi); /* the depth enters as a binary32 number */
-}
-
-/* Errors grow with z but for steps in what rounds, so the search goes down from hi until nothing nearer can be worse.
- */
-static double error_over(const dp_log_shader *s, double lo, double hi, double *z) {
-    static const double stretch = 1.0 + 0x1p-5;
-    double worst = 0.0;
-    *z = hi;
-    for (double top = hi;;) {
-        const double bottom = larger(top / stretch, lo);
-        const double error = error_in(s, (dp_span){(double)(float)bottom, (double)(float)top});
-        if (error > worst) {
-            worst = error;
-            *z = top;
-        }
-        if (bottom <= lo || error_in(s, (dp_span){(double)(float)lo, (double)(float)bottom}) <= worst)
-            return worst;
-        top = bottom;
-    }
-}
-
-double dp_shader_error_over(const dp_setup *setup, double lo, double hi, double *z) {
-    const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(0));
-    return error_over(&s, lo, hi, z);
-}
-
-double dp_shader_error_between(const dp_setup *outer, const dp_setup *inner, double lo, double hi) {
-    const dp_log_shader s = dp_log_shader_between(outer, inner, dp_log2_get(0));
-    double z;
-    return error_over(&s, lo, hi, &z);
 }

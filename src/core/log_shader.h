@@ -60,4 +60,7 @@ typedef struct dp_log_demand {
  */
 double dp_log_longest(const dp_log_shader *s, dp_span run, double extra, dp_log_demand *out);
 
+/* What any depth of a span can be off by at most once it is decoded with the shader's constants, scene units. */
+double dp_log_shader_error(const dp_log_shader *s, dp_span span);
+
 #endif

@@ -42,11 +42,20 @@ static entries orthographic(double n, double f, int ndc_signed, int reversed) {
     return reversed ? (entries){1.0 / (n - f), f / (f - n)} : (entries){1.0 / (f - n), -n / (f - n)};
 }
 
+static entries entries_of(const dp_spec *spec) {
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
+    return (spec->ortho ? orthographic : perspective)(spec->znear, spec->zfar, row->ndc_signed, row->reversed);
+}
+
+void dp_pipeline_rounded(const dp_setup *setup, double *a, double *b) {
+    const entries e = entries_of(&setup->spec);
+    *a = (double)setup->matrix[0] - e.a;
+    *b = (double)setup->matrix[1] - e.b;
+}
+
 void dp_pipeline_prepare(dp_setup *setup) {
     const dp_spec *spec = &setup->spec;
-    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
-    const entries e =
-        (spec->ortho ? orthographic : perspective)(spec->znear, spec->zfar, row->ndc_signed, row->reversed);
+    const entries e = entries_of(spec);
     setup->matrix[0] = (float)e.a;
     setup->matrix[1] = (float)e.b;
     setup->inside[0] = dp_float_up(spec->znear); /* no plane is stepped over */

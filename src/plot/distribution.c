@@ -68,6 +68,7 @@ static void add_curve(const figure_request *request, chart *out, chart_panel *pa
     const dp_setup *setup = &request->setups[i];
     refine_request q = envelope_request(request, setup, out, panel, window, setup);
     q.knot_count = 0; /* it is smooth */
+    q.every = false;  /* codes have their own depths */
     chart_series *s = envelope_curve(out, panel, &q);
     if (s != NULL)
         snprintf(s->name, sizeof s->name, "window depth d(z)");

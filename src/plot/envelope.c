@@ -128,6 +128,7 @@ refine_request envelope_request(const figure_request *request, const dp_setup *s
                             .hi = panel->x.hi,
                             .columns = request->columns,
                             .rows = request->rows,
+                            .every = request->every,
                             .values = 1,
                             .axis = {panel->y},
                             .knots = knots,

@@ -22,6 +22,8 @@ typedef struct figure_request {
                                shadow maps */
     size_t count;
     const char *const *names;          /**< "unorm24 d3d" of each, for legends */
+    bool guaranteed;                   /**< the set-ups are those of dp_setup_guaranteed(), over their lattice */
+    bool every;                        /**< curves have a point in every pixel column, so that they share them */
     double lo, hi;                     /**< eye depths to show; both NaN when the user left it to the figure */
     double at;                         /**< a single depth for the figures that take one, else NaN */
     dp_budget_terms terms;             /**< what is added to the pipeline, for the figures that take it */
@@ -41,19 +43,20 @@ typedef struct figure_request {
 
 /** What a figure can make something of. */
 enum {
-    FIGURE_AT = 1 << 0,        /**< one depth, given with --at */
-    FIGURE_TERMS = 1 << 1,     /**< --interpolation, --from-origin, --linearize */
-    FIGURE_FLOAT = 1 << 2,     /**< set-ups of the model float, which have no cells */
-    FIGURE_BINARY32 = 1 << 3,  /**< nothing but set-ups of the model float, whatever --model says */
-    FIGURE_TOLERANCE = 1 << 4, /**< other ways to the interval than the exact cell */
-    FIGURE_SIGNED = 1 << 6,    /**< depths of 0 and less: a camera with near <= 0 */
-    FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */
-    FIGURE_DRAWN = 1 << 8,     /**< what a rasterizer draws: the set-ups have a view, and its arithmetic */
-    FIGURE_SLANTED = 1 << 9,   /**< set-ups with triangles */
-    FIGURE_MODEL = 1 << 10,    /**< a model and what was found in it; the camera is that of the command scene */
-    FIGURE_SETUPS = 1 << 11,   /**< set-ups, as the options of a camera say them */
-    FIGURE_SHADOW = 1 << 7,    /**< shadow maps, whose cameras are not that of the view */
-    FIGURE_STAGED = 1 << 12,   /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
+    FIGURE_AT = 1 << 0,          /**< one depth, given with --at */
+    FIGURE_TERMS = 1 << 1,       /**< --interpolation, --from-origin, --linearize */
+    FIGURE_FLOAT = 1 << 2,       /**< set-ups of the model float, which have no cells */
+    FIGURE_BINARY32 = 1 << 3,    /**< nothing but set-ups of the model float, whatever --model says */
+    FIGURE_TOLERANCE = 1 << 4,   /**< other ways to the interval than the exact cell */
+    FIGURE_SIGNED = 1 << 6,      /**< depths of 0 and less: a camera with near <= 0 */
+    FIGURE_FILE = 1 << 5,        /**< a requirement file, which brings its own set-ups, with planes of their own */
+    FIGURE_DRAWN = 1 << 8,       /**< what a rasterizer draws: the set-ups have a view, and its arithmetic */
+    FIGURE_SLANTED = 1 << 9,     /**< set-ups with triangles */
+    FIGURE_MODEL = 1 << 10,      /**< a model and what was found in it; the camera is that of the command scene */
+    FIGURE_SETUPS = 1 << 11,     /**< set-ups, as the options of a camera say them */
+    FIGURE_SHADOW = 1 << 7,      /**< shadow maps, whose cameras are not that of the view */
+    FIGURE_GUARANTEED = 1 << 13, /**< what is guaranteed, unless --model is given */
+    FIGURE_STAGED = 1 << 12,     /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
 };
 
 /**

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The z-fighting interval; of set-ups of the model float, which have no cells, the guaranteed separation, with the
- * interval of the lattice behind it for comparison.
+ * The z-fighting interval of the cells of a model; or the guaranteed separation over the interval of the lattice.
  */
 #include <math.h>
 #include <stdio.h>
@@ -9,37 +8,10 @@
 
 #include "census/census.h"
 #include "core/append.h"
-#include "plot/envelope.h"
+#include "plot/guaranteed.h"
 
 static double widest_cell(const dp_worst *worst) {
     return worst->interval;
-}
-
-static bool is_fp32(const figure_request *request, size_t i) {
-    return request->setups[i].spec.model == DP_MODEL_FLOAT;
-}
-
-/* The same set-ups, each with cells. Returns how many had none. */
-static size_t with_cells(const figure_request *request, dp_setup lattice[CHART_SETUPS]) {
-    size_t changed = 0;
-    for (size_t i = 0; i < request->count; i++) {
-        dp_spec spec = request->setups[i].spec;
-        lattice[i] = request->setups[i];
-        if (!is_fp32(request, i))
-            continue;
-        spec.model = DP_MODEL_EXACT;
-        dp_setup_init(&lattice[i], &spec);
-        changed++;
-    }
-    return changed;
-}
-
-static void into_background(chart_series *s) {
-    s->style.thin = true;
-    s->style.marker = -1;
-    s->unlisted = true;
-    s->note[0] = '\0';
-    append(s->name, sizeof s->name, ", lattice");
 }
 
 /* What a census found of one set-up: the longest interval of each band, at its nearer depth. */
@@ -61,48 +33,48 @@ static bool count_one(const dp_setup *setup, const chart_axis *x, census_result 
     return true;
 }
 
+static bool has_census(const figure_request *request, size_t i) {
+    return request->setups[i].spec.model == DP_MODEL_FLOAT;
+}
+
 /* A census of every set-up of the model float, when its depths are few enough; null: none of them has one. */
 static found *count_all(const figure_request *request, const chart_axis *x, chart *out) {
     enum { SETUPS_MAX = 10 }; /* more points than that hide each other */
     const uint64_t visited = census_count(x->lo, x->hi);
-    if (request->count > SETUPS_MAX || visited < 2 || visited > request->census)
+    size_t count = 0;
+    for (size_t i = 0; i < request->count; i++)
+        count += has_census(request, i);
+    if (request->count > SETUPS_MAX || count == 0 || visited < 2 || visited > request->census)
         return NULL;
     census_result *result = chart_memory(out, 1, sizeof *result);
     found *all = chart_memory(out, request->count, sizeof *all);
     for (size_t i = 0; i < request->count && !chart_failed(out); i++)
-        if (is_fp32(request, i) && !count_one(&request->setups[i], x, result, &all[i]))
+        if (has_census(request, i) && !count_one(&request->setups[i], x, result, &all[i]))
             chart_fail(out);
     return all;
 }
 
 static void add_separation(const figure_request *request, chart *out, chart_panel *panel, size_t i, const found *f) {
     const dp_setup setup = dp_setup_facing(&request->setups[i]);
-    refine_request q = envelope_request(request, &setup, out, panel, envelope_separation, &setup);
-    q.slices = true;
-    chart_series *s = envelope_curve(out, panel, &q);
-    if (s == NULL)
-        return;
-    s->style = figure_style(request, i);
-    if (f != NULL && f->count > 0)
+    chart_series *s = guaranteed_add(request, out, panel, i, &setup, envelope_separation);
+    if (s != NULL && f != NULL && f->count > 0)
         s->style.marker = -1; /* its points have it */
-    snprintf(s->name, sizeof s->name, "%s", request->names[i]);
 }
 
 /* In the colour of the facing one, above it, and with a stroke that no facing one has. */
 static void add_slanted(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
-    const dp_setup *setup = &request->setups[i];
-    refine_request q = envelope_request(request, setup, out, panel, envelope_separation, setup);
-    q.slices = true;
-    chart_series *s = setup->spec.triangles.width > 0 ? envelope_curve(out, panel, &q) : NULL;
+    const dp_spec *spec = &request->setups[i].spec;
+    if (spec->triangles.width == 0 || spec->model != DP_MODEL_FLOAT)
+        return;
+    chart_series *s = guaranteed_add(request, out, panel, i, &request->setups[i], envelope_separation);
     if (s == NULL)
         return;
     int strokes = 0;
     for (size_t k = 0; k < request->count; k++)
         strokes = figure_style(request, k).stroke >= strokes ? figure_style(request, k).stroke + 1 : strokes;
-    s->style = figure_style(request, i);
     s->style.stroke += strokes;
     s->style.marker = -1;
-    snprintf(s->name, sizeof s->name, "%s, any slant", request->names[i]);
+    append(s->name, sizeof s->name, ", any slant");
 }
 
 /* The longest intervals that there are, each where it begins: none of them lies above the guarantee. */
@@ -118,33 +90,23 @@ static void add_census(const figure_request *request, chart *out, chart_panel *p
 }
 
 const char *interval_build(const figure_request *request, chart *out) {
-    dp_setup lattice[CHART_SETUPS];
-    figure_request cells = *request;
-    chart_axis y = {.scale = CHART_LOG, .label = "z-fighting interval", .key = "interval", .unit = "scene units"};
-    cells.setups = lattice;
-    const size_t changed = with_cells(request, lattice);
-    if (changed > 0)
-        y.label = "separation, interval";
-    chart_panel *panel = envelope_curves(&cells, out, y, widest_cell, true);
+    const chart_axis y = {.scale = CHART_LOG, .label = "z-fighting interval", .key = "interval", .unit = "scene units"};
+    bool all = true;
+    chart_panel *panel = guaranteed_begin(request, out, y, "separation, interval", widest_cell, true);
     if (panel == NULL)
         return NULL;
-    const found *counted = changed > 0 ? count_all(request, &panel->x, out) : NULL;
-    for (size_t i = 0; i < request->count && !chart_failed(out); i++)
-        if (is_fp32(request, i)) {
-            into_background(&panel->series[i]);
-            add_separation(request, out, panel, i, counted != NULL ? &counted[i] : NULL);
-            add_slanted(request, out, panel, i);
-        }
+    const found *counted = count_all(request, &panel->x, out);
+    for (size_t i = 0; i < request->count && !chart_failed(out); i++) {
+        add_separation(request, out, panel, i, counted != NULL ? &counted[i] : NULL);
+        add_slanted(request, out, panel, i);
+        all = all && guaranteed_has(request, i);
+    }
     for (size_t i = 0; i < request->count && counted != NULL; i++)
         add_census(request, out, panel, i, &counted[i]);
-    chart_fit(out);
-    if (changed == 0)
-        return NULL;
-    if (out->title[0] == '\0')
-        snprintf(out->title, sizeof out->title, "%s",
-                 changed == request->count ? "Guaranteed separation in binary32 arithmetic"
-                                           : "Z-fighting interval; in the model float, guaranteed separation");
-    append(out->subtitle, sizeof out->subtitle, ". Thin: the interval of the lattice alone%s",
-           counted != NULL ? ". Points: the longest interval that there is in each power of two" : "");
+    guaranteed_end(request, out,
+                   all ? "Guaranteed separation" : "Z-fighting interval; in the model float, guaranteed separation");
+    if (counted != NULL)
+        append(out->subtitle, sizeof out->subtitle,
+               ". Points: the longest interval that there is in each power of two");
     return NULL;
 }

@@ -23,7 +23,7 @@ static bool listed(const legend *l, const chart_series *s) {
     return false;
 }
 
-/* The name, its note, and the curve that lies over it or under it. */
+/* The name, its note, and the curve that it hides. */
 static void write_text(const chart *c, const chart_panel *panel, size_t index, char out[LEGEND_TEXT]) {
     const chart_series *s = &panel->series[index];
     const alike found = c->panel_count == 1 ? alike_find(panel, index) : (alike){.other = NULL};
@@ -32,10 +32,11 @@ static void write_text(const chart *c, const chart_panel *panel, size_t index, c
     snprintf(out, LEGEND_TEXT, "%s%s", s->name, s->note);
     if (found.other == NULL)
         return;
-    append(out, LEGEND_TEXT, " = %s", found.other->name);
-    ticks_label(end, end >= 1e6, number);
-    if (!isnan(end))
-        append(out, LEGEND_TEXT, "%s%s", isnan(found.from) ? " up to " : " from ", number);
+    append(out, LEGEND_TEXT, ", over %s", found.other->name);
+    if (isnan(end))
+        return;
+    ticks_about(end, number);
+    append(out, LEGEND_TEXT, "%s%s", isnan(found.from) ? " up to " : " from ", number);
 }
 
 /* As many columns as fit, each as wide as its widest entry. */

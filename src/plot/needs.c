@@ -166,6 +166,7 @@ static void write_subtitle(const needs *s, chart *out) {
 
 const char *needs_build(const figure_request *request, chart *out) {
     needs s = {.request = *request};
+    s.request.every = false; /* each curve has its own depths */
     for (size_t i = 0; i < request->file->camera_count; i++)
         if (request->file->cameras[i].world > 0.0)
             return "plot needs: a camera with from_origin has no curve: check judges it";

@@ -174,6 +174,8 @@ static void split(refine *r, int i, int j) {
 }
 
 void refine_finish(refine *r) {
+    for (int i = 0; r->request.every && i < r->places; i++)
+        visit(r, i);
     for (int i = 0, j; i + 1 < r->places; i = j) {
         for (j = i + 1; !r->visited[j]; j++) { /* the last place is known */
         }

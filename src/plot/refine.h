@@ -40,6 +40,7 @@ typedef struct refine_request {
     /** True: a place is a pixel column and its value the greatest (or least) in it, drawn at the column's middle, so
      *  that the value of several columns bounds theirs. False: a place is an edge between two columns. */
     bool slices;
+    bool every; /**< all places are evaluated */
     int values;
     chart_axis axis[REFINE_VALUES]; /**< vertical; lo == hi where it will be fitted to the data */
     const double *knots;            /**< where the curve may jump or bend; those outside [lo, hi] are passed over */

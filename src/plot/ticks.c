@@ -44,6 +44,11 @@ void ticks_label(double value, bool powers, char out[TICKS_TEXT]) {
         snprintf(out, TICKS_TEXT, "%.3g\u00b710%s", factor, raised);
 }
 
+void ticks_about(double value, char out[TICKS_TEXT]) {
+    const double unit = value != 0 ? dp_pow(10, floor(dp_log10(fabs(value))) - 2) : 1;
+    ticks_label(rint(value / unit) * unit, fabs(value) >= 1e6, out);
+}
+
 static void linear(const chart_axis *axis, int room, ticks *out) {
     double span = axis->hi - axis->lo, step = dp_pow(10, floor(dp_log10(span / room)));
     static const double factors[] = {1, 2, 5, 10, 20};

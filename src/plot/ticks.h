@@ -35,4 +35,7 @@ void ticks_make(const chart_axis *axis, int room, ticks *out);
 /** Writes a value as tick labels are written, to three digits. */
 void ticks_label(double value, bool powers, char out[TICKS_TEXT]);
 
+/** Writes a place on an axis, rounded to three digits. */
+void ticks_about(double value, char out[TICKS_TEXT]);
+
 #endif

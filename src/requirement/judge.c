@@ -19,7 +19,7 @@ static judgement of_separation(const dp_setup *setup, double lo, double hi, doub
 /* Of what a shader writes, whatever its log2. */
 static judgement of_written_error(const dp_setup *setup, double lo, double hi, double limit) {
     judgement out;
-    out.value = dp_shader_error_over(setup, lo, hi, &out.z);
+    out.value = dp_computed_error_over(setup, lo, hi, &out.z);
     out.code = dp_code(setup, out.z);
     out.passed = out.value <= limit;
     return out;

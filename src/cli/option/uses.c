@@ -245,8 +245,8 @@ static const option_use of_cameras[] = {TAKE(NEAR), TAKE(FAR), TAKE(FORMAT), TAK
 static const option_use of_setups[] = {
     OWN(NEAR, ALSO("with --ortho also 0 or negative")), TAKE(ORTHO), OWN(TOLERANCE,
         WITHOUT("5% for the model; intervals are as exact as the picture shows")),
-    OWN(MODEL, DEFAULT("exact"), WITHOUT("float in figures of its pipeline; staged in distribution and share with gl "
-        "and gl-reversed")), END};
+    OWN(MODEL, DEFAULT("exact"), WITHOUT("what is guaranteed, over the lattice, in error and interval; float in "
+        "figures of its pipeline; staged in distribution and share with gl and gl-reversed")), END};
 static const option_use of_setups_and_models[] = {
     OWN(PRESET, ALSO(OF_VIEW)), OWN(PLATFORM, ALSO("with --viewport also its rasterizer")), TAKE(ROUNDING),
     OWN(ARITH, ALSO("by default that of --raster or --platform where known")),

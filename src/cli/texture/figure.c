@@ -88,11 +88,21 @@ static void words_of(const options *o, const texture_source *s, const char *titl
     notes_clean(c->subtitle, sizeof c->subtitle, subtitle);
 }
 
+/* "eye depth, error" as "error of eye depth", and "normals by high" as "normals, method high". */
+static void name_quantity(const char *name, char *out, size_t size) {
+    const char *const what = strstr(name, ", "), *const by = strstr(name, " by ");
+    const int length = what != NULL ? (int)(what - name) : (int)strlen(name);
+    const int base = by != NULL ? (int)(by - name) : length;
+    snprintf(out, size, "%s%s%.*s", what != NULL ? what + 2 : "", what != NULL ? " of " : "", base, name);
+    if (by != NULL)
+        append(out, size, ", method %.*s", length - base - 4, by + 4);
+}
+
 static void describe(const options *o, const texture_source *s, const texture_product *p, const picture *shown,
                      chart *c) {
     char title[sizeof c->title], more[160] = "";
     const char *unit = options_unit(o);
-    snprintf(title, sizeof title, "%s", p->name);
+    name_quantity(p->name, title, sizeof title);
     if (p->made.kind == FRAME_EFFECT) {
         const int wanted = p->made.effect->wanted;
         append(title, sizeof title, ", %s %s", p->made.effect->parameters[wanted].name,
