@@ -80,7 +80,12 @@ check "a range outside the planes" refuses 2 "--range: " error --range 1:2000 -o
 check "--at where it has no meaning" refuses 2 "--at: " error --at 3 -o "$scratch/x.svg"
 check "--at with two depths" refuses 2 "--at: must be one depth" map -F fp32 --at 3,4 -o "$scratch/x.svg"
 check "too many set-ups for maps" refuses 2 "at most 8 set-ups, got" map -m d3d,gl,reversed -o "$scratch/x.svg"
-check "error in the model float" refuses 2 "--model: float has no cells for the figure error" error --model float -o "$scratch/x.svg"
+check "distribution in the model float" refuses 2 "--model: float has no cells for the figure distribution" distribution --model float -o "$scratch/x.svg"
+in_float() { # in the model float the error is what is guaranteed, as by default
+    "$DEPTHPREC" plot error -F d24 --csv >"$scratch/default.csv" && "$DEPTHPREC" plot error -F d24 --model float --csv >"$scratch/float.csv" &&
+        cmp "$scratch/default.csv" "$scratch/float.csv" && [ "$(wc -l <"$scratch/float.csv")" -gt 100 ]
+}
+check "error in the model float is what is drawn by default" in_float
 check "map where auto chooses fp32" refuses 2 "--model: float has no cells for the figure map" map --model auto -F unorm24 -m d3d -o "$scratch/x.svg"
 check "budget in another model" refuses 2 "--model: must be float in the figure budget, got 'staged'" budget --model staged -o "$scratch/x.svg"
 check "budget of linear" refuses 2 "--mapping: a budget needs one of" budget -m linear -o "$scratch/x.svg"

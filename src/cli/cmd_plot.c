@@ -103,8 +103,8 @@ static int choose_models(plotting *p) {
         if (p->all.items[i].spec.model == DP_MODEL_FLOAT)
             return option_error(
                 OPTION_MODEL,
-                "float has no cells for the figure %s to show, staged has; interval and budget draw its "
-                "separation",
+                "float has no cells for the figure %s to show, staged has; interval, error and budget draw what it "
+                "guarantees",
                 p->row->name);
     return EXIT_FINE;
 }

@@ -10,7 +10,7 @@ static const figure_row rows[] = {
      CHART_SETUPS, FIGURE_SETUPS | FIGURE_FLOAT | FIGURE_SIGNED | FIGURE_STAGED, NULL, NULL, share_build},
     {"error", "Worst error of the decoded depth",
      "certified envelope of |decoded depth - z| against z, log-log: guaranteed, over that of the lattice", CHART_SETUPS,
-     FIGURE_SETUPS | FIGURE_SIGNED | FIGURE_GUARANTEED, NULL, NULL, error_build},
+     FIGURE_SETUPS | FIGURE_FLOAT | FIGURE_SIGNED | FIGURE_GUARANTEED, NULL, NULL, error_build},
     {"interval", "Z-fighting interval",
      "guaranteed separation against z, log-log, over the z-fighting interval of the lattice; with --viewport that at "
      "any slant, too; with --model float what a census finds as points",
