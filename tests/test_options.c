@@ -432,6 +432,7 @@ TEST(test_flags) {
                  {"texture", OPTION_ERROR_MAP, WORD_AT(image.error_map)},
                  {"list", OPTION_QUIET, WORD_AT(out.quiet)},
                  {"list", OPTION_FULL, WORD_AT(out.full)},
+                 {"texture", OPTION_RADIAL, WORD_AT(image.radial)},
                  {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];
     tally t = {.name = "flags"};
@@ -555,6 +556,9 @@ TEST(test_places) {
     assert_int_equal(parse(&o, "texture", OPTION_LAST_LOOK, "5,6,-7", line), EXIT_FINE);
     assert_true(o.view.last_look[0] == 5 && o.view.last_look[2] == -7 && o.view.look[0] == 0 &&
                 o.view.last_eye[0] == 0);
+    assert_int_equal(parse(&o, "texture", OPTION_INTRINSICS, "1,1e9,-1e6,0.5", line), EXIT_FINE);
+    assert_true(o.view.intrinsics[0] == 1 && o.view.intrinsics[1] == 1e9 && o.view.intrinsics[2] == -1e6 &&
+                o.view.intrinsics[3] == 0.5 && o.view.spec.fov_y == 60);
 }
 
 TEST(test_own) {

@@ -130,6 +130,21 @@ int parse_light_box(options *o, const option_row *row, const char *value) {
     return parse_triple(o, row, value, "x", 1e-12, o->shadow.light_box);
 }
 
+int parse_intrinsics(options *o, const option_row *row, const char *value) {
+    static const double limits[][2] = {{1, 1e9}, {1, 1e9}, {-1e6, 1e6}, {-1e6, 1e6}};
+    double *out = option_field(o, row);
+    const char *at = value;
+    for (int i = 0; i < 4; i++) {
+        const size_t length = strcspn(at, ",");
+        if (!number_parse_part(at, length, NUMBER_FINITE, &out[i]) ||
+            !(out[i] >= limits[i][0] && out[i] <= limits[i][1]) || (at[length] == '\0') != (i == 3))
+            return option_refuse(row, "must be %s, the first two from 1 to 1e9, the others from -1e6 to 1e6, got '%s'",
+                                 row->argument, value);
+        at += length + 1;
+    }
+    return EXIT_FINE;
+}
+
 /* ---- Depths ------------------------------------------------------------------------------------------------------ */
 
 static int wrong_form(const option_row *row, const char *text) {

@@ -164,6 +164,10 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_HFOV] = {"hfov", 0, "DEG",
         "horizontal field of view, in place of --fov", NUMBER(camera.fov_x, 0.01, 179, "degrees"),
         .without = "as --fov says"},
+    [OPTION_INTRINSICS] = {"intrinsics", 0, "FX,FY,CX,CY",
+        "in place of --fov: focal lengths and where the view axis meets the picture, pixels from its left and upper "
+        "edge; add 0.5 to CX and CY that count from the middle of the first pixel",
+        .parse = parse_intrinsics, FIELD(double, view.intrinsics[0]), .without = "as --fov says"},
     [OPTION_VIEWPORT] = {"viewport", 0, "WxH",
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
@@ -286,6 +290,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "with the step of disparity in pixels, inverse:A[,B] with steps of 1/A in 1/z, even:STEP[,FROM] in z, "
         "inverse-levels:N or levels:N from the nearest to the farthest depth, binary16, file",
         TEXT(image.lattice), .without = "as found"},
+    [OPTION_RADIAL] = {"radial", 0, NULL,
+        "with --metric: the samples are distances along the rays, which --fov, --hfov or --intrinsics says",
+        FLAG(image.radial)},
     [OPTION_PACKING] = {"packing", 0, "NAME",
         "the channels of FILE hold the depth together: @; 'depthprec list packings'", ROW(image.packing, packings)},
     [OPTION_CHANNEL] = {"channel", 0, "NAME",

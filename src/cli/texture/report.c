@@ -97,6 +97,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, named.type, "type", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.channels, "channels", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
+                                        {FIELD(statistics, named.radial, "radial", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
                                         {GROUP("samples", sample_columns), .when = OF_IMAGE},
@@ -193,8 +194,18 @@ static const column columns[] = {
 static void name_zbuffer(statistics *r) {
     const zbuffer_params p = zbuffer_params_of(&r->source.setup);
     r->zbuffer = (shader_params){(double)p.x, (double)p.y, (double)p.z, (double)p.w};
-    const bool shared = !r->source.camera.oblique.on; /* by all pixels */
-    r->named.zbuffer = shared && decode_applies(&decode_rows[DECODE_LINEAR_01], &r->source.setup) ? &r->zbuffer : NULL;
+    r->named.zbuffer =
+        camera_is_shared(&r->source.camera) && decode_applies(&decode_rows[DECODE_LINEAR_01], &r->source.setup)
+            ? &r->zbuffer
+            : NULL;
+}
+
+/* Of a corner, where rays are longest. */
+static double longest_ray(const texture_camera *c) {
+    double most = 0;
+    for (int i = 0; i < 4; i++)
+        most = fmax(most, camera_radial(c, i % 2 == 0 ? 0 : c->width - 1, i < 2 ? 0 : c->height - 1));
+    return most;
 }
 
 /* What is said of the source by names, and of its options. */
@@ -215,11 +226,12 @@ static void name_all(statistics *r) {
     r->named.mapping_from = texture_origin_name(s->mapping_from);
     r->named.direction_from = texture_origin_name(s->direction_from);
     r->named.metric = is_metric ? r->o->image.metric : none;
+    r->named.radial = s->camera.radial ? longest_ray(&s->camera) : none;
     r->named.step = is_metric && s->metric.step > 0 ? s->metric.step : none;
     r->named.steps = !is_metric && has_steps ? g->steps : none;
     r->named.steps_or = !is_metric && has_steps && g->whole > 0 ? g->whole : none;
     r->named.bits = g->kind == GRAIN_FLOATS ? g->bits : none;
-    r->named.fov = s->camera.ortho ? none : s->matrix.path != NULL ? s->matrix.fov[1] : s->fov_y;
+    r->named.fov = s->camera.ortho ? none : s->fov_y;
     r->named.half_height = s->camera.ortho ? s->camera.half[1] : none;
     r->named.coarser = !is_metric && texture_coarser(s);
     r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;

@@ -89,6 +89,8 @@ static int check_together(const options *o) {
         return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
     if (o->image.metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
+    if (o->image.radial && o->image.metric == 0)
+        return option_error(OPTION_RADIAL, "needs --metric");
     if (o->image.lattice != NULL && o->image.metric == 0)
         return option_error(OPTION_LATTICE, "needs --metric");
     if (o->image.channel != NULL && !file)
@@ -324,8 +326,14 @@ static int make_camera(const options *o, texture_source *s) {
         status = texture_camera_place(o, &spec);
     if (status != EXIT_FINE)
         return status;
-    s->fov_y = spec.fov_y;
-    spec.matrix = s->matrix.path != NULL ? &s->matrix.taken : NULL;
+    if (option_given(o, OPTION_INTRINSICS))
+        texture_intrinsics_take(o->view.intrinsics, (double[]){spec.width, spec.height}, &s->matrix);
+    const bool says_angle = s->matrix.path != NULL || option_given(o, OPTION_INTRINSICS);
+    s->fov_y = says_angle ? s->matrix.fov[1] : spec.fov_y;
+    spec.matrix = says_angle ? &s->matrix.taken : NULL;
+    spec.radial = o->image.radial;
+    if (o->image.radial && o->camera.ortho)
+        return option_error(OPTION_RADIAL, "does not apply to an orthographic camera, whose rays are parallel");
     const char *wrong = camera_init(&s->camera, is_metric ? &s->planes : &s->setup, &spec);
     if (wrong != NULL)
         return usage_error("texture: %s", wrong);

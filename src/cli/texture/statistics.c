@@ -134,6 +134,9 @@ static void say_metric(statistics *r, page *p) {
               s->other != NULL ? s->other->name : "");
     if (s->row->levels != GRAIN_FINE)
         say_levels(r, p);
+    if (r->source.camera.radial)
+        page_note(p, "radial", "all this is of distances along the rays, up to %s z; what follows is of z",
+                  number_of(r->named.radial, 6).text);
 }
 
 static void say_source(statistics *r, page *p) {

@@ -50,7 +50,7 @@ typedef struct statistics {
     setup_fields setup;
     struct {
         const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
-        double metric, step, steps, steps_or, bits, fov, half_height;
+        double metric, radial, step, steps, steps_or, bits, fov, half_height;
         bool coarser;
         const bool *reversed;
         const survey_pairs *pairs;

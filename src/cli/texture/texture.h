@@ -117,6 +117,9 @@ int texture_last_camera(const options *o, const dp_setup *setup, const camera_sp
  *  @return an exit status, after one line on stderr */
 int texture_matrix_open(const options *o, texture_source *s, options *with);
 
+/** The frustum of --intrinsics, in a picture of such a size; planes are not its matter. */
+void texture_intrinsics_take(const double intrinsics[4], const double size[2], texture_matrix *t);
+
 /** For a report: its lines, and its columns, of a texture_matrix. */
 void texture_matrix_say(const texture_matrix *t, page *p);
 extern const column texture_matrix_columns[];
