@@ -79,7 +79,7 @@ static const struct {
      "a number from 0 to 1e12 scene units"},
     {"texture", OPTION_SKY, AT(image.sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5"},
     {"texture", OPTION_METRIC, AT(image.metric), 0, 1e-9, 1e6, "1e-9", "1e6", "0", "1e7",
-     "a number from 1e-9 to 1e6 scene units"},
+     "a number from 1e-9 to 1e6 scene units, mm, tum or kitti"},
 };
 
 static double number_at(const options *o, size_t field) {

@@ -66,19 +66,28 @@ static int check_mixed(const lengths *seen, const option_row *row, const char *v
 }
 
 int parse_length(options *o, const option_row *row, const char *value) {
-    char limits[OPTION_TEXT_SIZE];
+    char limits[OPTION_TEXT_SIZE], names[NAMES_SIZE] = "";
     const bool limited = row->least < row->most;
     lengths seen = {.o = o};
     double length;
     const bool read = read_length(&seen, value, strlen(value), NUMBER_FINITE, &length);
     if (limited && (!read || !(length >= row->least && length <= row->most)))
-        return option_refuse(row, "must be a number from %s, got '%s'%s", option_limits(row, limits), value,
+        return option_refuse(row, "must be a number from %s%s%s, got '%s'%s", option_limits(row, limits),
+                             row->names != NULL ? ", " : "",
+                             row->names != NULL ? names_join(row->names, ", ", " or ", names) : "", value,
                              unit_hint(value, strlen(value)));
     if (!read || (!limited && !(length > 0.0)))
         return option_refuse(row, "must be a positive number of scene units, got '%s'%s", value,
                              unit_hint(value, strlen(value)));
     *(double *)option_field(o, row) = length;
     return EXIT_FINE;
+}
+
+/* Samples of data sets and sensors: words of the option's names, in their order. */
+int parse_metric(options *o, const option_row *row, const char *value) {
+    static const char *const lengths_of[] = {"1mm", "0.2mm", "3.90625mm"};
+    size_t index;
+    return parse_length(o, row, names_find(row->names, value, &index, NULL) ? lengths_of[index] : value);
 }
 
 /* Surfaces of a model may be in one place. */

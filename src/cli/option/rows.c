@@ -31,6 +31,7 @@ static const name_list transforms = {.words = (const char *const[]){"exact", "bi
 static const name_list synthetics = {.get = list_synthetic};
 static const name_list products = {.get = list_product};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
+static const name_list samples = {.words = (const char *const[]){"mm", "tum", "kitti", NULL}};
 static const name_list packings = {.get = list_packing};
 /* In the order of their enumerators. */
 static const name_list targets = {
@@ -281,10 +282,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "window depths within T of the far plane's are sky; with 0 only the plane's own",
         NUMBER(image.sky, 0, 0.5, NULL), .standard = "0.0001",
         .without = "as in Unity's shaders"},
-    [OPTION_METRIC] = {"metric", 0, "SCALE",
-        "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity "
-        "are holes",
-        LENGTH(image.metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_METRIC] = {"metric", 0, "SCALE|mm|tum|kitti",
+        "the samples are eye depths in units of SCALE; of TUM there are 5000 to the metre, of KITTI 256; 0, negative "
+        "numbers, NaN and infinity are holes",
+        .parse = parse_metric, .names = &samples, FIELD(double, image.metric),
+        LIMITS(METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     [OPTION_LATTICE] = {"lattice", 0, "NAME[:NUMBERS]",
         "what metric depth was rounded to before, in place of what the image shows: stereo:FOCAL,BASELINE[,PIXELS] "
         "with the step of disparity in pixels, inverse:A[,B] with steps of 1/A in 1/z, even:STEP[,FROM] in z, "

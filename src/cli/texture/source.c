@@ -132,23 +132,25 @@ static bool is_asked(const options *o) {
     return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
 }
 
-/* Whether a word of the note is an option that nothing on the command line stands against. */
+/* Whether a word of the note is an option that nothing on the command line stands against. A lattice is in metres. */
 static bool is_open(const options *o, option_id id) {
-    const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC;
+    const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC || id == OPTION_LATTICE;
+    if (id == OPTION_LATTICE && o->camera.unit != NULL && strcmp(o->camera.unit->name, "m") != 0)
+        return false;
     return !option_given(o, id) && !(of_samples ? is_asked(o) : o->camera.preset_count > 0 || o->image.matrix != NULL);
 }
 
 /* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
 static int take_note(options *o, texture_source *s) {
-    static const option_id known[] = {OPTION_PACKING, OPTION_METRIC, OPTION_NEAR,
+    static const option_id known[] = {OPTION_PACKING, OPTION_METRIC, OPTION_LATTICE, OPTION_NEAR,
                                       OPTION_FAR,     OPTION_ORTHO,  OPTION_MAPPING};
-    char note[IMAGE_NOTE_SIZE], *rest = NULL;
+    char *rest = NULL;
     const bool asked = is_asked(o);
     bool open[sizeof known / sizeof known[0]];
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         open[i] = is_open(o, known[i]);
-    snprintf(note, sizeof note, "%s", s->picture.note);
-    for (char *word = strtok_r(note, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
+    snprintf(s->note, sizeof s->note, "%s", s->picture.note);
+    for (char *word = strtok_r(s->note, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
         char *value = strchr(word, '=');
         if (value != NULL)
             *value++ = '\0';
@@ -219,6 +221,8 @@ static int read_image(options *o, texture_source *s) {
     s->type = s->picture.type;
     s->channels = s->picture.channels;
     warn_of_compression(o, s);
+    if (s->picture.file == IMAGE_ROS && s->type == IMAGE_U16 && !is_asked(o) && !o->out.quiet)
+        fprintf(stderr, "depthprec: %s: millimetres are assumed; --metric sets the unit\n", s->path);
     int status = take_note(o, s);
     if (status == EXIT_FINE)
         status = check_window(o);

@@ -39,11 +39,12 @@ typedef struct texture_source {
     texture_origin format_from, mapping_from, direction_from;
     image_type type; /**< of the file, where --metric has changed the picture's */
     uint32_t channels;
-    metric metric;        /**< with --metric */
-    unpacked unpacked;    /**< with --packing */
-    bool noted;           /**< the file itself says its mapping */
-    grain grain;          /**< of an image */
-    size_t reading_count; /**< 0 where nothing is assumed that would be read otherwise */
+    metric metric;              /**< with --metric */
+    unpacked unpacked;          /**< with --packing */
+    bool noted;                 /**< the file itself says its mapping */
+    char note[IMAGE_NOTE_SIZE]; /**< its words, which options may point to */
+    grain grain;                /**< of an image */
+    size_t reading_count;       /**< 0 where nothing is assumed that would be read otherwise */
     texture_reading readings[READINGS_MAX];
     uint32_t column, row; /**< the pixel of the readings */
     dp_setup planes;      /**< with --metric: what --near and --far say */
