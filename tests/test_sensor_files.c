@@ -5,6 +5,7 @@
  */
 #include <jansson.h>
 
+#include "exr_made.h"
 #include "support.h"
 #include "truth.h"
 
@@ -127,7 +128,7 @@ TEST(compressed_depth_of_integers) {
         command c = {.count = 0};
         truth_add(&c, truth_path("in.npy"));
         check_depths(&t, "millimetres", &c, z, 1);
-        assert_true(truth_said("millimetres are assumed"));
+        assert_true(truth_said("--metric mm is assumed"));
         json_t *root = truth_statistics(&c);
         assert_true(number_in(root, "metric") == 0.001);
         json_decref(root);
@@ -226,6 +227,85 @@ TEST(units_by_name) {
         truth_add(&c, "cm");
         root = truth_statistics(&c);
         assert_relative(number_in(root, "lo"), 100000 * names[i].metres, 1e-12);
+        json_decref(root);
+    }
+}
+
+/* Millimetres of a Kinect, with holes; of other steps; codes of a depth buffer, whose sky is 0; nothing of them but the
+ * first is taken for metric depth. */
+static void picture(rng *r, int kind, bool hole_is_top, double *samples) {
+    const double step = kind == 0 ? 0.0028953 : 0.0021;
+    for (int i = 0; i < PIXELS; i++) {
+        const double z = rng_log(r, 0.8, 4.5), level = 1 / (step * floor(1 / z / step));
+        samples[i] = i % 11 == 0 ? (hole_is_top ? 65535 : 0)
+                     : kind < 2  ? rint(1000 * level)
+                     : kind == 2 ? rint(65535 * 0.1 / z)
+                     : kind == 3 ? floor(rng_uniform(r, 800, 4500))
+                                 : rint(1000 * z);
+    }
+    for (int i = 0; i < PIXELS && kind == 5; i++)
+        samples[i] = i % 11 == 0 ? 40000 : samples[i]; /* no holes, and something far */
+}
+
+TEST(millimetres_are_assumed) {
+    rng r = rng_make("assumed");
+    static double data[PIXELS];
+    double samples[PIXELS];
+    for (int kind = 0; kind < 6; kind++)
+        for (int top = 0; top < 2; top++) {
+            picture(&r, kind, top, samples);
+            for (int i = 0; i < PIXELS; i++)
+                truth_store(data, IMAGE_U16, (size_t)i, samples[i]);
+            truth_write(truth_path("in.png"), IMAGE_PNG, IMAGE_U16, data);
+            command c = {.count = 0};
+            truth_add(&c, truth_path("in.png"));
+            json_t *root = truth_statistics(&c);
+            const char *from = json_string_value(json_object_get(root, "metric_from"));
+            assert_true(kind == 0 ? strcmp(from, "assumed") == 0 : from == NULL);
+            assert_true(truth_said("--metric mm is assumed: its levels are those of a sensor") == (kind == 0));
+            assert_true(kind > 0 || number_in(root, "metric") == 0.001);
+            json_decref(root);
+            truth_add(&c, top ? "--near" : "--format"); /* whoever says so is believed */
+            truth_add(&c, top ? "0.1" : "unorm16");
+            root = truth_statistics(&c);
+            assert_true(json_is_null(json_object_get(root, "metric_from")));
+            json_decref(root);
+            assert_false(truth_said("is assumed: its levels"));
+        }
+}
+
+/* Z of an EXR above 1 is a distance; a colour is not, nor is what goes below 0. */
+TEST(numbers_called_depth_are_assumed) {
+    static const struct {
+        const char *channel;
+        float least, most;
+        bool assumed;
+    } cases[] = {{"Z", 2, 30, true},
+                 {"view.depth", 0.25F, 3, true},
+                 {"R", 2, 30, false},
+                 {"Z", -2, 30, false},
+                 {"Z", 0.25F, 0.75F, false}};
+    rng r = rng_make("called");
+    static float z[PIXELS];
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        for (int i = 0; i < PIXELS; i++)
+            z[i] = i % 9 == 0 ? (float)INFINITY : (float)rng_uniform(&r, (double)cases[k].least, (double)cases[k].most);
+        const exr_made made = {
+            .type = IMAGE_F32, .channel = cases[k].channel, .width = WIDTH, .height = HEIGHT, .samples = z};
+        if (exr_make(truth_path("in.npy"), &made) != NULL)
+            skip();
+        command c = {.count = 0};
+        truth_add(&c, truth_path("in.npy"));
+        const bool window = cases[k].most < 1;
+        if (!cases[k].assumed && !window) {
+            assert_int_equal(truth_run(c.arguments, c.count), 2);
+            continue;
+        }
+        json_t *root = truth_statistics(&c);
+        const char *from = json_string_value(json_object_get(root, "metric_from"));
+        assert_true(cases[k].assumed ? from != NULL && strcmp(from, "assumed") == 0 : from == NULL);
+        assert_true(truth_said("--metric 1 is assumed: its channel is called depth") == cases[k].assumed);
+        assert_true(number_in(root, "invalid") == 27);
         json_decref(root);
     }
 }

@@ -4,12 +4,19 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "frame/image_depths.h"
 #include "frame/recognise.h"
 #include "frame/recognise_lattice.h"
 
-enum { BITS_MAX = 31, VALUES_LEAST = 16 };
+enum {
+    BITS_MAX = 31,
+    VALUES_LEAST = 16,
+    TOP = 65535,
+    FAR = 30000 /* of sensors, in millimetres */,
+    GUESSED_FROM = 1 << 18
+};
 
 static bool is_depth(double x) {
     return x > 0 && isfinite(x);
@@ -25,7 +32,6 @@ typedef struct look {
 
 /* Some sensors write 65535 where they saw nothing; it is that where nothing else is far. Such samples become 0. */
 static bool clear_top(image *img) {
-    enum { TOP = 65535, FAR = 30000 };
     uint16_t *samples = img->data;
     const size_t count = (size_t)img->width * img->height * img->channels;
     uint16_t most = 0;
@@ -151,6 +157,50 @@ static const char *of_numbers(const image *img, double scale, look *l, const sen
                          .bits = own,
                          .least = img->type == IMAGE_F16 ? ldexp(1, -24 - exponent) : 0x1p-149};
     return NULL;
+}
+
+/* ---- What nobody has said ---------------------------------------------------------------------------------------- */
+
+static const char *guess_numbers(const image *img, const char **why) {
+    bool beyond = false;
+    for (size_t i = 0; i < (size_t)img->width * img->height; i++) {
+        const double x = image_sample(img, i);
+        if (x < 0)
+            return NULL;
+        beyond = beyond || (x > 1 && isfinite(x));
+    }
+    *why = "its channel is called depth, and holds numbers above 1";
+    return beyond && img->named_depth ? "1" : NULL;
+}
+
+/* Some of the rows tell. */
+static const char *guess_integers(const image *img, const char **why) {
+    const size_t width = img->width, step = 1 + width * img->height / GUESSED_FROM;
+    const sensor_file millimetres = {.step = 0.001, .unit = 0.001, .scale = 0.001};
+    image copy = *img;
+    sensor seen = {.found = false};
+    look l;
+    copy.height = (uint32_t)(1 + (img->height - 1) / step);
+    copy.data = malloc(copy.height * width * sizeof(uint16_t));
+    if (copy.data == NULL)
+        return NULL;
+    for (size_t i = 0; i < copy.height; i++)
+        memcpy((uint16_t *)copy.data + i * width, (const uint16_t *)img->data + i * step * width,
+               width * sizeof(uint16_t));
+    clear_top(&copy);
+    look_at(&copy, &l);
+    if (l.depths < copy.height * width && l.most <= FAR)
+        sensor_find(&copy, &millimetres, &seen);
+    distinct_free(&l.seen);
+    free(copy.data);
+    *why = "its levels are those of a sensor that is known";
+    return seen.found && seen.like != NULL ? "mm" : NULL;
+}
+
+const char *metric_guess(const image *img, const char **why) {
+    if (img->type >= IMAGE_F16)
+        return guess_numbers(img, why);
+    return img->type == IMAGE_U16 && img->channels == 1 ? guess_integers(img, why) : NULL;
 }
 
 /* ---- Together ---------------------------------------------------------------------------------------------------- */

@@ -38,4 +38,13 @@ typedef struct metric {
  */
 const char *metric_convert(image *img, double scale, const sensor *given, metric *out);
 
+/**
+ * Whether samples can be nothing but metric depth, where nobody says what they are: numbers above 1 and none below 0 of
+ * a channel that is called depth, and whole numbers of 16 bits with holes that lie, as millimetres, on the levels of a
+ * sensor that is known.
+ * @param why  what shows it
+ * @return the unit of 1 in a sample, as --metric takes it; null: not so
+ */
+const char *metric_guess(const image *img, const char **why);
+
 #endif

@@ -97,6 +97,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, named.type, "type", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.channels, "channels", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
+                                        {FIELD(statistics, named.metric_from, "metric_from", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.radial, "radial", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
@@ -226,6 +227,7 @@ static void name_all(statistics *r) {
     r->named.mapping_from = texture_origin_name(s->mapping_from);
     r->named.direction_from = texture_origin_name(s->direction_from);
     r->named.metric = is_metric ? r->o->image.metric : none;
+    r->named.metric_from = is_metric ? texture_origin_name(s->metric_from) : NULL;
     r->named.radial = s->camera.radial ? longest_ray(&s->camera) : none;
     r->named.step = is_metric && s->metric.step > 0 ? s->metric.step : none;
     r->named.steps = !is_metric && has_steps ? g->steps : none;

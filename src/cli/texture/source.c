@@ -167,6 +167,7 @@ static int take_note(options *o, texture_source *s) {
                 return status;
             o->given[known[i]] = "";
             s->noted = s->noted || known[i] == OPTION_MAPPING;
+            s->metric_from = s->picture.file == IMAGE_ROS && s->type == IMAGE_U16 ? ORIGIN_ASSUMED : ORIGIN_FOUND;
         }
     }
     return EXIT_FINE;
@@ -201,6 +202,44 @@ void texture_source_close(texture_source *s) {
     frame_normals_free(&s->normals);
 }
 
+/* Whether anything says that the samples are window depth, or of which camera. */
+static bool is_said(const options *o) {
+    static const option_id window[] = {OPTION_NEAR,   OPTION_FAR,    OPTION_MAPPING,  OPTION_LOG_C, OPTION_ORTHO,
+                                       OPTION_MATRIX, OPTION_PRESET, OPTION_PLATFORM, OPTION_SKY,   OPTION_ROUNDING};
+    bool said = is_asked(o) || o->image.metric > 0 || o->image.packing != NULL;
+    for (size_t i = 0; i < sizeof window / sizeof window[0]; i++)
+        said = said || option_given(o, window[i]);
+    return said || o->image.pack != NULL || (o->image.product != NULL && o->image.product->kind == FRAME_RAW);
+}
+
+/* Metric depth where nothing is said and the samples can be nothing else. */
+static int guess(options *o, texture_source *s) {
+    const char *why = NULL, *unit = is_said(o) ? NULL : metric_guess(&s->picture, &why);
+    const option_row *row = &option_rows[OPTION_METRIC];
+    int status = EXIT_FINE;
+    if (unit != NULL) {
+        status = row->parse(o, row, unit);
+        o->given[OPTION_METRIC] = "";
+        s->metric_from = ORIGIN_ASSUMED;
+    }
+    if (o->image.metric > 0 && s->metric_from == ORIGIN_ASSUMED && !o->out.quiet)
+        fprintf(stderr, "depthprec: %s: --metric %s is assumed%s%s\n", s->path, unit != NULL ? unit : "mm",
+                why != NULL ? ": " : "", why != NULL ? why : "");
+    return status;
+}
+
+static int read_metric(const options *o, texture_source *s) {
+    sensor given;
+    int status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
+    if (status != EXIT_FINE)
+        return status;
+    const char *wrong = metric_convert(&s->picture, o->image.metric, given.row != NULL ? &given : NULL, &s->metric);
+    if (wrong != NULL)
+        return usage_error("%s: no metric depth: %s", s->path, wrong);
+    texture_lattice_warn(o, s);
+    return EXIT_FINE;
+}
+
 static int read_image(options *o, texture_source *s) {
     image_error error;
     s->path = o->operands[0];
@@ -221,28 +260,18 @@ static int read_image(options *o, texture_source *s) {
     s->type = s->picture.type;
     s->channels = s->picture.channels;
     warn_of_compression(o, s);
-    if (s->picture.file == IMAGE_ROS && s->type == IMAGE_U16 && !is_asked(o) && !o->out.quiet)
-        fprintf(stderr, "depthprec: %s: millimetres are assumed; --metric sets the unit\n", s->path);
     int status = take_note(o, s);
+    if (status == EXIT_FINE)
+        status = guess(o, s);
     if (status == EXIT_FINE)
         status = check_window(o);
     if (status != EXIT_FINE || o->image.packing != NULL)
         return status != EXIT_FINE ? status : unpack(o, s);
-    if (o->image.metric == 0) {
-        recognise(&s->picture, &s->found);
-        return EXIT_FINE;
-    }
-    sensor given;
-    status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
-    if (status != EXIT_FINE)
-        return status;
-    const char *wrong = metric_convert(&s->picture, o->image.metric, given.row != NULL ? &given : NULL, &s->metric);
-    if (wrong != NULL)
-        return usage_error("%s: no metric depth: %s", s->path, wrong);
-    texture_lattice_warn(o, s);
+    if (o->image.metric > 0)
+        return read_metric(o, s);
+    recognise(&s->picture, &s->found);
     return EXIT_FINE;
 }
-
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
 static int choose_format(const options *o, texture_source *s, dp_format *out) {
     const bool chosen = o->camera.preset_count > 0 || o->camera.platform != NULL;

@@ -123,7 +123,8 @@ static void say_levels(statistics *r, page *p) {
 static void say_metric(statistics *r, page *p) {
     const metric *m = &r->source.metric;
     const sensor *s = &m->sensor;
-    page_text(p, "metric depth, samples in units of %s, up to %s", in_scene(p, r->o->image.metric).text,
+    page_text(p, "metric depth%s, samples in units of %s, up to %s",
+              r->source.metric_from == ORIGIN_ASSUMED ? " assumed" : "", in_scene(p, r->o->image.metric).text,
               in_scene(p, m->zfar).text);
     if (m->step > 0)
         page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);

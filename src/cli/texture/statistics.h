@@ -49,7 +49,8 @@ typedef struct statistics {
     lattice_gap gap;
     setup_fields setup;
     struct {
-        const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
+        const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from,
+            *metric_from;
         double metric, radial, step, steps, steps_or, bits, fov, half_height;
         bool coarser;
         const bool *reversed;

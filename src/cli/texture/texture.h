@@ -36,7 +36,7 @@ typedef struct texture_source {
     const char *path; /**< null for a synthetic image */
     image picture;
     recognised found;
-    texture_origin format_from, mapping_from, direction_from;
+    texture_origin format_from, mapping_from, direction_from, metric_from;
     image_type type; /**< of the file, where --metric has changed the picture's */
     uint32_t channels;
     metric metric;              /**< with --metric */
