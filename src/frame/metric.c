@@ -15,7 +15,8 @@ enum {
     VALUES_LEAST = 16,
     TOP = 65535,
     FAR = 30000 /* of sensors, in millimetres */,
-    GUESSED_FROM = 1 << 18
+    GUESSED_FROM = 1 << 18,
+    BEYOND = 100
 };
 
 static bool is_depth(double x) {
@@ -30,21 +31,31 @@ typedef struct look {
     distinct_set seen;
 } look;
 
-/* Some sensors write 65535 where they saw nothing; it is that where nothing else is far. Such samples become 0. */
-static bool clear_top(image *img) {
-    uint16_t *samples = img->data;
-    const size_t count = (size_t)img->width * img->height * img->channels;
-    uint16_t most = 0;
-    bool any = false;
-    for (size_t i = 0; i < count && img->type == IMAGE_U16; i += img->channels) {
-        any = any || samples[i] == TOP;
-        most = samples[i] < TOP && samples[i] > most ? samples[i] : most;
+/* Where nothing was seen some sensors write 65535 and some programs 1e10 or the like: the largest sample is that where
+ * all others end long before. @return NaN where it is not */
+static double find_top(const image *img) {
+    const size_t count = (size_t)img->width * img->height;
+    double most = 0, next = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double x = image_sample(img, i);
+        if (!is_depth(x) || x == most)
+            continue;
+        next = fmax(next, fmin(x, most));
+        most = fmax(most, x);
     }
-    if (!any || most == 0 || most > FAR)
-        return false;
-    for (size_t i = 0; i < count; i += img->channels)
-        samples[i] = samples[i] == TOP ? 0 : samples[i];
-    return true;
+    const bool top =
+        img->type == IMAGE_U16 ? most == TOP && next <= FAR : img->type != IMAGE_U8 && most > BEYOND * next;
+    return top && next > 0 ? most : (double)NAN;
+}
+
+/* Such samples become 0. */
+static double clear_top(image *img) {
+    const double top = find_top(img);
+    const size_t size = image_type_size(img->type), count = (size_t)img->width * img->height;
+    for (size_t i = 0; i < count && !isnan(top); i++)
+        if (image_sample(img, i) == top)
+            memset((char *)img->data + i * img->channels * size, 0, size);
+    return top;
 }
 
 static void look_at(const image *img, look *l) {
@@ -227,7 +238,7 @@ static bool replace(image *img, const metric *m, double scale) {
 
 const char *metric_convert(image *img, double scale, const sensor *given, metric *out) {
     look l;
-    *out = (metric){.top_is_hole = clear_top(img)};
+    *out = (metric){.top = clear_top(img)};
     look_at(img, &l);
     const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"
                         : img->type < IMAGE_F16 ? of_integers(img, scale, &l, given, out)

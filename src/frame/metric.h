@@ -26,7 +26,8 @@ typedef struct metric {
     sensor sensor;      /**< what it was rounded to before: as given, else as seen */
     sensor seen;        /**< as the samples show it */
     double depths;      /**< pixels that hold one */
-    bool top_is_hole;   /**< of 16 bits: 65535 is no depth, because no other is above 30000 */
+    double top;         /**< a sample that is no depth: 65535 of 16 bits where no other is above 30000, and a number a
+                             hundred times as large as the next one; NaN where there is none */
     grain grain;        /**< how far the depth can be beside its sample, with both roundings */
 } metric;
 

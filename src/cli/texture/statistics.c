@@ -180,6 +180,7 @@ void statistics_say_head(page *p, void *item) {
     statistics *r = item;
     const survey *v = &r->survey;
     const texture_camera *s = &r->source.camera;
+    const double top = r->source.metric.top;
     char zeros[READINGS_SIZE];
     say_source(r, p);
     if (s->oblique.on)
@@ -194,9 +195,9 @@ void statistics_say_head(page *p, void *item) {
     if (r->source.unpacked.zeros > 0)
         page_note(p, "zeros", "%s", texture_zeros_of(r->o, &r->source, zeros));
     if (v->invalid > 0)
-        page_note(p, "holes", "%llu pixels, %s %%, hold no depth%s", (unsigned long long)v->invalid,
-                  share(v->invalid, v->pixels).text,
-                  r->source.metric.top_is_hole ? "; 65535 counts as none, others end at 30000" : "");
+        page_note(p, "holes", "%llu pixels, %s %%, hold no depth%s%s%s", (unsigned long long)v->invalid,
+                  share(v->invalid, v->pixels).text, top > 0 ? "; " : "", top > 0 ? number_of(top, 9).text : "",
+                  top > 0 ? " counts as none, far beyond all others" : "");
     if (isnan(v->lo))
         page_note(p, "depths", "none");
     else
