@@ -186,12 +186,9 @@ static void shader_carla(float v, uint8_t *t) { /* cut off */
 static const struct {
     const char *name;
     void (*run)(float v, uint8_t *texel);
-} shaders[] = {{"rg", shader_rg},
-               {"depth-normals", shader_depth_normals},
-               {"rgba", shader_rgba},
-               {"rgba-r166", shader_rgba_r166},
-               {"carla", shader_carla},
-               {"r8-linear01", shader_byte}};
+} shaders[] = {{"rg", shader_rg},       {"depth-normals", shader_depth_normals},
+               {"rgba", shader_rgba},   {"rgba-r166", shader_rgba_r166},
+               {"carla", shader_carla}, {"r8-linear01", shader_byte}};
 
 static float any_depth(rng *r, uint64_t k) {
     return (float)(k % 3 == 0   ? rng_unit(r)

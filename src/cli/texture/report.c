@@ -73,6 +73,13 @@ static const column recognised_columns[] = {{FIELD(statistics, named.format, "fo
 static const column gap_columns[] = {
     {FIELD(statistics, gap.z, "z", "scene")}, {FIELD(statistics, gap.gap, "gap", "scene")}, {.kind = COLUMN_END}};
 
+static const column buffer_columns[] = {{FIELD(sensor_buffer, bits, "bits", "")},
+                                        {FIELD(sensor_buffer, znear, "near", "scene")},
+                                        {FIELD(sensor_buffer, znear_off, "near_error", "scene")},
+                                        {FIELD(sensor_buffer, zfar, "far", "scene")},
+                                        {FIELD(sensor_buffer, zfar_off, "far_error", "scene")},
+                                        {.kind = COLUMN_END}};
+
 static const column lattice_columns[] = {{FIELD(statistics, lattice.name, "name", "")},
                                          {FIELD(statistics, lattice.from, "from", "")},
                                          {FIELD(statistics, lattice.other, "other", "")},
@@ -86,6 +93,7 @@ static const column lattice_columns[] = {{FIELD(statistics, lattice.name, "name"
                                          {FIELD(statistics, lattice.bits, "bits", "")},
                                          {FIELD(statistics, lattice.off_pixels, "off_pixels", "")},
                                          {FIELD(statistics, lattice.residual, "residual", "scene")},
+                                         {PART(statistics, named.buffer, "buffer", buffer_columns), .pointed = true},
                                          {LIST("gaps", gap_columns, statistics_next_gap)},
                                          {.kind = COLUMN_END}};
 

@@ -87,6 +87,8 @@ void statistics_name_lattice(statistics *r) {
                                   .bits = s->bits,
                                   .off_pixels = s->off_pixels,
                                   .residual = s->residual};
+    if (!r->source.camera.radial && sensor_buffer_find(s, r->survey.lo, r->survey.hi, &r->buffer))
+        r->named.buffer = &r->buffer;
 }
 
 void *statistics_next_gap(void *of, size_t i) {
@@ -101,6 +103,7 @@ void *statistics_next_gap(void *of, size_t i) {
 /* The levels: how far apart, with what that is off by, and what else is known of them. */
 static void say_levels(statistics *r, page *p) {
     const sensor *s = &r->source.metric.sensor;
+    const sensor_buffer *b = r->named.buffer;
     char gaps[256] = "";
     char off[64] = "";
     if (s->step_off > 0)
@@ -118,6 +121,9 @@ static void say_levels(statistics *r, page *p) {
         page_note(p, "", "%s pixels are on none: interpolated, or of something else", number_of(s->off_pixels, 9).text);
     if (s->like != NULL)
         page_note(p, "", "such as %s", s->like);
+    if (b != NULL)
+        page_note(p, "", "such as a depth buffer of %d bits, near %s, far %s", b->bits,
+                  number_in(number_of(b->znear, 6), p->unit).text, number_in(number_of(b->zfar, 6), p->unit).text);
 }
 
 static void say_metric(statistics *r, page *p) {

@@ -5,6 +5,7 @@
 
 #include "cli/setups.h"
 #include "cli/texture/texture.h"
+#include "frame/sensor_buffer.h"
 #include "frame/survey.h"
 
 enum { ERRORS_MAX = 32 };
@@ -47,6 +48,7 @@ typedef struct statistics {
     error_line errors[ERRORS_MAX];
     lattice_fields lattice;
     lattice_gap gap;
+    sensor_buffer buffer;
     setup_fields setup;
     struct {
         const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from,
@@ -56,6 +58,7 @@ typedef struct statistics {
         const bool *reversed;
         const survey_pairs *pairs;
         const shader_params *zbuffer;
+        const sensor_buffer *buffer;
         uint64_t hidden;
     } named;
     const char *parameter;
