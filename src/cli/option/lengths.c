@@ -83,11 +83,24 @@ int parse_length(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
-/* Samples of data sets and sensors: words of the option's names, in their order. */
+/* What 1 in a sample of metric depth is. */
+static const struct sample_unit {
+    const char *name, *length;
+} sample_units[] = {
+    {"mm", "1mm"},
+    {"tum", "0.2mm"},
+    {"kitti", "3.90625mm"},
+};
+
+bool list_samples(size_t index, list_item *item) {
+    return index < sizeof sample_units / sizeof sample_units[0] &&
+           list_fill(item, (list_item){.name = sample_units[index].name, .row = &sample_units[index]});
+}
+
 int parse_metric(options *o, const option_row *row, const char *value) {
-    static const char *const lengths_of[] = {"1mm", "0.2mm", "3.90625mm"};
-    size_t index;
-    return parse_length(o, row, names_find(row->names, value, &index, NULL) ? lengths_of[index] : value);
+    list_item item;
+    const bool named = names_find(row->names, value, NULL, &item);
+    return parse_length(o, row, named ? ((const struct sample_unit *)item.row)->length : value);
 }
 
 /* Surfaces of a model may be in one place. */

@@ -31,7 +31,7 @@ static const name_list transforms = {.words = (const char *const[]){"exact", "bi
 static const name_list synthetics = {.get = list_synthetic};
 static const name_list products = {.get = list_product};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
-static const name_list samples = {.words = (const char *const[]){"mm", "tum", "kitti", NULL}};
+static const name_list samples = {.get = list_samples};
 static const name_list packings = {.get = list_packing};
 /* In the order of their enumerators. */
 static const name_list targets = {
