@@ -175,14 +175,42 @@ TEST(metric_depth) {
     drawn_close(d);
 }
 
-/* Where it was rounded before, its levels: on no edge of a bin. */
-TEST(metric_levels) {
+/* What the file could hold from one depth up to another: binary32, or whole units. */
+static double samples_between(double unit, double from, double to) {
+    double count = 0;
+    for (int e = -20; e < 20 && unit == 1; e++) { /* numbers from 2^e on are 2^(e - 23) apart */
+        const double gap = ldexp(1, e - 23), lo = fmax(from, ldexp(1, e)), hi = fmin(to, ldexp(1, e + 1));
+        count += lo < hi ? ceil(hi / gap) - ceil(lo / gap) : 0;
+    }
+    for (double k = floor(from / unit); k * unit < to && unit < 1; k++)
+        count += k * unit >= from;
+    return count;
+}
+
+/* Thousandths of 1 to 60. */
+static void write_whole(const char *path) {
+    enum { WIDTH = 96, HEIGHT = 8 };
+    uint16_t samples[WIDTH * HEIGHT];
+    rng r = rng_make("whole");
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        samples[i] = (uint16_t)rng_log(&r, 1000, 60000);
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    image_writer *w = image_writer_open(out, IMAGE_NPY, IMAGE_U16, WIDTH, HEIGHT, 1, NULL);
+    assert_true(w != NULL && image_writer_rows(w, samples, HEIGHT) && image_writer_close(w) && fclose(out) == 0);
+}
+
+/* Where it was rounded before, its levels, on no edge of a bin; and beside them what the file could hold. */
+static void check_levels(double unit) {
     char path[320], arguments[400];
     snprintf(path, sizeof path, "%s/metres.npy", drawn_folder());
-    free(drawn_output("texture --synthetic steps --parameter to=290 --size 96x8 -F fp32 -m reversed --product eye -q "
-                      "-o %s",
-                      path));
-    snprintf(arguments, sizeof arguments, "%s --metric 1 --lattice inverse:500,0.3", path);
+    if (unit < 1)
+        write_whole(path);
+    else
+        free(drawn_output("texture --synthetic steps --parameter to=290 --size 96x8 -F fp32 -m reversed --product eye "
+                          "-q -o %s",
+                          path));
+    snprintf(arguments, sizeof arguments, "%s --metric %g --lattice inverse:500,0.3", path, unit);
     const image depths = depths_of(arguments);
     const float *z = depths.data;
     double ends[2] = {INFINITY, -INFINITY};
@@ -191,16 +219,22 @@ TEST(metric_levels) {
         ends[1] = fmax(ends[1], (double)z[i]);
     }
     drawn *d = drawn_run(&drawn_light, "texture %s -q --histogram", arguments);
-    drawn_legend_is(d, 2, (const char *const[]){"pixels", "levels available"});
+    drawn_legend_is(d, 3, (const char *const[]){"pixels", "levels available", "samples of the file"});
     const drawn_panel *p = &d->panels[0];
-    const svg_mark *levels = drawn_curve(d, p, &d->entries[1]);
+    const svg_mark *levels = drawn_curve(d, p, &d->entries[1]), *samples = drawn_curve(d, p, &d->entries[2]);
     for (int i = 0; i < BINS; i++) {
         const double from = (double)edge_of(ends, p->x.log, i), to = (double)edge_of(ends, p->x.log, i + 1);
         double count = 0;
         for (int k = 1; k < 1000; k++)
             count += 500 / (k - 0.3) >= from && 500 / (k - 0.3) < to;
         check_step(p, levels, from, to, count);
+        check_step(p, samples, from, to, samples_between(unit, from, to));
     }
     free(depths.data);
     drawn_close(d);
+}
+
+TEST(metric_levels) {
+    check_levels(1);
+    check_levels(0.001);
 }

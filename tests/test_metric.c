@@ -417,6 +417,42 @@ TEST(the_largest_word_may_be_a_hole) {
     }
 }
 
+/* So is what stands a hundred times as far as all else in numbers, whichever it is. */
+TEST(the_largest_number_may_be_a_hole) {
+    static const struct {
+        image_type type;
+        double top;
+        bool hole;
+    } cases[] = {{IMAGE_F32, 1e10, true},  {IMAGE_F64, 3.4e38, true}, {IMAGE_F16, 65504, true},
+                 {IMAGE_F32, 900.5, true}, {IMAGE_F32, 899.5, false}, {IMAGE_U32, 4294967295, true},
+                 {IMAGE_U32, 899, false}};
+    rng r = rng_make("numbers");
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        static double data[PIXELS];
+        float eye[PIXELS];
+        size_t holes = 0;
+        command c = {.count = 0};
+        for (int i = 0; i < PIXELS; i++) {
+            const bool top = i > 0 && rng_below(&r, 9) == 0;
+            truth_store(data, cases[k].type, (size_t)i, top ? cases[k].top : i == 0 ? 9 : 1 + (double)rng_below(&r, 8));
+            holes += top;
+        }
+        truth_write(truth_path("in.npy"), IMAGE_NPY, cases[k].type, data);
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", 1);
+        json_t *root = statistics(&c);
+        assert_true(number_in(root, "invalid") == (cases[k].hole ? (double)holes : 0));
+        assert_true(cases[k].hole == (number_in(root, "hi") < 9.1));
+        json_decref(root);
+        truth_product(&c, "eye.npy", "eye", NULL, false);
+        truth_floats("eye.npy", 1, eye);
+        size_t missing = 0;
+        for (int i = 0; i < PIXELS; i++)
+            missing += isnan(eye[i]) ? 1 : 0;
+        assert_true(missing == (cases[k].hole ? holes : 0));
+    }
+}
+
 /* Where the image shows another, or is on no level of it, that is named. */
 TEST(contradictions_are_named) {
     rng r = rng_make("contradictions");

@@ -79,7 +79,7 @@ static const struct {
      "a number from 0 to 1e12 scene units"},
     {"texture", OPTION_SKY, AT(image.sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5"},
     {"texture", OPTION_METRIC, AT(image.metric), 0, 1e-9, 1e6, "1e-9", "1e6", "0", "1e7",
-     "a number from 1e-9 to 1e6 scene units"},
+     "a number from 1e-9 to 1e6 scene units, mm, tum or kitti"},
 };
 
 static double number_at(const options *o, size_t field) {
@@ -433,6 +433,7 @@ TEST(test_flags) {
                  {"texture", OPTION_ERROR_MAP, WORD_AT(image.error_map)},
                  {"list", OPTION_QUIET, WORD_AT(out.quiet)},
                  {"list", OPTION_FULL, WORD_AT(out.full)},
+                 {"texture", OPTION_RADIAL, WORD_AT(image.radial)},
                  {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];
     tally t = {.name = "flags"};
@@ -556,6 +557,9 @@ TEST(test_places) {
     assert_int_equal(parse(&o, "texture", OPTION_LAST_LOOK, "5,6,-7", line), EXIT_FINE);
     assert_true(o.view.last_look[0] == 5 && o.view.last_look[2] == -7 && o.view.look[0] == 0 &&
                 o.view.last_eye[0] == 0);
+    assert_int_equal(parse(&o, "texture", OPTION_INTRINSICS, "1,1e9,-1e6,0.5", line), EXIT_FINE);
+    assert_true(o.view.intrinsics[0] == 1 && o.view.intrinsics[1] == 1e9 && o.view.intrinsics[2] == -1e6 &&
+                o.view.intrinsics[3] == 0.5 && o.view.spec.fov_y == 60);
 }
 
 TEST(test_own) {

@@ -56,6 +56,7 @@ static const stands_for all[] = {
     {"rgba-r166", 0, 4, three_old, false},
     {"rgb24", 0, 3, big, false},
     {"rgb24-le", 0, 3, small, false},
+    {"carla", 0, 3, small, false},
     {"r8-linear01", 0, 1, byte, false},
 };
 enum { ALL = sizeof all / sizeof all[0] };
@@ -176,14 +177,18 @@ static void shader_byte(float v, uint8_t *t) {
     t[0] = stored(v);
 }
 
+static void shader_carla(float v, uint8_t *t) { /* cut off */
+    const uint32_t code = (uint32_t)floor((double)v * 16777215);
+    for (int k = 0; k < 3; k++)
+        t[k] = (uint8_t)(code >> 8 * k);
+}
+
 static const struct {
     const char *name;
     void (*run)(float v, uint8_t *texel);
-} shaders[] = {{"rg", shader_rg},
-               {"depth-normals", shader_depth_normals},
-               {"rgba", shader_rgba},
-               {"rgba-r166", shader_rgba_r166},
-               {"r8-linear01", shader_byte}};
+} shaders[] = {{"rg", shader_rg},       {"depth-normals", shader_depth_normals},
+               {"rgba", shader_rgba},   {"rgba-r166", shader_rgba_r166},
+               {"carla", shader_carla}, {"r8-linear01", shader_byte}};
 
 static float any_depth(rng *r, uint64_t k) {
     return (float)(k % 3 == 0   ? rng_unit(r)

@@ -314,6 +314,8 @@ static void want_image(values *v, const char *path, const image *shot, const rec
 static void want_samples(values *v, const grain *g, bool coarser) {
     values_under(v, "%s", "");
     want_number(v, "metric", NAN);
+    want_number(v, "radial", NAN);
+    want_text(v, "metric_from", NULL);
     values_under(v, "samples.");
     want(v, "step=%f steps=%f steps_or=%f", NAN, g->kind == GRAIN_STEPS ? g->steps : NAN, NAN);
     want(v, "bits=%f coarser=%d", g->kind == GRAIN_FLOATS ? g->bits : NAN, coarser);

@@ -72,7 +72,7 @@ static void keep_one_format(setups *all) {
 static int check(const options *o, const setups *all) {
     for (option_id id = OPTION_FOV; id <= OPTION_VIEWPORT && o->camera.ortho; id++)
         if (option_given(o, id))
-            return option_error(id, "does not apply with --ortho");
+            return option_error(id, "conflicts with --ortho");
     for (size_t i = 0; i < all->count; i++) {
         const dp_mapping_row *mapping = dp_mapping_get(all->items[i].spec.mapping);
         if (mapping->curve != DP_CURVE_PERSPECTIVE)

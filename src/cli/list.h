@@ -57,6 +57,7 @@ bool list_position(size_t index, list_item *item);
 bool list_normal(size_t index, list_item *item);
 bool list_packing(size_t index, list_item *item);
 bool list_lattice(size_t index, list_item *item);
+bool list_samples(size_t index, list_item *item); /**< of name alone */
 bool list_method(size_t index, list_item *item);
 
 /** What can be listed: the row of a list_topic(). */

@@ -55,13 +55,16 @@ int frame_channels(const frame_product *product) {
 /* What is made from planes that all pixels share, or for a view axis in the middle of the picture. */
 static const char *camera_refuses(const frame *f, const frame_product *product) {
     const bool oblique = f->camera->oblique.on, centred = camera_is_centred(f->camera);
+    const bool shared = camera_is_shared(f->camera);
     if (product->kind == FRAME_POSITION && product->position != NULL && !centred)
         return "this method is for a frustum that is centred, without an oblique plane; 'exact' is for each";
+    if (product->kind == FRAME_EFFECT && f->camera->radial)
+        return "effects read depths along the view axis: --product eye writes them";
     if (product->kind == FRAME_EFFECT && (oblique || (!centred && (product->effect->needs & EFFECT_POSITION) != 0)))
         return "this effect is for a frustum that is centred, without an oblique plane";
     if (product->kind == FRAME_LINEAR01 && oblique)
         return "this is for a far plane that all pixels share";
-    if (product->kind == FRAME_NORMAL && product->error && oblique && product->normal == normal_get(NORMAL_PROJECTIVE))
+    if (product->kind == FRAME_NORMAL && product->error && !shared && product->normal == normal_get(NORMAL_PROJECTIVE))
         return "its bound is for planes that all pixels share; the other methods have one";
     return NULL;
 }
@@ -213,7 +216,7 @@ static void decode_row_of(const run *r, const desk *d, uint32_t first, uint32_t 
     const bool inside = row >= 0 && row < r->height;
     if (inside) {
         frame_codes(r->f, (uint32_t)row, codes);
-        if (r->f->camera->oblique.on)
+        if (!camera_is_shared(r->f->camera))
             pixel_eyes(r->f->camera, (uint32_t)row, codes, eyes);
         else
             dp_batch_run(&r->eye, codes, eyes, r->width);

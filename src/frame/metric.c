@@ -4,12 +4,20 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "frame/image_depths.h"
 #include "frame/recognise.h"
 #include "frame/recognise_lattice.h"
 
-enum { BITS_MAX = 31, VALUES_LEAST = 16 };
+enum {
+    BITS_MAX = 31,
+    VALUES_LEAST = 16,
+    TOP = 65535,
+    FAR = 30000 /* of sensors, in millimetres */,
+    GUESSED_FROM = 1 << 18,
+    BEYOND = 100
+};
 
 static bool is_depth(double x) {
     return x > 0 && isfinite(x);
@@ -23,22 +31,31 @@ typedef struct look {
     distinct_set seen;
 } look;
 
-/* Some sensors write 65535 where they saw nothing; it is that where nothing else is far. Such samples become 0. */
-static bool clear_top(image *img) {
-    enum { TOP = 65535, FAR = 30000 };
-    uint16_t *samples = img->data;
-    const size_t count = (size_t)img->width * img->height * img->channels;
-    uint16_t most = 0;
-    bool any = false;
-    for (size_t i = 0; i < count && img->type == IMAGE_U16; i += img->channels) {
-        any = any || samples[i] == TOP;
-        most = samples[i] < TOP && samples[i] > most ? samples[i] : most;
+/* Where nothing was seen some sensors write 65535 and some programs 1e10 or the like: the largest sample is that where
+ * all others end long before. @return NaN where it is not */
+static double find_top(const image *img) {
+    const size_t count = (size_t)img->width * img->height;
+    double most = 0, next = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double x = image_sample(img, i);
+        if (!is_depth(x) || x == most)
+            continue;
+        next = fmax(next, fmin(x, most));
+        most = fmax(most, x);
     }
-    if (!any || most == 0 || most > FAR)
-        return false;
-    for (size_t i = 0; i < count; i += img->channels)
-        samples[i] = samples[i] == TOP ? 0 : samples[i];
-    return true;
+    const bool top =
+        img->type == IMAGE_U16 ? most == TOP && next <= FAR : img->type != IMAGE_U8 && most > BEYOND * next;
+    return top && next > 0 ? most : (double)NAN;
+}
+
+/* Such samples become 0. */
+static double clear_top(image *img) {
+    const double top = find_top(img);
+    const size_t size = image_type_size(img->type), count = (size_t)img->width * img->height;
+    for (size_t i = 0; i < count && !isnan(top); i++)
+        if (image_sample(img, i) == top)
+            memset((char *)img->data + i * img->channels * size, 0, size);
+    return top;
 }
 
 static void look_at(const image *img, look *l) {
@@ -153,6 +170,50 @@ static const char *of_numbers(const image *img, double scale, look *l, const sen
     return NULL;
 }
 
+/* ---- What nobody has said ---------------------------------------------------------------------------------------- */
+
+static const char *guess_numbers(const image *img, const char **why) {
+    bool beyond = false;
+    for (size_t i = 0; i < (size_t)img->width * img->height; i++) {
+        const double x = image_sample(img, i);
+        if (x < 0)
+            return NULL;
+        beyond = beyond || (x > 1 && isfinite(x));
+    }
+    *why = "its channel is called depth, and holds numbers above 1";
+    return beyond && img->named_depth ? "1" : NULL;
+}
+
+/* Some of the rows tell. */
+static const char *guess_integers(const image *img, const char **why) {
+    const size_t width = img->width, step = 1 + width * img->height / GUESSED_FROM;
+    const sensor_file millimetres = {.step = 0.001, .unit = 0.001, .scale = 0.001};
+    image copy = *img;
+    sensor seen = {.found = false};
+    look l;
+    copy.height = (uint32_t)(1 + (img->height - 1) / step);
+    copy.data = malloc(copy.height * width * sizeof(uint16_t));
+    if (copy.data == NULL)
+        return NULL;
+    for (size_t i = 0; i < copy.height; i++)
+        memcpy((uint16_t *)copy.data + i * width, (const uint16_t *)img->data + i * step * width,
+               width * sizeof(uint16_t));
+    clear_top(&copy);
+    look_at(&copy, &l);
+    if (l.depths < copy.height * width && l.most <= FAR)
+        sensor_find(&copy, &millimetres, &seen);
+    distinct_free(&l.seen);
+    free(copy.data);
+    *why = "its levels are those of a sensor that is known";
+    return seen.found && seen.like != NULL ? "mm" : NULL;
+}
+
+const char *metric_guess(const image *img, const char **why) {
+    if (img->type >= IMAGE_F16)
+        return guess_numbers(img, why);
+    return img->type == IMAGE_U16 && img->channels == 1 ? guess_integers(img, why) : NULL;
+}
+
 /* ---- Together ---------------------------------------------------------------------------------------------------- */
 
 static bool replace(image *img, const metric *m, double scale) {
@@ -177,7 +238,7 @@ static bool replace(image *img, const metric *m, double scale) {
 
 const char *metric_convert(image *img, double scale, const sensor *given, metric *out) {
     look l;
-    *out = (metric){.top_is_hole = clear_top(img)};
+    *out = (metric){.top = clear_top(img)};
     look_at(img, &l);
     const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"
                         : img->type < IMAGE_F16 ? of_integers(img, scale, &l, given, out)

@@ -26,7 +26,8 @@ typedef struct metric {
     sensor sensor;      /**< what it was rounded to before: as given, else as seen */
     sensor seen;        /**< as the samples show it */
     double depths;      /**< pixels that hold one */
-    bool top_is_hole;   /**< of 16 bits: 65535 is no depth, because no other is above 30000 */
+    double top;         /**< a sample that is no depth: 65535 of 16 bits where no other is above 30000, and a number a
+                             hundred times as large as the next one; NaN where there is none */
     grain grain;        /**< how far the depth can be beside its sample, with both roundings */
 } metric;
 
@@ -37,5 +38,14 @@ typedef struct metric {
  * @return null, or why not: one sentence; the image is then as it was, but for such holes
  */
 const char *metric_convert(image *img, double scale, const sensor *given, metric *out);
+
+/**
+ * Whether samples can be nothing but metric depth, where nobody says what they are: numbers above 1 and none below 0 of
+ * a channel that is called depth, and whole numbers of 16 bits with holes that lie, as millimetres, on the levels of a
+ * sensor that is known.
+ * @param why  what shows it
+ * @return the unit of 1 in a sample, as --metric takes it; null: not so
+ */
+const char *metric_guess(const image *img, const char **why);
 
 #endif

@@ -266,7 +266,7 @@ static bool finish(const surveying *s, survey *out) {
 }
 
 /* Where a code has another depth in each pixel there are no bands of codes. */
-static bool visit_oblique(surveying *s, survey *out) {
+static bool visit_pixels(surveying *s, survey *out) {
     const texture_camera *camera = s->f->camera;
     uint32_t *codes = malloc((size_t)camera->width * sizeof *codes);
     for (uint32_t row = 0; row < camera->height && codes != NULL; row++) {
@@ -298,8 +298,8 @@ bool survey_make(const frame *f, survey *out) {
     if (s.used == NULL)
         return false;
     *out = (survey){.pixels = (uint64_t)f->camera->width * f->camera->height, .lo = NAN, .hi = NAN, .sky_from = NAN};
-    if (f->camera->oblique.on) {
-        const bool visited = visit_oblique(&s, out);
+    if (!camera_is_shared(f->camera)) {
+        const bool visited = visit_pixels(&s, out);
         free(s.used);
         return visited;
     }

@@ -30,7 +30,7 @@ typedef struct survey {
 } survey;
 
 /**
- * Visits all pixels. Of a camera whose planes differ from pixel to pixel there are no bands, and `sky_from` is NaN;
+ * Visits all pixels. Where a code has another depth in each pixel there are no bands, and `sky_from` is NaN;
  * what lies beyond infinity is invalid. Bands end at 1, 2 and 5 times powers of ten, or at powers of ten where those
  * would be too many.
  *

@@ -104,6 +104,11 @@ static bool is_like(const char *name, const char *wanted, likeness how) {
     return (how == LIKE_SAME ? strcmp(name, wanted) : strcasecmp(name, wanted)) == 0;
 }
 
+static bool names_depth(const char *name) {
+    return is_like(name, "Z", LIKE_CASE) || is_like(name, "Z", LIKE_LAST) || is_like(name, "depth", LIKE_CASE) ||
+           is_like(name, "depth", LIKE_LAST);
+}
+
 static bool find_like(reading *r, const char *wanted, likeness how) {
     int parts = 0;
     const exr_attr_chlist_t *list;
@@ -285,6 +290,7 @@ static bool read_file(reading *r) {
         return damaged(r, code);
     if (!find_channel(r) || !find_shape(r))
         return false;
+    r->out->named_depth = names_depth(r->channel);
     r->call.exr_get_storage(r->file, r->part, &storage);
     return storage == EXR_STORAGE_TILED ? read_tiles(r) : read_scanlines(r);
 }

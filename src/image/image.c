@@ -12,12 +12,12 @@
 #include "image/kind.h"
 #include "system/input.h"
 
-enum { HEAD_SIZE = 8 };
+enum { HEAD_SIZE = 20 };
 
 static const image_kind *const kinds[IMAGE_FILE_COUNT] = {
     [IMAGE_PNG] = &image_kind_png, [IMAGE_PFM] = &image_kind_pfm, [IMAGE_NPY] = &image_kind_npy,
     [IMAGE_DDS] = &image_kind_dds, [IMAGE_EXR] = &image_kind_exr, [IMAGE_TIFF] = &image_kind_tiff,
-    [IMAGE_RAW] = &image_kind_raw};
+    [IMAGE_RAW] = &image_kind_raw, [IMAGE_ROS] = &image_kind_ros};
 
 /* Files that people have instead, so that they are told what to do and not only what is wrong. */
 static const struct {
@@ -85,7 +85,8 @@ static bool read_source(image_source *source, image *out) {
     const size_t size = source->ready_size < HEAD_SIZE ? source->ready_size : HEAD_SIZE;
     for (int i = 0; i < IMAGE_FILE_COUNT; i++)
         for (size_t k = 0; k < sizeof kinds[i]->magic / sizeof kinds[i]->magic[0]; k++)
-            if (begins(head, size, kinds[i]->magic[k], kinds[i]->magic_size))
+            if (size > kinds[i]->magic_at &&
+                begins(head + kinds[i]->magic_at, size - kinds[i]->magic_at, kinds[i]->magic[k], kinds[i]->magic_size))
                 return read_kind(source, (image_file)i, out);
     return unknown(source, head, size);
 }

@@ -79,10 +79,10 @@ struct image_writer {
 /** A kind of file. */
 typedef struct image_kind {
     const char *name, *ending;
-    const char *magic[4]; /**< the first bytes, one or the other; null: no other, of raw none */
-    bool named;           /**< its channels have names */
-    size_t magic_size;
-    unsigned types, channels; /**< bit sets of what it holds */
+    const char *magic[4];        /**< the first bytes, one or the other; null: no other, of raw none */
+    bool named;                  /**< its channels have names */
+    size_t magic_size, magic_at; /**< and how many bytes come before it */
+    unsigned types, channels;    /**< bit sets of what it holds */
     bool bottom_up;
     bool (*read)(image_source *source, image *out); /**< the magic is still to be read; on failure data stays for the
                                                          caller to free */
@@ -92,7 +92,7 @@ typedef struct image_kind {
 } image_kind;
 
 extern const image_kind image_kind_png, image_kind_pfm, image_kind_npy, image_kind_dds, image_kind_exr, image_kind_tiff,
-    image_kind_raw;
+    image_kind_raw, image_kind_ros;
 
 /** Writes the samples alone, the lowest byte first on every machine: `rows` of PFM and npy. */
 bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count);

@@ -14,7 +14,7 @@ static const double wide = 50;
 typedef struct bins {
     chart_axis x;
     uint32_t width;
-    double pixels[BINS], codes[BINS];
+    double pixels[BINS], codes[BINS], samples[BINS];
 } bins;
 
 static chart_axis axis_of(const frame_summary *s) {
@@ -76,11 +76,22 @@ static bool count_codes(const frame *f, bins *b) {
     return true;
 }
 
-/* Levels of metric depth, between the edges of the bins. */
-static void count_levels(const sensor *lattice, bins *b) {
+/* Numbers of so many bits, or multiples of 1/steps, below that share of the end of the file's lattice. */
+static double samples_below(const grain *g, double share) {
+    int exponent;
+    if (g->kind == GRAIN_STEPS)
+        return ceil(share * g->steps);
+    const double mantissa = frexp(share, &exponent);
+    return ceil(ldexp(mantissa, g->bits)) + ldexp(exponent, g->bits - 1);
+}
+
+/* Levels of metric depth, between the edges of the bins, and what the file itself could hold there. */
+static void count_levels(const frame *f, bins *b) {
+    const double end = f->camera->setup.spec.zfar;
     for (int i = 0; i < BINS; i++) {
         const double lo = chart_axis_at(&b->x, (double)i / BINS), hi = chart_axis_at(&b->x, (double)(i + 1) / BINS);
-        b->codes[i] = fmax(sensor_levels(lattice, lo, hi), 0);
+        b->codes[i] = fmax(sensor_levels(f->sensor, lo, hi), 0);
+        b->samples[i] = samples_below(f->grain, hi / end) - samples_below(f->grain, lo / end);
     }
 }
 
@@ -112,16 +123,18 @@ bool histogram_build(const frame *f, bool codes, chart *out, uint64_t *counted) 
         return false;
     const bool levels = f->sensor != NULL && f->sensor->row->levels != GRAIN_FINE;
     if (levels)
-        count_levels(f->sensor, &b);
+        count_levels(f, &b);
     else if (codes && !count_codes(f, &b))
         return false;
     for (int i = 0; i < BINS; i++)
-        most = fmax(most, fmax(b.pixels[i], b.codes[i]));
+        most = fmax(fmax(most, b.samples[i]), fmax(b.pixels[i], b.codes[i]));
     chart_panel *panel = chart_add_panel(out);
     panel->x = b.x;
     panel->y = (chart_axis){CHART_LOG, 0.5, 2 * most, "count in each of 96 bins", "count", "", NULL};
     add_steps(out, panel, b.pixels, 0, "pixels");
     if (codes || levels)
         add_steps(out, panel, b.codes, 1, levels ? "levels available" : "codes available");
+    if (levels)
+        add_steps(out, panel, b.samples, 2, "samples of the file");
     return !chart_failed(out);
 }

@@ -32,6 +32,7 @@ typedef struct camera_spec {
     double yaw, pitch;        /**< degrees: to the right, then up; 0, 0 looks along the world's z axis */
     double origin[3];         /**< where the camera stands, world coordinates, each at most 1e12 in magnitude */
     const projection *matrix; /**< says what fov_y and half_height would; or null */
+    bool radial;              /**< depths of the set-up are distances along the rays; perspective */
 } camera_spec;
 
 /** 60 degrees, half height 5, looking along z from the origin; width and height 0: to be filled in. */
@@ -57,6 +58,7 @@ typedef struct texture_camera {
     double half[2];   /**< hx, hy */
     double centre[2]; /**< cx, cy */
     camera_oblique oblique;
+    bool radial;       /**< a pixel's eye depth is that of the set-up over its camera_radial() */
     double axis[3][3]; /**< right, up, forward: world coordinates, orthonormal */
     double origin[3];
 } texture_camera;
@@ -64,9 +66,14 @@ typedef struct texture_camera {
 /** @return null, or what is wrong: one sentence that names the field, what is allowed and what was given */
 const char *camera_init(texture_camera *camera, const dp_setup *setup, const camera_spec *spec);
 
+/** Whether a code has one eye depth in all pixels, that of the set-up. */
+static inline bool camera_is_shared(const texture_camera *c) {
+    return !c->oblique.on && !c->radial;
+}
+
 /** Whether the frustum is centred and its planes are those of the set-up. */
 static inline bool camera_is_centred(const texture_camera *c) {
-    return c->centre[0] == 0 && c->centre[1] == 0 && !c->oblique.on;
+    return c->centre[0] == 0 && c->centre[1] == 0 && camera_is_shared(c);
 }
 
 /** sx of column i and sy of row j: see above. Within 2 units of 2^-53 relative at whole columns and rows; where the

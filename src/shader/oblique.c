@@ -6,7 +6,7 @@
 #include "core/engine.h"
 
 /* What doubles lose of an eye depth: cells may be finer than that. */
-static const double LOST = 0x1p-50;
+static const double LOST = 0x1p-50, LOST_ALONG = 0x1p-48;
 
 /* The constant of a pixel. */
 static dp_pair constant_of(const texture_camera *camera, double column, double row) {
@@ -30,8 +30,8 @@ static double span_of(const camera_oblique *o, dp_point a, dp_point b, double z_
     return step == 0 ? 0 : z_a * z_b * fabs(step / o->pull);
 }
 
-static grain_range range_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row, uint32_t code,
-                            double *stored) {
+static grain_range oblique_range(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row,
+                                 uint32_t code, double *stored) {
     const camera_oblique *o = &camera->oblique;
     const dp_pair k = constant_of(camera, column, row);
     const grain_points p = grain_points_of(&camera->setup, g, code);
@@ -41,15 +41,29 @@ static grain_range range_of(const texture_camera *camera, const grain *g, uint32
     return (grain_range){near, far, reach * GRAIN_OUTWARD + own * LOST};
 }
 
+static grain_range radial_range(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row,
+                                uint32_t code, double *stored) {
+    const double along = camera_radial(camera, column, row);
+    const double lost = LOST_ALONG * (1 + camera->half[0] + camera->half[1]);
+    const grain_range r = grain_range_of(&camera->setup, g, code);
+    *stored = dp_stored(&camera->setup, code) / along;
+    return (grain_range){r.lo / along, r.hi / along, r.reach / along * GRAIN_OUTWARD + *stored * lost};
+}
+
+static grain_range range_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row, uint32_t code,
+                            double *stored) {
+    return (camera->radial ? radial_range : oblique_range)(camera, g, column, row, code, stored);
+}
+
 grain_range pixel_range_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row, uint32_t code) {
     double stored;
-    return camera->oblique.on ? range_of(camera, g, column, row, code, &stored)
-                              : grain_range_of(&camera->setup, g, code);
+    return camera_is_shared(camera) ? grain_range_of(&camera->setup, g, code)
+                                    : range_of(camera, g, column, row, code, &stored);
 }
 
 double pixel_stored(const texture_camera *camera, uint32_t column, uint32_t row, uint32_t code) {
     if (!camera->oblique.on)
-        return dp_stored(&camera->setup, code);
+        return dp_stored(&camera->setup, code) / (camera->radial ? camera_radial(camera, column, row) : 1);
     return eye_of(&camera->oblique, constant_of(camera, column, row),
                   dp_point_of_code(&camera->setup.spec.format, code));
 }
@@ -57,7 +71,7 @@ double pixel_stored(const texture_camera *camera, uint32_t column, uint32_t row,
 void pixel_ranges_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row, const uint32_t *codes,
                      size_t count, const grain_rows *out) {
     const uint32_t most = camera->setup.spec.format.code_max;
-    if (!camera->oblique.on) {
+    if (camera_is_shared(camera)) {
         grain_ranges_of(&camera->setup, g, codes, count, out);
         return;
     }

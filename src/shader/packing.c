@@ -41,6 +41,10 @@ static const packing rows[] = {
     {.name = "rgb24-le", .channels = 3, .weight = {1, 256, 65536}, .steps = 16777215, .format = "unorm24",
      .note = "the same, red the lowest byte",
      .source = "three bytes of a code, the lowest first"},
+    {.name = "carla", .channels = 3, .weight = {1, 256, 65536}, .steps = 16777215, .linear = true, .format = "unorm24",
+     .off = 0.5 / 16777215, /* cut off, or rounded */
+     .note = "eye depth over far in 24 bits, red the lowest byte, as CARLA's depth camera: far is 1000 m",
+     .source = "CARLA, Sensors reference, Depth camera"},
     {.name = "r8-linear01", .channels = 1, .weight = {1}, .steps = 255, .linear = true,
      .format = "fp32", .off = 0x1p-23,
      .note = "eye depth over far in 8 bits",

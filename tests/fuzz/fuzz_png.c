@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* PNG as anybody might mangle it, and the same with its checksums put right, so that more than they are tried. */
+/* PNG as anybody might mangle it, alone and behind the header of compressedDepth, and the same with its checksums put
+ * right, so that more than they are tried. */
 #include "image_input.h"
 
 static uint32_t crc(const uint8_t *at, size_t size) {
@@ -26,15 +27,18 @@ static void put_right(uint8_t *data, size_t size) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    if (size < 8 || memcmp(data, "\x89PNG\r\n\x1a\n", 8) != 0)
+    enum { HEADER = 12 };
+    const size_t at = size > HEADER && memcmp(data, "\x89PNG", 4) != 0 ? HEADER : 0;
+    const image_file file = at > 0 ? IMAGE_ROS : IMAGE_PNG;
+    if (size < at + 8 || memcmp(data + at, "\x89PNG\r\n\x1a\n", 8) != 0)
         return 0;
-    use_image(data, size, IMAGE_PNG);
+    use_image(data, size, file);
     uint8_t *copy = malloc(size);
     if (copy == NULL)
         return 0;
     memcpy(copy, data, size);
-    put_right(copy, size);
-    use_image(copy, size, IMAGE_PNG);
+    put_right(copy + at, size - at);
+    use_image(copy, size, file);
     free(copy);
     return 0;
 }

@@ -43,7 +43,8 @@ static inline void use_image(const uint8_t *data, size_t size, image_file file) 
     demand(img.width >= 1 && img.height >= 1 && img.width <= IMAGE_SIDE_MAX && img.height <= IMAGE_SIDE_MAX);
     /* Deflate makes at most 258 bytes of two bits; other compressions of EXR and TIFF are bounded by their blocks. */
     if (file != IMAGE_EXR && file != IMAGE_TIFF)
-        demand((uint64_t)img.width * img.height * img.channels * image_type_size(img.type) <= (uint64_t)size * 1032);
+        demand((uint64_t)img.width * img.height * img.channels * image_type_size(img.type) <=
+               (uint64_t)size * (file == IMAGE_ROS ? 2064 : 1032)); /* which becomes twice as wide */
     recognised found;
     recognise(&img, &found);
     demand(found.samples == (size_t)img.width * img.height && found.invalid <= found.samples);

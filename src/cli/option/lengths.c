@@ -66,19 +66,41 @@ static int check_mixed(const lengths *seen, const option_row *row, const char *v
 }
 
 int parse_length(options *o, const option_row *row, const char *value) {
-    char limits[OPTION_TEXT_SIZE];
+    char limits[OPTION_TEXT_SIZE], names[NAMES_SIZE] = "";
     const bool limited = row->least < row->most;
     lengths seen = {.o = o};
     double length;
     const bool read = read_length(&seen, value, strlen(value), NUMBER_FINITE, &length);
     if (limited && (!read || !(length >= row->least && length <= row->most)))
-        return option_refuse(row, "must be a number from %s, got '%s'%s", option_limits(row, limits), value,
+        return option_refuse(row, "must be a number from %s%s%s, got '%s'%s", option_limits(row, limits),
+                             row->names != NULL ? ", " : "",
+                             row->names != NULL ? names_join(row->names, ", ", " or ", names) : "", value,
                              unit_hint(value, strlen(value)));
     if (!read || (!limited && !(length > 0.0)))
         return option_refuse(row, "must be a positive number of scene units, got '%s'%s", value,
                              unit_hint(value, strlen(value)));
     *(double *)option_field(o, row) = length;
     return EXIT_FINE;
+}
+
+/* What 1 in a sample of metric depth is. */
+static const struct sample_unit {
+    const char *name, *length;
+} sample_units[] = {
+    {"mm", "1mm"},
+    {"tum", "0.2mm"},
+    {"kitti", "3.90625mm"},
+};
+
+bool list_samples(size_t index, list_item *item) {
+    return index < sizeof sample_units / sizeof sample_units[0] &&
+           list_fill(item, (list_item){.name = sample_units[index].name, .row = &sample_units[index]});
+}
+
+int parse_metric(options *o, const option_row *row, const char *value) {
+    list_item item;
+    const bool named = names_find(row->names, value, NULL, &item);
+    return parse_length(o, row, named ? ((const struct sample_unit *)item.row)->length : value);
 }
 
 /* Surfaces of a model may be in one place. */
@@ -128,6 +150,21 @@ int parse_origin(options *o, const option_row *row, const char *value) {
 
 int parse_light_box(options *o, const option_row *row, const char *value) {
     return parse_triple(o, row, value, "x", 1e-12, o->shadow.light_box);
+}
+
+int parse_intrinsics(options *o, const option_row *row, const char *value) {
+    static const double limits[][2] = {{1, 1e9}, {1, 1e9}, {-1e6, 1e6}, {-1e6, 1e6}};
+    double *out = option_field(o, row);
+    const char *at = value;
+    for (int i = 0; i < 4; i++) {
+        const size_t length = strcspn(at, ",");
+        if (!number_parse_part(at, length, NUMBER_FINITE, &out[i]) ||
+            !(out[i] >= limits[i][0] && out[i] <= limits[i][1]) || (at[length] == '\0') != (i == 3))
+            return option_refuse(row, "must be %s, the first two from 1 to 1e9, the others from -1e6 to 1e6, got '%s'",
+                                 row->argument, value);
+        at += length + 1;
+    }
+    return EXIT_FINE;
 }
 
 /* ---- Depths ------------------------------------------------------------------------------------------------------ */

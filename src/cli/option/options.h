@@ -70,6 +70,7 @@ typedef enum option_id {
     OPTION_CAMERA,
     OPTION_FOV,
     OPTION_HFOV,
+    OPTION_INTRINSICS,
     OPTION_VIEWPORT,
     OPTION_RASTER,
     OPTION_SUBPIXEL,
@@ -108,6 +109,7 @@ typedef enum option_id {
     OPTION_SKY,
     OPTION_METRIC,
     OPTION_LATTICE,
+    OPTION_RADIAL,
     OPTION_PACKING,
     OPTION_CHANNEL,
     OPTION_PIXEL,
@@ -220,7 +222,8 @@ typedef struct options_bias {
 typedef struct options_view {
     double eye[3], look[3]; /**< places: of an eye, and what it looks at */
     double last_eye[3], last_look[3];
-    camera_spec spec; /**< --size, --fov, --ortho; see texture_camera_place() */
+    camera_spec spec;     /**< --size, --fov, --ortho; see texture_camera_place() */
+    double intrinsics[4]; /**< focal lengths across and down, where the view axis meets the picture, pixels */
 } options_view;
 
 typedef struct options_scene {
@@ -268,6 +271,7 @@ typedef struct options_image {
     double sky;             /**< window depth */
     double metric;          /**< scene units of 1 in a sample of metric depth; 0 when not given */
     const char *lattice;    /**< what it was rounded to before; null when not given */
+    bool radial;            /**< metric depth is the distance along the ray */
     const char *as;         /**< what eye depth is rounded to; null when not given */
     const char *channel;    /**< of FILE, by name; null: that which is depth */
     const packing *packing; /**< of FILE */

@@ -31,6 +31,7 @@ static const name_list transforms = {.words = (const char *const[]){"exact", "bi
 static const name_list synthetics = {.get = list_synthetic};
 static const name_list products = {.get = list_product};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
+static const name_list samples = {.get = list_samples};
 static const name_list packings = {.get = list_packing};
 /* In the order of their enumerators. */
 static const name_list targets = {
@@ -170,6 +171,10 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_HFOV] = {"hfov", 0, "DEG",
         "horizontal field of view, in place of --fov", NUMBER(camera.fov_x, 0.01, 179, "degrees"),
         .without = "as --fov says"},
+    [OPTION_INTRINSICS] = {"intrinsics", 0, "FX,FY,CX,CY",
+        "in place of --fov: focal lengths and where the view axis meets the picture, pixels from its left and upper "
+        "edge; add 0.5 to CX and CY that count from the middle of the first pixel",
+        .parse = parse_intrinsics, FIELD(double, view.intrinsics[0]), .without = "as --fov says"},
     [OPTION_VIEWPORT] = {"viewport", 0, "WxH",
         "include what a rasterizer does to slanted triangles in a viewport of W by H pixels; z is then the depth of "
         "the farther surface, and the separation is along the normal",
@@ -285,15 +290,19 @@ const option_row option_rows[OPTION_COUNT] = {
         "window depths within T of the far plane are sky; 0: only the far plane itself",
         NUMBER(image.sky, 0, 0.5, NULL), .standard = "0.0001",
         .without = "as in Unity's shaders"},
-    [OPTION_METRIC] = {"metric", 0, "SCALE",
-        "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity "
-        "are holes",
-        LENGTH(image.metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_METRIC] = {"metric", 0, "SCALE|mm|tum|kitti",
+        "the samples are eye depths in units of SCALE; of TUM there are 5000 to the metre, of KITTI 256; 0, negative "
+        "numbers, NaN and infinity are holes",
+        .parse = parse_metric, .names = &samples, FIELD(double, image.metric),
+        LIMITS(METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     [OPTION_LATTICE] = {"lattice", 0, "NAME[:NUMBERS]",
         "what metric depth was rounded to before, in place of what the image shows: stereo:FOCAL,BASELINE[,PIXELS] "
         "with the step of disparity in pixels, inverse:A[,B] with steps of 1/A in 1/z, even:STEP[,FROM] in z, "
         "inverse-levels:N or levels:N from the nearest to the farthest depth, binary16, file",
         TEXT(image.lattice), .without = "as found"},
+    [OPTION_RADIAL] = {"radial", 0, NULL,
+        "with --metric: the samples are distances along the rays, which --fov, --hfov or --intrinsics says",
+        FLAG(image.radial)},
     [OPTION_PACKING] = {"packing", 0, "NAME",
         "how the channels of FILE together hold the depth: @; see 'depthprec list packings'",
         ROW(image.packing, packings)},

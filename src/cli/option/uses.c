@@ -182,8 +182,8 @@ const option_use scene_uses[] = {
 enum { TEXTURE_EFFECT = 1, TEXTURE_PLACED = 2, TEXTURE_IMAGE = 4 };
 static const option_use of_effect[] = {TAKE(AT), END};
 static const option_use of_image[] = {
-    TAKE(SKY), TAKE(METRIC), TAKE(LATTICE), TAKE(AS), TAKE(ERROR_MAP), TAKE(FIGURE), GROUP(picture), TAKE(THREADS),
-    TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(CHANNEL), TAKE(OVERLAY),
+    TAKE(SKY), TAKE(METRIC), TAKE(LATTICE), TAKE(RADIAL), TAKE(INTRINSICS), TAKE(AS), TAKE(ERROR_MAP), TAKE(FIGURE),
+    GROUP(picture), TAKE(THREADS), TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(CHANNEL), TAKE(OVERLAY),
     TAKE(HISTOGRAM), TAKE(MATRIX), END};
 static const option_use of_position[] = {
     TAKE(FOV), TAKE(HFOV),

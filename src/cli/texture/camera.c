@@ -26,9 +26,16 @@ int texture_camera_check(const options *o) {
     const bool looks_back = needs_last_frame(o->image.effect);
     char names[NAMES_SIZE];
     bool any = false;
-    for (option_id id = OPTION_FOV; id <= OPTION_HFOV; id++)
+    int angles = 0;
+    for (option_id id = OPTION_FOV; id <= OPTION_INTRINSICS; id++) {
         if (o->camera.ortho && option_given(o, id))
             return option_error(id, "conflicts with --ortho; --ortho=H says half the height of the view");
+        angles += option_given(o, id);
+    }
+    if (angles > 1 && option_given(o, OPTION_INTRINSICS))
+        return option_error(OPTION_INTRINSICS, "conflicts with --fov and --hfov");
+    if (o->image.radial && angles == 0)
+        return option_error(OPTION_RADIAL, "needs the rays: --fov, --hfov or --intrinsics");
     for (int i = 0; i < LAST_OPTIONS; i++) {
         any = any || option_given(o, last_options[i]);
         if (option_given(o, last_options[i]) && !looks_back)

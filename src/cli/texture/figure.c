@@ -225,9 +225,9 @@ int texture_histogram_draw(const options *o, const texture_source *s) {
     char more[96] = "";
     output out;
     canvas_format type;
-    if (s->camera.oblique.on)
+    if (!camera_is_shared(&s->camera))
         return option_error(OPTION_HISTOGRAM, "needs planes that all pixels share, which %s does not have",
-                            s->matrix.path);
+                            s->camera.radial ? "--radial" : s->matrix.path);
     int status = figure_file_type(o, OPTION_HISTOGRAM, o->image.histogram, &type);
     if (status == EXIT_FINE)
         status = output_open(&out, o->image.histogram);

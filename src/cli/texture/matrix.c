@@ -68,8 +68,8 @@ static int read_entries(const char *path, double m[ENTRIES]) {
 
 /* It says what these would, or is of window depth. */
 static int check_others(const options *o) {
-    static const option_id others[] = {OPTION_NEAR, OPTION_FAR,   OPTION_ORTHO,  OPTION_FOV,
-                                       OPTION_HFOV, OPTION_LOG_C, OPTION_PRESET, OPTION_METRIC};
+    static const option_id others[] = {OPTION_NEAR,       OPTION_FAR,   OPTION_ORTHO,  OPTION_FOV,   OPTION_HFOV,
+                                       OPTION_INTRINSICS, OPTION_LOG_C, OPTION_PRESET, OPTION_METRIC};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (option_given(o, others[i]))
             return option_error(OPTION_MATRIX, "conflicts with --%s", option_name(others[i]));
@@ -91,6 +91,16 @@ static void name_edges(texture_matrix *t) {
         t->edges[i] = ((i % 2 != 0 ? 1 : -1) - p->centre[i / 2]) * p->half[i / 2];
     for (int k = 0; k < 2; k++)
         t->fov[k] = p->ortho ? (double)NAN : (dp_atan(t->edges[2 * k + 1]) - dp_atan(t->edges[2 * k])) / DEGREE;
+}
+
+void texture_intrinsics_take(const double intrinsics[4], const double size[2], texture_matrix *t) {
+    projection *p = &t->taken;
+    for (int k = 0; k < 2; k++) {
+        p->half[k] = size[k] / (2 * intrinsics[k]);
+        p->scale[k] = 1 / p->half[k];
+        p->centre[k] = (k == 0 ? 1 : -1) * (2 * intrinsics[2 + k] - size[k]) / size[k];
+    }
+    name_edges(t);
 }
 
 int texture_matrix_open(const options *o, texture_source *s, options *with) {

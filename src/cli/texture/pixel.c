@@ -166,7 +166,7 @@ static bool find(pixels *all) {
 /* Where the camera is known: of an image it is what the user says it was. */
 static bool has_camera(const pixels *all) {
     return all->source->path == NULL || all->o->image.matrix != NULL || option_given(all->o, OPTION_FOV) ||
-           option_given(all->o, OPTION_HFOV) ||
+           option_given(all->o, OPTION_HFOV) || option_given(all->o, OPTION_INTRINSICS) ||
            (option_given(all->o, OPTION_ORTHO) && *all->o->given[OPTION_ORTHO] != '\0');
 }
 

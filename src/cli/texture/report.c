@@ -73,6 +73,13 @@ static const column recognised_columns[] = {{FIELD(statistics, named.format, "fo
 static const column gap_columns[] = {
     {FIELD(statistics, gap.z, "z", "scene")}, {FIELD(statistics, gap.gap, "gap", "scene")}, {.kind = COLUMN_END}};
 
+static const column buffer_columns[] = {{FIELD(sensor_buffer, bits, "bits", "")},
+                                        {FIELD(sensor_buffer, znear, "near", "scene")},
+                                        {FIELD(sensor_buffer, znear_off, "near_error", "scene")},
+                                        {FIELD(sensor_buffer, zfar, "far", "scene")},
+                                        {FIELD(sensor_buffer, zfar_off, "far_error", "scene")},
+                                        {.kind = COLUMN_END}};
+
 static const column lattice_columns[] = {{FIELD(statistics, lattice.name, "name", "")},
                                          {FIELD(statistics, lattice.from, "from", "")},
                                          {FIELD(statistics, lattice.other, "other", "")},
@@ -86,6 +93,7 @@ static const column lattice_columns[] = {{FIELD(statistics, lattice.name, "name"
                                          {FIELD(statistics, lattice.bits, "bits", "")},
                                          {FIELD(statistics, lattice.off_pixels, "off_pixels", "")},
                                          {FIELD(statistics, lattice.residual, "residual", "scene")},
+                                         {PART(statistics, named.buffer, "buffer", buffer_columns), .pointed = true},
                                          {LIST("gaps", gap_columns, statistics_next_gap)},
                                          {.kind = COLUMN_END}};
 
@@ -97,6 +105,8 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, named.type, "type", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.channels, "channels", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
+                                        {FIELD(statistics, named.metric_from, "metric_from", ""), .when = OF_IMAGE},
+                                        {FIELD(statistics, named.radial, "radial", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
                                         {GROUP("samples", sample_columns), .when = OF_IMAGE},
@@ -182,6 +192,14 @@ static const column columns[] = {
     {LIST("errors", error_columns, next_error), .only = AS_JSON | AS_TEXT, .indent = 2},
     {.kind = COLUMN_END}};
 
+/* Of a corner, where rays are longest. */
+static double longest_ray(const texture_camera *c) {
+    double most = 0;
+    for (int i = 0; i < 4; i++)
+        most = fmax(most, camera_radial(c, i % 2 == 0 ? 0 : c->width - 1, i < 2 ? 0 : c->height - 1));
+    return most;
+}
+
 /* What is said of the source by names, and of its options. */
 static void name_all(statistics *r) {
     static const bool answers[] = {false, true};
@@ -200,11 +218,13 @@ static void name_all(statistics *r) {
     r->named.mapping_from = texture_origin_name(s->mapping_from);
     r->named.direction_from = texture_origin_name(s->direction_from);
     r->named.metric = is_metric ? r->o->image.metric : none;
+    r->named.metric_from = is_metric ? texture_origin_name(s->metric_from) : NULL;
+    r->named.radial = s->camera.radial ? longest_ray(&s->camera) : none;
     r->named.step = is_metric && s->metric.step > 0 ? s->metric.step : none;
     r->named.steps = !is_metric && has_steps ? g->steps : none;
     r->named.steps_or = !is_metric && has_steps && g->whole > 0 ? g->whole : none;
     r->named.bits = g->kind == GRAIN_FLOATS ? g->bits : none;
-    r->named.fov = s->camera.ortho ? none : s->matrix.path != NULL ? s->matrix.fov[1] : s->fov_y;
+    r->named.fov = s->camera.ortho ? none : s->fov_y;
     r->named.half_height = s->camera.ortho ? s->camera.half[1] : none;
     r->named.coarser = !is_metric && texture_coarser(s);
     r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;

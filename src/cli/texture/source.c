@@ -89,6 +89,8 @@ static int check_together(const options *o) {
         return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
     if (o->image.metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
+    if (o->image.radial && o->image.metric == 0)
+        return option_error(OPTION_RADIAL, "needs --metric");
     if (o->image.lattice != NULL && o->image.metric == 0)
         return option_error(OPTION_LATTICE, "needs --metric");
     if (o->image.channel != NULL && !file)
@@ -130,23 +132,25 @@ static bool is_asked(const options *o) {
     return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
 }
 
-/* Whether a word of the note is an option that nothing on the command line stands against. */
+/* Whether a word of the note is an option that nothing on the command line stands against. A lattice is in metres. */
 static bool is_open(const options *o, option_id id) {
-    const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC;
+    const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC || id == OPTION_LATTICE;
+    if (id == OPTION_LATTICE && o->camera.unit != NULL && strcmp(o->camera.unit->name, "m") != 0)
+        return false;
     return !option_given(o, id) && !(of_samples ? is_asked(o) : o->camera.preset_count > 0 || o->image.matrix != NULL);
 }
 
 /* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
 static int take_note(options *o, texture_source *s) {
-    static const option_id known[] = {OPTION_PACKING, OPTION_METRIC, OPTION_NEAR,
+    static const option_id known[] = {OPTION_PACKING, OPTION_METRIC, OPTION_LATTICE, OPTION_NEAR,
                                       OPTION_FAR,     OPTION_ORTHO,  OPTION_MAPPING};
-    char note[IMAGE_NOTE_SIZE], *rest = NULL;
+    char *rest = NULL;
     const bool asked = is_asked(o);
     bool open[sizeof known / sizeof known[0]];
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         open[i] = is_open(o, known[i]);
-    snprintf(note, sizeof note, "%s", s->picture.note);
-    for (char *word = strtok_r(note, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
+    snprintf(s->note, sizeof s->note, "%s", s->picture.note);
+    for (char *word = strtok_r(s->note, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
         char *value = strchr(word, '=');
         if (value != NULL)
             *value++ = '\0';
@@ -163,6 +167,7 @@ static int take_note(options *o, texture_source *s) {
                 return status;
             o->given[known[i]] = "";
             s->noted = s->noted || known[i] == OPTION_MAPPING;
+            s->metric_from = s->picture.file == IMAGE_ROS && s->type == IMAGE_U16 ? ORIGIN_ASSUMED : ORIGIN_FOUND;
         }
     }
     return EXIT_FINE;
@@ -197,6 +202,44 @@ void texture_source_close(texture_source *s) {
     frame_normals_free(&s->normals);
 }
 
+/* Whether anything says that the samples are window depth, or of which camera. */
+static bool is_said(const options *o) {
+    static const option_id window[] = {OPTION_NEAR,   OPTION_FAR,    OPTION_MAPPING,  OPTION_LOG_C, OPTION_ORTHO,
+                                       OPTION_MATRIX, OPTION_PRESET, OPTION_PLATFORM, OPTION_SKY,   OPTION_ROUNDING};
+    bool said = is_asked(o) || o->image.metric > 0 || o->image.packing != NULL;
+    for (size_t i = 0; i < sizeof window / sizeof window[0]; i++)
+        said = said || option_given(o, window[i]);
+    return said || o->image.pack != NULL || (o->image.product != NULL && o->image.product->kind == FRAME_RAW);
+}
+
+/* Metric depth where nothing is said and the samples can be nothing else. */
+static int guess(options *o, texture_source *s) {
+    const char *why = NULL, *unit = is_said(o) ? NULL : metric_guess(&s->picture, &why);
+    const option_row *row = &option_rows[OPTION_METRIC];
+    int status = EXIT_FINE;
+    if (unit != NULL) {
+        status = row->parse(o, row, unit);
+        o->given[OPTION_METRIC] = "";
+        s->metric_from = ORIGIN_ASSUMED;
+    }
+    if (o->image.metric > 0 && s->metric_from == ORIGIN_ASSUMED && !o->out.quiet)
+        fprintf(stderr, "depthprec: %s: --metric %s is assumed%s%s\n", s->path, unit != NULL ? unit : "mm",
+                why != NULL ? ": " : "", why != NULL ? why : "");
+    return status;
+}
+
+static int read_metric(const options *o, texture_source *s) {
+    sensor given;
+    int status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
+    if (status != EXIT_FINE)
+        return status;
+    const char *wrong = metric_convert(&s->picture, o->image.metric, given.row != NULL ? &given : NULL, &s->metric);
+    if (wrong != NULL)
+        return usage_error("%s: no metric depth: %s", s->path, wrong);
+    texture_lattice_warn(o, s);
+    return EXIT_FINE;
+}
+
 static int read_image(options *o, texture_source *s) {
     image_error error;
     s->path = o->operands[0];
@@ -219,24 +262,16 @@ static int read_image(options *o, texture_source *s) {
     warn_of_compression(o, s);
     int status = take_note(o, s);
     if (status == EXIT_FINE)
+        status = guess(o, s);
+    if (status == EXIT_FINE)
         status = check_window(o);
     if (status != EXIT_FINE || o->image.packing != NULL)
         return status != EXIT_FINE ? status : unpack(o, s);
-    if (o->image.metric == 0) {
-        recognise(&s->picture, &s->found);
-        return EXIT_FINE;
-    }
-    sensor given;
-    status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
-    if (status != EXIT_FINE)
-        return status;
-    const char *wrong = metric_convert(&s->picture, o->image.metric, given.row != NULL ? &given : NULL, &s->metric);
-    if (wrong != NULL)
-        return usage_error("%s: no metric depth: %s", s->path, wrong);
-    texture_lattice_warn(o, s);
+    if (o->image.metric > 0)
+        return read_metric(o, s);
+    recognise(&s->picture, &s->found);
     return EXIT_FINE;
 }
-
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
 static int choose_format(const options *o, texture_source *s, dp_format *out) {
     const bool chosen = o->camera.preset_count > 0 || o->camera.platform != NULL;
@@ -324,8 +359,14 @@ static int make_camera(const options *o, texture_source *s) {
         status = texture_camera_place(o, &spec);
     if (status != EXIT_FINE)
         return status;
-    s->fov_y = spec.fov_y;
-    spec.matrix = s->matrix.path != NULL ? &s->matrix.taken : NULL;
+    if (option_given(o, OPTION_INTRINSICS))
+        texture_intrinsics_take(o->view.intrinsics, (double[]){spec.width, spec.height}, &s->matrix);
+    const bool says_angle = s->matrix.path != NULL || option_given(o, OPTION_INTRINSICS);
+    s->fov_y = says_angle ? s->matrix.fov[1] : spec.fov_y;
+    spec.matrix = says_angle ? &s->matrix.taken : NULL;
+    spec.radial = o->image.radial;
+    if (o->image.radial && o->camera.ortho)
+        return option_error(OPTION_RADIAL, "does not apply to an orthographic camera, whose rays are parallel");
     const char *wrong = camera_init(&s->camera, is_metric ? &s->planes : &s->setup, &spec);
     if (wrong != NULL)
         return usage_error("texture: %s", wrong);

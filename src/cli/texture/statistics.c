@@ -85,6 +85,8 @@ void statistics_name_lattice(statistics *r) {
                                   .bits = s->bits,
                                   .off_pixels = s->off_pixels,
                                   .residual = s->residual};
+    if (!r->source.camera.radial && sensor_buffer_find(s, r->survey.lo, r->survey.hi, &r->buffer))
+        r->named.buffer = &r->buffer;
 }
 
 void *statistics_next_gap(void *of, size_t i) {
@@ -99,6 +101,7 @@ void *statistics_next_gap(void *of, size_t i) {
 /* The levels: how far apart, with what that is off by, and what else is known of them. */
 static void say_levels(statistics *r, page *p) {
     const sensor *s = &r->source.metric.sensor;
+    const sensor_buffer *b = r->named.buffer;
     char gaps[256] = "";
     char off[64] = "";
     if (s->step_off > 0)
@@ -116,12 +119,16 @@ static void say_levels(statistics *r, page *p) {
         page_note(p, "", "%s pixels are on none: interpolated, or of something else", number_of(s->off_pixels, 9).text);
     if (s->like != NULL)
         page_note(p, "", "such as %s", s->like);
+    if (b != NULL)
+        page_note(p, "", "such as a depth buffer of %d bits, near %s, far %s", b->bits,
+                  number_in(number_of(b->znear, 6), p->unit).text, number_in(number_of(b->zfar, 6), p->unit).text);
 }
 
 static void say_metric(statistics *r, page *p) {
     const metric *m = &r->source.metric;
     const sensor *s = &m->sensor;
-    page_text(p, "metric depth, samples in units of %s, up to %s", in_scene(p, r->o->image.metric).text,
+    page_text(p, "metric depth%s, samples in units of %s, up to %s",
+              r->source.metric_from == ORIGIN_ASSUMED ? " assumed" : "", in_scene(p, r->o->image.metric).text,
               in_scene(p, m->zfar).text);
     if (m->step > 0)
         page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);
@@ -132,6 +139,9 @@ static void say_metric(statistics *r, page *p) {
               s->other != NULL ? s->other->name : "");
     if (s->row->levels != GRAIN_FINE)
         say_levels(r, p);
+    if (r->source.camera.radial)
+        page_note(p, "radial", "all this is of distances along the rays, up to %s z; what follows is of z",
+                  number_of(r->named.radial, 6).text);
 }
 
 static void say_source(statistics *r, page *p) {
@@ -170,6 +180,7 @@ void statistics_say_head(page *p, void *item) {
     statistics *r = item;
     const survey *v = &r->survey;
     const texture_camera *s = &r->source.camera;
+    const double top = r->source.metric.top;
     char zeros[READINGS_SIZE];
     say_source(r, p);
     if (s->oblique.on)
@@ -184,9 +195,9 @@ void statistics_say_head(page *p, void *item) {
     if (r->source.unpacked.zeros > 0)
         page_note(p, "zeros", "%s", texture_zeros_of(r->o, &r->source, zeros));
     if (v->invalid > 0)
-        page_note(p, "holes", "%llu pixels, %s %%, hold no depth%s", (unsigned long long)v->invalid,
-                  share(v->invalid, v->pixels).text,
-                  r->source.metric.top_is_hole ? "; 65535 counts as none, others end at 30000" : "");
+        page_note(p, "holes", "%llu pixels, %s %%, hold no depth%s%s%s", (unsigned long long)v->invalid,
+                  share(v->invalid, v->pixels).text, top > 0 ? "; " : "", top > 0 ? number_of(top, 9).text : "",
+                  top > 0 ? " counts as none, far beyond all others" : "");
     if (isnan(v->lo))
         page_note(p, "depths", "none");
     else

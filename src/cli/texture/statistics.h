@@ -5,6 +5,7 @@
 
 #include "cli/setups.h"
 #include "cli/texture/texture.h"
+#include "frame/sensor_buffer.h"
 #include "frame/survey.h"
 
 enum { ERRORS_MAX = 32 };
@@ -41,13 +42,16 @@ typedef struct statistics {
     error_line errors[ERRORS_MAX];
     lattice_fields lattice;
     lattice_gap gap;
+    sensor_buffer buffer;
     setup_fields setup;
     struct {
-        const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
-        double metric, step, steps, steps_or, bits, fov, half_height;
+        const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from,
+            *metric_from;
+        double metric, radial, step, steps, steps_or, bits, fov, half_height;
         bool coarser;
         const bool *reversed;
         const survey_pairs *pairs;
+        const sensor_buffer *buffer;
         uint64_t hidden;
     } named;
     const char *parameter;

@@ -36,14 +36,15 @@ typedef struct texture_source {
     const char *path; /**< null for a synthetic image */
     image picture;
     recognised found;
-    texture_origin format_from, mapping_from, direction_from;
+    texture_origin format_from, mapping_from, direction_from, metric_from;
     image_type type; /**< of the file, where --metric has changed the picture's */
     uint32_t channels;
-    metric metric;        /**< with --metric */
-    unpacked unpacked;    /**< with --packing */
-    bool noted;           /**< the file itself says its mapping */
-    grain grain;          /**< of an image */
-    size_t reading_count; /**< 0 where nothing is assumed that would be read otherwise */
+    metric metric;              /**< with --metric */
+    unpacked unpacked;          /**< with --packing */
+    bool noted;                 /**< the file itself says its mapping */
+    char note[IMAGE_NOTE_SIZE]; /**< its words, which options may point to */
+    grain grain;                /**< of an image */
+    size_t reading_count;       /**< 0 where nothing is assumed that would be read otherwise */
     texture_reading readings[READINGS_MAX];
     uint32_t column, row; /**< the pixel of the readings */
     dp_setup planes;      /**< with --metric: what --near and --far say */
@@ -116,6 +117,9 @@ int texture_last_camera(const options *o, const dp_setup *setup, const camera_sp
  * there.
  *  @return an exit status, after one line on stderr */
 int texture_matrix_open(const options *o, texture_source *s, options *with);
+
+/** The frustum of --intrinsics, in a picture of such a size; planes are not its matter. */
+void texture_intrinsics_take(const double intrinsics[4], const double size[2], texture_matrix *t);
 
 /** For a report: its lines, and its columns, of a texture_matrix. */
 void texture_matrix_say(const texture_matrix *t, page *p);
