@@ -151,6 +151,23 @@ $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/build.libs -lm
 
+# ---- For Python --------------------------------------------------------------------------------------------------
+
+# A wheel is a zip that python3 alone writes. The program in it needs the C library and nothing else: it draws as the page
+# does, without cairo, and of the other libraries it has the static ones.
+.PHONY: wheel
+wheel:
+	@sh src/packages.sh build
+	@$(MAKE) $(PARALLEL) $(B)/libdepthprec.so.0 $(B)/plain/depthprec
+	$(Q)B='$(B)' python3 src/python/package.py build/dist
+
+PLAIN_O := $(filter-out %/plot/canvas.o,$(ROOMS_O)) $(call objects,src/web/canvas.c src/web/plain.c)
+PLAIN_LIBS := -lgsl -lgslcblas -ljansson -lconfig -lpng16 -lz $(if $(findstring clang,$(CC)),,-lgomp)
+$(B)/plain/depthprec: $(PLAIN_O) $(B)/libdepthprec.a
+	@mkdir -p $(@D)
+	$(call say,LD)
+	$(Q)$(LINK) -s -o $@ $^ -Wl,-Bstatic $(PLAIN_LIBS) -Wl,-Bdynamic -ldl -pthread -lm
+
 # ---- For the web -------------------------------------------------------------------------------------------------
 
 # The program as WebAssembly, for the page: the same files, with the same bits; src/web stands in for what needs files,
@@ -165,7 +182,7 @@ WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval lim
 WEB_NOT := report/output_file report/terminal requirement/camera requirement/reader requirement/requirement requirement/view requirement/check \
     plot/canvas plot/scene plot/normals plot/pareto plot/stability plot/needs plot/pixels \
     cli/cmd_methods cli/cmd_check cli/check_report cli/shadow/cmd_shadow \
-    cli/shadow/rows cli/cmd_probe cli/link cli/completions cli/stop cli/junit cli/option/profile api/profile_file
+    cli/shadow/rows cli/cmd_probe cli/link cli/completions cli/stop cli/junit cli/option/profile api/profile_file web/plain
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
@@ -428,6 +445,7 @@ help:
 ## make check-web       the page in Chromium, which it installs: a minute of it: what it shows against the program, bad
 ##                  addresses; DEPTHPREC_FULL=1 adds keyboard, speed and more
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
+## make wheel       the Python package: a wheel and its sources in build/dist (needs python3)
 ## make man         the manual pages in build/man/, completed with what the program says of itself
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
@@ -438,4 +456,4 @@ help:
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 ## WERROR=-Werror makes warnings errors
 
--include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))
+-include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(PLAIN_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))
