@@ -155,11 +155,13 @@ $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 
 # A wheel is a zip that python3 alone writes. The program in it needs the C library and nothing else: it draws as the page
 # does, without cairo, and of the other libraries it has the static ones.
-.PHONY: wheel
+.PHONY: wheel wheel-parts
 wheel:
 	@sh src/packages.sh build
-	@$(MAKE) $(PARALLEL) $(B)/libdepthprec.so.0 $(B)/plain/depthprec
-	$(Q)B='$(B)' python3 src/python/package.py build/dist
+	@$(MAKE) $(PARALLEL) wheel-parts
+	$(Q)B='$(B)' python3 src/python/package.py $(B)/dist
+
+wheel-parts: $(B)/libdepthprec.so.0 $(B)/plain/depthprec
 
 PLAIN_O := $(filter-out %/plot/canvas.o,$(ROOMS_O)) $(call objects,src/web/canvas.c src/web/plain.c)
 PLAIN_LIBS := -lgsl -lgslcblas -ljansson -lconfig -lpng16 -lz $(if $(findstring clang,$(CC)),,-lgomp)

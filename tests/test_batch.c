@@ -365,6 +365,45 @@ TEST(test_numbers) {
     tally_end(&t);
 }
 
+/* What is read back of each code, exactly or as a float, is that code again, in every rounding; NaN stays NaN. */
+TEST(test_windows) {
+    static double out[3][CHUNK], in[CHUNK];
+    tally t = {.name = "windows"};
+    rng r = rng_make("windows");
+    for (int f = 0; f < FORMATS; f++)
+        for (int c = 0; c < CAMERAS * 2; c++) {
+            const int narrow = c % 2;
+            const dp_setup s = make(&cameras[c / 2], formats[f], (dp_rounding)(c % DP_ROUNDING_COUNT), DP_MODEL_EXACT);
+            const size_t count = (size_t)test_cases(20, 100, CHUNK);
+            uint32_t codes[CHUNK];
+            for (size_t i = 0; i < count; i++) {
+                codes[i] = (uint32_t)rng_below(&r, (uint64_t)s.spec.format.code_max + 1);
+                const double d = i % 10 == 9 ? NAN : dp_format_value(&s.spec.format, codes[i]);
+                if (narrow && i % 10 != 9) /* a float may be that of another code where the format is finer */
+                    codes[i] = dp_format_encode(&s.spec.format, DP_ROUND_NEAREST, (double)(float)d);
+                if (narrow)
+                    ((float *)(void *)in)[i] = (float)d;
+                else
+                    in[i] = d;
+            }
+            const dp_real real = narrow ? DP_REAL_FLOAT : DP_REAL_DOUBLE;
+            assert_int_equal(dp_batch_windows(&s, real, in, out[0], out[1], out[2], count), DP_OK);
+            for (int k = 0; k < 3; k++) {
+                static const dp_task tasks[] = {DP_TASK_EYE, DP_TASK_LO, DP_TASK_HI};
+                dp_batch b;
+                assert_int_equal(dp_batch_init(&b, &s, tasks[k], real, DP_WORD_32, dp_path_best()), DP_OK);
+                for (size_t i = 0; i < count; i++)
+                    TALLY(&t, i % 10 == 9 ? isnan(real_at(&b, out[k], i)) : as_promised(&b, codes, out[k], i),
+                          "%s: code %u, %.17g", label(&b), codes[i], real_at(&b, out[k], i));
+            }
+        }
+    const dp_setup s = make(&cameras[0], "unorm24", DP_ROUND_NEAREST, DP_MODEL_EXACT);
+    assert_int_equal(dp_batch_windows(NULL, DP_REAL_DOUBLE, in, out[0], NULL, NULL, 1), DP_ERROR_NULL);
+    assert_int_equal(dp_batch_windows(&s, DP_REAL_DOUBLE, NULL, out[0], NULL, NULL, 1), DP_ERROR_NULL);
+    assert_int_equal(dp_batch_windows(&s, DP_REAL_COUNT, in, out[0], NULL, NULL, 1), DP_ERROR_BATCH);
+    tally_end(&t);
+}
+
 /* The direct kernels over many plain depths; with DEPTHPREC_FULL a hundred million of each kind. */
 TEST(test_many) {
     static const struct {

@@ -97,5 +97,16 @@ DP_API dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task t
  */
 DP_API void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count);
 
+/**
+ * Window depths, as they are read back from a buffer or an image, to eye depths. Each counts as the nearest code,
+ * whatever the set-up's rounding: a reader's own rounding is far below half a step. Outside [0, 1] they are clamped;
+ * NaN gives NaN.
+ * @param real         the type of all arrays
+ * @param eye, lo, hi  as the tasks EYE, LO and HI have them; null for what is not wanted; none overlaps `windows`
+ * @return DP_OK; DP_ERROR_NULL; DP_ERROR_BATCH for a type that does not exist; nothing is written then
+ */
+DP_API dp_status dp_batch_windows(const dp_setup *setup, dp_real real, const void *windows, void *eye, void *lo,
+                                  void *hi, size_t count);
+
 DP_END
 #endif
