@@ -371,6 +371,7 @@ def _triangles(viewport, fov, subpixel, slant, triangle_class):
         made.fov_y, made.subpixel = fov, subpixel
     except ValueError:
         raise Error("viewport and slant must have two numbers, triangle_class three") from None
+    _core.demand(_core.triangles_check(made))
     return made
 
 
