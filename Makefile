@@ -234,7 +234,7 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 .PHONY: check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves and what clang makes for the web no sanitizer has a say.
-ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims web)
+ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims python web)
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 
 check:
@@ -411,9 +411,11 @@ plots: all
 
 BENCHED := interval linearize encode worst position normal
 bench: all $(BENCH_PROGRAMS)
+	@! command -v python3 >/dev/null || $(MAKE) --no-print-directory wheel
 	@sh tests/bench.sh $(foreach b,$(filter-out %/bench_empty,$(BENCH_PROGRAMS)),'$b $(B)/depthprec') \
 	    $(foreach f,$(BENCHED),'echo && $(B)/depthprec methods $f') \
-	    'sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize'
+	    'sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize' \
+	    $(if $(shell command -v python3),"echo && B=$(B) CC='$(CC)' python3 tests/python/bench.py")
 
 clean distclean:
 	$(Q)rm -rf build

@@ -49,7 +49,7 @@ class Camera:
     Raises Error, a ValueError, with the library's sentence. Source: depthprec(3), setup.h.
     """
 
-    __slots__ = ("_given", "_setup", "_derived", "_batches")
+    __slots__ = ("_given", "_setups", "_batches", "_narrow")
 
     def __init__(self, near=0.1, far=1000.0, format="fp32", mapping="d3d", *, ortho=False, rounding="nearest",
                  model="exact", arith="ieee", log_c=1.0, viewport=None, fov=60.0, subpixel=8, slant=(0.0, 90.0),
@@ -71,8 +71,9 @@ class Camera:
         spec.ortho, spec.log_c = bool(ortho), _arrays.real(log_c, "log_c")
         if viewport is not None:
             spec.triangles = _triangles(viewport, fov, subpixel, slant, triangle_class)
-        self._setup = _core.Setup()
-        _core.demand(_core.setup_init(self._setup, spec))
+        setup = _core.Setup()
+        _core.demand(_core.setup_init(setup, spec))
+        self._setups, self._batches, self._narrow = {"own": setup}, {}, spec.format.bits <= 16
         self._given = {"near": spec.znear, "far": spec.zfar, "format": spec.format.name.decode(),
                        "mapping": _core.mapping_get(spec.mapping)[0].decode(), "ortho": bool(ortho),
                        "rounding": rounding, "model": model, "arith": _core.arith_get(spec.arith)[0].decode(),
@@ -80,7 +81,6 @@ class Camera:
                        "viewport": None if viewport is None else (spec.triangles.width, spec.triangles.height),
                        "fov": fov, "subpixel": subpixel, "slant": tuple(slant),
                        "triangle_class": tuple(triangle_class)}
-        self._derived, self._batches = {}, {}
 
     @classmethod
     def from_matrix(cls, matrix, mapping=None, *, layout=None, **more):
@@ -153,7 +153,7 @@ class Camera:
     @property
     def code_max(self):
         """The code of window depth 1."""
-        return self._setup.spec.format.code_max
+        return self._setups["own"].spec.format.code_max
 
     def encode(self, z, *, out=None):
         """The codes that are stored for eye depths, correctly rounded for every double.
@@ -165,14 +165,12 @@ class Camera:
         Returns uint16 for formats of at most 16 bits, else uint32, of the same shape; an int of a number.
         Source: depthprec(3), DP_TASK_CODE: dp_code() of each element, to the bit.
         """
-        word = "H" if self._setup.spec.format.bits <= 16 else "I"
-        if _arrays.is_scalar(z):
-            return self._number("code", _number(z, "an eye depth"), word)
-        given = _arrays.Input(z, "eye depths")
-        real = given.reals("eye depths")
-        allowed = "HI" if word == "H" else "I"
-        result, view = _arrays.output(given, word if out is None else allowed, out)
-        self._run(self._setup, "code", real, 0 if view.itemsize == 2 else 1, given, view)
+        given = _arrays.given(z, "eye depths")
+        if given is None:
+            return self._number("code", _number(z, "an eye depth"), write=_ctypes.c_uint32)
+        real = given.real()
+        result, address, _held, size = _arrays.output(given, "HI" if self._narrow else "I", out)
+        self._run("code", real, int(size == 4), given.address, address, given.count)
         return result
 
     def decode(self, values, *, bounds=False, out=None):
@@ -190,28 +188,23 @@ class Camera:
         window depth in [0, 1].
         Source: depthprec(3), DP_TASK_EYE, _LO and _HI: dp_stored() and dp_cell_of().
         """
-        if _arrays.is_scalar(values):
+        given = _arrays.given(values, "codes or window depths")
+        if given is None:
             return self._decode_number(values, bounds)
-        given = _arrays.Input(values, "codes or window depths")
         outs = (out,) if not bounds else (None,) * 3 if out is None else tuple(out)
         if len(outs) != (3 if bounds else 1):
             raise ValueError("out must be three arrays with bounds, got %d" % len(outs))
         floating = given.code in _arrays.REALS
-        code = given.code if floating else "d"
-        word = None if floating else given.words(self._setup.spec.format.bits <= 16)
-        made = [_arrays.output(given, code if o is None else code if floating else "df", o) for o in outs]
+        word = None if floating else given.word(self._narrow)
+        made = [_arrays.output(given, given.code if floating else "df", each) for each in outs]
         if floating:
-            pinned = [_arrays.Pinned(view) for _, view in made]
-            addresses = [p.address for p in pinned] + [None] * (3 - len(made))
-            if given.count:
-                _core.demand(_core.batch_windows(self._setup, _arrays.REALS[code], given.pinned.address, *addresses,
-                                                 given.count))
+            addresses = [address for _, address, _, _ in made] + [None] * (3 - len(made))
+            _core.demand(_core.batch_windows(self._setups["own"], _arrays.REALS[given.code], given.address, *addresses,
+                                             given.count))
         else:
-            for task, (_, view) in zip(("eye", "lo", "hi"), made):
-                real = _arrays.REALS[view.format.lstrip("@=<")]
-                self._run(self._setup, task, real, word, given, view)
-        results = [result for result, _ in made]
-        return Decoded(*results) if bounds else results[0]
+            for name, (_, address, _, size) in zip(("eye", "lo", "hi"), made):
+                self._run(name, int(size == 8), word, given.address, address, given.count)
+        return Decoded(*(result for result, _, _, _ in made)) if bounds else made[0][0]
 
     def window_depth(self, z, *, out=None):
         """The window depth in [0, 1] of eye depths, before the buffer rounds it: within 2^-50 relative, and rounded
@@ -221,7 +214,7 @@ class Camera:
 
         Of a number it raises Error there. Source: depthprec(3), dp_window().
         """
-        return self._map("window", self._setup, z, out)
+        return self._map("window", z, out)
 
     def separation(self, z, *, out=None):
         """How far behind z a surface must lie to be resolved: guaranteed, despite the rounding of shader, viewport and
@@ -231,7 +224,7 @@ class Camera:
         Returns scene units; math.inf where nothing is certain. For "linear", which no pipeline computes, a lattice.
         Source: depthprec(3), dp_separation() of dp_setup_guaranteed().
         """
-        return self._map("separation", self._guaranteed(), z, out)
+        return self._map("separation", z, out)
 
     def lattice(self, z, *, out=None):
         """The same in exact arithmetic: one step of the format, what no implementation can be better than.
@@ -239,7 +232,7 @@ class Camera:
         z, out  as window_depth(); float32 is rounded up
         Source: depthprec(3), dp_separation() in the model exact.
         """
-        return self._map("separation", self._variant("exact"), z, out)
+        return self._map("lattice", z, out)
 
     def interval(self, z, *, out=None):
         """The z-fighting interval: the width of the cell around z, whose depths all get the same code.
@@ -248,7 +241,7 @@ class Camera:
         Returns scene units; math.inf in the last cell of an infinite far; NaN in the model "float", which has no cells.
         Source: depthprec(3), dp_cell_of().
         """
-        return self._map("interval", self._setup, z, out)
+        return self._map("interval", z, out)
 
     def worst(self, lo=None, hi=None):
         """The worst over the eye depths [lo, hi], by default [near, far]: proven bounds over every depth, no samples.
@@ -262,55 +255,51 @@ class Camera:
         lo = self.near if lo is None else _arrays.real(lo, "lo")
         hi = self.far if hi is None else _arrays.real(hi, "hi")
         cells, apart = _core.Worst(), _core.SeparationWorst()
-        _core.demand(_core.worst_over(self._setup, lo, hi, cells))
-        _core.demand(_core.separation_over(self._guaranteed(), lo, hi, 0.0, apart))
+        _core.demand(_core.worst_over(self._setups["own"], lo, hi, cells))
+        _core.demand(_core.separation_over(self._setup_of("separation"), lo, hi, 0.0, apart))
         return Worst(*(getattr(cells, name) for name, _ in _core.Worst._fields_), apart.bound, apart.z)
 
     # ---- What the methods share --------------------------------------------------------------------------------
 
-    def _guaranteed(self):
-        if "guaranteed" not in self._derived:
-            self._derived["guaranteed"] = _core.setup_guaranteed(self._setup)
-        return self._derived["guaranteed"]
+    def _setup_of(self, name):
+        """The set-up that a method asks; each lives as long as the camera."""
+        if name not in self._setups:
+            made = _core.Setup()
+            if name == "separation":
+                made = _core.setup_guaranteed(self._setups["own"])
+            else:  # the lattice, which knows of no triangles
+                spec = _core.Spec.from_buffer_copy(self._setups["own"].spec)
+                spec.model, spec.triangles.width = _core.MODELS.index("exact"), 0
+                _core.demand(_core.setup_init(made, spec))
+            self._setups[name] = made
+        return self._setups[name]
 
-    def _variant(self, model):
-        if model not in self._derived:
-            spec = _core.Spec.from_buffer_copy(self._setup.spec)
-            spec.model, spec.triangles.width = _core.MODELS.index(model), 0
-            setup = _core.Setup()
-            _core.demand(_core.setup_init(setup, spec))
-            self._derived[model] = setup
-        return self._derived[model]
+    def _run(self, name, real, word, read, write, count):
+        """What a method asks of the library, of the elements at one address to those at another."""
+        batch = self._batches.get((name, real, word))
+        if batch is None:
+            made = _core.Batch()
+            setup = self._setup_of(name if name in ("separation", "lattice") else "own")
+            task = _core.TASK["separation" if name == "lattice" else name]
+            _core.demand(_core.batch_init(made, setup, task, real, word, _core.path_best()))
+            batch = self._batches[name, real, word] = _ctypes.byref(made)
+        _core.batch_run(batch, read, write, count)
 
-    def _batch(self, setup, task, real, word):
-        key = (_ctypes.addressof(setup), task, real, word)
-        if key not in self._batches:
-            batch = _core.Batch()
-            _core.demand(_core.batch_init(batch, setup, _core.TASK[task], real, word, _core.path_best()))
-            self._batches[key] = batch
-        return self._batches[key]
-
-    def _run(self, setup, task, real, word, given, view):
-        if given.count:
-            pinned = _arrays.Pinned(view)
-            _core.batch_run(self._batch(setup, task, real, word), given.pinned.address, pinned.address, given.count)
-
-    def _map(self, task, setup, z, out):
-        if _arrays.is_scalar(z):
+    def _map(self, name, z, out):
+        given = _arrays.given(z, "eye depths")
+        if given is None:
             z = _number(z, "an eye depth")
             if not self.near <= z <= self.far:
                 _core.demand("DEPTH")
-            return self._number(task, z, "d", setup)
-        given = _arrays.Input(z, "eye depths")
-        real = given.reals("eye depths")
-        result, view = _arrays.output(given, given.code, out)
-        self._run(setup, task, real, 1, given, view)
+            return self._number(name, z)
+        real = given.real()
+        result, address, _held, _ = _arrays.output(given, given.code, out)
+        self._run(name, real, 1, given.address, address, given.count)
         return result
 
-    def _number(self, task, value, code, setup=None, read="d"):
-        given = (_ctypes.c_double if read == "d" else _ctypes.c_uint32)(value)
-        got = {"d": _ctypes.c_double, "H": _ctypes.c_uint32, "I": _ctypes.c_uint32}[code]()
-        _core.batch_run(self._batch(setup or self._setup, task, 1, 1), _ctypes.byref(given), _ctypes.byref(got), 1)
+    def _number(self, name, value, read=_ctypes.c_double, write=_ctypes.c_double):
+        got = write()
+        self._run(name, 1, 1, _ctypes.byref(read(value)), _ctypes.byref(got), 1)
         return got.value
 
     def _decode_number(self, value, bounds):
@@ -324,10 +313,10 @@ class Camera:
             if not 0 <= depth <= 1:
                 raise Error("a window depth must be from 0 to 1, got %r" % depth)
             given, got = _ctypes.c_double(depth), [_ctypes.c_double() for _ in range(3)]
-            _core.demand(_core.batch_windows(self._setup, 1, _ctypes.byref(given), *map(_ctypes.byref, got), 1))
+            _core.demand(_core.batch_windows(self._setups["own"], 1, _ctypes.byref(given), *map(_ctypes.byref, got), 1))
             return Decoded(*(x.value for x in got)) if bounds else got[0].value
-        tasks = ("eye", "lo", "hi") if bounds else ("eye",)
-        got = [self._number(task, code, "d", read="I") for task in tasks]
+        names = ("eye", "lo", "hi") if bounds else ("eye",)
+        got = [self._number(name, code, read=_ctypes.c_uint32) for name in names]
         return Decoded(*got) if bounds else got[0]
 
     def _options(self, command):
@@ -378,11 +367,11 @@ def _triangles(viewport, fov, subpixel, slant, triangle_class):
 def _sixteen(matrix):
     if isinstance(matrix, (list, tuple)) and all(isinstance(row, (list, tuple)) for row in matrix):
         matrix = [value for row in matrix for value in row]
-    given = _arrays.Input(matrix, "a matrix")
-    if given.count != 16:
-        raise Error("a matrix must have 16 numbers, got %d" % given.count)
+    given = _arrays.given(matrix, "a matrix")
+    if given is None or given.count != 16:
+        raise Error("a matrix must have 16 numbers, got %d" % (1 if given is None else given.count))
     given.convert("d")
-    return (_ctypes.c_double * 16)(*given.view.cast("B").cast("d"))
+    return (_ctypes.c_double * 16)(*given.view)
 
 
 def _find(numbers, layout, mapping):

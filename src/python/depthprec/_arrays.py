@@ -7,9 +7,11 @@ import math
 import numbers
 import sys
 
-# Types of elements, as the struct module and array.array call them.
+# Types of elements, as the struct module and array.array call them; those of this machine's order of bytes.
 REALS = {"f": 0, "d": 1}
-SIGNED, UNSIGNED = "bhilqn", "BHILQN"
+CODES = "bBhHiIlLqQnN"
+_HERE = ("", "@", "=", "<" if sys.byteorder == "little" else ">")
+KINDS = {order + code: code for order in _HERE for code in "fd" + CODES}
 
 
 class _View(ctypes.Structure):
@@ -21,24 +23,20 @@ class _View(ctypes.Structure):
                 ("suboffsets", ctypes.c_void_p), ("internal", ctypes.c_void_p)]
 
 
-class Pinned:
-    """The address of contiguous memory, as long as this object lives."""
-
-    def __init__(self, view):
-        self.view, self.raw = view, None
-        if view.nbytes == 0:
-            self.address = None
-        elif not view.readonly:
-            self.raw = (ctypes.c_char * view.nbytes).from_buffer(view)
-            self.address = ctypes.addressof(self.raw)
-        elif sys.implementation.name == "cpython":
-            raw = _View()
-            ctypes.pythonapi.PyObject_GetBuffer(ctypes.py_object(view), ctypes.byref(raw), 0)
-            self.address = raw.buf
-            ctypes.pythonapi.PyBuffer_Release(ctypes.byref(raw))  # the view holds the memory itself
-        else:
-            self.raw = (ctypes.c_char * view.nbytes).from_buffer_copy(view)
-            self.address = ctypes.addressof(self.raw)
+def pin(view):
+    """The address of contiguous memory, and what keeps it there."""
+    if not view.nbytes:
+        return None, None
+    if not view.readonly:
+        held = ctypes.c_char.from_buffer(view)
+        return ctypes.addressof(held), held
+    if sys.implementation.name != "cpython":
+        held = (ctypes.c_char * view.nbytes).from_buffer_copy(view)
+        return ctypes.addressof(held), held
+    raw = _View()
+    ctypes.pythonapi.PyObject_GetBuffer(ctypes.py_object(view), ctypes.byref(raw), 0)
+    ctypes.pythonapi.PyBuffer_Release(ctypes.byref(raw))  # the view itself holds the memory
+    return raw.buf, view
 
 
 def numpy_module():
@@ -51,9 +49,7 @@ def numpy_module():
 
 
 def is_scalar(value):
-    if isinstance(value, numbers.Number):
-        return True
-    return type(value).__module__ == "numpy" and getattr(value, "shape", None) == () and hasattr(value, "item")
+    return isinstance(value, numbers.Number) or (type(value).__module__ == "numpy" and getattr(value, "shape", 0) == ())
 
 
 def real(value, what):
@@ -70,93 +66,102 @@ def _from_list(values):
     numpy = numpy_module()
     if numpy is not None:
         found = numpy.asarray(values)
-        return memoryview(found) if found.size or found.dtype.kind in "iuf" else memoryview(found.astype("d"))
+        return memoryview(found if found.size or found.dtype.kind in "iuf" else found.astype("d"))
     flat = list(values)
     for value in flat:
         real(value, "an element")
-    if flat and all(isinstance(value, int) for value in flat):
-        return memoryview(array.array("q", flat))
-    return memoryview(array.array("d", flat))
+    whole = flat and all(isinstance(value, int) for value in flat)
+    return memoryview(array.array("q" if whole else "d", flat))
+
+
+def given(values, what):
+    """Numbers as an Input; None where it is a single one."""
+    if type(values) is float or type(values) is int:
+        return None
+    try:
+        view = memoryview(values)
+    except (TypeError, ValueError, BufferError):
+        if is_scalar(values):
+            return None
+        if isinstance(values, (str, dict, set)) or not hasattr(values, "__len__"):
+            raise TypeError("%s must be a number or an array of numbers, got %s"
+                            % (what, type(values).__name__)) from None
+        view = _from_list(values)
+    return Input(values, view, what) if view.ndim > 0 else None
 
 
 class Input:
-    """Numbers that are read: `code` is their type, `shape` their shape, `pinned` where they lie."""
+    """Numbers that are read: `code` is their type, `shape` their shape, `address` where they lie."""
 
-    def __init__(self, values, what):
+    __slots__ = ("values", "code", "shape", "count", "view", "address", "held")
+
+    def __init__(self, values, view, what):
         self.values = values
-        try:
-            view = memoryview(values)
-        except (TypeError, ValueError, BufferError):
-            if isinstance(values, (str, dict, set)) or not hasattr(values, "__len__"):
-                raise TypeError("%s must be a number or an array of numbers, got %s"
-                                % (what, type(values).__name__)) from None
-            view = _from_list(values)
-        self.code = view.format.lstrip("@=<" if sys.byteorder == "little" else "@=>!")
-        if self.code not in REALS and self.code not in tuple(SIGNED + UNSIGNED):
+        code = KINDS.get(view.format)
+        if code is None:
             raise TypeError("%s must be float32, float64 or integers in the order of this machine's bytes, got '%s'"
                             % (what, view.format))
-        self.shape, self.itemsize = view.shape, view.itemsize
-        self.count = 1
-        for side in self.shape:
-            self.count *= side
-        if view.nbytes and not view.c_contiguous:
-            view = memoryview(view.tobytes())  # in the order of the indices
+        self.code, self.shape, self.count = code, view.shape, view.nbytes // view.itemsize
+        if not view.c_contiguous and self.count:
+            view = memoryview(view.tobytes()).cast(code)  # in the order of the indices
         self.view = view
-        self.pinned = Pinned(view)
+        self.address, self.held = pin(view)
 
     def convert(self, code):
         """The same as another type, in a copy."""
+        elements = self._elements()
         numpy = numpy_module()
-        raw = bytes(self.view.cast("B")) if self.view.nbytes else b""
-        if numpy is not None:
-            view = memoryview(numpy.frombuffer(raw, self.code).astype(code))
-        else:
-            source = memoryview(raw).cast(self.code) if raw else ()
-            view = memoryview(array.array(code, source))
-        self.code, self.itemsize, self.view, self.pinned = code, view.itemsize, view, Pinned(view)
+        self.view = memoryview(array.array(code, elements) if numpy is None else elements.astype(code))
+        self.code = code
+        self.address, self.held = pin(self.view)
 
-    def reals(self, what):
-        """Has the elements as float32 or float64."""
+    def _elements(self):
+        """One after the other; of numpy where it is there."""
+        raw, numpy = self.view.tobytes(), numpy_module()
+        return memoryview(raw).cast(self.code) if numpy is None else numpy.frombuffer(raw, self.code)
+
+    def real(self):
+        """Has the elements as float32 or float64, and says which."""
         if self.code not in REALS:
             self.convert("d")
         return REALS[self.code]
 
-    def words(self, narrow):
-        """Has the elements as uint32, or uint16 where `narrow`; none may be negative or above 2^32 - 1."""
-        if self.code in SIGNED or self.itemsize > 4:
-            numpy = numpy_module()
-            raw = bytes(self.view.cast("B")) if self.view.nbytes else b""
-            elements = numpy.frombuffer(raw, self.code) if numpy is not None else memoryview(raw or b"").cast(self.code)
-            if raw:
-                least, most = (elements.min(), elements.max()) if numpy is not None else (min(elements), max(elements))
-                if least < 0 or most > 0xFFFFFFFF:
-                    raise ValueError("codes must be from 0 to 4294967295, got %d" % (least if least < 0 else most))
-        if self.code in SIGNED or self.itemsize not in (2, 4) or (self.itemsize == 2 and not narrow):
-            self.convert("I")
-        return 0 if self.itemsize == 2 else 1
+    def word(self, narrow):
+        """Has the elements as uint32, or uint16 where `narrow`, and says which; none is negative or above 2^32 - 1."""
+        if self.code == "I" or (self.code == "H" and narrow):
+            return int(self.code == "I")
+        if self.count and self.code not in "BH":
+            elements = self._elements()
+            least, most = min(elements.tolist()), max(elements.tolist())
+            if least < 0 or most > 0xFFFFFFFF:
+                raise ValueError("codes must be from 0 to 4294967295, got %d" % (least if least < 0 else most))
+        self.convert("I")
+        return 1
 
 
-def output(like, code, out=None):
-    """Memory for `like.count` elements, of the kind of `like.values`: the object, and its view."""
+def output(like, codes, out=None):
+    """Memory for as many elements as `like` has, and of the kind of `like.values`: the object, its address, what keeps
+    it there and the size of an element. Its type is the first of `codes`, that of `out` any of them."""
     if out is not None:
         view = memoryview(out)
         if view.readonly or not view.c_contiguous:
             raise ValueError("out must be contiguous memory that can be written")
-        if view.format.lstrip("@=<") not in (code if len(code) > 1 else (code,)):
-            raise TypeError("out must have elements of type '%s', got '%s'" % (code, view.format))
+        if KINDS.get(view.format, "?") not in codes:
+            raise TypeError("out must have elements of type '%s', got '%s'" % ("' or '".join(codes), view.format))
         if view.nbytes != like.count * view.itemsize:
             raise ValueError("out must have as many elements as are read, %d, got %d"
                              % (like.count, view.nbytes // view.itemsize))
-        return out, view
-    code = code[0]
-    kind = type(like.values).__module__
-    numpy = None if isinstance(like.values, (array.array, memoryview)) else numpy_module()
-    if numpy is not None or kind == "numpy":
+        return (out, *pin(view), view.itemsize)
+    code, values = codes[0], like.values
+    numpy = None if isinstance(values, (array.array, memoryview)) else numpy_module()
+    if numpy is not None:
         made = numpy.empty(like.shape, code)
-        return made, memoryview(made)
-    made = array.array(code, [0]) * like.count
+    else:
+        made = array.array(code, (0,)) * like.count
     view = memoryview(made)
-    if isinstance(like.values, array.array) or len(like.shape) <= 1:
-        return (view if isinstance(like.values, memoryview) else made), view
-    shaped = view.cast("B").cast(code, like.shape) if like.count else view
-    return shaped, view
+    address, held = pin(view)
+    if numpy is None and len(like.shape) > 1 and like.count and not isinstance(values, array.array):
+        made = view.cast("B").cast(code, like.shape)
+    elif isinstance(values, memoryview):
+        made = view
+    return made, address, held, view.itemsize
