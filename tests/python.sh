@@ -67,9 +67,9 @@ tests_of() { # tests_of CLASS: some tests ran, and all of them went well
     cat "$scratch/unit"
     [ $status -eq 0 ] && grep -qE '^Ran [1-9][0-9]* tests?' "$scratch/unit" && grep -q '^OK' "$scratch/unit"
 }
-lines_of_readme() { # what the page of the package shows is what it prints
-    awk '/^```/ { inside = /python/ && !inside; next } inside' src/python/README.md >"$scratch/page.txt"
-    [ "$(grep -c '^>>>' "$scratch/page.txt")" -ge 5 ] && PYTHONPATH=$site python3 -m doctest -o ELLIPSIS "$scratch/page.txt"
+shown() { # what the pages show of the package is what it prints
+    awk '/^```/ { inside = /python/ && !inside; next } inside' README.md src/python/README.md >"$scratch/page.txt"
+    [ "$(grep -c '^>>>' "$scratch/page.txt")" -ge 10 ] && PYTHONPATH=$site python3 -m doctest -o ELLIPSIS "$scratch/page.txt"
 }
 command_runs() { [ "$(PYTHONPATH=$site python3 -m depthprec table -n 0.3 --csv)" = "$("$DEPTHPREC" table -n 0.3 --csv)" ]; }
 from_sources() { # as pip does, in a folder of its own
@@ -90,7 +90,7 @@ for class in Oracle Program Matrix Memory Cameras; do
     check "tests of python/: $class" tests_of $class
 done
 check "python3 -m depthprec is the program" command_runs
-check "its page shows what it prints" lines_of_readme
+check "its page and README.md show what it prints" shown
 if [ -n "${DEPTHPREC_FULL-}" ]; then
     check "it is built from its source archive" from_sources
 fi
