@@ -60,7 +60,8 @@ static camera_oblique oblique_of(const dp_projection *p, uint32_t width, uint32_
     const dp_pair x = quotient((dp_pair){p->tilt[0], 0}, p->scale[0]),
                   y = quotient((dp_pair){p->tilt[1], 0}, p->scale[1]);
     const dp_pair moved = dp_pair_sum(product(x, -p->centre[0]), product(y, -p->centre[1]));
-    return (camera_oblique){p->oblique, p->pull, quotient(x, width), quotient(y, height), dp_pair_sum((dp_pair){p->base[0], p->base[1]}, moved)};
+    return (camera_oblique){p->oblique, p->pull, quotient(x, width), quotient(y, height),
+                            dp_pair_sum((dp_pair){p->base[0], p->base[1]}, moved)};
 }
 
 /* ---- The camera -------------------------------------------------------------------------------------------------- */

@@ -184,7 +184,7 @@ class Program(unittest.TestCase):
             rounding, arith = r.choice(["nearest", "even", "zero"]), r.choice(["ieee", "fused", "mesa"])
             words = ["table", "--json", "--near", repr(near), "--far", repr(far), "--format", ",".join(formats),
                      "--mapping", ",".join(mappings), "--at", ",".join(map(repr, z)), "--rounding", rounding, "--arith",
-                     arith, "--model", "exact", *(["--ortho"] if ortho else [])]
+                     arith, "--model", "exact", "--full", *(["--ortho"] if ortho else [])]
             for got in json.loads(program(*words))["setups"]:
                 count += 1
                 c = Camera(near, far, got["format"], got["mapping"], ortho=ortho, rounding=rounding, arith=arith)
@@ -200,6 +200,8 @@ class Program(unittest.TestCase):
         cells = c.worst(got["worst"]["lo"], got["worst"]["hi"])._asdict()
         for name, want in got["worst"].items():
             self.assertTrue(cells[name] == want or (want is None and not math.isfinite(cells[name])), (c, name))
+        want = got["worst_separation"]
+        self.assertEqual([cells["separation"], cells["separation_z"]], [want["bound"] or math.inf, want["z"]], c)
 
     def test_commands(self):
         """Every command, with options as words and as keywords, is that of the program."""
@@ -398,9 +400,11 @@ class Memory(unittest.TestCase):
         for code in "BHILQbhilq":
             self.assertEqual(list(c.decode(array.array(code, [0, 100]))), [c.decode(0), c.decode(100)])
         self.assertEqual(list(c.decode([2 ** 32 - 1])), [c.decode(c.code_max)])
-        for wrong in (array.array("q", [-1]), array.array("q", [2 ** 32]), [-5, 3], [2 ** 70]):
-            with self.assertRaises((ValueError, OverflowError, TypeError)):
+        for wrong in (array.array("q", [-1]), array.array("Q", [2 ** 32]), array.array("b", [-1]), [-5, 3]):
+            with self.assertRaisesRegex(ValueError, "codes must be from 0 to 4294967295, got (-[15]|4294967296)$"):
                 c.decode(wrong)
+        with self.assertRaises((TypeError, OverflowError)):
+            c.decode([2 ** 70])
         out = array.array("f", bytes(8))
         self.assertIs(c.decode(array.array("I", [5, 100]), out=out), out)
         self.assertLess(abs(out[1] / c.decode(100) - 1), 1.85e-7)
@@ -559,6 +563,7 @@ class Cameras(unittest.TestCase):
         self.assertGreater(wide.separation(10.0), 5 * Camera().separation(10.0))
         self.assertEqual(wide.lattice(10.0), Camera().lattice(10.0))
         self.assertTrue(math.isnan(Camera(model="float").interval(10.0)))
+        self.assertEqual(Camera(model="staged").lattice(10.0), Camera().lattice(10.0))
 
     def test_stubs(self):
         """The stubs name what there is, with the same parameters."""
