@@ -120,7 +120,7 @@ static dp_status take_perspective(dp_projection *p, const double row[4], double 
 
 dp_status dp_projection_init(dp_projection *out, const double m[16], int ndc_signed, int reversed,
                              dp_matrix_fault *fault) {
-    dp_matrix_fault own, *why = fault != NULL ? fault : &own;
+    dp_matrix_fault own = {NULL, {0}}, *why = fault != NULL ? fault : &own;
     if (out == NULL || m == NULL)
         return DP_ERROR_NULL;
     const double least = ndc_signed ? -1 : 0;
@@ -181,7 +181,7 @@ static int is_last_row(double x, double y, double z, double w) {
 
 dp_status dp_projection_find(dp_projection *out, const double m[16], dp_layout layout, dp_mapping mapping,
                              dp_matrix_fault *fault) {
-    dp_matrix_fault own;
+    dp_matrix_fault own = {NULL, {0}};
     search s = {.mapping = mapping, .why = fault != NULL ? fault : &own};
     double turned[16];
     if (out == NULL || m == NULL)

@@ -271,7 +271,7 @@ class Program(unittest.TestCase):
                 depthprec.recognise(wrong)
 
     def test_refused(self):
-        for words, said in (("tabel", "did you mean"), ("plot error --type pdf -o x.pdf", "rsvg-convert"),
+        for words, said in (("tabl", "did you mean"), ("plot error --type pdf -o x.pdf", "rsvg-convert"),
                             ("plot error --type png -o -", "must be svg"), ("texture /none.png", "/none.png")):
             with self.assertRaisesRegex(Error, said) as caught:
                 depthprec.run(words)

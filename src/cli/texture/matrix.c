@@ -153,13 +153,9 @@ void texture_matrix_say(const texture_matrix *t, page *p) {
                   number_of(t->edges[2], 6).text, number_of(t->edges[3], 6).text);
 }
 
-const column texture_matrix_columns[] = {{FIELD(texture_matrix, path, "file", "")},
-                                         {FIELD(texture_matrix, looks, "looks_along", "")},
-                                         {FIELD(texture_matrix, oblique, "oblique", "")},
-                                         {FIELD(texture_matrix, edges[0], "left", "")},
-                                         {FIELD(texture_matrix, edges[1], "right", "")},
-                                         {FIELD(texture_matrix, edges[2], "bottom", "")},
-                                         {FIELD(texture_matrix, edges[3], "top", "")},
-                                         {FIELD(texture_matrix, fov[0], "fov_x", "degrees")},
-                                         {FIELD(texture_matrix, fov[1], "fov_y", "degrees")},
-                                         {.kind = COLUMN_END}};
+const column texture_matrix_columns[] = {
+    {FIELD(texture_matrix, path, "file", "")},           {FIELD(texture_matrix, looks, "looks_along", "")},
+    {FIELD(texture_matrix, oblique, "oblique", "")},     {FIELD(texture_matrix, edges[0], "left", "")},
+    {FIELD(texture_matrix, edges[1], "right", "")},      {FIELD(texture_matrix, edges[2], "bottom", "")},
+    {FIELD(texture_matrix, edges[3], "top", "")},        {FIELD(texture_matrix, fov[0], "fov_x", "degrees")},
+    {FIELD(texture_matrix, fov[1], "fov_y", "degrees")}, {.kind = COLUMN_END}};
