@@ -133,7 +133,7 @@ def write_sdist(folder):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    subprocess.run(["make", "-C", TOP, "wheel-parts"], check=True, stdout=sys.stderr)
+    subprocess.run(["make", "-C", TOP, "-j%d" % (os.cpu_count() or 1), "wheel-parts"], check=True, stdout=sys.stderr)
     return write_wheel(wheel_directory)
 
 
