@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Window depths that were read back: their codes, and from these eye depths and cells, a block at a time. */
-#include <math.h>
 #include <string.h>
 
 #include "depthprec/batch.h"
@@ -11,20 +10,27 @@ static size_t size_of(dp_real real) {
     return real == DP_REAL_FLOAT ? sizeof(float) : sizeof(double);
 }
 
+/* Whether one of a block is no number: loops that become vectors. */
+static int has_none(dp_real real, const unsigned char *from, size_t count) {
+    float narrow[BLOCK];
+    double wide[BLOCK];
+    int any = 0;
+    memcpy(real == DP_REAL_FLOAT ? (void *)narrow : (void *)wide, from, count * size_of(real));
+    if (real == DP_REAL_FLOAT)
+        for (size_t i = 0; i < count; i++)
+            any |= narrow[i] != narrow[i];
+    else
+        for (size_t i = 0; i < count; i++)
+            any |= wide[i] != wide[i];
+    return any;
+}
+
 /* What is no number stays none: its code says nothing. */
 static void keep_none(dp_real real, const unsigned char *from, unsigned char *to, size_t count) {
+    const size_t size = size_of(real);
     for (size_t i = 0; i < count; i++)
-        if (real == DP_REAL_FLOAT) {
-            float narrow;
-            memcpy(&narrow, from + i * sizeof narrow, sizeof narrow);
-            if (isnan(narrow))
-                memcpy(to + i * sizeof narrow, &narrow, sizeof narrow);
-        } else {
-            double wide;
-            memcpy(&wide, from + i * sizeof wide, sizeof wide);
-            if (isnan(wide))
-                memcpy(to + i * sizeof wide, &wide, sizeof wide);
-        }
+        if (has_none(real, from + i * size, 1))
+            memcpy(to + i * size, from + i * size, size);
 }
 
 dp_status dp_batch_windows(const dp_setup *setup, dp_real real, const void *windows, void *eye, void *lo, void *hi,
@@ -47,12 +53,14 @@ dp_status dp_batch_windows(const dp_setup *setup, dp_real real, const void *wind
         const size_t some = count - done < BLOCK ? count - done : BLOCK;
         const unsigned char *from = (const unsigned char *)windows + done * size;
         dp_batch_run(&encode, from, codes, some);
+        const int any = has_none(real, from, some);
         for (int k = 0; k < OUTPUTS; k++) {
             unsigned char *const to = outputs[k] == NULL ? NULL : (unsigned char *)outputs[k] + done * size;
             if (to == NULL)
                 continue;
             dp_batch_run(&decode[k], codes, to, some);
-            keep_none(real, from, to, some);
+            if (any)
+                keep_none(real, from, to, some);
         }
     }
     return status;
