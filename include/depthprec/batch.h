@@ -74,7 +74,8 @@ typedef struct dp_batch {
 } dp_batch;
 
 /**
- * Prepares a task. ENCODE and DECODE read only the set-up's format and rounding; a task without codes has no word.
+ * Prepares a task. ENCODE and DECODE read only the set-up's format and rounding; a task without codes leaves the word
+ * unread.
  *
  * CODE and WIDTH in the models `staged` and `float`, and CODE, WIDTH and EYE of the logarithmic mapping, have no vector
  * kernel, nor have EYE of orthographic planes with depth 0 between them and the tasks behind DECODE: each element then

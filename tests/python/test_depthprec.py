@@ -443,6 +443,23 @@ class Memory(unittest.TestCase):
             with self.assertRaises((ValueError, TypeError)):
                 c.window_depth(array.array("d", self.depths), out=wrong)
 
+    def test_overlap(self):
+        """In place where nothing that is still to be read is written."""
+        c = self.camera
+        both = array.array("d", self.depths)
+        want = c.separation(both)
+        self.assertIs(c.separation(both, out=both), both)
+        self.assertEqual(both, want)
+        codes = array.array("I", [1, 2, 3, 4])
+        want = c.decode(codes, out=array.array("f", bytes(16)))
+        self.assertEqual(c.decode(codes, out=memoryview(codes).cast("B").cast("f")).tolist(), want.tolist())
+        shifted = memoryview(array.array("d", self.depths))
+        for given, out, method in ((shifted[1:], shifted[:-1], c.separation), (shifted[:-1], shifted[1:], c.interval),
+                                   (shifted, shifted, c.decode),
+                                   (memoryview(codes)[:2], memoryview(codes).cast("B").cast("d"), c.decode)):
+            with self.assertRaisesRegex(ValueError, "must not overlap"):
+                method(given, out=out)
+
     def test_strides(self):
         c = self.camera
         wide = memoryview(array.array("d", self.depths))

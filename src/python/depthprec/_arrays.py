@@ -139,7 +139,7 @@ class Input:
         return 1
 
 
-def output(like, codes, out=None):
+def output(like, codes, out=None, in_place=True):
     """Memory for as many elements as `like` has, and of the kind of `like.values`: the object, its address, what keeps
     it there and the size of an element. Its type is the first of `codes`, that of `out` any of them."""
     if out is not None:
@@ -151,7 +151,11 @@ def output(like, codes, out=None):
         if view.nbytes != like.count * view.itemsize:
             raise ValueError("out must have as many elements as are read, %d, got %d"
                              % (like.count, view.nbytes // view.itemsize))
-        return (out, *pin(view), view.itemsize)
+        address, held = pin(view)
+        same = in_place and address == like.address and view.nbytes <= like.view.nbytes
+        if address and not same and -view.nbytes < address - like.address < like.view.nbytes:
+            raise ValueError("out must not overlap what is read%s" % (" unless both are one array" if in_place else ""))
+        return out, address, held, view.itemsize
     code, values = codes[0], like.values
     numpy = None if isinstance(values, (array.array, memoryview)) else numpy_module()
     if numpy is not None:
