@@ -17,9 +17,10 @@ build() { make --no-print-directory B="$B" CC="$CC" wheel-parts; }
 write() { B=$B python3 src/python/package.py "$scratch/$1" >"$scratch/written"; }
 wheel() { echo "$scratch"/one/depthprec-*.whl; }
 same() {
-    write one && cp -r "$B/libdepthprec.so.0" "$B/plain" src include man Makefile README.md LICENSE* "$scratch/elsewhere" &&
-        mkdir "$scratch/elsewhere/b" && mv "$scratch/elsewhere/libdepthprec.so.0" "$scratch/elsewhere/plain" "$scratch/elsewhere/b" &&
-        touch "$scratch/elsewhere/README.md" && (cd "$scratch/elsewhere" && B=b python3 src/python/package.py "$scratch/two") &&
+    other=$scratch/elsewhere
+    write one && mkdir -p "$other/b" && cp -r "$B/libdepthprec.so.0" "$B/plain" "$other/b" &&
+        cp -r src include Makefile README.md LICENSE* "$other" && touch "$other/README.md" &&
+        (cd "$other" && B=b python3 src/python/package.py "$scratch/two") &&
         [ "$(cat "$scratch"/one/* | wc -c)" -gt 1000000 ] && diff -r "$scratch/one" "$scratch/two"
 }
 # By pip where it is, as users do; else as pip would: unzipped, with its modes.
@@ -78,7 +79,6 @@ from_sources() { # as pip does, in a folder of its own
 package.build_wheel(sys.argv[1])' "$scratch/three") && [ -s "$(echo "$scratch"/three/*.whl)" ]
 }
 
-mkdir "$scratch/elsewhere"
 check "its program and library are built" build
 check "written twice, in two folders, it is the same bytes" same
 check "RECORD has every file" recorded

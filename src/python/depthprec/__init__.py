@@ -196,7 +196,8 @@ class Camera:
             raise ValueError("out must be three arrays with bounds, got %d" % len(outs))
         floating = given.code in _arrays.REALS
         word = None if floating else given.word(self._narrow)
-        made = [_arrays.output(given, given.code if floating else "df", each, not floating) for each in outs]
+        made = [_arrays.output(given, given.code if floating else "df", each, not (floating or bounds))
+                for each in outs]
         if floating:
             addresses = [address for _, address, _, _ in made] + [None] * (3 - len(made))
             _core.demand(_core.batch_windows(self._setups["own"], _arrays.REALS[given.code], given.address, *addresses,

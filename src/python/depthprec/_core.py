@@ -10,8 +10,8 @@ TASKS = ("code", "eye", "width", "encode", "decode", "lo", "hi", "window", "sepa
 TASK = {name: number for number, name in enumerate(TASKS)}
 MODELS = ("exact", "staged", "float")
 ROUNDINGS = ("nearest", "even", "zero")
-STATUSES = ("OK", "NULL", "NEAR", "FAR", "PLANES", "INFINITE", "ORTHO", "LOG_C", "FORMAT", "MAPPING", "ROUNDING", "MODEL",
-            "ARITH", "DEPTH", "RANGE", "BINARY32", "BATCH", "ORTHO_NEAR", "ORTHO_FAR", "TRIANGLES", "MATRIX",
+STATUSES = ("OK", "NULL", "NEAR", "FAR", "PLANES", "INFINITE", "ORTHO", "LOG_C", "FORMAT", "MAPPING", "ROUNDING",
+            "MODEL", "ARITH", "DEPTH", "RANGE", "BINARY32", "BATCH", "ORTHO_NEAR", "ORTHO_FAR", "TRIANGLES", "MATRIX",
             "CONVENTION")  # DP_OK, DP_ERROR_...
 LAYOUTS = {None: 0, "rows": 1, "columns": 2}
 MAPPING_FOUND = 10  # DP_MAPPING_COUNT

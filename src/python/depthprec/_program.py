@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The command depthprec, a program of its own beside this file: GPL-3.0-or-later, as the library is not."""
 import json
+import math
 import os
 import shlex
 import struct
@@ -153,12 +154,11 @@ def _setting(value):
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return '"%s"' % "".join(c if " " <= c != "\x7f" and c not in '"\\' else "\\x%02x" % ord(c) if ord(c) < 256 else c
-                                for c in value)
+        return '"%s"' % "".join(chr(b) if 0x20 <= b < 0x7F and b not in b'"\\' else "\\x%02x" % b for b in value.encode())
     if isinstance(value, int):
         return "%d" % value
     if isinstance(value, float):
-        return '"inf"' if value == float("inf") else repr(value) if "." in repr(value) or "e" in repr(value) else '"nan"'
+        return repr(value) if math.isfinite(value) else '"%r"' % value
     raise TypeError("a requirement must hold words, numbers, lists and dicts, got %s" % type(value).__name__)
 
 
@@ -170,7 +170,8 @@ def _npy(image):
         raise TypeError("an image must be an array of numbers or a path, got %s" % type(image).__name__) from None
     kinds = {"e": "f2", "f": "f4", "d": "f8", "B": "u1", "H": "u2", "I": "u4"}
     if view.format.lstrip("@=<") not in kinds:
-        raise TypeError("an image must be of float16, float32, float64, uint8, uint16 or uint32, got '%s'" % view.format)
+        raise TypeError("an image must be of float16, float32, float64, uint8, uint16 or uint32, got '%s'"
+                        % view.format)
     order = "<" if struct.pack("=H", 1)[0] else ">"
     head = "{'descr': '%s%s', 'fortran_order': False, 'shape': %r, }" % (order, kinds[view.format.lstrip("@=<")],
                                                                          tuple(view.shape))
