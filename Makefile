@@ -33,7 +33,7 @@ TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
-WEB := $(wildcard tests/web/*.c)
+WEB := $(wildcard tests/web/*.c tests/python/*.c)
 MAN := $(patsubst %,$(B)/%,$(wildcard man/*.[1-9]))
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
@@ -151,6 +151,25 @@ $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/build.libs -lm
 
+# ---- For Python --------------------------------------------------------------------------------------------------
+
+# A wheel is a zip that python3 alone writes. The program in it needs the C library and nothing else: it draws as the page
+# does, without cairo, and of the other libraries it has the static ones.
+.PHONY: wheel wheel-parts
+wheel:
+	@sh src/packages.sh build
+	@$(MAKE) $(PARALLEL) wheel-parts
+	$(Q)B='$(B)' python3 src/python/package.py $(B)/dist
+
+wheel-parts: $(B)/libdepthprec.so.0 $(B)/plain/depthprec
+
+PLAIN_O := $(filter-out %/plot/canvas.o,$(ROOMS_O)) $(call objects,src/web/canvas.c src/web/plain.c)
+PLAIN_LIBS := -lgsl -lgslcblas -ljansson -lconfig -lpng16 -lz $(if $(findstring clang,$(CC)),,-lgomp)
+$(B)/plain/depthprec: $(PLAIN_O) $(B)/libdepthprec.a
+	@mkdir -p $(@D)
+	$(call say,LD)
+	$(Q)$(LINK) -s -o $@ $^ -Wl,-Bstatic $(PLAIN_LIBS) -Wl,-Bdynamic -ldl -pthread -lm
+
 # ---- For the web -------------------------------------------------------------------------------------------------
 
 # The program as WebAssembly, for the page: the same files, with the same bits; src/web stands in for what needs files,
@@ -165,7 +184,8 @@ WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval lim
 WEB_NOT := report/output_file report/terminal requirement/camera requirement/reader requirement/requirement requirement/view requirement/check \
     plot/canvas plot/scene plot/normals plot/pareto plot/stability plot/needs plot/pixels \
     cli/cmd_methods cli/cmd_check cli/check_report cli/shadow/cmd_shadow \
-    cli/shadow/rows cli/cmd_probe cli/constants cli/link cli/completions cli/stop cli/junit cli/option/profile api/profile_file
+    cli/shadow/rows cli/cmd_probe cli/constants cli/link cli/completions cli/stop cli/junit cli/option/profile \
+    api/profile_file web/plain
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
@@ -215,7 +235,7 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 .PHONY: check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves and what clang makes for the web no sanitizer has a say.
-ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims web)
+ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims python web)
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 
 check:
@@ -392,9 +412,11 @@ plots: all
 
 BENCHED := interval linearize encode worst position normal
 bench: all $(BENCH_PROGRAMS)
+	@! command -v python3 >/dev/null || $(MAKE) --no-print-directory wheel
 	@sh tests/bench.sh $(foreach b,$(filter-out %/bench_empty,$(BENCH_PROGRAMS)),'$b $(B)/depthprec') \
 	    $(foreach f,$(BENCHED),'echo && $(B)/depthprec methods $f') \
-	    'sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize'
+	    'sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize' \
+	    $(if $(shell command -v python3),"echo && B=$(B) CC='$(CC)' python3 tests/python/bench.py")
 
 clean distclean:
 	$(Q)rm -rf build
@@ -428,6 +450,7 @@ help:
 ## make check-web       the page in Chromium, which it installs: a minute of it: what it shows against the program, bad
 ##                  addresses; DEPTHPREC_FULL=1 adds keyboard, speed and more
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
+## make wheel       the Python package: a wheel and its sources in build/dist (needs python3)
 ## make man         the manual pages in build/man/, completed with what the program says of itself
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
@@ -438,4 +461,4 @@ help:
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 ## WERROR=-Werror makes warnings errors
 
--include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))
+-include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(PLAIN_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))

@@ -24,6 +24,7 @@ readme.sh                    | depthprec | 0 | 6
 questions.sh                 | depthprec | 0 | all
 plots.sh                     | depthprec | 0 | 110
 same.sh                      | depthprec | 0 | 1
+python.sh                    | python3   | 0 | 2
 gappa.sh                     | depthprec | 1 | all
 gappa.sh                     | gappa     | 0 | all
 cli.sh tests/cli/help.txt    | depthprec | 0 | all
@@ -41,6 +42,7 @@ needs.sh                     | depthprec | 1 | all
 examples.sh                  | depthprec | 1 | 33
 questions.sh                 | depthprec | 1 | all
 plots.sh                     | depthprec | 1 | 110
+python.sh                    | depthprec | 0 | 2
 same.sh                      | depthprec | 1 | 1
 cli.sh tests/cli/help.txt    | depthprec | 1 | all
 install.sh                   | readelf   | 1 | 3

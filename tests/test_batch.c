@@ -49,7 +49,8 @@ static dp_setup make(const camera *c, const char *name, dp_rounding rounding, dp
 static const char *label(const dp_batch *b) {
     static char text[160];
     const dp_spec *s = &b->setup.spec;
-    static const char *const tasks[] = {"code", "eye", "width", "encode", "decode"};
+    static const char *const tasks[] = {"code", "eye", "width",  "encode",     "decode",
+                                        "lo",   "hi",  "window", "separation", "interval"};
     snprintf(text, sizeof text, "%s %s%s %s %.17g..%.17g %s, %zu to %zu bytes, %s", tasks[b->task],
              dp_mapping_get(s->mapping)->name, s->ortho ? " ortho" : "", s->format.name, s->znear, s->zfar,
              dp_rounding_name(s->rounding), b->in_size, b->out_size, dp_path_name(b->path));
@@ -57,7 +58,11 @@ static const char *label(const dp_batch *b) {
 }
 
 static int reads_codes(const dp_batch *b) {
-    return b->task != DP_TASK_CODE && b->task != DP_TASK_ENCODE;
+    return b->task == DP_TASK_EYE || (b->task >= DP_TASK_WIDTH && b->task <= DP_TASK_HI && b->task != DP_TASK_ENCODE);
+}
+
+static int writes_codes(const dp_batch *b) {
+    return b->task == DP_TASK_CODE || b->task == DP_TASK_ENCODE;
 }
 
 static float real32(const void *at, size_t i) {
@@ -76,6 +81,36 @@ static int same_real(double a, double b) {
     return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
 }
 
+/* Of an eye depth that becomes a number: by dp_sample_at(). Of floats a plane may be the float beside it. */
+static int number_as_promised(const dp_batch *b, double z, double got) {
+    const dp_spec *s = &b->setup.spec;
+    const int narrow = b->real == DP_REAL_FLOAT;
+    dp_sample at;
+    if (narrow && z < s->znear && (double)nextafterf((float)z, FLT_MAX) > s->znear)
+        z = s->znear;
+    if (narrow && z > s->zfar && (double)nextafterf((float)z, -FLT_MAX) < s->zfar)
+        z = s->zfar;
+    const dp_status status = dp_sample_at(&b->setup, z, &at);
+    if (status != DP_OK)
+        return status == DP_ERROR_BINARY32 ? isinf(got) : isnan(got);
+    const double want = b->task == DP_TASK_WINDOW     ? at.depth
+                        : b->task == DP_TASK_INTERVAL ? at.interval
+                                                      : at.separation;
+    if (!narrow || b->task != DP_TASK_SEPARATION)
+        return same_real(got, narrow ? (double)(float)want : want);
+    return got >= want && (isinf(got) || (double)nextafterf((float)got, 0) < want || got == want);
+}
+
+/* A cell's end: never inside of the cell, and the next float is. */
+static int end_as_promised(const dp_batch *b, uint32_t code, double got) {
+    const dp_cell cell = dp_cell_of(&b->setup, code);
+    const double want = b->task == DP_TASK_LO ? cell.lo : cell.hi;
+    const float inward = nextafterf((float)got, b->task == DP_TASK_LO ? INFINITY : -INFINITY);
+    if (b->real == DP_REAL_DOUBLE || isnan(want) || got == want)
+        return same_real(got, want);
+    return b->task == DP_TASK_LO ? got < want && (double)inward > want : got > want && (double)inward < want;
+}
+
 /* What the header promises of one element. */
 static int as_promised(const dp_batch *b, const void *in, const void *out, size_t i) {
     const dp_spec *s = &b->setup.spec;
@@ -83,10 +118,14 @@ static int as_promised(const dp_batch *b, const void *in, const void *out, size_
         return code_at(b, out, i) == dp_code(&b->setup, real_at(b, in, i));
     if (b->task == DP_TASK_ENCODE)
         return code_at(b, out, i) == dp_format_encode(&s->format, s->rounding, real_at(b, in, i));
+    if (!reads_codes(b))
+        return number_as_promised(b, real_at(b, in, i), real_at(b, out, i));
     const uint32_t given = code_at(b, in, i);
     const uint32_t code = given < s->format.code_max ? given : s->format.code_max;
     const double got = real_at(b, out, i);
     const int narrow = b->real == DP_REAL_FLOAT;
+    if (b->task == DP_TASK_LO || b->task == DP_TASK_HI)
+        return end_as_promised(b, code, got);
     if (b->task == DP_TASK_DECODE) {
         const double want = dp_format_value(&s->format, code);
         return same_real(got, narrow ? (double)(float)want : want);
@@ -129,7 +168,7 @@ static void check_array(tally *t, const dp_setup *setup, dp_task task, dp_real r
         for (size_t i = 0; i < count; i++)
             TALLY(t, as_promised(&b, in, out, i), "%s: element %zu, %.17g / %u gives %.17g / %u", label(&b), i,
                   reads_codes(&b) ? 0.0 : real_at(&b, in, i), reads_codes(&b) ? code_at(&b, in, i) : 0,
-                  reads_codes(&b) ? real_at(&b, out, i) : 0.0, reads_codes(&b) ? 0 : code_at(&b, out, i));
+                  writes_codes(&b) ? 0.0 : real_at(&b, out, i), writes_codes(&b) ? code_at(&b, out, i) : 0);
     }
 }
 
@@ -142,8 +181,8 @@ static void codes_of(tally *t, const dp_setup *setup, uint32_t first, uint32_t s
         wide[i] = first + (uint32_t)i * step;
         narrow[i] = (uint16_t)wide[i];
     }
-    static const dp_task tasks[] = {DP_TASK_EYE, DP_TASK_WIDTH, DP_TASK_DECODE};
-    for (int k = 0; k < 3; k++)
+    static const dp_task tasks[] = {DP_TASK_EYE, DP_TASK_WIDTH, DP_TASK_DECODE, DP_TASK_LO, DP_TASK_HI};
+    for (int k = 0; k < 5; k++)
         for (int real = 0; real < DP_REAL_COUNT; real++) {
             check_array(t, setup, tasks[k], (dp_real)real, DP_WORD_32, wide, count);
             if (setup->spec.format.bits <= 16)
@@ -297,6 +336,72 @@ TEST(test_depths) {
             }
         tally_end(&t);
     }
+}
+
+/* Depths that become numbers: in each model, surfaces that face and slant; at the planes' floats, too. */
+TEST(test_numbers) {
+    tally t = {.name = "numbers"};
+    rng r = rng_make("numbers");
+    for (int f = 0; f < FORMATS; f++)
+        for (int c = 0; c < CAMERAS; c++) {
+            const dp_setup exact = make(&cameras[c], formats[f], DP_ROUND_NEAREST, DP_MODEL_EXACT);
+            const dp_setup guaranteed = dp_setup_guaranteed(&exact);
+            double *z = (double *)(void *)buffer(0);
+            float *narrow = (float *)(void *)buffer(3);
+            for (int task = DP_TASK_WINDOW; task <= DP_TASK_INTERVAL; task++) {
+                const size_t count = (size_t)test_cases(10, 30, 1000);
+                for (size_t i = 0; i < count; i++) {
+                    z[i] = i < 2 ? (i == 0 ? exact.spec.znear : exact.spec.zfar) : any_depth(&r, &exact, 0);
+                    narrow[i] = (float)z[i];
+                }
+                for (int wide = 0; wide < 2; wide++) {
+                    const void *in = wide ? (const void *)z : (const void *)narrow;
+                    check_array(&t, &exact, (dp_task)task, (dp_real)wide, DP_WORD_32, in, count);
+                    if (guaranteed.spec.model == DP_MODEL_FLOAT && task == DP_TASK_SEPARATION)
+                        check_array(&t, &guaranteed, (dp_task)task, (dp_real)wide, DP_WORD_32, in, count);
+                }
+            }
+        }
+    tally_end(&t);
+}
+
+/* What is read back of each code, exactly or as a float, is that code again, in every rounding; NaN stays NaN. */
+TEST(test_windows) {
+    static double out[3][CHUNK], in[CHUNK];
+    tally t = {.name = "windows"};
+    rng r = rng_make("windows");
+    for (int f = 0; f < FORMATS; f++)
+        for (int c = 0; c < CAMERAS * 2; c++) {
+            const int narrow = c % 2;
+            const dp_setup s = make(&cameras[c / 2], formats[f], (dp_rounding)(c % DP_ROUNDING_COUNT), DP_MODEL_EXACT);
+            const size_t count = (size_t)test_cases(20, 100, CHUNK);
+            uint32_t codes[CHUNK];
+            for (size_t i = 0; i < count; i++) {
+                codes[i] = (uint32_t)rng_below(&r, (uint64_t)s.spec.format.code_max + 1);
+                const double d = i % 10 == 9 ? NAN : dp_format_value(&s.spec.format, codes[i]);
+                if (narrow && i % 10 != 9) /* a float may be that of another code where the format is finer */
+                    codes[i] = dp_format_encode(&s.spec.format, DP_ROUND_NEAREST, (double)(float)d);
+                if (narrow)
+                    ((float *)(void *)in)[i] = (float)d;
+                else
+                    in[i] = d;
+            }
+            const dp_real real = narrow ? DP_REAL_FLOAT : DP_REAL_DOUBLE;
+            assert_int_equal(dp_batch_windows(&s, real, in, out[0], out[1], out[2], count), DP_OK);
+            for (int k = 0; k < 3; k++) {
+                static const dp_task tasks[] = {DP_TASK_EYE, DP_TASK_LO, DP_TASK_HI};
+                dp_batch b;
+                assert_int_equal(dp_batch_init(&b, &s, tasks[k], real, DP_WORD_32, dp_path_best()), DP_OK);
+                for (size_t i = 0; i < count; i++)
+                    TALLY(&t, i % 10 == 9 ? isnan(real_at(&b, out[k], i)) : as_promised(&b, codes, out[k], i),
+                          "%s: code %u, %.17g", label(&b), codes[i], real_at(&b, out[k], i));
+            }
+        }
+    const dp_setup s = make(&cameras[0], "unorm24", DP_ROUND_NEAREST, DP_MODEL_EXACT);
+    assert_int_equal(dp_batch_windows(NULL, DP_REAL_DOUBLE, in, out[0], NULL, NULL, 1), DP_ERROR_NULL);
+    assert_int_equal(dp_batch_windows(&s, DP_REAL_DOUBLE, NULL, out[0], NULL, NULL, 1), DP_ERROR_NULL);
+    assert_int_equal(dp_batch_windows(&s, DP_REAL_COUNT, in, out[0], NULL, NULL, 1), DP_ERROR_BATCH);
+    tally_end(&t);
 }
 
 /* The direct kernels over many plain depths; with DEPTHPREC_FULL a hundred million of each kind. */

@@ -28,6 +28,11 @@ void canvas_text(canvas *c, double x, double y, const char *text, const canvas_f
     page_canvas_text(c, x, y, text, font, align);
 }
 
+canvas_format canvas_format_of(const char *path) {
+    (void)path;
+    return CANVAS_FORMAT_COUNT;
+}
+
 double page_measure(const char *text, int length, double size, int bold) {
     char copy[1024];
     cairo_text_extents_t extents;

@@ -29,6 +29,12 @@ typedef enum dp_task {
     DP_TASK_WIDTH,    /**< code to cell width, within DP_BATCH_WIDTH_ERROR of dp_cell_of(); float: that, rounded */
     DP_TASK_ENCODE,   /**< window depth to code, as dp_format_encode(); outside [0, 1] clamped, NaN as 0 */
     DP_TASK_DECODE,   /**< code to window depth, as dp_format_value(); float: that, rounded */
+    DP_TASK_LO,       /**< code to the nearest depth of its cell, as dp_cell_of(); float: that, rounded down, */
+    DP_TASK_HI,       /**< to the farthest; float: that, rounded up */
+    /* Eye depth to a number; NaN outside [near, far], but that the floats next to the planes count as these. */
+    DP_TASK_WINDOW,     /**< to window depth, as dp_window(); float: that, rounded */
+    DP_TASK_SEPARATION, /**< to the separation, as dp_separation() of the set-up; float: that, rounded up */
+    DP_TASK_INTERVAL,   /**< to the width of its cell, as dp_cell_of(); float: that, rounded */
     DP_TASK_COUNT
 } dp_task;
 
@@ -68,11 +74,12 @@ typedef struct dp_batch {
 } dp_batch;
 
 /**
- * Prepares a task. ENCODE and DECODE read only the set-up's format and rounding.
+ * Prepares a task. ENCODE and DECODE read only the set-up's format and rounding; a task without codes leaves the word
+ * unread.
  *
  * CODE and WIDTH in the models `staged` and `float`, and CODE, WIDTH and EYE of the logarithmic mapping, have no vector
- * kernel, nor has EYE of orthographic planes with depth 0 between them: each element then costs what the scalar
- * function does.
+ * kernel, nor have EYE of orthographic planes with depth 0 between them and the tasks behind DECODE: each element then
+ * costs what the scalar function does.
  *
  * @return DP_OK; DP_ERROR_NULL; DP_ERROR_BATCH for a task, type or path that does not exist or is not available;
  *         DP_ERROR_FORMAT for DP_WORD_16 with a format of more bits. *batch is then left as it was
@@ -83,13 +90,24 @@ DP_API dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task t
 /**
  * Does the task to `count` elements, which may be 0.
  *
- * @param in   depths (CODE, ENCODE) or codes, aligned to their type, no more
+ * @param in   depths or codes, aligned to their type, no more
  * @param out  codes, or depths; the same address as `in` is allowed where an element written is not larger than one
  *             read. Any other overlap is not.
  *
  * Cost: one thread, no allocation, some 24 KiB of stack.
  */
 DP_API void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count);
+
+/**
+ * Window depths, as they are read back from a buffer or an image, to eye depths. Each counts as the nearest code,
+ * whatever the set-up's rounding: a reader's own rounding is far below half a step. Outside [0, 1] they are clamped;
+ * NaN gives NaN.
+ * @param real         the type of all arrays
+ * @param eye, lo, hi  as the tasks EYE, LO and HI have them; null for what is not wanted; none overlaps `windows`
+ * @return DP_OK; DP_ERROR_NULL; DP_ERROR_BATCH for a type that does not exist; nothing is written then
+ */
+DP_API dp_status dp_batch_windows(const dp_setup *setup, dp_real real, const void *windows, void *eye, void *lo,
+                                  void *hi, size_t count);
 
 DP_END
 #endif

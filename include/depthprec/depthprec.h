@@ -25,6 +25,7 @@
 #include "depthprec/format.h"
 #include "depthprec/mapping.h"
 #include "depthprec/pipeline.h"
+#include "depthprec/projection.h"
 #include "depthprec/setup.h"
 #include "depthprec/status.h"
 #include "depthprec/triangles.h"

@@ -41,6 +41,8 @@ typedef enum dp_status {
     DP_ERROR_ORTHO_NEAR, /**< near of an orthographic projection is neither 0 nor from 1e-12 to 1e12 in magnitude */
     DP_ERROR_ORTHO_FAR,  /**< its far is not greater than near, or neither 0 nor from 1e-12 to 1e18 in magnitude */
     DP_ERROR_TRIANGLES,  /**< triangles out of range, or under an orthographic projection */
+    DP_ERROR_MATRIX,     /**< not a projection matrix, or not one of the mapping asked for */
+    DP_ERROR_CONVENTION, /**< a matrix that more than one convention fits: the mapping or the layout has to be said */
     DP_STATUS_COUNT
 } dp_status;
 

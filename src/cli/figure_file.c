@@ -35,6 +35,10 @@ int figure_file_type(const options *o, option_id id, const char *path, canvas_fo
         return option_error(id, "must end in .svg, .pdf or .png, or --type say which, got '%s'", path);
     if (*out == CANVAS_FORMAT_COUNT)
         *out = (canvas_format)o->figure.type;
+    if (!canvas_writes(*out))
+        return option_error(typed ? OPTION_TYPE : id,
+                            "must be svg, because this program was built without cairo: rsvg-convert makes %s of it",
+                            option_word(OPTION_TYPE, *out));
     return EXIT_FINE;
 }
 

@@ -2,6 +2,7 @@
 /* Arrays by blocks: a kernel does a block, and what it leaves in doubt is done by the scalar functions. */
 #include "depthprec/batch.h"
 
+#include <math.h>
 #include <string.h>
 /* Compiled with -DDP_BASELINE the library has the baseline alone, as on processors without vectors of their own. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(DP_BASELINE)
@@ -10,6 +11,8 @@
 #endif
 
 #include "core/batch_plan.h"
+#include "core/bits.h"
+#include "core/guarantee.h"
 #include "depthprec/depth.h"
 
 enum { BLOCK = 1024, PATCH = 16, LINE = 64 };
@@ -88,14 +91,13 @@ dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task task, dp
         return DP_ERROR_FORMAT;
     const size_t real_size = real == DP_REAL_FLOAT ? sizeof(float) : sizeof(double);
     const size_t word_size = word == DP_WORD_16 ? sizeof(uint16_t) : sizeof(uint32_t);
-    const int reads_code = dp_task_reads_code(task);
     *batch = (dp_batch){.setup = *setup,
                         .task = task,
                         .real = real,
                         .word = word,
                         .path = path,
-                        .in_size = reads_code ? word_size : real_size,
-                        .out_size = reads_code ? real_size : word_size};
+                        .in_size = dp_task_reads_code(task) ? word_size : real_size,
+                        .out_size = dp_task_writes_code(task) ? word_size : real_size};
     dp_batch_plan(batch, paths[path].table);
     return DP_OK;
 }
@@ -141,9 +143,40 @@ static void write_code(const dp_batch *b, unsigned char *at, uint32_t wide) {
         memcpy(at, &wide, sizeof wide);
 }
 
+/* Whether a depth is one of the camera's; a float next to a plane is that plane, rounded. */
+static int enter(const dp_batch *b, double *z) {
+    const dp_spec *s = &b->setup.spec;
+    const int narrow = b->real == DP_REAL_FLOAT;
+    if (narrow && *z < s->znear && *z == (double)dp_float_down(s->znear))
+        *z = s->znear;
+    if (narrow && *z > s->zfar && *z == (double)dp_float_up(s->zfar))
+        *z = s->zfar;
+    return *z >= s->znear && *z <= s->zfar;
+}
+
+/* What a task makes of an eye depth that is no code; of a prepared guarantee. */
+static double number_at(const dp_batch *b, const dp_guarantee *g, double z) {
+    const dp_setup *s = &b->setup;
+    if (!enter(b, &z))
+        return (double)NAN;
+    return b->task == DP_TASK_WINDOW       ? dp_window(s, z)
+           : b->task == DP_TASK_SEPARATION ? dp_guarantee_at(g, z)
+                                           : dp_cell_of(s, dp_code(s, z)).width;
+}
+
+/* Outward, where a bound becomes a float. */
+static double outward(const dp_batch *b, double wide) {
+    if (b->real != DP_REAL_FLOAT || isnan(wide))
+        return wide;
+    return (double)(b->task == DP_TASK_LO ? dp_float_down(wide) : dp_float_up(wide));
+}
+
 /* One by one. */
 static void run_plain(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
     const dp_spec *spec = &b->setup.spec;
+    dp_guarantee guarantee;
+    if (b->task == DP_TASK_SEPARATION)
+        guarantee = dp_guarantee_make(&b->setup);
     for (size_t i = 0; i < count; i++, from += b->in_size, to += b->out_size)
         switch (b->task) {
         case DP_TASK_CODE:
@@ -159,8 +192,21 @@ static void run_plain(const dp_batch *b, const unsigned char *from, unsigned cha
             write_real(b, to, dp_cell_of(&b->setup, read_code(b, from)).width);
             break;
         case DP_TASK_DECODE:
-        default:
             write_real(b, to, dp_format_value(&spec->format, read_code(b, from)));
+            break;
+        case DP_TASK_LO:
+            write_real(b, to, outward(b, dp_cell_of(&b->setup, read_code(b, from)).lo));
+            break;
+        case DP_TASK_HI:
+            write_real(b, to, outward(b, dp_cell_of(&b->setup, read_code(b, from)).hi));
+            break;
+        case DP_TASK_SEPARATION:
+            write_real(b, to, outward(b, number_at(b, &guarantee, read_real(b, from))));
+            break;
+        case DP_TASK_WINDOW:
+        case DP_TASK_INTERVAL:
+        default:
+            write_real(b, to, number_at(b, NULL, read_real(b, from)));
         }
 }
 

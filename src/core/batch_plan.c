@@ -267,7 +267,7 @@ static const direct_row direct_rows[] = {
 };
 
 /* [task][curve][kind]; ENCODE and DECODE have no curve. */
-static const int general[DP_TASK_COUNT][2][2] = {
+static const int general[DP_TASK_DECODE + 1][2][2] = {
     [DP_TASK_CODE] = {{DP_KERNEL_CODE_PERSPECTIVE_UNORM, DP_KERNEL_CODE_PERSPECTIVE_FLOAT},
                       {DP_KERNEL_CODE_LINEAR_UNORM, DP_KERNEL_CODE_LINEAR_FLOAT}},
     [DP_TASK_EYE] = {{DP_KERNEL_EYE_PERSPECTIVE_UNORM, DP_KERNEL_EYE_PERSPECTIVE_FLOAT},
@@ -283,7 +283,7 @@ static const int general[DP_TASK_COUNT][2][2] = {
 static int general_kernel(const dp_batch *b) {
     const dp_setup *s = &b->setup;
     const int by_format = b->task == DP_TASK_ENCODE || b->task == DP_TASK_DECODE;
-    if (!by_format && s->curve == DP_CURVE_LOG)
+    if (b->task > DP_TASK_DECODE || (!by_format && s->curve == DP_CURVE_LOG))
         return DP_KERNEL_NONE;
     if (b->task == DP_TASK_EYE && s->spans_zero)
         return DP_KERNEL_NONE;

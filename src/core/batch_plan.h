@@ -85,7 +85,12 @@ static inline double dp_batch_top(int i) {
 }
 
 static inline int dp_task_reads_code(dp_task task) {
-    return task == DP_TASK_EYE || task == DP_TASK_WIDTH || task == DP_TASK_DECODE;
+    return task == DP_TASK_EYE || task == DP_TASK_WIDTH || task == DP_TASK_DECODE || task == DP_TASK_LO ||
+           task == DP_TASK_HI;
+}
+
+static inline int dp_task_writes_code(dp_task task) {
+    return task == DP_TASK_CODE || task == DP_TASK_ENCODE;
 }
 
 #endif

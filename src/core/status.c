@@ -26,6 +26,10 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_ERROR_ORTHO_FAR] =
         "far must be greater than near, and 0, or from 1e-12 to 1e18 of either sign, in an orthographic projection",
     [DP_ERROR_TRIANGLES] = "triangles need a perspective, and fields in their ranges",
+    [DP_ERROR_MATRIX] = "not a projection matrix",
+    [DP_ERROR_CONVENTION] =
+        "more than one convention fits the matrix: say which of d3d, gl, reversed, gl-reversed, and "
+        "whether it lies by rows or by columns",
 };
 
 const char *dp_status_text(dp_status status) {

@@ -57,6 +57,10 @@ static void pdf_metadata(cairo_surface_t *surface, const notes *words) {
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS, words->data);
 }
 
+bool canvas_writes(canvas_format format) {
+    return format < CANVAS_FORMAT_COUNT;
+}
+
 canvas *canvas_new(canvas_format format, int width, int height, const notes *words) {
     canvas *c = calloc(1, sizeof *c);
     FILE *stream = c != NULL ? open_memstream(&c->bytes.at, &c->bytes.size) : NULL;

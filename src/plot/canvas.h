@@ -62,6 +62,9 @@ typedef struct canvas_bytes {
 /** The format that a file name's ending names (letter case ignored); CANVAS_FORMAT_COUNT when none does. */
 canvas_format canvas_format_of(const char *path);
 
+/** Whether this program draws a format: one without cairo draws SVG alone. */
+bool canvas_writes(canvas_format format);
+
 /** A surface of whole px in each direction, 1 to 16384. @return null when out of memory */
 canvas *canvas_new(canvas_format format, int width, int height, const notes *words);
 

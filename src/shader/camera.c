@@ -56,11 +56,12 @@ static dp_pair product(dp_pair a, double b) {
 }
 
 /* With the slopes put in: a half (NDC - centre), NDC = (2i + 1 - width)/width. */
-static camera_oblique oblique_of(const projection *p, uint32_t width, uint32_t height) {
+static camera_oblique oblique_of(const dp_projection *p, uint32_t width, uint32_t height) {
     const dp_pair x = quotient((dp_pair){p->tilt[0], 0}, p->scale[0]),
                   y = quotient((dp_pair){p->tilt[1], 0}, p->scale[1]);
     const dp_pair moved = dp_pair_sum(product(x, -p->centre[0]), product(y, -p->centre[1]));
-    return (camera_oblique){p->oblique, p->pull, quotient(x, width), quotient(y, height), dp_pair_sum(p->base, moved)};
+    return (camera_oblique){p->oblique, p->pull, quotient(x, width), quotient(y, height),
+                            dp_pair_sum((dp_pair){p->base[0], p->base[1]}, moved)};
 }
 
 /* ---- The camera -------------------------------------------------------------------------------------------------- */
@@ -84,7 +85,7 @@ const char *camera_init(texture_camera *camera, const dp_setup *setup, const cam
         .radial = spec->radial && !ortho,
     };
     if (spec->matrix != NULL) {
-        const projection *p = spec->matrix;
+        const dp_projection *p = spec->matrix;
         for (int k = 0; k < 2; k++) {
             camera->half[k] = p->half[k];
             camera->centre[k] = p->centre[k];

@@ -20,19 +20,19 @@
 #include <stdbool.h>
 
 #include "core/bits.h"
+#include "core/expansion.h"
 #include "depthprec/depthprec.h"
 #include "image/image.h"
-#include "shader/projection.h"
 
 /** What is asked for. Start from camera_spec_default(). */
 typedef struct camera_spec {
     uint32_t width, height;
-    double fov_y;             /**< perspective: vertical field of view in degrees, in [0.01, 179] */
-    double half_height;       /**< orthographic: half the height of the view, scene units, in [1e-12, 1e12] */
-    double yaw, pitch;        /**< degrees: to the right, then up; 0, 0 looks along the world's z axis */
-    double origin[3];         /**< where the camera stands, world coordinates, each at most 1e12 in magnitude */
-    const projection *matrix; /**< says what fov_y and half_height would; or null */
-    bool radial;              /**< depths of the set-up are distances along the rays; perspective */
+    double fov_y;                /**< perspective: vertical field of view in degrees, in [0.01, 179] */
+    double half_height;          /**< orthographic: half the height of the view, scene units, in [1e-12, 1e12] */
+    double yaw, pitch;           /**< degrees: to the right, then up; 0, 0 looks along the world's z axis */
+    double origin[3];            /**< where the camera stands, world coordinates, each at most 1e12 in magnitude */
+    const dp_projection *matrix; /**< says what fov_y and half_height would; or null */
+    bool radial;                 /**< depths of the set-up are distances along the rays; perspective */
 } camera_spec;
 
 /** 60 degrees, half height 5, looking along z from the origin; width and height 0: to be filled in. */

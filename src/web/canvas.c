@@ -25,9 +25,8 @@ struct canvas {
     int clips;
 };
 
-canvas_format canvas_format_of(const char *path) {
-    (void)path;
-    return CANVAS_FORMAT_COUNT; /* no files: --type says it */
+bool canvas_writes(canvas_format format) {
+    return format == CANVAS_SVG;
 }
 
 canvas *canvas_new(canvas_format format, int width, int height, const notes *words) {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "cli/stop.h"
+#include "plot/canvas.h"
 #include "report/output.h"
 #include "report/terminal.h"
 #include "system/input.h"
@@ -25,6 +26,11 @@ int output_close(output *out) {
 
 void output_abandon(output *out) {
     out->used = 0;
+}
+
+canvas_format canvas_format_of(const char *path) {
+    (void)path;
+    return CANVAS_FORMAT_COUNT; /* --type says it */
 }
 
 bool output_same_file(const char *a, const char *b) {

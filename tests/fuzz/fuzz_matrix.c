@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "shader/projection.h"
+#include "depthprec/projection.h"
 
 enum { ENTRIES = 16, BYTES = 9 };
 
@@ -27,7 +27,7 @@ static double entry(const uint8_t *from) {
     return from[0] < 8 * 16 ? common[from[0] % 8] : any;
 }
 
-static void use(const projection *p) {
+static void use(const dp_projection *p) {
     for (int k = 0; k < 2; k++)
         demand(p->scale[k] > 0 && isfinite(p->half[k]) && isfinite(p->centre[k]) && isfinite(p->tilt[k]));
     demand(isfinite(p->znear) && (p->ortho ? isfinite(p->zfar) : p->znear > 0) && !(p->ortho && p->oblique));
@@ -36,16 +36,20 @@ static void use(const projection *p) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     double m[ENTRIES];
-    char why[PROJECTION_WHY] = "";
-    projection p;
+    dp_matrix_fault why = {0};
+    dp_projection p;
     if (size < (size_t)ENTRIES * BYTES + 1)
         return 0;
     for (int i = 0; i < ENTRIES; i++)
         m[i] = entry(data + 1 + (size_t)i * BYTES);
-    if (projection_init(&p, m, (data[0] & 1) != 0, (data[0] & 2) != 0, why))
+    if (dp_projection_init(&p, m, (data[0] & 1) != 0, (data[0] & 2) != 0, &why) == DP_OK)
         use(&p);
     else
-        for (const char *c = why; demand(why[0] != '\0'), *c != '\0'; c++)
-            demand(*c >= 0x20 && *c < 0x7f);
+        demand(why.rule != NULL && why.rule[0] != '\0');
+    const dp_status found =
+        dp_projection_find(&p, m, (dp_layout)(data[0] >> 2 & 3), (dp_mapping)(data[0] >> 4 & 7), &why);
+    if (found == DP_OK)
+        use(&p);
+    demand(!(found == DP_OK && p.oblique));
     return 0;
 }

@@ -85,7 +85,8 @@ static int check_mapping(const options *o, dp_mapping given) {
 }
 
 static void name_edges(texture_matrix *t) {
-    const projection *p = &t->taken;
+    const dp_projection *p = &t->taken;
+    t->oblique = p->oblique != 0;
     t->looks = p->backwards ? "-z" : "+z";
     for (int i = 0; i < 4; i++)
         t->edges[i] = ((i % 2 != 0 ? 1 : -1) - p->centre[i / 2]) * p->half[i / 2];
@@ -94,7 +95,7 @@ static void name_edges(texture_matrix *t) {
 }
 
 void texture_intrinsics_take(const double intrinsics[4], const double size[2], texture_matrix *t) {
-    projection *p = &t->taken;
+    dp_projection *p = &t->taken;
     for (int k = 0; k < 2; k++) {
         p->half[k] = size[k] / (2 * intrinsics[k]);
         p->scale[k] = 1 / p->half[k];
@@ -108,7 +109,7 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
     const dp_mapping asked = given ? o->camera.mappings[0] : DP_MAPPING_D3D;
     const dp_mapping_row *row = dp_mapping_get(asked);
     double m[ENTRIES];
-    char why[PROJECTION_WHY];
+    dp_matrix_fault why;
     int status = check_others(o);
     if (status == EXIT_FINE)
         status = check_mapping(o, asked);
@@ -116,15 +117,14 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
         status = read_entries(o->image.matrix, m);
     if (status != EXIT_FINE)
         return status;
-    projection *p = &s->matrix.taken;
-    if (!projection_init(p, m, row->ndc_signed != 0, row->reversed != 0, why))
-        return option_error(OPTION_MATRIX, "%s: %s", o->image.matrix, why);
-    if (given && p->reversed != (row->reversed != 0))
+    dp_projection *p = &s->matrix.taken;
+    if (dp_projection_init(p, m, row->ndc_signed, row->reversed, &why) != DP_OK)
+        return option_error(OPTION_MATRIX, "%s: %s, got %.9g %.9g %.9g %.9g", o->image.matrix, why.rule, why.got[0],
+                            why.got[1], why.got[2], why.got[3]);
+    if (given && p->mapping != asked)
         return option_error(OPTION_MAPPING, "must be %s: window depth %s with distance in %s, got %s",
-                            row->ndc_signed ? (p->reversed ? "gl-reversed" : "gl")
-                            : p->reversed   ? "reversed"
-                                            : "d3d",
-                            p->reversed ? "falls" : "grows", o->image.matrix, row->name);
+                            dp_mapping_get(p->mapping)->name, p->reversed ? "falls" : "grows", o->image.matrix,
+                            row->name);
     if (p->oblique && o->image.synthetic != NULL)
         return option_error(OPTION_MATRIX,
                             "%s: has planes that differ from pixel to pixel, which --synthetic cannot draw",
@@ -133,7 +133,7 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
     name_edges(&s->matrix);
     s->mapping_from = given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
     s->direction_from = p->ortho && !given ? ORIGIN_ASSUMED : given ? ORIGIN_GIVEN : ORIGIN_FOUND;
-    with->camera.mappings[0] = given ? asked : p->reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+    with->camera.mappings[0] = p->mapping;
     with->camera.ortho = p->ortho;
     with->camera.znear = p->znear;
     with->camera.zfar = p->zfar;
@@ -150,10 +150,10 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
 }
 
 void texture_matrix_say(const texture_matrix *t, page *p) {
-    const projection *x = &t->taken;
+    const dp_projection *x = &t->taken;
     const bool centred = x->centre[0] == 0 && x->centre[1] == 0;
     page_note(p, "matrix", "%s: looks along %s%s%s", t->path, t->looks, centred ? "" : ", not centred",
-              x->oblique ? ", planes of each pixel's own: near is the nearest, far the farthest" : "");
+              t->oblique ? ", planes of each pixel's own: near is the nearest, far the farthest" : "");
     if (x->ortho)
         page_note(p, "picture", "from %s to %s, %s to %s scene units", number_of(t->edges[0], 6).text,
                   number_of(t->edges[1], 6).text, number_of(t->edges[2], 6).text, number_of(t->edges[3], 6).text);
@@ -163,13 +163,9 @@ void texture_matrix_say(const texture_matrix *t, page *p) {
                   number_of(t->edges[2], 6).text, number_of(t->edges[3], 6).text);
 }
 
-const column texture_matrix_columns[] = {{FIELD(texture_matrix, path, "file", "")},
-                                         {FIELD(texture_matrix, looks, "looks_along", "")},
-                                         {FIELD(texture_matrix, taken.oblique, "oblique", "")},
-                                         {FIELD(texture_matrix, edges[0], "left", "")},
-                                         {FIELD(texture_matrix, edges[1], "right", "")},
-                                         {FIELD(texture_matrix, edges[2], "bottom", "")},
-                                         {FIELD(texture_matrix, edges[3], "top", "")},
-                                         {FIELD(texture_matrix, fov[0], "fov_x", "degrees")},
-                                         {FIELD(texture_matrix, fov[1], "fov_y", "degrees")},
-                                         {.kind = COLUMN_END}};
+const column texture_matrix_columns[] = {
+    {FIELD(texture_matrix, path, "file", "")},           {FIELD(texture_matrix, looks, "looks_along", "")},
+    {FIELD(texture_matrix, oblique, "oblique", "")},     {FIELD(texture_matrix, edges[0], "left", "")},
+    {FIELD(texture_matrix, edges[1], "right", "")},      {FIELD(texture_matrix, edges[2], "bottom", "")},
+    {FIELD(texture_matrix, edges[3], "top", "")},        {FIELD(texture_matrix, fov[0], "fov_x", "degrees")},
+    {FIELD(texture_matrix, fov[1], "fov_y", "degrees")}, {.kind = COLUMN_END}};

@@ -26,7 +26,8 @@ enum { READINGS_MAX = 8, READINGS_SIZE = 512 };
 /** The projection matrix of --matrix. */
 typedef struct texture_matrix {
     const char *path; /**< null: none */
-    projection taken;
+    dp_projection taken;
+    bool oblique;
     double fov[2];     /**< degrees, across and up; NaN where it is orthographic */
     double edges[4];   /**< left, right, bottom, top: slopes, or scene units where it is orthographic */
     const char *looks; /**< "+z", "-z" */

@@ -1,0 +1,394 @@
+# SPDX-License-Identifier: MIT
+"""What a depth buffer resolves, exact and proven.
+
+Ten names: Camera (with encode, decode, window_depth, separation, lattice, interval and worst), solve, check, recognise,
+bias and run. Depths are eye depths along the view axis, in scene units; window depths are from 0 to 1; codes are what
+the buffer stores.
+
+Arrays are any memory of float32, float64 or integers: numpy, array.array, memoryview, lists. Contiguous input is not
+copied, other threads run meanwhile, and results come as the kind that was given. `out` takes the result into memory of
+the caller's. A number in gives a number out.
+
+Camera is the library itself (MIT). The five functions run the command beside it, a program of its own
+(GPL-3.0-or-later). Every formula and bound is derived in depthprec(7).
+"""
+import ctypes as _ctypes
+import math as _math
+from collections import namedtuple as _namedtuple
+
+from . import _arrays, _core
+from ._core import Error
+from ._program import bias, check, recognise, run, solve
+
+__all__ = ["Camera", "Decoded", "Error", "Worst", "bias", "check", "recognise", "run", "solve"]
+__version__ = _core.version().decode()
+
+Decoded = _namedtuple("Decoded", "z lo hi")
+Decoded.__doc__ = "Eye depths, and the ends of the cells around them: what else the surface may be at."
+
+Worst = _namedtuple("Worst", "lo hi error error_z error_code interval interval_lo interval_hi interval_code blind_from "
+                             "separation separation_z")
+Worst.__doc__ = """The worst over a range, proven bounds over every depth in it; see Camera.worst()."""
+
+
+class Camera:
+    """A camera's planes and how its depth is stored, checked once; it does not change.
+
+    near, far  scene units: near in [1e-12, 1e12], far at most 1e18 or math.inf; orthographic: either sign, or 0
+    format     "unorm24", "d24", "fp32", "unorm16", ...: names as APIs write them, unormN, floatE.M[bB]
+    mapping    "d3d", "gl", "reversed", "gl-reversed", "linear", "log", "three-webgl", "three-webgpu", "cesium",
+               "osgearth"
+    ortho      an orthographic projection
+    rounding   "nearest", "even", "zero"
+    model      of codes and intervals: "exact", the lattice of real arithmetic; "staged"; "float"
+    arith      the binary32 arithmetic that separation() counts: "ieee", "fused", ... (depthprec list arithmetics)
+    log_c      the constant C of logarithmic mappings
+    viewport   (width, height) in pixels: separation() then holds for slanted triangles; with them fov (vertical,
+               degrees), subpixel (bits), slant ((lo, hi), degrees), triangle_class ((depth, pixels, slim))
+
+    Raises Error, a ValueError, with the library's sentence. Source: depthprec(3), setup.h.
+    """
+
+    __slots__ = ("_given", "_setups", "_batches", "_narrow")
+
+    def __init__(self, near=0.1, far=1000.0, format="fp32", mapping="d3d", *, ortho=False, rounding="nearest",
+                 model="exact", arith="ieee", log_c=1.0, viewport=None, fov=60.0, subpixel=8, slant=(0.0, 90.0),
+                 triangle_class=(2.0, 512.0, 16.0)):
+        spec = _core.spec_default()
+        spec.znear, spec.zfar = _arrays.real(near, "near"), _arrays.real(far, "far")
+        formats = (_core.Format * 2)()
+        count = _core.format_parse(_core.word(format, "format").encode(), formats)
+        if count == 0:
+            _core.demand("FORMAT")
+        if count == 2:
+            raise Error("%s is %s or %s, as the implementation chooses: name one"
+                        % (format, formats[0].name.decode(), formats[1].name.decode()))
+        spec.format = formats[0]
+        spec.mapping = _core.parsed(_core.mapping_parse, mapping, _ctypes.c_int, "mapping")
+        spec.arith = _core.parsed(_core.arith_parse, arith, _ctypes.c_size_t, "arith")
+        spec.rounding = _index(_core.ROUNDINGS, rounding, "rounding", "ROUNDING")
+        spec.model = _index(_core.MODELS, model, "model", "MODEL")
+        spec.ortho, spec.log_c = bool(ortho), _arrays.real(log_c, "log_c")
+        if viewport is not None:
+            spec.triangles = _triangles(viewport, fov, subpixel, slant, triangle_class)
+        setup = _core.Setup()
+        _core.demand(_core.setup_init(setup, spec))
+        self._setups, self._batches, self._narrow = {"own": setup}, {}, spec.format.bits <= 16
+        self._given = {"near": spec.znear, "far": spec.zfar, "format": spec.format.name.decode(),
+                       "mapping": _core.mapping_get(spec.mapping)[0].decode(), "ortho": bool(ortho),
+                       "rounding": rounding, "model": model, "arith": _core.arith_get(spec.arith)[0].decode(),
+                       "log_c": spec.log_c,
+                       "viewport": None if viewport is None else (spec.triangles.width, spec.triangles.height),
+                       "fov": fov, "subpixel": subpixel, "slant": tuple(slant),
+                       "triangle_class": tuple(triangle_class)}
+
+    @classmethod
+    def from_matrix(cls, matrix, mapping=None, *, layout=None, **more):
+        """The camera of a 4x4 projection matrix.
+
+        matrix   16 numbers: 4x4 or flat, float32 or float64 or lists; clip = M (x, y, z, 1)
+        mapping  "d3d", "gl", "reversed" or "gl-reversed"; None: as the matrix has it. A perspective tells whether it is
+                 reversed; whether NDC depth begins at 0 or at -1 only a reversed one with far >= 2 near tells.
+                 Read the wrong way near would be half or twice as far, so that it has to be said else
+        layout   "rows", "columns"; None: as the fourth row tells
+        more     format, rounding, ... of Camera
+
+        near and far are those of the entries as they are: of float32 entries those that a shader has, too.
+        Raises Error where it is no projection, where its planes differ from pixel to pixel, and where more than one
+        convention fits, naming what each would be. Source: depthprec(3), projection.h.
+        """
+        numbers = _sixteen(matrix)
+        if layout not in _core.LAYOUTS:
+            raise Error("layout must be 'rows', 'columns' or None, got %r" % (layout,))
+        asked = _core.MAPPING_FOUND if mapping is None else \
+            _core.parsed(_core.mapping_parse, mapping, _ctypes.c_int, "mapping")
+        status, found, fault = _find(numbers, layout, asked)
+        if status == _core.STATUSES.index("MATRIX"):
+            raise Error("%s, got %s" % (fault.rule.decode(), " ".join("%.9g" % x for x in fault.got)), status)
+        if status == _core.STATUSES.index("CONVENTION"):
+            raise Error("%s: %s" % (_core.status_text(status).decode(), _readings(numbers, layout, asked)), status)
+        _core.demand(status)
+        return cls(found.znear, found.zfar, mapping=_core.mapping_get(found.mapping)[0].decode(),
+                   ortho=bool(found.ortho), **more)
+
+    @classmethod
+    def preset(cls, name, **more):
+        """The camera that an engine starts with, in its own units: "unity", "unreal", "godot-forward", "three", ...
+
+        `run("list presets")` has them with their sources; `more` replaces what is given there.
+        Runs the command. Raises Error for another name, and where the engine leaves the format open.
+        """
+        words = ["table", "--json", "--quiet", "--preset", _core.word(name, "a preset")]
+        setups = run(words + (["--format", more["format"]] if "format" in more else []))["setups"]
+        if len(setups) > 1:
+            raise Error("the format of %s is %s, as the implementation chooses: name one"
+                        % (name, " or ".join(setup["format"] for setup in setups)))
+        row = setups[0]
+        far = _math.inf if row["far"] is None else row["far"]
+        return cls(**{"near": row["near"], "far": far, "mapping": row["mapping"], "format": row["format"], **more})
+
+    def __getattr__(self, name):
+        if name.startswith("_") or name not in self._given:
+            raise AttributeError("'Camera' has no attribute '%s'" % name)
+        return self._given[name]
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._given]
+
+    def __repr__(self):
+        usual = Camera.__init__.__kwdefaults__
+        shown = [repr(self._given[name]) for name in ("near", "far", "format", "mapping")]
+        shown += ["%s=%r" % (name, self._given[name]) for name in usual if self._given[name] != usual[name]]
+        return "Camera(%s)" % ", ".join(shown)
+
+    def __eq__(self, other):
+        return self._given == other._given if isinstance(other, Camera) else NotImplemented
+
+    def __hash__(self):
+        return hash(tuple(self._given.values()))
+
+    def __reduce__(self):
+        return _again, (self._given,)
+
+    @property
+    def code_max(self):
+        """The code of window depth 1."""
+        return self._setups["own"].spec.format.code_max
+
+    def encode(self, z, *, out=None):
+        """The codes that are stored for eye depths, correctly rounded for every double.
+
+        z    scene units, float32 or float64, any shape; outside [near, far] clamped, as a depth clamp does; NaN in an
+             array counts as near
+        out  uint16 (formats of at most 16 bits) or uint32, as many elements
+
+        Returns uint16 for formats of at most 16 bits, else uint32, of the same shape; an int of a number.
+        Source: depthprec(3), DP_TASK_CODE: dp_code() of each element, to the bit.
+        """
+        given = _arrays.given(z, "eye depths")
+        if given is None:
+            return self._number("code", _number(z, "an eye depth"), write=_ctypes.c_uint32)
+        real = given.real()
+        result, address, _held, size = _arrays.output(given, "HI" if self._narrow else "I", out)
+        self._run("code", real, int(size == 4), given.address, address, given.count)
+        return result
+
+    def decode(self, values, *, bounds=False, out=None):
+        """The eye depths that codes, or window depths, give back.
+
+        values  codes (integers of any width; above code_max they count as code_max), or window depths (float32 or
+                float64; outside [0, 1] clamped, NaN gives NaN), each of which counts as the nearest code
+        bounds  also the ends of the cells: every surface that is stored so lies from lo to hi. Those of float32 are
+                rounded outward
+        out     float32 or float64, as many elements; with bounds three of them
+
+        Returns scene units, with bounds Decoded(z, lo, hi): float64 of codes, else the type of the window depths. Codes
+        to float32, into `out`, are within 1.85e-7 relative and the fastest. math.inf for the code of an infinite far.
+        In the model "float" a code has no cell: lo and hi are NaN. A single code must be at most code_max, a single
+        window depth in [0, 1].
+        Source: depthprec(3), DP_TASK_EYE, _LO and _HI: dp_stored() and dp_cell_of().
+        """
+        given = _arrays.given(values, "codes or window depths")
+        if given is None:
+            return self._decode_number(values, bounds)
+        outs = (out,) if not bounds else (None,) * 3 if out is None else tuple(out)
+        if len(outs) != (3 if bounds else 1):
+            raise ValueError("out must be three arrays with bounds, got %d" % len(outs))
+        floating = given.code in _arrays.REALS
+        word = None if floating else given.word(self._narrow)
+        made = [_arrays.output(given, given.code if floating else "df", each, not (floating or bounds))
+                for each in outs]
+        if floating:
+            addresses = [address for _, address, _, _ in made] + [None] * (3 - len(made))
+            _core.demand(_core.batch_windows(self._setups["own"], _arrays.REALS[given.code], given.address, *addresses,
+                                             given.count))
+        else:
+            for name, (_, address, _, size) in zip(("eye", "lo", "hi"), made):
+                self._run(name, int(size == 8), word, given.address, address, given.count)
+        return Decoded(*(result for result, _, _, _ in made)) if bounds else made[0][0]
+
+    def window_depth(self, z, *, out=None):
+        """The window depth in [0, 1] of eye depths, before the buffer rounds it: within 2^-50 relative, and rounded
+        once more where z is float32.
+
+        z, out  scene units and their result, float32 or float64, any shape; NaN outside [near, far]
+
+        Of a number it raises Error there. Source: depthprec(3), dp_window().
+        """
+        return self._map("window", z, out)
+
+    def separation(self, z, *, out=None):
+        """How far behind z a surface must lie to be resolved: guaranteed, despite the rounding of shader, viewport and
+        buffer. With a viewport: how far in front of z, along the normal, at any slant.
+
+        z, out  as window_depth(); float32 is rounded up
+        Returns scene units; math.inf where nothing is certain. For "linear", which no pipeline computes, a lattice.
+        Source: depthprec(3), dp_separation() of dp_setup_guaranteed().
+        """
+        return self._map("separation", z, out)
+
+    def lattice(self, z, *, out=None):
+        """The same in exact arithmetic: one step of the format, what no implementation can be better than.
+
+        z, out  as window_depth(); float32 is rounded up
+        Source: depthprec(3), dp_separation() in the model exact.
+        """
+        return self._map("lattice", z, out)
+
+    def interval(self, z, *, out=None):
+        """The z-fighting interval: the width of the cell around z, whose depths all get the same code.
+
+        z, out  as window_depth()
+        Returns scene units; math.inf in the last cell of an infinite far; NaN in the model "float", which has no cells.
+        Source: depthprec(3), dp_cell_of().
+        """
+        return self._map("interval", z, out)
+
+    def worst(self, lo=None, hi=None):
+        """The worst over the eye depths [lo, hi], by default [near, far]: proven bounds over every depth, no samples.
+
+        Returns Worst: the range; the largest `error` of a stored depth, where (`error_z`) and in which code; the
+        widest cell, `interval`, with its ends and code; where an unbounded cell begins (`blind_from`, else NaN); the
+        largest guaranteed `separation`, at most 2^-10 above the truth, and where one nearly as large was found. In the
+        model "float", which has no cells, the first of these are NaN.
+        Raises Error where the range is reversed or leaves [near, far]. Source: depthprec(3), bounds.h.
+        """
+        lo = self.near if lo is None else _arrays.real(lo, "lo")
+        hi = self.far if hi is None else _arrays.real(hi, "hi")
+        cells, apart = _core.Worst(), _core.SeparationWorst()
+        _core.demand(_core.worst_over(self._setups["own"], lo, hi, cells))
+        _core.demand(_core.separation_over(self._setup_of("separation"), lo, hi, 0.0, apart))
+        return Worst(*(getattr(cells, name) for name, _ in _core.Worst._fields_), apart.bound, apart.z)
+
+    # ---- What the methods share --------------------------------------------------------------------------------
+
+    def _setup_of(self, name):
+        """The set-up that a method asks; each lives as long as the camera."""
+        if name not in self._setups:
+            made = _core.Setup()
+            if name == "separation":
+                made = _core.setup_guaranteed(self._setups["own"])
+            else:  # the lattice, which knows of no triangles
+                spec = _core.Spec.from_buffer_copy(self._setups["own"].spec)
+                spec.model, spec.triangles.width = _core.MODELS.index("exact"), 0
+                _core.demand(_core.setup_init(made, spec))
+            self._setups[name] = made
+        return self._setups[name]
+
+    def _run(self, name, real, word, read, write, count):
+        """What a method asks of the library, of the elements at one address to those at another."""
+        batch = self._batches.get((name, real, word))
+        if batch is None:
+            made = _core.Batch()
+            setup = self._setup_of(name if name in ("separation", "lattice") else "own")
+            task = _core.TASK["separation" if name == "lattice" else name]
+            _core.demand(_core.batch_init(made, setup, task, real, word, _core.path_best()))
+            batch = self._batches[name, real, word] = _ctypes.byref(made)
+        _core.batch_run(batch, read, write, count)
+
+    def _map(self, name, z, out):
+        given = _arrays.given(z, "eye depths")
+        if given is None:
+            z = _number(z, "an eye depth")
+            if not self.near <= z <= self.far:
+                _core.demand("DEPTH")
+            return self._number(name, z)
+        real = given.real()
+        result, address, _held, _ = _arrays.output(given, given.code, out)
+        self._run(name, real, 1, given.address, address, given.count)
+        return result
+
+    def _number(self, name, value, read=_ctypes.c_double, write=_ctypes.c_double):
+        got = write()
+        self._run(name, 1, 1, _ctypes.byref(read(value)), _ctypes.byref(got), 1)
+        return got.value
+
+    def _decode_number(self, value, bounds):
+        code = value if isinstance(value, int) and not isinstance(value, bool) else \
+            value.item() if hasattr(value, "item") else value
+        if isinstance(code, int) and not isinstance(code, bool):
+            if not 0 <= code <= self.code_max:
+                raise Error("a code must be from 0 to %d, got %d" % (self.code_max, code))
+        else:
+            depth = _number(code, "a code or a window depth")
+            if not 0 <= depth <= 1:
+                raise Error("a window depth must be from 0 to 1, got %r" % depth)
+            given, got = _ctypes.c_double(depth), [_ctypes.c_double() for _ in range(3)]
+            _core.demand(_core.batch_windows(self._setups["own"], 1, _ctypes.byref(given), *map(_ctypes.byref, got), 1))
+            return Decoded(*(x.value for x in got)) if bounds else got[0].value
+        names = ("eye", "lo", "hi") if bounds else ("eye",)
+        got = [self._number(name, code, read=_ctypes.c_uint32) for name in names]
+        return Decoded(*got) if bounds else got[0]
+
+    def _options(self, command):
+        """As options of the command, or keys of a requirement file."""
+        usual = Camera.__init__.__kwdefaults__
+        taken = {"texture": ("ortho", "log_c", "rounding"), "check": ("ortho", "log_c", "rounding", "model", "arith")}
+        names = taken.get(command, ("ortho", "log_c", "rounding", "arith"))
+        given = {name: self._given[name] for name in ("near", "far", "format", "mapping")}
+        given.update({name: self._given[name] for name in names if self._given[name] != usual[name]})
+        if self.viewport is not None and command not in taken:
+            depth, pixels, slim = self.triangle_class
+            given.update(viewport="%dx%d" % self.viewport, fov=self.fov, subpixel=self.subpixel,
+                         slant="%r:%r" % self.slant,
+                         triangle_class="depth=%r,pixels=%r,slim=%r" % (depth, pixels, slim))
+        return given
+
+
+def _again(given):
+    return Camera(**given)
+
+
+def _number(value, what):
+    number = _arrays.real(value, what)
+    if number != number:
+        raise Error("%s must be a number, got nan" % what)
+    return number
+
+
+def _index(names, name, what, status):
+    if _core.word(name, what) not in names:
+        _core.demand(status)
+    return names.index(name)
+
+
+def _triangles(viewport, fov, subpixel, slant, triangle_class):
+    made = _core.triangles_default()
+    try:
+        made.width, made.height = viewport
+        made.slant_lo, made.slant_hi = slant
+        made.depth, made.pixels, made.slim = triangle_class
+        made.fov_y, made.subpixel = fov, subpixel
+    except ValueError:
+        raise Error("viewport and slant must have two numbers, triangle_class three") from None
+    _core.demand(_core.triangles_check(made))
+    return made
+
+
+def _sixteen(matrix):
+    if isinstance(matrix, (list, tuple)) and all(isinstance(row, (list, tuple)) for row in matrix):
+        matrix = [value for row in matrix for value in row]
+    given = _arrays.given(matrix, "a matrix")
+    if given is None or given.count != 16:
+        raise Error("a matrix must have 16 numbers, got %d" % (1 if given is None else given.count))
+    given.convert("d")
+    return (_ctypes.c_double * 16)(*given.view)
+
+
+def _find(numbers, layout, mapping):
+    found, fault = _core.Projection(), _core.MatrixFault()
+    status = _core.projection_find(found, numbers, _core.LAYOUTS[layout], mapping, fault)
+    return status, found, fault
+
+
+def _readings(numbers, layout, asked):
+    """What a matrix is in each convention that fits."""
+    read = []
+    for mapping in range(_core.MAPPING_FOUND) if asked == _core.MAPPING_FOUND else (asked,):
+        for way in ("rows", "columns") if layout is None else (layout,):
+            status, found, _ = _find(numbers, way, mapping)
+            if status == 0:
+                shown = "%s by %s near %.9g, far %.9g" % (_core.mapping_get(mapping)[0].decode(), way, found.znear,
+                                                          found.zfar)
+                read.append(shown)
+    return "; ".join(read)

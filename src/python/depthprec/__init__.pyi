@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: MIT
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, NamedTuple, overload
+
+_Model = Literal["exact", "staged", "float"]
+_Rounding = Literal["nearest", "even", "zero"]
+_Layout = Literal["rows", "columns"]
+_Array = Any  # memory of numbers: numpy.ndarray, array.array, memoryview, a list; results are of the same kind
+
+__version__: str
+
+class Error(ValueError):
+    status: int
+
+class Decoded(NamedTuple):
+    z: Any
+    lo: Any
+    hi: Any
+
+class Worst(NamedTuple):
+    lo: float
+    hi: float
+    error: float
+    error_z: float
+    error_code: int
+    interval: float
+    interval_lo: float
+    interval_hi: float
+    interval_code: int
+    blind_from: float
+    separation: float
+    separation_z: float
+
+class Camera:
+    near: float
+    far: float
+    format: str
+    mapping: str
+    ortho: bool
+    rounding: _Rounding
+    model: _Model
+    arith: str
+    log_c: float
+    viewport: tuple[int, int] | None
+    fov: float
+    subpixel: int
+    slant: tuple[float, float]
+    triangle_class: tuple[float, float, float]
+    @property
+    def code_max(self) -> int: ...
+    def __init__(
+        self,
+        near: float = 0.1,
+        far: float = 1000.0,
+        format: str = "fp32",
+        mapping: str = "d3d",
+        *,
+        ortho: bool = False,
+        rounding: _Rounding = "nearest",
+        model: _Model = "exact",
+        arith: str = "ieee",
+        log_c: float = 1.0,
+        viewport: tuple[int, int] | None = None,
+        fov: float = 60.0,
+        subpixel: int = 8,
+        slant: tuple[float, float] = (0.0, 90.0),
+        triangle_class: tuple[float, float, float] = (2.0, 512.0, 16.0),
+    ) -> None: ...
+    @classmethod
+    def from_matrix(
+        cls, matrix: _Array, mapping: str | None = None, *, layout: _Layout | None = None, **more: Any
+    ) -> Camera: ...
+    @classmethod
+    def preset(cls, name: str, **more: Any) -> Camera: ...
+    @overload
+    def encode(self, z: float, *, out: None = None) -> int: ...
+    @overload
+    def encode(self, z: _Array, *, out: _Array | None = None) -> _Array: ...
+    @overload
+    def decode(self, values: float, *, bounds: Literal[False] = False, out: None = None) -> float: ...
+    @overload
+    def decode(self, values: _Array, *, bounds: Literal[False] = False, out: _Array | None = None) -> _Array: ...
+    @overload
+    def decode(self, values: _Array, *, bounds: Literal[True], out: Sequence[_Array] | None = None) -> Decoded: ...
+    @overload
+    def window_depth(self, z: float, *, out: None = None) -> float: ...
+    @overload
+    def window_depth(self, z: _Array, *, out: _Array | None = None) -> _Array: ...
+    @overload
+    def separation(self, z: float, *, out: None = None) -> float: ...
+    @overload
+    def separation(self, z: _Array, *, out: _Array | None = None) -> _Array: ...
+    @overload
+    def lattice(self, z: float, *, out: None = None) -> float: ...
+    @overload
+    def lattice(self, z: _Array, *, out: _Array | None = None) -> _Array: ...
+    @overload
+    def interval(self, z: float, *, out: None = None) -> float: ...
+    @overload
+    def interval(self, z: _Array, *, out: _Array | None = None) -> _Array: ...
+    def worst(self, lo: float | None = None, hi: float | None = None) -> Worst: ...
+
+def run(
+    args: str | Sequence[str | os.PathLike[str]], *, input: str | bytes | None = None, text: bool = False
+) -> Any: ...
+def solve(camera: Camera | None = None, **options: Any) -> dict[str, Any]: ...
+def bias(camera: Camera | None = None, **options: Any) -> dict[str, Any]: ...
+def check(requirements: str | os.PathLike[str] | Mapping[str, Any]) -> dict[str, Any]: ...
+def recognise(image: _Array, camera: Camera | None = None, **options: Any) -> dict[str, Any]: ...

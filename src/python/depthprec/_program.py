@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: MIT
+"""The command depthprec, a program of its own beside this file: GPL-3.0-or-later, as the library is not."""
+import json
+import math
+import os
+import shlex
+import struct
+import subprocess
+import warnings
+
+from ._core import Error
+
+PATH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bin", "depthprec")
+FAILED, REFUSED = 1, 2  # exit statuses: a check failed, which is an answer; what was asked cannot be
+
+
+def run(args, *, input=None, text=False):
+    """Runs a command and gives its answer.
+
+    args    words, as a list or as a line of a shell: ``run("table -n 0.1 -F d24 --json")``
+    input   bytes or text that the command reads as the file ``-``
+    text    gives the text also where it is JSON
+
+    Returns what JSON says as objects where ``--json`` (or ``--report json``) is among the words: a dict whose unbounded
+    numbers are None, as depthprec(5) has them. Else text, or bytes where it is none, as of a figure in binary form.
+    A check that fails is an answer. What the command says beside its answer is a UserWarning.
+    Raises Error, with the command's own sentence, where it refuses or cannot read or write.
+    """
+    words = shlex.split(args) if isinstance(args, str) else list(args)
+    for word in words:
+        if not isinstance(word, (str, os.PathLike)):
+            raise TypeError("words must be text, got %s" % type(word).__name__)
+        if "\0" in os.fspath(word):
+            raise Error("a word must not contain a zero byte")
+    if isinstance(input, str):
+        input = input.encode()
+    try:
+        done = subprocess.run([PATH, *map(os.fspath, words)], input=b"" if input is None else input,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+    except OSError as error:
+        raise Error("the program '%s' cannot be run: %s" % (PATH, error.strerror)) from error
+    said = done.stderr.decode("utf-8", "replace").strip()
+    if done.returncode not in (0, FAILED):
+        raise Error(said.replace("depthprec: ", "", 1) or "the program ended by signal %d" % -done.returncode,
+                    done.returncode)
+    if said:
+        warnings.warn(said, stacklevel=2)
+    asked = "--json" in words or any(a == "--report" and b == "json" for a, b in zip(words, words[1:]))
+    if asked and not text and done.stdout:
+        return json.loads(done.stdout)
+    try:
+        return done.stdout.decode()
+    except UnicodeDecodeError:
+        return done.stdout
+
+
+def words_of(options):
+    """Options as words: ``far="10km"``, ``at=[1, 2]``, ``for_="near"``, ``full=True``; None is not there."""
+    words = []
+    for name, value in options.items():
+        if value is None or value is False:
+            continue
+        words.append("--" + name.strip("_").replace("_", "-"))
+        if value is not True:
+            words[-1] += "=" + _argument(value)
+    return words
+
+
+def _argument(value):
+    if isinstance(value, (list, tuple)):
+        return ",".join(map(_argument, value))
+    return repr(float(value)) if isinstance(value, float) else str(value)
+
+
+def solve(camera=None, **options):
+    """The near or far plane, format, mapping or distance that a separation asks for.
+
+    camera   a Camera, whose near, far, format and mapping are then given; those named in `options` replace them, and
+             None leaves one open: ``solve(camera, near=None, separation=0.01, at=5000)``
+    options  those of ``depthprec solve``, with _ for -: ``far="10km", format="d24", separation="1cm", at="5km"``
+
+    Returns the JSON of depthprec-solve(1): ``["answer"]["near"]``, ``["possible"]``, ... Raises Error.
+    """
+    return run(["solve", "--json", "--quiet", *_asked(camera, "solve", options)])
+
+
+def bias(camera=None, **options):
+    """What a depth bias does, in the units of an API: ``bias(camera, api="vulkan", separation=0.02, at=300)``.
+
+    Options and JSON are those of ``depthprec bias``; else as solve().
+    """
+    return run(["bias", "--json", "--quiet", *_asked(camera, "bias", options)])
+
+
+def check(requirements):
+    """Whether cameras meet their requirements.
+
+    requirements  the path of a requirement file, or the same as a dict:
+                  ``{"cameras": {"world": camera}, "requirements": {"decals": {"camera": "world", "range": [0.5, 50],
+                  "separation": "0.1 mm"}}}``, where a camera is a Camera or a dict as depthprec(5) has it
+
+    Returns the JSON of depthprec-check(1), also where one is missed. Raises Error.
+    """
+    if isinstance(requirements, dict):
+        return run(["check", "--json", "-"], input=_group(requirements, "\n"))
+    return run(["check", "--json", "--", os.fspath(requirements)])
+
+
+def recognise(image, camera=None, **options):
+    """What a depth image holds: its format, whether it is certain, whether depth is reversed, and why.
+
+    image    rows of samples, (height, width) or (height, width, channels): float16, float32, float64, uint8, uint16 or
+             uint32, any buffer; or the path of a file that ``depthprec texture`` reads
+    camera, options  as solve(), those of ``depthprec texture``
+
+    Returns a dict: ``format``, ``certain``, ``reversed`` (None: cannot tell), ``why``, and ``samples``, ``packing``,
+    ``metric``, ``lossy``, ``type``, ``width``, ``height``, ``channels`` as depthprec(5) has them.
+    Raises Error where it is no depth image, with what it looks like.
+    """
+    words = ["texture", "--json", "--quiet", *_asked(camera, "texture", options)]
+    if isinstance(image, (str, os.PathLike)):
+        found = run([*words, "--", os.fspath(image)])
+    else:
+        found = run([*words, "-"], input=_npy(image))
+    kept = ("samples", "packing", "metric", "lossy", "type", "width", "height", "channels")
+    return {**found["recognised"], **{name: found[name] for name in kept}}
+
+
+def _asked(camera, command, options):
+    given = {} if camera is None else camera._options(command)
+    return words_of({**given, **options})
+
+
+def _group(group, end=" "):
+    """A dict as libconfig writes it."""
+    return "".join("%s = %s;%s" % (_name(key), _setting(value), end) for key, value in group.items())
+
+
+def _name(key):
+    if not (isinstance(key, str) and key.replace("-", "a").replace("_", "a").replace("*", "a").isalnum()
+            and key.isascii() and key[0].isalpha() or key[:1] == "*"):
+        raise Error("a name must be letters, digits, - and _, and begin with a letter, got %r" % (key,))
+    return key
+
+
+def _setting(value):
+    if hasattr(value, "_options"):
+        value = value._options("check")
+    if isinstance(value, dict):
+        return "{ %s}" % _group(value)
+    if isinstance(value, (list, tuple)):
+        floats = any(isinstance(item, float) for item in value)
+        return "[%s]" % ", ".join(_setting(float(item) if floats and isinstance(item, int) else item) for item in value)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return '"%s"' % "".join(chr(b) if 0x20 <= b < 0x7F and b not in b'"\\' else "\\x%02x" % b for b in value.encode())
+    if isinstance(value, int):
+        return "%d" % value
+    if isinstance(value, float):
+        return repr(value) if math.isfinite(value) else '"%r"' % value
+    raise TypeError("a requirement must hold words, numbers, lists and dicts, got %s" % type(value).__name__)
+
+
+def _npy(image):
+    """The bytes of an .npy file."""
+    try:
+        view = memoryview(image)
+    except TypeError:
+        raise TypeError("an image must be an array of numbers or a path, got %s" % type(image).__name__) from None
+    kinds = {"e": "f2", "f": "f4", "d": "f8", "B": "u1", "H": "u2", "I": "u4"}
+    if view.format.lstrip("@=<") not in kinds:
+        raise TypeError("an image must be of float16, float32, float64, uint8, uint16 or uint32, got '%s'"
+                        % view.format)
+    order = "<" if struct.pack("=H", 1)[0] else ">"
+    head = "{'descr': '%s%s', 'fortran_order': False, 'shape': %r, }" % (order, kinds[view.format.lstrip("@=<")],
+                                                                         tuple(view.shape))
+    head += " " * (-(len(head) + 11) % 64) + "\n"
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head.encode() + view.tobytes()

@@ -1,0 +1,665 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The package as it is installed: against rational arithmetic, against the program, and under any input."""
+import ast
+import array
+import copy
+import ctypes
+import inspect
+import json
+import math
+import os
+import pickle
+import subprocess
+import sys
+import threading
+import unittest
+import warnings
+from fractions import Fraction
+
+import depthprec
+from depthprec import Camera, Error, _arrays, _core
+from oracle import AFFINE, FORMATS, Setup, binary32, generator, nudge, random_depth, random_setup, relative
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
+PROGRAM = os.environ.get("DEPTHPREC", "build/depthprec")
+CASES = 300 if not os.environ.get("DEPTHPREC_FULL") else 5000
+TIGHT = Fraction(1, 2 ** 49)
+
+
+def camera_of(s):
+    return Camera(s.near, s.far, s.format, s.mapping, ortho=s.ortho, rounding=s.rounding)
+
+
+def program(*words, input=None):
+    done = subprocess.run([PROGRAM, *words], input=input, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          check=False)
+    return done.stdout
+
+
+class Oracle(unittest.TestCase):
+    """Numbers, each against an exact one."""
+
+    def test_codes(self):
+        r = generator("codes")
+        for _ in range(CASES):
+            s = random_setup(r)
+            c = camera_of(s)
+            z = array.array("d", [random_depth(r, s) for _ in range(20)])
+            want = [s.encode(x) for x in z]
+            self.assertEqual(list(c.encode(z)), want, repr(c))
+            self.assertEqual([c.encode(x) for x in z], want)
+
+    def test_cells(self):
+        r = generator("cells")
+        for _ in range(CASES):
+            s = random_setup(r)
+            c = camera_of(s)
+            for code in [s.encode(random_depth(r, s)) for _ in range(5)]:
+                z, lo, hi = c.decode(code, bounds=True)
+                want = s.eye(s.value(code))
+                if want is None:
+                    self.assertEqual(z, math.inf)
+                else:
+                    size = max(abs(want), abs(s.n) if s.ortho else 0)
+                    self.assertLessEqual(abs(Fraction(z) - want), TIGHT * size, (c, code))
+                for got, end in zip((lo, hi), s.cell(code)):
+                    if end is None:
+                        self.assertEqual(got, math.inf)
+                    else:
+                        size = max(abs(end), abs(s.n) if s.ortho else 0)
+                        self.assertLessEqual(abs(Fraction(got) - end), TIGHT * size, (c, code))
+
+    def test_window_depths(self):
+        r = generator("windows")
+        for _ in range(CASES):
+            s = random_setup(r)
+            z = [random_depth(r, s) for _ in range(10)]
+            for x, got in zip(z, camera_of(s).window_depth(array.array("d", z))):
+                self.assertLessEqual(relative(got, s.window(x)), Fraction(1, 2 ** 50), (camera_of(s), x))
+
+    def test_decoded_windows(self):
+        """Window depths as a float buffer hands them out: the depth of the nearest code, in any rounding."""
+        r = generator("decoded")
+        for _ in range(CASES):
+            s = random_setup(r)
+            c, exact = camera_of(s), Setup(s.near, s.far, s.format, s.mapping, s.ortho)
+            codes = [r.randint(0, s.max) for _ in range(10)]
+            d = array.array("d", [float(s.value(code)) for code in codes])
+            self.assertEqual(list(c.decode(d)), list(c.decode(codes)), repr(c))
+            self.assertEqual([exact.code(Fraction(x)) for x in d], codes)
+
+    def test_intervals(self):
+        r = generator("intervals")
+        for _ in range(CASES):
+            s = random_setup(r)
+            z = [random_depth(r, s) for _ in range(5)]
+            for x, got in zip(z, camera_of(s).interval(array.array("d", z))):
+                lo, hi = s.cell(s.encode(x))
+                if hi is None:
+                    self.assertEqual(got, math.inf)
+                else:
+                    self.assertLessEqual(relative(got, hi - lo), Fraction(1, 10 ** 12), (camera_of(s), x))
+
+    def test_lattice(self):
+        """A step of the format from z on; where it reaches across the end of a binade, of either."""
+        r = generator("lattice")
+        for _ in range(CASES):
+            s = random_setup(r)
+            z = [random_depth(r, s) for _ in range(5)]
+            for x, got in zip(z, camera_of(s).lattice(array.array("d", z))):
+                self.assertTrue(self.is_lattice(s, x, got), (camera_of(s), x, got))
+
+    def is_lattice(self, s, x, got):
+        d = s.window(x)
+        code = Setup(s.near, s.far, s.format, s.mapping, s.ortho, "zero").code(d)
+        steps = {s.value(k + 1) - s.value(k) for k in (code - 1, code, code + 1) if k >= 0}
+        for step in sorted(steps, reverse=True):
+            end = s.eye(d - step if s.reversed else d + step)
+            beyond = end is None or (not s.ortho and s.mapping != "linear" and end < 0)
+            if beyond and got == math.inf:
+                return True
+            if not beyond and end - Fraction(x) <= got and relative(got, end - Fraction(x)) < Fraction(1, 10 ** 11):
+                return True
+        return False
+
+    def test_separations(self):
+        """Two surfaces that far apart get codes in order from a pipeline of this test in binary32, near and far."""
+        r = generator("separations")
+        fought = 0
+        for _ in range(CASES):
+            near = 10 ** r.uniform(-2, 1)
+            far = near * 10 ** r.uniform(1, 5)
+            mapping, format = r.choice(["d3d", "reversed"]), r.choice(["fp32", "unorm24", "unorm16"])
+            c, s = Camera(near, far, format, mapping), Setup(near, far, format, mapping)
+            n, f = Fraction(near), Fraction(far)
+            a, b = (f / (f - n), -f * n / (f - n)) if mapping == "d3d" else (-n / (f - n), f * n / (f - n))
+            a, b = binary32(float(a)), binary32(float(b))
+
+            def stored(z):
+                z = binary32(z)
+                d = binary32(binary32(binary32(a * z) + b) / z)
+                return s.code(min(max(Fraction(d), 0), 1))
+
+            for _ in range(10):
+                z = near * (far / near) ** r.random()
+                apart = c.separation(z)
+                if math.isinf(apart) or z + apart > far:
+                    continue
+                before, behind = stored(z), stored(nudge(z + apart, 1))
+                self.assertTrue(before > behind if mapping == "reversed" else before < behind, (c, z))
+                self.assertGreaterEqual(apart, c.lattice(z))
+                fought += stored(z) == stored(z + apart / 3)
+        self.assertGreater(fought, CASES)
+
+    def test_worst(self):
+        r = generator("worst")
+        for _ in range(CASES // 3):
+            s = random_setup(r, infinite=False)
+            c = camera_of(s)
+            ends = sorted(random_depth(r, s) for _ in range(2))
+            worst = c.worst(*ends)
+            z = array.array("d", [r.uniform(*ends) for _ in range(50)])
+            self.assertLessEqual(max(c.interval(z)), worst.interval * (1 + 1e-12))
+            self.assertLessEqual(max(c.separation(z)), worst.separation)
+            self.assertLessEqual(max(abs(a - b) for a, b in zip(c.decode(c.encode(z)), z)),
+                                 worst.error + 1e-9 * worst.interval + 1e-14 * abs(c.far))
+            lo, hi = s.cell(worst.interval_code)
+            self.assertLessEqual(relative(worst.interval, hi - lo), Fraction(1, 10 ** 11))
+
+
+class Program(unittest.TestCase):
+    """The same bits as the program prints, in 1,000 random set-ups."""
+
+    def test_tables(self):
+        r = generator("tables")
+        count, bounds = 0, 0
+        while count < 1000:
+            mappings = r.sample(AFFINE + ("linear", "log", "three-webgl", "three-webgpu", "cesium"), 3)
+            formats = r.sample(sorted(FORMATS), 3)
+            near, far = 10 ** r.uniform(-3, 2), 10 ** r.uniform(2.5, 6)
+            ortho = r.random() < 0.2
+            if ortho:
+                mappings = [m for m in mappings if m in AFFINE] or ["d3d"]
+            z = sorted(near * (far / near) ** r.random() for _ in range(8))
+            rounding, arith = r.choice(["nearest", "even", "zero"]), r.choice(["ieee", "fused", "mesa"])
+            words = ["table", "--json", "--near", repr(near), "--far", repr(far), "--format", ",".join(formats),
+                     "--mapping", ",".join(mappings), "--at", ",".join(map(repr, z)), "--rounding", rounding, "--arith",
+                     arith, "--range", "%r:%r" % (z[0], z[-1]), *(["--ortho"] if ortho else [])]
+            for got in json.loads(program(*words))["setups"]:
+                count += 1
+                c = Camera(near, far, got["format"], got["mapping"], ortho=ortho, rounding=rounding, arith=arith,
+                           model=got["model"])
+                bounds += self.compare(c, got, z)
+        self.assertGreater(bounds, 100)
+
+    def compare(self, c, got, z):
+        eye, lo, hi = c.decode(c.encode(z), bounds=True)
+        columns = {"code": c.encode(z), "depth": c.window_depth(z), "z_stored": eye, "cell_lo": lo, "cell_hi": hi,
+                   "interval": c.interval(z), "lattice": c.lattice(z), "guaranteed": c.separation(z)}
+        for name, values in columns.items():
+            want = [row[name] for row in got["rows"]]
+            self.assertEqual([float(v) if math.isfinite(v) else None for v in values], want, (c, name))
+        cells = c.worst(z[0], z[-1])._asdict()
+        for name, want in (got["worst"] or {}).items():
+            self.assertTrue(cells[name] == want or (want is None and not math.isfinite(cells[name])), (c, name))
+        want = got.get("worst_separation")
+        if want is not None:
+            self.assertEqual([cells["separation"], cells["separation_z"]], [want["bound"] or math.inf, want["z"]], c)
+        return want is not None
+
+    def test_commands(self):
+        """Every command, with options as words and as keywords, is that of the program."""
+        c = Camera(0.2, 3000, "unorm24", "d3d", rounding="even")
+        camera = ["--near=0.2", "--far=3000.0", "--format=unorm24", "--mapping=d3d", "--rounding=even"]
+        wide = Camera(0.2, 3000, "unorm24", "d3d", viewport=(1920, 1080), slant=(0, 60))
+        view = ["--viewport=1920x1080", "--slant=0:60"]
+        pairs = [
+            (depthprec.solve(c, near=None, separation=0.01, at=500.0),
+             ["solve", *camera[1:], "--separation=0.01", "--at=500"]),
+            (depthprec.solve(far="10km", format="d24", separation="1cm", at="5km"),
+             ["solve", "--far=10km", "--format=d24", "--separation=1cm", "--at=5km"]),
+            (depthprec.solve(wide, for_="separation", at=100.0),
+             ["solve", *camera[:4], *view, "--for=separation", "--at=100"]),
+            (depthprec.bias(c, api="vulkan", separation=0.02, at=300), ["bias", *camera, "--api=vulkan",
+                                                                        "--separation=0.02", "--at=300"]),
+            (depthprec.bias(wide, api="all", at=3), ["bias", *camera[:4], *view, "--api=all", "--at=3"]),
+            (depthprec.check("tests/needs/engine.need"), ["check", "tests/needs/engine.need"]),
+            (depthprec.run("list formats --json"), ["list", "formats"]),
+            (depthprec.run(["world", "--json"]), ["world"]),
+        ]
+        for got, words in pairs:
+            self.assertEqual(got, json.loads(program(*words, "--json")), words)
+        for words in (["table", "-n", "0.3"], ["help"], ["list", "presets"], ["budget", "--csv"]):
+            self.assertEqual(depthprec.run(words).encode(), program(*words))
+
+    def test_check(self):
+        fine = Camera(0.1, math.inf, "fp32", "reversed")
+        needs = {"unit": "m", "cameras": {"world": fine, "web": {"near": "50 cm", "far": 2000, "format": "unorm24",
+                                                                  "mapping": "d3d"}},
+                 "requirements": {"decals": {"camera": "world", "range": [0.5, 50], "separation": "0.1 mm"},
+                                  "props": {"camera": "web", "at": "1 km", "separation": "1 mm"}}}
+        found = depthprec.check(needs)
+        self.assertEqual([row["passed"] for row in found["requirements"]], [True, False])
+        self.assertFalse(found["passed"])
+        self.assertEqual(found["requirements"][0]["setup"]["far"], None)
+
+    def test_presets(self):
+        for row in depthprec.run("list presets --json")["items"]:
+            words = row["camera"].replace(",", "").split()
+            try:
+                c = Camera.preset(row["name"])
+            except Error as error:
+                self.assertIn("unorm24 or fp32", str(error))
+                c = Camera.preset(row["name"], format="fp32")
+            self.assertEqual([c.near, c.far], [float(words[1]), float(words[3])])
+            self.assertIn(c.mapping, words)
+
+    def test_recognised(self):
+        r = generator("recognised")
+        c = Camera(0.1, 1000, "unorm16", "reversed")
+        z = array.array("f", [r.uniform(1, 90) for _ in range(64 * 48)])
+        codes = memoryview(c.encode(z)).cast("B").cast("H", (48, 64))
+        found = depthprec.recognise(codes)
+        self.assertEqual([found["format"], found["width"], found["height"], found["type"]], ["unorm16", 64, 48, "u2"])
+        d = memoryview(array.array("f", [code / 65535 for code in memoryview(codes).cast("B").cast("H")]))
+        found = depthprec.recognise(d.cast("B").cast("f", (48, 64)))
+        self.assertEqual([found["format"], found["certain"]], ["unorm16", True])
+        with self.assertRaisesRegex(Error, "cannot be window depth"):
+            depthprec.recognise(memoryview(z).cast("B").cast("f", (48, 64)))
+        for wrong in (d, 3, None, memoryview(array.array("q", range(4)))):
+            with self.assertRaises((Error, TypeError)):
+                depthprec.recognise(wrong)
+
+    def test_refused(self):
+        for words, said in (("tabl", "did you mean"), ("plot error --type pdf -o x.pdf", "rsvg-convert"),
+                            ("plot error --type png -o -", "must be svg"), ("texture /none.png", "/none.png")):
+            with self.assertRaisesRegex(Error, said) as caught:
+                depthprec.run(words)
+            self.assertFalse(str(caught.exception).startswith("depthprec:"))
+        self.assertIn("<svg", depthprec.run("plot error -n 0.1 --type svg -o -"))
+        with self.assertRaisesRegex(Error, "zero byte"):
+            depthprec.run(["table", "a\0b"])
+        with self.assertRaises(TypeError):
+            depthprec.run([3])
+
+
+class Matrix(unittest.TestCase):
+    """Cameras back from matrices that are put together here, of each convention and either layout."""
+
+    def matrix(self, n, f, mapping, ortho=False, backwards=False):
+        n, f = Fraction(n), None if f == math.inf else Fraction(f)
+        if ortho:
+            c, e = 1 / (f - n), -n / (f - n)
+        elif f is None:
+            c, e = Fraction(1), -n
+        else:
+            c, e = f / (f - n), -f * n / (f - n)
+        w = (Fraction(0), Fraction(1)) if ortho else (Fraction(1), Fraction(0))
+        if "reversed" in mapping:
+            c, e = w[0] - c, w[1] - e
+        if "gl" in mapping:
+            c, e = 2 * c - w[0], 2 * e - w[1]
+        sign = -1 if backwards else 1
+        rows = [[1.5, 0, 0, 0], [0, 2.5, 0, 0], [0, 0, sign * c, e], [0, 0, sign * w[0], w[1]]]
+        return [[float(x) for x in row] for row in rows]
+
+    def test_found(self):
+        r = generator("matrices")
+        for _ in range(CASES):
+            near, far = 10 ** r.uniform(-3, 1), r.choice([math.inf, 10 ** r.uniform(1.5, 4)])
+            mapping, backwards = r.choice(AFFINE), r.random() < 0.5
+            ortho = far != math.inf and r.random() < 0.2
+            m = self.matrix(near, far, mapping, ortho, backwards)
+            turned = [list(row) for row in zip(*m)]
+            for given in (m, turned, sum(m, []), memoryview(array.array("d", sum(turned, [])))):
+                found = Camera.from_matrix(given, mapping)
+                self.assertEqual([found.mapping, found.ortho], [mapping, ortho])
+                self.close(found.near, near, 1e-14 * (far / near if ortho else 1))
+                if far == math.inf:
+                    self.assertEqual(found.far, math.inf)
+                else:
+                    self.close(found.far, far, 1e-14 * far / near)
+            self.assertEqual(Camera.from_matrix(m, mapping, layout="rows"), found)
+            self.assertEqual(Camera.from_matrix(turned, mapping, layout="columns"), found)
+            if mapping == "reversed" and not ortho and far >= 2 * near:
+                self.assertEqual(Camera.from_matrix(m, format="d24"), Camera.from_matrix(turned, mapping, format="d24"))
+            else:
+                with self.assertRaisesRegex(Error, "more than one convention.*: .*" + mapping + " by "):
+                    Camera.from_matrix(m)
+            if not ortho:
+                other = {"d3d": "reversed", "gl": "gl-reversed", "reversed": "d3d", "gl-reversed": "gl"}[mapping]
+                with self.assertRaisesRegex(Error, "with distance: the mapping must be"):
+                    Camera.from_matrix(m, other)
+
+    def close(self, got, want, bound):
+        self.assertLessEqual(abs(got - want), bound * want)
+
+    def test_floats(self):
+        m = self.matrix(0.1, 1000, "reversed")
+        narrow = Camera.from_matrix(array.array("f", sum(m, [])))
+        self.assertNotEqual(narrow.near, 0.1)
+        self.assertLess(abs(narrow.near - 0.1), 1e-8)
+        self.assertEqual(narrow, Camera.from_matrix([binary32(x) for x in sum(m, [])]))
+
+    def test_layouts(self):
+        """Near 1, far infinite: the transpose is a projection, too, of another camera."""
+        m = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1, 0, 0, 1, 0]
+        with self.assertRaisesRegex(Error, "d3d by rows near 1, far inf; .*; reversed by columns near 0.5, far 1;"):
+            Camera.from_matrix(m)
+        self.assertEqual(Camera.from_matrix(m, "d3d"), Camera(1, math.inf))
+        self.assertEqual(Camera.from_matrix(m, "reversed"), Camera(0.5, 1, mapping="reversed"))
+        with self.assertRaisesRegex(Error, "with distance"):
+            Camera.from_matrix(m, "reversed", layout="rows")
+
+    def test_refused(self):
+        good = self.matrix(0.1, 1000, "d3d")
+        oblique = copy.deepcopy(good)
+        oblique[2][0] = 0.1
+        for bad, said in ((oblique, "the same for every pixel"), ([[1, 0], [0, 1]], "16 numbers"),
+                          ([0] * 16, "fourth row"),
+                          ([math.nan] * 16, "finite"), ([1] * 16, "fourth row"), (list(range(16)), "fourth row"),
+                          ([math.inf] + sum(good, [])[1:], "finite")):
+            with self.assertRaisesRegex(Error, said):
+                Camera.from_matrix(bad, "d3d")
+        for bad in ("matrix", None, {}, [["a"] * 4] * 4, 3):
+            with self.assertRaises((TypeError, ValueError)):
+                Camera.from_matrix(bad)
+        with self.assertRaisesRegex(Error, "mapping must be one of"):
+            Camera.from_matrix(good, "log")
+        with self.assertRaisesRegex(Error, "layout must be"):
+            Camera.from_matrix(good, "d3d", layout="up")
+
+
+class Memory(unittest.TestCase):
+    """Arrays of any kind, and what is none."""
+
+    camera = Camera(0.1, 1000, "unorm24", "d3d")
+    depths = [0.1, 0.5, 1.0, 7.0, 999.0, 1000.0]
+
+    def methods(self):
+        c = self.camera
+        return (c.encode, c.decode, c.window_depth, c.separation, c.lattice, c.interval)
+
+    def test_kinds(self):
+        c = self.camera
+        want = [c.encode(z) for z in self.depths]
+        wide = array.array("d", self.depths)
+        for given, kind in ((wide, array.array), (memoryview(wide), memoryview),
+                            (memoryview(bytes(wide)).cast("d"), memoryview)):
+            got = c.encode(given)
+            self.assertIsInstance(got, kind)
+            self.assertEqual(list(got), want)
+        for given in (self.depths, tuple(self.depths)):
+            self.assertEqual(list(c.encode(given)), want)
+        shaped = memoryview(wide).cast("B").cast("d", (2, 3))
+        got = c.separation(shaped)
+        self.assertEqual([got.shape, got.format, got.tolist()[1][0]], [(2, 3), "d", c.separation(7.0)])
+        narrow = c.interval(array.array("f", self.depths))
+        self.assertEqual(narrow.typecode, "f")
+        for got, z in zip(narrow[1:-1], self.depths[1:-1]):
+            self.assertEqual(got, binary32(c.interval(binary32(z))))
+        self.assertFalse(any(map(math.isnan, c.separation(array.array("f", [0.1, 1000.0])))))
+        self.assertEqual(Camera(format="unorm16").encode(wide).typecode, "H")
+
+    def test_codes(self):
+        c = self.camera
+        for code in "BHILQbhilq":
+            self.assertEqual(list(c.decode(array.array(code, [0, 100]))), [c.decode(0), c.decode(100)])
+        self.assertEqual(list(c.decode([2 ** 32 - 1])), [c.decode(c.code_max)])
+        for wrong in (array.array("q", [-1]), array.array("Q", [2 ** 32]), array.array("b", [-1]), [-5, 3]):
+            with self.assertRaisesRegex(ValueError, "codes must be from 0 to 4294967295, got (-[15]|4294967296)$"):
+                c.decode(wrong)
+        with self.assertRaises((TypeError, OverflowError)):
+            c.decode([2 ** 70])
+        out = array.array("f", bytes(8))
+        self.assertIs(c.decode(array.array("I", [5, 100]), out=out), out)
+        self.assertLess(abs(out[1] / c.decode(100) - 1), 1.85e-7)
+        fp16 = Camera(format="fp16")
+        self.assertEqual(list(fp16.decode(array.array("H", [0, 15360]))), list(fp16.decode([0, 15360])))
+
+    def test_bounds(self):
+        c = self.camera
+        z, lo, hi = c.decode(array.array("f", [0.9, 0.99, math.nan]), bounds=True)
+        self.assertTrue(all(a <= b <= d for a, b, d in zip(lo[:2], z, hi)) and math.isnan(z[2]) and math.isnan(hi[2]))
+        exact = c.decode([16609443], bounds=True)
+        self.assertEqual([x[0] for x in exact], list(c.decode(16609443, bounds=True)))
+        outs = [array.array("d", [0]) for _ in range(3)]
+        self.assertEqual(c.decode([16609443], bounds=True, out=outs), c.decode([16609443], bounds=True))
+
+    def test_no_copies(self):
+        wide = array.array("d", self.depths)
+        for given in (wide, memoryview(wide), memoryview(wide).toreadonly()):
+            pinned = _arrays.given(given, "x")
+            self.assertEqual(pinned.address, wide.buffer_info()[0])
+        del pinned, given
+        wide.append(1)  # nothing holds the memory any more
+        self.assertNotIsInstance(_core.library, ctypes.PyDLL)  # other threads run in a call
+
+    def test_out(self):
+        c = self.camera
+        out = array.array("d", bytes(48))
+        self.assertIs(c.window_depth(array.array("d", self.depths), out=out), out)
+        self.assertEqual(list(out), [c.window_depth(z) for z in self.depths])
+        for wrong in (array.array("d", bytes(40)), array.array("f", bytes(24)), b"12345678" * 6, 3,
+                      memoryview(array.array("d", bytes(96)))[::2]):
+            with self.assertRaises((ValueError, TypeError)):
+                c.window_depth(array.array("d", self.depths), out=wrong)
+
+    def test_overlap(self):
+        """In place where nothing that is still to be read is written."""
+        c = self.camera
+        both = array.array("d", self.depths)
+        want = c.separation(both)
+        self.assertIs(c.separation(both, out=both), both)
+        self.assertEqual(both, want)
+        codes = array.array("I", [1, 2, 3, 4])
+        want = c.decode(codes, out=array.array("f", bytes(16)))
+        self.assertEqual(c.decode(codes, out=memoryview(codes).cast("B").cast("f")).tolist(), want.tolist())
+        shifted = memoryview(array.array("d", self.depths))
+        for given, out, method in ((shifted[1:], shifted[:-1], c.separation), (shifted[:-1], shifted[1:], c.interval),
+                                   (shifted, shifted, c.decode),
+                                   (memoryview(codes)[:2], memoryview(codes).cast("B").cast("d"), c.decode)):
+            with self.assertRaisesRegex(ValueError, "must not overlap"):
+                method(given, out=out)
+        outs = [memoryview(codes).cast("B").cast("f"), array.array("f", bytes(16)), array.array("f", bytes(16))]
+        with self.assertRaisesRegex(ValueError, "must not overlap"):
+            c.decode(codes, bounds=True, out=outs)
+
+    def test_strides(self):
+        c = self.camera
+        wide = memoryview(array.array("d", self.depths))
+        self.assertEqual(list(c.encode(wide[::-2])), [c.encode(z) for z in self.depths[::-2]])
+
+    def test_empty(self):
+        for method in self.methods():
+            for given in ([], (), array.array("d"), memoryview(array.array("f")), memoryview(b"").cast("d")):
+                self.assertEqual(len(method(given)), 0)
+        self.assertEqual(len(self.camera.decode(b"")), 0)
+
+    def test_nonsense(self):
+        c = self.camera
+        bad = [None, "1.0", {}, set(), object(), int, 1j, [None], ["a"], [[1, 2], [3]], lambda: 3, True,
+               memoryview(b"ab").cast("c"), memoryview(array.array("d", [1])).cast("B").cast("?"), iter([1.0])]
+        for method in self.methods():
+            for given in bad:
+                with self.assertRaises((TypeError, ValueError), msg=(method, given)):
+                    method(given)
+            for number in (math.nan,) if method == c.encode else (math.nan, -1.0, math.inf):
+                with self.assertRaises(ValueError):
+                    method(number)
+        odd = array.array("d", [math.nan, math.inf, -math.inf, -0.0, 5e-324, 1e308, -1e308, 0.1, 1000])
+        self.assertEqual(list(map(math.isnan, c.separation(odd))), [True] * 7 + [False] * 2)
+        self.assertEqual(list(c.encode(odd)), [0, c.code_max, 0, 0, 0, c.code_max, 0, 0, c.code_max])
+        self.assertEqual(c.decode(array.array("d", [-1, 2]))[0], 0.1)
+        self.assertEqual(c.encode(10 ** 400), c.code_max)
+
+    def test_random_bytes(self):
+        r = generator("bytes")
+        for _ in range(CASES):
+            s = random_setup(r)
+            c = camera_of(s)
+            raw = bytes(r.getrandbits(8) for _ in range(8 * 16))
+            for code in "fdBHIQ":
+                given = memoryview(raw).cast(code)
+                for method in (c.encode, c.decode, c.window_depth, c.separation, c.lattice, c.interval):
+                    try:
+                        method(given)
+                    except ValueError:
+                        self.assertEqual([code, method], ["Q", c.decode])
+
+    def test_large(self):
+        c = self.camera
+        count = 3000001
+        z = array.array("f", [5.0]) * count
+        codes = c.encode(z)
+        self.assertEqual([len(codes), codes[0], codes[-1]], [count, c.encode(5.0), c.encode(5.0)])
+
+    def test_threads(self):
+        c = self.camera
+        z = array.array("d", [0.1 + k * 0.001 for k in range(20000)])
+        want, got = c.encode(z), [None] * 8
+
+        def work(k):
+            got[k] = c.encode(z)
+
+        threads = [threading.Thread(target=work, args=(k,)) for k in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertTrue(all(x == want for x in got))
+
+    @unittest.skipIf(numpy is None, "numpy is not here")
+    def test_numpy(self):
+        c = self.camera
+        for dtype in (numpy.float32, numpy.float64):
+            z = numpy.linspace(0.2, 900, 600).astype(dtype).reshape(20, 30)
+            want = numpy.array([[c.encode(float(x)) for x in row] for row in z])
+            for given in (z, numpy.asfortranarray(z), numpy.flip(z, 0), z[::2, ::3], z.T):
+                got = c.encode(given)
+                self.assertEqual([type(got), got.dtype, got.shape], [numpy.ndarray, numpy.uint32, given.shape])
+            self.assertTrue((c.encode(z) == want).all() and (c.encode(z.T) == want.T).all())
+            self.assertTrue((c.encode(z[::2, ::3]) == want[::2, ::3]).all())
+            z.flags.writeable = False
+            self.assertEqual(_arrays.given(z, "z").address, z.ctypes.data)
+            self.assertEqual(c.separation(z).dtype, dtype)
+        self.assertEqual(c.decode(numpy.array([1, 2, 3])).tolist(), [c.decode(k) for k in (1, 2, 3)])
+        self.assertEqual(c.encode(numpy.float32(2)), c.encode(2.0))
+        self.assertEqual(c.decode(numpy.uint16(2)), c.decode(2))
+        for wrong in (numpy.array(["a"]), numpy.zeros(3, complex), numpy.zeros(3, ">f8"), numpy.array([None]),
+                      numpy.zeros(3, numpy.float16), numpy.array(["2020-01-01"], "datetime64[D]"),
+                      numpy.zeros(2, "f4,f4")):
+            with self.assertRaises((TypeError, ValueError)):
+                c.encode(wrong)
+        self.assertEqual(c.separation(numpy.zeros((0, 5))).shape, (0, 5))
+        m = numpy.array(Matrix().matrix(0.1, 1000, "reversed"), numpy.float32)
+        self.assertEqual(Camera.from_matrix(m), Camera.from_matrix(m.T))
+
+
+class Cameras(unittest.TestCase):
+    """What a Camera is and refuses; what the stubs say."""
+
+    def test_refused(self):
+        for given, said in (({"near": -1}, "near must be"), ({"far": 0.01}, "far must be"),
+                            ({"near": math.nan}, "near must be"),
+                            ({"format": "d25x"}, "not a format"), ({"mapping": "up"}, "a mapping must be"),
+                            ({"rounding": "up"}, "rounding must be"), ({"model": "fast"}, "model"),
+                            ({"arith": "?"}, "binary32"),
+                            ({"far": math.inf, "mapping": "log"}, "infinite"),
+                            ({"log_c": 0, "mapping": "log"}, "C of the log"),
+                            ({"format": "depth24plus"}, "unorm24 or fp32"), ({"viewport": (0, 5)}, "triangles"),
+                            ({"viewport": (1, 2, 3)}, "two numbers"),
+                            ({"mapping": "log", "ortho": True}, "orthographic")):
+            with self.subTest(given), self.assertRaisesRegex(Error, said):
+                Camera(**given)
+        for given in ({"near": "1"}, {"near": None}, {"format": 24}, {"mapping": None}, {"viewport": 3}, {"what": 1}):
+            with self.assertRaises(TypeError):
+                Camera(**given)
+        with self.assertRaises(AttributeError):
+            Camera().nothing
+        with self.assertRaises(AttributeError):
+            Camera().near = 3
+        for lo, hi in ((5, 1), (0, 5), (1, math.inf), (math.nan, 5)):
+            with self.assertRaisesRegex(Error, "a range must"):
+                Camera().worst(lo, hi)
+
+    def test_values(self):
+        c = Camera(0.25, 50, "D24", "GL", rounding="zero", log_c=2)
+        self.assertEqual(repr(c), "Camera(0.25, 50.0, 'unorm24', 'gl', rounding='zero', log_c=2.0)")
+        for same in (eval(repr(c)), copy.deepcopy(c), pickle.loads(pickle.dumps(c))):
+            self.assertEqual([same, hash(same), same.encode(3)], [c, hash(c), c.encode(3)])
+        self.assertNotEqual(c, Camera(0.25, 50, "D24", "GL"))
+        self.assertIn("near", dir(c))
+        wide = Camera(viewport=(1920, 1080), slant=(0, 80))
+        self.assertGreater(wide.separation(10.0), 5 * Camera().separation(10.0))
+        self.assertEqual(wide.lattice(10.0), Camera().lattice(10.0))
+        self.assertTrue(math.isnan(Camera(model="float").interval(10.0)))
+        self.assertEqual(Camera(model="staged").lattice(10.0), Camera().lattice(10.0))
+
+    def test_stubs(self):
+        """The stubs name what there is, with the same parameters."""
+        with open(os.path.join(os.path.dirname(depthprec.__file__), "__init__.pyi")) as file:
+            tree = ast.parse(file.read())
+        stubs = {}
+        for node in tree.body:
+            for inner in node.body if isinstance(node, ast.ClassDef) else [node]:
+                if isinstance(inner, ast.FunctionDef):
+                    owner = node.name + "." if inner is not node else ""
+                    arguments = inner.args
+                    stubs[owner + inner.name] = [a.arg for a in arguments.args + arguments.kwonlyargs]
+        for name, parameters in stubs.items():
+            thing = depthprec
+            for part in name.split("."):
+                thing = getattr(thing, part)
+            if isinstance(inspect.getattr_static(Camera, name.split(".")[-1], None), property):
+                continue
+            real = [p.name for p in inspect.signature(thing).parameters.values() if p.kind not in (p.VAR_KEYWORD,)]
+            own = [p for p in parameters if p not in ("cls", "self")]
+            self.assertEqual(own, [p for p in real if p != "self"], name)
+        methods = [m for m in vars(Camera) if not m.startswith("_") and m not in Camera.__slots__]
+        self.assertEqual(sorted(set(methods) - {name.split(".")[-1] for name in stubs}), [])
+        for name in depthprec.__all__:
+            self.assertTrue(getattr(depthprec, name).__doc__, name)
+
+    def test_version(self):
+        self.assertIn(depthprec.__version__, program("--version").decode())
+
+
+def layout():
+    """A C program that prints what the compiler says of each structure and enumerator, and what ctypes has."""
+    lines = ["#include <stddef.h>", "#include <stdio.h>", '#include "depthprec/depthprec.h"', "int main(void) {"]
+    want = []
+    for structure in _core.STRUCTURES:
+        name = structure.__name__
+        lines.append('printf("%s %%zu\\n", sizeof(%s));' % (name, name))
+        want.append("%s %d" % (name, ctypes.sizeof(structure)))
+        for field, kind in structure._fields_:
+            lines.append('printf("%s.%s %%zu %%zu\\n", offsetof(%s, %s), sizeof((%s){0}.%s));'
+                         % ((name, field) * 3))
+            want.append("%s.%s %d %d" % (name, field, getattr(structure, field).offset, ctypes.sizeof(kind)))
+    numbers = {"DP_TASK_" + k.upper(): v for k, v in _core.TASK.items()}
+    numbers.update({"DP_MODEL_" + k.upper(): v for v, k in enumerate(_core.MODELS)})
+    numbers.update({"DP_ROUND_" + k.upper(): v for v, k in enumerate(_core.ROUNDINGS)})
+    numbers.update({"DP_ERROR_" + k: v for v, k in enumerate(_core.STATUSES) if v})
+    numbers.update({"DP_LAYOUT_" + (k or "found").upper(): v for k, v in _core.LAYOUTS.items()})
+    numbers.update({"DP_REAL_FLOAT": 0, "DP_REAL_DOUBLE": 1, "DP_WORD_16": 0, "DP_WORD_32": 1,
+                    "DP_MAPPING_COUNT": _core.MAPPING_FOUND, "DP_TASK_COUNT": len(_core.TASK),
+                    "DP_STATUS_COUNT": len(_core.STATUSES), "DP_MODEL_COUNT": len(_core.MODELS)})
+    for name, value in numbers.items():
+        lines.append('printf("%s %%d\\n", (int)%s);' % (name, name))
+        want.append("%s %d" % (name, value))
+    return "\n".join(lines + ["return 0; }", ""]), "\n".join(want) + "\n"
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["--layout"]:
+        for path, text in zip(sys.argv[2:], layout()):
+            with open(path, "w") as file:
+                file.write(text)
+    else:
+        warnings.simplefilter("error")
+        unittest.main()
