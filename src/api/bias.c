@@ -43,7 +43,7 @@ static const bias_api rows[] = {
      "glPolygonOffset(factor, units); the clamp is EXT_polygon_offset_clamp or GL 4.6; for integer buffers r is the "
      "implementation's choice, 2^-N is assumed",
      "OpenGL specification, Depth Offset; EXT_polygon_offset_clamp", UNSCALED},
-    {"three", "threejs three.js", BIAS_FREE, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, false, false, true,
+    {"three", "threejs three.js polygonOffset", BIAS_FREE, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, false, false, true,
      "polygonOffsetFactor = F, polygonOffsetUnits = U", "",
      "of a material with polygonOffset = true, handed to gl.polygonOffset(): see gl; WebGL has no clamp",
      "three.js, src/renderers/webgl/WebGLState.js (setPolygonOffset)", UNSCALED},

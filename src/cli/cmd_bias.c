@@ -318,7 +318,7 @@ static const column row_columns[] = {
      .when = INVERSE | WITH_GAP},
     {FIELD(row, facing, "guarantee_facing", "scene"), SHOWN("facing", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},
-    {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 11, DIGITS_SHORT), .upward = true,
+    {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},
     {FIELD(row, effect.offset, "bias", ""), SHOWN("bias", 12, DIGITS), .when = EFFECT, .spare = 1},
     {FIELD(row, effect.depth, "depth", ""), .when = EFFECT},

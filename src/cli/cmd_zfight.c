@@ -214,7 +214,7 @@ static const column count_columns[] = {
     {TEXT_FIELD(band, counts.longest_z, "at", 10, DIGITS), .when = WITH_INTERVALS, .spare = 1},
     {FIELD(band, counts.bound, "bound", "scene"), SHOWN("guaranteed", 12, DIGITS), .upward = true},
     {FIELD(band, counts.bound, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
-    {FIELD(band, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 12, DIGITS), .upward = true,
+    {FIELD(band, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", 12, DIGITS), .upward = true,
      .when = WITH_TRIANGLES},
     {FIELD(band, used, "used", "")},
     {TEXT_FIELD(band, used, "used", 8, 3), .fixed = true, .when = WITH_INTERVALS, .spare = 1},

@@ -110,10 +110,11 @@ const command_row command_rows[CMD_COUNT] = {
      .files_from = 2, .group = "Figures, lists and help", .part = plot_asked,
      .shown = FIGURE_SETUPS | FIGURE_AT | FIGURE_SLANTED},
     [CMD_LIST] = {"list", CMD_LIST, list_uses, "WHAT", 0, 1, &topics,
-     .summary = "formats, mappings, presets, methods: 'list' names all",
+     .summary = "formats, mappings, presets, methods, or what a word means",
      .example = "  depthprec list\n"
      "  depthprec list formats\n"
-     "  depthprec list mappings --json\n"},
+     "  depthprec list mappings --json\n"
+     "  depthprec list polygonOffset\n"},
     [CMD_HELP] = {"help", CMD_HELP, no_uses, "COMMAND", 0, 1, &commands,
      .summary = "the options of a command; 'help options': those of all",
      .example = "  depthprec help table\n"

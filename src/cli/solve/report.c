@@ -107,8 +107,8 @@ static phrase goal_phrase(const solve_report *r, double value, const char *endin
     if (r->kind == MEASURE_ERROR)
         snprintf(out.text, PHRASE_SIZE, "keep%s the error within %s ", ending, text.text);
     else
-        snprintf(out.text, PHRASE_SIZE, "tell%s surfaces%s %s apart ", ending, is_slanted(r) ? " at any slant" : "",
-                 text.text);
+        snprintf(out.text, PHRASE_SIZE, "tell%s surfaces%s%s %s apart ", ending, is_slanted(r) ? " at " : "",
+                 is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "", text.text);
     if (r->lo < r->hi)
         append(out.text, PHRASE_SIZE, "from z = %s to %s", whole(r, r->lo).text, whole(r, r->hi).text);
     else
@@ -146,9 +146,10 @@ static void sentence_of_distance(const solve_report *r, const solve_candidate *c
         [DP_MODEL_FLOAT] = {"is not guaranteed", "is guaranteed"},
     };
     const distance_answer *d = &c->distance;
-    output_format(out, "%s%s: %s %s%s %s", c->possible ? "" : "Impossible: ", given_phrase(r, c).text,
+    output_format(out, "%s%s: %s %s%s%s %s", c->possible ? "" : "Impossible: ", given_phrase(r, c).text,
                   r->kind == MEASURE_ERROR ? "an error within" : "a separation of", whole(r, r->limit).text,
-                  is_slanted(r) ? " at any slant" : "", manners[c->spec.model][c->possible]);
+                  is_slanted(r) ? " at " : "", is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "",
+                  manners[c->spec.model][c->possible]);
     if (c->possible)
         output_format(out, " from z = %s up to z = %s", whole(r, r->lo).text,
                       (d->throughout ? whole(r, d->value) : bound(r, d->value, false)).text);
@@ -247,10 +248,11 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
         more = r->kind == MEASURE_ERROR ? "; model float has no cells, so no error"
                                         : "; model float does not cover this mapping";
     const bool shader = c->spec.model == DP_MODEL_FLOAT && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
-    page_note(p, "model", "%s%s%s", words[c->spec.model], more,
+    page_note(p, "model", "%s%s%s%s", words[c->spec.model], more,
               shader          ? ", for every log2 that the shader may have"
-              : is_slanted(r) ? ", at any slant"
-                              : "");
+              : is_slanted(r) ? ", at "
+                              : "",
+              !shader && is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "");
 }
 
 /* The lattice beside a fuller model, and the guarantee beside the lattice. */
@@ -309,6 +311,8 @@ void solve_report_answer(page *p, void *item) {
     if (is_slanted(r))
         page_note(p, "facing", "%s there", up(r, solve_in_binary32(r, c, false)).text);
     say_model(r, c, p);
+    if (dp_mapping_get(c->spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
+        page_note(p, "cost", "%s", c->price.effort);
     say_beside(r, c, p);
     slant_say(p, page_line, r->o, &(dp_setup){.spec = c->spec});
 }
