@@ -8,7 +8,7 @@
 
 static const char *const ways[SHADOW_WAY_COUNT] = {"constant", "slope", "normal"};
 
-enum { FORMATS = 2, MAPPINGS = 2, APIS = 10 };
+enum { FORMATS = 2, MAPPINGS = 2, APIS = 11 };
 
 /* Each line, what it lights of a box where that is not all of it, and what its rasterizer brings. */
 static const struct {

@@ -156,9 +156,9 @@ static void fill_row(const all *a, const bias_api *named, const dp_setup *setup,
         snprintf(r->said, sizeof r->said, "%s", call_of(api, shown, "F").text);
 }
 
-static size_t api_count(void) {
+static size_t api_count(const options *o) {
     size_t count = 0;
-    while (bias_api_get(count) != NULL)
+    while (options_api(o, count) != NULL)
         count++;
     return count;
 }
@@ -166,8 +166,8 @@ static size_t api_count(void) {
 /* Place by place, API by API. */
 static void *next_row(void *of, size_t i) {
     all *a = of;
-    const size_t apis = api_count();
-    const bias_api *api = bias_api_get(i % apis);
+    const size_t apis = api_count(a->each.o);
+    const bias_api *api = options_api(a->each.o, i % apis);
     if (i / apis == (a->by_range ? 1 : a->each.at.count) || output_failed(&a->each.out))
         return NULL;
     fill_row(a, api, a->each.setup, a->by_range ? (double)NAN : depths_get(&a->each.at, i / apis), &a->row);
@@ -177,7 +177,7 @@ static void *next_row(void *of, size_t i) {
 /* The same for all set-ups at once. */
 static void *next_beside(void *of, size_t i) {
     all *a = of;
-    const bias_api *api = bias_api_get(i);
+    const bias_api *api = options_api(a->each.o, i);
     row r;
     if (api == NULL)
         return NULL;
@@ -230,17 +230,34 @@ static const bias_api *api_named(const char *name) {
     return bias_api_get(i);
 }
 
-/* "vulkan and gl", or which of them was not measured; what was measured is told. */
-static const char *say_measured(page *p, const options *o, const dp_format *format) {
-    char text[2][BIAS_CALL_SIZE];
-    for (int i = 0; i < 2; i++)
-        if (bias_of_gpu(o, api_named(chosen_by_drivers[i]), format, text[i])[0] != '\0')
-            page_line(p, "%s: %s", chosen_by_drivers[i], text[i]);
-    return text[0][0] != '\0' ? "gl" : text[1][0] != '\0' ? "vulkan" : "vulkan and gl";
+static bool is_asked(const options *o, const char *name) {
+    size_t i = 0;
+    while (options_api(o, i) != NULL && strcmp(options_api(o, i)->name, name) != 0)
+        i++;
+    return options_api(o, i) != NULL;
+}
+
+/* Those that are asked for; those that were measured in the format are told, and left out. @return out */
+static const char *say_measured(page *p, const options *o, const dp_format *format, char out[BIAS_CALL_SIZE]) {
+    char text[BIAS_CALL_SIZE] = "";
+    out[0] = '\0';
+    for (size_t i = 0; i < sizeof chosen_by_drivers / sizeof chosen_by_drivers[0]; i++) {
+        const char *const name = chosen_by_drivers[i];
+        if (!is_asked(o, name))
+            continue;
+        if (format != NULL && bias_of_gpu(o, api_named(name), format, text)[0] != '\0')
+            page_line(p, "%s: %s", name, text);
+        else
+            append(out, BIAS_CALL_SIZE, "%s%s", *out != '\0' ? " and " : "", name);
+    }
+    return out;
 }
 
 static void say_choice(page *p, const options *o, const dp_format *format) {
-    const char *const open = say_measured(p, o, format);
+    char text[BIAS_CALL_SIZE];
+    const char *const open = say_measured(p, o, format, text);
+    if (*open == '\0')
+        return;
     if (format->kind == DP_FORMAT_UNORM)
         page_line(p, "%s: r is the implementation's choice, 2^-%d is assumed", open, format->bits);
     else
@@ -293,12 +310,13 @@ static void say_calls(page *p, void *item) {
         page_line(p, "-: no bias is enough; give that format and mapping alone to see where one is");
     if (is_any(a, bias_is_missed))
         page_line(p, "%s", BIAS_MISSED);
-    if (is_any(a, is_integer))
-        page_line(p, "vulkan and gl: in integer formats r is the implementation's choice, 2^-N is assumed");
+    char open[BIAS_CALL_SIZE];
+    if (*say_measured(p, a->each.o, NULL, open) != '\0' && is_any(a, is_integer))
+        page_line(p, "%s: in integer formats r is the implementation's choice, 2^-N is assumed", open);
     output_char(p->out, '\n');
-    for (size_t i = 0; bias_api_get(i) != NULL; i++)
-        page_note(p, bias_api_get(i)->name, "%s",
-                  call_of(bias_api_get(i), "U", number_full(a->each.o->bias.factor).text).text);
+    const bias_api *api;
+    for (size_t i = 0; (api = options_api(a->each.o, i)) != NULL; i++)
+        page_note(p, api->name, "%s", call_of(api, "U", number_full(a->each.o->bias.factor).text).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -352,13 +370,16 @@ static int write_beside(all *a, int status) {
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 int bias_all_write(const options *o) {
-    all a = {
-        .by_range = !option_given(o, OPTION_AT), .apis = "all", .slope = o->bias.slope, .gap = o->wanted.separation};
+    all a = {.by_range = !option_given(o, OPTION_AT),
+             .apis = o->given[OPTION_API],
+             .slope = o->bias.slope,
+             .gap = o->wanted.separation};
     a.triangles = slant_fields_of(o, &a.slant);
     a.factor = bias_chooses_factor(o) ? (double)NAN : o->bias.factor;
     if (option_given(o, OPTION_UNITS) || option_given(o, OPTION_CLAMP))
-        return option_error(OPTION_API, "must be one API with --%s, got 'all'",
-                            option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP));
+        return option_error(OPTION_API, "must be one API with --%s, got '%s'",
+                            option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP),
+                            o->given[OPTION_API]);
     if (option_given(o, OPTION_AT) && option_given(o, OPTION_RANGE))
         return option_error(OPTION_RANGE, "cannot be combined with --at for all APIs");
     int status = each_setup_start(&a.each, o);

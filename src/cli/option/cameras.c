@@ -11,7 +11,7 @@
 /* The rule under which the bias is written. */
 static void take_api(options *o, const char *api) {
     if (!option_given(o, OPTION_API))
-        parse_row(o, &option_rows[OPTION_API], api);
+        parse_apis(o, &option_rows[OPTION_API], api);
 }
 
 /* three.js has one word for the logarithms of two renderers. */

@@ -208,7 +208,8 @@ typedef struct options_world {
 } options_world;
 
 typedef struct options_bias {
-    const bias_api *api; /**< --api; null for all */
+    const bias_api *api; /**< --api; null for several: those of `apis` */
+    unsigned apis;       /**< 1 << index of bias_api_get(), or-ed */
     double units, factor;
     double clamp; /**< window depth; 0 is none */
     double slope; /**< scene units per pixel, not negative */
@@ -334,6 +335,9 @@ typedef struct options {
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr
  */
 int options_parse(options *o, int argc, char **argv);
+
+/** The API of that index among those that are asked for; null behind the last. */
+const bias_api *options_api(const options *o, size_t index);
 
 /** How many cameras there are: as many as presets, at least one. */
 static inline size_t options_cameras(const options *o) {

@@ -281,7 +281,7 @@ static int check_asked(const scene *s) {
     if (o->scene.emit_need != NULL && option_given(o, OPTION_SEPARATION) && o->wanted.separation == 0.0)
         return option_error(OPTION_EMIT_NEED, "needs a --separation above 0: no camera tells one plane apart");
     if (o->bias.api == NULL)
-        return option_error(OPTION_API, "must name one here, got 'all'");
+        return option_error(OPTION_API, "must name one here, got '%s'", o->given[OPTION_API]);
     const int status = setup_decided(o);
     return status == EXIT_FINE ? check_files(s) : status;
 }
