@@ -199,17 +199,16 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_goal(page *p, const all *a) {
     const options *o = a->each.here;
-    const char *unit = options_unit(o);
     char goal[64] = "To be told apart", place[128] = "", slope[64] = "";
     if (o->wanted.separation > 0.0)
-        snprintf(goal, sizeof goal, "To come nearer by %s", number_in(number_full(o->wanted.separation), unit).text);
+        snprintf(goal, sizeof goal, "To come nearer by %s", options_length(o, o->wanted.separation, 0).text);
     if (o->bias.slope > 0.0)
-        snprintf(slope, sizeof slope, ", slope %s per pixel", number_in(number_full(o->bias.slope), unit).text);
+        snprintf(slope, sizeof slope, ", slope %s per pixel", options_length(o, o->bias.slope, 0).text);
     if (a->by_range)
-        snprintf(place, sizeof place, " from z = %s to %s", number_in(number_of(range_from(a), DIGITS_Z), unit).text,
-                 number_in(number_of(a->hi, DIGITS_Z), unit).text);
+        snprintf(place, sizeof place, " from z = %s to %s", options_length(o, range_from(a), DIGITS_Z).text,
+                 options_length(o, a->hi, DIGITS_Z).text);
     else if (a->each.at.count == 1)
-        snprintf(place, sizeof place, " at z = %s", number_in(number_of(a->each.at.lo, DIGITS_Z), unit).text);
+        snprintf(place, sizeof place, " at z = %s", options_length(o, a->each.at.lo, DIGITS_Z).text);
     page_text(p, "%s%s%s:", goal, place, slope);
 }
 

@@ -118,8 +118,8 @@ static void *next_line(void *of, size_t i) {
 static void say_setup(page *p, void *item) {
     world *w = item;
     setup_title(p, w->setup, &w->fields);
-    page_text(p, "%s apart and %s ahead, %s; a picture of %dx%d, fov %s",
-              number_in(number_full(w->wanted), p->unit).text, number_in(number_full(w->z), p->unit).text,
+    page_text(p, "%s apart and %s ahead, %s; a picture of %dx%d, fov %s", options_length(&w->o, w->wanted, 0).text,
+              options_length(&w->o, w->z, 0).text,
               w->asked.shared_origin ? "of meshes with one origin" : "of meshes with origins of their own", w->width,
               w->height, number_of(w->fov, 4).text);
 }
@@ -129,7 +129,7 @@ static void say_distance(page *p, void *item) {
     if (isnan(w->distance))
         return;
     output_char(p->out, '\n');
-    page_title(p, "%s from the origin: %s%s", number_in(number_full(w->distance), p->unit).text,
+    page_title(p, "%s from the origin: %s%s", options_length(&w->o, w->distance, 0).text,
                w->least != NULL ? w->least : "none", w->least != NULL ? " is enough" : " of them is enough");
 }
 
@@ -139,14 +139,14 @@ static void say_reach(page *p, void *item) {
     if (!isnan(w->distance) || w->o.world.scheme_count != 1)
         return;
     const line *l = &w->line;
-    const number_text gap = number_in(number_full(w->wanted), p->unit);
+    const number_text gap = options_length(&w->o, w->wanted, 0);
     if (isinf(l->safe_to))
         page_text(p, "%s: %s is safe everywhere", l->label, gap.text);
     else
         page_text(p, "%s: %s is safe to %s", l->label, gap.text,
                   number_in(number_brief(number_down(l->safe_to, DIGITS)), p->unit).text);
     if (isfinite(l->still_to))
-        page_text(p, "Jitter of a pixel at %s from %s on", number_in(number_full(w->z), p->unit).text,
+        page_text(p, "Jitter of a pixel at %s from %s on", options_length(&w->o, w->z, 0).text,
                   number_in(number_brief(number_down(l->still_to, DIGITS)), p->unit).text);
 }
 
@@ -229,9 +229,8 @@ static void take_view(world *w) {
 
 /* The default is in metres, near and far may be of scene units: who gave no depth is told both. */
 static int refuse_depth(const world *w) {
-    const char *unit = options_unit(&w->o);
-    const number_text z = number_in(number_full(w->z), unit), lo = number_in(number_full(w->o.camera.znear), unit);
-    const number_text hi = number_in(number_full(w->o.camera.zfar), unit);
+    const number_text z = options_length(&w->o, w->z, 0), lo = options_length(&w->o, w->o.camera.znear, 0);
+    const number_text hi = options_length(&w->o, w->o.camera.zfar, 0);
     if (option_given(&w->o, OPTION_AT))
         return option_error(OPTION_AT, "must lie between near and far, %s and %s, got %s", lo.text, hi.text, z.text);
     return option_error(OPTION_AT, "must be given: 10 m ahead, %s here, is not between near and far, %s and %s", z.text,

@@ -147,13 +147,13 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_gap(page *p, const zfight *z) {
     const census_band *all = &z->result->all;
-    const number_text gap = number_in(number_full(z->gap), p->unit);
+    const number_text gap = options_length(z->each.here, z->gap, 0);
     const number_text first = number_in(number_down(all->first, DIGITS), p->unit);
     const number_text always = number_in(number_up(z->always, DIGITS), p->unit);
     const char *drawn = z->each.o->census.sample > 0 ? "Of the pairs drawn, surfaces" : "Surfaces";
     if (isnan(all->first))
         page_text(p, "%s %s apart never fight from %s to %s.", drawn, gap.text,
-                  number_in(number_full(z->lo), p->unit).text, number_in(number_full(z->hi), p->unit).text);
+                  options_length(z->each.here, z->lo, 0).text, options_length(z->each.here, z->hi, 0).text);
     else if (isnan(z->always))
         page_text(p, "%s %s apart first fight at z = %s, and at no depth do all of them.", drawn, gap.text, first.text);
     else

@@ -39,10 +39,18 @@ page page_start(output *out, int label) {
                   .plain = colour ? "\033[0m" : ""};
 }
 
-/* Does a blank with that unit behind it stand here? */
-static bool is_unit(const char *text, const char *unit) {
+static bool is_word(const char *text, const char *unit) {
     return unit != NULL && text[0] == ' ' && strncmp(text + 1, unit, strlen(unit)) == 0 &&
            !isalnum((unsigned char)text[1 + strlen(unit)]);
+}
+
+/* Does a blank with a unit behind it stand here? An inch is a word where lengths are not in inches. */
+static bool is_unit(const char *text, const char *unit) {
+    static const char *const names[] = {"nm", "um", "mm", "cm", "ft", "m", "km"};
+    bool is = is_word(text, unit);
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && !is; i++)
+        is = is_word(text, names[i]);
+    return is;
 }
 
 /* The next word, with what belongs to it: "z = 5 m", "12 %". */

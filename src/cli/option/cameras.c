@@ -94,6 +94,7 @@ static options with_preset(const options *o, const preset *p) {
     const unit_row *own = option_given(o, OPTION_UNIT) ? NULL : unit_find(p->unit), *from = c->unit;
     double *const lengths[] = {&c->znear, &c->zfar, &c->range_lo, &c->range_hi, &c->at.lo, &c->at.hi};
     c->unit = own != NULL ? own : from;
+    c->typed_count = 0; /* none of them is converted */
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++)
         *lengths[i] = unit_convert(*lengths[i], from, c->unit);
     c->at.from = from;

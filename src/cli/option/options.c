@@ -13,17 +13,6 @@
 #include "report/number.h"
 #include "system/input.h"
 
-const char *options_unit(const options *o) {
-    return o->camera.unit != NULL ? o->camera.unit->name : NULL;
-}
-
-const bias_api *options_api(const options *o, size_t index) {
-    size_t i = 0;
-    while (bias_api_get(i) != NULL && ((o->bias.apis >> i & 1U) == 0 || index-- > 0))
-        i++;
-    return bias_api_get(i);
-}
-
 const char *option_written(const options *o, option_id id) {
     const option_row *row = &option_rows[id];
     if (row->parse == parse_error_map)

@@ -206,7 +206,8 @@ const option_row option_rows[OPTION_COUNT] = {
         .parse = parse_apis, FIELD(unsigned, bias.apis), .names = &apis, .standard = "d3d11",
         .group = "The bias"},
     [OPTION_UNITS] = {"units", 0, "U",
-        "constant bias in units of r, a whole number for d3d11, d3d12 and webgpu; in window depth for d3d9 and vulkan-float",
+        "constant bias in units of r, a whole number for d3d11, d3d12 and webgpu; in window depth for d3d9 and "
+        "vulkan-float",
         NUMBER(bias.units, -1e12, 1e12, NULL),
         .without = "the units that are enough"},
     [OPTION_FACTOR] = {"factor", 0, "F",
