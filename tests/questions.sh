@@ -58,7 +58,7 @@ check "2. the same in fp32, reversed, infinite" answers 0 \
 check "2. within the lattice" agrees 'at z =' 'sqrt(0.01 / width(1, 0.1, 0, 2 ^ -42))' 'sqrt(0.01 / width(1, 0.1, 0, 2 ^ -43))'
 check "3. the cheapest format for 5 mm at 2 km" answers 0 \
     'depthprec solve --for format -n 0.05 --separation 5mm --at 2km' 'fp32 reversed, near 0.05'
-check "3. two steps of binary32 at 2000 m" agrees 'separation' '2 ^ -12 - 1e-9' '2 ^ -12 + 1e-9'
+check "3. two steps of binary32 at 2000 m, in mm" agrees 'separation' '1000 * 2 ^ -12 - 1e-6' '1000 * 2 ^ -12 + 1e-6'
 check "4. the near plane for 1 cm at 5 km" answers 0 \
     'depthprec solve --for near -F d24 -m d3d --separation 1cm --at 5km' '402.589 m'
 check "4. at least that of the lattice" agrees 'near' 'width(5000, 1, 0, d24) / 0.01' '3 * width(5000, 1, 0, d24) / 0.01'

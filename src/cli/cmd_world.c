@@ -186,8 +186,17 @@ static const column columns[] = {{FIELD(world, wanted, "gap", "scene")},
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-static double length_or(bool given, double value, double metres, const unit_row *unit) {
-    return given ? value : unit_convert(metres, unit_find("m"), unit);
+/* What was not given is as if it had been typed in `unit`; of scene units in metres. */
+static double length_or(bool given, double value, options *o, double standard, const char *name) {
+    const unit_row *unit = unit_find(name);
+    options_camera *c = &o->camera;
+    const double metres = unit_convert(standard, unit, unit_find("m"));
+    if (given || c->unit == NULL)
+        return given ? value : metres;
+    const double length = unit_convert(standard, unit, c->unit);
+    if (c->typed_count < OPTIONS_TYPED_MAX)
+        c->typed[c->typed_count++] = (typed_length){length, standard, unit};
+    return length;
 }
 
 static int complete(world *w, const options *o) {
@@ -200,8 +209,8 @@ static int complete(world *w, const options *o) {
                                 dp_mapping_get(c->camera.mappings[m])->name);
     if (o->camera.at.count > 1)
         return option_error(OPTION_AT, "must be one depth, got %zu", o->camera.at.count);
-    w->z = length_or(o->camera.at.count > 0, o->camera.at.lo, 10.0, o->camera.unit);
-    w->wanted = length_or(option_given(o, OPTION_SEPARATION), o->wanted.separation, 0.01, o->camera.unit);
+    w->z = length_or(o->camera.at.count > 0, o->camera.at.lo, c, 10.0, "m");
+    w->wanted = length_or(option_given(o, OPTION_SEPARATION), o->wanted.separation, c, 1.0, "cm");
     w->distances = o->world.distances;
     if (w->distances.count > 0 && !(w->distances.lo >= 0.0 && w->distances.hi <= WORLD_FARTHEST))
         return option_error(OPTION_FROM_ORIGIN, "must be from 0 to 1e12 scene units, got %s",
@@ -233,8 +242,8 @@ static int refuse_depth(const world *w) {
     const number_text hi = options_length(&w->o, w->o.camera.zfar, 0);
     if (option_given(&w->o, OPTION_AT))
         return option_error(OPTION_AT, "must lie between near and far, %s and %s, got %s", lo.text, hi.text, z.text);
-    return option_error(OPTION_AT, "must be given: 10 m ahead, %s here, is not between near and far, %s and %s", z.text,
-                        lo.text, hi.text);
+    return option_error(OPTION_AT, "must be given: 10 m ahead, %s here, is not between near and far, %s and %s",
+                        number_in(number_full(w->z), options_unit(&w->o)).text, lo.text, hi.text);
 }
 
 int cmd_world(const options *o) {

@@ -83,7 +83,7 @@ static bits_seen look_at_bits(const image *img) {
 static void judge_bytes(const image *img, finding *f) {
     f->which = LATTICE_UNORM16;
     say(f, "shares of 255, fewer than any depth format has%s",
-        img->channels > 1 ? " (depth packed into channels must be unpacked first)" : "");
+        img->channels > 1 ? " (depth packed into channels: --packing unpacks it)" : "");
 }
 
 static void judge_words(const image *img, finding *f) {

@@ -114,6 +114,24 @@ static void warn_of_colours(const options *o, const texture_source *s) {
                 s->path);
 }
 
+/* A byte is less than any depth has; colours that are not grey may be the channels of one. */
+static void warn_of_channels(const options *o, const texture_source *s) {
+    const image *p = &s->picture;
+    const unsigned char *const bytes = p->data;
+    bool grey = p->type != IMAGE_U8 || p->channels < 3;
+    for (size_t i = 0; !grey && i < (size_t)p->width * p->height; i++) {
+        const unsigned char *const at = bytes + i * p->channels;
+        if (at[0] != at[1] || at[0] != at[2])
+            break;
+        grey = i + 1 == (size_t)p->width * p->height;
+    }
+    if (!grey && !o->out.quiet && o->image.channel == NULL)
+        fprintf(stderr,
+                "depthprec: %s: of %u channels the first is read, 8 bits; --packing rgb24 reads a depth of 24 bits in "
+                "three\n",
+                s->path, p->channels);
+}
+
 /* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
 
 /* What a codec has changed is known to nobody, so no error has it. */
@@ -222,6 +240,7 @@ static int read_image(options *o, texture_source *s) {
         status = check_window(o);
     if (status != EXIT_FINE || o->image.packing != NULL)
         return status != EXIT_FINE ? status : unpack(o, s);
+    warn_of_channels(o, s);
     if (o->image.metric == 0) {
         recognise(&s->picture, &s->found);
         return EXIT_FINE;

@@ -163,7 +163,7 @@ static void say_source(statistics *r, page *p) {
             texture_matrix_say(&s->matrix, p);
         say_origins(r, p);
     }
-    if (z != NULL)
+    if (z != NULL && r->o->out.full)
         page_note(p, "in Unity", "_ZBufferParams %s, %s, %s, %s", number_of(z->x, DIGITS_32).text,
                   number_of(z->y, DIGITS_32).text, number_of(z->z, DIGITS_32).text, number_of(z->w, DIGITS_32).text);
 }
@@ -216,6 +216,6 @@ void statistics_say_geometry(page *p, void *item) {
     const statistics *r = item;
     if (r->named.pairs != NULL)
         say_pairs(&r->pairs, p);
-    if (!isnan(r->condition))
+    if (!isnan(r->condition) && r->o->out.full)
         page_note(p, "condition", "%s, of the view-projection matrix", number_of(r->condition, 4).text);
 }
