@@ -9,14 +9,16 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/each_setup.h"
 #include "cli/resolved.h"
 #include "cli/slant.h"
 #include "core/append.h"
 #include "report/number.h"
+#include "report/terminal.h"
 
-enum { DIGITS_Z = 9, DIGITS_SHORT = 4, BESIDE = 6, WIDTH_UNITS = 11 };
+enum { DIGITS_Z = 9, DIGITS_SHORT = 4, BESIDE = 6, WIDTH_API = 13, WIDTH_UNITS = 11 };
 
 double bias_signed(const dp_setup *setup, double units) {
     return isinf(units) ? (double)NAN : units * bias_sign(setup) + 0.0; /* no -0 */
@@ -286,7 +288,7 @@ static void say_beside(page *p, void *item) {
     page_title(p, "near %s, far %s, %s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
                o->camera.ortho ? "orthographic" : "perspective");
     say_goal(p, a);
-    output_format(p->out, "%s%-13s", p->soft, "");
+    output_format(p->out, "%s%-*s", p->soft, WIDTH_API, "");
     for (size_t k = 0; k < a->each.all.count; k++)
         output_format(p->out, "%*s", WIDTH_UNITS, a->each.all.items[k].spec.format.name);
     output_format(p->out, "%s\n", p->plain);
@@ -353,7 +355,7 @@ static const column columns[] = {
     {.kind = COLUMN_END}};
 
 static int write_beside(all *a, int status) {
-    column rows[BESIDE + 2] = {{TEXT_FIELD(row, api, "", -13, 0)}};
+    column rows[BESIDE + 2] = {{TEXT_FIELD(row, api, "", -WIDTH_API, 0)}};
     for (size_t k = 0; k < a->each.all.count; k++) {
         const char *mapping = dp_mapping_get(a->each.all.items[k].spec.mapping)->name;
         rows[k + 1] = (column){TEXT_FIELD(row, beside[0], mapping, WIDTH_UNITS, 0)};
@@ -387,9 +389,11 @@ int bias_all_write(const options *o) {
     const bool beside = o->out.form == FORM_TEXT && !o->out.full && a.each.all.count > 1 &&
                         a.each.all.count <= BESIDE && (a.by_range || a.each.at.count == 1) && a.triangles == NULL &&
                         o->camera.gpu.measured[0] == '\0'; /* what was measured is told of each format */
+    const int wide = terminal_columns(STDOUT_FILENO);
+    const bool fits = wide == 0 || wide >= WIDTH_API + WIDTH_UNITS * (int)a.each.all.count;
     const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.each.at.count > 1 ? OF_SEVERAL : 0) |
                           (a.triangles != NULL ? WITH_TRIANGLES : 0);
-    if (beside)
+    if (beside && fits)
         return write_beside(&a, status);
     return each_setup_write(&a.each, &(report_spec){"bias", columns, &a, .when = when, .label = 14}, status);
 }

@@ -11,6 +11,7 @@
 #include "cli/each_setup.h"
 #include "cli/resolved.h"
 #include "cli/slant.h"
+#include "core/append.h"
 #include "report/number.h"
 
 enum { DIGITS = 6, DIGITS_Z = 9, DIGITS_SHORT = 4 };
@@ -184,16 +185,17 @@ static void say_states(page *p, void *item) {
     const bias_state *s = &b->state;
     each_setup_title(p, item);
     slant_say(p, page_title, b->each.o, &b->slanted);
-    output_text(p->out, s->api->name);
+    char text[256] = "";
+    append(text, sizeof text, "%s", s->api->name);
     if (!b->inverse)
-        output_format(p->out, ", units %s", number_full(s->units).text);
+        append(text, sizeof text, ", units %s", number_full(s->units).text);
     if (s->factor != 0.0 && isfinite(s->factor))
-        output_format(p->out, ", factor %s", number_full(s->factor).text);
+        append(text, sizeof text, ", factor %s", number_full(s->factor).text);
     if (!b->inverse && s->clamp != 0.0)
-        output_format(p->out, ", clamp %s", number_full(s->clamp).text);
+        append(text, sizeof text, ", clamp %s", number_full(s->clamp).text);
     if (b->goal.slope > 0.0)
-        output_format(p->out, ", slope %s per pixel", options_length(b->each.here, b->goal.slope, 0).text);
-    output_char(p->out, '\n');
+        append(text, sizeof text, ", slope %s per pixel", options_length(b->each.here, b->goal.slope, 0).text);
+    page_text(p, "%s", text);
 }
 
 /* "  told apart  -2 units from 0.1 to 1000 (needed at z = 0.1)", or where a bias is enough at all. */

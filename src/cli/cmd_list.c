@@ -34,7 +34,7 @@ static void *next_item(void *of, size_t i) {
 
 static void say_topics(page *p, void *of) {
     (void)of;
-    output_text(p->out, "depthprec list WHAT, where WHAT is one of\n");
+    page_text(p, "depthprec list WHAT, where WHAT is one of");
     list_item item;
     for (size_t i = 0; list_topic(i, &item); i++)
         page_note(p, item.name, "%s", item.note);

@@ -9,6 +9,7 @@
 #include "cli/slant.h"
 #include "cli/stop.h"
 #include "cli/zfight_triangles.h"
+#include "report/message.h"
 #include "report/number.h"
 
 /* A band, or all of them together, and what of it does not exist as NaN. */
@@ -271,7 +272,7 @@ static void warn(const zfight *z) {
         if (isnan(from) || census_count(from, to) < census_count(z->lo, z->hi))
             clipping_say(&z->each.all.items[i], from, to, r->holes > 0 ? ", with holes" : "");
         else if (r->holes > 0)
-            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s\n",
+            message("depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s",
                     setup_label(&z->each.all.items[i], false, label), (unsigned long long)r->holes,
                     number_of(from, PLANE_DIGITS).text, number_of(to, PLANE_DIGITS).text);
     }

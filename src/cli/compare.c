@@ -282,7 +282,8 @@ static void say_head(page *p, void *item) {
     output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : words[2], width,
                   width > 27   ? words[0]
                   : width > 20 ? words[1]
-                               : "at z",
+                  : width > 0  ? "at z"
+                               : "",
                   COLUMN_WIDTH * limits, above_limits[limits], p->plain);
 }
 
@@ -295,7 +296,10 @@ static void *next_row(void *of, size_t i) {
 static void fit(comparison *c) {
     for (size_t i = 0; i < c->each->all.count; i++)
         c->name_width = (int)fmax(c->name_width, (double)strlen(c->rows[i].name) + 1);
-    const int room = page_start(&c->each->out, 0).width - c->name_width - COLUMN_WIDTH * (int)c->depth_count;
+    const int width = page_start(&c->each->out, 0).width - c->name_width;
+    while (c->depth_count > 0 && width < COLUMN_WIDTH * (int)(c->depth_count + 1)) /* the farther ones stay */
+        memmove(c->depths, c->depths + 1, --c->depth_count * sizeof c->depths[0]);
+    const int room = width - COLUMN_WIDTH * (int)c->depth_count;
     const bool all = room >= COLUMN_WIDTH * LIMITS + BYTES_WIDTH;
     c->limit_begin = all ? 0 : MIDDLE;
     c->limit_end = all ? LIMITS : MIDDLE + (room >= COLUMN_WIDTH * 2 ? 2 : 1);

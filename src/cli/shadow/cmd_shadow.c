@@ -127,8 +127,14 @@ static void say_blank(page *p, void *item) {
 
 static void say_heads(page *p, void *item) {
     const shadow *s = item;
-    output_format(p->out, "\n%s%*s%18s%25s%25s%s\n", p->soft, s->maps.view.count > 0 ? 8 : 0, "", "constant bias",
-                  "slope-scaled", "normal offset", p->plain);
+    const int split = s->maps.view.count > 0 ? 8 : 0;
+    output_char(p->out, '\n');
+    if (p->fitted && p->width < 68 + split) {
+        page_text(p, "constant bias: units, gap; slope-scaled: factor, units, gap; normal offset: offset, units, gap");
+        return;
+    }
+    output_format(p->out, "%s%*s%18s%25s%25s%s\n", p->soft, split, "", "constant bias", "slope-scaled", "normal offset",
+                  p->plain);
 }
 
 /* Of the map where the least share of the constant bias is needed by any reckoning. */
