@@ -27,11 +27,10 @@ sed -e 's/\\(aq/'"'"'/g' -e ':more' -e '/\\e$/{' -e 'N' -e 's/ *\\e\n */ /' -e '
 
 answers() { # answers STATUS COMMAND WORDS: the page has the command, which exits so and prints a line with these words
     grep -qxF -e "$2" "$scratch/commands" || { echo "not in depthprec-questions.7: $2" && return 1; }
-    echo "$2" >>"$scratch/asked"
     (cd "$scratch/work" && sh -c "$2" >"$scratch/answer" 2>"$scratch/errors" </dev/null)
     status=$?
     cat "$scratch/errors" "$scratch/answer"
-    [ $status -eq "$1" ] && { [ -z "$3" ] || grep -qF -e "$3" "$scratch/answer"; }
+    [ $status -eq "$1" ] && { [ -z "$3" ] || grep -qF -e "$3" "$scratch/answer"; } && echo "$2" >>"$scratch/answered"
 }
 
 agrees() { # agrees PATTERN LEAST MOST: the number behind the pattern in the answer lies between two formulas of awk
@@ -182,11 +181,11 @@ check "34. a unit in Unity" answers 0 'depthprec bias --preset unity --units 1 -
 # Window depth 0.0297 is in [2^-6, 2^-5): r is 2^-29, and a depth of z^2/n wide.
 check "34. by the formula" agrees '9.999999379' '-1.001 * width(10, 0.3, 1000, 2 ^ -29)' '-0.999 * width(10, 0.3, 1000, 2 ^ -29)'
 
-unasked() { # commands of the page that nothing above has run
-    grep '^depthprec ' "$scratch/commands" | grep -vxF -f "$scratch/asked"
+unanswered() { # commands of the page that no line above has found right
+    grep '^depthprec ' "$scratch/commands" | grep -vxF -f "$scratch/answered"
     [ "$(grep -cx '\.It' man/depthprec-questions.7)" -ge 30 ] || echo "fewer than 30 questions"
 }
-check "each command of the page is run, of at least 30 questions" empty unasked
+check "each command of the page is answered, of at least 30 questions" empty unanswered
 
 # ---- Words and widths ----
 
