@@ -221,7 +221,7 @@ TEST(blind_ends_in_an_arrow) {
     assert_int_equal(arrows, blind);
     assert_int_equal(blind, 2);
     assert_int_equal(d->entry_count, c.count + 1);
-    const drawn_entry *e = drawn_legend(d, "unbounded from here: nothing behind is told apart");
+    const drawn_entry *e = drawn_legend(d, "unbounded from here: nothing beyond is resolved");
     assert_int_equal(e->marker.shape, DRAWN_ARROW);
     assert_int_equal(e->marker.inside, d->theme->faint);
     drawn_close(d);

@@ -130,9 +130,9 @@ static void check(const char *file, const drawn_theme *look, const side sides[2]
     double certain[2], place[2][3];
     char subtitle[256];
     const double within = depths_of(file, certain, place);
-    assert_string_equal(d->title, "Which surfaces of the model fight, and from where on");
+    assert_string_equal(d->title, "Surfaces of the model that may z-fight, and from which depth");
     snprintf(subtitle, sizeof subtitle,
-             "%s: 2 pairs of surfaces can fight up to %.4g m; unorm16 d3d, near 0.1, far 1000, perspective, "
+             "%s: 2 pairs of surfaces may z-fight up to %.4g m; unorm16 d3d, near 0.1, far 1000, perspective, "
              "nearest, float ieee, lengths in m",
              strrchr(file, '/') + 1, within);
     assert_string_equal(d->subtitle, subtitle);
@@ -140,7 +140,7 @@ static void check(const char *file, const drawn_theme *look, const side sides[2]
     assert_int_equal(d->panel_count, 2);
     assert_string_equal(d->x_caption->text, x);
     assert_string_equal(d->y_caption->text, y);
-    assert_string_equal(d->right_caption->text, "can fight from (m)");
+    assert_string_equal(d->right_caption->text, "may z-fight from (m)");
     drawn_bar_is_viridis(d);
     assert_true(d->panels[0].x.b > 0 && d->panels[1].y.b < 0); /* px grow downwards */
     assert_true((d->panels[0].y.b > 0) == (*x == 'x'));

@@ -227,7 +227,7 @@ TEST(test_sentence) {
     assert_true(said <= least && said > 0.9 * least);
     printed_free(&p);
     p = print_of("table -F d24 -m log --viewport 64x48 --at 5,50,900 --triangle-class depth=1.0001");
-    assert_non_null(strstr(p.out, "told apart"));
+    assert_non_null(strstr(p.out, "resolved"));
     assert_null(strstr(p.out, "per fragment"));
     printed_free(&p);
     check_says(0, "!per vertex", "table -F d24 -m log --at 5,50,900");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * What `scene` proposes, done to the model and judged again: the distance that is enough is; and a file of requirements
- * fails where two surfaces can fight. Two triangles a model, in random planes, also tilted against each other, through
+ * fails where two surfaces may z-fight. Two triangles a model, in random planes, also tilted to each other, through
  * each other and slim, seen by an eye or from everywhere.
  */
 #include "printed.h"

@@ -141,13 +141,13 @@ static void check_text(values *v, const bias_case *c, const char *line) {
              c->inverse ? "one_unit:6, units_apart:9" : "bias:6, code:10, code_moved:10, z_moved:10, shift:6",
              c->inverse && c->gap > 0 ? ", units_gap:9" : "");
     char *text = output_of(0, line, "--full");
-    for (char *held = text; (held = strstr(held, "  held at a plane")) != NULL;) /* words behind the numbers */
-        memset(held, ' ', strlen("  held at a plane"));
+    for (char *held = text; (held = strstr(held, "  clamped to a plane")) != NULL;) /* words behind the numbers */
+        memset(held, ' ', strlen("  clamped to a plane"));
     check_table(v, text, "setups[].rows[]", columns);
     const bool reversed = strcmp(value_at(v, "setups[0].mapping")->text, "reversed") == 0;
     values_under(v, "setups[0].range.");
     if (c->inverse)
-        check_line(v, text, "told apart  ",
+        check_line(v, text, "resolved  ",
                    !isnan(value_at(v, "setups[0].range.units_apart")->number)
                        ? "units_apart:9, lo:9, hi:9, units_apart_z:9"
                    : reversed ? "apart_to:9, hi:9"

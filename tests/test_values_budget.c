@@ -254,9 +254,9 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
     }
     if (share != 0)
         at = length_in(words_in(at, " at z = "), c, z, 6, false);
-    words_in(at, enough                            ? ": the lattice is enough\n"
-                 : choice.model == DP_MODEL_STAGED ? ": model staged is enough\n"
-                                                   : ": model float is needed\n");
+    words_in(at, enough                            ? ": the lattice suffices\n"
+                 : choice.model == DP_MODEL_STAGED ? ": --model staged captures this\n"
+                                                   : ": --model float is needed\n");
 }
 
 /* "  model staged leaves the shader out: with it this is 3.06 times worse at z = 1000" */

@@ -161,9 +161,9 @@ static void check_verdicts(tally *t, const camera *c, const char *text, const ch
     snprintf(want, sizeof want, "%s %s", best.word[0], best.word[1]);
     TALLY(t, strncmp(text, want, strlen(want)) == 0 || strstr(text, want) != NULL, "the best is %s: %s", want, text);
     if (to_far)
-        snprintf(want, sizeof want, "apart%s all the way to the far plane.", slant);
+        snprintf(want, sizeof want, "%s all the way to the far plane.", slant);
     else
-        snprintf(want, sizeof want, "apart%s up to z = %s.", slant, reach);
+        snprintf(want, sizeof want, " 0.01%s up to z = %s.", slant, reach);
     char flat[2048];
     flatten(text, flat, sizeof flat);
     TALLY(t, strstr(flat, want) != NULL, "'%s' is not said: %s", want, flat);
@@ -175,7 +175,7 @@ TEST(test_comparison) {
         const camera *c = &cameras[i];
         printed p = print_of("table %s", c->options);
         assert_int_equal(p.status, 0);
-        const char *line = strstr(p.out, " told apart up to z");
+        const char *line = strstr(p.out, " resolved up to z");
         assert_non_null(line);
         line = next_line(line);
         const words titles = split(line);
@@ -251,7 +251,7 @@ TEST(test_units) {
         for (size_t i = 0; i < 2; i++) {
             char begin[64];
             printed p = print_of("table --full -n 0.1 -f 1000 -F unorm24 -m d3d %s", options[i]);
-            snprintf(begin, sizeof begin, "%s apart up to z = ", i == 0 ? bare[k] : named[k]);
+            snprintf(begin, sizeof begin, "%s up to z = ", i == 0 ? bare[k] : named[k]);
             const char *at = strstr(p.out, begin);
             assert_non_null(at);
             up_to[i] = strtod(at + strlen(begin), NULL);
@@ -261,7 +261,7 @@ TEST(test_units) {
     }
 }
 
-/* "Guaranteed to be told apart: surfaces 0.001 apart up to z = 31.9, ...": of one set-up. */
+/* "Guaranteed to be resolved: 0.001 up to z = 31.9, ...": of one set-up. */
 TEST(test_one) {
     static const camera one[] = {{"-F unorm24 -m d3d", 0.1, 1000, 0, 0, {0}, 1, NULL},
                                  {"-F fp32 -m reversed -f inf", 0.1, INFINITY, 0, 0, {0}, 1, NULL},
@@ -282,12 +282,12 @@ TEST(test_one) {
         printed p = print_of("table --full %s", one[i].options);
         words heading = split(p.out);
         const dp_setup setup = full_setup(&one[i], heading.word[0], strtok(heading.word[1], ","));
-        const char *line = strstr(p.out, one[i].triangles != NULL ? "apart, at any slant: " : "apart: ");
+        const char *line = strstr(p.out, one[i].triangles != NULL ? "resolved, at any slant: " : "resolved: ");
         assert_non_null(line);
         bool everywhere = false; /* a separation is: then wider ones are not said */
         for (int k = 0; k < LIMITS && !everywhere; k++) {
             char begin[64], word[WORD] = "-";
-            snprintf(begin, sizeof begin, "%g apart up to ", limits[k]);
+            snprintf(begin, sizeof begin, " %g up to ", limits[k]);
             const char *at = strstr(line, begin);
             if (at != NULL && at < next_line(line)) {
                 at += strlen(begin);

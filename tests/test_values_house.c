@@ -278,7 +278,7 @@ TEST(in_words) {
     const char *poster = strstr(p.out, "'front wall' (plaster) and 'poster' (paper)");
     assert_non_null(door);
     assert_non_null(poster);
-    const char *one_plane = strstr(door, "in one plane\n"), *gap = strstr(poster, "; 0.001 m apart\n");
+    const char *one_plane = strstr(door, "coplanar\n"), *gap = strstr(poster, "; 0.001 m apart\n");
     assert_true(one_plane != NULL && one_plane < strstr(door, "area"));
     assert_true(gap != NULL && gap < strstr(poster, "area"));
     printed_free(&p);

@@ -79,7 +79,7 @@ static void check_text(values *v, const method_family_row *family, const method_
     char label[64];
     values_under(v, "%s", "");
     check_line(v, text, family->cases[asked_which].name, "near:15, far:15");
-    check_line(v, text, "ns: per element, the median; x memory: multiple of what moving the same bytes takes,",
+    check_line(v, text, "ns: per element, median; x memory: multiple of the time to move the same bytes,",
                "limit_ns:3");
     for (size_t i = 0; i < walked_count; i++) {
         snprintf(label, sizeof label, "%s%s%-19s ", timed[i].front ? "*" : "",

@@ -93,7 +93,7 @@ static void check_page(values *v, const char *line, const dp_setup *setup) {
             if (!(fabs(units_of(setup, api, &found[k])) <= fabs(most)))
                 most = units_of(setup, api, &found[k]);
         snprintf(call, sizeof call, "  %-14s%s\n", api->name,
-                 isnan(most) ? "no bias is enough" : bias_call(api, most, 0).text);
+                 isnan(most) ? "no bias suffices" : bias_call(api, most, 0).text);
         if (strstr(text, call) == NULL)
             fail_msg("no line '%s' in %s", call, text);
     }

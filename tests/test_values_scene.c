@@ -156,7 +156,7 @@ TEST(default_gap) {
 TEST(facing_bias) {
     static const char line[] = "scene " STREET " --separation 0.02 -F d24 -m d3d";
     check_says(0, "where they face", "%s", line);
-    check_says(0, "in triangles as above", "%s --viewport 1920x1080", line);
+    check_says(0, "as above", "%s --viewport 1920x1080", line);
     check_says(0, "!where they face", "%s --viewport 1920x1080", line);
 }
 
@@ -165,8 +165,8 @@ TEST(other_forms) {
     static const char line_of[] = "scene " STREET " --separation 0.02 -F d24 -m d3d --within 50 --unit m";
     static const char passing[] = "scene " STREET " --separation 0.02 --within 20";
     static const char *const said[] = {"10 triangles, 5 surfaces, 36 m across",
-                                       "2 pairs of surfaces lie within 0.02 m of each other: 1 can fight",
-                                       "FAIL  surfaces can fight nearer than 50 m.",
+                                       "2 pairs of surfaces lie within 0.02 m of each other: 1 may z-fight",
+                                       "FAIL  surfaces may z-fight nearer than 50 m.",
                                        "  1   'wall' (brick) and 'sign' (tin)\n",
                                        "area 2, near ",
                                        NULL};
@@ -174,11 +174,11 @@ TEST(other_forms) {
     const json_t *f = node_at(root, "findings[0]");
     char want[256];
     check_says_all(1, line_of, said);
-    snprintf(want, sizeof want, "certain up to %.4g m, ties from %.4g m; 9.766e-4 m apart",
+    snprintf(want, sizeof want, "safe up to %.4g m, z-fights from %.4g m on; 9.766e-4 m apart",
              floor(number_at(f, "certain_to") * 100) / 100, ceil(number_at(f, "ties_from") * 100) / 100);
     check_says(1, want, "%s", line_of);
     check_says_all(0, passing,
-                   SAID("of each other: none can fight up to 20.", "pass  none fights nearer than 20.", "!'wall'"));
+                   SAID("of each other: none may z-fight up to 20.", "pass  no surfaces z-fight nearer than 20.", "!'wall'"));
     printed p = print_of("%s --csv", line_of);
     char *line = strtok(p.out, "\r\n");
     assert_non_null(strstr(line, "a_node,a_mesh,a_material,b_node,b_mesh,b_material,gap_min [scene],gap_max [scene]"));

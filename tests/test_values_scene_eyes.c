@@ -127,7 +127,7 @@ TEST(what_comes_first) {
     assert_true(number_at(json_array_get(list, 1), "certain_to") < number_at(json_array_get(list, 0), "certain_to"));
     json_decref(root);
     check_says_all(0, line,
-                   SAID("2 seen, 0 can fight.\n1 more is told apart only", "  1   'road' and 'paint'\n", "!'wall'"));
+                   SAID("2 visible, none may z-fight.\n1 more is resolved only", "  1   'road' and 'paint'\n", "!'wall'"));
 }
 
 /* Two parts of one surface, the nearer one first or last: the distance that mends it is that of the farther one. */
@@ -163,8 +163,8 @@ TEST(forms) {
     printed p = print_of("scene " STREET " -m d3d -F d16 --eye 0,4,20 --look 0,0,0");
     assert_int_equal(p.status, 0);
     assert_non_null(strstr(p.out, "from 0 4 20, looking along 0 -0.1961 -0.9806\n"));
-    assert_non_null(strstr(p.out, "within 0.02 of each other: 1 seen, 1 can fight.\n"));
-    snprintf(want, sizeof want, "      seen from %.2f to %.2f: can fight; ",
+    assert_non_null(strstr(p.out, "within 0.02 of each other: 1 visible, 1 may z-fight.\n"));
+    snprintf(want, sizeof want, "      seen from %.2f to %.2f: may z-fight; ",
              floor(number_at(paint, "seen_from") * 100) / 100, ceil(number_at(paint, "seen_to") * 100) / 100);
     if (strstr(p.out, want) == NULL)
         fail_msg("no '%s' in %s", want, p.out);
@@ -185,9 +185,9 @@ TEST(forms) {
     json_decref(root);
     /* above the road, whose corners lie behind the eye */
     check_says_all(0, "scene " STREET " --eye 0,1.7,2 --look 0,0,-10",
-                   SAID("1 seen, 0 can fight.\n1 more is told apart only if cut into the triangles above.\n",
-                        ": told apart only if cut into the triangles"));
-    check_says(0, "1 seen, 0 can fight.\n1 more is told apart only facing the camera.\n",
+                   SAID("1 visible, none may z-fight.\n1 more is resolved only if cut into the triangles above.\n",
+                        ": resolved only if cut into the triangles"));
+    check_says(0, "1 visible, none may z-fight.\n1 more is resolved only facing the camera.\n",
                "scene " STREET " --eye 0,4,20 --look 0,0,0 -m log");
 }
 
@@ -209,7 +209,7 @@ TEST(path) {
     assert_true(number_at(root, "eyes.places") == 4);
     assert_string_equal(text_at(root, "eyes.path"), name);
     json_decref(root);
-    check_says_all(1, line, SAID("from the worst of the 4 eyes of ", ": can fight, worst at line 5; "));
+    check_says_all(1, line, SAID("from the worst of the 4 eyes of ", ": may z-fight, worst at line 5; "));
 }
 
 TEST(damaged_paths) {
@@ -217,12 +217,12 @@ TEST(damaged_paths) {
         const char *text, *said;
     } rows[] = {{"", "has no line of six numbers"},
                 {"# nothing\n\n", "has no line of six numbers"},
-                {"1 2 3 4 5 6\n1 2 3 4 5\n", "line 2: must be six numbers, a place and the place looked at, got 5"},
-                {"1 2 3 4 5 6 7\n", "line 1: must be six numbers, a place and the place looked at, got 7"},
+                {"1 2 3 4 5 6\n1 2 3 4 5\n", "line 2: must be six numbers, the eye and the point it looks at, got 5"},
+                {"1 2 3 4 5 6 7\n", "line 1: must be six numbers, the eye and the point it looks at, got 7"},
                 {"\n\n1 2 x\033 4 5 6\n", "line 3: must be numbers from -1e12 to 1e12, got 'x?'"},
                 {"1 2 3 4 5 nan\n", "line 1: must be numbers from -1e12 to 1e12, got 'nan'"},
                 {"1 2 3 4 5 2e12\n", "line 1: must be numbers from -1e12 to 1e12, got '2e12'"},
-                {"1 2 3 1 2 3\n", "line 1: must look at another place than its own"}};
+                {"1 2 3 1 2 3\n", "line 1: must look at a point other than the eye"}};
     const char *name = scratch_file("bad.txt");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[640];
@@ -267,7 +267,7 @@ TEST(model_cameras) {
         {"--camera door", "--camera: must be Door, Plan, 3 or Odd, got 'door'; did you mean 'Door'?", 2},
         {"--camera Plan", "--camera: must be a perspective one, and 'Plan' is orthographic", 2},
         {"--camera Odd", "--camera: 'Odd' has a vertical field of view of 180 degrees", 2},
-        {"--camera Door --near 0.1 --eye 1,2,3 --look 0,0,0", "--camera: cannot be combined with --eye", 2}};
+        {"--camera Door --near 0.1 --eye 1,2,3 --look 0,0,0", "--camera: conflicts with --eye", 2}};
     const char *name = scratch_text("cameras.gltf", "%s", cameras);
     char line[1024];
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -294,10 +294,10 @@ TEST(refused) {
     static const refused_row rows[] = {
         {"--eye 1,2,3", "--eye: needs --look", 2},
         {"--look 1,2,3", "--look: needs --eye", 2},
-        {"--eye 1,2,3 --look 1,2,3", "--look: must be another place than --eye, which are both 1,2,3", 2},
+        {"--eye 1,2,3 --look 1,2,3", "--look: must differ from --eye, which are both 1,2,3", 2},
         {"--eye 1,2 --look 1,2,3", "--eye: must be X,Y,Z, each from -1e12 to 1e12, got '1,2'", 2},
-        {"--eye 1,2,3 --look 0,0,0 --path x", "--path: cannot be combined with --eye", 2},
-        {"--camera A --path x", "--path: cannot be combined with --camera", 2},
+        {"--eye 1,2,3 --look 0,0,0 --path x", "--path: conflicts with --eye", 2},
+        {"--camera A --path x", "--path: conflicts with --camera", 2},
         {"--camera A", "--camera: tests/models/street.obj has no camera, got 'A'", 2},
         {"--eye 1,2,3 --look 0,0,0 --slant 0:40", "--slant: does not apply from an eye", 2}};
     CHECK_REFUSED("scene " STREET, rows);

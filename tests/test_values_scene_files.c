@@ -45,10 +45,10 @@ static xmlNode *below(xmlNode *node, const char *name) {
 /* The message of a failure says where, to 4 digits, and what mends it: the lift, rounded up. */
 static void remedy_is(const char *message, const json_t *place, double lift) {
     static const char *const axes[] = {"x", "y", "z"};
-    const char *near = strstr(message, ", near "), *more = strstr(message, " more between them");
+    const char *near = strstr(message, ", near "), *more = strstr(message, "; separate by another ");
     double at[3], said = 0.0;
     assert_true(near != NULL && more != NULL);
-    assert_int_equal(sscanf(near, ", near %lf %lf %lf; %lf", &at[0], &at[1], &at[2], &said), 4);
+    assert_int_equal(sscanf(near, ", near %lf %lf %lf; separate by another %lf", &at[0], &at[1], &at[2], &said), 4);
     for (int k = 0; k < 3; k++)
         assert_true(fabs(at[k] - number_at(place, "%s", axes[k])) <= 5.1e-4 * fabs(at[k]));
     assert_true(said >= lift && said <= lift + 1e-3 * lift);
@@ -90,8 +90,8 @@ TEST(junit) {
             xmlNode *failure = below(n, "failure");
             xmlChar *message = xmlGetProp(failure, (const xmlChar *)"message");
             assert_true(attribute_is(failure, "type", "fights"));
-            assert_int_equal(sscanf((const char *)message, "certain up to %lf", &said), isnan(to) ? 0 : 1);
-            assert_true(isnan(to) ? strstr((const char *)message, "certain nowhere") != NULL
+            assert_int_equal(sscanf((const char *)message, "safe up to %lf", &said), isnan(to) ? 0 : 1);
+            assert_true(isnan(to) ? strstr((const char *)message, "never safe") != NULL
                                   : said <= to && said > to - 1e-3 * to);
             remedy_is((const char *)message, node_at(f, "place"), lift);
             xmlFree(message);
@@ -237,7 +237,7 @@ TEST(bias) {
         assert_string_equal(text_at(said, "api"), rows[i].api);
         assert_true(units >= 1.0 && number_at(said, "units") == -units && number_at(said, "factor") == -goal.factor);
         json_decref(root);
-        check_says(-1, "Or, for what is drawn second: ", "%s", command);
+        check_says(-1, "Or bias what is drawn second: ", "%s", command);
     }
     printed p = print_of("scene " HOUSE " -F fp32 -m reversed --api gl");
     assert_non_null(strstr(p.out, "glPolygonOffset(0, ")); /* and reversed depths grow towards the camera */
@@ -261,7 +261,7 @@ TEST(no_bias) {
     assert_true(json_is_null(node_at(said, "units")) && json_is_null(node_at(said, "factor")));
     json_decref(root);
     printed p = print_of("scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle-class pixels=60000");
-    assert_non_null(strstr(p.out, "No bias of d3d11 brings one of two surfaces in front up to "));
+    assert_non_null(strstr(p.out, "No depth bias of d3d11 keeps either surface in front up to "));
     assert_null(strstr(p.out, "drawn second"));
     printed_free(&p);
 }
@@ -272,8 +272,8 @@ TEST(refused) {
         int status;
         const char *said;
     } rows[] = {
-        {"--report junit", 2, "--report: junit needs --within: what fights nearer fails"},
-        {"--report junit --within 5 --csv", 2, "--report: cannot be combined with --json or --csv"},
+        {"--report junit", 2, "--report: junit needs --within: surfaces that may z-fight nearer fail"},
+        {"--report junit --within 5 --csv", 2, "--report: conflicts with --json or --csv"},
         {"--emit-need none/x.need", 3, "cannot write 'none/x.need': No such file or directory"},
         {"--emit-need x.need --separation 0", 2, "--emit-need: needs a --separation above 0"},
         {"--emit-need " HOUSE, 2, "--emit-need: must not be a file that is read"},

@@ -78,7 +78,7 @@ TEST(refused) {
         {"--render x.png --raster spec-d3d", "--raster: must be one that draws", 2},
         {"--render x.png --viewport 16384x16384", "--viewport: must be of at most 33554432 pixels with --render", 2},
         {"--render x.png --slant 0:10", "--slant: needs --viewport", 2},
-        {"--render x.png --path x.txt", "--render: cannot be combined with --path: a picture has one eye", 2},
+        {"--render x.png --path x.txt", "--render: conflicts with --path: a picture has one eye", 2},
         {"--render x.png -o x.png", "--render: must not be the file of --output, got 'x.png'", 2},
         {"--fov 40", "--fov: needs --viewport", 2},
     };

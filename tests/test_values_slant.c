@@ -205,8 +205,8 @@ TEST(published) {
 /* Of text the last column of a table is that at any slant, rounded up. */
 TEST(text) {
     static const char *const said[] = {"viewport 1920x1080, fov 40, 8 subpixel bits, slant 0 to 90 degrees, ieee\n",
-                                       "triangles from z/2 to 2 z, at most 512 pixels, no slimmer than 1:16\n",
-                                       "told apart, facing the camera: surfaces"};
+                                       "triangles from z/2 to 2 z, at most 512 pixels, aspect ratio at most 16:1\n",
+                                       "resolved, facing the camera:"};
     const slant_case *c = &cases[0];
     printed p = print_of("table %s --at 700", c->line);
     const char *head = strstr(p.out, " guaranteed    slanted\n");
@@ -335,8 +335,8 @@ TEST(bias) {
     check_bias(&cases[1], "--factor -0.5", 0, 0.5);
     check_bias(&cases[3], "--slope 0.01 --factor 0.25", 0.01, 0.25);
     /* What no units are enough for. */
-    check_says(0, "no bias is enough at z = 3", "bias %s --factor 0.001 --at 3", line);
-    check_says(0, "no units are enough with a factor below 0.0", "bias %s --factor 0.001 --at 3", line);
+    check_says(0, "no bias suffices at z = 3", "bias %s --factor 0.001 --at 3", line);
+    check_says(0, "no units suffice with a factor below 0.0", "bias %s --factor 0.001 --at 3", line);
     check_says(0, "gl, factor 0.0", "bias %s --at 3 --api gl", line);
     check_says(0, "viewport 1920x1080, fov 40, 8 subpixel bits, slant 0 to 90 degrees, ieee\n",
                "bias %s --at 3 --api gl", line);

@@ -219,7 +219,7 @@ TEST(line_of_the_shader) {
             3);
         assert_relative(said, enough ? 100 * (worst - 1) : worst, 0.005);
         assert_relative(where, z, 1e-5);
-        assert_string_equal(end, enough ? "the lattice is enough" : "'depthprec budget' says of what");
+        assert_string_equal(end, enough ? "the lattice suffices" : "'depthprec budget' shows the causes");
         printed_free(&p);
     }
 }

@@ -97,8 +97,8 @@ static void check_answer(values *v, const zfight_case *c, const char *text) {
     const bool never = isnan(value_at(v, "setups[0].first")->number);
     const bool nowhere = isnan(value_at(v, "setups[0].always_from")->number);
     snprintf(label, sizeof label, "%s %g apart %s",
-             strstr(text, "Of the pairs drawn") != NULL ? "Of the pairs drawn, surfaces" : "Surfaces", c->gap,
-             never ? "never fight" : "first fight at z =");
+             strstr(text, "Of the pairs tested") != NULL ? "Of the pairs tested, surfaces" : "Surfaces", c->gap,
+             never ? "never z-fight" : "first z-fight at z =");
     if (never)
         assert_non_null(strstr(text, label));
     else
@@ -134,7 +134,7 @@ TEST(each_number) {
 TEST(warnings) {
     static const char *const said[][2] = {
         {"depthprec: warning: unorm24 d3d: clipping in binary32 keeps only", "near_effective:9, far_effective:9"},
-        {"depthprec: warning: fp32 d3d: clipping in binary32 loses", "holes:9, near_effective:9, far_effective:9"}};
+        {"depthprec: warning: fp32 d3d: clipping in binary32 removes", "holes:9, near_effective:9, far_effective:9"}};
     static census_result r;
     for (int i = 0; i < 2; i++) {
         const zfight_case c = case_of(lines[i]);

@@ -71,7 +71,7 @@ const char *bias_of_gpu(const options *o, const bias_api *api, const dp_format *
 int bias_check_slant(const options *o) {
     for (size_t i = 0; i < o->camera.mapping_count && o->camera.triangles.width > 0; i++)
         if (dp_mapping_get(o->camera.mappings[i])->curve != DP_CURVE_PERSPECTIVE)
-            return option_error(OPTION_VIEWPORT, "does not apply with %s, which is not affine on the screen",
+            return option_error(OPTION_VIEWPORT, "does not apply to %s, which is not affine on the screen",
                                 dp_mapping_get(o->camera.mappings[i])->name);
     return EXIT_FINE;
 }
@@ -115,13 +115,13 @@ static double range_from(const all *a) {
 static void say_result(row *r) {
     const number_text from = number_up(r->from, DIGITS_Z), to = number_down(r->to, DIGITS_Z);
     if (!isnan(r->units) || isnan(r->from))
-        append(r->said, sizeof r->said, "%s", isnan(r->units) ? "no bias is enough" : r->call);
+        append(r->said, sizeof r->said, "%s", isnan(r->units) ? "no bias suffices" : r->call);
     else if (r->from == r->lo)
-        append(r->said, sizeof r->said, "enough only up to z = %s", to.text);
+        append(r->said, sizeof r->said, "suffices only up to z = %s", to.text);
     else if (r->to == r->hi)
-        append(r->said, sizeof r->said, "enough only from z = %s on", from.text);
+        append(r->said, sizeof r->said, "suffices only from z = %s on", from.text);
     else
-        append(r->said, sizeof r->said, "enough only from z = %s to %s", from.text, to.text);
+        append(r->said, sizeof r->said, "suffices only from z = %s to %s", from.text, to.text);
 }
 
 /* In nine digits or, on the safe side, in fewer. */
@@ -201,9 +201,9 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_goal(page *p, const all *a) {
     const options *o = a->each.here;
-    char goal[64] = "To be told apart", place[128] = "", slope[64] = "";
+    char goal[64] = "To be resolved", place[128] = "", slope[64] = "";
     if (o->wanted.separation > 0.0)
-        snprintf(goal, sizeof goal, "To come nearer by %s", options_length(o, o->wanted.separation, 0).text);
+        snprintf(goal, sizeof goal, "To bring a layer %s nearer", options_length(o, o->wanted.separation, 0).text);
     if (o->bias.slope > 0.0)
         snprintf(slope, sizeof slope, ", slope %s per pixel", options_length(o, o->bias.slope, 0).text);
     if (a->by_range)
@@ -273,7 +273,7 @@ static void say_notes(page *p, void *item) {
     if (bias_chooses_factor(a->each.here) && isinf(a->row.factor))
         page_line(p, "%s", BIAS_NO_FACTOR);
     else if (bias_chooses_factor(a->each.here))
-        page_line(p, "F, the factor of the slope, is %s", number_full(a->row.factor).text);
+        page_line(p, "F, the slope factor, is %s", number_full(a->row.factor).text);
     if (a->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);
     if (bias_is_missed(a->each.setup))
@@ -308,7 +308,7 @@ static bool is_any(const all *a, bool (*is)(const dp_setup *setup)) {
 static void say_calls(page *p, void *item) {
     const all *a = item;
     if (a->fails)
-        page_line(p, "-: no bias is enough; give that format and mapping alone to see where one is");
+        page_line(p, "-: no bias suffices; ask about that format and mapping alone to see where one does");
     if (is_any(a, bias_is_missed))
         page_line(p, "%s", BIAS_MISSED);
     char open[BIAS_CALL_SIZE];
@@ -382,7 +382,7 @@ int bias_all_write(const options *o) {
                             option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP),
                             o->given[OPTION_API]);
     if (option_given(o, OPTION_AT) && option_given(o, OPTION_RANGE))
-        return option_error(OPTION_RANGE, "cannot be combined with --at for all APIs");
+        return option_error(OPTION_RANGE, "conflicts with --at for all APIs");
     int status = each_setup_start(&a.each, o);
     if (status == EXIT_FINE)
         status = range_resolve(o, &a.lo, &a.hi);

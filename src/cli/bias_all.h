@@ -18,13 +18,13 @@ bias_call_text bias_call(const bias_api *api, double units, double factor);
 double bias_signed(const dp_setup *setup, double units);
 
 /** With a viewport: what text says that is told apart. */
-#define BIAS_DRAWN_TWICE "told apart: one plane drawn as different triangles, each at least a pixel high"
+#define BIAS_DRAWN_TWICE "resolved: one plane drawn as different triangles, each at least a pixel high"
 
 /** Where the least factor that is enough at any slant is INFINITY. */
-#define BIAS_NO_FACTOR "at any slant no factor is enough; --slope says how steep they are"
+#define BIAS_NO_FACTOR "at any slant no factor suffices; --slope says how steep surfaces are"
 
 /** Where a fragment shader writes the depth: the bias went to the interpolated one, which that replaces. */
-#define BIAS_MISSED "no API biases depth that a fragment shader writes: there, add units times r"
+#define BIAS_MISSED "no API biases a depth that a fragment shader writes: add units times r there"
 
 /** Whether it may: an orthographic depth is interpolated, and so is the clip z that osgearth's vertices have. */
 static inline bool bias_is_missed(const dp_setup *setup) {

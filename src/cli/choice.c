@@ -81,7 +81,7 @@ void setup_choose(const options *o, const depths *at, dp_setup *setup) {
 static void effect(double share, number_text depth, bool at_most, char *out, size_t size) {
     const char *most = at_most ? "at most " : "";
     if (isinf(share))
-        snprintf(out, size, "leaves nothing certain at z = %s", depth.text);
+        snprintf(out, size, "leaves nothing resolved at z = %s", depth.text);
     else if (share >= 1.0)
         snprintf(out, size, "makes this %s%s times worse at z = %s", most, number_of(share + 1.0, 3).text, depth.text);
     else
@@ -94,7 +94,7 @@ static choice_words shader_sentence(const choosing *c, const char *unit) {
     choice_words out;
     effect(c->shader_share, number_in(number_of(c->shader_z, 6), unit), enough, what, sizeof what);
     snprintf(out.text, sizeof out.text, "the arithmetic of the shader %s: %s", what,
-             enough ? "the lattice is enough" : "'depthprec budget' says of what");
+             enough ? "the lattice suffices" : "'depthprec budget' shows the causes");
     return out;
 }
 
@@ -113,9 +113,9 @@ choice_words choice_sentence(const choosing *c, const char *unit) {
     effect(share, number_in(number_of(choice->share_z[DP_MODEL_EXACT], 6), unit), choice->model == DP_MODEL_EXACT, what,
            sizeof what);
     snprintf(out.text, sizeof out.text, "%s %s: %s", subject, share > 0.0 ? what : "adds nothing",
-             choice->model == DP_MODEL_EXACT    ? "the lattice is enough"
-             : choice->model == DP_MODEL_STAGED ? "model staged is enough"
-                                                : "model float is needed");
+             choice->model == DP_MODEL_EXACT    ? "the lattice suffices"
+             : choice->model == DP_MODEL_STAGED ? "--model staged captures this"
+                                                : "--model float is needed");
     return out;
 }
 

@@ -90,7 +90,7 @@ static void *next_row(void *of, size_t i) {
     }
     r->effect = bias_at(setup, &state, b->goal.slope, z);
     r->one_unit = r->effect.limited ? (double)NAN : fabs(r->effect.shift);
-    r->held = r->effect.limited ? "held at a plane" : "";
+    r->held = r->effect.limited ? "clamped to a plane" : "";
     b->limited = b->limited || r->effect.limited;
     return r;
 }
@@ -198,7 +198,7 @@ static void say_states(page *p, void *item) {
     page_text(p, "%s", text);
 }
 
-/* "  told apart  -2 units from 0.1 to 1000 (needed at z = 0.1)", or where a bias is enough at all. */
+/* "  resolved    -2 units from 0.1 to 1000 (needed at z = 0.1)", or where a bias is enough at all. */
 static void say_needed(page *p, const options *o, const char *what, double units, const double range[2], double z,
                        const double enough[2]) {
     const number_text lo = options_length(o, range[0], DIGITS_Z);
@@ -206,7 +206,7 @@ static void say_needed(page *p, const options *o, const char *what, double units
     const number_text from = number_in(number_up(enough[0], DIGITS_Z), p->unit);
     const number_text to = number_in(number_down(enough[1], DIGITS_Z), p->unit);
     if (range[0] == range[1] && isnan(units))
-        page_note(p, what, "no bias is enough at z = %s", lo.text);
+        page_note(p, what, "no bias suffices at z = %s", lo.text);
     else if (range[0] == range[1])
         page_note(p, what, "%s unit%s at z = %s", number_of(units, DIGITS_Z).text, fabs(units) == 1.0 ? "" : "s",
                   lo.text);
@@ -214,14 +214,14 @@ static void say_needed(page *p, const options *o, const char *what, double units
         page_note(p, what, "%s unit%s from %s to %s (needed at z = %s)", number_of(units, DIGITS_Z).text,
                   fabs(units) == 1.0 ? "" : "s", lo.text, hi.text, options_length(o, z, DIGITS_Z).text);
     else if (isnan(enough[0]))
-        page_note(p, what, "no bias is enough from %s to %s", lo.text, hi.text);
+        page_note(p, what, "no bias suffices from %s to %s", lo.text, hi.text);
     else if (enough[0] == range[0])
-        page_note(p, what, "enough up to z = %s; from there to %s no bias is", to.text, hi.text);
+        page_note(p, what, "suffices up to z = %s; from there to %s no bias does", to.text, hi.text);
     else if (enough[1] == range[1])
-        page_note(p, what, "enough from z = %s on; from %s to there no bias is", from.text, lo.text);
+        page_note(p, what, "suffices from z = %s on; from %s to there no bias does", from.text, lo.text);
     else
-        page_note(p, what, "enough from z = %s to %s; elsewhere from %s to %s no bias is", from.text, to.text, lo.text,
-                  hi.text);
+        page_note(p, what, "suffices from z = %s to %s; elsewhere from %s to %s no bias does", from.text, to.text,
+                  lo.text, hi.text);
 }
 
 static void say_range(page *p, const biasing *b) {
@@ -236,7 +236,7 @@ static void say_range(page *p, const biasing *b) {
         page_note(p, "to write", "%s", bias_call(b->state.api, units, b->state.factor).text);
     const double next = b->goal.gap > 0.0 ? r->gap_next : r->apart_next;
     if (!isnan(units) && !isnan(next))
-        page_note(p, "", "where drivers take the exponent n + 1, %s would do; these are enough with both",
+        page_note(p, "", "where drivers take the exponent n + 1, %s suffices; this suffices with either",
                   number_of(next, DIGITS_Z).text);
     if (b->goal.gap == 0.0)
         return;
@@ -256,9 +256,9 @@ static bool say_measured(page *p, const biasing *b) {
         return false;
     bias_of_gpu(o, b->named, &b->each.setup->spec.format, text);
     if (text[0] == '\0')
-        page_line(p, "of this GPU r was not measured for %s", b->named->name);
+        page_line(p, "r was not measured on this GPU for %s", b->named->name);
     else
-        page_line(p, "%s%s", text, b->cuts ? "; fractions of units are cut: 0.5 becomes 0" : "");
+        page_line(p, "%s%s", text, b->cuts ? "; fractional units are truncated: 0.5 becomes 0" : "");
     return text[0] != '\0';
 }
 
@@ -288,10 +288,10 @@ static void say_notes(page *p, void *item) {
     if (b->inverse && b->goal.slope == 0.0 && isinf(least))
         page_line(p, "%s", BIAS_NO_FACTOR);
     else if (b->inverse && b->goal.slope == 0.0 && b->state.factor * bias_sign(b->each.setup) < least)
-        page_line(p, "at any slant no units are enough with a factor below %s; --slope says how steep they are",
+        page_line(p, "at any slant no units suffice with a factor below %s; --slope says how steep surfaces are",
                   number_full(least).text);
     if (b->limited && !b->inverse)
-        page_line(p, "a biased depth that leaves [0, 1] is held at the plane");
+        page_line(p, "a biased depth outside [0, 1] is clamped to the plane");
     if (!say_measured(p, b))
         say_open(p, b);
     if (b->each.o->camera.platform != NULL && b->each.o->camera.platform->bias[0] != '\0')
@@ -316,7 +316,7 @@ static const column row_columns[] = {
     {FIELD(row, effect.m, "slope", "per pixel")},
     {TEXT_FIELD(row, effect.m, "slope", 12, DIGITS), .when = WITH_SLOPE, .spare = 2},
     {FIELD(row, one_unit, "one_unit", "scene"), SHOWN("one unit", 13, DIGITS), .when = INVERSE},
-    {FIELD(row, apart, "units_apart", ""), SHOWN("told apart", 17, DIGITS_Z), .when = INVERSE},
+    {FIELD(row, apart, "units_apart", ""), SHOWN("resolved", 17, DIGITS_Z), .when = INVERSE},
     {FIELD(row, gap, "units_gap", ""), .only = AS_CSV, .when = INVERSE},
     {FIELD(row, gap, "units_gap", ""), SHOWN("separated", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
      .when = INVERSE | WITH_GAP},
@@ -374,9 +374,9 @@ static const column columns[] = {
 static int check_states(const options *o, const bias_api *api) {
     const bool given = option_given(o, OPTION_UNITS);
     if (given && option_given(o, OPTION_VIEWPORT))
-        return option_error(OPTION_VIEWPORT, "cannot be combined with --units: it says how many are enough");
+        return option_error(OPTION_VIEWPORT, "conflicts with --units: it says how many suffice");
     if (given && option_given(o, OPTION_SEPARATION))
-        return option_error(OPTION_UNITS, "cannot be combined with --separation, which solves for them");
+        return option_error(OPTION_UNITS, "conflicts with --separation, which solves for them");
     if (given && api->whole && !(o->bias.units == nearbyint(o->bias.units) && fabs(o->bias.units) <= 0x1.fffffffcp30) &&
         (o->camera.platform == NULL || !o->camera.platform->cuts))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",

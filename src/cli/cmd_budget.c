@@ -253,7 +253,7 @@ static void say_worst(page *p, const worst *w) {
                   number_in(number_up(w->remedy.separation, DIGITS), p->unit).text,
                   number_in(number_up(w->separation, DIGITS), p->unit).text);
     else if (w->separation < 2.0 * step)
-        page_line(p, "%snothing to gain: binary32 depths are themselves %s apart there", taken,
+        page_line(p, "%snothing to gain: binary32 depths themselves are %s apart there", taken,
                   number_in(number_of(step, DIGITS), p->unit).text);
     else
         page_line(p, "%sno other format or mapping helps", taken);
@@ -366,9 +366,9 @@ static int take_scheme(budget *b, const options *o) {
     if (o->world.schemes[0].row == world_get(0))
         return EXIT_FINE;
     if (o->camera.ortho)
-        return option_error(OPTION_SCHEME, "does not apply with --ortho: --composition does");
+        return option_error(OPTION_SCHEME, "conflicts with --ortho; --composition does not");
     if (option_given(o, OPTION_COMPOSITION))
-        return option_error(OPTION_COMPOSITION, "cannot be combined with --scheme %s", o->world.schemes[0].row->name);
+        return option_error(OPTION_COMPOSITION, "conflicts with --scheme %s", o->world.schemes[0].row->name);
     b->scheme = &o->world.schemes[0];
     b->scheme_name = b->scheme->row->name;
     return EXIT_FINE;

@@ -86,7 +86,7 @@ int cmd_check(const options *o) {
     long failed = 0;
     output out;
     if (o->out.report != REPORT_TEXT && o->out.form != FORM_TEXT)
-        return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
+        return option_error(OPTION_REPORT, "conflicts with --json or --csv");
     int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;

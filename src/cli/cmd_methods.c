@@ -101,13 +101,11 @@ static unsigned conditions(const measuring *b) {
 
 static void say_marks(page *p, void *item) {
     const measuring *b = item;
-    page_line(p, "ns: per element, the median; x memory: multiple of what moving the same bytes takes, %.3g ns",
-              b->limit);
+    page_line(p, "ns: per element, median; x memory: multiple of the time to move the same bytes, %.3g ns", b->limit);
     if ((conditions(b) & BOUNDED) != 0)
-        page_line(p, "bound: of any depth of this camera, proven; claim: of any camera with this far/near");
-    page_line(p,
-              "fails from: the far/near from which on its error is above what it claims before; -: never up to 1e12");
-    page_line(p, "* Pareto front: no other method is both faster and more exact");
+        page_line(p, "bound: proven for any depth of this camera; claim: for any camera with this far/near");
+    page_line(p, "fails from: the far/near from which its error exceeds its claim; -: none up to 1e12");
+    page_line(p, "* Pareto front: no other method is both faster and more accurate");
     for (size_t i = 0; i < b->count; i++)
         if (b->results[i].row->timed != NULL)
             page_line(p,
@@ -115,11 +113,11 @@ static void say_marks(page *p, void *item) {
                       "stays within the guarantee of %.3g and the method within its claim",
                       b->results[i].row->name, ESTIMATE_WORST);
     if (b->shown < b->count)
-        page_line(p, "--full: %zu more, to each of which another is faster and more exact", b->count - b->shown);
+        page_line(p, "--full: %zu more, each beaten by another in both speed and accuracy", b->count - b->shown);
     if (b->choice != NULL)
         page_line(p, "> %s is the cheapest whose claim is within the tolerance", b->choice_name);
     else if (!isnan(b->tolerance))
-        page_line(p, "no method claims to be within the tolerance here");
+        page_line(p, "no method's claim is within the tolerance here");
 }
 
 /* Text is for a reader who wants the fastest that is exact enough. */

@@ -48,7 +48,7 @@ static int resolve_depths(plotting *p) {
             return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", p->row->name,
                                 o->camera.at.count);
         if (option_given(o, OPTION_RANGE))
-            return option_error(OPTION_AT, "cannot be combined with --range");
+            return option_error(OPTION_AT, "conflicts with --range");
         p->request.at = o->camera.at.lo;
     }
     if (!option_given(o, OPTION_RANGE))

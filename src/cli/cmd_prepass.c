@@ -136,9 +136,9 @@ static void say_answer(page *p, void *item) {
                vertex_spread_note(r->spread), options_length(a->each.here, r->world, 0).text,
                (unsigned long long)r->seed);
     if (worst.vertices == 0)
-        page_text(p, "No vertex that was drawn lies within the range.");
+        page_text(p, "None of the random vertices lies within the range.");
     else if (worst.differ == 0)
-        page_text(p, "EQUAL is safe on these vertices: each gets the code that %s gives it.", a->program);
+        page_text(p, "EQUAL is safe on these vertices: each gets the same code as from %s.", a->program);
     else
         page_text(p, "EQUAL is not safe: a depth prepass and a main pass must run the same program, and be compiled to "
                      "the same operations (invariant in GLSL, precise in HLSL).");
@@ -150,7 +150,7 @@ static void say_apis(page *p, void *item) {
     if (worst.differ == 0)
         return;
     page_line(p,
-              "%s is safe on these vertices where the main pass is moved towards the camera by %s of window depth, %u "
+              "%s is safe on these vertices if the main pass is moved towards the camera by %s of window depth, %u "
               "code%s, whichever of the programs it runs:",
               a->each.setup->reversed ? "GEQUAL" : "LEQUAL", number_up(worst.widest.bias, 3).text, worst.most,
               worst.most == 1 ? "" : "s");
@@ -161,13 +161,12 @@ static void say_apis(page *p, void *item) {
             units = isnan(one) || fabs(one) > fabs(units) ? one : units;
         }
         page_note(p, bias_api_get(i)->name, "%s",
-                  isnan(units) ? "no bias is enough" : bias_call(bias_api_get(i), units, 0.0).text);
+                  isnan(units) ? "no bias suffices" : bias_call(bias_api_get(i), units, 0.0).text);
     }
     if (a->each.setup->spec.format.kind == DP_FORMAT_FLOAT)
-        page_line(p,
-                  "In a float format units shrink with the window depth: vertices next to d = 0 ask for most of them; "
-                  "--range leaves them out.");
-    page_line(p, "Between vertices the set-up of each triangle adds to that: see budget --viewport.");
+        page_line(p, "In a float format units shrink with the window depth: vertices next to d = 0 need the most; "
+                     "--range leaves them out.");
+    page_line(p, "Between vertices, triangle setup adds to that: see budget --viewport.");
 }
 
 static const column api_columns[] = {

@@ -171,13 +171,13 @@ static void say_reach_of(page *p, const dp_setup *full, const unit_row *unit, co
     /* What is wider than a separation that holds everywhere goes without saying. */
     for (size_t i = 0; i < RESOLVED_LIMITS && (i == 0 || !(up_to[i - 1] >= full->spec.zfar)); i++)
         if (!isnan(up_to[i]))
-            append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
+            append(sentence, sizeof sentence, "%s %s up to %s%s", *sentence != '\0' ? "," : "",
                    resolved_limit_text(i, unit).text, up_to[i] < full->spec.zfar ? "z = " : "",
                    resolved_text(full->spec.zfar, up_to[i], unit, text));
     if (*sentence != '\0')
-        page_text(p, "Guaranteed to be told apart%s: surfaces%s.", which, sentence);
+        page_text(p, "Guaranteed to be resolved%s:%s.", which, sentence);
     else
-        page_text(p, "Surfaces %s apart are not guaranteed to be told apart%s, even at the near plane.",
+        page_text(p, "%s is not guaranteed to be resolved%s, even at the near plane.",
                   resolved_limit_text(RESOLVED_LIMITS - 1, unit).text, which);
 }
 
@@ -212,27 +212,27 @@ static void say_worst(page *p, const dp_worst *w) {
                   number_in(number_of(w->interval, DIGITS_FEW), p->unit).text, lo.text,
                   number_in(number_of(w->interval_hi, digits), p->unit).text, w->interval_code);
     if (!isnan(w->blind_from))
-        page_note(p, "blind", "from z = %s: nothing beyond is told apart",
+        page_note(p, "blind", "from z = %s: nothing beyond is resolved",
                   number_in(number_of(w->blind_from, DIGITS_USUAL), p->unit).text);
 }
 
 static void say_drawn(page *p, const clipping *c) {
     if (isnan(c->znear) && c->loses)
-        page_note(p, "clip range", "empty: clipping loses all depths");
+        page_note(p, "clip range", "empty: clipping removes all depths");
     else if (!isnan(c->znear))
         page_note(p, "clip range", "effectively %s to %s%s", number_in(number_of(c->znear, DIGITS_USUAL), p->unit).text,
                   number_in(number_of(c->zfar, DIGITS_USUAL), p->unit).text,
-                  c->loses ? ": clipping loses the rest" : "");
+                  c->loses ? ": clipping removes the rest" : "");
 }
 
 static void say_way(page *p, const way *w, double tolerance) {
     const number_text allowed = number_of(tolerance, 3);
     if (w->name == NULL)
-        page_line(p, "interval: no method claims to be within %s of it in this set-up", allowed.text);
+        page_line(p, "interval: no method's bound is within %s of it in this set-up", allowed.text);
     else if (w->claim == 0)
         page_line(p, "interval by %s, exact", w->name);
     else
-        page_line(p, "interval by %s, the cheapest within %s of it: claims %s", w->name, allowed.text,
+        page_line(p, "interval by %s, the cheapest within %s of it: bound %s", w->name, allowed.text,
                   number_of(w->claim, 3).text);
 }
 
@@ -246,9 +246,9 @@ static void say_notes(page *p, void *item) {
     const table *t = item;
     say_worst(p, t->worst);
     say_guarantee(p, t->guarantee, "worst separation",
-                  t->full.shader             ? "guaranteed for every log2 that the shader may have"
+                  t->full.shader             ? "guaranteed for every log2 that a shader may use"
                   : dp_is_computed(&t->full) ? "guaranteed in binary32 (model float)"
-                                             : "in the model staged");
+                                             : "in model staged");
     char slanted[NUMBER_SIZE + 8];
     snprintf(slanted, sizeof slanted, "at %s", slant_words(&t->slanted.spec.triangles).text);
     say_guarantee(p, t->guarantee_slanted, slanted, "of the farther surface");

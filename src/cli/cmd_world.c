@@ -118,10 +118,10 @@ static void *next_line(void *of, size_t i) {
 static void say_setup(page *p, void *item) {
     world *w = item;
     setup_title(p, w->setup, &w->fields);
-    page_text(p, "%s apart and %s ahead, %s; a picture of %dx%d, fov %s", options_length(&w->o, w->wanted, 0).text,
+    page_text(p, "%s apart and %s ahead, %s; a view of %dx%d pixels, fov %s", options_length(&w->o, w->wanted, 0).text,
               options_length(&w->o, w->z, 0).text,
-              w->asked.shared_origin ? "of meshes with one origin" : "of meshes with origins of their own", w->width,
-              w->height, number_of(w->fov, 4).text);
+              w->asked.shared_origin ? "meshes with one origin" : "meshes with their own origins", w->width, w->height,
+              number_of(w->fov, 4).text);
 }
 
 static void say_distance(page *p, void *item) {
@@ -130,7 +130,7 @@ static void say_distance(page *p, void *item) {
         return;
     output_char(p->out, '\n');
     page_title(p, "%s from the origin: %s%s", options_length(&w->o, w->distance, 0).text,
-               w->least != NULL ? w->least : "none", w->least != NULL ? " is enough" : " of them is enough");
+               w->least != NULL ? w->least : "none", w->least != NULL ? " suffices" : " of them suffices");
 }
 
 /* Of a single scheme, and no distance: the answer is a sentence. */

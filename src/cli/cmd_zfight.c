@@ -151,22 +151,23 @@ static void say_gap(page *p, const zfight *z) {
     const number_text gap = options_length(z->each.here, z->gap, 0);
     const number_text first = number_in(number_down(all->first, DIGITS), p->unit);
     const number_text always = number_in(number_up(z->always, DIGITS), p->unit);
-    const char *drawn = z->each.o->census.sample > 0 ? "Of the pairs drawn, surfaces" : "Surfaces";
+    const char *drawn = z->each.o->census.sample > 0 ? "Of the pairs tested, surfaces" : "Surfaces";
     if (isnan(all->first))
-        page_text(p, "%s %s apart never fight from %s to %s.", drawn, gap.text,
+        page_text(p, "%s %s apart never z-fight from %s to %s.", drawn, gap.text,
                   options_length(z->each.here, z->lo, 0).text, options_length(z->each.here, z->hi, 0).text);
     else if (isnan(z->always))
-        page_text(p, "%s %s apart first fight at z = %s, and at no depth do all of them.", drawn, gap.text, first.text);
+        page_text(p, "%s %s apart first z-fight at z = %s, and at no depth do all of them.", drawn, gap.text,
+                  first.text);
     else
-        page_text(p, "%s %s apart first fight at z = %s, and always from z = %s on.", drawn, gap.text, first.text,
+        page_text(p, "%s %s apart first z-fight at z = %s, and always from z = %s on.", drawn, gap.text, first.text,
                   always.text);
-    page_line(p, "(fight: they are stored as one code, or in the wrong order)");
+    page_line(p, "(z-fight: they are stored as one code, or in the wrong order)");
 }
 
 static void say_neighbours(page *p, const zfight *z) {
     const census_band *all = &z->result->all;
     page_text(p, "Neighbouring binary32 depths%s: %s %% tie, %s %% swap. --separation asks about surfaces.",
-              z->each.o->census.sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
+              z->each.o->census.sample > 0 ? ", chosen at random" : "", number_of(z->whole.ties, 3).text,
               number_of(z->whole.swaps, 3).text);
     if (all->longest > 0.0)
         page_line(p, "longest interval %s at z = %s, guaranteed there %s",
@@ -188,7 +189,7 @@ static void say_planes(page *p, void *item) {
     if (z->triangles != NULL)
         page_line(p, "the pairs face the camera; --rasterize draws slanted ones");
     if (isnan(r->near_effective))
-        page_line(p, "clipping loses everything");
+        page_line(p, "clipping removes everything");
     else
         page_line(p, "effective clip range%s: %s to %s", option_given(z->each.o, OPTION_RANGE) ? " within --range" : "",
                   number_in(number_of(r->near_effective, PLANE_DIGITS), p->unit).text,
@@ -272,7 +273,7 @@ static void warn(const zfight *z) {
         if (isnan(from) || census_count(from, to) < census_count(z->lo, z->hi))
             clipping_say(&z->each.all.items[i], from, to, r->holes > 0 ? ", with holes" : "");
         else if (r->holes > 0)
-            message("depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s",
+            message("depthprec: warning: %s: clipping in binary32 removes %llu depths between %s and %s",
                     setup_label(&z->each.all.items[i], false, label), (unsigned long long)r->holes,
                     number_of(from, PLANE_DIGITS).text, number_of(to, PLANE_DIGITS).text);
     }

@@ -16,7 +16,7 @@ static const name_list shells = {.words = (const char *const[]){"bash", "zsh", "
 /* clang-format off */
 const command_row command_rows[CMD_COUNT] = {
     [CMD_TABLE] = {"table", CMD_TABLE, table_uses, "", 0, 0, NULL,
-     .summary = "codes, errors, and how far surfaces are told apart",
+     .summary = "codes, errors, and how far surfaces are resolved",
      .example = "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --viewport 1920x1080\n"
@@ -43,18 +43,18 @@ const command_row command_rows[CMD_COUNT] = {
      "  generate | depthprec check -\n",
      .files_from = 1},
     [CMD_ZFIGHT] = {"zfight", CMD_ZFIGHT, zfight_uses, "", 0, 0, NULL,
-     .summary = "where surfaces start to fight, by a census of every depth",
+     .summary = "where surfaces start to z-fight, by a census of every depth",
      .example = "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
      "  depthprec zfight -F d24 -m gl --arith mesa --separation 0.01\n"
      "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n"
      "  depthprec zfight --rasterize -F fp32 -m reversed --range 16:64\n"},
     [CMD_PREPASS] = {"prepass", CMD_PREPASS, prepass_uses, "", 0, 0, NULL,
-     .summary = "is EQUAL safe behind a depth prepass, what LEQUAL needs",
+     .summary = "is EQUAL safe after a depth prepass, and what LEQUAL needs",
      .example = "  depthprec prepass -F d24 -m d3d\n"
      "  depthprec prepass --program once --against separate,fma -F fp32 -m reversed\n"
      "  depthprec list programs\n"},
     [CMD_BIAS] = {"bias", CMD_BIAS, bias_uses, "", 0, 0, NULL,
-     .summary = "what a depth bias does, how much is enough, per API",
+     .summary = "what a depth bias does and how much is needed, per API",
      .example = "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
      "  depthprec bias --api all --separation 0.02 --at 300\n"
      "  depthprec bias --api webgpu -F depth24plus --separation 0.01 --range 1:100\n"
@@ -79,14 +79,14 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec texture --synthetic decals --parameter gap=0.01 -F d24 -m reversed\n",
      .files_from = 1, .part = texture_asked, .parts = texture_parts},
     [CMD_SHADOW] = {"shadow", CMD_SHADOW, shadow_uses, "", 0, 0, NULL,
-     .summary = "shadow maps: the bias without acne, and its gap",
+     .summary = "shadow maps: the bias that prevents acne, and its gap",
      .example = "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
      "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
      "  depthprec shadow -f 300 --cascades 3:0.8 --api all\n"
      "  depthprec plot shadow -f 150 -o shadow.svg\n",
      .part = shadow_asked, .parts = shadow_parts},
     [CMD_METHODS] = {"methods", CMD_METHODS, methods_uses, "FAMILY", 0, 1, &families,
-     .summary = "ways to a quantity: time, worst error, where they fail",
+     .summary = "methods compared: time, worst error, where each fails",
      .example = "  depthprec methods\n"
      "  depthprec methods linearize -n 0.1 -f 1000\n"
      "  depthprec methods interval -F fp32 -m reversed --tolerance 1e-6\n"
@@ -94,7 +94,7 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec plot stability interval -o stability.svg\n",
      .group = "Methods and hardware"},
     [CMD_PROBE] = {"probe", CMD_PROBE, probe_uses, "", 0, 0, NULL,
-     .summary = "what the GPU of this machine does to depth, measured",
+     .summary = "what this machine's GPU does to depth, measured",
      .example = "  depthprec probe\n"
      "  depthprec probe --device 1 --keep codes.csv\n"
      "  depthprec probe --device gl\n"

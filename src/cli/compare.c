@@ -154,13 +154,12 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
     if (all > NAMED)
         append(names, sizeof names, " and %zu others", all - NAMED);
     if (c->bounded == 0 || isnan(best->up_to[MIDDLE]))
-        page_text(p, "None of these is guaranteed to tell surfaces %s apart%s, even at the near plane.", limit, slant);
+        page_text(p, "None of these is guaranteed to resolve %s%s, even at the near plane.", limit, slant);
     else if (all == 0)
-        page_text(p, "%s goes farthest: it tells surfaces %s apart%s up to z = %s.", best->name, limit, slant,
+        page_text(p, "%s reaches farthest: it resolves %s%s up to z = %s.", best->name, limit, slant,
                   resolved_text(best->zfar, best->up_to[MIDDLE], c->each->o->camera.unit, text));
     else
-        page_text(p, "%s tell%s surfaces %s apart%s all the way to the far plane.", names, all == 1 ? "s" : "", limit,
-                  slant);
+        page_text(p, "%s resolve%s %s%s all the way to the far plane.", names, all == 1 ? "s" : "", limit, slant);
 }
 
 /* The row of the same format, reversed with the same range of NDC depth; null where there is none. */
@@ -267,7 +266,7 @@ static void say_cameras(page *p, const comparison *c) {
 }
 
 static void say_head(page *p, void *item) {
-    static const char *const above_limits[LIMITS + 1] = {"", "to z", "apart up to z", "told apart up to z"};
+    static const char *const above_limits[LIMITS + 1] = {"", "to z", "up to z", "resolved up to z"};
     static const char *const above_depths[3][3] = {{"guaranteed separation at z", "guaranteed at z", "guaranteed"},
                                                    {"guaranteed at any slant, z", "any slant, at z", "any slant"},
                                                    {"guaranteed at that slant, z", "that slant, at z", "that slant"}};

@@ -55,7 +55,7 @@ static void say_notes(page *p, void *item) {
     if (l->empty)
         page_line(p, "an interval of 0: no depth from near to far is stored as that code");
     if (isnan(l->row.cell.width))
-        page_line(p, "this model has no cells: the depths stored as one code need not be neighbours");
+        page_line(p, "this model has no cells: depths that share a code need not be contiguous");
 }
 
 static const column row_columns[] = {
@@ -81,7 +81,7 @@ bool lookup_wanted(const options *o) {
 /* What is asked is no depth of the scene, and a code must be one of each format. */
 static int check(const options *o, const setups *all) {
     if (option_given(o, OPTION_DEPTH) && option_given(o, OPTION_CODE))
-        return option_error(OPTION_CODE, "cannot be combined with --depth");
+        return option_error(OPTION_CODE, "conflicts with --depth");
     const option_id asked = option_given(o, OPTION_CODE) ? OPTION_CODE : OPTION_DEPTH;
     for (size_t i = 0; i < all->count && asked == OPTION_CODE; i++) {
         const dp_format *format = &all->items[i].spec.format;

@@ -45,7 +45,7 @@ void per_vertex_say(page *p, const per_vertex_worst *w, double depth) {
     if (depth <= w->depth)
         page_line(p,
                   "written per vertex, depth is at most %s too far at z = %s in triangles from z/%s to %s z: less than "
-                  "what is told apart",
+                  "the separation",
                   error.text, z.text, class.text, class.text);
     else
         page_line(p,

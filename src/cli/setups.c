@@ -218,7 +218,7 @@ void clipping_say(const dp_setup *setup, double znear, double zfar, const char *
     char label[SETUP_LABEL_SIZE];
     setup_label(setup, false, label);
     if (isnan(znear))
-        message("depthprec: warning: %s: clipping in binary32 loses everything", label);
+        message("depthprec: warning: %s: clipping in binary32 removes everything", label);
     else
         message("depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s", label, number_of(znear, 9).text,
                 number_of(zfar, 9).text, rest);

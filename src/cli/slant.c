@@ -41,7 +41,7 @@ void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setu
          o->camera.raster == NULL ? arith : "");
     if (!theirs && o->camera.raster != NULL)
         say_rasterizer(p, line, o->camera.raster, t->subpixel, arith);
-    line(p, "triangles from z/%s to %s z, at most %s pixels, no slimmer than 1:%s", number_full(t->depth).text,
+    line(p, "triangles from z/%s to %s z, at most %s pixels, aspect ratio at most %s:1", number_full(t->depth).text,
          number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
 }
 

@@ -96,7 +96,7 @@ static void say_answer(page *p, void *item) {
     each_setup_title(p, item);
     slant_say(p, page_title, d->each.o, d->each.setup);
     if (w->pixels == 0)
-        page_text(p, "Nothing was drawn: no separation is certain in this range, or no triangle fits.");
+        page_text(p, "Nothing was drawn: no separation is guaranteed in this range, or no triangle fits.");
     else if (isnan(w->used))
         page_text(p, "No pixel was wrong.");
     else
@@ -148,7 +148,7 @@ static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns)
 static int check(drawn *d) {
     const options *o = d->each.o;
     if (option_given(o, OPTION_SEPARATION))
-        return option_error(OPTION_SEPARATION, "does not apply with --rasterize, which looks for the separation");
+        return option_error(OPTION_SEPARATION, "conflicts with --rasterize, which looks for the separation");
     int status = raster_setups(o, &d->each.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &d->lo, &d->hi);

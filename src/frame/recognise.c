@@ -343,7 +343,7 @@ static void find_steps(const image *img, finding *f, const tally *s, recognised 
         return;
     out->certain = false;
     append(f->reason, sizeof f->reason, "; all are multiples of 1/%.9g%s", found.steps,
-           out->steps_certain ? "" : ", perhaps by chance");
+           out->steps_certain ? "" : ", inconclusive");
 }
 
 /* How many numbers agree, against how many would without that lattice. */
@@ -352,7 +352,7 @@ static void weigh(finding *f, const tally *s, recognised *out) {
     if (!f->chance)
         return;
     const char *more = s->seen.count >= RECOGNISE_DISTINCT_MAX ? "more than " : "";
-    say(f, "%s%zu different numbers lie on the lattice of %s, by chance %.3g would%s", more, s->seen.count,
+    say(f, "%s%zu different numbers lie on the lattice of %s, of random ones %.3g would%s", more, s->seen.count,
         lattice_name(f->which), s->expected, out->certain ? "" : ": cannot tell");
 }
 
@@ -386,13 +386,13 @@ void recognise(const image *img, recognised *out) {
         weigh(&f, &s, out);
         find_steps(img, &f, &s, out);
         suspect(img, &s, out);
-        out->toward = direct(&s, out);
+        out->towards = direct(&s, out);
     } else if (!f.none) {
         explain(img, &f, &numbers, out);
     }
     distinct_free(&s.seen);
     if (out->lo > out->hi)
         out->lo = out->hi = (double)NAN;
-    snprintf(out->why, sizeof out->why, "%s%s%s", f.reason, out->toward != NULL ? "; " : "",
-             out->toward != NULL ? out->toward : "");
+    snprintf(out->why, sizeof out->why, "%s%s%s", f.reason, out->towards != NULL ? "; " : "",
+             out->towards != NULL ? out->towards : "");
 }

@@ -181,7 +181,7 @@ static const char *build(const figure_request *request, stage *s, chart *out) {
         return raster_status_text(status);
     set_stage(s, request);
     if (!(s->guaranteed < s->wall.distance))
-        return "plot fight: no separation is certain there: name another depth with --at, or another --slant";
+        return "plot fight: no separation is guaranteed there: name another depth with --at, or another --slant";
     add_panel(s, share_of_fight(s), out);
     add_panel(s, 1.0, out);
     out->classes = true;

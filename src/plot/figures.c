@@ -41,8 +41,8 @@ static const figure_row rows[] = {
      "a wall and a decal before it, pixel by pixel, as slanted triangles: nearer than is guaranteed, and as far as "
      "that",
      1, FIGURE_SETUPS | FIGURE_AT | FIGURE_FLOAT | FIGURE_BINARY32 | FIGURE_DRAWN, NULL, "unorm24", fight_build},
-    {"scene", "Which surfaces of the model fight, and from where on",
-     "a model from above and from the side: where surfaces overlap, colour = depth from which they can fight", 1,
+    {"scene", "Surfaces of the model that may z-fight, and from which depth",
+     "a model from above and from the side: where surfaces overlap, colour = depth from which they may z-fight", 1,
      FIGURE_MODEL, NULL, NULL, scene_build},
     {"needs", "What is needed, and what the cameras give",
      "a requirement file: the separation (or error) that each requirement allows against what its set-up gives",

@@ -14,7 +14,7 @@
 #define GAP     7.0
 #define BETWEEN 22.0
 
-static const char arrow_note[] = "unbounded from here: nothing behind is told apart";
+static const char arrow_note[] = "unbounded from here: nothing beyond is resolved";
 
 static bool listed(const legend *l, const chart_series *s) {
     for (size_t i = 0; i < l->count; i++)

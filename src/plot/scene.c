@@ -140,7 +140,7 @@ static void add_numbers(const fights_asked *a, const view *v, chart *out, chart_
     if (s == NULL)
         return;
     s->style = (chart_style){.colour = -1, .stroke = 1, .thin = true};
-    snprintf(s->name, sizeof s->name, "%s", count > 1 ? "the nearest fights, as scene numbers them" : "the fight");
+    snprintf(s->name, sizeof s->name, "%s", count > 1 ? "the nearest z-fighting, as scene numbers it" : "z-fighting");
     s->labels = chart_memory(out, count, sizeof *s->labels);
     for (size_t i = 0; i < count && s->labels != NULL; i++) {
         s->x[i] = a->item[i].finding->place[v->across];
@@ -218,7 +218,7 @@ static box box_of(const fights_asked *a) {
 
 /* From the nearest fight to the farthest, without the bright end, which is hard to tell from the model. */
 static chart_axis depths_of(const fights_asked *a) {
-    chart_axis axis = {.label = "can fight from", .key = "fights_from", .unit = "scene units", .scale = CHART_LOG};
+    chart_axis axis = {.label = "may z-fight from", .key = "fights_from", .unit = "scene units", .scale = CHART_LOG};
     axis.lo = (double)INFINITY;
     bool always = false;
     for (size_t i = 0; i < a->count; i++) {

@@ -26,7 +26,7 @@ static void judge_stored(probe_result *r, shot_format format) {
                                  r->machine.device[r->machine.chosen].format[format],
                                  all && whole         ? "codes of that many bits, nothing finer"
                                  : all                ? "every bit of binary32"
-                                 : whole && hits == 0 ? "finer than its codes: depths of one code are told apart"
+                                 : whole && hits == 0 ? "finer than its codes: depths of one code are distinguished"
                                                       : "neither its codes nor finer ones throughout");
     f->cases = s->count;
     f->hits = hits;

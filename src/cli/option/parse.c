@@ -441,7 +441,7 @@ int parse_form(options *o, const option_row *row, const char *value) {
     const output_form form = (output_form)row->least;
     (void)value;
     if (o->out.form != FORM_TEXT && o->out.form != form)
-        return option_refuse(row, "cannot be combined with --%s", form == FORM_JSON ? "csv" : "json");
+        return option_refuse(row, "conflicts with --%s", form == FORM_JSON ? "csv" : "json");
     o->out.form = form;
     return EXIT_FINE;
 }

@@ -39,30 +39,30 @@ static const option_use projected[] = {
     OWN(NEAR, ALSO("with --ortho also 0 or negative")), TAKE(ORTHO), TAKE(PLATFORM), GROUP(camera), END};
 
 /* What a view changes of the camera, and what stands beside --viewport. */
-#define OF_VIEW "with --viewport its field of view and rasterizer"
+#define OF_VIEW "with --viewport also its field of view and rasterizer"
 static const option_use beside_viewport[] = {
     TAKE(FOV), TAKE(HFOV), TAKE(RASTER), TAKE(SUBPIXEL), TAKE(TRIANGLE_CLASS), END};
 static const option_use slanted[] = {
     OWN(PRESET, ALSO(OF_VIEW)),
-    OWN(PLATFORM, ALSO("with --viewport the rasterizer")),
-    OWN(ARITH, ALSO("that of --raster where it is known; that of --platform where it is known")),
+    OWN(PLATFORM, ALSO("with --viewport also its rasterizer")),
+    OWN(ARITH, ALSO("by default that of --raster or --platform where known")),
     TAKE(SLANT), GROUP(beside_viewport), END};
 
 static const option_use budget_terms[] = {
     TAKE(INTERPOLATION), TAKE(FROM_ORIGIN), TAKE(COMPOSITION), TAKE(LINEARIZE), TAKE(LOG2), END};
 
 static const option_use shadow_map[] = {
-    OWN(FROM_ORIGIN, HELP("no coordinate of positions exceeds R"), DEFAULT("0"),
-        WITHOUT("positions about the middle of the light's box")),
+    OWN(FROM_ORIGIN, HELP("no coordinate of a position exceeds R"), DEFAULT("0"),
+        WITHOUT("positions are relative to the centre of the light's box")),
     OWN(SIZE, .argument = "WxH|N", HELP("texels of each shadow map; N is NxN"), DEFAULT("2048x2048"),
         .parse = parse_size_or_n),
     TAKE(LIGHT_BOX), TAKE(KERNEL), TAKE(ANGLE), END};
 static const option_use cascades[] = {TAKE(CASCADES), TAKE(CASTERS), END};
 
 static const option_use model[] = {
-    OWN(SEPARATION, HELP("surfaces at most S scene units apart; 0: exactly in one plane"),
-        WITHOUT("what is not told apart as far as is judged"), .parse = parse_separation_or_0),
-    OWN(ANGLE, HELP("surfaces whose planes meet at no more than this angle"), DEFAULT("1")),
+    OWN(SEPARATION, HELP("judge surfaces at most S scene units apart; 0: exactly coplanar"),
+        WITHOUT("what the camera does not resolve as far as is judged"), .parse = parse_separation_or_0),
+    OWN(ANGLE, HELP("judge surfaces whose planes meet at no more than this angle"), DEFAULT("1")),
     TAKE(EYE), TAKE(LOOK), TAKE(PATH), TAKE(CAMERA), TAKE(WITHIN), TAKE(ALSO), TAKE(TRANSFORMS),
     TAKE(THREADS), END};
 
@@ -75,35 +75,35 @@ static const option_use picture[] = {
 enum { TABLE_OF_DEPTHS = 1, TABLE_OF_CODES = 2 };
 static const option_use of_depths[] = {
     OWN(TOLERANCE, WITHOUT("5% for the model; intervals are exact")),
-    OWN(AT, WITHOUT("nine, log-spaced from near to far, or to 1e6 times near; evenly where near is not above 0; of "
-        "several set-ups round ones")),
+    OWN(AT, WITHOUT("nine, log-spaced from near to far, or to 1e6 times near; linear if near is 0 or negative; round "
+        "numbers for several set-ups")),
     TAKE(RANGE), TAKE(VIEWPORT), END};
 const option_use table_uses[] = {
-    OWN(PRESET, .argument = "NAME[,NAME...]", ALSO(OF_VIEW "; table compares several"), .parse = parse_presets),
-    OWN(MODEL, DEFAULT("exact"), WITHOUT("of several set-ups the fullest that each has")),
+    OWN(PRESET, .argument = "NAME[,NAME...]", ALSO(OF_VIEW "; several are compared"), .parse = parse_presets),
+    OWN(MODEL, DEFAULT("exact"), WITHOUT("for several set-ups the fullest that each supports")),
     FOR(TABLE_OF_DEPTHS, of_depths),
     TAKE(DEPTH), TAKE(CODE), TAKE(LOG_C), TAKE(LINK),
-    OWN(FULL, HELP("all columns, however wide, with the cell of each depth; and a table for each set-up in place of a "
+    OWN(FULL, HELP("all columns, however wide, and the cell of each depth; a table for each set-up in place of a "
         "comparison")),
     GROUP(slanted), GROUP(projected), GROUP(written), END};
 
 const option_use budget_uses[] = {
     OWN(MAPPING, HELP(PERSPECTIVE ", " DP_MAPPING_NAMES_LOG "; all are d3d and reversed"), DEFAULT("all")),
-    OWN(TOLERANCE, HELP("a model is enough if it neglects no more of the separation, 0.05 or 5%"), DEFAULT("5%")),
+    OWN(TOLERANCE, HELP("a model suffices if it neglects no more of the separation, 0.05 or 5%"), DEFAULT("5%")),
     TAKE(AT), TAKE(LOG_C),
-    OWN(SCHEME, HELP("with --from-origin: how vertices come before the camera, one scheme, see 'depthprec list "
-        "schemes'"), WITHOUT("absolute: as --composition says")),
-    OWN(SHARE, HELP("with --scheme: both surfaces are of meshes about one origin")),
+    OWN(SCHEME, HELP("with --from-origin: the world-to-view scheme, see 'depthprec list schemes'"),
+        WITHOUT("absolute: as --composition says")),
+    OWN(SHARE, HELP("with --scheme: the meshes of both surfaces have one origin")),
     GROUP(budget_terms), TAKE(VIEWPORT), TAKE(LINK), GROUP(slanted), GROUP(projected), GROUP(written), END};
 
 enum { SOLVE_ONE = 1, SOLVE_FRUSTA = 2 };
 static const option_use solve_one[] = {
-    OWN(AT, HELP("the depth asked about"), WITHOUT("")),
-    OWN(RANGE, HELP("the depths at which it must hold"), WITHOUT("near to far for a distance, else --at")),
+    OWN(AT, HELP("the depth at which it must hold"), WITHOUT("")),
+    OWN(RANGE, HELP("the depths throughout which it must hold"), WITHOUT("near to far for a distance, else --at")),
     TAKE(ERROR), TAKE(VIEWPORT), END};
 const option_use solve_uses[] = {
     OWN(NEAR, ALSO("with --ortho also 0 or negative"),
-        WITHOUT("what is solved for, or 0.1 where --for names another")),
+        WITHOUT("solved for, or 0.1 where --for names another")),
     OWN(FAR, WITHOUT("inf; solved for where only near is given")),
     OWN(FORMAT, WITHOUT("solved for where near and far are given, else all")),
     OWN(MAPPING, WITHOUT("solved for where near, far and format are given, else all")),
@@ -114,18 +114,18 @@ const option_use solve_uses[] = {
 
 const option_use check_uses[] = {
     TAKE(REPORT), TAKE(THREADS), OWN(QUIET, HELP("print only failures")),
-    OWN(FULL, HELP("say how each verdict was decided, too")), GROUP(written), END};
+    OWN(FULL, HELP("also say how each verdict was decided")), GROUP(written), END};
 
 const option_use zfight_uses[] = {
     OWN(SLANT, .argument = "LO:HI|SLANT,AZIMUTH", .parse = parse_slant_or_plane, DEFAULT("0:90"),
-        HELP("angles of the surfaces' normal to the view axis, degrees; 0 faces the camera, 90 is edge-on; with "
-        "--rasterize also one angle and where the normal points on the screen, 0 to the right and 90 up")),
+        HELP("angles between surface normal and view axis, degrees; 0 faces the camera, 90 is edge-on; with "
+        "--rasterize also one angle and the direction of the normal on the screen, 0 right and 90 up")),
     OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("all")),
-    OWN(RANGE, HELP("the depths that are visited"), WITHOUT("near to far; needed where far is inf")),
-    OWN(SEPARATION, HELP("where surfaces S scene units apart tie and swap"),
+    OWN(RANGE, HELP("the depths tested"), WITHOUT("near to far; needed where far is inf")),
+    OWN(SEPARATION, HELP("find where surfaces S scene units apart tie or swap"),
         WITHOUT("neighbouring binary32 depths")),
-    OWN(VIEWPORT, HELP("the pixels of the viewport; without --rasterize what is guaranteed at any slant stands "
-        "beside the census"), WITHOUT("1920x1080 with --rasterize, else surfaces face the camera")),
+    OWN(VIEWPORT, HELP("the viewport in pixels; without --rasterize the guarantee at any slant is printed beside the "
+        "census"), WITHOUT("1920x1080 with --rasterize, else surfaces face the camera")),
     OWN(RASTER, HELP("the rasterizer or specification, as in 'depthprec list rasterizers'; with --rasterize one "
         "that draws: llvmpipe, lavapipe, softpipe or swiftshader"), WITHOUT("llvmpipe with --rasterize")),
     TAKE(SAMPLE), TAKE(SEED), TAKE(RASTERIZE), TAKE(THREADS), TAKE(LINK),
@@ -133,41 +133,42 @@ const option_use zfight_uses[] = {
 
 const option_use prepass_uses[] = {
     OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("all")),
-    OWN(ARITH, ALSO("that of --platform where it is known")),
+    OWN(ARITH, ALSO("by default that of --platform where known")),
     OWN(RANGE, HELP("the eye depths of the vertices"), WITHOUT("near to far; needed where far is inf")),
     OWN(FROM_ORIGIN, HELP("no coordinate of a camera exceeds R"), DEFAULT("100")),
-    OWN(SAMPLE, HELP("draw N vertices at random"), DEFAULT("1000000")),
-    OWN(SEED, HELP("seed of the vertices: the same for the same seed"), DEFAULT("0")),
+    OWN(SAMPLE, HELP("test N random vertices"), DEFAULT("1000000")),
+    OWN(SEED, HELP("seed of the random vertices"), DEFAULT("0")),
     TAKE(AGAINST), TAKE(PROGRAM), TAKE(VERTICES), TAKE(THREADS), TAKE(LINK),
     GROUP(projected), GROUP(written), END};
 
 const option_use bias_uses[] = {
-    OWN(FORMAT, DEFAULT("fp32,unorm16,unorm24"), WITHOUT("the depth buffers")),
-    OWN(PRESET, ALSO("for a bias the API that its users write; " OF_VIEW)),
-    OWN(PLATFORM, ALSO("for a bias the API; with --viewport the rasterizer")),
-    OWN(SEPARATION, HELP("how much nearer a layer must come, in scene units"), WITHOUT("told apart")),
+    OWN(FORMAT, DEFAULT("fp32,unorm16,unorm24"), WITHOUT("those of depth buffers")),
+    OWN(PRESET, ALSO("for a bias also the API of its users; " OF_VIEW)),
+    OWN(PLATFORM, ALSO("for a bias also its API; with --viewport also its rasterizer")),
+    OWN(SEPARATION, HELP("how much nearer the bias must bring a layer, in scene units"),
+        WITHOUT("until it is resolved")),
     TAKE(AT), TAKE(RANGE), TAKE(LOG_C), TAKE(API), TAKE(UNITS), TAKE(FACTOR), TAKE(CLAMP),
     TAKE(SLOPE), TAKE(VIEWPORT), TAKE(LINK),
-    OWN(FULL, HELP("all columns, however wide; and where a biased depth is held at a plane")),
+    OWN(FULL, HELP("all columns, however wide; and where a biased depth is clamped")),
     GROUP(slanted), GROUP(projected), GROUP(written), END};
 
 const option_use world_uses[] = {
     OWN(FAR, DEFAULT("inf")), OWN(FORMAT, DEFAULT("fp32")),
     OWN(MAPPING, HELP(PERSPECTIVE), DEFAULT("reversed")),
     TAKE(ARITH),
-    OWN(AT, HELP("how far ahead of the camera the surfaces are"), WITHOUT("10 m, or 10")),
-    OWN(SEPARATION, HELP("how far apart along the view surfaces are"), WITHOUT("1 cm, or 0.01")),
+    OWN(AT, HELP("distance of the surfaces ahead of the camera"), WITHOUT("10 m, or 10")),
+    OWN(SEPARATION, HELP("separation of the surfaces along the view axis"), WITHOUT("1 cm, or 0.01")),
     OWN(FROM_ORIGIN, .argument = "R[,R...]|LO:HI:log|lin:COUNT",
-        HELP("how far the camera is from the world's origin, at most 1e12 scene units"),
-        WITHOUT("how far each scheme reaches"), .parse = parse_distances),
+        HELP("distance of the camera from the world's origin, at most 1e12 scene units"),
+        WITHOUT("print how far each scheme is safe"), .parse = parse_distances),
     TAKE(SCHEME), TAKE(SHARE), TAKE(FOV), TAKE(HFOV),
     OWN(VIEWPORT, HELP("pixels of the view"), DEFAULT("1920x1080")),
     GROUP(camera), GROUP(written), END};
 
 const option_use scene_uses[] = {
     OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, DEFAULT("reversed")),
-    OWN(PRESET, ALSO("for a bias the API that its users write; " OF_VIEW)),
-    OWN(PLATFORM, ALSO("for a bias the API; with --viewport the rasterizer")),
+    OWN(PRESET, ALSO("for a bias also the API of its users; " OF_VIEW)),
+    OWN(PLATFORM, ALSO("for a bias also its API; with --viewport also its rasterizer")),
     OWN(VIEWPORT, WITHOUT("1920x1080 from an eye, else surfaces face the camera")),
     TAKE(LOG_C), GROUP(model), TAKE(API), TAKE(RENDER), TAKE(EMIT_NEED), TAKE(REPORT),
     GROUP(slanted), GROUP(camera), GROUP(written), END};
@@ -199,19 +200,19 @@ const option_use texture_uses[] = {
 enum { SHADOW_CASCADES = 1, SHADOW_BOX = 2 };
 static const option_use of_cascades[] = {
     OWN(NEAR, HELP("near plane of the view"), DEFAULT("0.1")),
-    OWN(FAR, HELP("how far the view sees shadows, greater than near and at most 1e12 scene units"),
+    OWN(FAR, HELP("shadow distance, greater than near and at most 1e12 scene units"),
         DEFAULT("1000")),
     TAKE(FOV), TAKE(HFOV),
-    OWN(VIEWPORT, HELP("pixels of the view, which say how wide it is"), DEFAULT("1920x1080")),
+    OWN(VIEWPORT, HELP("size of the view in pixels; sets its aspect ratio"), DEFAULT("1920x1080")),
     GROUP(cascades), END};
 static const option_use of_box[] = {
-    OWN(RANGE, HELP("with --light-box: how far along the light what is lit lies, from the front of the box"),
-        WITHOUT("all of the box, less 1/256 where units are worth nothing at window depth 0")), END};
+    OWN(RANGE, HELP("with --light-box: where receivers lie along the light, from the front of the box"),
+        WITHOUT("the whole box, less 1/256 where units have no effect at window depth 0")), END};
 const option_use shadow_uses[] = {
     OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("d3d")),
-    OWN(UNIT, HELP("what a scene unit is; any length may carry a unit: 10cm"),
+    OWN(UNIT, HELP("the length of a scene unit; any length can have a unit: 10cm"),
         WITHOUT("m where a length has a unit")),
-    OWN(ARITH, ALSO("that of --raster where it is known")),
+    OWN(ARITH, ALSO("by default that of --raster where known")),
     FOR(SHADOW_CASCADES, of_cascades), FOR(SHADOW_BOX, of_box), GROUP(shadow_map),
     TAKE(RASTER), TAKE(SUBPIXEL), TAKE(TRIANGLE_CLASS), TAKE(CURVATURE), TAKE(API),
     GROUP(written), END};
@@ -219,10 +220,10 @@ const option_use shadow_uses[] = {
 const option_use methods_uses[] = {
     OWN(FORMAT, WITHOUT("that of the family's first case")),
     OWN(MAPPING, WITHOUT("that of the family's first case")),
-    OWN(UNIT, HELP("what a scene unit is; any length may carry a unit: 10cm"),
+    OWN(UNIT, HELP("the length of a scene unit; any length can have a unit: 10cm"),
         WITHOUT("m where a length has a unit")),
-    OWN(TOLERANCE, HELP("the cheapest method that claims no more than 0.05, or 5%, is marked"), WITHOUT("none")),
-    OWN(FULL, HELP("all columns, however wide; and the methods to which another is faster and more exact")),
+    OWN(TOLERANCE, HELP("mark the cheapest method whose bound is at most 0.05, or 5%"), WITHOUT("none")),
+    OWN(FULL, HELP("all columns, however wide; and methods that another beats in both speed and accuracy")),
     GROUP(planes), GROUP(written), END};
 
 const option_use probe_uses[] = {
@@ -230,8 +231,8 @@ const option_use probe_uses[] = {
     TAKE(DEVICE), TAKE(KEEP), GROUP(written), END};
 
 const option_use list_uses[] = {
-    OWN(TOLERANCE, HELP("list methods: the cases for which each is the cheapest that claims no more than 0.05, or "
-        "5%"), WITHOUT("")), GROUP(written), END};
+    OWN(TOLERANCE, HELP("list methods: the cases in which each is the cheapest whose bound is at most 0.05, or 5%"),
+        WITHOUT("")), GROUP(written), END};
 
 /* The figures: those of set-ups, and those of a model, of shadow maps and of a requirement file, whose options are
  * those of their own commands. */
@@ -243,28 +244,28 @@ static const option_use of_setups[] = {
     OWN(MODEL, DEFAULT("exact"), WITHOUT("float in figures of its pipeline; staged in distribution and share with gl "
         "and gl-reversed")), END};
 static const option_use of_setups_and_models[] = {
-    OWN(PRESET, ALSO(OF_VIEW)), OWN(PLATFORM, ALSO("with --viewport the rasterizer")), TAKE(ROUNDING),
-    OWN(ARITH, ALSO("that of --raster where it is known; that of --platform where it is known")),
+    OWN(PRESET, ALSO(OF_VIEW)), OWN(PLATFORM, ALSO("with --viewport also its rasterizer")), TAKE(ROUNDING),
+    OWN(ARITH, ALSO("by default that of --raster or --platform where known")),
     TAKE(LOG_C), END};
 static const option_use of_one_depth[] = {
-    OWN(AT, HELP("the depth asked about, in figures of a single one"), WITHOUT("")), END};
+    OWN(AT, HELP("the depth, in figures of a single one"), WITHOUT("")), END};
 static const option_use of_ranges[] = {
-    OWN(RANGE, HELP("the depths that are shown"), WITHOUT("near to far, or to 1e6 times near")), END};
+    OWN(RANGE, HELP("the depths shown"), WITHOUT("near to far, or to 1e6 times near")), END};
 static const option_use of_scene[] = {OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, DEFAULT("reversed")),
     GROUP(model), END};
 static const option_use of_shadow[] = {OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, DEFAULT("d3d")),
-    OWN(VIEWPORT, HELP("pixels of the view, which say how wide it is"), DEFAULT("1920x1080")),
+    OWN(VIEWPORT, HELP("size of the view in pixels; sets its aspect ratio"), DEFAULT("1920x1080")),
     GROUP(shadow_map), GROUP(cascades), END};
 static const option_use of_fight[] = {OWN(SLANT, .argument = "SLANT,AZIMUTH", .parse = parse_slant_or_plane,
     DEFAULT("60,45"),
-    HELP("the angle of the planes' normal to the view axis and where it points on the screen, degrees, 0 to the right "
+    HELP("the angle between the planes' normal and the view axis, and its direction on the screen, degrees, 0 right "
         "and 90 up")), END};
 static const option_use of_views[] = {
-    OWN(VIEWPORT, HELP("the pixels of the viewport; budget and interval then count slanted triangles"),
+    OWN(VIEWPORT, HELP("the viewport in pixels; budget and interval then include slanted triangles"),
         WITHOUT("1920x1080 in fight and shadow, else surfaces face the camera")), GROUP(beside_viewport), END};
 static const option_use of_slants[] = {OWN(SLANT,
-    ALSO("in fight SLANT,AZIMUTH, by default 60,45: one angle, and where the normal points on the screen, 0 to the "
-        "right and 90 up")), END};
+    ALSO("in fight SLANT,AZIMUTH, by default 60,45: one angle, and the direction of the normal on the screen, 0 right "
+        "and 90 up")), END};
 const option_use plot_uses[] = {
     FOR(FIGURE_MODEL, of_scene), FOR(FIGURE_SHADOW, of_shadow), FOR(FIGURE_DRAWN, of_fight),
     FOR(FIGURE_TERMS, budget_terms),
@@ -275,7 +276,7 @@ const option_use plot_uses[] = {
     OWN(OUTPUT, HELP("draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type says; the numbers of "
         "--json and --csv go to stdout, or to a FILE of another ending"), WITHOUT("")),
     TAKE(JSON), TAKE(CSV), TAKE(QUIET), TAKE(COLOR),
-    OWN(FULL, HELP("say how many values were computed")), END};
+    OWN(FULL, HELP("also say how many values were computed")), END};
 
 const option_use no_uses[] = {END};
 /* clang-format on */
@@ -284,7 +285,8 @@ const option_use no_uses[] = {END};
 
 const command_part table_parts[] = {
     {"without --depth and --code", TABLE_OF_DEPTHS}, {"with --depth or --code", TABLE_OF_CODES}, {NULL, 0}};
-const command_part solve_parts[] = {{"with another --for", SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
+const command_part solve_parts[] = {
+    {"without --for frusta", SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
 const command_part shadow_parts[] = {{"to cascades", SHADOW_CASCADES}, {"with --light-box", SHADOW_BOX}, {NULL, 0}};
 const command_part texture_parts[] = {{"to an effect alone that needs no position", TEXTURE_EFFECT},
                                       {"to an effect alone that needs the position", TEXTURE_PLACED},

@@ -28,7 +28,7 @@ int view_vertical(const options *o, int width, int height, double *fov_y) {
     if (!option_given(o, OPTION_HFOV))
         return EXIT_FINE;
     if (option_given(o, OPTION_FOV))
-        return option_refuse(row, "cannot be combined with --fov");
+        return option_refuse(row, "conflicts with --fov");
     *fov_y = dp_fov_vertical(o->camera.fov_x, width, height);
     if (!(*fov_y >= 0.001 && *fov_y <= 179.9)) /* as dp_triangles has it */
         return option_refuse(row, "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",
@@ -82,7 +82,7 @@ int slant_view(options *o) {
         return EXIT_FINE;
     if (o->camera.ortho)
         return option_refuse(&option_rows[o->census.drawn ? OPTION_RASTERIZE : OPTION_VIEWPORT],
-                             "does not apply with --ortho");
+                             "conflicts with --ortho");
     return by_preset
                ? EXIT_FINE
                : view_vertical(o, o->camera.triangles.width, o->camera.triangles.height, &o->camera.triangles.fov_y);

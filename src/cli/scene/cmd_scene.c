@@ -145,7 +145,7 @@ static int find(scene *s) {
     const finder_status status = finder_find(&s->model, &asked, &s->found);
     progress_end(&bar);
     if (status == FINDER_NO_MEMORY)
-        return usage_error("%s: there is no memory to search it", s->file);
+        return usage_error("%s: no memory to search it", s->file);
     if (status == FINDER_RANGE)
         return usage_error("%s: its coordinates are beyond 1e50 or so small that they vanish", s->file);
     return EXIT_FINE; /* or stopped, which stop_end() sees */
@@ -287,11 +287,11 @@ void scene_end(scene *s) {
 static int check_asked(const scene *s) {
     const options *o = &s->o;
     if (o->out.report != REPORT_TEXT && o->out.form != FORM_TEXT)
-        return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
+        return option_error(OPTION_REPORT, "conflicts with --json or --csv");
     if (o->out.report == REPORT_JUNIT && !option_given(o, OPTION_WITHIN))
-        return option_error(OPTION_REPORT, "junit needs --within: what fights nearer fails");
+        return option_error(OPTION_REPORT, "junit needs --within: surfaces that may z-fight nearer fail");
     if (o->scene.emit_need != NULL && option_given(o, OPTION_SEPARATION) && o->wanted.separation == 0.0)
-        return option_error(OPTION_EMIT_NEED, "needs a --separation above 0: no camera tells one plane apart");
+        return option_error(OPTION_EMIT_NEED, "needs a --separation above 0: no camera resolves coplanar surfaces");
     if (o->bias.api == NULL)
         return option_error(OPTION_API, "must name one here, got '%s'", o->given[OPTION_API]);
     const int status = setup_decided(o);

@@ -29,7 +29,7 @@ static int take_look(scene *s) {
     if (s->eyes.eye == NULL)
         return usage_error("%s: no memory for an eye", s->file);
     if (!scene_eye_look(s->o.view.eye, s->o.view.look, upwards, s->eyes.eye))
-        return option_error(OPTION_LOOK, "must be another place than --eye, which are both %s,%s,%s",
+        return option_error(OPTION_LOOK, "must differ from --eye; both are %s,%s,%s",
                             number_full(s->o.view.eye[0]).text, number_full(s->o.view.eye[1]).text,
                             number_full(s->o.view.eye[2]).text);
     s->eyes.count = 1;
@@ -133,13 +133,14 @@ static int read_line(scene *s, const char *text, size_t length, size_t line) {
     if (count == 0)
         return EXIT_FINE;
     if (count != NUMBERS)
-        return option_error(OPTION_PATH, "%s: line %zu: must be six numbers, a place and the place looked at, got %zu",
+        return option_error(OPTION_PATH,
+                            "%s: line %zu: must be six numbers, the eye and the point it looks at, got %zu",
                             s->o.scene.path, line, count);
     if (s->eyes.count == EYES_MOST)
         return option_error(OPTION_PATH, "%s: line %zu: must be at most %d eyes", s->o.scene.path, line, EYES_MOST);
     scene_eye *eye = &s->eyes.eye[s->eyes.count];
     if (!scene_eye_look(number, number + 3, upwards, eye))
-        return option_error(OPTION_PATH, "%s: line %zu: must look at another place than its own", s->o.scene.path,
+        return option_error(OPTION_PATH, "%s: line %zu: must look at a point other than the eye", s->o.scene.path,
                             line);
     eye->line = line;
     s->eyes.count++;
@@ -194,9 +195,9 @@ int scene_eyes_check(const options *o) {
     if (eye != option_given(o, OPTION_LOOK))
         return option_error(eye ? OPTION_EYE : OPTION_LOOK, "needs --%s", eye ? "look" : "eye");
     if (path && (eye || camera))
-        return option_error(OPTION_PATH, "cannot be combined with --%s", eye ? "eye" : "camera");
+        return option_error(OPTION_PATH, "conflicts with --%s", eye ? "eye" : "camera");
     if (camera && eye)
-        return option_error(OPTION_CAMERA, "cannot be combined with --eye");
+        return option_error(OPTION_CAMERA, "conflicts with --eye");
     if ((eye || path || camera) && option_given(o, OPTION_SLANT))
         return option_error(OPTION_SLANT, "does not apply from an eye: the model says how its surfaces slant");
     return EXIT_FINE;

@@ -29,9 +29,9 @@ static void describe(const scene *s, const fights_asked *a, chart *c) {
     const char *slash = strrchr(s->file, '/');
     snprintf(subtitle, sizeof subtitle, "%s: ", notes_clean(name, sizeof name, slash != NULL ? slash + 1 : s->file));
     if (a->count == 0)
-        append(subtitle, sizeof subtitle, "no surfaces can fight");
+        append(subtitle, sizeof subtitle, "no surfaces z-fight");
     else
-        append(subtitle, sizeof subtitle, "%zu pair%s of surfaces can fight", a->count, a->count == 1 ? "" : "s");
+        append(subtitle, sizeof subtitle, "%zu pair%s of surfaces may z-fight", a->count, a->count == 1 ? "" : "s");
     append(subtitle, sizeof subtitle, " up to %s",
            number_in(number_brief(number_of(s->within, WITHIN_DIGITS)), s->unit).text);
     if (a->count > 0 && isnan(a->item[0].from))

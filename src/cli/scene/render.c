@@ -52,7 +52,7 @@ int scene_render_check(scene *s) {
     if (canvas_format_of(s->o.scene.render) != CANVAS_PNG)
         return option_error(OPTION_RENDER, "must end in .png, got '%s'", s->o.scene.render);
     if (s->o.scene.path != NULL)
-        return option_error(OPTION_RENDER, "cannot be combined with --path: a picture has one eye");
+        return option_error(OPTION_RENDER, "conflicts with --path: a picture has one eye");
     return take_camera(s, &camera);
 }
 

@@ -77,24 +77,28 @@ static const char *condition_of(const scene *s) {
     return s->setup.spec.model == DP_MODEL_FLOAT ? "if cut into the triangles above" : "facing the camera";
 }
 
+/* "none", "3" or "all" of those seen. */
+static number_text how_many(size_t fights, size_t of) {
+    number_text out;
+    snprintf(out.text, sizeof out.text, fights == 0 ? "none" : fights == of && of > 1 ? "all" : "%zu", fights);
+    return out;
+}
+
 static void say_seen(page *p, const scene *s) {
     const size_t count = s->found.findings, fights = scene_fighting(s), cut = uncovered(s);
     size_t seen = 0;
     for (size_t i = 0; i < count; i++)
         seen += isnan(s->findings[i].sight.seen_from) ? 0 : 1;
-    page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu seen, %zu can fight.", count,
+    page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu visible, %zu may z-fight.", count,
               count == 1 ? "" : "s", count == 1 ? "s" : "", asked(p, s, s->gap).text, seen, fights);
     if (cut > 0)
-        page_text(p, "%zu more %s told apart only %s.", cut, cut == 1 ? "is" : "are", condition_of(s));
+        page_text(p, "%zu more %s resolved only %s.", cut, cut == 1 ? "is" : "are", condition_of(s));
 }
 
 static void say_head(page *p, void *of) {
     const scene *s = of;
     const model_notes *n = &s->model.notes;
     const size_t count = s->found.findings, fights = scene_fighting(s);
-    char how_many[24] = "none";
-    if (fights > 0)
-        snprintf(how_many, sizeof how_many, "%zu", fights);
     p->unit = s->unit;
     page_title(p, "%s: %zu triangle%s, %zu surface%s, %s across; judged up to %s", s->file, s->model.triangles,
                s->model.triangles == 1 ? "" : "s", s->model.surfaces, s->model.surfaces == 1 ? "" : "s",
@@ -110,12 +114,12 @@ static void say_head(page *p, void *of) {
     else if (s->eyes.count > 0)
         say_seen(p, s);
     else
-        page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s can fight up to %s.", count,
+        page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s may z-fight up to %s.", count,
                   count == 1 ? "" : "s", count == 1 ? "s" : "", asked(p, s, s->gap).text, how_many,
                   asked(p, s, s->within).text);
     if (s->required)
         page_text(p, "%s%s%s  %s nearer than %s.", s->passed ? p->good : p->bad, s->passed ? "pass" : "FAIL", p->plain,
-                  s->passed ? "none fights" : "surfaces can fight", asked(p, s, s->within).text);
+                  s->passed ? "no surfaces z-fight" : "surfaces may z-fight", asked(p, s, s->within).text);
 }
 
 static number_text safe_length(const page *p, double value, bool upward) {
@@ -128,7 +132,7 @@ static void add_gap(const page *p, const scene *s, const scene_finding *f, char 
     const number_text lo = length(p, f->gap_min > none ? f->gap_min : 0.0);
     const number_text hi = length(p, f->gap_max > none ? f->gap_max : 0.0);
     if (f->gap_max <= none) {
-        append(text, size, "in one plane");
+        append(text, size, "coplanar");
         return;
     }
     if (strcmp(lo.text, hi.text) != 0)
@@ -136,28 +140,28 @@ static void add_gap(const page *p, const scene *s, const scene_finding *f, char 
     append(text, size, "%s apart", hi.text);
 }
 
-/* "seen from 3 m to 9 m: can fight from 5 m on". */
+/* "seen from 3 m to 9 m: may z-fight from 5 m on". */
 static void add_sight(const page *p, const scene *s, const scene_finding *f, char *out, size_t size) {
     const scene_sight *e = &f->sight;
     append(out, size, "seen from %s to %s: ", safe_length(p, e->seen_from, false).text,
            safe_length(p, e->seen_to, true).text);
     if (isnan(e->fights_from))
-        append(out, size, "told apart only %s", condition_of(s));
+        append(out, size, "resolved only %s", condition_of(s));
     else if (e->fights_from > e->seen_from)
-        append(out, size, "can fight from %s on", safe_length(p, e->fights_from, false).text);
+        append(out, size, "may z-fight from %s on", safe_length(p, e->fights_from, false).text);
     else
-        append(out, size, "can fight");
+        append(out, size, "may z-fight");
     if (!isnan(f->line))
         append(out, size, ", worst at line %.0f", f->line);
 }
 
 static void add_verdict(const page *p, const scene_verdict *v, char *out, size_t size) {
     if (isnan(v->certain_to))
-        append(out, size, "certain nowhere");
+        append(out, size, "never safe");
     else
-        append(out, size, "certain up to %s", safe_length(p, v->certain_to, false).text);
+        append(out, size, "safe up to %s", safe_length(p, v->certain_to, false).text);
     if (!isnan(v->ties_from))
-        append(out, size, ", ties from %s", safe_length(p, v->ties_from, true).text);
+        append(out, size, ", z-fights from %s on", safe_length(p, v->ties_from, true).text);
 }
 
 static char *sentence(const scene *s, const scene_finding *f, char *out, size_t size) {
@@ -181,7 +185,7 @@ static void add_place(const scene_finding *f, char *out, size_t size) {
 static void add_lift(const page *p, const scene *s, const scene_finding *f, char *out, size_t size) {
     const double lift = f->verdict.lift;
     if (lift > 0.0 && isfinite(lift))
-        append(out, size, "%s more between them are enough %sup to %s", safe_length(p, lift, true).text,
+        append(out, size, "separate by another %s: safe %sup to %s", safe_length(p, lift, true).text,
                s->eyes.count > 1 ? "from there " : "", asked(p, s, s->within).text);
 }
 
@@ -225,13 +229,13 @@ void scene_bias_take(scene *s) {
 
 static void say_bias(page *p, const scene *s) {
     if (isnan(s->bias.units))
-        page_text(p, "No bias of %s brings one of two surfaces in front up to %s.", s->bias.api,
+        page_text(p, "No depth bias of %s keeps either surface in front up to %s.", s->bias.api,
                   asked(p, s, s->within).text);
     else
-        page_text(p, "Or, for what is drawn second: %s; enough up to %s%s.",
+        page_text(p, "Or bias what is drawn second: %s; suffices up to %s%s.",
                   bias_call(s->o.bias.api, s->bias.units, s->bias.factor).text, asked(p, s, s->within).text,
                   s->triangles != NULL ? " in triangles as above"
-                                       : " where they face the camera; --viewport counts slants, too");
+                                       : " where they face the camera; --viewport includes slants");
 }
 
 static void say_picture(page *p, const scene *s) {
@@ -254,7 +258,7 @@ static void say_notes(page *p, void *of) {
     for (size_t i = 0; i < shown; i++)
         say_finding(p, s, i);
     if (fights > shown)
-        page_text(p, "%zu more: --json and --csv have all.", fights - shown);
+        page_text(p, "%zu more: --json and --csv list all.", fights - shown);
     if (scene_fighting(s) > 0)
         say_bias(p, s);
     if (s->picture != NULL)
@@ -266,7 +270,7 @@ static void say_notes(page *p, void *of) {
     if (s->found.degenerate > 0)
         page_line(p, "left out: %zu triangles without area", s->found.degenerate);
     if (s->found.cut)
-        page_line(p, "cut short: too many triangles lie in one place, and not all pairs were looked at");
+        page_line(p, "incomplete: too many triangles lie in one place, and not all pairs were judged");
 }
 
 /* ---- Data -------------------------------------------------------------------------------------------------------- */

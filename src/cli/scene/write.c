@@ -181,7 +181,7 @@ int scene_need(scene *s) {
     const int status = output_open(&out, s->o.scene.emit_need);
     if (status != EXIT_FINE)
         return status;
-    output_text(&out, "# What a camera must tell apart in a model: `depthprec check` of this file.\n");
+    output_text(&out, "# What a camera must resolve in a model: run `depthprec check` on this file.\n");
     if (s->unit != NULL)
         output_format(&out, "unit = \"%s\";\n\n", s->unit);
     put_cameras(&out, s);
@@ -193,7 +193,7 @@ int scene_need(scene *s) {
         if (!looked_at(s, f, &lo, &hi))
             continue;
         if (is_touching(s, f)) {
-            put_comment(&out, f, " touch: there no camera tells them apart");
+            put_comment(&out, f, " touch: no camera resolves them there");
             continue;
         }
         put_comment(&out, f, "");
@@ -201,7 +201,7 @@ int scene_need(scene *s) {
         snprintf(camera, sizeof camera, has_camera(s, f) ? "scene_p%zu" : "scene", i + 1);
         put_need(&out, camera, lo, hi, f->gap_min);
     }
-    output_text(&out, "  # all others are at least so far apart\n  others =\n    {");
+    output_text(&out, "  # all others are at least this far apart\n  others =\n    {");
     put_need(&out, "scene", s->setup.spec.znear, s->within, s->gap);
     output_text(&out, "};\n");
     return output_close(&out);

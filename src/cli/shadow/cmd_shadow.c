@@ -85,7 +85,7 @@ static void say_maps(page *p, void *item) {
     if (v->count > 0) {
         page_title(p, "view near %s, far %s, fov %s, %dx%d", number_full(v->znear).text, number_full(v->zfar).text,
                    number_of(v->fov_y, DIGITS).text, t->width, t->height);
-        page_title(p, "%d cascade%s, lambda %s, casters up to %s before", v->count, v->count == 1 ? "" : "s",
+        page_title(p, "%d cascade%s, lambda %s, casters up to %s towards the light", v->count, v->count == 1 ? "" : "s",
                    number_full(v->lambda).text, number_full(v->casters).text);
     } else {
         const double texel =
@@ -94,14 +94,14 @@ static void say_maps(page *p, void *item) {
                    number_full(o->shadow.light_box[1]).text, number_full(o->shadow.light_box[2]).text,
                    number_of(texel, DIGITS).text);
         if (s->lit.lo > 0.0 || s->lit.hi < o->shadow.light_box[2])
-            page_title(p, "lit from %s to %s along the light%s", number_up(s->lit.lo, DIGITS).text,
+            page_title(p, "receivers from %s to %s along the light%s", number_up(s->lit.lo, DIGITS).text,
                        number_down(s->lit.hi, DIGITS).text,
-                       option_given(o, OPTION_RANGE) ? "" : ": units are worth nothing at depth 0");
+                       option_given(o, OPTION_RANGE) ? "" : ": units have no effect at depth 0");
     }
-    page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, no slimmer than 1:%s, %s", t->subpixel,
+    page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, aspect ratio at most %s:1, %s", t->subpixel,
                t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text, s->arith);
     if (option_given(o, OPTION_CURVATURE))
-        page_title(p, "receivers bend away with a radius of at least %s, triangles in circles of %s",
+        page_title(p, "receivers curve away with a radius of at least %s, triangles of circumradius %s",
                    number_full(o->shadow.curvature).text, number_full(o->shadow.facet).text);
 }
 
@@ -117,7 +117,7 @@ static void say_answer(page *p, void *item) {
     const shadow_whole w = shadow_whole_of(&s->maps, s->api);
     page_text(p, "No acne%s with any one of these:", where);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
-        page_note(p, shadow_way_name((shadow_way)k), "%s", isnan(w.way[k].units) ? "no bias is enough" : w.way[k].call);
+        page_note(p, shadow_way_name((shadow_way)k), "%s", isnan(w.way[k].units) ? "no bias suffices" : w.way[k].call);
 }
 
 static void say_blank(page *p, void *item) {
@@ -181,29 +181,28 @@ static void say_notes(page *p, void *item) {
     const shadow_whole w = shadow_whole_of(&s->maps, s->api);
     const bool real = s->maps.items[0].light.setup.spec.format.kind == DP_FORMAT_FLOAT;
     const double wide = worth(s);
-    page_note(p, "gap", "from a caster to its shadow, along the light, at most; %s, %s and %s where surfaces face it",
+    page_note(p, "gap", "largest from a caster to its shadow, along the light; %s, %s and %s facing it",
               number_up(w.way[0].gap_facing, DIGITS_GAP).text, number_up(w.way[1].gap_facing, DIGITS_GAP).text,
               number_up(w.way[2].gap_facing, DIGITS_GAP).text);
-    page_note(p, "offset", "texels, times the sine of the angle, along the surface's normal");
+    page_note(p, "offset", "in texels, times the sine of the angle, along the surface normal");
     say_causes(p, s);
     page_note(p, "needed", "%s, %s and %s of these by slope times filter radius alone",
               percent_text(w.way[0].share).text, percent_text(w.way[1].share).text, percent_text(w.way[2].share).text);
     if (isnan(w.way[SHADOW_CONSTANT].units) && w.way[SHADOW_CONSTANT].window < 1.0 && real)
-        page_note(p, "units", "are worth nothing at window depth 0 of a float format: %s",
-                  s->view != NULL ? "--casters keeps surfaces away from it"
-                                  : "--range LO:HI says where surfaces are lit");
+        page_note(p, "units", "have no effect at window depth 0 of a float format: %s",
+                  s->view != NULL ? "--casters keeps surfaces away from it" : "--range LO:HI says where receivers lie");
     if (wide > 1.5)
         page_note(p, "units", "%s: the gap is up to %s times what is needed",
-                  real ? "grow with the depth in a float format" : "may be worth more than is assumed",
+                  real ? "grow with the depth in a float format" : "may be larger than assumed",
                   number_up(wide, 2).text);
     if (w.hidden)
-        page_note(p, "far plane", "a bias is as deep as the box: nothing is in shadow");
+        page_note(p, "far plane", "a bias is as large as the box is deep: nothing is in shadow");
     else if (option_given(&s->o, OPTION_RANGE) && w.limited)
         page_note(p, "far plane", "a gap reaches beyond it: casters there cast no shadow");
 }
 
 static void say_calls(page *p, void *item) {
-    page_line(p, "offset: texels, times the sine of the angle, along the surface's normal");
+    page_line(p, "offset: in texels, times the sine of the angle, along the surface normal");
     output_char(p->out, '\n');
     const shadow *s = item;
     const bias_api *api;

@@ -28,7 +28,7 @@ static bool is_known(const options *o, option_id id) {
 /* At a slant there is a guarantee of separations, and only of what is affine on the screen. */
 static int check_slanted(const options *o, const solve_report *r) {
     if (r->kind == MEASURE_ERROR)
-        return option_error(OPTION_ERROR, "is that of a depth at a point, and cannot be combined with --viewport");
+        return option_error(OPTION_ERROR, "is that at a point, and conflicts with --viewport");
     if (option_given(o, OPTION_MODEL) && !o->camera.model_auto && o->camera.model != DP_MODEL_FLOAT)
         return option_error(OPTION_MODEL, "must be float or auto with --viewport, got '%s', which knows no slant",
                             option_word(OPTION_MODEL, o->camera.model));
@@ -45,7 +45,7 @@ static int check_target(const options *o, solve_report *r) {
     static const option_id givens[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING};
     const bool limited = option_given(o, OPTION_SEPARATION) || option_given(o, OPTION_ERROR);
     if (option_given(o, OPTION_SEPARATION) && option_given(o, OPTION_ERROR))
-        return option_error(OPTION_ERROR, "cannot be combined with --separation");
+        return option_error(OPTION_ERROR, "conflicts with --separation");
     r->kind = option_given(o, OPTION_ERROR) ? MEASURE_ERROR : MEASURE_SEPARATION;
     r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted.error : o->wanted.separation;
     r->target = o->wanted.target;
@@ -80,7 +80,7 @@ static int check_target(const options *o, solve_report *r) {
 static int check_depths(const options *o, solve_report *r) {
     const bool range = option_given(o, OPTION_RANGE);
     if (range && o->camera.at.count > 0)
-        return option_error(OPTION_RANGE, "cannot be combined with --at");
+        return option_error(OPTION_RANGE, "conflicts with --at");
     if (!range && r->target == SOLVE_FOR_DISTANCE) {
         r->lo = o->camera.znear;
         r->hi = is_known(o, OPTION_FAR) ? o->camera.zfar : (double)HUGE_VAL;

@@ -33,7 +33,7 @@ static int check_frusta(const options *o) {
         return option_error(OPTION_SEPARATION, "must be given, to solve for frusta");
     if (!(option_given(o, OPTION_FAR) || o->camera.preset_count > 0) || isinf(o->camera.zfar))
         return option_error(OPTION_FAR,
-                            "must be finite, to solve for frusta: at an infinite far nothing is told apart");
+                            "must be finite, to solve for frusta: nothing is resolved at an infinite far plane");
     if (o->camera.format_count != 1)
         return option_error(OPTION_FORMAT, "must be one format, to solve for frusta, got %zu", o->camera.format_count);
     if (o->camera.mapping_count != 1)
@@ -80,15 +80,14 @@ static void say_plan(page *p, void *item) {
     const char *format = spec->format.name, *mapping = dp_mapping_get(spec->mapping)->name;
     const unsigned long long count = x->count, at_least = x->at_least;
     if (!x->possible && x->plan.count == FRUSTA_MAX)
-        page_text(p, "No plan: %d frusta of %s %s do not suffice to tell surfaces %s apart from z = %s to %s.",
-                  FRUSTA_MAX, format, mapping, limit.text, near.text, far.text);
+        page_text(p, "No plan: %d frusta of %s %s do not suffice to resolve %s from z = %s to %s.", FRUSTA_MAX, format,
+                  mapping, limit.text, near.text, far.text);
     else if (!x->possible)
-        page_text(p, "No plan was found: with far %s no near that was tried lets %s %s tell surfaces %s apart.",
+        page_text(p, "No plan was found: with far %s no near that was tried lets %s %s resolve %s.",
                   number_in(number_full(x->stuck), unit).text, format, mapping, limit.text);
     else
-        page_text(p, "%llu %s of %s %s %s surfaces %s apart from z = %s to %s%s.", count,
-                  count == 1 ? "frustum" : "frusta", format, mapping, count == 1 ? "tells" : "tell", limit.text,
-                  near.text, far.text,
+        page_text(p, "%llu %s of %s %s %s %s from z = %s to %s%s.", count, count == 1 ? "frustum" : "frusta", format,
+                  mapping, count == 1 ? "resolves" : "resolve", limit.text, near.text, far.text,
                   count == 1          ? ""
                   : count == at_least ? "; fewer cannot"
                                       : "");

@@ -108,7 +108,7 @@ static number_text passing(const solve_report *r, const solve_candidate *c, bool
 
 /* ---- Phrases ----------------------------------------------------------------------------------------------------- */
 
-/* "tell surfaces 0.01 apart at z = 5000", "keep the error within 0.01 from z = 10 to 5000" */
+/* "resolve 0.01 at z = 5000", "keep the error within 0.01 from z = 10 to 5000" */
 static phrase goal_phrase(const solve_report *r, double value, const char *ending) {
     phrase out;
     const number_text text = isnan(r->limit) ? measured(r, value) : whole(r, value);
@@ -150,7 +150,7 @@ static bool is_cheapest(const solve_report *r) {
 static void sentence_of_distance(const solve_report *r, const solve_candidate *c, output *out) {
     static const char *const manners[DP_MODEL_COUNT][2] = {
         [DP_MODEL_EXACT] = {"does not hold in the lattice", "holds in the lattice"},
-        [DP_MODEL_STAGED] = {"does not hold in the model staged", "holds in the model staged"},
+        [DP_MODEL_STAGED] = {"does not hold in model staged", "holds in model staged"},
         [DP_MODEL_FLOAT] = {"is not guaranteed", "is guaranteed"},
     };
     const distance_answer *d = &c->distance;
@@ -164,9 +164,9 @@ static void sentence_of_distance(const solve_report *r, const solve_candidate *c
     else
         output_format(out, " even at z = %s", whole(r, r->lo).text);
     if (!isnan(r->fight.first))
-        output_format(out, "; first seen to fight at z = %s", bound(r, r->fight.first, false).text);
+        output_format(out, "; first found to z-fight at z = %s", bound(r, r->fight.first, false).text);
     else if (!isnan(r->fight.searched))
-        output_format(out, "; no fight found up to z = %s", bound(r, r->fight.searched, false).text);
+        output_format(out, "; no z-fighting found up to z = %s", bound(r, r->fight.searched, false).text);
     if (c->spec.model == DP_MODEL_EXACT)
         output_text(out, ".\n");
     else if (!c->lattice.possible)
@@ -180,11 +180,11 @@ static void sentence_of_nothing(const solve_report *r, const solve_candidate *c,
     const number_text plane = digits(r, solve_plane_of(c)), best = measured(r, c->reached.value);
     const char *what = target_name(r);
     if (isinf(c->reached.value))
-        output_format(out, "Impossible: %s has no %s that %s: nothing farther is certain to be told apart.\n",
+        output_format(out, "Impossible: %s has no %s that %s: nothing farther is guaranteed to be resolved.\n",
                       given.text, what, goal.text);
     else if (!c->solved)
-        output_format(out, "Impossible: no %s with near and far as they are %s; %s comes nearest, with %s.\n", what,
-                      goal.text, given.text, best.text);
+        output_format(out, "Impossible: with this near and far no %s %s; %s comes nearest, with %s.\n", what, goal.text,
+                      given.text, best.text);
     else
         output_format(out, "%s %s of %s %s%s; %s %s comes near, with %s.\n", c->plane.certain ? "Impossible: no" : "No",
                       what, given.text, c->plane.certain ? "" : "was found that ", goal.text, what, plane.text,
@@ -206,10 +206,10 @@ static void sentence_of_plane(const solve_report *r, const solve_candidate *c, o
     const number_text safe = safe_digits(r, c, value, p->until);
     const char *name = is_near(c) ? "Near" : "Far";
     if (!p->certain)
-        output_format(out, "%s %s is enough for %s to %s, and so is any %s.\n", name, safe.text, given.text, goal.text,
+        output_format(out, "%s %s suffices for %s to %s, and so does any %s.\n", name, safe.text, given.text, goal.text,
                       beyond_phrase(r, c).text);
     else if (value == (is_near(c) ? p->least : p->most))
-        output_format(out, "Any %s from %s to %s will do for %s to %s.\n", target_name(r), passing(r, c, true).text,
+        output_format(out, "Any %s from %s to %s suffices for %s to %s.\n", target_name(r), passing(r, c, true).text,
                       passing(r, c, false).text, given.text, goal.text);
     else
         output_format(out, "%s %s for %s to %s.\n", is_near(c) ? "Near must be at least" : "Far may be at most",
@@ -236,8 +236,8 @@ static void say_plane(const solve_report *r, const solve_candidate *c, page *p) 
     const char *what = target_name(r);
     page_note(p, what, "%s exactly%s", whole(r, solve_plane_of(c)).text,
               c->plane.certain ? ""
-              : is_near(c)     ? "; a smaller one may be enough"
-                               : "; a larger one may be enough");
+              : is_near(c)     ? "; a smaller one may suffice"
+                               : "; a larger one may suffice");
     page_note(p, "passes", "every %s from %s to %s", what, passing(r, c, true).text, passing(r, c, false).text);
 }
 
@@ -257,7 +257,7 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
                                         : "; model float does not cover this mapping";
     const bool shader = c->spec.model == DP_MODEL_FLOAT && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
     page_note(p, "model", "%s%s%s%s", words[c->spec.model], more,
-              shader          ? ", for every log2 that the shader may have"
+              shader          ? ", for every log2 that a shader may use"
               : is_slanted(r) ? ", at "
                               : "",
               !shader && is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "");
@@ -270,13 +270,13 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
         return;
     if (c->spec.model != DP_MODEL_EXACT) {
         if (!c->solved)
-            page_note(p, "in the lattice", "%s at z = %s", measured(r, c->lattice.reached.value).text,
+            page_note(p, "lattice", "%s at z = %s", measured(r, c->lattice.reached.value).text,
                       digits(r, c->lattice.reached.z).text);
         else if (c->lattice.possible)
-            page_note(p, "in the lattice", "%s %s would do", target_name(r),
+            page_note(p, "lattice", "ideal arithmetic needs only %s %s", target_name(r),
                       bound(r, c->lattice.value, is_near(c)).text);
         else
-            page_note(p, "in the lattice", "no %s would do there either", target_name(r));
+            page_note(p, "lattice", "ideal arithmetic has no such %s either", target_name(r));
     }
     if (c->spec.model == DP_MODEL_FLOAT || isinf(c->reached.value))
         return;

@@ -28,7 +28,7 @@ int texture_camera_check(const options *o) {
     bool any = false;
     for (option_id id = OPTION_FOV; id <= OPTION_HFOV; id++)
         if (o->camera.ortho && option_given(o, id))
-            return option_error(id, "does not apply with --ortho; --ortho=H says half the height of the view");
+            return option_error(id, "conflicts with --ortho; --ortho=H says half the height of the view");
     for (int i = 0; i < LAST_OPTIONS; i++) {
         any = any || option_given(o, last_options[i]);
         if (option_given(o, last_options[i]) && !looks_back)
@@ -44,7 +44,7 @@ int texture_camera_check(const options *o) {
 int texture_camera_place(const options *o, camera_spec *spec) {
     memcpy(spec->origin, o->view.eye, sizeof spec->origin);
     return option_given(o, OPTION_LOOK) && !camera_look(spec, o->view.look)
-               ? option_error(OPTION_LOOK, "must be another place than --eye, got '%s'", o->given[OPTION_LOOK])
+               ? option_error(OPTION_LOOK, "must differ from --eye, got '%s'", o->given[OPTION_LOOK])
                : EXIT_FINE;
 }
 
@@ -53,7 +53,7 @@ int texture_last_camera(const options *o, const dp_setup *setup, const camera_sp
     if (option_given(o, OPTION_LAST_EYE))
         memcpy(spec.origin, o->view.last_eye, sizeof spec.origin);
     if (option_given(o, OPTION_LAST_LOOK) && !camera_look(&spec, o->view.last_look))
-        return option_error(OPTION_LAST_LOOK, "must be another place than last frame's eye, got '%s'",
+        return option_error(OPTION_LAST_LOOK, "must differ from last frame's eye, got '%s'",
                             o->given[OPTION_LAST_LOOK]);
     const char *wrong = camera_init(out, setup, &spec);
     return wrong != NULL ? usage_error("texture: last frame: %s", wrong) : EXIT_FINE;

@@ -10,7 +10,7 @@
 static int check_alone(const options *o) {
     static const option_id drawn[] = {OPTION_OVERLAY, OPTION_TYPE, OPTION_THEME, OPTION_FIGURE_SIZE, OPTION_TITLE};
     if (o->image.error_map && o->image.effect != NULL && option_given(o, OPTION_PIXEL))
-        return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
+        return option_error(OPTION_ERROR_MAP, "conflicts with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --product");
     if (o->image.as != NULL && !texture_product_wanted(o))
@@ -24,14 +24,13 @@ static int check_alone(const options *o) {
             (o->image.histogram == NULL || drawn[i] == OPTION_OVERLAY))
             return option_error(drawn[i], "needs --figure%s", drawn[i] == OPTION_OVERLAY ? "" : " or --histogram");
     if (option_given(o, OPTION_HISTOGRAM) && option_given(o, OPTION_PIXEL))
-        return option_error(OPTION_HISTOGRAM, "does not apply with --pixel");
+        return option_error(OPTION_HISTOGRAM, "conflicts with --pixel");
     if (option_given(o, OPTION_HISTOGRAM) && o->out.file != NULL && o->out.form == FORM_TEXT)
-        return option_error(OPTION_HISTOGRAM,
-                            "does not apply with --output, which its numbers go to with --json or --csv");
+        return option_error(OPTION_HISTOGRAM, "conflicts with --output");
     if (option_given(o, OPTION_HISTOGRAM) && o->out.form != FORM_TEXT && strcmp(o->image.histogram, "-") == 0)
         return option_error(OPTION_HISTOGRAM, "must be a file with --json and --csv, got '-'");
     if (option_given(o, OPTION_HISTOGRAM) && texture_product_wanted(o))
-        return option_error(OPTION_HISTOGRAM, "is drawn of the depths, not of a product");
+        return option_error(OPTION_HISTOGRAM, "shows the depths, not a product");
     return EXIT_FINE;
 }
 

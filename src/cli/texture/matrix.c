@@ -72,7 +72,7 @@ static int check_others(const options *o) {
                                        OPTION_HFOV, OPTION_LOG_C, OPTION_PRESET, OPTION_METRIC};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (option_given(o, others[i]))
-            return option_error(OPTION_MATRIX, "does not apply with --%s", option_name(others[i]));
+            return option_error(OPTION_MATRIX, "conflicts with --%s", option_name(others[i]));
     return EXIT_FINE;
 }
 

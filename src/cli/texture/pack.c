@@ -19,7 +19,7 @@ int texture_pack_check(const options *o) {
     image_file file;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->image.synthetic == NULL))
-            return option_error(others[i], "does not apply with --product %s", name);
+            return option_error(others[i], "conflicts with --product %s", name);
     if (o->out.file == NULL)
         return usage_error("texture: --product %s needs -o FILE", name);
     if (!image_file_of(o->out.file, &file) || (o->image.pack != NULL && file == IMAGE_PFM))

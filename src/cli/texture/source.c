@@ -83,7 +83,7 @@ static int check_window(const options *o) {
 static int check_together(const options *o) {
     const bool file = o->operand_count > 0;
     if (file && o->image.synthetic != NULL)
-        return option_error(OPTION_SYNTHETIC, "stands in place of FILE, got '%s' too", o->operands[0]);
+        return option_error(OPTION_SYNTHETIC, "replaces FILE, got '%s' too", o->operands[0]);
     if (!file && o->image.synthetic == NULL)
         return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF or raw image, or --synthetic NAME");
     if (file && o->image.effect == NULL && o->image.parameter_count > 0)
@@ -97,7 +97,7 @@ static int check_together(const options *o) {
     if (o->image.packing != NULL && !file)
         return option_error(OPTION_PACKING, "needs FILE");
     if (o->image.packing != NULL && o->image.metric > 0)
-        return option_error(OPTION_METRIC, "does not apply with --packing");
+        return option_error(OPTION_METRIC, "conflicts with --packing");
     const int status = check_window(o);
     return status == EXIT_FINE ? texture_camera_check(o) : status;
 }
@@ -199,10 +199,10 @@ static int unpack(const options *o, texture_source *s) {
     s->found.format = formats[0];
     s->found.certain = true;
     s->found.steps = 0;
-    const char *toward = p->linear ? NULL : s->found.toward;
+    const char *towards = p->linear ? NULL : s->found.towards;
     snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in steps of 1/%s%s%s", p->name,
              p->linear ? "eye depth over far" : "window depth", number_of(p->steps, 10).text,
-             toward != NULL ? "; " : "", toward != NULL ? toward : "");
+             towards != NULL ? "; " : "", towards != NULL ? towards : "");
     return EXIT_FINE;
 }
 
