@@ -13,6 +13,8 @@ export TERM=dumb
 # ---- The files that the questions are about ----
 
 depthprec texture --synthetic plane --parameter tilt=60 -F unorm16 -m d3d -o "$scratch/work/depth.png" 2>/dev/null
+depthprec texture --synthetic plane --size 64x36 -F d24 -m d3d --product pack:rgb24 -o "$scratch/work/rgb.png" -q
+cp tests/models/house.gltf "$scratch/work"
 cat >"$scratch/work/game.need" <<'END'
 unit = "m";
 cameras = { game = { near = 0.1; far = 1000; mapping = "d3d"; format = "d24"; }; };
@@ -28,7 +30,7 @@ answers() { # answers STATUS COMMAND WORDS: the page has the command, which exit
     (cd "$scratch/work" && sh -c "$2" >"$scratch/answer" 2>"$scratch/errors" </dev/null)
     status=$?
     cat "$scratch/errors" "$scratch/answer"
-    [ $status -eq "$1" ] && { [ -z "$3" ] || grep -qF -e "$3" "$scratch/answer"; }
+    [ $status -eq "$1" ] && { [ -z "$3" ] || grep -qF -e "$3" "$scratch/answer"; } && echo "$2" >>"$scratch/answered"
 }
 
 agrees() { # agrees PATTERN LEAST MOST: the number behind the pattern in the answer lies between two formulas of awk
@@ -58,7 +60,7 @@ check "2. the same in fp32, reversed, infinite" answers 0 \
 check "2. within the lattice" agrees 'at z =' 'sqrt(0.01 / width(1, 0.1, 0, 2 ^ -42))' 'sqrt(0.01 / width(1, 0.1, 0, 2 ^ -43))'
 check "3. the cheapest format for 5 mm at 2 km" answers 0 \
     'depthprec solve --for format -n 0.05 --separation 5mm --at 2km' 'fp32 reversed, near 0.05'
-check "3. two steps of binary32 at 2000 m" agrees 'separation' '2 ^ -12 - 1e-9' '2 ^ -12 + 1e-9'
+check "3. two steps of binary32 at 2000 m, in mm" agrees 'separation' '1000 * 2 ^ -12 - 1e-6' '1000 * 2 ^ -12 + 1e-6'
 check "4. the near plane for 1 cm at 5 km" answers 0 \
     'depthprec solve --for near -F d24 -m d3d --separation 1cm --at 5km' '402.589 m'
 check "4. at least that of the lattice" agrees 'near' 'width(5000, 1, 0, d24) / 0.01' '3 * width(5000, 1, 0, d24) / 0.01'
@@ -134,6 +136,73 @@ for product in raw linear01; do
     check "21. stairs at equal distances as $product" answers 0 "depthprec texture --synthetic steps --parameter even=1 -F d24 -m d3d -n 0.3 --product $product -q --figure $product.png" ''
     check "21. a picture" test -s "$scratch/work/$product.png"
 done
+
+check "18. three.js, with its own words" answers 0 \
+    'depthprec table --at 1000 --preset three -m gl,logarithmicDepthBuffer,reversedDepthBuffer' \
+    'Cost of three-webgl: the fragment shader writes depth, so no early z.'
+check "18. between one step and three of standard D24" agrees 'unorm24 gl' 'width(1000, 0.1, 2000, d24)' \
+    '3 * width(1000, 0.1, 2000, d24)'
+# log2(1 + w)/log2(1 + far): a step is (1 + w) ln(1 + far) wide; float arithmetic adds its share.
+check "18. at least a step of the logarithm" agrees 'unorm24 three-webgl' '1001 * log(2001) * d24' '20 * 1001 * log(2001) * d24'
+check "19. polygonOffset in three.js" answers 0 \
+    'depthprec bias --preset three --unit m --separation 1cm --at 50m' 'polygonOffsetFactor = 0, polygonOffsetUnits = '
+check "19. so many steps of 2^-24" agrees 'polygonOffsetUnits =' '-1 - 0.01 / width(50, 0.1, 2000, 2 ^ -24)' \
+    '-0.01 / width(50, 0.1, 2000, 2 ^ -24)'
+check "20. bands of an intersection highlight" answers 0 \
+    'depthprec texture --product effect:intersection -F d24 -m d3d --parameter half-width=0.5' '1/255: what 8 bits hold'
+# The stored depth is half a step off; over the half-width that is a level.
+check "20. half a step is a level" agrees 'Up to z =' '0.99 * sqrt(2 * 0.5 / 255 / width(1, 0.1, 1000, d24))' \
+    '1.01 * sqrt(2 * 0.5 / 255 / width(1, 0.1, 1000, d24))'
+check "20. half of the last step is none" agrees 'half-width from' '0.99 * 255 / 2 * width(1000, 0.1, 1000, d24)' \
+    '1.01 * 255 / 2 * width(1000, 0.1, 1000, d24)'
+check "21. the bias of a shadow map in two APIs" answers 0 \
+    'depthprec shadow --light-box 40mx40mx100m -F d16 --api d3d12,vulkan' \
+    'D3D12_RASTERIZER_DESC.DepthBias = U, SlopeScaledDepthBias = F'
+check "21. slope times filter radius, and little more" agrees 'vulkan' \
+    '1.5 * sqrt(2) * 40 / 2048 * 3.732 / 100 * 65536' '1.03 * 1.5 * sqrt(2) * 40 / 2048 * 3.732 / 100 * 65536 + 1'
+check "22. what flickers in a glTF model" answers 1 \
+    'depthprec scene house.gltf -F d24 -m d3d --camera street --within 60' "'road' (tar)"
+check "22. in metres, at least a step there" agrees 'lie within' 'width(60, 0.05, 1000, d24)' '20 * width(60, 0.05, 1000, d24)'
+check "23. on a slope of 60 degrees" answers 0 \
+    'depthprec table -F d24 -m d3d --viewport 1920x1080 --slant 60:60' 'at 60 degrees: 0.001 up to'
+check "23. less far than facing the camera" agrees '60 degrees: 0.001 up to z =' 1 \
+    '0.5 * sqrt(0.001 / width(1, 0.1, 1000, d24))'
+check "24. the bits of 5 m" answers 0 'depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 5' '1017370378'
+check "24. sign 0, exponent of [2^-6, 2^-5), mantissa of 0.02" agrees ' 5 ' \
+    '121 * 2 ^ 23 + (0.02 * 2 ^ 6 - 1) * 2 ^ 23 - 0.51' '121 * 2 ^ 23 + (0.02 * 2 ^ 6 - 1) * 2 ^ 23 + 0.51'
+check "25. window depth 0.5, reversed" answers 0 'depthprec table -n 0.1 -f inf -F fp32 -m reversed --depth 0.5' '0.2'
+check "25. n/d" agrees '1056964608' '0.1 / 0.5 - 1e-9' '0.1 / 0.5 + 1e-9'
+check "26. raw depth 0.02 in Unity" answers 0 'depthprec table --preset unity --depth 0.02' '14.782694'
+check "26. reversed, by the formula" agrees '1017370378' 'eye(1 - 0.02, 0.3, 1000) - 1e-6' 'eye(1 - 0.02, 0.3, 1000) + 1e-6'
+check "27. the last step of D16" answers 0 'depthprec table -n 0.3 -f 100 -F d16 -m d3d' 'worst interval'
+check "27. from one middle between codes to the next" agrees 'worst interval' \
+    'eye(1 - 0.5 / 65535, 0.3, 100) - eye(1 - 1.5 / 65535, 0.3, 100) - 1e-6' \
+    'eye(1 - 0.5 / 65535, 0.3, 100) - eye(1 - 1.5 / 65535, 0.3, 100) + 1e-6'
+check "28. vertices 100 km away" answers 0 'depthprec world --from-origin 100km --separation 1cm --at 10m' 'suffices'
+check "28. a few halves of a step of binary32 there" agrees ' absolute' '2 ^ -8' '16 * 2 ^ -8'
+check "29. world coordinates in the separation" answers 0 \
+    'depthprec budget -F fp32 -m reversed -f inf --from-origin 5km --at 10m' 'composition'
+check "29. a few steps of binary32 at 5 km" agrees ' 10 ' '2 ^ -11' '16 * 2 ^ -11'
+check "30. packed into colours" answers 0 'depthprec texture rgb.png --packing rgb24 -m d3d --pixel 3,3' 'eye depth 10.0000024'
+check "30. a plane 10 away, within its step" agrees 'eye depth' '10 - width(10, 0.1, 1000, d24)' '10 + width(10, 0.1, 1000, d24)'
+check "31. 2 mm on phones" answers 0 \
+    'depthprec solve --for distance --preset godot-mobile --separation 2mm' 'a separation of 2 mm is guaranteed'
+check "31. within the lattice" agrees 'up to z =' '0.9 * sqrt(0.002 / width(1, 0.05, 4000, d24))' \
+    'sqrt(0.002 / width(1, 0.05, 4000, d24))'
+check "32. names of D24" answers 0 'depthprec list D24_UNORM_S8_UINT' 'DEPTH24_STENCIL8'
+check "32. half a step" agrees '<=' 'd24 / 2 - 1e-16' 'd24 / 2 + 1e-16'
+check "33. EQUAL behind another order" answers 0 \
+    'depthprec prepass -F d24 -m d3d --program once --against separate --sample 100000' 'EQUAL'
+check "33. not safe: most vertices differ, by more than a code" agrees ' separate' 50 100
+check "34. a unit in Unity" answers 0 'depthprec bias --preset unity --units 1 --at 10m' 'brings a layer nearer'
+# Window depth 0.0297 is in [2^-6, 2^-5): r is 2^-29, and a depth of z^2/n wide.
+check "34. by the formula" agrees '9.999999379' '-1.001 * width(10, 0.3, 1000, 2 ^ -29)' '-0.999 * width(10, 0.3, 1000, 2 ^ -29)'
+
+unanswered() { # commands of the page that no line above has found right
+    grep '^depthprec ' "$scratch/commands" | grep -vxF -f "$scratch/answered"
+    [ "$(grep -cx '\.It' man/depthprec-questions.7)" -ge 30 ] || echo "fewer than 30 questions"
+}
+check "each command of the page is answered, of at least 30 questions" empty unanswered
 
 # ---- Words and widths ----
 

@@ -187,17 +187,22 @@ TEST(axes) {
     }
 }
 
-/* Where both the file and the command say what a unit is, the model is told in the command's. */
+/* Where both the file and the command say what a unit is, the model is told in the command's; where the file alone
+ * does, in its own. */
 TEST(units) {
     static const struct {
         const char *name, *text, *options, *said;
-    } rows[] = {{"e.dae", collada, "", "surfaces, 4.243 across"},
+    } rows[] = {{"e.dae", collada, "", "surfaces, 4.243 m across"},
                 {"e.dae", collada, "--unit m", "surfaces, 4.243 m across"},
                 {"e.dae", collada, "--unit cm", "surfaces, 424.3 cm across"},
-                {"e.ifc", ifc, "", "1 surface, 5 across"},
-                {"e.fbx", fbx, "", "1 surface, 5 across"},
+                {"e.ifc", ifc, "", "1 surface, 5 m across"},
+                {"e.fbx", fbx, "", "1 surface, 5 m across"},
                 {"e.fbx", fbx, "--unit cm", "1 surface, 500 cm across"},
                 {"e.stl", stl, "--unit cm", "surface, 5 cm across"}, /* which says nothing of its own */
+                {"e.stl", stl, "", "surface, 5 across"},
+                {"e.gltf", NULL, "", "surfaces, 99.78 m across"},
+                {"e.gltf", NULL, "--camera street",
+                 "reversed, near 0.05, far 1000, perspective, nearest, float ieee, lengths in"},
                 {"e.gltf", NULL, "--unit mm", "surfaces, 99780 mm across"},
                 {"e.gltf", NULL, "--preset unreal --separation 1", "surfaces, 9978 cm across"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

@@ -87,7 +87,7 @@ static const struct {
     {BIT(CMD_TABLE), IDS(OPTION_AT), "0.1,1,10,100,1000", NULL, ""},
     {BIT(CMD_TABLE), IDS(OPTION_AT), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
     {BIT(CMD_BUDGET) | BIT(CMD_BIAS), IDS(OPTION_AT), "0.1:1000:log:9", NULL, ""},
-    {BIT(CMD_TEXTURE), IDS(OPTION_AT), "0.1:1000:log:9", "texture --product effect:fog -F d16 -m d3d", ""},
+    {BIT(CMD_TEXTURE), IDS(OPTION_AT), "0.1:1000:log:9", "texture --product effect:edge -F d16 -m d3d", ""},
     {BIT(CMD_WORLD), IDS(OPTION_AT), "10", NULL, ""},
     {BIT(CMD_WORLD), IDS(OPTION_AT), "10m", NULL, "--unit cm"},
     {BIT(CMD_WORLD), IDS(OPTION_SEPARATION), "0.01", NULL, ""},

@@ -718,3 +718,56 @@ TEST(test_step_limits) {
     assert_true(facing > 0.1 && facing < 0.9);
     assert_relative(effect_share(shadow, &near, p, 30), facing, 1e-9);
 }
+
+/* How far an effect stays within a level, and what does so everywhere: at as many depths as it takes to see. */
+TEST(test_reach) {
+    static const struct {
+        const char *format;
+        dp_mapping mapping;
+        double zfar;
+    } rows[] = {{"unorm16", DP_MAPPING_D3D, 1000},    {"unorm24", DP_MAPPING_REVERSED, 300},
+                {"fp16", DP_MAPPING_D3D, 90},         {"fp16", DP_MAPPING_REVERSED, 1000},
+                {"fp32", DP_MAPPING_D3D, 1e5},        {"fp32", DP_MAPPING_GL, 700},
+                {"fp32", DP_MAPPING_REVERSED, 3.3e4}, {"unorm16", DP_MAPPING_LINEAR, 50}};
+    enum { DEPTHS = 4000 };
+    tally t = {.name = "reach"};
+    rng r = rng_make("effects reach");
+    size_t bounded = 0, everywhere = 0;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        for (size_t k = 0; effect_get(k) != NULL; k++) {
+            const effect_row *row = effect_get(k);
+            const double near = 0.1, far = rows[i].zfar;
+            const dp_setup setup = setup_of(near, far, rows[i].mapping, rows[i].format);
+            const effect_view view = {.setup = &setup, .base = {0, HEIGHT, 0}, .along = {0, RISE, 1}, .stretch = 1.3};
+            double p[PARAMETERS_MAX], limited[PARAMETERS_MAX], most = 0;
+            if (!effect_is_steady(row))
+                continue;
+            parameter_defaults(row->parameters, p);
+            const double reach = effect_reach(row, &view, p, near, far, 1);
+            const double usable = effect_usable_over(row, &view, p, near, far, 1);
+            const texture_parameter *range = &row->parameters[row->wanted];
+            const bool inside = usable > range->lo && usable < range->hi;
+            memcpy(limited, p, sizeof p);
+            TALLY(&t, isnan(reach) ? effect_error(row, &view, p, near) > 1 : reach >= near && reach <= far, "%s: %g",
+                  row->name, reach);
+            if (reach < far && reach > near * (1 + 1e-6)) /* at near, the steps of fp32 in d3d are next to none */
+                TALLY(&t, effect_error(row, &view, p, reach * (1 + 1e-9)) > 1, "%s %s %d: within a level beyond %.17g",
+                      row->name, rows[i].format, rows[i].mapping, reach);
+            bounded += reach < far;
+            everywhere += inside;
+            for (int n = 0; n < DEPTHS; n++) {
+                const double z = n % 2 == 0 ? rng_log(&r, near, far) : far - (far - near) * rng_log(&r, 1e-6, 1);
+                TALLY(&t, !(z <= reach) || effect_error(row, &view, p, z) <= 1, "%s %s %d: at %.17g before %.17g",
+                      row->name, rows[i].format, rows[i].mapping, z, reach);
+                limited[row->wanted] = row->smallest ? usable * (1 + 1e-9) : usable * (1 - 1e-9);
+                TALLY(&t, isnan(usable) || effect_error(row, &view, limited, z) <= 1,
+                      "%s %s %d: %.17g is not enough at %.17g", row->name, rows[i].format, rows[i].mapping, usable, z);
+                limited[row->wanted] = row->smallest ? 0.9 * usable : usable / 0.9;
+                most = fmax(most, effect_error(row, &view, limited, z));
+            }
+            TALLY(&t, !inside || most > 1, "%s %s %d: less than %.17g is enough", row->name, rows[i].format,
+                  rows[i].mapping, usable);
+        }
+    assert_true(bounded >= 20 && everywhere >= 20);
+    tally_end(&t);
+}

@@ -95,6 +95,33 @@ TEST(test_units) {
     tally_end(&t);
 }
 
+/* Lengths come back as they were typed; others in the unit of the scene. */
+TEST(test_typed) {
+    static const struct {
+        const char *words;
+        double value;            /* in the unit of the scene */
+        const char *said, *unit; /* and the unit of what is measured against --separation */
+    } typed[] = {
+        {"bias|--separation|0.01mm", 1e-5, "0.01 mm", "mm"},
+        {"bias|--separation|0.01mm", 1e-4, "0.0001 m", "mm"},
+        {"bias|--separation|0.01mm|--unit|cm", 1e-3, "0.01 mm", "mm"},
+        {"bias|--separation|1e-5|--unit|m", 1e-5, "1e-05 m", "m"},
+        {"bias|--separation|1e-5", 1e-5, "1e-05", NULL},
+        {"bias|-n|7 cm|--at|3m,2km", 2000, "2 km", "m"},
+        {"bias|-n|7 cm|--at|3m,2km", 0.07, "7 cm", "m"},
+        {"bias|--separation|2\302\265m|-f|1km", 1000, "1 km", "um"},
+    };
+    for (size_t i = 0; i < sizeof typed / sizeof typed[0]; i++) {
+        char line[1024];
+        options o;
+        assert_int_equal(parse_line(&o, typed[i].words, line), EXIT_FINE);
+        assert_string_equal(options_length(&o, typed[i].value, 0).text, typed[i].said);
+        const unit_row *unit = options_unit_of(&o, OPTION_SEPARATION);
+        assert_string_equal(unit != NULL ? unit->name : "", typed[i].unit != NULL ? typed[i].unit : "");
+        options_release(&o);
+    }
+}
+
 TEST(test_no_units) {
     static const char *const words[] = {"table|-n|5 kms",
                                         "table|-n|1m2",

@@ -742,6 +742,39 @@ TEST(warnings) {
     }
 }
 
+/* Of colours a channel alone is read where nobody says that depth is packed into them: that is said, unless they are
+ * grey, or a channel was asked for. */
+TEST(colours_may_be_packed) {
+    static const struct {
+        int colour; /* of PNG: 0 grey, 2 RGB, 6 RGBA */
+        size_t channels;
+        unsigned char pixels[32];
+        bool said;
+    } rows[] = {{2, 3, {1, 2, 3, 4, 5, 6, 7, 8, 9}, true},
+                {2, 3, {9, 9, 9, 7, 7, 7, 5, 5, 5}, false},
+                {2, 3, {9, 9, 9, 7, 7, 7, 5, 5, 5, [21] = 3, 3, 4}, true},
+                {2, 3, {9, 9, 9, [21] = 3, 4, 3}, true},
+                {6, 4, {9, 9, 9, 255, 4, 4, 4, 255, 4, 4, 4, 255}, false},
+                {6, 4, {9, 9, 1, 255, 4, 4, 4, 255}, true},
+                {0, 1, {1, 2, 3, 4, 5, 6, 7, 8}, false}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        handmade h = {.size = 0};
+        handmade_png(&h, 4, 2, 8, rows[i].colour, 0, rows[i].channels, rows[i].pixels);
+        FILE *f = fopen(truth_path("in.png"), "wb");
+        assert_int_equal(fwrite(h.at, 1, h.size, f), h.size);
+        fclose(f);
+        assert_int_equal(run((const char *const[]){truth_path("in.png"), "-F", "d24", "-m", "d3d", "--product", "eye",
+                                                   "-o", truth_path("eye.npy"), NULL}),
+                         0);
+        if (was_said("channels the first is read, 8 bits; --packing rgb24 reads") != rows[i].said)
+            fail_msg("row %zu", i);
+        assert_int_equal(run((const char *const[]){truth_path("in.png"), "-F", "d24", "-m", "d3d", "-q", "--product",
+                                                   "eye", "-o", truth_path("eye.npy"), NULL}),
+                         0);
+        assert_false(was_said("--packing"));
+    }
+}
+
 /* What a file says of itself is read as options are: what they refuse is refused, and terminals see plain text. */
 TEST(notes_of_others) {
     static const struct {

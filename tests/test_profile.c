@@ -305,12 +305,12 @@ TEST(test_bias_beside) {
     json_decref(root);
     p = print_of("bias --api vulkan -F fp32 -n 0.1 -f inf -m reversed --at 10 --full --raster %s", path);
     assert_non_null(
-        strstr(p.out, "on this GPU r is 2 times 2^(n-23), for a depth in [2^n, 2^(n+1)); fractions of units"));
+        strstr(p.out, "on this GPU r is 2 times 2^(n-23), for a depth in [2^n, 2^(n+1)); fractional units"));
     assert_null(strstr(p.out, "drivers take"));
     assert_non_null(strstr(p.out, "Measured on B, driver D."));
     printed_free(&p);
     p = print_of("bias --api gl -F fp32 -n 0.1 -f inf -m reversed --at 10 --full --raster %s", path);
-    assert_non_null(strstr(p.out, "of this GPU r was not measured for gl\n"));
+    assert_non_null(strstr(p.out, "r was not measured on this GPU for gl\n"));
     assert_non_null(strstr(p.out, "drivers take"));
     printed_free(&p);
     p = print_of("bias --api all -F fp32,d16 -n 0.1 -f inf -m reversed --at 10 --full --raster %s", path);

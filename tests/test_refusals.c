@@ -186,7 +186,7 @@ static const refusal refusals[] = {
     {"plot error -o x.svg --at 5", "at", 2},
     {"plot map -o x.svg --at 5 --range 1:2", "at", 2},
     {"plot error -o x.svg --from-origin 5", "from-origin", 2},
-    {"plot error -o x.svg --model float", "model", 2},
+    {"plot distribution -o x.svg --model float", "model", 2},
     {"table --fov 50", "fov", 2},
     {"table --slant 0:5", "slant", 2},
     {"budget --hfov 50", "hfov", 2},

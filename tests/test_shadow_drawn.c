@@ -309,7 +309,7 @@ static void judge(rng *r, shadow_stage *s, const plan *p, double least, tally t[
         bool judged;
         if (!isfinite(s->need.bias[way].factor))
             continue;
-        const bias_api *api = bias_api_get(rng_below(r, 12)); /* or none */
+        const bias_api *api = bias_api_get(rng_below(r, 13)); /* or none */
         aim(r, s, down, off);
         const bool light = lit_at(r, s, p, off, way, 1.0, api, &judged);
         if (judged)

@@ -174,10 +174,10 @@ TEST(test_all_beyond) {
         if (a.target == 2 || isinf(a.separation) || ask(&a, path, line) != EXIT_FINE || strncmp(line, "Any ", 4) == 0)
             continue;
         const double value = printed(line);
-        assert_true(i > 1 || strstr(line, ", and so is any larger one up to 5000.") != NULL);
+        assert_true(i > 1 || strstr(line, ", and so does any larger one up to 5000.") != NULL);
         const char *until = strstr(line, a.target == 0 ? "one up to " : "one down to ");
         const double end = until != NULL ? strtod(strstr(until, " to ") + 4, NULL) : NAN;
-        for (int k = 0; k < 400 && strstr(line, "and so is any") != NULL; k++) {
+        for (int k = 0; k < 400 && strstr(line, "and so does any") != NULL; k++) {
             const double x = value * pow(end / value, rng_unit(&r)), grid = ldexp(1.0, ilogb(x) - k % 20);
             const double coarse = fmin(fmax(rint(x / grid) * grid, fmin(value, end)), fmax(value, end));
             const double plane = k % 2 == 0 ? x : coarse;

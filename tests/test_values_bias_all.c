@@ -3,7 +3,7 @@
 #include "named.h"
 #include "printed.h"
 
-enum { APIS = 10, DEPTHS = 2 };
+enum { APIS = 11, DEPTHS = 2 };
 
 /* As the reference of each API has it, U and F in their places. */
 static const struct {
@@ -11,6 +11,8 @@ static const struct {
     bool turned; /* the factor comes first */
 } calls[APIS] = {
     {"d3d11", "D3D11_RASTERIZER_DESC.DepthBias = %s", "D3D11_RASTERIZER_DESC.DepthBias = %s, SlopeScaledDepthBias = %s",
+     false},
+    {"d3d12", "D3D12_RASTERIZER_DESC.DepthBias = %s", "D3D12_RASTERIZER_DESC.DepthBias = %s, SlopeScaledDepthBias = %s",
      false},
     {"webgpu", "depthBias: %s", "depthBias: %s, depthBiasSlopeScale: %s", false},
     {"metal", "setDepthBias(%s, slopeScale: 0, clamp: 0)", "setDepthBias(%s, slopeScale: %s, clamp: 0)", false},
@@ -160,6 +162,38 @@ TEST(beside_each_other) {
     }
     assert_non_null(strstr(p.out, "  metal         setDepthBias(U, slopeScale: 0, clamp: 0)\n"));
     printed_free(&p);
+}
+
+/* Several APIs: the lines that all of them have of these, and no others; names that mean one are one. */
+TEST(several) {
+    static const char *const commands[] = {"bias --at 7,90 --separation 0.02 -F d24,fp32 -m d3d",
+                                           "bias --separation 0.02 -F d24 -m reversed",
+                                           "shadow --light-box 40x40x100 -F d16"};
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+        printed every = print_of("%s --api all --csv", commands[i]);
+        printed some = print_of("%s --api Direct3D12,opengl,gl,three --csv", commands[i]);
+        printed one = print_of("%s --api gl,opengl", commands[i]);
+        size_t kept = 0;
+        char *want = calloc(1, strlen(every.out) + 1);
+        for (const char *line = every.out; *line != '\0'; line += strcspn(line, "\n") + 1) {
+            const char *const end = strchr(line, '\n') + 1;
+            char text[4096];
+            snprintf(text, sizeof text, "%.*s", (int)(end - line), line);
+            if (line == every.out || strstr(text, ",d3d12,") != NULL || strstr(text, ",gl,") != NULL ||
+                strstr(text, ",three,") != NULL) {
+                strcat(want, text);
+                kept += line != every.out;
+            }
+        }
+        assert_true(kept >= 3 && kept % 3 == 0);
+        assert_string_equal(some.out, want);
+        assert_non_null(strstr(one.out, "glPolygonOffset("));
+        assert_null(strstr(one.out, "U)"));
+        free(want);
+        printed_free(&every);
+        printed_free(&some);
+        printed_free(&one);
+    }
 }
 
 LIST_TEST(check_apart)

@@ -8,7 +8,7 @@
 
 static const char *const ways[SHADOW_WAY_COUNT] = {"constant", "slope", "normal"};
 
-enum { FORMATS = 2, MAPPINGS = 2, APIS = 10 };
+enum { FORMATS = 2, MAPPINGS = 2, APIS = 11 };
 
 /* Each line, what it lights of a box where that is not all of it, and what its rasterizer brings. */
 static const struct {
@@ -335,7 +335,7 @@ static bool enough(double shown, double value, const char *field) {
     return fabs(shown) >= fabs(value) * (1 - 1e-12) && fabs(shown) <= fabs(value) * (1 + step);
 }
 
-static double number_of(const values *v, size_t setup, size_t row, const char *field) {
+static double field_of(const values *v, size_t setup, size_t row, const char *field) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "setups[%zu].rows[%zu].%s", setup, row, field);
     return value_at(v, path)->number;
@@ -351,7 +351,7 @@ static void check_bias_line(const values *v, const char *line, size_t setup, siz
         line = end;
     }
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) {
-        const double want = number_of(v, setup, row, fields[k]);
+        const double want = field_of(v, setup, row, fields[k]);
         line += strspn(line, " ");
         if (!isfinite(want)) {
             assert_int_equal(*line, '-');
@@ -370,7 +370,7 @@ static void check_place_line(const values *v, const char *line, size_t setup, si
     char *end;
     assert_int_equal(strtol(line, &end, 10), (long)row + 1);
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-        assert_relative(strtod(end, &end), number_of(v, setup, row, fields[k]), k < 2 ? 5e-6 : 5e-4);
+        assert_relative(strtod(end, &end), field_of(v, setup, row, fields[k]), k < 2 ? 5e-6 : 5e-4);
 }
 
 static const char *line_behind(const char *text, int lines) {
@@ -417,14 +417,14 @@ static void check_notes(const values *v, const shadow_case *c, const char *at, s
     size_t least = 0;
     for (size_t i = 0; i < map_count(c); i++)
         for (int k = 0; k < 3; k++) {
-            const double value = number_of(v, setup, i, shares[k]);
+            const double value = field_of(v, setup, i, shares[k]);
             least = k == 0 && value < share[0] ? i : least;
             share[k] = fmin(share[k], value);
-            gap[k] = fmax(gap[k], number_of(v, setup, i, gaps[k]));
+            gap[k] = fmax(gap[k], field_of(v, setup, i, gaps[k]));
         }
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
         snprintf(path, sizeof path, "causes.%s", shadow_cause_name((shadow_cause)k));
-        sum += number_of(v, setup, least, path);
+        sum += field_of(v, setup, least, path);
     }
     note_of(at, "\n  causes ", text);
     if (map_count(c) > 1)
@@ -432,7 +432,7 @@ static void check_notes(const values *v, const shadow_case *c, const char *at, s
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
         const char *const name = shadow_cause_name((shadow_cause)k), *const found = strstr(text, name);
         snprintf(path, sizeof path, "causes.%s", name);
-        const double percent = 100 * number_of(v, setup, least, path) / sum;
+        const double percent = 100 * field_of(v, setup, least, path) / sum;
         assert_int_equal(found != NULL, percent >= 0.05);
         if (found != NULL)
             assert_relative(strtod(found + strlen(name), NULL), percent, 0.006);
@@ -465,13 +465,13 @@ static void check_remarks(const values *v, const shadow_case *c, const char *at,
          beyond = false; /* no units of the constant bias; for it is deeper than the box */
     char text[4096];
     for (size_t i = 0; i < map_count(c); i++) {
-        const double depth = number_of(v, setup, i, "depth");
-        const double bias = number_of(v, setup, i, "constant_bias");
-        none = none || isnan(number_of(v, setup, i, "constant_units"));
+        const double depth = field_of(v, setup, i, "depth");
+        const double bias = field_of(v, setup, i, "constant_bias");
+        none = none || isnan(field_of(v, setup, i, "constant_units"));
         beyond = beyond || bias >= 1;
-        wide = fmax(wide, number_of(v, setup, i, gaps[0]) / (bias * depth));
+        wide = fmax(wide, field_of(v, setup, i, gaps[0]) / (bias * depth));
         for (int k = 0; k < 3; k++)
-            hidden = hidden || beyond || number_of(v, setup, i, gaps[k]) >= depth;
+            hidden = hidden || beyond || field_of(v, setup, i, gaps[k]) >= depth;
     }
     joined(at, text);
     assert_int_equal(strstr(text, "nothing is in shadow") != NULL, hidden);

@@ -209,7 +209,7 @@ TEST(text) {
                                        "resolved, facing the camera:"};
     const slant_case *c = &cases[0];
     printed p = print_of("table %s --at 700", c->line);
-    const char *head = strstr(p.out, " guaranteed  any slant\n");
+    const char *head = strstr(p.out, " guaranteed    slanted\n");
     assert_non_null(head);
     const char *line = strchr(head, '\n') + 1, *end = strchr(line, '\n');
     while (end[-1] != ' ')
@@ -219,6 +219,31 @@ TEST(text) {
     for (size_t i = 0; i < sizeof said / sizeof said[0]; i++)
         assert_non_null(strstr(p.out, said[i]));
     printed_free(&p);
+}
+
+/* One slant is called by its degrees wherever surfaces at it are meant; a range is any slant of it. */
+TEST(one_slant) {
+#define VIEW87 "-F d24 -m d3d --viewport 1920x1080 --slant 87:87"
+    static const char *const lines[][2] = {
+        {"table " VIEW87, "to be resolved, at 87 degrees:"},
+        {"table --range 1:100 " VIEW87, "\n  at 87 degrees"},
+        {"table -F d24,d16 -m d3d --viewport 1920x1080 --slant 87:87", "resolves 0.01 at 87 degrees up to"},
+        {"table -F d24,d16 -m d3d --viewport 1920x1080 --slant 87:87", "guaranteed at that slant, z"},
+        {"solve --for distance --separation 0.01 " VIEW87, "at 87 degrees is guaranteed"},
+        {"solve --for near --at 100 --separation 0.01 " VIEW87, "resolve 0.01 at 87 degrees"},
+        {"solve --for near --at 100 --separation 0.01 " VIEW87, "ieee, at 87 degrees\n"}};
+#undef VIEW87
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        printed p = print_of("%s", lines[i][0]);
+        for (char *c = p.out; (c = strstr(c, "\n  ")) != NULL && strstr(lines[i][1], "\n") == NULL;) {
+            *c = ' '; /* sentences go on behind a break */
+            memmove(c + 1, c + 3, strlen(c + 3) + 1);
+        }
+        if (strstr(p.out, lines[i][1]) == NULL || strstr(p.out, "any slant") != NULL)
+            fail_msg("%s: no \"%s\", or any slant:\n%s", lines[i][0], lines[i][1], p.out);
+        assert_non_null(strstr(p.out, "slant 87 degrees"));
+        printed_free(&p);
+    }
 }
 
 /* Who draws, on which grid, and how depth is set up. */

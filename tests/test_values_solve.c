@@ -512,4 +512,43 @@ TEST(logarithm_answers) {
     printed_free(&p);
 }
 
+/* What is wanted is told as it was typed, and what is reached in that unit: a twelfth of a metre is 0.0833 m. */
+TEST(typed_lengths) {
+    static const char *const lines[][2] = {
+        {"solve --for distance --separation 0.5mm -n 5cm -f 2km -F d24 -m d3d", "separation of 0.5 mm is guaranteed"},
+        {"solve --for distance --separation 0.5mm -n 5cm -f 2km -F d24 -m d3d", " mm at z = "},
+        {"solve --for distance --separation 0.5mm -n 5cm -f 2km -F d24 -m d3d", "near 5 cm, far 2 km:"},
+        {"solve --for near --separation 0.01mm --at 2km -F d24 -m d3d", "resolves 0.01 mm"},
+        {"solve --for near --separation 0.01mm --at 2km -F d24 -m d3d", "at z = 2 km, wanted 0.01 mm"},
+        {"bias --separation 0.25mm --at 3km -f 9km -F d24 -m d3d", "units at z = 3 km"},
+        {"bias --separation 0.25mm --at 3km -f 9km -F d24 -m d3d --api gl,metal", "0.25 mm nearer at z = 3 km:"},
+        {"bias --separation 0.25mm --at 3km -f 9km -F d24 -m d3d", " mm at z = 3 km"},
+        {"zfight --separation 0.02mm --range 1m:1.5m -F d24 -m d3d",
+         "Surfaces 0.02 mm apart never z-fight from 1 m to 1.5 m"},
+        {"world --separation 3mm --from-origin 2km --at 10m", "3 mm apart"},
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        printed p = print_of("%s", lines[i][0]);
+        char *flat = calloc(1, strlen(p.out) + 1), *to = flat;
+        for (const char *at = p.out; *at != '\0'; at++)
+            if (*at != '\n' && (*at != ' ' || at[1] != ' '))
+                *to++ = *at;
+            else if (*at == '\n' && at[1] == ' ')
+                *to++ = ' ', at += strspn(at + 1, " ");
+        if (strstr(flat, lines[i][1]) == NULL)
+            fail_msg("%s: no \"%s\":\n%s", lines[i][0], lines[i][1], p.out);
+        free(flat);
+        printed_free(&p);
+    }
+    /* The same number as without units. */
+    printed typed = print_of("solve --for near --separation 0.01mm --at 2km -F d24 -m d3d");
+    printed bare = print_of("solve --for near --separation 1e-5 --at 2000 -F d24 -m d3d --unit m");
+    double in_mm, in_m;
+    assert_int_equal(sscanf(strstr(typed.out, "\n  separation ") + 14, "%lf mm", &in_mm), 1);
+    assert_int_equal(sscanf(strstr(bare.out, "\n  separation ") + 14, "%lf m", &in_m), 1);
+    assert_relative(in_mm, 1000 * in_m, 1e-5);
+    printed_free(&typed);
+    printed_free(&bare);
+}
+
 LIST_TEST(check_apart)

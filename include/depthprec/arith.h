@@ -33,8 +33,10 @@ typedef struct dp_arith_row {
 /** An index into the rows. */
 typedef size_t dp_arith;
 
-/** The variants, the first being the default `ieee`; index below dp_arith_count(), else null. */
+/** How many variants of binary32 arithmetic there are. */
 DP_API size_t dp_arith_count(void);
+
+/** The row of a variant of arithmetic, the first being the default `ieee`; null when out of range. */
 DP_API const dp_arith_row *dp_arith_get(dp_arith index);
 
 /** Finds a variant by name, letter case ignored. @return DP_OK; DP_ERROR_ARITH or DP_ERROR_NULL and *out unchanged */
@@ -57,7 +59,8 @@ typedef struct dp_log2_row {
 /** An index into the rows. */
 typedef size_t dp_log2_rule;
 
-/** The rules, the first being the default `vulkan`; null when out of range. */
+/** The row of a rule for how wrong a shader's log2 may be, the first being the default `vulkan`; null when out of
+ * range. */
 DP_API const dp_log2_row *dp_log2_get(dp_log2_rule index);
 
 DP_END

@@ -53,10 +53,11 @@ typedef enum dp_word { DP_WORD_16 = 0, DP_WORD_32, DP_WORD_COUNT } dp_word;
 /** Instruction sets. BASELINE is what the library was compiled for and always there. */
 typedef enum dp_path { DP_PATH_BASELINE = 0, DP_PATH_AVX2, DP_PATH_AVX512, DP_PATH_COUNT } dp_path;
 
-/** "baseline", "avx2", "avx512"; null when out of range. */
+/** The name of an instruction set, "baseline", "avx2" or "avx512"; null when out of range. */
 DP_API const char *dp_path_name(dp_path path);
 
-/** Whether this processor and this library have a path: AVX2 with FMA and F16C; AVX-512 F, BW, DQ and VL besides. */
+/** Whether this processor and this library have an instruction set: AVX2 with FMA and F16C; AVX-512 F, BW, DQ and VL
+ * besides. */
 DP_API int dp_path_available(dp_path path);
 
 /** The fastest path that is available. */
@@ -74,8 +75,8 @@ typedef struct dp_batch {
 } dp_batch;
 
 /**
- * Prepares a task. ENCODE and DECODE read only the set-up's format and rounding; a task without codes leaves the word
- * unread.
+ * Prepares a conversion of arrays, such as eye depths to codes. ENCODE and DECODE read only the set-up's format and
+ * rounding; a task without codes leaves the word unread.
  *
  * CODE and WIDTH in the models `staged` and `float`, and CODE, WIDTH and EYE of the logarithmic mapping, have no vector
  * kernel, nor have EYE of orthographic planes with depth 0 between them and the tasks behind DECODE: each element then
@@ -88,7 +89,7 @@ DP_API dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task t
                                dp_path path);
 
 /**
- * Does the task to `count` elements, which may be 0.
+ * Converts `count` elements of an array, which may be 0, as dp_batch_init() has prepared it.
  *
  * @param in   depths or codes, aligned to their type, no more
  * @param out  codes, or depths; the same address as `in` is allowed where an element written is not larger than one

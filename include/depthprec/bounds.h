@@ -34,7 +34,7 @@ typedef struct dp_worst {
 } dp_worst;
 
 /**
- * The worst case over [lo, hi].
+ * The largest error of a stored depth and the widest z-fighting interval in a range of eye depths, and where they are.
  *
  * @param lo, hi  eye depths, near <= lo <= hi <= far; hi may be INFINITY when far is
  * @return DP_OK, or DP_ERROR_RANGE, DP_ERROR_NULL; *out is then left as it was
@@ -57,7 +57,7 @@ typedef struct dp_separation_worst {
 } dp_separation_worst;
 
 /**
- * The largest dp_separation() over [lo, hi].
+ * How far apart surfaces must be to be resolved at every depth of a range: the largest dp_separation() in [lo, hi].
  *
  * In the model `exact` the separation rises with z inside a binade, so the ends of binades are all that can be worst.
  * In `staged` and `float` the range is divided until an upper bound of each part is either at most 2^-10 above the

@@ -53,7 +53,7 @@ typedef struct dp_composition_row {
     const char *note;
 } dp_composition_row;
 
-/** The row of a composition; null when out of range. */
+/** The row of a way from world to clip coordinates; null when out of range. */
 DP_API const dp_composition_row *dp_composition_get(dp_composition composition);
 
 /** What view z of a place may be off by before the projection, scene units; found for all places that are asked about.
@@ -87,7 +87,8 @@ typedef struct dp_budget {
 DP_API const char *dp_cause_name(dp_cause cause);
 
 /**
- * The budget at a depth, in the arithmetic of setup->spec.arith, whatever the set-up's model.
+ * How much each cause takes of the separation that is guaranteed at a depth, in the arithmetic of setup->spec.arith,
+ * whatever the set-up's model.
  *
  * @param z      eye depth in [near, far]; rounded to binary32 as a shader has it
  * @param terms  null for none
@@ -122,8 +123,9 @@ typedef struct dp_coplanar {
 } dp_coplanar;
 
 /**
- * That of planes at any slant, whatever the set-up's triangles say, at every eye depth of a range. depthprec(7), "Two
- * tessellations of one plane", derives it.
+ * How far apart the depths of one plane may be in a pixel when it is drawn twice, as different triangles: at any slant,
+ * whatever the set-up's triangles say, and at every eye depth of a range. depthprec(7), "Two tessellations of one
+ * plane", derives it.
  *
  * @param lo, hi  within [near, far]; hi may be INFINITY
  * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, DP_ERROR_TRIANGLES where the set-up has none, or DP_ERROR_MODEL for

@@ -72,8 +72,9 @@ DP_API uint32_t dp_code(const dp_setup *setup, double z);
 DP_API double dp_stored(const dp_setup *setup, uint32_t code);
 
 /**
- * dp_stored(code) - z without cancellation: good to 1e-12 of the z-fighting interval even where the two agree in
- * every printed digit. INFINITY where the code is that of an infinite far plane and z is finite.
+ * How far a stored depth is from the true one: dp_stored(code) - z without cancellation, good to 1e-12 of the
+ * z-fighting interval even where the two agree in every printed digit. INFINITY where the code is that of an infinite
+ * far plane and z is finite.
  */
 DP_API double dp_error(const dp_setup *setup, uint32_t code, double z);
 
@@ -100,7 +101,7 @@ DP_API dp_cell dp_cell_of(const dp_setup *setup, uint32_t code);
 DP_API double dp_separation(const dp_setup *setup, double z);
 
 /**
- * Everything above for one depth.
+ * What a depth is stored as, with its error, its cell and the separation there: all of the above in one call.
  * @return DP_OK or DP_ERROR_DEPTH (outside [near, far] or NaN), DP_ERROR_NULL, DP_ERROR_BINARY32 (in `float`, above
  *         3.4028235e+38)
  */

@@ -60,8 +60,10 @@ typedef struct dp_format_row {
     const char *source; /**< paper, specification clause */
 } dp_format_row;
 
-/** The named formats, fp16, fp32, unorm16, unorm24; index below dp_format_count(), else null. */
+/** How many depth formats have a name: fp16, fp32, unorm16, unorm24. */
 DP_API size_t dp_format_count(void);
+
+/** The row of a named depth format; null when out of range. */
 DP_API const dp_format_row *dp_format_get(size_t index);
 
 /**
@@ -84,7 +86,7 @@ DP_API double dp_format_value(const dp_format *format, uint32_t code);
  */
 DP_API uint32_t dp_format_encode(const dp_format *format, dp_rounding rounding, double d);
 
-/** "nearest", "even", "zero"; null when out of range. */
+/** The name of a rounding mode, "nearest", "even" or "zero"; null when out of range. */
 DP_API const char *dp_rounding_name(dp_rounding rounding);
 
 DP_END

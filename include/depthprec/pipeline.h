@@ -44,16 +44,17 @@ typedef struct dp_pipeline {
  */
 DP_API dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup);
 
-/** z_clip of a binary32 eye depth, before the divide (after the remap, if the arithmetic has one). */
+/** The clip z of a binary32 eye depth, before the divide (after the remap, if the arithmetic has one). */
 DP_API float dp_pipeline_clip(const dp_pipeline *pipeline, float z);
 
 /** The window depth in binary32 of a vertex that has clip z and w from elsewhere: remap, divide and viewport. */
 DP_API float dp_pipeline_divide(const dp_pipeline *pipeline, float clip_z, float clip_w);
 
-/** The window depth in binary32, not clamped. z > 0 under a perspective. */
+/** The window depth of a binary32 eye depth, not clamped. z > 0 under a perspective. */
 DP_API float dp_pipeline_window(const dp_pipeline *pipeline, float z);
 
-/** The stored code; a window depth outside [0, 1] is clamped, as a depth clamp does. */
+/** The code that a GPU stores for a binary32 eye depth; a window depth outside [0, 1] is clamped, as a depth clamp
+ * does. */
 DP_API uint32_t dp_pipeline_code(const dp_pipeline *pipeline, float z);
 
 /** The code of a binary32 window depth in the arithmetic's conversion and the format. */

@@ -40,7 +40,8 @@ typedef struct dp_spec {
                                in triangles.h, and z is the depth of the farther one. Width 0: they face the camera */
 } dp_spec;
 
-/** near 0.1, far 1000, perspective, d3d, fp32, nearest, exact, C = 1, surfaces that face the camera. */
+/** The camera to start from: near 0.1, far 1000, perspective, d3d, fp32, nearest, exact, C = 1, surfaces that face the
+ *  camera. */
 DP_API dp_spec dp_spec_default(void);
 
 /** A checked set-up. Everything after `spec` is derived from it by dp_setup_init() and private to the library. */
@@ -70,18 +71,18 @@ typedef struct dp_setup {
  */
 DP_API dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec);
 
-/** The same set-up for surfaces that face the camera. */
+/** A set-up without its triangles: for surfaces that face the camera. */
 DP_API dp_setup dp_setup_facing(const dp_setup *setup);
 
 /**
- * The same set-up as dp_separation() and dp_separation_over() know most of it: float where a pipeline computes depth;
- * in staged for the others, and where a shader writes a logarithm these two functions, and only they, then give the
- * guarantee of dp_budget_at(), for every log2 that Vulkan, GLSL and WGSL allow, of surfaces that face the camera. Of
- * linear it is still a lattice.
+ * A set-up in the model in which dp_separation() and dp_separation_over() promise most: float where a pipeline computes
+ * depth; in staged for the others, and where a shader writes a logarithm these two functions, and only they, then give
+ * the guarantee of dp_budget_at(), for every log2 that Vulkan, GLSL and WGSL allow, of surfaces that face the camera.
+ * Of linear it is still a lattice.
  */
 DP_API dp_setup dp_setup_guaranteed(const dp_setup *setup);
 
-/** "exact", ...; null when out of range. */
+/** The name of a model of the arithmetic, "exact", "staged" or "float"; null when out of range. */
 DP_API const char *dp_model_name(dp_model model);
 
 DP_END

@@ -54,8 +54,8 @@ typedef struct dp_anchor_row {
 } dp_anchor_row;
 
 /**
- * The row of an anchor; null when out of range. Anchored at a vertex: for vertices on a grid, `subpixel` 1 to 8; at the
- * origin: for boxes at least a pixel wide and high.
+ * What a way of setting up the plane of a triangle adds to its depth; null when out of range. Anchored at a vertex: for
+ * vertices on a grid, `subpixel` 1 to 8; at the origin: for boxes at least a pixel wide and high.
  */
 DP_API const dp_anchor_row *dp_anchor_get(dp_anchor anchor);
 
@@ -71,13 +71,15 @@ typedef struct dp_triangles {
     double slim;               /**< its longest edge is at most this times the height upon it, in pixels; 2 to 1024 */
 } dp_triangles;
 
-/** 1920 x 1080, 60 degrees, 8 bits, anchored at a vertex, any slant; from z/2 to 2 z, 512 pixels, 1:16. */
+/** The triangles to start from: a view of 1920 x 1080, 60 degrees, 8 bits, anchored at a vertex, any slant; from z/2 to
+ * 2 z, 512 pixels, 1:16. */
 DP_API dp_triangles dp_triangles_default(void);
 
 /** The vertical field of view of a horizontal one, both in degrees: square pixels. */
 DP_API double dp_fov_vertical(double fov_x, int width, int height);
 
-/** @return DP_OK, DP_ERROR_NULL, or DP_ERROR_TRIANGLES where a field is out of its range or no number */
+/** Whether triangles can be counted. @return DP_OK, DP_ERROR_NULL, or DP_ERROR_TRIANGLES where a field is out of its
+ *  range or no number */
 DP_API dp_status dp_triangles_check(const dp_triangles *triangles);
 
 DP_END

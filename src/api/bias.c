@@ -10,10 +10,14 @@
 
 /* clang-format off */
 static const bias_api rows[] = {
-    {"d3d11", "d3d10 d3d12 direct3d11 direct3d12", BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, true, true, true, false,
+    {"d3d11", "d3d10 direct3d11", BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, true, true, true, false,
      "D3D11_RASTERIZER_DESC.DepthBias = U", ", SlopeScaledDepthBias = F",
      "DepthBias is an integer; all is computed in binary32, at the vertices, after clipping",
      "Direct3D 11 programming guide, output merger stage, Depth Bias", UNSCALED},
+    {"d3d12", "direct3d12", BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, true, true, true, false,
+     "D3D12_RASTERIZER_DESC.DepthBias = U", ", SlopeScaledDepthBias = F",
+     "DepthBias is an integer; the rule of d3d11",
+     "Direct3D 12, D3D12_RASTERIZER_DESC, which refers to Depth Bias of Direct3D 11", UNSCALED},
     {"webgpu", "wgpu", BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, true, true, false, false,
      "depthBias: U", ", depthBiasSlopeScale: F",
      "depthBias is an integer; depth24plus may follow either rule (gpuweb/gpuweb#6350)",
@@ -43,7 +47,7 @@ static const bias_api rows[] = {
      "glPolygonOffset(factor, units); the clamp is EXT_polygon_offset_clamp or GL 4.6; for integer buffers r is the "
      "implementation's choice, 2^-N is assumed",
      "OpenGL specification, Depth Offset; EXT_polygon_offset_clamp", UNSCALED},
-    {"three", "threejs three.js", BIAS_FREE, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, false, false, true,
+    {"three", "threejs three.js polygonOffset", BIAS_FREE, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, false, false, true,
      "polygonOffsetFactor = F, polygonOffsetUnits = U", "",
      "of a material with polygonOffset = true, handed to gl.polygonOffset(): see gl; WebGL has no clamp",
      "three.js, src/renderers/webgl/WebGLState.js (setPolygonOffset)", UNSCALED},

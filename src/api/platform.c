@@ -75,7 +75,7 @@ static const platform rows[] = {
      "D24_UNORM_S8_UINT is required, and so is D32_FLOAT",
      "Microsoft, Format support for Direct3D Feature Level 11.0 hardware",
      BIAS_EXPONENT_N, 0, 0, false, false, "", READ},
-    {"d3d12", "D24_UNORM_S8_UINT", "unorm24", "unorm24", PLATFORM_REMAPS_NOT, "d3d11", "d3d11", "spec-d3d",
+    {"d3d12", "D24_UNORM_S8_UINT", "unorm24", "unorm24", PLATFORM_REMAPS_NOT, "d3d12", "d3d12", "spec-d3d",
      "D24_UNORM_S8_UINT is required from feature level 12.0 on",
      "Microsoft, Format support for Direct3D Feature Level 12.0 hardware",
      BIAS_EXPONENT_N, 0, 0, false, false, "", READ},

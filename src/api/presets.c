@@ -31,12 +31,13 @@ static const preset rows[] = {
      "",
      "Camera3D class reference; RenderSceneBuffersRD::get_depth_format with p_storage false", CHECKED},
     {"three", 0.1, 2000.0, DP_MAPPING_GL, "unorm24", "units", 50, PRESET_VERTICAL, "spec-gl", "three",
-     "WebGLRenderer; logarithmic and reversed depth are options; browsers give the canvas 24 bits",
+     "WebGLRenderer; logarithmicDepthBuffer and reversedDepthBuffer are options, and names for --mapping; browsers "
+     "give the canvas 24 bits",
      "format",
      "three.js, src/cameras/PerspectiveCamera.js; mrdoob/three.js#30941 (the canvas default is integer)", CHECKED},
     {"three-webgpu", 0.1, 2000.0, DP_MAPPING_D3D, "depth24plus", "units", 50, PRESET_VERTICAL, "spec-vulkan", "webgpu",
-     "WebGPURenderer; depth24plus is unorm24 or fp32 as the browser chooses; reversed is an option and takes "
-     "depth32float",
+     "WebGPURenderer; depth24plus is unorm24 or fp32 as the browser chooses; reversedDepthBuffer is an option and "
+     "takes depth32float",
      "",
      "three.js, src/cameras/PerspectiveCamera.js; mrdoob/three.js#32967, #33184", CHECKED},
     {"bevy", 0.1, (double)INFINITY, DP_MAPPING_REVERSED, "fp32", "m", 45, PRESET_VERTICAL, "spec-vulkan", "webgpu",

@@ -9,14 +9,16 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/each_setup.h"
 #include "cli/resolved.h"
 #include "cli/slant.h"
 #include "core/append.h"
 #include "report/number.h"
+#include "report/terminal.h"
 
-enum { DIGITS_Z = 9, DIGITS_SHORT = 4, BESIDE = 6, WIDTH_UNITS = 11 };
+enum { DIGITS_Z = 9, DIGITS_SHORT = 4, BESIDE = 6, WIDTH_API = 13, WIDTH_UNITS = 11 };
 
 double bias_signed(const dp_setup *setup, double units) {
     return isinf(units) ? (double)NAN : units * bias_sign(setup) + 0.0; /* no -0 */
@@ -156,9 +158,9 @@ static void fill_row(const all *a, const bias_api *named, const dp_setup *setup,
         snprintf(r->said, sizeof r->said, "%s", call_of(api, shown, "F").text);
 }
 
-static size_t api_count(void) {
+static size_t api_count(const options *o) {
     size_t count = 0;
-    while (bias_api_get(count) != NULL)
+    while (options_api(o, count) != NULL)
         count++;
     return count;
 }
@@ -166,8 +168,8 @@ static size_t api_count(void) {
 /* Place by place, API by API. */
 static void *next_row(void *of, size_t i) {
     all *a = of;
-    const size_t apis = api_count();
-    const bias_api *api = bias_api_get(i % apis);
+    const size_t apis = api_count(a->each.o);
+    const bias_api *api = options_api(a->each.o, i % apis);
     if (i / apis == (a->by_range ? 1 : a->each.at.count) || output_failed(&a->each.out))
         return NULL;
     fill_row(a, api, a->each.setup, a->by_range ? (double)NAN : depths_get(&a->each.at, i / apis), &a->row);
@@ -177,7 +179,7 @@ static void *next_row(void *of, size_t i) {
 /* The same for all set-ups at once. */
 static void *next_beside(void *of, size_t i) {
     all *a = of;
-    const bias_api *api = bias_api_get(i);
+    const bias_api *api = options_api(a->each.o, i);
     row r;
     if (api == NULL)
         return NULL;
@@ -199,18 +201,16 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_goal(page *p, const all *a) {
     const options *o = a->each.here;
-    const char *unit = options_unit(o);
     char goal[64] = "To be resolved", place[128] = "", slope[64] = "";
     if (o->wanted.separation > 0.0)
-        snprintf(goal, sizeof goal, "To bring a layer %s nearer",
-                 number_in(number_full(o->wanted.separation), unit).text);
+        snprintf(goal, sizeof goal, "To bring a layer %s nearer", options_length(o, o->wanted.separation, 0).text);
     if (o->bias.slope > 0.0)
-        snprintf(slope, sizeof slope, ", slope %s per pixel", number_in(number_full(o->bias.slope), unit).text);
+        snprintf(slope, sizeof slope, ", slope %s per pixel", options_length(o, o->bias.slope, 0).text);
     if (a->by_range)
-        snprintf(place, sizeof place, " from z = %s to %s", number_in(number_of(range_from(a), DIGITS_Z), unit).text,
-                 number_in(number_of(a->hi, DIGITS_Z), unit).text);
+        snprintf(place, sizeof place, " from z = %s to %s", options_length(o, range_from(a), DIGITS_Z).text,
+                 options_length(o, a->hi, DIGITS_Z).text);
     else if (a->each.at.count == 1)
-        snprintf(place, sizeof place, " at z = %s", number_in(number_of(a->each.at.lo, DIGITS_Z), unit).text);
+        snprintf(place, sizeof place, " at z = %s", options_length(o, a->each.at.lo, DIGITS_Z).text);
     page_text(p, "%s%s%s:", goal, place, slope);
 }
 
@@ -231,17 +231,34 @@ static const bias_api *api_named(const char *name) {
     return bias_api_get(i);
 }
 
-/* "vulkan and gl", or which of them was not measured; what was measured is told. */
-static const char *say_measured(page *p, const options *o, const dp_format *format) {
-    char text[2][BIAS_CALL_SIZE];
-    for (int i = 0; i < 2; i++)
-        if (bias_of_gpu(o, api_named(chosen_by_drivers[i]), format, text[i])[0] != '\0')
-            page_line(p, "%s: %s", chosen_by_drivers[i], text[i]);
-    return text[0][0] != '\0' ? "gl" : text[1][0] != '\0' ? "vulkan" : "vulkan and gl";
+static bool is_asked(const options *o, const char *name) {
+    size_t i = 0;
+    while (options_api(o, i) != NULL && strcmp(options_api(o, i)->name, name) != 0)
+        i++;
+    return options_api(o, i) != NULL;
+}
+
+/* Those that are asked for; those that were measured in the format are told, and left out. @return out */
+static const char *say_measured(page *p, const options *o, const dp_format *format, char out[BIAS_CALL_SIZE]) {
+    char text[BIAS_CALL_SIZE] = "";
+    out[0] = '\0';
+    for (size_t i = 0; i < sizeof chosen_by_drivers / sizeof chosen_by_drivers[0]; i++) {
+        const char *const name = chosen_by_drivers[i];
+        if (!is_asked(o, name))
+            continue;
+        if (format != NULL && bias_of_gpu(o, api_named(name), format, text)[0] != '\0')
+            page_line(p, "%s: %s", name, text);
+        else
+            append(out, BIAS_CALL_SIZE, "%s%s", *out != '\0' ? " and " : "", name);
+    }
+    return out;
 }
 
 static void say_choice(page *p, const options *o, const dp_format *format) {
-    const char *const open = say_measured(p, o, format);
+    char text[BIAS_CALL_SIZE];
+    const char *const open = say_measured(p, o, format, text);
+    if (*open == '\0')
+        return;
     if (format->kind == DP_FORMAT_UNORM)
         page_line(p, "%s: r is the implementation's choice, 2^-%d is assumed", open, format->bits);
     else
@@ -271,7 +288,7 @@ static void say_beside(page *p, void *item) {
     page_title(p, "near %s, far %s, %s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
                o->camera.ortho ? "orthographic" : "perspective");
     say_goal(p, a);
-    output_format(p->out, "%s%-13s", p->soft, "");
+    output_format(p->out, "%s%-*s", p->soft, WIDTH_API, "");
     for (size_t k = 0; k < a->each.all.count; k++)
         output_format(p->out, "%*s", WIDTH_UNITS, a->each.all.items[k].spec.format.name);
     output_format(p->out, "%s\n", p->plain);
@@ -294,12 +311,13 @@ static void say_calls(page *p, void *item) {
         page_line(p, "-: no bias suffices; ask about that format and mapping alone to see where one does");
     if (is_any(a, bias_is_missed))
         page_line(p, "%s", BIAS_MISSED);
-    if (is_any(a, is_integer))
-        page_line(p, "vulkan and gl: in integer formats r is the implementation's choice, 2^-N is assumed");
+    char open[BIAS_CALL_SIZE];
+    if (*say_measured(p, a->each.o, NULL, open) != '\0' && is_any(a, is_integer))
+        page_line(p, "%s: in integer formats r is the implementation's choice, 2^-N is assumed", open);
     output_char(p->out, '\n');
-    for (size_t i = 0; bias_api_get(i) != NULL; i++)
-        page_note(p, bias_api_get(i)->name, "%s",
-                  call_of(bias_api_get(i), "U", number_full(a->each.o->bias.factor).text).text);
+    const bias_api *api;
+    for (size_t i = 0; (api = options_api(a->each.o, i)) != NULL; i++)
+        page_note(p, api->name, "%s", call_of(api, "U", number_full(a->each.o->bias.factor).text).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -337,7 +355,7 @@ static const column columns[] = {
     {.kind = COLUMN_END}};
 
 static int write_beside(all *a, int status) {
-    column rows[BESIDE + 2] = {{TEXT_FIELD(row, api, "", -13, 0)}};
+    column rows[BESIDE + 2] = {{TEXT_FIELD(row, api, "", -WIDTH_API, 0)}};
     for (size_t k = 0; k < a->each.all.count; k++) {
         const char *mapping = dp_mapping_get(a->each.all.items[k].spec.mapping)->name;
         rows[k + 1] = (column){TEXT_FIELD(row, beside[0], mapping, WIDTH_UNITS, 0)};
@@ -353,13 +371,16 @@ static int write_beside(all *a, int status) {
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 int bias_all_write(const options *o) {
-    all a = {
-        .by_range = !option_given(o, OPTION_AT), .apis = "all", .slope = o->bias.slope, .gap = o->wanted.separation};
+    all a = {.by_range = !option_given(o, OPTION_AT),
+             .apis = o->given[OPTION_API],
+             .slope = o->bias.slope,
+             .gap = o->wanted.separation};
     a.triangles = slant_fields_of(o, &a.slant);
     a.factor = bias_chooses_factor(o) ? (double)NAN : o->bias.factor;
     if (option_given(o, OPTION_UNITS) || option_given(o, OPTION_CLAMP))
-        return option_error(OPTION_API, "must be one API with --%s, got 'all'",
-                            option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP));
+        return option_error(OPTION_API, "must be one API with --%s, got '%s'",
+                            option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP),
+                            o->given[OPTION_API]);
     if (option_given(o, OPTION_AT) && option_given(o, OPTION_RANGE))
         return option_error(OPTION_RANGE, "conflicts with --at for all APIs");
     int status = each_setup_start(&a.each, o);
@@ -368,9 +389,11 @@ int bias_all_write(const options *o) {
     const bool beside = o->out.form == FORM_TEXT && !o->out.full && a.each.all.count > 1 &&
                         a.each.all.count <= BESIDE && (a.by_range || a.each.at.count == 1) && a.triangles == NULL &&
                         o->camera.gpu.measured[0] == '\0'; /* what was measured is told of each format */
+    const int wide = terminal_columns(STDOUT_FILENO);
+    const bool fits = wide == 0 || wide >= WIDTH_API + WIDTH_UNITS * (int)a.each.all.count;
     const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.each.at.count > 1 ? OF_SEVERAL : 0) |
                           (a.triangles != NULL ? WITH_TRIANGLES : 0);
-    if (beside)
+    if (beside && fits)
         return write_beside(&a, status);
     return each_setup_write(&a.each, &(report_spec){"bias", columns, &a, .when = when, .label = 14}, status);
 }

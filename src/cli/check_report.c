@@ -28,8 +28,8 @@ static void put(char *out, const char *before, const check_file *f, double value
     append(out, SENTENCE_SIZE, "%s %s%s%s", before, number.text, has_unit ? " " : "", has_unit ? f->file.unit : "");
 }
 
-static const char *surfaces(const check_verdict *v) {
-    return check_is_slanted(v) ? "any slant" : "facing";
+static number_text surfaces(const check_verdict *v) {
+    return check_is_slanted(v) ? slant_words(&v->setup.spec.triangles) : (number_text){"facing"};
 }
 
 /* "separation 0.00149 m at 50 m (code 123), facing, allowed 0.001 m"; what is promised is rounded up */
@@ -46,7 +46,7 @@ static const char *sentence(const check_file *f, const check_verdict *v, char ou
     if (kind->is_length && has_code(v))
         append(out, SENTENCE_SIZE, " (code %u)", v->code);
     if (v->asked->kind == NEED_SEPARATION)
-        append(out, SENTENCE_SIZE, ", %s", surfaces(v));
+        append(out, SENTENCE_SIZE, ", %s", surfaces(v).text);
     put(out, ", allowed", f, v->asked->limit, kind->is_length, false);
     return out;
 }
@@ -90,8 +90,8 @@ static void say_case(output *out, const check_file *f, const check_verdict *v) {
     char full[SETUP_LABEL_SIZE], detail[SETUP_LABEL_SIZE + PROFILE_MEASURED_SIZE + 16];
     const char *const measured = v->camera->gpu.measured;
     snprintf(line, sizeof line, "%d", v->asked->line);
-    snprintf(name, sizeof name, "%s (%s%s)", v->asked->name, setup_label(&v->setup, false, label),
-             check_is_slanted(v) ? ", any slant" : "");
+    snprintf(name, sizeof name, "%s (%s%s%s)", v->asked->name, setup_label(&v->setup, false, label),
+             check_is_slanted(v) ? ", " : "", check_is_slanted(v) ? surfaces(v).text : "");
     snprintf(detail, sizeof detail, "%s%s%s", setup_label(&v->setup, true, full),
              measured[0] != '\0' ? ", measured on " : "", measured);
     junit_case(out, &(junit_row){.classname = v->camera->name,
@@ -157,7 +157,7 @@ static void *next_verdict(void *of, size_t i) {
                   .found = *v,
                   .slant = {v->setup.spec.triangles, v->camera->raster != NULL ? v->camera->raster->name : NULL,
                             dp_arith_get(v->setup.spec.arith)->name},
-                  .surfaces = surfaces(v),
+                  .surfaces = check_is_slanted(v) ? "any slant" : "facing",
                   .code = has_code(v) ? v->code : (double)NAN};
     all->verdict.triangles = check_is_slanted(v) ? &all->verdict.slant : NULL;
     return &all->verdict;

@@ -11,6 +11,7 @@
 #include "cli/each_setup.h"
 #include "cli/resolved.h"
 #include "cli/slant.h"
+#include "core/append.h"
 #include "report/number.h"
 
 enum { DIGITS = 6, DIGITS_Z = 9, DIGITS_SHORT = 4 };
@@ -184,23 +185,24 @@ static void say_states(page *p, void *item) {
     const bias_state *s = &b->state;
     each_setup_title(p, item);
     slant_say(p, page_title, b->each.o, &b->slanted);
-    output_text(p->out, s->api->name);
+    char text[256] = "";
+    append(text, sizeof text, "%s", s->api->name);
     if (!b->inverse)
-        output_format(p->out, ", units %s", number_full(s->units).text);
+        append(text, sizeof text, ", units %s", number_full(s->units).text);
     if (s->factor != 0.0 && isfinite(s->factor))
-        output_format(p->out, ", factor %s", number_full(s->factor).text);
+        append(text, sizeof text, ", factor %s", number_full(s->factor).text);
     if (!b->inverse && s->clamp != 0.0)
-        output_format(p->out, ", clamp %s", number_full(s->clamp).text);
+        append(text, sizeof text, ", clamp %s", number_full(s->clamp).text);
     if (b->goal.slope > 0.0)
-        output_format(p->out, ", slope %s per pixel", number_in(number_full(b->goal.slope), p->unit).text);
-    output_char(p->out, '\n');
+        append(text, sizeof text, ", slope %s per pixel", options_length(b->each.here, b->goal.slope, 0).text);
+    page_text(p, "%s", text);
 }
 
-/* "  resolved    -2 units from 0.1 to 1000 (needed at z = 0.1)", or where a bias is enough at all. */
-static void say_needed(page *p, const char *what, double units, const double range[2], double z,
+/* "  resolved    -2 units from 0.1 to 1000 (needed at z = 0.1)", or where a bias suffices at all. */
+static void say_needed(page *p, const options *o, const char *what, double units, const double range[2], double z,
                        const double enough[2]) {
-    const number_text lo = number_in(number_of(range[0], DIGITS_Z), p->unit);
-    const number_text hi = number_in(number_of(range[1], DIGITS_Z), p->unit);
+    const number_text lo = options_length(o, range[0], DIGITS_Z);
+    const number_text hi = options_length(o, range[1], DIGITS_Z);
     const number_text from = number_in(number_up(enough[0], DIGITS_Z), p->unit);
     const number_text to = number_in(number_down(enough[1], DIGITS_Z), p->unit);
     if (range[0] == range[1] && isnan(units))
@@ -210,7 +212,7 @@ static void say_needed(page *p, const char *what, double units, const double ran
                   lo.text);
     else if (!isnan(units))
         page_note(p, what, "%s unit%s from %s to %s (needed at z = %s)", number_of(units, DIGITS_Z).text,
-                  fabs(units) == 1.0 ? "" : "s", lo.text, hi.text, number_in(number_of(z, DIGITS_Z), p->unit).text);
+                  fabs(units) == 1.0 ? "" : "s", lo.text, hi.text, options_length(o, z, DIGITS_Z).text);
     else if (isnan(enough[0]))
         page_note(p, what, "no bias suffices from %s to %s", lo.text, hi.text);
     else if (enough[0] == range[0])
@@ -224,10 +226,10 @@ static void say_needed(page *p, const char *what, double units, const double ran
 
 static void say_range(page *p, const biasing *b) {
     const needs *r = &b->needs;
-    say_needed(p, "resolved", r->apart, (const double[]){r->lo, r->hi}, r->apart_z,
+    say_needed(p, b->each.here, "resolved", r->apart, (const double[]){r->lo, r->hi}, r->apart_z,
                (const double[]){r->apart_from, r->apart_to});
     if (b->goal.gap > 0.0)
-        say_needed(p, "separated", r->gap, (const double[]){r->gap_lo, r->hi}, r->gap_z,
+        say_needed(p, b->each.here, "separated", r->gap, (const double[]){r->gap_lo, r->hi}, r->gap_z,
                    (const double[]){r->gap_from, r->gap_to});
     const double units = b->goal.gap > 0.0 ? r->gap : r->apart;
     if (!isnan(units))
@@ -238,10 +240,12 @@ static void say_range(page *p, const biasing *b) {
                   number_of(next, DIGITS_Z).text);
     if (b->goal.gap == 0.0)
         return;
+    const unit_row *unit = options_unit_of(b->each.here, OPTION_SEPARATION);
+    const double shift = unit_convert(fabs(r->shift_hi), b->each.here->camera.unit, unit);
     if (!isnan(r->shift_hi))
         page_note(p, "", "the same units bring a layer nearer by %s at z = %s",
-                  number_in(number_of(fabs(r->shift_hi), DIGITS), p->unit).text,
-                  number_in(number_of(r->hi, DIGITS_Z), p->unit).text);
+                  number_in(number_of(shift, DIGITS), unit != NULL ? unit->name : NULL).text,
+                  options_length(b->each.here, r->hi, DIGITS_Z).text);
 }
 
 /* What of r was measured. @return whether there is nothing more to say of it */
@@ -318,7 +322,7 @@ static const column row_columns[] = {
      .when = INVERSE | WITH_GAP},
     {FIELD(row, facing, "guarantee_facing", "scene"), SHOWN("facing", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},
-    {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 11, DIGITS_SHORT), .upward = true,
+    {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},
     {FIELD(row, effect.offset, "bias", ""), SHOWN("bias", 12, DIGITS), .when = EFFECT, .spare = 1},
     {FIELD(row, effect.depth, "depth", ""), .when = EFFECT},

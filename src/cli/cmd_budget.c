@@ -232,11 +232,11 @@ static void say_setup(page *p, void *item) {
     const budget *b = item;
     each_setup_title(p, item);
     if (b->scheme != NULL)
-        page_title(p, "from origin %s, scheme %s%s%s", number_in(number_full(b->terms.world), p->unit).text,
+        page_title(p, "from origin %s, scheme %s%s%s", options_length(b->each.here, b->terms.world, 0).text,
                    b->scheme_name, b->scheme->row->size != NULL ? ":" : "",
                    b->scheme->row->size != NULL ? number_full(b->scheme->size).text : "");
     else if (b->composition != NULL)
-        page_title(p, "from origin %s, composition %s", number_in(number_full(b->terms.world), p->unit).text,
+        page_title(p, "from origin %s, composition %s", options_length(b->each.here, b->terms.world, 0).text,
                    b->composition);
     if (b->shader)
         page_title(p, "log2 %s: %s", dp_log2_get(b->terms.log2)->name, dp_log2_get(b->terms.log2)->note);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* list: the rows of the tables that the program works from, with what is claimed of each and where it comes from. */
+/*
+ * list: the rows of the tables that the program works from, with what is claimed of each and where it comes from: those
+ * of a topic, or whatever in any of them is called by a word.
+ */
 #include "cli/methods.h"
 #include "report/report.h"
 
@@ -10,6 +13,7 @@ typedef struct listing {
     const options *o;
     const topic *topic;
     const char *what;
+    const char *word; /* only what is called so; null: all of the topic */
     list_item item;
     char chosen[LIST_TEXT_SIZE]; /* with --tolerance: for what the thing is chosen, "" for nothing */
 } listing;
@@ -17,18 +21,20 @@ typedef struct listing {
 static void *next_item(void *of, size_t i) {
     listing *l = of;
     list_item *item = &l->item;
-    if (!l->topic->get(i, item))
+    const name_list named = {.get = l->topic->get};
+    size_t index = i;
+    if (l->word != NULL ? i > 0 || !names_find(&named, l->word, &index, item) : !l->topic->get(i, item))
         return NULL;
     if (item->source != NULL && *item->source == '\0')
         item->source = NULL;
     if (option_given(l->o, OPTION_TOLERANCE))
-        list_method_choice(l->o, i, l->chosen);
+        list_method_choice(l->o, index, l->chosen);
     return l;
 }
 
 static void say_topics(page *p, void *of) {
     (void)of;
-    output_text(p->out, "depthprec list WHAT, where WHAT is one of\n");
+    page_text(p, "depthprec list WHAT, where WHAT is one of");
     list_item item;
     for (size_t i = 0; list_topic(i, &item); i++)
         page_note(p, item.name, "%s", item.note);
@@ -37,7 +43,7 @@ static void say_topics(page *p, void *of) {
 static void say_item(page *p, void *of) {
     const listing *l = of;
     const list_item *item = &l->item;
-    page_title(p, "%s", item->name);
+    page_title(p, "%s%s%s", l->word != NULL ? l->topic->name : "", l->word != NULL ? ": " : "", item->name);
     page_wrapped(p, "", item->note);
     page_wrapped(p, l->topic->shown != NULL ? l->topic->shown : l->topic->bound, item->bound);
     page_wrapped(p, "chosen", l->chosen);
@@ -76,20 +82,49 @@ static void write_list(listing *l, output *out) {
         {.kind = COLUMN_END}};
     report_write(&(report_spec){"list", columns, l, .when = option_given(l->o, OPTION_TOLERANCE) ? WITH_CHOICES : 0,
                                 .label = 12, .head = topics_alone ? say_topics : NULL,
-                                .notes = l->topic->get == list_format ? say_other_formats : NULL},
+                                .notes = l->topic->get == list_format && l->word == NULL ? say_other_formats : NULL},
                  out, l->o->out.form);
 }
 
+/* Every topic that knows the word, parted by empty lines. @return whether one does */
+static bool write_word(listing *l, output *out) {
+    bool found = false;
+    list_item here, item;
+    for (size_t i = 0; list_topic(i, &here); i++) {
+        l->topic = here.row;
+        const name_list named = {.get = l->topic->get};
+        if (!names_find(&named, l->word, NULL, &item))
+            continue;
+        if (out != NULL && found)
+            output_char(out, '\n');
+        if (out != NULL)
+            write_list(l, out);
+        found = true;
+    }
+    return found;
+}
+
 int cmd_list(const options *o) {
-    const topic *asked = o->operand_row;
-    listing l = {.o = o, .topic = asked != NULL ? asked : &all_topics};
-    if (option_given(o, OPTION_TOLERANCE) && l.topic->get != list_method)
+    static const name_list topics = {.get = list_topic};
+    list_item asked = {.row = &all_topics};
+    listing l = {.o = o};
+    int status = EXIT_FINE;
+    if (o->operand_count > 0 && !names_find(&topics, o->operands[0], NULL, &asked))
+        l.word = o->operands[0];
+    if (l.word != NULL && (o->out.form != FORM_TEXT || !write_word(&l, NULL)))
+        status = check_operand(o->command, "WHAT", &topics, l.word, &asked);
+    l.topic = asked.row;
+    if (status == EXIT_FINE && option_given(o, OPTION_TOLERANCE) && l.topic->get != list_method)
         return option_error(OPTION_TOLERANCE, "applies to list methods only");
     output out;
-    int status = options_open(o, &out);
+    if (status == EXIT_FINE)
+        status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     l.what = l.topic->name;
-    write_list(&l, &out);
+    if (l.word != NULL)
+        write_word(&l, &out);
+    else
+        write_list(&l, &out);
     return output_close(&out);
 }

@@ -219,7 +219,7 @@ static void *next_family(void *of, size_t i) {
 
 static void say_families(page *p, void *of) {
     family_line *l = of;
-    output_text(p->out, "depthprec methods FAMILY, where FAMILY is one of\n");
+    page_text(p, "depthprec methods FAMILY, where FAMILY is one of");
     for (size_t i = 0; next_family(l, i) != NULL; i++)
         page_note(p, l->name, "%s (%llu methods)", l->summary, (unsigned long long)l->methods);
 }

@@ -16,6 +16,7 @@
 #include "core/append.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
+#include "report/message.h"
 #include "report/number.h"
 
 enum { WIDTH = 800, HEIGHT = 500 };
@@ -277,11 +278,11 @@ static int resolve_shadow(plotting *p) {
 static void say_methods(const chart_panel *panel) {
     const chart_map *m = &panel->map;
     if (m->by_way > 0)
-        fprintf(stderr, "depthprec: %zu of %d fields by a method that is cheaper than the exact cell\n", m->by_way,
+        message("depthprec: %zu of %d fields by a method that is cheaper than the exact cell", m->by_way,
                 m->columns * m->rows);
     for (size_t s = 0; s < panel->series_count; s++)
         if (panel->series[s].method != NULL)
-            fprintf(stderr, "depthprec: %s: by %s between the cells that the planes cut\n", panel->series[s].name,
+            message("depthprec: %s: by %s between the cells that the planes cut", panel->series[s].name,
                     panel->series[s].method);
 }
 
@@ -293,10 +294,10 @@ static void say_evaluations(const figure_row *row, const chart *c) {
         fields += (size_t)c->panels[p].map.columns * (size_t)c->panels[p].map.rows;
     }
     if (fields > 0)
-        fprintf(stderr, "depthprec: %s: %zu evaluations, one per field\n", row->name, fields);
+        message("depthprec: %s: %zu evaluations, one per field", row->name, fields);
     else if (c->curves > 0)
-        fprintf(stderr, "depthprec: %s: %zu evaluations for %zu curve%s (one per pixel column would be %zu)\n",
-                row->name, c->evaluations, c->curves, c->curves == 1 ? "" : "s", c->places);
+        message("depthprec: %s: %zu evaluations for %zu curve%s (one per pixel column would be %zu)", row->name,
+                c->evaluations, c->curves, c->curves == 1 ? "" : "s", c->places);
 }
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
@@ -372,7 +373,7 @@ static int write_figure(plotting *p) {
     output_abandon(&out);
     if (good)
         return status;
-    fprintf(stderr, "depthprec: no memory for the figure\n");
+    message("depthprec: no memory for the figure");
     return EXIT_IO;
 }
 

@@ -132,8 +132,8 @@ static void say_answer(page *p, void *item) {
     each_setup_title(p, item);
     page_title(p, "%llu vert%s from z = %s to %s: %s; camera within +-%s; seed %llu",
                (unsigned long long)worst.vertices, worst.vertices == 1 ? "ex" : "ices",
-               number_in(number_full(r->lo), p->unit).text, number_in(number_full(r->hi), p->unit).text,
-               vertex_spread_note(r->spread), number_in(number_full(r->world), p->unit).text,
+               options_length(a->each.here, r->lo, 0).text, options_length(a->each.here, r->hi, 0).text,
+               vertex_spread_note(r->spread), options_length(a->each.here, r->world, 0).text,
                (unsigned long long)r->seed);
     if (worst.vertices == 0)
         page_text(p, "None of the random vertices lies within the range.");

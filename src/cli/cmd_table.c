@@ -190,8 +190,10 @@ static void say_reach(page *p, void *item) {
     if (t->each.all.count > 1)
         return;
     say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");
+    char slanted[NUMBER_SIZE + 8];
+    snprintf(slanted, sizeof slanted, ", at %s", slant_words(&t->slanted.spec.triangles).text);
     if (t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FLOAT)
-        say_reach_of(p, &t->slanted, unit, ", at any slant");
+        say_reach_of(p, &t->slanted, unit, slanted);
 }
 
 static void say_worst(page *p, const dp_worst *w) {
@@ -248,7 +250,9 @@ static void say_notes(page *p, void *item) {
                   t->full.shader             ? "guaranteed for every log2 that a shader may use"
                   : dp_is_computed(&t->full) ? "guaranteed in binary32 (model float)"
                                              : "in model staged");
-    say_guarantee(p, t->guarantee_slanted, "at any slant", "of the farther surface");
+    char slanted[NUMBER_SIZE + 8];
+    snprintf(slanted, sizeof slanted, "at %s", slant_words(&t->slanted.spec.triangles).text);
+    say_guarantee(p, t->guarantee_slanted, slanted, "of the farther surface");
     say_drawn(p, &t->planes);
     per_vertex_say(p, &t->written, t->slant.triangles.depth);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
@@ -284,7 +288,7 @@ static const column row_columns[] = {
      .only = AS_TEXT | AS_JSON},
     {FIELD(row, guaranteed, "guaranteed", "scene"), SHOWN("guaranteed", 11, DIGITS_SHORT), .upward = true},
     {FIELD(row, guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
-    {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 11, DIGITS_SHORT), .upward = true,
+    {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},
     {FIELD(row, written.error, "per_vertex", "scene"), SHOWN("per vertex", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES | PER_VERTEX},

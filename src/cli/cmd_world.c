@@ -118,8 +118,8 @@ static void *next_line(void *of, size_t i) {
 static void say_setup(page *p, void *item) {
     world *w = item;
     setup_title(p, w->setup, &w->fields);
-    page_text(p, "%s apart and %s ahead, %s; a view of %dx%d pixels, fov %s",
-              number_in(number_full(w->wanted), p->unit).text, number_in(number_full(w->z), p->unit).text,
+    page_text(p, "%s apart and %s ahead, %s; a view of %dx%d pixels, fov %s", options_length(&w->o, w->wanted, 0).text,
+              options_length(&w->o, w->z, 0).text,
               w->asked.shared_origin ? "meshes with one origin" : "meshes with their own origins", w->width, w->height,
               number_of(w->fov, 4).text);
 }
@@ -129,7 +129,7 @@ static void say_distance(page *p, void *item) {
     if (isnan(w->distance))
         return;
     output_char(p->out, '\n');
-    page_title(p, "%s from the origin: %s%s", number_in(number_full(w->distance), p->unit).text,
+    page_title(p, "%s from the origin: %s%s", options_length(&w->o, w->distance, 0).text,
                w->least != NULL ? w->least : "none", w->least != NULL ? " suffices" : " of them suffices");
 }
 
@@ -139,14 +139,14 @@ static void say_reach(page *p, void *item) {
     if (!isnan(w->distance) || w->o.world.scheme_count != 1)
         return;
     const line *l = &w->line;
-    const number_text gap = number_in(number_full(w->wanted), p->unit);
+    const number_text gap = options_length(&w->o, w->wanted, 0);
     if (isinf(l->safe_to))
         page_text(p, "%s: %s is safe everywhere", l->label, gap.text);
     else
         page_text(p, "%s: %s is safe to %s", l->label, gap.text,
                   number_in(number_brief(number_down(l->safe_to, DIGITS)), p->unit).text);
     if (isfinite(l->still_to))
-        page_text(p, "Jitter of a pixel at %s from %s on", number_in(number_full(w->z), p->unit).text,
+        page_text(p, "Jitter of a pixel at %s from %s on", options_length(&w->o, w->z, 0).text,
                   number_in(number_brief(number_down(l->still_to, DIGITS)), p->unit).text);
 }
 
@@ -186,8 +186,17 @@ static const column columns[] = {{FIELD(world, wanted, "gap", "scene")},
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-static double length_or(bool given, double value, double metres, const unit_row *unit) {
-    return given ? value : unit_convert(metres, unit_find("m"), unit);
+/* What was not given is as if it had been typed in `unit`; of scene units in metres. */
+static double length_or(bool given, double value, options *o, double standard, const char *name) {
+    const unit_row *unit = unit_find(name);
+    options_camera *c = &o->camera;
+    const double metres = unit_convert(standard, unit, unit_find("m"));
+    if (given || c->unit == NULL)
+        return given ? value : metres;
+    const double length = unit_convert(standard, unit, c->unit);
+    if (c->typed_count < OPTIONS_TYPED_MAX)
+        c->typed[c->typed_count++] = (typed_length){length, standard, unit};
+    return length;
 }
 
 static int complete(world *w, const options *o) {
@@ -200,8 +209,8 @@ static int complete(world *w, const options *o) {
                                 dp_mapping_get(c->camera.mappings[m])->name);
     if (o->camera.at.count > 1)
         return option_error(OPTION_AT, "must be one depth, got %zu", o->camera.at.count);
-    w->z = length_or(o->camera.at.count > 0, o->camera.at.lo, 10.0, o->camera.unit);
-    w->wanted = length_or(option_given(o, OPTION_SEPARATION), o->wanted.separation, 0.01, o->camera.unit);
+    w->z = length_or(o->camera.at.count > 0, o->camera.at.lo, c, 10.0, "m");
+    w->wanted = length_or(option_given(o, OPTION_SEPARATION), o->wanted.separation, c, 1.0, "cm");
     w->distances = o->world.distances;
     if (w->distances.count > 0 && !(w->distances.lo >= 0.0 && w->distances.hi <= WORLD_FARTHEST))
         return option_error(OPTION_FROM_ORIGIN, "must be from 0 to 1e12 scene units, got %s",
@@ -229,13 +238,12 @@ static void take_view(world *w) {
 
 /* The default is in metres, near and far may be of scene units: who gave no depth is told both. */
 static int refuse_depth(const world *w) {
-    const char *unit = options_unit(&w->o);
-    const number_text z = number_in(number_full(w->z), unit), lo = number_in(number_full(w->o.camera.znear), unit);
-    const number_text hi = number_in(number_full(w->o.camera.zfar), unit);
+    const number_text z = options_length(&w->o, w->z, 0), lo = options_length(&w->o, w->o.camera.znear, 0);
+    const number_text hi = options_length(&w->o, w->o.camera.zfar, 0);
     if (option_given(&w->o, OPTION_AT))
         return option_error(OPTION_AT, "must lie between near and far, %s and %s, got %s", lo.text, hi.text, z.text);
-    return option_error(OPTION_AT, "must be given: 10 m ahead, %s here, is not between near and far, %s and %s", z.text,
-                        lo.text, hi.text);
+    return option_error(OPTION_AT, "must be given: 10 m ahead, %s here, is not between near and far, %s and %s",
+                        number_in(number_full(w->z), options_unit(&w->o)).text, lo.text, hi.text);
 }
 
 int cmd_world(const options *o) {

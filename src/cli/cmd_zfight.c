@@ -9,6 +9,7 @@
 #include "cli/slant.h"
 #include "cli/stop.h"
 #include "cli/zfight_triangles.h"
+#include "report/message.h"
 #include "report/number.h"
 
 /* A band, or all of them together, and what of it does not exist as NaN. */
@@ -147,13 +148,13 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_gap(page *p, const zfight *z) {
     const census_band *all = &z->result->all;
-    const number_text gap = number_in(number_full(z->gap), p->unit);
+    const number_text gap = options_length(z->each.here, z->gap, 0);
     const number_text first = number_in(number_down(all->first, DIGITS), p->unit);
     const number_text always = number_in(number_up(z->always, DIGITS), p->unit);
     const char *drawn = z->each.o->census.sample > 0 ? "Of the pairs tested, surfaces" : "Surfaces";
     if (isnan(all->first))
         page_text(p, "%s %s apart never z-fight from %s to %s.", drawn, gap.text,
-                  number_in(number_full(z->lo), p->unit).text, number_in(number_full(z->hi), p->unit).text);
+                  options_length(z->each.here, z->lo, 0).text, options_length(z->each.here, z->hi, 0).text);
     else if (isnan(z->always))
         page_text(p, "%s %s apart first z-fight at z = %s, and at no depth do all of them.", drawn, gap.text,
                   first.text);
@@ -215,7 +216,7 @@ static const column count_columns[] = {
     {TEXT_FIELD(band, counts.longest_z, "at", 10, DIGITS), .when = WITH_INTERVALS, .spare = 1},
     {FIELD(band, counts.bound, "bound", "scene"), SHOWN("guaranteed", 12, DIGITS), .upward = true},
     {FIELD(band, counts.bound, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
-    {FIELD(band, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 12, DIGITS), .upward = true,
+    {FIELD(band, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", 12, DIGITS), .upward = true,
      .when = WITH_TRIANGLES},
     {FIELD(band, used, "used", "")},
     {TEXT_FIELD(band, used, "used", 8, 3), .fixed = true, .when = WITH_INTERVALS, .spare = 1},
@@ -272,7 +273,7 @@ static void warn(const zfight *z) {
         if (isnan(from) || census_count(from, to) < census_count(z->lo, z->hi))
             clipping_say(&z->each.all.items[i], from, to, r->holes > 0 ? ", with holes" : "");
         else if (r->holes > 0)
-            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 removes %llu depths between %s and %s\n",
+            message("depthprec: warning: %s: clipping in binary32 removes %llu depths between %s and %s",
                     setup_label(&z->each.all.items[i], false, label), (unsigned long long)r->holes,
                     number_of(from, PLANE_DIGITS).text, number_of(to, PLANE_DIGITS).text);
     }

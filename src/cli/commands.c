@@ -67,7 +67,7 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec world --scheme camera-float,split --at 1m\n"},
     [CMD_SCENE] = {"scene", CMD_SCENE, scene_uses, "MODEL", 1, 1, NULL,
      .summary = "surfaces of a 3D model that z-fight, and from where on",
-     .example = "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
+     .example = "  depthprec scene house.glb -n 0.1 -f 500\n"
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
      "  depthprec scene house.glb --eye 0,2,30 --look 0,2,0 --render seen.png\n"
      "  depthprec scene city.obj -F d24 -m d3d --separation 0.001 --json\n",
@@ -112,10 +112,11 @@ const command_row command_rows[CMD_COUNT] = {
      .files_from = 2, .group = "Figures, lists and help", .part = plot_asked,
      .shown = FIGURE_SETUPS | FIGURE_AT | FIGURE_SLANTED},
     [CMD_LIST] = {"list", CMD_LIST, list_uses, "WHAT", 0, 1, &topics,
-     .summary = "formats, mappings, presets, methods: 'list' names all",
+     .summary = "formats, mappings, presets, methods, or what a word means",
      .example = "  depthprec list\n"
      "  depthprec list formats\n"
-     "  depthprec list mappings --json\n"},
+     "  depthprec list mappings --json\n"
+     "  depthprec list polygonOffset\n"},
     [CMD_HELP] = {"help", CMD_HELP, no_uses, "COMMAND", 0, 1, &commands,
      .summary = "the options of a command; 'help options': those of all",
      .example = "  depthprec help table\n"

@@ -37,7 +37,7 @@ typedef struct compared {
     const unit_row *unit; /* of the set-up; null where nothing says it */
     double znear, zfar, fov_y;
     char raster[32];
-    bool unbounded; /* slanted surfaces, under a mapping that has no guarantee for them */
+    bool unbounded; /* slanted surfaces, under a mapping that promises those that face the camera alone */
     cost cost;
     char name[SETUP_LABEL_SIZE];
     double separation[DEPTHS]; /* NaN where the depth is not in the range of the set-up */
@@ -48,6 +48,7 @@ typedef struct compared {
 typedef struct comparison {
     each_setup *each;
     compared *rows;
+    size_t bounded; /* rows that have what is asked for; the others stand behind them, and below the table */
     double depths[DEPTHS];
     size_t depth_count;
     char titles[DEPTHS + LIMITS][NUMBER_SIZE];
@@ -58,21 +59,24 @@ typedef struct comparison {
 
 static void compute_row(const comparison *c, compared *r) {
     const unit_row *unit = c->each->o->camera.unit;
-    const dp_setup full = dp_setup_guaranteed(r->setup);
+    const dp_setup guaranteed = dp_setup_guaranteed(r->setup);
+    const dp_setup full = r->unbounded ? dp_setup_facing(&guaranteed) : guaranteed;
     for (size_t i = 0; i < c->depth_count; i++) {
         const double z = unit_convert(c->depths[i], unit, r->unit);
-        r->separation[i] = z >= full.spec.znear && z <= full.spec.zfar && !r->unbounded
+        r->separation[i] = z >= full.spec.znear && z <= full.spec.zfar
                                ? unit_convert(dp_separation(&full, z), r->unit, unit)
                                : (double)NAN;
     }
     resolved_up_to(&full, r->unit, r->up_to);
     for (size_t i = 0; i < LIMITS; i++)
-        r->up_to[i] = r->unbounded ? (double)NAN : unit_convert(r->up_to[i], r->unit, unit);
+        r->up_to[i] = unit_convert(r->up_to[i], r->unit, unit);
 }
 
-/* As far as it goes, then as close as it comes, then as cheap as it is. */
+/* What is asked for first, then as far as it goes, then as close as it comes, then as cheap as it is. */
 static int better(const void *a, const void *b) {
     const compared *first = a, *second = b;
+    if (first->unbounded != second->unbounded)
+        return first->unbounded ? 1 : -1;
     for (size_t i = 0; i < LIMITS; i++) {
         const size_t limit = (MIDDLE + i) % LIMITS;
         const double x = fmax(first->up_to[limit], 0.0), y = fmax(second->up_to[limit], 0.0);
@@ -129,22 +133,27 @@ static bool to_the_end(const compared *r) {
     return r->up_to[MIDDLE] >= r->zfar;
 }
 
-static const char *at_a_slant(const comparison *c) {
-    return c->each->o->camera.triangles.width > 0 ? " at any slant" : "";
+static number_text at_a_slant(const comparison *c) {
+    const dp_triangles *t = &c->each->o->camera.triangles;
+    number_text out = {""};
+    if (t->width > 0)
+        append(out.text, sizeof out.text, " at %s", slant_words(t).text);
+    return out;
 }
 
 static void say_farthest(page *p, const comparison *c, const char *limit) {
     const compared *best = c->rows;
-    const char *const slant = at_a_slant(c);
+    const number_text slanted = at_a_slant(c);
+    const char *const slant = slanted.text;
     char names[256] = "", text[RESOLVED_TEXT_SIZE];
     size_t all = 0;
-    while (all < c->each->all.count && to_the_end(&c->rows[all]))
+    while (all < c->bounded && to_the_end(&c->rows[all]))
         all++;
     for (size_t i = 0; i < all && i < NAMED; i++)
         append(names, sizeof names, "%s%s", i == 0 ? "" : i + 1 == all ? " and " : ", ", c->rows[i].name);
     if (all > NAMED)
         append(names, sizeof names, " and %zu others", all - NAMED);
-    if (isnan(best->up_to[MIDDLE]))
+    if (c->bounded == 0 || isnan(best->up_to[MIDDLE]))
         page_text(p, "None of these is guaranteed to resolve %s%s, even at the near plane.", limit, slant);
     else if (all == 0)
         page_text(p, "%s reaches farthest: it resolves %s%s up to z = %s.", best->name, limit, slant,
@@ -182,22 +191,42 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
         page_text(p, "Reversing moves the limit for %s:%s.", limit, gains);
 }
 
+/* Its mapping is not affine on the screen. */
+static void say_facing(page *p, const comparison *c, const compared *r, const char *limit) {
+    char text[RESOLVED_TEXT_SIZE];
+    if (isnan(r->up_to[MIDDLE]))
+        page_text(p, "%s guarantees nothing at a slant, nor %s where surfaces face the camera.", r->name, limit);
+    else
+        page_text(p, "%s guarantees nothing at a slant; facing the camera it resolves %s up to %s%s.", r->name,
+                  limit,
+                  to_the_end(r) ? "" : "z = ", resolved_text(r->zfar, r->up_to[MIDDLE], c->each->o->camera.unit, text));
+}
+
+/* What a mapping costs in each frame, where the hardware does not compute depth by itself. */
+static void say_costs(page *p, const comparison *c) {
+    unsigned said = 0;
+    for (size_t i = 0; i < c->each->all.count; i++) {
+        const dp_mapping mapping = c->rows[i].setup->spec.mapping;
+        const dp_mapping_row *row = dp_mapping_get(mapping);
+        if (row->curve != DP_CURVE_PERSPECTIVE && (said >> mapping & 1U) == 0)
+            page_text(p, "Cost of %s: %s.", row->name, row->effort);
+        said |= 1U << mapping;
+    }
+}
+
 static void say_notes(page *p, void *item) {
     const comparison *c = item;
     const number_text limit = resolved_limit_text(MIDDLE, c->each->o->camera.unit);
-    const bool slanted = c->each->o->camera.triangles.width > 0;
-    bool bent = false, linear = false;
+    bool linear = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
     say_reversing(p, c, limit.text);
-    for (size_t i = 0; i < c->each->all.count; i++) {
-        const dp_curve curve = dp_mapping_get(c->rows[i].setup->spec.mapping)->curve;
-        bent = bent || curve != DP_CURVE_PERSPECTIVE;
-        linear = linear || curve == DP_CURVE_LINEAR;
-    }
-    if (slanted && bent)
-        page_text(p, "linear and log are not affine on the screen: no guarantee at a slant.");
-    else if (linear)
+    for (size_t i = c->bounded; i < c->each->all.count; i++)
+        say_facing(p, c, &c->rows[i], limit.text);
+    say_costs(p, c);
+    for (size_t i = 0; i < c->each->all.count; i++)
+        linear = linear || dp_mapping_get(c->rows[i].setup->spec.mapping)->curve == DP_CURVE_LINEAR;
+    if (linear)
         page_text(p, "linear is judged without the arithmetic of its shader (model staged).");
     for (size_t i = 0; i < c->each->all.count; i++)
         if (c->rows[i].cost.buffer == 0) {
@@ -205,7 +234,8 @@ static void say_notes(page *p, void *item) {
             break;
         }
     depth24plus_say(p, c->each->o);
-    page_text(p, "--full prints the tables: codes, errors, intervals, worst cases.");
+    page_text(p, "%s--full prints codes, errors, intervals, worst cases.",
+              c->limit_end - c->limit_begin == LIMITS && c->bounded > 0 ? "B: bytes a pixel. " : "");
 }
 
 /* What the cameras have in common, and where there are several the planes of each. */
@@ -237,30 +267,38 @@ static void say_cameras(page *p, const comparison *c) {
 
 static void say_head(page *p, void *item) {
     static const char *const above_limits[LIMITS + 1] = {"", "to z", "up to z", "resolved up to z"};
-    static const char *const above_depths[2][3] = {{"guaranteed separation at z", "guaranteed at z", "guaranteed"},
-                                                   {"guaranteed at any slant, z", "any slant, at z", "any slant"}};
+    static const char *const above_depths[3][3] = {{"guaranteed separation at z", "guaranteed at z", "guaranteed"},
+                                                   {"guaranteed at any slant, z", "any slant, at z", "any slant"},
+                                                   {"guaranteed at that slant, z", "that slant, at z", "that slant"}};
     const comparison *c = item;
     const int width = COLUMN_WIDTH * (int)c->depth_count, limits = c->limit_end - c->limit_begin;
     p->unit = options_unit(c->each->o);
     say_cameras(p, c);
-    const char *const *words = above_depths[c->each->o->camera.triangles.width > 0];
+    if (c->bounded == 0)
+        return;
+    const dp_triangles *t = &c->each->o->camera.triangles;
+    const char *const *words = above_depths[t->width == 0 ? 0 : t->slant_lo < t->slant_hi ? 1 : 2];
     output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : words[2], width,
                   width > 27   ? words[0]
                   : width > 20 ? words[1]
-                               : "at z",
+                  : width > 0  ? "at z"
+                               : "",
                   COLUMN_WIDTH * limits, above_limits[limits], p->plain);
 }
 
 static void *next_row(void *of, size_t i) {
     comparison *c = of;
-    return i < c->each->all.count ? &c->rows[i] : NULL;
+    return i < c->bounded ? &c->rows[i] : NULL;
 }
 
 /* Names of presets take room: of the limits, those beside the middle one go first. */
 static void fit(comparison *c) {
     for (size_t i = 0; i < c->each->all.count; i++)
         c->name_width = (int)fmax(c->name_width, (double)strlen(c->rows[i].name) + 1);
-    const int room = page_start(&c->each->out, 0).width - c->name_width - COLUMN_WIDTH * (int)c->depth_count;
+    const int width = page_start(&c->each->out, 0).width - c->name_width;
+    while (c->depth_count > 0 && width < COLUMN_WIDTH * (int)(c->depth_count + 1)) /* the farther ones stay */
+        memmove(c->depths, c->depths + 1, --c->depth_count * sizeof c->depths[0]);
+    const int room = width - COLUMN_WIDTH * (int)c->depth_count;
     const bool all = room >= COLUMN_WIDTH * LIMITS + BYTES_WIDTH;
     c->limit_begin = all ? 0 : MIDDLE;
     c->limit_end = all ? LIMITS : MIDDLE + (room >= COLUMN_WIDTH * 2 ? 2 : 1);
@@ -334,6 +372,8 @@ int compare_write(each_setup *w) {
         fit(&c);
         for (size_t i = 0; i < w->all.count; i++)
             compute_row(&c, &c.rows[i]);
+        for (size_t i = 0; i < w->all.count; i++)
+            c.bounded += !c.rows[i].unbounded;
         qsort(c.rows, w->all.count, sizeof *c.rows, better);
         write(&c);
         status = output_close(&w->out);

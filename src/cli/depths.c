@@ -26,11 +26,9 @@ double depths_get(const depths *d, size_t i) {
 static int check_within(const options *o, option_id id, double lo, double hi) {
     if (lo >= o->camera.znear && hi <= o->camera.zfar)
         return EXIT_FINE;
-    const char *unit = options_unit(o);
     return option_error(id, "depths must lie in [near, far] = [%s, %s%c, got %s",
-                        number_in(number_full(o->camera.znear), unit).text,
-                        number_in(number_full(o->camera.zfar), unit).text, isinf(o->camera.zfar) ? ')' : ']',
-                        number_in(number_full(lo < o->camera.znear ? lo : hi), unit).text);
+                        options_length(o, o->camera.znear, 0).text, options_length(o, o->camera.zfar, 0).text,
+                        isinf(o->camera.zfar) ? ')' : ']', options_length(o, lo < o->camera.znear ? lo : hi, 0).text);
 }
 
 int depths_resolve(const options *o, size_t count, depths *out) {

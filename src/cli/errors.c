@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 
+#include "report/message.h"
 #include "report/output.h"
 
 /* One line whatever the arguments hold: control characters would break it, and a long argument would bury it. */
@@ -14,7 +15,7 @@ int named_error(const char *option, const char *format, va_list arguments) {
     for (char *c = line; *c != '\0'; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f)
             *c = '?';
-    fprintf(stderr, "%s\n", line);
+    message("%s", line);
     return EXIT_USAGE;
 }
 

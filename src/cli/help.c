@@ -8,21 +8,34 @@
 #include "report/page.h"
 
 /* In GNU layout. */
-static void version(output *out) {
-    output_format(out, "depthprec %s\n", dp_version());
-    output_text(out, "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>\n"
-                     "The library libdepthprec alone: MIT licence\n"
-                     "This is free software: you are free to change and redistribute it.\n"
-                     "There is NO WARRANTY, to the extent permitted by law.\n");
+static void version(page *p) {
+    page_text(p, "depthprec %s", dp_version());
+    page_text(p, "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>");
+    page_text(p, "The library libdepthprec alone: MIT licence");
+    page_text(p, "This is free software: you are free to change and redistribute it.");
+    page_text(p, "There is NO WARRANTY, to the extent permitted by law.");
+}
+
+/* Lines of commands, each indented. */
+static void say_examples(page *p, const char *lines) {
+    char line[256];
+    for (size_t length; *lines != '\0'; lines += length + (lines[length] == '\n')) {
+        length = strcspn(lines, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, lines + strspn(lines, " "));
+        line[length - strspn(lines, " ")] = '\0';
+        page_command(p, line);
+    }
 }
 
 /* In groups by what a person asks of. */
 static void list_commands(output *out) {
     page p = page_start(out, 18);
-    output_text(out, "What a depth buffer resolves, and up to which distance: exact and proven.\n\n"
-                     "  depthprec -n 10cm -f 1km -F d24,fp32 -m gl,reversed   each resolves 1 cm up to\n"
-                     "  depthprec --preset unity,unreal --at 100m             two engines side by side\n\n"
-                     "Commands: depthprec [COMMAND] [options]\n");
+    page_text(&p, "What a depth buffer resolves, and up to which distance: exact and proven.");
+    output_char(out, '\n');
+    page_command(&p, "depthprec -n 10cm -f 1km -F d24,fp32 -m gl,reversed   each resolves 1 cm up to");
+    page_command(&p, "depthprec --preset unity,unreal --at 100m             two engines side by side");
+    output_char(out, '\n');
+    page_text(&p, "Commands: depthprec [COMMAND] [options]");
     for (size_t i = 0; i < command_count; i++) {
         char label[64] = "";
         if (command_rows[i].group != NULL)
@@ -31,8 +44,9 @@ static void list_commands(output *out) {
                (int)strcspn(command_rows[i].operand, " "), command_rows[i].operand);
         page_note(&p, label, "%s%s", command_rows[i].summary, i == 0 ? " (default)" : "");
     }
-    output_text(out, "\n'depthprec help COMMAND' lists its options. Lengths may have a unit: 10cm.\n"
-                     "Exit: 0 success, 1 a check failed, 2 bad usage or input, 3 cannot read or write.\n");
+    output_char(out, '\n');
+    page_text(&p, "'depthprec help COMMAND' lists its options. Lengths may have a unit: 10cm.");
+    page_text(&p, "Exit: 0 success, 1 a check failed, 2 bad usage or input, 3 cannot read or write.");
 }
 
 enum { DESCRIPTION_SIZE = 1024 };
@@ -124,25 +138,33 @@ static void list_others(page *p, const command_row *v) {
     }
 }
 
+static void say_usage(page *p, const command_row *v) {
+    page_text(p, "depthprec %s: %s", v->name, v->summary);
+    output_char(p->out, '\n');
+    say_examples(p, v->example);
+    output_char(p->out, '\n');
+    page_text(p, "Usage: depthprec %s%s%s [options]", v->name, *v->operand != '\0' ? " " : "", v->operand);
+}
+
 int cmd_help(const options *o) {
     const command_row *v = o->operand_row;
     output out;
     output_open(&out, NULL);
     page p = page_start(&out, 28);
     if (o->version)
-        version(&out);
+        version(&p);
     else if (v == NULL && o->operand_count == 0)
         list_commands(&out);
     else {
         if (v == NULL)
-            output_text(&out, "The options of all commands, and which take them\n");
+            page_text(&p, "The options of all commands, and which take them");
         else
-            output_format(&out, "depthprec %s: %s\n\n%s\nUsage: depthprec %s%s%s [options]\n", v->name, v->summary,
-                          v->example, v->name, *v->operand != '\0' ? " " : "", v->operand);
+            say_usage(&p, v);
         list_options(&p, v);
         if (v != NULL) {
             list_others(&p, v);
-            output_format(&out, "\n'man depthprec-%s' has more.\n", v->name);
+            output_char(&out, '\n');
+            page_text(&p, "'man depthprec-%s' has more.", v->name);
         }
     }
     return output_close(&out);

@@ -5,7 +5,9 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { BAR_WIDTH = 30 };
+#include "report/terminal.h"
+
+enum { BAR_WIDTH = 30, BAR_LEAST = 80 /* columns of a terminal that shows it */ };
 static const double first_after = 0.5; /* seconds; shorter work shows nothing */
 static const double redraw_every = 0.1;
 
@@ -43,6 +45,10 @@ void progress_draw(progress *p, uint64_t done) {
     double share = (double)done / (double)p->total;
     double rate = (double)done / (t - p->start);
     double left = (double)(p->total - done) / rate;
+    if (terminal_columns(STDERR_FILENO) < BAR_LEAST) {
+        fprintf(stderr, "\r%3.0f %%, %.0f s left \033[K", 100.0 * share, left);
+        return;
+    }
     char bar[BAR_WIDTH + 1];
     for (int i = 0; i < BAR_WIDTH; i++)
         bar[i] = i < (int)(share * BAR_WIDTH) ? '#' : '.';

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/engine.h"
+#include "report/message.h"
 #include "report/number.h"
 
 /* Depth that a shader writes goes through no pipeline; where table is asked, what is counted of that shader is said. */
@@ -217,10 +218,10 @@ void clipping_say(const dp_setup *setup, double znear, double zfar, const char *
     char label[SETUP_LABEL_SIZE];
     setup_label(setup, false, label);
     if (isnan(znear))
-        fprintf(stderr, "depthprec: warning: %s: clipping in binary32 removes everything\n", label);
+        message("depthprec: warning: %s: clipping in binary32 removes everything", label);
     else
-        fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s\n", label,
-                number_of(znear, 9).text, number_of(zfar, 9).text, rest);
+        message("depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s", label, number_of(znear, 9).text,
+                number_of(zfar, 9).text, rest);
 }
 
 void clipping_warn(const setups *all) {

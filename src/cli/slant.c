@@ -4,7 +4,6 @@
 #include <stdio.h>
 
 #include "core/append.h"
-#include "report/number.h"
 
 enum { DIGITS = 4 };
 
@@ -24,7 +23,7 @@ void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setu
     const dp_triangles *t = &o->camera.triangles;
     const bool theirs = setup == NULL && o->camera.preset_count > 1; /* each has its own view and rasterizer */
     const char *const arith = dp_arith_get(setup != NULL ? setup->spec.arith : o->camera.arith)->name;
-    char view[64] = "";
+    char view[128] = "";
     if (t->width == 0)
         return;
     if (setup != NULL && setup->spec.model != DP_MODEL_FLOAT) {
@@ -35,12 +34,22 @@ void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setu
         append(view, sizeof view, " fov %s,", number_of(t->fov_y, DIGITS).text);
     if (!theirs && o->camera.raster == NULL)
         append(view, sizeof view, " %d subpixel bits,", t->subpixel);
-    line(p, "viewport %dx%d,%s slant %s to %s degrees%s%s", t->width, t->height, view, number_full(t->slant_lo).text,
-         number_full(t->slant_hi).text, o->camera.raster == NULL ? ", " : "", o->camera.raster == NULL ? arith : "");
+    append(view, sizeof view, " slant %s", number_full(t->slant_lo).text);
+    if (t->slant_lo < t->slant_hi)
+        append(view, sizeof view, " to %s", number_full(t->slant_hi).text);
+    line(p, "viewport %dx%d,%s degrees%s%s", t->width, t->height, view, o->camera.raster == NULL ? ", " : "",
+         o->camera.raster == NULL ? arith : "");
     if (!theirs && o->camera.raster != NULL)
         say_rasterizer(p, line, o->camera.raster, t->subpixel, arith);
     line(p, "triangles from z/%s to %s z, at most %s pixels, aspect ratio at most %s:1", number_full(t->depth).text,
          number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
+}
+
+number_text slant_words(const dp_triangles *t) {
+    number_text out = {"any slant"};
+    if (t->slant_lo == t->slant_hi)
+        out = number_in(number_of(t->slant_lo, DIGITS), "degrees");
+    return out;
 }
 
 const slant_fields *slant_fields_of(const options *o, slant_fields *out) {

@@ -4,6 +4,7 @@
 #define CLI_SLANT_H
 
 #include "cli/option/options.h"
+#include "report/number.h"
 #include "report/report.h"
 
 /** What JSON says of them. */
@@ -14,6 +15,9 @@ typedef struct slant_fields {
 } slant_fields;
 
 extern const column slant_columns[];
+
+/** Of which surfaces a guarantee speaks: "any slant", "87 degrees". */
+number_text slant_words(const dp_triangles *t);
 
 /** Of options that have a viewport; null of others. @return out */
 const slant_fields *slant_fields_of(const options *o, slant_fields *out);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/stop.h"
 
+#include "report/message.h"
 #include <signal.h>
 #include <stdio.h>
 
@@ -26,7 +27,7 @@ void stop_end(output *out) {
     if (!interrupted)
         return;
     output_abandon(out);
-    fprintf(stderr, "depthprec: interrupted: nothing was written\n");
+    message("depthprec: interrupted: nothing was written");
     signal(SIGINT, SIG_DFL); /* the shell should see what ended us */
     raise(SIGINT);
 }

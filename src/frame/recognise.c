@@ -83,7 +83,7 @@ static bits_seen look_at_bits(const image *img) {
 static void judge_bytes(const image *img, finding *f) {
     f->which = LATTICE_UNORM16;
     say(f, "shares of 255, fewer than any depth format has%s",
-        img->channels > 1 ? " (depth packed into channels must be unpacked first)" : "");
+        img->channels > 1 ? " (depth packed into channels: --packing unpacks it)" : "");
 }
 
 static void judge_words(const image *img, finding *f) {
@@ -352,12 +352,8 @@ static void weigh(finding *f, const tally *s, recognised *out) {
     if (!f->chance)
         return;
     const char *more = s->seen.count >= RECOGNISE_DISTINCT_MAX ? "more than " : "";
-    if (out->certain)
-        say(f, "%s%zu different numbers lie on the lattice of %s, of random ones %.3g would", more, s->seen.count,
-            lattice_name(f->which), s->expected);
-    else
-        say(f, "%s%zu different numbers lie on the lattice of %s: inconclusive, of random ones %.3g would, too", more,
-            s->seen.count, lattice_name(f->which), s->expected);
+    say(f, "%s%zu different numbers lie on the lattice of %s, of random ones %.3g would%s", more, s->seen.count,
+        lattice_name(f->which), s->expected, out->certain ? "" : ": cannot tell");
 }
 
 void recognise(const image *img, recognised *out) {

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "report/message.h"
 #include "system/input.h"
 
 /* The temporary files, for the signal handler: empty where there is none. */
@@ -40,14 +41,14 @@ static void watch_signals(void) {
 
 static int cannot_write(const char *path, int error) {
     if (path == NULL)
-        fprintf(stderr, "depthprec: cannot write to stdout: %s\n", strerror(error));
+        message("depthprec: cannot write to stdout: %s", strerror(error));
     else
-        fprintf(stderr, "depthprec: cannot write '%s': %s\n", path, strerror(error));
+        message("depthprec: cannot write '%s': %s", path, strerror(error));
     return EXIT_IO;
 }
 
 static int refuse_input(const char *path) {
-    fprintf(stderr, "depthprec: '%s' is a file that is read, and is not overwritten\n", path);
+    message("depthprec: '%s' is a file that is read, and is not overwritten", path);
     return EXIT_USAGE;
 }
 

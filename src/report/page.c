@@ -13,6 +13,7 @@
 enum {
     PAGE_WIDTH = 80, /* where nothing says how wide it is */
     PAGE_LEAST = 40,
+    PAGE_NARROW = 60, /* below it labels stand in lines of their own */
     INDENT = 2
 };
 
@@ -32,6 +33,7 @@ page page_start(output *out, int label) {
     return (page){.out = out,
                   .label = label,
                   .width = width_of(out),
+                  .fitted = out->width == 0 && terminal_columns(out->fd) > 0,
                   .strong = colour ? "\033[1m" : "",
                   .soft = colour ? "\033[2m" : "",
                   .good = colour ? "\033[32m" : "",
@@ -39,10 +41,18 @@ page page_start(output *out, int label) {
                   .plain = colour ? "\033[0m" : ""};
 }
 
-/* Does a blank with that unit behind it stand here? */
-static bool is_unit(const char *text, const char *unit) {
+static bool is_word(const char *text, const char *unit) {
     return unit != NULL && text[0] == ' ' && strncmp(text + 1, unit, strlen(unit)) == 0 &&
            !isalnum((unsigned char)text[1 + strlen(unit)]);
+}
+
+/* Does a blank with a unit behind it stand here? An inch is a word where lengths are not in inches. */
+static bool is_unit(const char *text, const char *unit) {
+    static const char *const names[] = {"nm", "um", "mm", "cm", "ft", "m", "km"};
+    bool is = is_word(text, unit);
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && !is; i++)
+        is = is_word(text, names[i]);
+    return is;
 }
 
 /* The next word, with what belongs to it: "z = 5 m", "12 %". */
@@ -68,13 +78,25 @@ static int seen_length(const char *text, int length) {
     return seen;
 }
 
-/* Words from `column` on, broken where the page ends, those of further lines `left` blanks from the margin. */
-static void put_words(page *p, int column, int left, const char *text) {
+/* Words from `column` on, broken where the page ends, those of further lines `left` blanks from the margin; `join`
+ * stands at the end of a line that goes on. A word that is longer than a line of a terminal is broken, too. */
+static void put_joined(page *p, int column, int left, const char *text, const char *join) {
+    const int width = p->width - (int)strlen(join);
     for (bool first = true; *text != '\0'; first = false) {
-        const int word = word_length(text, p->unit);
-        const int seen = seen_length(text, word);
-        if (!first && column + 1 + seen > p->width) {
-            output_format(p->out, "\n%*s", left, "");
+        int word = word_length(text, p->unit);
+        if (p->fitted && word > width - left)
+            word = (int)strcspn(text, " ");
+        int seen = seen_length(text, word);
+        if (!first && column + 1 + seen > width) {
+            output_format(p->out, "%s\n%*s", join, left, "");
+            column = left;
+            first = true;
+        }
+        for (int room = width - column - !first; p->fitted && seen == word && word > room && room > 0;
+             room = width - left) {
+            output_format(p->out, "%s%.*s\n%*s", first ? "" : " ", room, text, left, "");
+            text += room;
+            seen = word -= room;
             column = left;
             first = true;
         }
@@ -82,6 +104,20 @@ static void put_words(page *p, int column, int left, const char *text) {
         column += seen + !first;
         text += word + (text[word] == ' ');
     }
+}
+
+bool page_fits(const page *p, const char *line, size_t length) {
+    return length == 0 || seen_length(line, (int)length - 1) <= p->width;
+}
+
+static void put_words(page *p, int column, int left, const char *text) {
+    put_joined(p, column, left, text, "");
+}
+
+void page_command(page *p, const char *command) {
+    output_format(p->out, "%*s", INDENT, "");
+    put_joined(p, INDENT, 2 * INDENT, command, p->fitted ? " \\" : "");
+    output_char(p->out, '\n');
 }
 
 #define FORMATTED(text, format)                                                                                        \
@@ -117,14 +153,17 @@ void page_note(page *p, const char *label, const char *format, ...) {
 }
 
 void page_wrapped(page *p, const char *label, const char *text) {
-    const int length = (int)strlen(label), left = INDENT + p->label;
+    const bool narrow = p->fitted && p->width < PAGE_NARROW && *label != '\0';
+    const int length = (int)strlen(label), room = narrow ? 0 : p->label, left = narrow ? 2 * INDENT : INDENT + p->label;
     if (text == NULL || *text == '\0')
         return;
-    output_format(p->out, "%*s%s%s%s", INDENT, "", p->strong, label, p->plain);
-    if (length >= p->label)
+    output_format(p->out, "%*s%s", INDENT, "", p->strong);
+    put_words(p, INDENT, 2 * INDENT, label);
+    output_text(p->out, p->plain);
+    if (length >= room)
         output_format(p->out, "\n%*s", left, "");
     else
-        output_format(p->out, "%*s", p->label - length, "");
+        output_format(p->out, "%*s", room - length, "");
     put_words(p, left, left, text);
     output_char(p->out, '\n');
 }

@@ -12,6 +12,7 @@ typedef struct page {
     output *out;
     int label;                         /**< characters that the labels of notes take */
     int width;                         /**< characters in a line: those of a terminal, else 80; output.width if set */
+    bool fitted;                       /**< a terminal's: nothing is wider */
     const char *unit;                  /**< of lengths, for number_in(); null where nothing says it */
     const char *strong, *soft, *plain; /**< bold and dim on a terminal; "" elsewhere, see output.colour */
     const char *good, *bad;            /**< of verdicts: green, and bold red */
@@ -24,8 +25,14 @@ page page_start(output *out, int label);
 /** A sentence from the margin on. */
 void page_text(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/** Whether a line that ends in a newline is no wider than the page. */
+bool page_fits(const page *p, const char *line, size_t length);
+
 /** A heading on a line of its own. */
 void page_title(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** A command to be typed, indented; where it is broken, it goes on behind a backslash. */
+void page_command(page *p, const char *command);
 
 /** A sentence, indented. */
 void page_line(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));

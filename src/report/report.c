@@ -128,19 +128,53 @@ static void spare(text_walk *w, const column *list) {
     } while (width > w->page.width && last > 0);
 }
 
-static void put_value(text_line *line, const column *c, const void *item) {
+/* The text of a value; `number` holds it where it is no word. */
+static const char *value_text(const column *c, const void *item, number_text *number) {
     const column_value v = column_of(c, item);
     const int digits = c->digits_at > 0 ? *(const int *)((const char *)item + c->digits_at) : c->digits;
-    number_text number = {"-"};
+    *number = (number_text){"-"};
     if (v.is_count)
-        number_count(v.count, number.text);
+        number_count(v.count, number->text);
     else if (v.is_number && c->fixed && !isnan(v.number))
-        snprintf(number.text, sizeof number.text, "%.*f", digits, v.number);
+        snprintf(number->text, sizeof number->text, "%.*f", digits, v.number);
     else if (v.is_number)
-        number = (c->upward ? number_up : c->downward ? number_down : number_of)(v.number, digits);
+        *number = (c->upward ? number_up : c->downward ? number_down : number_of)(v.number, digits);
     if (c->brief)
-        number = number_brief(number);
-    put(line, c, v.word != NULL ? v.word : number.text);
+        *number = number_brief(*number);
+    return v.word != NULL ? v.word : number->text;
+}
+
+static void put_value(text_line *line, const column *c, const void *item) {
+    number_text number;
+    put(line, c, value_text(c, item, &number));
+}
+
+/* "z 10; code 16611104": what stands in a line of a table that is wider than the page, value by value. @return the
+ * column behind it */
+static int put_record(text_walk *w, const column *c, void *item, int at) {
+    for (; c->kind != COLUMN_END; c++) {
+        number_text number;
+        char text[1024];
+        if (c->kind == COLUMN_PART && column_shows(c, AS_TEXT, w->when))
+            at = put_record(w, c->columns, column_part(c, item), at);
+        if (c->kind == COLUMN_PART || !has_title(w, c))
+            continue;
+        const char *const title = c->title + strspn(c->title, " ");
+        const int length =
+            snprintf(text, sizeof text, "%s%s%s", title, *title != '\0' ? " " : "", value_text(c, item, &number));
+        const bool goes_on = at > 0 && at + 3 + length <= w->page.width; /* "; ", and one behind it */
+        output_text(w->page.out, at == 0 ? "" : goes_on ? "; " : ";\n");
+        if (goes_on || (at == 0 && length < w->page.width)) {
+            output_text(w->page.out, text);
+            at += length + (goes_on ? 2 : 0);
+        } else {
+            const size_t start = w->page.out->used;
+            page_line(&w->page, "%s", text);
+            w->page.out->used--; /* its newline */
+            at = w->page.out->used - start < (size_t)w->page.width ? (int)(w->page.out->used - start) : w->page.width;
+        }
+    }
+    return at;
 }
 
 /* A line of the titles where there is no item. */
@@ -163,6 +197,12 @@ static void put_line(const text_walk *w, const column *list, void *item) {
     output_char(line.out, '\n');
 }
 
+static int table_width(const text_walk *w, const column *list) {
+    int width = list->indent + (list->columns->width < 0 ? -2 : 0), last = 0;
+    measure_titles(w, list->columns, &width, &last);
+    return width;
+}
+
 static bool is_table(const text_walk *w, const column *c) {
     int width = 0, last = 0;
     measure_titles(w, c, &width, &last);
@@ -171,16 +211,35 @@ static bool is_table(const text_walk *w, const column *c) {
 
 static void put_lists(text_walk *w, const column *c, void *item);
 
+enum { ROOM = 8192 }; /* more than what is in a line: it is taken back from the buffer */
+
+/* A line; where it is wider than a terminal, what is in it. The table has no line of titles then, or this item alone.
+ */
+static void put_item(text_walk *w, const column *list, void *item, bool wide) {
+    output *const out = w->page.out;
+    if (w->page.fitted && OUTPUT_BUFFER_SIZE - out->used < ROOM)
+        output_flush(out);
+    const size_t start = out->used;
+    if (!wide)
+        put_line(w, list, item);
+    if (!wide && (!w->page.fitted || page_fits(&w->page, out->buffer + start, out->used - start)))
+        return;
+    out->used = wide ? out->used : start;
+    put_record(w, list->columns, item, 0);
+    output_char(out, '\n');
+}
+
 /* A table without lines has no titles. */
 static void put_table(text_walk *w, const column *list, void *item) {
     void *inner;
     if (list->head != NULL)
         list->head(&w->page, item);
     spare(w, list);
+    const bool wide = w->page.fitted && table_width(w, list) > w->page.width;
     for (size_t i = 0; (inner = list->get(item, i)) != NULL; i++) {
-        if (i == 0)
+        if (i == 0 && !wide)
             put_line(w, list, NULL);
-        put_line(w, list, inner);
+        put_item(w, list, inner, wide);
     }
     if (list->notes != NULL)
         list->notes(&w->page, item);

@@ -122,6 +122,21 @@ const effect_row *effect_get(size_t index);
 bool effect_applies(const effect_row *row, const dp_setup *setup);
 
 /**
+ * How far the error stays within so many levels, from `lo` on: the last such depth before the first that was found
+ * beyond; `hi` where none is beyond, NaN where `lo` is. Depths are tried at 64 places of each run of them whose steps
+ * grow with the depth, and at its end: with the step grows the error, but for effects that compare two pixels or
+ * frames, which effect_is_steady() tells.
+ */
+bool effect_is_steady(const effect_row *row);
+double effect_reach(const effect_row *row, const effect_view *view, const double *parameters, double lo, double hi,
+                    double levels);
+
+/** effect_usable() of all depths from lo to hi, tried at the same places; NaN where nothing is usable at one of them.
+ */
+double effect_usable_over(const effect_row *row, const effect_view *view, const double *parameters, double lo,
+                          double hi, double levels);
+
+/**
  * The error of the output at z, in levels of 1/255.
  *
  * Every quantity is monotone in the depth, so the largest difference lies at an end of the cell. An output of 8 bits

@@ -2,6 +2,7 @@
 /* What follows from other options: what presets, platforms and rasterizers give where the user did not. */
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cli/depth24plus.h"
 #include "cli/option/rows.h"
@@ -10,7 +11,19 @@
 /* The rule under which the bias is written. */
 static void take_api(options *o, const char *api) {
     if (!option_given(o, OPTION_API))
-        parse_row(o, &option_rows[OPTION_API], api);
+        parse_apis(o, &option_rows[OPTION_API], api);
+}
+
+/* three.js has one word for the logarithms of two renderers. */
+static void take_logarithm(options *o, const preset *p) {
+    static const char word[] = "logarithmicDepthBuffer";
+    const char *given =
+        option_given(o, OPTION_MAPPING) && strcmp(p->api, "webgpu") == 0 ? o->given[OPTION_MAPPING] : "";
+    while (*given != '\0' && strncasecmp(given, word, sizeof word - 1) != 0)
+        given++;
+    for (size_t i = 0; i < o->camera.mapping_count && *given != '\0'; i++)
+        if (o->camera.mappings[i] == DP_MAPPING_THREE_WEBGL)
+            o->camera.mappings[i] = DP_MAPPING_THREE_WEBGPU;
 }
 
 /* A preset gives what the user did not. */
@@ -28,6 +41,7 @@ static void take_preset(options *o, const preset *p) {
         parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
     if (!option_given(o, OPTION_MAPPING))
         parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
+    take_logarithm(o, p);
     take_api(o, p->api);
     slant_take_preset(o, p);
 }
@@ -80,6 +94,7 @@ static options with_preset(const options *o, const preset *p) {
     const unit_row *own = option_given(o, OPTION_UNIT) ? NULL : unit_find(p->unit), *from = c->unit;
     double *const lengths[] = {&c->znear, &c->zfar, &c->range_lo, &c->range_hi, &c->at.lo, &c->at.hi};
     c->unit = own != NULL ? own : from;
+    c->typed_count = 0; /* none of them is converted */
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++)
         *lengths[i] = unit_convert(*lengths[i], from, c->unit);
     c->at.from = from;

@@ -44,10 +44,19 @@ static bool read_length(lengths *seen, const char *text, size_t length, number_k
         seen->o->camera.unit = unit_find("m");
     *out = unit_convert(number, unit, seen->o->camera.unit);
     seen->named = true;
+    if (seen->o->camera.typed_count < OPTIONS_TYPED_MAX)
+        seen->o->camera.typed[seen->o->camera.typed_count++] = (typed_length){*out, number, unit};
     return isfinite(*out) && (*out != 0.0) == (number != 0.0);
 }
 
 #define UNITS_ARE "a unit is " UNIT_NAMES
+
+const unit_row *options_unit_of(const options *o, option_id id) {
+    const char *text = option_given(o, id) ? o->given[id] : "", *end = text + strlen(text);
+    while (end > text && is_letter(end[-1]))
+        end--;
+    return *end != '\0' && unit_find(end) != NULL ? unit_find(end) : o->camera.unit;
+}
 
 /* What a refusal adds where letters behind digits make one expect a unit; not those of 1e400 and 0x10. */
 static const char *unit_hint(const char *text, size_t length) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/option/options.h"
 
+#include <ctype.h>
 #include <getopt.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -11,10 +12,6 @@
 #include "core/append.h"
 #include "report/number.h"
 #include "system/input.h"
-
-const char *options_unit(const options *o) {
-    return o->camera.unit != NULL ? o->camera.unit->name : NULL;
-}
 
 const char *option_written(const options *o, option_id id) {
     const option_row *row = &option_rows[id];
@@ -115,6 +112,9 @@ static int unknown_option(const options *o, int refused, const char *argument) {
     if (begun_count > 1)
         return usage_error("option '%.*s' could be --%s", length, argument, names_join(&all, ", --", " or --", text));
     append(given, sizeof given, "%.*s", length > 2 ? length - 2 : 0, argument + (length > 2 ? 2 : 0));
+    dp_mapping mapping;
+    if (dp_mapping_parse(given, &mapping) == DP_OK)
+        return usage_error("unknown option '%.*s'; did you mean '--mapping %s'?", length, argument, given);
     if (*names_nearest(&all, "--", given, text) != '\0')
         return usage_error("unknown option '%.*s'%s", length, argument, text);
     return usage_error("unknown option '%.*s'; 'depthprec help %s' lists its options", length, argument,
@@ -135,19 +135,28 @@ int check_operand(const command_row *v, const char *what, const name_list *n, co
     return usage_error("%s: %.*s %s", v->name, (int)strcspn(what, " "), what, names_refuse(n, given, text));
 }
 
+/* What a word may be meant to be that has no place here: a command; of two lengths near and far. @return out */
+static const char *nearest_word(char **words, int count, char out[NAMES_SIZE]) {
+    if (count < 2 || !isdigit((unsigned char)*words[0]) ||
+        !(isdigit((unsigned char)*words[1]) || strcmp(words[1], "inf") == 0))
+        return names_nearest(&(name_list){.get = list_command}, "", words[0], out);
+    out[0] = '\0';
+    append(out, NAMES_SIZE, "; did you mean '-n %s -f %s'?", words[0], words[1]);
+    return out;
+}
+
 static int check_operands(options *o) {
     const command_row *v = o->command;
     list_item item = {0};
     char text[NAMES_SIZE] = "";
     if (o->operand_count > v->operand_max)
         return usage_error("unexpected argument '%s'%s", o->operands[v->operand_max],
-                           names_nearest(&(name_list){.get = list_command}, "", o->operands[v->operand_max], text));
+                           nearest_word(o->operands + v->operand_max, o->operand_count - v->operand_max, text));
     if (o->operand_count < v->operand_min)
         return usage_error("%s: needs %s%s%s", v->name, v->operand, v->names != NULL ? ": " : "",
                            v->names != NULL ? names_join(v->names, ", ", " or ", text) : "");
-    const int status = v->names != NULL && o->operand_count > 0
-                           ? check_operand(v, v->operand, v->names, o->operands[0], &item)
-                           : EXIT_FINE;
+    const bool checked = v->names != NULL && o->operand_count > 0 && v->id != CMD_LIST; /* whose words are anything's */
+    const int status = checked ? check_operand(v, v->operand, v->names, o->operands[0], &item) : EXIT_FINE;
     o->operand_row = item.row;
     return status;
 }
@@ -261,7 +270,7 @@ int options_parse(options *o, int argc, char **argv) {
     if (named)
         o->command = command_find(argv[1]);
     if (o->command == NULL) {
-        names_nearest(&(name_list){.get = list_command}, "", argv[1], text);
+        nearest_word(argv + 1, argc - 1, text);
         return usage_error("unknown command '%s'%s", argv[1],
                            *text != '\0' ? text : "; 'depthprec --help' lists the commands");
     }

@@ -26,6 +26,7 @@
 #include "frame/synthetic.h"
 #include "raster/raster.h"
 #include "raster/vertex_compare.h"
+#include "report/number.h"
 #include "report/output.h"
 #include "shader/camera.h"
 #include "shader/effect.h"
@@ -153,13 +154,26 @@ typedef enum solve_target {
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16, OPTIONS_SCHEMES_MAX = 16 };
+enum {
+    OPTIONS_TYPED_MAX = 16,
+    OPTIONS_FORMATS_MAX = 64,
+    OPTIONS_PARAMETERS_MAX = 16,
+    OPTIONS_PRESETS_MAX = 16,
+    OPTIONS_SCHEMES_MAX = 16
+};
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
     char name[32];
     double value;
 } named_number;
+
+/** A length that was typed with a unit. */
+typedef struct typed_length {
+    double value;  /**< scene units */
+    double number; /**< of `unit` */
+    const unit_row *unit;
+} typed_length;
 
 /** What set-ups are made of. */
 typedef struct options_camera {
@@ -185,6 +199,8 @@ typedef struct options_camera {
     double azimuth;           /**< of one plane of --slant, degrees from right to up; NaN when not given */
     const raster_row *raster; /**< --raster; null when not given */
     const unit_row *unit;     /**< what a scene unit is; null where nothing says it: lengths are converted already */
+    typed_length typed[OPTIONS_TYPED_MAX]; /**< the first that were */
+    size_t typed_count;
     const preset *presets[OPTIONS_PRESETS_MAX]; /**< --preset, in the order given, each once */
     size_t preset_count; /**< of one, what the user did not give is already filled in; of several see options_of() */
     const platform *platform;  /**< --platform; null when not given, and what the user did not give is filled in */
@@ -212,7 +228,8 @@ typedef struct options_world {
 } options_world;
 
 typedef struct options_bias {
-    const bias_api *api; /**< --api; null for all */
+    const bias_api *api; /**< --api; null for several: those of `apis` */
+    unsigned apis;       /**< 1 << index of bias_api_get(), or-ed */
     double units, factor;
     double clamp; /**< window depth; 0 is none */
     double slope; /**< scene units per pixel, not negative */
@@ -341,6 +358,9 @@ typedef struct options {
  */
 int options_parse(options *o, int argc, char **argv);
 
+/** The API of that index among those that are asked for; null behind the last. */
+const bias_api *options_api(const options *o, size_t index);
+
 /** How many cameras there are: as many as presets, at least one. */
 static inline size_t options_cameras(const options *o) {
     return o->camera.preset_count > 1 ? o->camera.preset_count : 1;
@@ -385,6 +405,14 @@ static inline bool option_given(const options *o, option_id id) {
  * @return EXIT_USAGE
  */
 int option_error(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** "0.01 mm": a length as it was typed, with the unit that it had there; of another one so many significant digits, 0
+ * for as many as it takes, with options_unit(). */
+number_text options_length(const options *o, double value, int digits);
+
+/** The unit behind the argument of an option that is one length; that of the scene where there is none, null where
+ * nothing says that. */
+const unit_row *options_unit_of(const options *o, option_id id);
 
 /** "m": what a scene unit is; null where nothing says it. */
 const char *options_unit(const options *o);

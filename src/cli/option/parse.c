@@ -218,6 +218,24 @@ int parse_presets(options *o, const option_row *row, const char *value) {
     return parse_names(o, row, value, add_preset);
 }
 
+static int add_api(options *o, const option_row *row, const char *name) {
+    list_item found;
+    if (!names_find(row->names, name, NULL, &found))
+        return unknown_name(row, name);
+    for (size_t i = 0; bias_api_get(i) != NULL; i++)
+        if (found.row == NULL || found.row == bias_api_get(i))
+            o->bias.apis |= 1U << i;
+    return EXIT_FINE;
+}
+
+/* One is named, however often; of several there is no one. */
+int parse_apis(options *o, const option_row *row, const char *value) {
+    o->bias.apis = 0;
+    const int status = parse_names(o, row, value, add_api);
+    o->bias.api = options_api(o, 1) == NULL ? options_api(o, 0) : NULL;
+    return status;
+}
+
 static int add_program(options *o, const option_row *row, const char *name) {
     list_item found;
     if (!names_find(row->names, name, NULL, &found))

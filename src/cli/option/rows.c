@@ -214,12 +214,13 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_CURVATURE] = {"curvature", 0, "Z[:FACET]",
         "receivers curve away from the light with a radius of at least Z; tessellated into triangles of circumradius "
         "FACET or less, or smooth", .parse = parse_curvature, FIELD(double, shadow.curvature), .without = "flat"},
-    [OPTION_API] = {"api", 0, "NAME",
-        "the API whose depth-bias rule applies: @; all compares them, each with its call",
-        ROW(bias.api, apis), .standard = "d3d11",
+    [OPTION_API] = {"api", 0, "NAME[,NAME...]",
+        "the API whose depth-bias rule applies: @; several, or all, are compared, each with its call",
+        .parse = parse_apis, FIELD(unsigned, bias.apis), .names = &apis, .standard = "d3d11",
         .group = "The bias"},
     [OPTION_UNITS] = {"units", 0, "U",
-        "constant bias in units of r, a whole number for d3d11 and webgpu; in window depth for d3d9 and vulkan-float",
+        "constant bias in units of r, a whole number for d3d11, d3d12 and webgpu; in window depth for d3d9 and "
+        "vulkan-float",
         NUMBER(bias.units, -1e12, 1e12, NULL),
         .without = "the units needed"},
     [OPTION_FACTOR] = {"factor", 0, "F",

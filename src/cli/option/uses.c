@@ -199,6 +199,8 @@ const option_use texture_uses[] = {
     FOR(TEXTURE_IMAGE, of_image), FOR(TEXTURE_PLACED | TEXTURE_IMAGE, of_position),
     OWN(OUTPUT, HELP("write the product to FILE: PNG, PFM or NPY by its ending; else what is printed"),
         WITHOUT("stdout")),
+    OWN(FULL, HELP("all columns, however wide; of an image Unity's _ZBufferParams, the condition of its matrix and "
+        "what decodings are off by, too")),
     GROUP(projected), GROUP(written), END};
 
 enum { SHADOW_CASCADES = 1, SHADOW_BOX = 2 };

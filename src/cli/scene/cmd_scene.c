@@ -63,10 +63,22 @@ static int take_setup(scene *s) {
     return EXIT_FINE;
 }
 
+/* Where nobody says what a scene unit is, the model may. */
+static void take_unit(scene *s) {
+    const unit_row *unit;
+    for (size_t i = 0; (unit = unit_get(i)) != NULL && s->o.camera.unit == NULL; i++)
+        if (fabs(s->model.metres * 1e9 - unit->nanometres) <= 1e-9 * unit->nanometres)
+            s->o.camera.unit = unit;
+    s->unit = options_unit(&s->o);
+    s->fields = setup_fields_of(&s->setup, s->unit);
+}
+
 static int read_model(scene *s) {
     const model_asked asked = {.transforms = s->o.scene.transforms == 0 ? MODEL_EXACT : MODEL_BINARY32};
     model_error error;
     if (model_read(s->file, &asked, &s->model, &error)) {
+        if (s->o.camera.unit == NULL)
+            take_unit(s);
         if (s->model.metres > 0.0 && s->o.camera.unit != NULL) /* both say what theirs is */
             model_scale(&s->model, s->model.metres * 1e9 / s->o.camera.unit->nanometres);
         return EXIT_FINE;
@@ -281,7 +293,7 @@ static int check_asked(const scene *s) {
     if (o->scene.emit_need != NULL && option_given(o, OPTION_SEPARATION) && o->wanted.separation == 0.0)
         return option_error(OPTION_EMIT_NEED, "needs a --separation above 0: no camera resolves coplanar surfaces");
     if (o->bias.api == NULL)
-        return option_error(OPTION_API, "must name one here, got 'all'");
+        return option_error(OPTION_API, "must name one here, got '%s'", o->given[OPTION_API]);
     const int status = setup_decided(o);
     return status == EXIT_FINE ? check_files(s) : status;
 }

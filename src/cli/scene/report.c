@@ -19,6 +19,13 @@ static number_text length(const page *p, double value) {
     return number_in(number_brief(number_of(value, DIGITS)), p->unit);
 }
 
+/* Of one that was typed, as it was. */
+static number_text asked(const page *p, const scene *s, double value) {
+    const number_text typed = options_length(&s->o, value, DIGITS),
+                      plain = number_in(number_of(value, DIGITS), p->unit);
+    return strcmp(typed.text, plain.text) == 0 ? length(p, value) : typed;
+}
+
 static const char *called(const scene_named *n, char out[NAME_SIZE]) {
     const char *name = n->node != NULL ? n->node : n->mesh != NULL ? n->mesh : "(no name)";
     char word[WORD_SIZE]; /* cut between characters */
@@ -83,7 +90,8 @@ static void say_seen(page *p, const scene *s) {
     for (size_t i = 0; i < count; i++)
         seen += isnan(s->findings[i].sight.seen_from) ? 0 : 1;
     page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu visible, %s may z-fight.", count,
-              count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, seen, how_many(fights, seen).text);
+              count == 1 ? "" : "s", count == 1 ? "s" : "", asked(p, s, s->gap).text, seen,
+              how_many(fights, seen).text);
     if (cut > 0)
         page_text(p, "%zu more %s resolved only %s.", cut, cut == 1 ? "is" : "are", condition_of(s));
 }
@@ -95,7 +103,7 @@ static void say_head(page *p, void *of) {
     p->unit = s->unit;
     page_title(p, "%s: %zu triangle%s, %zu surface%s, %s across; judged up to %s", s->file, s->model.triangles,
                s->model.triangles == 1 ? "" : "s", s->model.surfaces, s->model.surfaces == 1 ? "" : "s",
-               length(p, s->extent).text, length(p, s->within).text);
+               length(p, s->extent).text, asked(p, s, s->within).text);
     setup_title(p, &s->setup, &s->fields);
     slant_say(p, page_title, &s->o, &s->setup);
     say_eyes(p, s);
@@ -103,16 +111,16 @@ static void say_head(page *p, void *of) {
         page_title(p, "in the rest pose: %zu skinned and %zu morphed meshes, %zu animated nodes", n->skinned,
                    n->morphed, n->animated);
     if (count == 0)
-        page_text(p, "No surfaces lie within %s of each other.", length(p, s->gap).text);
+        page_text(p, "No surfaces lie within %s of each other.", asked(p, s, s->gap).text);
     else if (s->eyes.count > 0)
         say_seen(p, s);
     else
         page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s may z-fight up to %s.", count,
-                  count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, how_many(fights, count).text,
-                  length(p, s->within).text);
+                  count == 1 ? "" : "s", count == 1 ? "s" : "", asked(p, s, s->gap).text, how_many(fights, count).text,
+                  asked(p, s, s->within).text);
     if (s->required)
         page_text(p, "%s%s%s  %s nearer than %s.", s->passed ? p->good : p->bad, s->passed ? "pass" : "FAIL", p->plain,
-                  s->passed ? "no surfaces z-fight" : "surfaces may z-fight", length(p, s->within).text);
+                  s->passed ? "no surfaces z-fight" : "surfaces may z-fight", asked(p, s, s->within).text);
 }
 
 static number_text safe_length(const page *p, double value, bool upward) {
@@ -179,7 +187,7 @@ static void add_lift(const page *p, const scene *s, const scene_finding *f, char
     const double lift = f->verdict.lift;
     if (lift > 0.0 && isfinite(lift))
         append(out, size, "separate by another %s: safe %sup to %s", safe_length(p, lift, true).text,
-               s->eyes.count > 1 ? "from there " : "", length(p, s->within).text);
+               s->eyes.count > 1 ? "from there " : "", asked(p, s, s->within).text);
 }
 
 char *scene_message(const scene *s, const scene_finding *f, char *out, size_t size) {
@@ -223,10 +231,10 @@ void scene_bias_take(scene *s) {
 static void say_bias(page *p, const scene *s) {
     if (isnan(s->bias.units))
         page_text(p, "No depth bias of %s keeps either surface in front up to %s.", s->bias.api,
-                  length(p, s->within).text);
+                  asked(p, s, s->within).text);
     else
         page_text(p, "Or bias what is drawn second: %s; suffices up to %s%s.",
-                  bias_call(s->o.bias.api, s->bias.units, s->bias.factor).text, length(p, s->within).text,
+                  bias_call(s->o.bias.api, s->bias.units, s->bias.factor).text, asked(p, s, s->within).text,
                   s->triangles != NULL ? " in triangles as above"
                                        : " where they face the camera; --viewport includes slants");
 }

@@ -35,8 +35,7 @@ void scene_junit(const scene *s, output *out) {
                                      .detail = full});
     }
     if (count == 0) {
-        snprintf(name, sizeof name, "no surfaces within %s of each other",
-                 number_in(number_full(s->gap), s->unit).text);
+        snprintf(name, sizeof name, "no surfaces within %s of each other", options_length(&s->o, s->gap, 0).text);
         junit_case(out, &(junit_row){.classname = label, .name = name, .file = s->file});
     }
     junit_suite_end(out);

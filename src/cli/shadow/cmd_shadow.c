@@ -15,7 +15,7 @@ enum { DIGITS_GAP = 3, DIGITS = 4, DIGITS_Z = 6 };
 
 typedef struct shadow {
     options o;           /* with what stands for options that were not given */
-    const bias_api *api; /* null for all */
+    const bias_api *api; /* null for several */
     const char *api_name, *unit;
     const shadow_split *view; /* null where there is a box */
     size_t setup_count;
@@ -30,14 +30,9 @@ typedef struct shadow {
 
 /* ---- Lists ------------------------------------------------------------------------------------------------------- */
 
-/* The one that is asked for, or each; null behind the last. */
-static const bias_api *api_of(const shadow *s, size_t i) {
-    return s->api == NULL ? bias_api_get(i) : i == 0 ? s->api : NULL;
-}
-
 static size_t api_count(const shadow *s) {
     size_t count = 0;
-    while (api_of(s, count) != NULL)
+    while (options_api(&s->o, count) != NULL)
         count++;
     return count;
 }
@@ -47,13 +42,13 @@ static void *next_row(void *of, size_t i) {
     const size_t apis = api_count(s);
     if (i / apis >= s->maps.count)
         return NULL;
-    s->row = shadow_row_of(&s->maps, i / apis, api_of(s, i % apis));
+    s->row = shadow_row_of(&s->maps, i / apis, options_api(&s->o, i % apis));
     return &s->row;
 }
 
 static void *next_whole(void *of, size_t i) {
     shadow *s = of;
-    const bias_api *api = api_of(s, i);
+    const bias_api *api = options_api(&s->o, i);
     if (api == NULL)
         return NULL;
     s->whole = shadow_whole_of(&s->maps, api);
@@ -132,16 +127,22 @@ static void say_blank(page *p, void *item) {
 
 static void say_heads(page *p, void *item) {
     const shadow *s = item;
-    output_format(p->out, "\n%s%*s%18s%25s%25s%s\n", p->soft, s->maps.view.count > 0 ? 8 : 0, "", "constant bias",
-                  "slope-scaled", "normal offset", p->plain);
+    const int split = s->maps.view.count > 0 ? 8 : 0;
+    output_char(p->out, '\n');
+    if (p->fitted && p->width < 68 + split) {
+        page_text(p, "constant bias: units, gap; slope-scaled: factor, units, gap; normal offset: offset, units, gap");
+        return;
+    }
+    output_format(p->out, "%s%*s%18s%25s%25s%s\n", p->soft, split, "", "constant bias", "slope-scaled", "normal offset",
+                  p->plain);
 }
 
 /* Of the map where the least share of the constant bias is needed by any reckoning. */
 static void say_causes(page *p, const shadow *s) {
     char text[256] = "";
-    shadow_row least = shadow_row_of(&s->maps, 0, api_of(s, 0));
+    shadow_row least = shadow_row_of(&s->maps, 0, options_api(&s->o, 0));
     for (size_t i = 1; i < s->maps.count; i++) {
-        const shadow_row r = shadow_row_of(&s->maps, i, api_of(s, 0));
+        const shadow_row r = shadow_row_of(&s->maps, i, options_api(&s->o, 0));
         if (r.way[SHADOW_CONSTANT].share < least.way[SHADOW_CONSTANT].share)
             least = r;
     }
@@ -201,11 +202,12 @@ static void say_notes(page *p, void *item) {
 }
 
 static void say_calls(page *p, void *item) {
-    (void)item;
     page_line(p, "offset: in texels, times the sine of the angle, along the surface normal");
     output_char(p->out, '\n');
-    for (size_t i = 0; bias_api_get(i) != NULL; i++)
-        page_note(p, bias_api_get(i)->name, "%s%s", bias_api_get(i)->call, bias_api_get(i)->sloped);
+    const shadow *s = item;
+    const bias_api *api;
+    for (size_t i = 0; (api = options_api(&s->o, i)) != NULL; i++)
+        page_note(p, api->name, "%s%s", api->call, api->sloped);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -335,7 +337,7 @@ int cmd_shadow(const options *given) {
                 .unit = options_unit(given),
                 .arith = dp_arith_get(given->camera.arith)->name};
     const options *o = &s.o;
-    s.api_name = s.api != NULL ? s.api->name : "all";
+    s.api_name = s.api != NULL ? s.api->name : o->given[OPTION_API];
     s.setup_count = o->camera.format_count * o->camera.mapping_count;
     int status = EXIT_FINE;
     for (size_t i = 0; i < s.setup_count && status == EXIT_FINE; i++)

@@ -69,7 +69,7 @@ static shadow_light light_of(const options *o, const dp_format *format, dp_mappi
     }
     dp_setup_init(&light.setup, &spec); /* cannot fail: mapping and depth have been checked */
     if (box && !option_given(o, OPTION_RANGE) && shadow_light_check(&light) == SHADOW_OK)
-        keep_off_zero(&light, o->bias.api != NULL ? o->bias.api : bias_api_get(0));
+        keep_off_zero(&light, options_api(o, 0));
     return light;
 }
 

@@ -75,8 +75,8 @@ static void say_plan(page *p, void *item) {
     const planning *x = item;
     const dp_spec *spec = &x->setup.spec;
     const char *unit = options_unit(x->o);
-    const number_text limit = number_in(number_full(x->limit), unit), near = number_in(number_full(spec->znear), unit),
-                      far = number_in(number_full(spec->zfar), unit);
+    const number_text limit = options_length(x->o, x->limit, 0), near = options_length(x->o, spec->znear, 0),
+                      far = options_length(x->o, spec->zfar, 0);
     const char *format = spec->format.name, *mapping = dp_mapping_get(spec->mapping)->name;
     const unsigned long long count = x->count, at_least = x->at_least;
     if (!x->possible && x->plan.count == FRUSTA_MAX)

@@ -51,11 +51,11 @@ static number_text in_unit(const solve_report *r, number_text number) {
 }
 
 static number_text whole(const solve_report *r, double value) {
-    return in_unit(r, number_full(value));
+    return options_length(r->o, value, 0);
 }
 
 static number_text digits(const solve_report *r, double value) {
-    return in_unit(r, number_of(value, SOLVE_DIGITS));
+    return options_length(r->o, value, SOLVE_DIGITS);
 }
 
 static number_text up(const solve_report *r, double value) {
@@ -64,6 +64,14 @@ static number_text up(const solve_report *r, double value) {
 
 static number_text bound(const solve_report *r, double value, bool upward) {
     return upward ? up(r, value) : in_unit(r, number_down(value, SOLVE_DIGITS));
+}
+
+/* What is measured, in the unit of what is wanted. */
+static number_text measured(const solve_report *r, double value) {
+    const options *o = r->o;
+    const unit_row *unit = options_unit_of(o, r->kind == MEASURE_ERROR ? OPTION_ERROR : OPTION_SEPARATION);
+    return number_in(number_up(unit_convert(value, o->camera.unit, unit), SOLVE_DIGITS),
+                     unit != NULL ? unit->name : NULL);
 }
 
 /* ---- Numbers that keep what they promise, as they are printed ---------------------------------------------------- */
@@ -103,11 +111,12 @@ static number_text passing(const solve_report *r, const solve_candidate *c, bool
 /* "resolve 0.01 at z = 5000", "keep the error within 0.01 from z = 10 to 5000" */
 static phrase goal_phrase(const solve_report *r, double value, const char *ending) {
     phrase out;
-    const number_text text = isnan(r->limit) ? up(r, value) : whole(r, value);
+    const number_text text = isnan(r->limit) ? measured(r, value) : whole(r, value);
     if (r->kind == MEASURE_ERROR)
         snprintf(out.text, PHRASE_SIZE, "keep%s the error within %s ", ending, text.text);
     else
-        snprintf(out.text, PHRASE_SIZE, "resolve%s %s%s ", ending, text.text, is_slanted(r) ? " at any slant" : "");
+        snprintf(out.text, PHRASE_SIZE, "resolve%s %s%s%s ", ending, text.text, is_slanted(r) ? " at " : "",
+                 is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "");
     if (r->lo < r->hi)
         append(out.text, PHRASE_SIZE, "from z = %s to %s", whole(r, r->lo).text, whole(r, r->hi).text);
     else
@@ -145,9 +154,10 @@ static void sentence_of_distance(const solve_report *r, const solve_candidate *c
         [DP_MODEL_FLOAT] = {"is not guaranteed", "is guaranteed"},
     };
     const distance_answer *d = &c->distance;
-    output_format(out, "%s%s: %s %s%s %s", c->possible ? "" : "Impossible: ", given_phrase(r, c).text,
+    output_format(out, "%s%s: %s %s%s%s %s", c->possible ? "" : "Impossible: ", given_phrase(r, c).text,
                   r->kind == MEASURE_ERROR ? "an error within" : "a separation of", whole(r, r->limit).text,
-                  is_slanted(r) ? " at any slant" : "", manners[c->spec.model][c->possible]);
+                  is_slanted(r) ? " at " : "", is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "",
+                  manners[c->spec.model][c->possible]);
     if (c->possible)
         output_format(out, " from z = %s up to z = %s", whole(r, r->lo).text,
                       (d->throughout ? whole(r, d->value) : bound(r, d->value, false)).text);
@@ -167,7 +177,7 @@ static void sentence_of_distance(const solve_report *r, const solve_candidate *c
 
 static void sentence_of_nothing(const solve_report *r, const solve_candidate *c, output *out) {
     const phrase given = given_phrase(r, c), goal = goal_phrase(r, r->limit, "s");
-    const number_text plane = digits(r, solve_plane_of(c)), best = up(r, c->reached.value);
+    const number_text plane = digits(r, solve_plane_of(c)), best = measured(r, c->reached.value);
     const char *what = target_name(r);
     if (isinf(c->reached.value))
         output_format(out, "Impossible: %s has no %s that %s: nothing farther is guaranteed to be resolved.\n",
@@ -246,10 +256,11 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
         more = r->kind == MEASURE_ERROR ? "; model float has no cells, so no error"
                                         : "; model float does not cover this mapping";
     const bool shader = c->spec.model == DP_MODEL_FLOAT && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
-    page_note(p, "model", "%s%s%s", words[c->spec.model], more,
+    page_note(p, "model", "%s%s%s%s", words[c->spec.model], more,
               shader          ? ", for every log2 that a shader may use"
-              : is_slanted(r) ? ", at any slant"
-                              : "");
+              : is_slanted(r) ? ", at "
+                              : "",
+              !shader && is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "");
 }
 
 /* The lattice beside a fuller model, and the guarantee beside the lattice. */
@@ -259,7 +270,7 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
         return;
     if (c->spec.model != DP_MODEL_EXACT) {
         if (!c->solved)
-            page_note(p, "lattice", "%s at z = %s", up(r, c->lattice.reached.value).text,
+            page_note(p, "lattice", "%s at z = %s", measured(r, c->lattice.reached.value).text,
                       digits(r, c->lattice.reached.z).text);
         else if (c->lattice.possible)
             page_note(p, "lattice", "ideal arithmetic needs only %s %s", target_name(r),
@@ -272,10 +283,10 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
     if (isinf(binary32))
         page_note(p, "guaranteed", "nothing there: 'depthprec budget' says why");
     else if (binary32 > r->limit * (1.0 + 1e-6))
-        page_note(p, "guaranteed", "only %s, short of %s: 'depthprec budget' says why", up(r, binary32).text,
+        page_note(p, "guaranteed", "only %s, short of %s: 'depthprec budget' says why", measured(r, binary32).text,
                   whole(r, r->limit).text);
     else if (!isnan(binary32))
-        page_note(p, "guaranteed", "%s there", up(r, binary32).text);
+        page_note(p, "guaranteed", "%s there", measured(r, binary32).text);
 }
 
 /* The planes that nobody gave. */
@@ -303,11 +314,13 @@ void solve_report_answer(page *p, void *item) {
         say_plane(r, c, p);
     if (!isnan(r->limit))
         snprintf(wanted, sizeof wanted, ", wanted %s", digits(r, r->limit).text);
-    page_note(p, solve_measure_name(r), "%s at z = %s%s", up(r, c->reached.value).text,
+    page_note(p, solve_measure_name(r), "%s at z = %s%s", measured(r, c->reached.value).text,
               (r->target == SOLVE_FOR_DISTANCE ? bound(r, c->reached.z, false) : digits(r, c->reached.z)).text, wanted);
     if (is_slanted(r))
-        page_note(p, "facing", "%s there", up(r, solve_in_binary32(r, c, false)).text);
+        page_note(p, "facing", "%s there", measured(r, solve_in_binary32(r, c, false)).text);
     say_model(r, c, p);
+    if (dp_mapping_get(c->spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
+        page_note(p, "cost", "%s", c->price.effort);
     say_beside(r, c, p);
     slant_say(p, page_line, r->o, &(dp_setup){.spec = c->spec});
 }

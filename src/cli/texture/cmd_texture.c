@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/texture/texture.h"
+#include "report/message.h"
 
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
@@ -36,8 +37,7 @@ static int check_alone(const options *o) {
 static int make_product(const options *o, const texture_source *source, texture_product *product) {
     int status = texture_product_check(o, source, product);
     if (status == EXIT_FINE && source->path != NULL && source->found.invalid > 0 && !o->out.quiet)
-        fprintf(stderr, "depthprec: %s: %zu pixels hold no window depth and become NaN\n", source->path,
-                source->found.invalid);
+        message("depthprec: %s: %zu pixels hold no window depth and become NaN", source->path, source->found.invalid);
     if (status == EXIT_FINE && o->out.file != NULL)
         status = texture_product_write(o, source, product);
     if (status == EXIT_FINE && o->image.figure != NULL)

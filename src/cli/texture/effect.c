@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * texture --product effect:NAME without an image: what the stored depth does to an effect, depth by depth, and from
- * which (or up to which) value of its parameter on that is no more than a level of 8 bits.
+ * texture --product effect:NAME without an image: what the stored depth does to an effect, depth by depth, from which
+ * (or up to which) value of its parameter on that is no more than a level of 8 bits, and up to which depth it is none
+ * without --at. Of several set-ups these two stand side by side.
  */
 #include <math.h>
 #include <stdio.h>
@@ -54,6 +55,9 @@ typedef struct table {
     row row;
     bool begun;
     double usable, z, ceiling, ceiling_z;
+    double reach;      /* up to which depth no step is more than a level; NaN where one is at near */
+    double everywhere; /* what is usable at all depths, not at those alone that are shown; NaN where nothing is */
+    char label[SETUP_LABEL_SIZE];
 } table;
 
 static bool needs(const table *t, unsigned what) {
@@ -89,10 +93,30 @@ static int choose_pixel(table *t, const options *o) {
     return texture_pixels_check(o, t->spec.width, t->spec.height);
 }
 
+/* Without --at all depths are meant, not those alone that are shown. What compares pixels or frames
+ * comes and goes.
+ */
+static bool is_asked_of_all(const table *t) {
+    return !option_given(t->each.o, OPTION_AT) && effect_is_steady(t->effect);
+}
+
+/* The depths that are shown without --at end there, too. */
+static double farthest(const dp_setup *setup) {
+    return isinf(setup->spec.zfar) ? 1e6 * setup->spec.znear : setup->spec.zfar;
+}
+
 static void *next_setup(void *of, size_t i) {
     table *t = of;
     t->begun = false;
-    return each_setup_go(&t->each, i) && make_view(t, t->each.setup) == EXIT_FINE ? t : NULL;
+    if (!each_setup_go(&t->each, i) || make_view(t, t->each.setup) != EXIT_FINE)
+        return NULL;
+    const dp_setup *setup = t->each.setup;
+    const double lo = setup->spec.znear, hi = farthest(setup);
+    if (!is_asked_of_all(t))
+        return t;
+    t->reach = effect_reach(t->effect, &t->view, t->parameters, lo, hi, ONE_LEVEL);
+    t->everywhere = effect_usable_over(t->effect, &t->view, t->parameters, lo, hi, ONE_LEVEL);
+    return t;
 }
 
 static void *next_row(void *of, size_t i) {
@@ -131,9 +155,44 @@ static void *next_parameter(void *of, size_t i) {
     return NULL;
 }
 
-static void say_effect(page *p, void *item) {
-    table *t = item;
-    each_setup_title(p, item);
+/* "at every depth", or as far as it was looked. */
+static void every_depth(const page *p, const dp_setup *setup, char out[64]) {
+    const bool all = !isinf(setup->spec.zfar);
+    snprintf(out, 64, "at every depth%s%s",
+             all ? "" : " up to z = ", all ? "" : number_in(number_full(farthest(setup)), p->unit).text);
+}
+
+/* What a level is, how far from the camera the effect stays within one, and what of its parameter does so everywhere.
+ */
+static void say_reach(page *p, const table *t) {
+    const bool step = t->effect->kind == EFFECT_STEP;
+    const char *const within = step ? "a plane is drawn right"
+                                    : "a step of the stored depth changes the output by at most a level (1/255: what "
+                                      "8 bits hold)";
+    char all[64], limit[128];
+    if (!is_asked_of_all(t)) {
+        page_text(p, "levels: changes of the output by 1/255, what 8 bits hold");
+        return;
+    }
+    every_depth(p, t->each.setup, all);
+    if (isnan(t->everywhere))
+        snprintf(limit, sizeof limit, "no %s", t->wanted_name);
+    else if (t->everywhere == (t->effect->smallest ? t->wanted->lo : t->wanted->hi))
+        snprintf(limit, sizeof limit, "every %s", t->wanted_name);
+    else
+        snprintf(limit, sizeof limit, "%s %s %s%s", t->wanted_name, t->direction,
+                 (t->effect->smallest ? number_up : number_down)(t->everywhere, DIGITS).text,
+                 t->effect->smallest ? " up" : "");
+    if (isnan(t->reach))
+        page_text(p, "At no depth, not even at near, is it certain that %s; with %s %s.", within, limit, all);
+    else if (t->reach >= farthest(t->each.setup))
+        page_text(p, "A%s %s; with %s, too.", all + 1, within, limit);
+    else
+        page_text(p, "Up to z = %s %s; with %s %s.", number_in(number_down(t->reach, DIGITS), p->unit).text, within,
+                  limit, all);
+}
+
+static void say_parameters(page *p, table *t) {
     char parameters[512] = "";
     for (size_t i = 0; next_parameter(t, i) != NULL; i++)
         append(parameters, sizeof parameters, ", %s %s", t->parameter.name,
@@ -141,12 +200,19 @@ static void say_effect(page *p, void *item) {
     if (t->effect->reference != NULL)
         append(parameters, sizeof parameters, "; %s at its worst", t->effect->reference);
     page_text(p, "%s%s", t->name, parameters);
-    if (t->effect->alone)
-        page_text(p, "share: of the places of a plane that are wrong");
     if (needs(t, EFFECT_POSITION))
         page_text(p, "pixel %u,%u of %u x %u, %s %s", t->column, t->line, t->spec.width, t->spec.height,
                   t->camera.ortho ? "half height" : "field of view",
                   number_of(t->camera.ortho ? t->spec.half_height : t->spec.fov_y, DIGITS_Z).text);
+}
+
+static void say_effect(page *p, void *item) {
+    table *t = item;
+    each_setup_title(p, item);
+    say_parameters(p, t);
+    if (t->effect->alone)
+        page_text(p, "share: of the places of a plane that are wrong");
+    say_reach(p, t);
 }
 
 /* Of another parameter, with the wanted one as it is. */
@@ -171,7 +237,9 @@ static void say_usable(page *p, void *item) {
     char decides[64] = "";
     if (t->usable != (t->effect->smallest ? t->wanted->lo : t->wanted->hi))
         snprintf(decides, sizeof decides, "; z = %s decides", z.text);
-    if (isnan(t->usable))
+    if (is_asked_of_all(t))
+        ; /* say_reach() has said it of all depths */
+    else if (isnan(t->usable))
         page_line(p, "no %s is usable at z = %s", t->wanted_name, z.text);
     else
         page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown%s", t->wanted_name,
@@ -227,6 +295,54 @@ static int write_table(table *t, int status) {
     return each_setup_write(&t->each, &spec, status);
 }
 
+/* ---- Several set-ups beside each other --------------------------------------------------------------------------- */
+
+static void *next_beside(void *of, size_t i) {
+    table *t = of;
+    if (next_setup(t, i) == NULL)
+        return NULL;
+    setup_label(t->each.setup, false, t->label);
+    return t;
+}
+
+static void say_beside(page *p, void *item) {
+    table *t = item;
+    const options *o = t->each.o;
+    p->unit = options_unit(o);
+    page_title(p, "near %s, far %s, %s%s%s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
+               o->camera.ortho ? "orthographic" : "perspective", p->unit != NULL ? ", lengths in " : "",
+               p->unit != NULL ? p->unit : "");
+    say_parameters(p, t);
+}
+
+static void say_columns(page *p, void *item) {
+    const table *t = item;
+    char all[64];
+    every_depth(p, &t->each.all.items[0], all);
+    output_char(p->out, '\n');
+    if (t->effect->kind == EFFECT_STEP)
+        page_text(p, "Up to that z a plane is drawn right; with that %s it is %s.", t->wanted_name, all);
+    else
+        page_text(p,
+                  "Up to that z a step of the stored depth changes the output by at most a level (1/255: what 8 bits "
+                  "hold); with that %s it does so %s.",
+                  t->wanted_name, all);
+    page_text(p, "--full prints the tables: codes, depths, levels.");
+}
+
+static int write_beside(table *t, int status) {
+    char usable[64];
+    snprintf(usable, sizeof usable, "%s %s", t->wanted_name, t->direction);
+    const column rows[] = {{TEXT_FIELD(table, label, "", -22, 0)},
+                           {TEXT_FIELD(table, reach, "up to z", 12, DIGITS), .downward = true, .brief = true},
+                           {TEXT_FIELD(table, everywhere, usable, 24, DIGITS), .upward = t->effect->smallest,
+                            .downward = !t->effect->smallest, .brief = true},
+                           {.kind = COLUMN_END}};
+    const column list[] = {{LIST(NULL, rows, next_beside), .head = say_beside, .notes = say_columns},
+                           {.kind = COLUMN_END}};
+    return each_setup_write(&t->each, &(report_spec){.command = "texture", .columns = list, .item = t}, status);
+}
+
 int texture_effect_table(const options *o) {
     table t = {.each = {.o = o}};
     int status = texture_effect_resolve(o, false, &t.effect, t.parameters);
@@ -244,5 +360,6 @@ int texture_effect_table(const options *o) {
     t.wanted = &t.effect->parameters[t.effect->wanted];
     t.wanted_name = t.wanted->name;
     t.direction = t.effect->smallest ? "from" : "up to";
-    return write_table(&t, status);
+    const bool beside = o->out.form == FORM_TEXT && !o->out.full && is_asked_of_all(&t);
+    return (beside && t.each.all.count > 1 ? write_beside : write_table)(&t, status);
 }

@@ -6,6 +6,7 @@
 
 #include "cli/texture/texture.h"
 #include "core/append.h"
+#include "report/message.h"
 #include "report/number.h"
 
 enum { NUMBERS = 3 };
@@ -103,10 +104,10 @@ void texture_lattice_warn(const options *o, const texture_source *s) {
     if (o->out.quiet || o->image.lattice == NULL)
         return;
     if (seen->found && (seen->row != given->row || fabs(seen->step - given->step) > 0.01 * given->step))
-        fprintf(stderr, "depthprec: %s: --lattice %s is taken, but the samples lie on another: %s%s%s\n", s->path,
+        message("depthprec: %s: --lattice %s is taken, but the samples lie on another: %s%s%s", s->path,
                 o->image.lattice, seen->row->name, isnan(seen->step) ? "" : ", in steps of ",
                 isnan(seen->step) ? "" : number_of(seen->step, 6).text);
     else if (given->off_pixels > (1 - SENSOR_SHARE) * all)
-        fprintf(stderr, "depthprec: %s: --lattice %s is taken, but %s of %s pixels are on none of its levels\n",
-                s->path, o->image.lattice, number_of(given->off_pixels, 9).text, number_of(all, 9).text);
+        message("depthprec: %s: --lattice %s is taken, but %s of %s pixels are on none of its levels", s->path,
+                o->image.lattice, number_of(given->off_pixels, 9).text, number_of(all, 9).text);
 }

@@ -7,6 +7,7 @@
 
 #include "cli/texture/writing.h"
 #include "frame/image_depths.h"
+#include "report/message.h"
 #include "report/number.h"
 
 int texture_pack_check(const options *o) {
@@ -119,12 +120,11 @@ int texture_pack_write(const options *o, const texture_source *s) {
     free(on.depths);
     free(on.texels);
     if (good && on.holes > 0 && !o->out.quiet)
-        fprintf(stderr, "depthprec: %s: %llu pixels hold no depth and are written as the far plane\n", o->out.file,
+        message("depthprec: %s: %llu pixels hold no depth and are written as the far plane", o->out.file,
                 (unsigned long long)on.holes);
     if (good && on.p->wraps && on.far > 0 && !o->out.quiet)
-        fprintf(stderr,
-                "depthprec: %s: %llu pixels at the far plane are written as 255, 0, which shaders read as 1; "
-                "EncodeFloatRG writes 0, 0, which they read as 0, the camera\n",
+        message("depthprec: %s: %llu pixels at the far plane are written as 255, 0, which shaders read as 1; "
+                "EncodeFloatRG writes 0, 0, which they read as 0, the camera",
                 o->out.file, (unsigned long long)on.far);
     return writing_close(&on.w, 1, good);
 }

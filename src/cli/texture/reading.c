@@ -6,6 +6,7 @@
 #include "cli/texture/texture.h"
 #include "core/append.h"
 #include "frame/image_depths.h"
+#include "report/message.h"
 #include "report/number.h"
 
 /* ---- How the samples were rounded -------------------------------------------------------------------------------- */
@@ -200,7 +201,7 @@ const char *texture_readings_of(const texture_source *s, const char *what, char 
 static void warn_of(const texture_source *s, const char *what) {
     char text[READINGS_SIZE];
     if (*texture_readings_of(s, what, text) != '\0')
-        fprintf(stderr, "depthprec: %s: the %s is assumed: pixel %s; --%s sets it\n", s->path, what, text, what);
+        message("depthprec: %s: the %s is assumed: pixel %s; --%s sets it", s->path, what, text, what);
 }
 
 const char *texture_zeros_of(const options *o, const texture_source *s, char out[READINGS_SIZE]) {
@@ -220,15 +221,14 @@ static void warn(const options *o, const texture_source *s) {
     if (o->out.quiet)
         return;
     if (s->unpacked.zeros > 0)
-        fprintf(stderr, "depthprec: %s: %s\n", s->path, texture_zeros_of(o, s, text));
+        message("depthprec: %s: %s", s->path, texture_zeros_of(o, s, text));
     warn_of(s, "mapping");
     warn_of(s, "format");
     if (s->reading_count == 0 && o->image.metric == 0 && s->mapping_from == ORIGIN_ASSUMED)
-        fprintf(stderr, "depthprec: %s: the mapping is assumed; --mapping sets it\n", s->path);
+        message("depthprec: %s: the mapping is assumed; --mapping sets it", s->path);
     if (o->image.metric == 0 && s->found.metric)
-        fprintf(stderr,
-                "depthprec: %s: may be metric depth, whole numbers with 0 for holes; --metric 0.001 reads "
-                "millimetres\n",
+        message("depthprec: %s: may be metric depth, whole numbers with 0 for holes; --metric 0.001 reads "
+                "millimetres",
                 s->path);
 }
 

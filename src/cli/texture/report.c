@@ -274,12 +274,13 @@ static size_t products_of(const statistics *r, frame_product out[ERRORS_MAX]) {
 static bool gather_statistics(statistics *r) {
     frame_product products[ERRORS_MAX];
     const size_t count = products_of(r, products);
+    const bool decoded = r->o->out.form != FORM_TEXT || r->o->out.full;
     progress bar = progress_start("passes", count + 1, r->o->out.quiet);
     bool good = survey_make(&r->source.frame, &r->survey);
     for (size_t k = 0; good && k < count; k++) {
         progress_step(&bar, k + 1);
         good = add_error(r, &products[k]);
-        for (size_t i = 0; good && k == 0 && decode_get(i) != NULL; i++)
+        for (size_t i = 0; good && decoded && k == 0 && decode_get(i) != NULL; i++)
             good = add_decoding(r, decode_get(i));
     }
     progress_end(&bar);

@@ -9,6 +9,7 @@
 #include "cli/setups.h"
 #include "cli/texture/texture.h"
 #include "frame/normals.h"
+#include "report/message.h"
 #include "report/number.h"
 
 /* UINT32_MAX stands for "no depth" among codes. */
@@ -108,12 +109,27 @@ static void warn_of_colours(const options *o, const texture_source *s) {
     static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};
     for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->out.quiet; i++)
         if ((s->picture.colours >> i & 1U) != 0)
-            fprintf(stderr,
-                    "depthprec: %s: has %s chunk: a program that applies it changes packed depths; ignored here\n",
+            message("depthprec: %s: has %s chunk: a program that applies it changes packed depths; ignored here",
                     s->path, names[i]);
     if (s->unpacked.premultiplied && !o->out.quiet)
-        fprintf(stderr, "depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong\n",
-                s->path);
+        message("depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong", s->path);
+}
+
+/* A byte is less than any depth has; colours that are not grey may be the channels of one. */
+static void warn_of_channels(const options *o, const texture_source *s) {
+    const image *p = &s->picture;
+    const unsigned char *const bytes = p->data;
+    bool grey = p->type != IMAGE_U8 || p->channels < 3;
+    for (size_t i = 0; !grey && i < (size_t)p->width * p->height; i++) {
+        const unsigned char *const at = bytes + i * p->channels;
+        if (at[0] != at[1] || at[0] != at[2])
+            break;
+        grey = i + 1 == (size_t)p->width * p->height;
+    }
+    if (!grey && !o->out.quiet && o->image.channel == NULL)
+        message("depthprec: %s: of %u channels the first is read, 8 bits; --packing rgb24 reads a depth of 24 bits in "
+                "three",
+                s->path, p->channels);
 }
 
 /* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
@@ -121,9 +137,8 @@ static void warn_of_colours(const options *o, const texture_source *s) {
 /* What a codec has changed is known to nobody, so no error has it. */
 static void warn_of_compression(const options *o, const texture_source *s) {
     if (s->picture.lossy != NULL && !o->out.quiet)
-        fprintf(stderr,
-                "depthprec: %s: its compression, %s, may have changed the depths, which no error here counts; save it "
-                "without loss\n",
+        message("depthprec: %s: its compression, %s, may have changed the depths, which no error here counts; save it "
+                "without loss",
                 s->path, s->picture.lossy);
 }
 
@@ -255,8 +270,8 @@ static int read_image(options *o, texture_source *s) {
     if (asked.width > 0 && s->picture.file != IMAGE_RAW)
         return option_error(OPTION_SIZE, "is for --synthetic and raw files: %s has its own", s->path);
     if (s->picture.size_assumed && !o->out.quiet)
-        fprintf(stderr, "depthprec: %s: %u x %u pixels are assumed, by its length; --size sets them\n", s->path,
-                s->picture.width, s->picture.height);
+        message("depthprec: %s: %u x %u pixels are assumed, by its length; --size sets them", s->path, s->picture.width,
+                s->picture.height);
     s->type = s->picture.type;
     s->channels = s->picture.channels;
     warn_of_compression(o, s);
@@ -267,6 +282,7 @@ static int read_image(options *o, texture_source *s) {
         status = check_window(o);
     if (status != EXIT_FINE || o->image.packing != NULL)
         return status != EXIT_FINE ? status : unpack(o, s);
+    warn_of_channels(o, s);
     if (o->image.metric > 0)
         return read_metric(o, s);
     recognise(&s->picture, &s->found);

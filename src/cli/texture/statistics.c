@@ -221,6 +221,6 @@ void statistics_say_geometry(page *p, void *item) {
     const statistics *r = item;
     if (r->named.pairs != NULL)
         say_pairs(&r->pairs, p);
-    if (!isnan(r->condition))
+    if (!isnan(r->condition) && r->o->out.full)
         page_note(p, "condition", "%s, of the view-projection matrix", number_of(r->condition, 4).text);
 }

@@ -8,6 +8,7 @@
 
 #include "cli/texture/writing.h"
 #include "core/append.h"
+#include "report/message.h"
 #include "report/number.h"
 #include "report/report.h"
 
@@ -232,12 +233,10 @@ int writing_say(const options *o, const texture_product *p, const writing *w, me
     if (w->file != IMAGE_PNG || o->out.quiet)
         return EXIT_FINE;
     if (w->directions)
-        fprintf(stderr, "depthprec: %s: 0 is -1, 65535 is 1, %s; 0 in all three where there is no value\n", o->out.file,
-                m->axes);
+        message("depthprec: %s: 0 is -1, 65535 is 1, %s; 0 in all three where there is no value", o->out.file, m->axes);
     else
-        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->out.file,
-                number_full(w->lo).text, number_full(w->hi).text, *p->unit != '\0' ? " " : "", p->unit,
-                p->made.error ? "bound" : "value");
+        message("depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s", o->out.file, number_full(w->lo).text,
+                number_full(w->hi).text, *p->unit != '\0' ? " " : "", p->unit, p->made.error ? "bound" : "value");
     return EXIT_FINE;
 }
 
@@ -257,7 +256,7 @@ static bool make_all(const texture_source *s, const texture_product *p, writing 
 
 static void say_levels(const options *o, const texture_source *s, const texture_product *p, const writing *w) {
     if (w->levels && w->pixels > 0 && !o->out.quiet)
-        fprintf(stderr, "depthprec: %s: %s %% of the pixels %s off by more than one level\n", o->out.file,
+        message("depthprec: %s: %s %% of the pixels %s off by more than one level", o->out.file,
                 number_of(100.0 * (double)w->beyond / (double)w->pixels, 3).text,
                 s->path != NULL || (p->made.effect->given && !(p->made.reference > 0)) ? "can be" : "are");
 }

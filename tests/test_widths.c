@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* On a terminal nothing is wider than it is: of every command what it prints, helps, refuses and warns of. */
+#define _GNU_SOURCE /* posix_openpt() */
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "cli/commands.h"
+#include "printed.h"
+
+#define HOUSE "tests/models/house.gltf"
+
+static const char *const lines[] = {
+    "help",
+    "help options",
+    "--version",
+    "list",
+    "list formats",
+    "list presets",
+    "list platforms",
+    "list apis",
+    "list rasterizers",
+    "list effects",
+    "list methods",
+    "list D24_UNORM",
+    "table",
+    "table -F d24 -m d3d",
+    "table --viewport 1920x1080",
+    "table -F d24 -m d3d --viewport 1920x1080 --slant 30:30",
+    "table --preset unity,unreal --at 100m",
+    "table --preset three -m logarithmicDepthBuffer,gl --at 1000 --viewport 640x480",
+    "table -F d24 -m d3d --depth 0.9987",
+    "table -F d24 -m d3d --range 1:100 --tolerance 5%",
+    "budget -F d24 -m d3d",
+    "budget -F fp32 -m reversed --from-origin 5km --linearize --at 10m",
+    "budget -F fp32 -m reversed --viewport 1920x1080 --raster spec-d3d",
+    "solve --for distance -F d24 -m d3d --separation 0.01",
+    "solve -F d24 -m d3d -f 10000 --separation 0.01 --at 5000",
+    "solve --for frusta -n 0.1 -f 1e6 -F d24 -m d3d --separation 0.01",
+    "check tests/needs/engine.need",
+    "zfight -F d24 -m d3d --range 1:1.1",
+    "zfight -F d24 -m gl --separation 0.01 --range 10:10.5",
+    "zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000",
+    "prepass -F d24 -m d3d --sample 1000",
+    "bias --api gl -F d24 -m gl --units -1 --at 1,10,100",
+    "bias --api all --separation 0.02 --at 300",
+    "bias --api d3d12,vulkan --separation 0.02 --at 300 -F d24 -m d3d",
+    "bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02",
+    "bias -F d24 -m d3d --viewport 1920x1080",
+    "world --from-origin 100km --separation 1cm --at 10m",
+    "world --at 1m",
+    "scene " HOUSE " -F d24 -m d3d --camera street --within 60",
+    "texture --synthetic plane --size 64x48 -F d24 -m d3d",
+    "texture --synthetic decals --size 64x48 -F d24 -m d3d --pixel 32,18",
+    "texture --synthetic plane --size 64x48 -F d16 -m d3d --product effect:fog",
+    "texture --product effect:intersection",
+    "texture --product effect:shadow -F d24 -m d3d",
+    "shadow -f 150 --unit m",
+    "shadow --light-box 40x40x200 -F d16 --api gl",
+    "shadow -f 300 --api all",
+    "methods",
+    "plot map -o nowhere/map.svg",
+    "plot",
+    "plot nothing",
+    "probe --device 99",
+    "table -F unknown",
+    "table --near -5",
+    "table 0.1 1000",
+    "list nothing",
+    "texture " HOUSE,
+    "texture --product effect:ssao",
+    "completions tcsh",
+};
+
+/* Runs a command on a terminal of so many columns. @return what came there, to be freed */
+static char *on_terminal(const char *line, unsigned short columns) {
+    const char *program = getenv("DEPTHPREC");
+    char command[1024];
+    snprintf(command, sizeof command, "%s %s", program != NULL ? program : "build/depthprec", line);
+    const int master = posix_openpt(O_RDWR | O_NOCTTY);
+    assert_true(master >= 0 && grantpt(master) == 0 && unlockpt(master) == 0);
+    const int terminal = open(ptsname(master), O_RDWR | O_NOCTTY);
+    assert_true(terminal >= 0);
+    const struct winsize size = {.ws_row = 50, .ws_col = columns};
+    assert_int_equal(ioctl(terminal, TIOCSWINSZ, &size), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        setenv("TERM", "dumb", 1);
+        dup2(terminal, STDOUT_FILENO);
+        dup2(terminal, STDERR_FILENO);
+        close(terminal);
+        close(master);
+        execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+        _exit(127);
+    }
+    assert_true(child > 0);
+    close(terminal);
+    size_t used = 0, room = 1 << 16;
+    char *text = malloc(room);
+    for (ssize_t got; (got = read(master, text + used, room - used - 1)) > 0;) {
+        used += (size_t)got;
+        if (room - used < 4096)
+            text = realloc(text, room *= 2);
+    }
+    text[used] = '\0';
+    close(master);
+    waitpid(child, NULL, 0);
+    return text;
+}
+
+/* Progress is drawn over itself, and erases what is behind it. */
+static void check_widths(tally *t, const char *line, int columns) {
+    char *text = on_terminal(line, (unsigned short)columns);
+    size_t widest = 0;
+    TALLY(t, text[0] != '\0' && strstr(text, "not found") == NULL, "%s: %s", line, text);
+    for (const char *at = text; *at != '\0';) {
+        const size_t length = strcspn(at, "\r\n\033");
+        widest = length > widest ? length : widest;
+        TALLY(t, length <= (size_t)columns, "%d columns, %s: %zu, %.*s", columns, line, length, (int)length, at);
+        at += length;
+        at += strncmp(at, "\033[K", 3) == 0 ? 3 : *at != '\0';
+    }
+    TALLY(t, columns == 120 || widest > 10, "%s: only %zu wide", line, widest);
+    free(text);
+}
+
+TEST(nothing_is_wider) {
+    static const int widths[] = {40, 80, 120};
+    tally t = {.name = "widths"};
+    for (size_t k = 0; k < sizeof widths / sizeof widths[0]; k++) {
+        for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+            check_widths(&t, lines[i], widths[k]);
+        for (size_t i = 0; i < command_count; i++) {
+            char help[64];
+            snprintf(help, sizeof help, "help %s", command_rows[i].name);
+            check_widths(&t, help, widths[k]);
+        }
+    }
+    tally_end(&t);
+}
+
+/* Each command is among the lines above. */
+TEST(all_commands) {
+    for (size_t i = 0; i < command_count; i++) {
+        const size_t length = strlen(command_rows[i].name);
+        size_t k = 0;
+        while (k < sizeof lines / sizeof lines[0] &&
+               (strncmp(lines[k], command_rows[i].name, length) != 0 || (lines[k][length] & ~' ') != 0))
+            k++;
+        if (k == sizeof lines / sizeof lines[0])
+            fail_msg("%s is not tried", command_rows[i].name);
+    }
+}
+
+/* A command that is broken can be typed as it stands; what is no terminal keeps its lines. */
+TEST(broken_commands) {
+    char *text = on_terminal("help bias", 40);
+    assert_non_null(strstr(text, "  depthprec bias --api gl -F d24 -m gl \\\r\n    --units -1 --at 1,10,100\r\n"));
+    free(text);
+    printed p = print_of("help bias");
+    assert_non_null(strstr(p.out, "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n"));
+    printed_free(&p);
+    p = print_of("list nothing");
+    assert_true(strchr(p.errors, '\n') == p.errors + strlen(p.errors) - 1);
+    printed_free(&p);
+}
