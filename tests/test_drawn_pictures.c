@@ -5,7 +5,7 @@
 #include "drawn_truth.h"
 #include "support.h"
 
-static const char fight_words[] = "stored as one code with what is behind: they fight";
+static const char fight_words[] = "stored as one code with what is behind: they z-fight";
 
 /* Below so many fields each is a rectangle. */
 enum { FEW = 4096 };

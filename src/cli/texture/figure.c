@@ -131,7 +131,7 @@ static void mark_ties(const frame *f, chart *c) {
     double at[MOST][2];
     const size_t count = survey_ties(f, MOST, at);
     if (count <= MOST)
-        picture_mark(c, count, at, "stored as one code with what is behind: they fight");
+        picture_mark(c, count, at, "stored as one code with what is behind: they z-fight");
 }
 
 /* Fills the page: the picture in its shape, words above, axes around. */

@@ -166,8 +166,8 @@ static const column pair_columns[] = {{FIELD(survey_pairs, pairs, "count", "")},
                                       {.kind = COLUMN_END}};
 
 static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
-                                       {TEXT_FIELD(error_line, name, "can be off by", -22, 0), .when = OF_IMAGE},
-                                       {TEXT_FIELD(error_line, name, "is off by", -22, 0), .when = OF_SYNTHETIC},
+                                       {TEXT_FIELD(error_line, name, "error bound", -22, 0), .when = OF_IMAGE},
+                                       {TEXT_FIELD(error_line, name, "error", -22, 0), .when = OF_SYNTHETIC},
                                        {FIELD(error_line, unit, "unit", "")},
                                        {FIELD(error_line, sum.count, "pixels", "")},
                                        {FIELD(error_line, sum.infinite, "unbounded", "")},

@@ -28,14 +28,14 @@ static void say_grain(const statistics *r, page *p) {
     if (g->whole > 0)
         snprintf(other, sizeof other, ", or of 1/%s shifted up", number_of(g->whole, 9).text);
     if (g->kind == GRAIN_STEPS)
-        page_note(p, "samples", "steps of 1/%s%s%s, %s: counted in what depths can be off by",
-                  number_of(g->steps, 9).text, other,
+        page_note(p, "samples", "steps of 1/%s%s%s, %s: included in the error bounds", number_of(g->steps, 9).text,
+                  other,
                   r->named.coarser                        ? ", coarser than the format"
                   : r->source.format_from == ORIGIN_GIVEN ? ""
                                                           : ", of a buffer that may be finer",
                   by);
     else if (g->kind == GRAIN_FLOATS && g->bits == 11)
-        page_note(p, "samples", "of %d significant bits, %s: counted in what depths can be off by", g->bits, by);
+        page_note(p, "samples", "of %d significant bits, %s: included in the error bounds", g->bits, by);
 }
 
 static void say_origins(const statistics *r, page *p) {
@@ -210,9 +210,9 @@ static void say_pairs(const survey_pairs *s, page *p) {
     if (s->ties > 0)
         snprintf(first, sizeof first, ", the first at z = %s", number_in(number_of(s->first_tie, 6), p->unit).text);
     if (!isnan(s->certain_to))
-        snprintf(certain, sizeof certain, "; none can fight up to z = %s",
+        snprintf(certain, sizeof certain, "; none z-fight up to z = %s",
                  number_in(number_down(s->certain_to, 6), p->unit).text);
-    page_note(p, "pairs", "%llu to be told apart: %llu fight, stored as one code%s", (unsigned long long)s->pairs,
+    page_note(p, "pairs", "%llu to be resolved: %llu z-fight, stored as one code%s", (unsigned long long)s->pairs,
               (unsigned long long)s->ties, first);
     page_note(p, "", "%llu are closer than the separation%s", (unsigned long long)s->possible, certain);
 }
