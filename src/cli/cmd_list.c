@@ -104,6 +104,10 @@ static bool write_word(listing *l, output *out) {
     return found;
 }
 
+bool list_knows(const char *word) {
+    return write_word(&(listing){.word = word}, NULL);
+}
+
 int cmd_list(const options *o) {
     static const name_list topics = {.get = list_topic};
     list_item asked = {.row = &all_topics};

@@ -70,6 +70,7 @@ int cmd_shadow(const struct options *o);
 int cmd_scene(const struct options *o);
 int cmd_probe(const struct options *o);
 int cmd_list(const struct options *o);
+bool list_knows(const char *word); /**< whether `list WORD` explains it */
 int cmd_plot(const struct options *o);
 int cmd_zfight(const struct options *o);
 int cmd_prepass(const struct options *o);

@@ -149,6 +149,11 @@ static void say_usage(page *p, const command_row *v) {
 int cmd_help(const options *o) {
     const command_row *v = o->operand_row;
     output out;
+    list_item item;
+    if (o->command->id == CMD_HELP && o->operand_count > 0 && !names_find(o->command->names, o->operands[0], NULL, &item))
+        return list_knows(o->operands[0])
+                   ? cmd_list(o)
+                   : check_operand(o->command, o->command->operand, o->command->names, o->operands[0], &item);
     output_open(&out, NULL);
     page p = page_start(&out, 28);
     if (o->version)

@@ -20,7 +20,8 @@ bool list_effect(size_t index, list_item *item) {
     const effect_row *row = effect_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    *item =
+        (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
     for (int i = 0; row->parameters[i].name != NULL; i++) {
         const texture_parameter *p = &row->parameters[i];
         append(item->bound, sizeof item->bound, "%s%s %g [%s], %g to %g", i > 0 ? "; " : "", p->name, p->value, p->unit,

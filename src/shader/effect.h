@@ -91,8 +91,9 @@ typedef void effect_critical(const effect_view *view, const double *parameters, 
                              double out[2]);
 
 typedef struct effect_row {
-    const char *name; /**< "intersection", "fog", ... */
-    const char *note; /**< the formula */
+    const char *name;    /**< "intersection", "fog", ... */
+    const char *aliases; /**< what articles and shaders call it, separated by one space; or null */
+    const char *note;    /**< the formula */
     texture_parameter parameters[PARAMETERS_MAX + 1];
     int wanted;            /**< the parameter whose usable values are looked for */
     bool smallest;         /**< it is usable from some value up; else from some value down */

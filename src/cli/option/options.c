@@ -155,8 +155,12 @@ static int check_operands(options *o) {
     if (o->operand_count < v->operand_min)
         return usage_error("%s: needs %s%s%s", v->name, v->operand, v->names != NULL ? ": " : "",
                            v->names != NULL ? names_join(v->names, ", ", " or ", text) : "");
-    const bool checked = v->names != NULL && o->operand_count > 0 && v->id != CMD_LIST; /* whose words are anything's */
-    const int status = checked ? check_operand(v, v->operand, v->names, o->operands[0], &item) : EXIT_FINE;
+    const bool open = v->id == CMD_LIST || v->id == CMD_HELP; /* whose words are anything's */
+    int status = EXIT_FINE;
+    if (open && o->operand_count > 0)
+        names_find(v->names, o->operands[0], NULL, &item);
+    else if (v->names != NULL && o->operand_count > 0)
+        status = check_operand(v, v->operand, v->names, o->operands[0], &item);
     o->operand_row = item.row;
     return status;
 }
