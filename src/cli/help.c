@@ -150,10 +150,11 @@ int cmd_help(const options *o) {
     const command_row *v = o->operand_row;
     output out;
     list_item item;
-    if (o->command->id == CMD_HELP && o->operand_count > 0 && !names_find(o->command->names, o->operands[0], NULL, &item))
+    const name_list *names = o->command->names;
+    if (o->command->id == CMD_HELP && o->operand_count > 0 && !names_find(names, o->operands[0], NULL, &item))
         return list_knows(o->operands[0])
                    ? cmd_list(o)
-                   : check_operand(o->command, o->command->operand, o->command->names, o->operands[0], &item);
+                   : check_operand(o->command, o->command->operand, names, o->operands[0], &item);
     output_open(&out, NULL);
     page p = page_start(&out, 28);
     if (o->version)
