@@ -132,10 +132,12 @@ check "20. depth in DepthNormals" answers 0 \
     'depthprec table --constants -n 0.3 -f 1000 -m d3d --at 100,500' 'DepthNormals'
 check "20. the nearest of 65026 depths" agrees 'DepthNormals 100 [0-9.]* [0-9.]* [0-9.]*' \
     '0.999999 * 6503 / 65.025' '1.000001 * 6503 / 65.025'
-for product in raw linear01; do
-    check "21. stairs at equal distances as $product" answers 0 "depthprec texture --synthetic steps --parameter even=1 -F d24 -m d3d -n 0.3 --product $product -q --figure $product.png" ''
-    check "21. a picture" test -s "$scratch/work/$product.png"
-done
+stairs() { # stairs PRODUCT: a picture of it
+    answers 0 "depthprec texture --synthetic steps --parameter even=1 -F d24 -m d3d -n 0.3 --product $1 -q --figure $1.png" '' &&
+        [ -s "$scratch/work/$1.png" ]
+}
+check "21. stairs at equal distances as window depth" stairs raw
+check "21. and as Linear01Depth" stairs linear01
 
 check "18. three.js, with its own words" answers 0 \
     'depthprec table --at 1000 --preset three -m gl,logarithmicDepthBuffer,reversedDepthBuffer' \
