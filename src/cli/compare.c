@@ -197,8 +197,7 @@ static void say_facing(page *p, const comparison *c, const compared *r, const ch
     if (isnan(r->up_to[MIDDLE]))
         page_text(p, "%s guarantees nothing at a slant, nor %s where surfaces face the camera.", r->name, limit);
     else
-        page_text(p, "%s guarantees nothing at a slant; facing the camera it resolves %s up to %s%s.", r->name,
-                  limit,
+        page_text(p, "%s guarantees nothing at a slant; facing the camera it resolves %s up to %s%s.", r->name, limit,
                   to_the_end(r) ? "" : "z = ", resolved_text(r->zfar, r->up_to[MIDDLE], c->each->o->camera.unit, text));
 }
 

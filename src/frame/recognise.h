@@ -47,9 +47,9 @@ typedef struct recognised {
     size_t holes;            /**< of these NaN or infinite */
     size_t distinct;         /**< different valid values, counted up to RECOGNISE_DISTINCT_MAX */
     size_t at_zero, at_one;
-    double lo, hi;      /**< of the valid samples, as window depth; NaN when there is none */
+    double lo, hi;       /**< of the valid samples, as window depth; NaN when there is none */
     const char *towards; /**< what shows the direction, or that nothing does; null without depth */
-    char why[320];      /**< one sentence for people: how it was told, or why it is no window depth, and `towards` */
+    char why[320];       /**< one sentence for people: how it was told, or why it is no window depth, and `towards` */
 } recognised;
 
 /** Looks at channel 0 of every pixel. Never fails: an image that cannot be window depth has depth == false. */
