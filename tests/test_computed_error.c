@@ -80,7 +80,7 @@ TEST(never_farther_off) {
               "%s %s%s %s near %.17g far %.17g, %.17g to %.17g: %.17g off, not %.17g", s.spec.format.name,
               dp_mapping_get(s.spec.mapping)->name, s.spec.ortho ? " ortho" : "", dp_arith_get(s.spec.arith)->name, n,
               s.spec.zfar, lo, hi, found, bound);
-        finite += isfinite(bound);
+        finite += isfinite(bound) ? 1 : 0;
     }
     assert_true(finite > test_cases(300, 2500, 100000));
     tally_end(&t);

@@ -26,10 +26,10 @@ static const struct {
     {.effect = "edge", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16"},
     {.effect = "height-fog", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      .view = "--fov 40 --eye 7,9,-2 --look 38.337342473601,4.1981760147099,84.098640831935", .column = 320, .row = 359,
-     .now = {640, 360, 40, 5, 20, -3, {7, 9, -2}, NULL}},
+     .now = {640, 360, 40, 5, 20, -3, {7, 9, -2}, NULL, false}},
     {.effect = "water-line", .z = AHEAD, .camera = "--ortho=3 " PERSPECTIVE " -m reversed -F unorm16",
      .view = "--look 0,857.027955712,6098.07076731 --size 90x60 --pixel 70,12", .column = 70, .row = 12,
-     .now = {90, 60, 60, 3, 0, 8, {0, 0, 0}, NULL}},
+     .now = {90, 60, 60, 3, 0, 8, {0, 0, 0}, NULL, false}},
     {.effect = "ambient-occlusion", .z = AHEAD, .camera = PERSPECTIVE " -m linear -F unorm16"},
     {.effect = "shadow", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16,fp32"},
     {.effect = "outline", .z = AHEAD, .camera = PERSPECTIVE " -m reversed -F unorm16"},
@@ -37,18 +37,18 @@ static const struct {
     {.effect = "soft-particles", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16"},
     {.effect = "water-depth", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      /* 2 atan(9/16) */
-     .view = "--hfov 90 --pixel 0,0", .now = {640, 360, 58.71550708558254, 5, 0, 0, {0, 0, 0}, NULL}},
+     .view = "--hfov 90 --pixel 0,0", .now = {640, 360, 58.71550708558254, 5, 0, 0, {0, 0, 0}, NULL, false}},
     {.effect = "decal", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      .view = "--look 1,0,1.7320508075688772", .column = 320, .row = 359,
-     .now = {640, 360, 60, 5, 30.000000000000004, 0, {0, 0, 0}, NULL}},
+     .now = {640, 360, 60, 5, 30.000000000000004, 0, {0, 0, 0}, NULL, false}},
     {.effect = "motion-blur", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      .view = "--look 677.141068812,0,3840.25783287 --last-eye 0.1,0.05,0 "
              "--last-look 5529.568023671,617.0318354725,34911.6871098", .column = 320, .row = 359,
-     .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}, NULL}, .last = {640, 360, 60, 5, 9, 1, {0.1, 0.05, 0}, NULL}},
+     .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}, NULL, false}, .last = {640, 360, 60, 5, 9, 1, {0.1, 0.05, 0}, NULL, false}},
     {.effect = "intersection", .z = AROUND, .camera = BEHIND " -m d3d -F unorm16,fp32"},
     {.effect = "height-fog", .z = AROUND, .camera = BEHIND " -m reversed -F unorm16",
      .view = "--look 0,-16833.119889,46248.616794", .column = 320, .row = 359,
-     .now = {640, 360, 60, 5, 0, -20, {0, 0, 0}, NULL}},
+     .now = {640, 360, 60, 5, 0, -20, {0, 0, 0}, NULL, false}},
 };
 /* clang-format on */
 

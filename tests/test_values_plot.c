@@ -226,7 +226,7 @@ static const char *const cameras[] = {
 /* A point of a thick curve, as the table of its set-up has it at that depth and over the column. */
 static void check_point(tally *t, const char *camera, size_t k, const json_t *series, double z, double got,
                         double column) {
-    const json_t *planes = json_printed(0, "table %s --at 3", camera);
+    json_t *planes = json_printed(0, "table %s --at 3", camera);
     const double near = number_at(planes, "setups[0].near"), far = number_at(planes, "setups[0].far");
     json_t *root = json_printed(0, "table %s --at %.17g --range %.17g:%.17g", camera, z, fmax(z / column, near),
                                 isnan(far) ? z * column : fmin(z * column, far));
@@ -238,6 +238,7 @@ static void check_point(tally *t, const char *camera, size_t k, const json_t *se
     TALLY(t, got >= here / (1 + 1e-12) && got <= most * (1 + 0x1p-9), "%s %s at %.17g: %.9g, not %.9g to %.9g", camera,
           name, z, got, here, most);
     json_decref(root);
+    json_decref(planes);
 }
 
 /* The thick curves of `plot interval` are the column `guaranteed`; each is drawn by its second name, behind all of the

@@ -69,7 +69,7 @@ static const char *const lines[] = {
     "table --near -5",
     "table 0.1 1000",
     "list nothing",
-    "texture " HOUSE,
+    ("texture " HOUSE),
     "texture --product effect:ssao",
     "completions tcsh",
 };
