@@ -158,6 +158,7 @@ TEST(all_commands) {
 TEST(broken_commands) {
     char *text = on_terminal("help bias", 40);
     assert_non_null(strstr(text, "  depthprec bias --api gl -F d24 -m gl \\\r\n    --units -1 --at 1,10,100\r\n"));
+    assert_non_null(strstr(text, "\n  -n, --near Z\r\n    near plane; "));
     free(text);
     printed p = print_of("help bias");
     assert_non_null(strstr(p.out, "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n"));

@@ -59,8 +59,7 @@ typedef struct comparison {
 
 static void compute_row(const comparison *c, compared *r) {
     const unit_row *unit = c->each->o->camera.unit;
-    const dp_setup guaranteed = dp_setup_guaranteed(r->setup);
-    const dp_setup full = r->unbounded ? dp_setup_facing(&guaranteed) : guaranteed;
+    const dp_setup full = dp_setup_guaranteed(r->setup); /* of what is unbounded, for surfaces that face the camera */
     for (size_t i = 0; i < c->depth_count; i++) {
         const double z = unit_convert(c->depths[i], unit, r->unit);
         r->separation[i] = z >= full.spec.znear && z <= full.spec.zfar
