@@ -44,7 +44,8 @@ static const struct {
     {.effect = "motion-blur", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      .view = "--look 677.141068812,0,3840.25783287 --last-eye 0.1,0.05,0 "
              "--last-look 5529.568023671,617.0318354725,34911.6871098", .column = 320, .row = 359,
-     .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}, NULL, false}, .last = {640, 360, 60, 5, 9, 1, {0.1, 0.05, 0}, NULL, false}},
+     .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}, NULL, false},
+     .last = {640, 360, 60, 5, 9, 1, {0.1, 0.05, 0}, NULL, false}},
     {.effect = "intersection", .z = AROUND, .camera = BEHIND " -m d3d -F unorm16,fp32"},
     {.effect = "height-fog", .z = AROUND, .camera = BEHIND " -m reversed -F unorm16",
      .view = "--look 0,-16833.119889,46248.616794", .column = 320, .row = 359,
