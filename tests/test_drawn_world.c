@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figure of large worlds, as drawn, against the room world: the gap and the jitter of each scheme. */
 #include "drawn.h"
+#include "printed.h"
 #include "support.h"
 #include "world/reach.h"
 
@@ -77,4 +78,29 @@ TEST(test_figure) {
     check_figure("-F fp32 -m reversed -f inf --unit cm", "fp32", "reversed", INFINITY, 1000, 100,
                  "Separation that is safe, cm",
                  "fp32 reversed, near 0.1, far inf, perspective, nearest, float ieee, lengths in cm, 1000 ahead");
+}
+
+/* The legend says from where on one curve hides another in both panels: where neither parts them by half a stroke,
+ * which is 1/300 of an axis of ten decades. */
+TEST(hidden_in_both_panels) {
+    drawn *d = drawn_run(&drawn_light, "plot world -F fp32 -m reversed -f inf --unit m");
+    json_t *root = json_printed(0, "plot world -F fp32 -m reversed -f inf --unit m");
+    double said, parted = 0, next = 0;
+    assert_int_equal(sscanf(drawn_legend(d, "local")->text, "local, over absolute from %lf", &said), 1);
+    for (int p = 0; p < 2; p++) {
+        const json_t *absolute = node_at(root, "panels[%d].series[0].points", p);
+        const json_t *local = node_at(root, "panels[%d].series[1].points", p);
+        for (size_t i = 0; i + 1 < json_array_size(local); i++) {
+            const double a = number_at(absolute, "[%zu].most", i), b = number_at(local, "[%zu].most", i);
+            const double at = number_at(local, "[%zu].distance", i);
+            if (fabs(log10(a / b)) > 10.0 / 300 && at > parted) {
+                parted = at;
+                next = number_at(local, "[%zu].distance", i + 1);
+            }
+        }
+    }
+    assert_true(parted > 100 && said >= parted * (1 - 5e-3) && said <= next * (1 + 5e-3));
+    assert_string_equal(drawn_legend(d, "camera-float")->text, "camera-float");
+    json_decref(root);
+    drawn_close(d);
 }

@@ -23,10 +23,27 @@ static bool listed(const legend *l, const chart_series *s) {
     return false;
 }
 
+/* What a curve hides in each panel that has it; where along x, as far as that holds in all of them. */
+static alike hidden_by(const chart *c, const chart_panel *panel, size_t index) {
+    const char *name = panel->series[index].name;
+    alike all = {NULL, (double)NAN, (double)NAN};
+    for (size_t p = 0; p < c->panel_count; p++)
+        for (size_t k = 0; k < c->panels[p].series_count; k++) {
+            const bool own = &c->panels[p] == panel;
+            if (own ? k != index : strcmp(c->panels[p].series[k].name, name) != 0)
+                continue;
+            const alike found = alike_find(&c->panels[p], k);
+            if (found.other == NULL || (all.other != NULL && strcmp(all.other->name, found.other->name) != 0))
+                return (alike){.other = NULL};
+            all = (alike){found.other, fmax(all.from, found.from), fmin(all.to, found.to)};
+        }
+    return isnan(all.from) || isnan(all.to) ? all : (alike){.other = NULL};
+}
+
 /* The name, its note, and the curve that it hides. */
 static void write_text(const chart *c, const chart_panel *panel, size_t index, char out[LEGEND_TEXT]) {
     const chart_series *s = &panel->series[index];
-    const alike found = c->panel_count == 1 ? alike_find(panel, index) : (alike){.other = NULL};
+    const alike found = hidden_by(c, panel, index);
     const double end = isnan(found.from) ? found.to : found.from;
     char number[TICKS_TEXT];
     snprintf(out, LEGEND_TEXT, "%s%s", s->name, s->note);
