@@ -118,7 +118,7 @@ static bool encoding(size_t i, listed *l) {
 }
 
 static bool effect(size_t i, listed *l) {
-    ROW(effect_row, effect_get(i), "")
+    ROW(effect_row, effect_get(i), r->aliases)
     for (int k = 0; r->parameters[k].name != NULL; k++) {
         add_number(l, r->parameters[k].value);
         add_number(l, r->parameters[k].lo);
