@@ -32,11 +32,15 @@ export function createAside(module, { here, onSaid, onRun }) {
         if (last.size > REMEMBERED) last.delete(last.keys().next().value);
     }
 
+    function halt() {
+        worker?.terminate();
+        worker = null;
+    }
+
     function drop() {
         for (const timer of now.timers) clearTimeout(timer);
         now = null;
-        worker?.terminate();
-        worker = null;
+        halt();
     }
 
     function end(said) {
@@ -51,15 +55,13 @@ export function createAside(module, { here, onSaid, onRun }) {
     }
 
     function refuse(text) {
-        worker?.terminate();
-        worker = null;
+        halt();
         end(refusal(text));
     }
 
     function fail() {
         works = false;
-        worker?.terminate();
-        worker = null;
+        halt();
         if (now !== null) setTimeout(() => end(here(now.line, now.most)));
     }
 
@@ -75,10 +77,10 @@ export function createAside(module, { here, onSaid, onRun }) {
         const one = asked[0] ?? wanted.find(({ key }) => !last.has(key));
         onRun(one?.line ?? null);
         if (one === undefined) return;
-        const limit = setTimeout(() => refuse(`takes longer than ${LIMIT_MS / 1000} s here`), LIMIT_MS);
-        now = { ...one, begun: performance.now(), timers: works ? [limit] : (clearTimeout(limit), []) };
+        now = { ...one, begun: performance.now(), timers: [] };
+        if (!works) return fail();
+        now.timers.push(setTimeout(() => refuse(`takes longer than ${LIMIT_MS / 1000} s here`), LIMIT_MS));
         try {
-            if (!works) return fail();
             if (worker === null) make();
             worker.postMessage({ module, line: one.line, most: one.most });
         } catch {
@@ -91,11 +93,12 @@ export function createAside(module, { here, onSaid, onRun }) {
     return {
         known: (line) => last.get(keyOf(line)),
 
-        // The lines that the page shows and the most bytes of each, the first most urgent. What runs for nobody any more has a moment left.
+        // The lines that the page shows and the most bytes of each, the first most urgent. What runs for nobody any more
+        // has a moment left.
         want(lines) {
             wanted = lines.map(([line, most]) => ({ key: keyOf(line), line, most }));
             if (now !== null && works && !needed())
-                now.timers.push(setTimeout(() => (drop(), next()), Math.max(0, PATIENCE_MS + now.begun - performance.now())));
+                now.timers.push(setTimeout(() => needed() || (drop(), next()), Math.max(0, PATIENCE_MS + now.begun - performance.now())));
             next();
         },
 

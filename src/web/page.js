@@ -422,7 +422,8 @@ function count() {
 const onScreen = new Set();
 function outputs(colours) {
     const all = state.setups.map((setup, index) => ({ index, line: commandOf("table", setup) }));
-    const panels = all.length === 0 ? [] : [...document.querySelectorAll("[data-panel]:not([data-panel=view], [hidden])")];
+    if (all.length === 0) return []; // the first answer comes before the first set-up
+    const panels = [...document.querySelectorAll("[data-panel]:not([data-panel=view], [hidden])")];
     for (const panel of panels.sort((a, b) => onScreen.has(b) - onScreen.has(a)))
         for (const [index, one] of outputsOf(panel).entries())
             all.push({ panel, one, index, line: lineOf(panel.dataset.panel, state.setups[index], one, colours) });
@@ -469,10 +470,11 @@ function update(dragged = false) {
     want();
 }
 
+let opened = false; // the link that the page was opened at is shown, or refused
 // All is there: the address, what a screen reader says, and the figures as they are printed, which can't be waited for.
 function settle() {
     const { dataset } = document.documentElement, said = $("#verdicts").textContent;
-    if (resting !== null || dataset.settled === dataset.updates || state.setups.length === 0) return;
+    if (!opened || resting !== null || dataset.settled === dataset.updates) return;
     showAddress();
     if ($("#said").textContent !== said) $("#said").textContent = said;
     dataset.settled = dataset.updates;
@@ -632,12 +634,14 @@ async function begin() {
     buildSetup(0);
     buildSetup(1);
     listen();
-    if (location.hash.length < 2 || !(await set(() => fromFragment(location.hash.slice(1))))) {
-        const said = $("#error").textContent, asked = location.hash.slice(1);
-        await set(commands(STANDARD));
-        if (said !== "") refuse(`The link is refused, so the standard set-up is shown. ${said}`);
-        if (asked.length <= LONGEST) $("#command").value = written(asked); // to be mended: the address is no longer it
+    const link = location.hash.slice(1);
+    await set(commands(STANDARD)); // something to change, however long the link takes
+    if (link !== "" && !(await set(() => fromFragment(link)))) {
+        refuse(`The link is refused, so the standard set-up is shown. ${$("#error").textContent}`);
+        if (link.length <= LONGEST) $("#command").value = written(link); // to be mended: the address is no longer it
     }
+    opened = true;
+    want();
     const controls = { canvas: $("#view"), slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is") };
     picture = createPicture({ ...controls, engine, onStatus: showPicture });
     $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));

@@ -27,13 +27,13 @@ function listen(page) {
     });
 }
 
-// The page at a fragment, once it is ready.
-export async function open({ fragment = "", theme = "light", width = 1600, height = 900, motion = "no-preference", mobile = false } = {}) {
+// The page at a fragment, once it is ready, or at once.
+export async function open({ fragment = "", theme = "light", width = 1600, height = 900, motion = "no-preference", mobile = false, wait = true } = {}) {
     const context = await browser.newContext({ viewport: { width, height }, colorScheme: theme, reducedMotion: motion, hasTouch: mobile });
     const page = await context.newPage();
     listen(page);
     await page.goto(`${address}${fragment === "" ? "" : "#"}${fragment}`);
-    await page.waitForFunction(() => document.documentElement.dataset.ready !== undefined, null, { timeout: 30000 });
+    if (wait) await page.waitForFunction(() => document.documentElement.dataset.ready !== undefined, null, { timeout: 30000 });
     return page;
 }
 

@@ -143,6 +143,13 @@ async function endless() {
     demand((await shown(page)).error.includes("was cancelled"), (await shown(page)).error);
     await held(page, "cancelled");
     await close(page);
+    // Opened at such a link, the page can be used at once.
+    const used = await open({ wait: false, fragment: encodeURIComponent(line) });
+    await used.waitForFunction(() => document.querySelector("#link").textContent.includes("-n 0.1"));
+    await used.fill("#near-A", "0.7");
+    await settled(used);
+    demand((await shown(used)).runs.some(({ run }) => run.startsWith("table -n 0.7")), "a page that waits for its link cannot be used");
+    await close(used);
     for (const [fragment, says] of [[line, true], ["table -n 0.5 --at 1:2:lin:300000", false]]) { // a busy machine may not end it
         const other = await open({ fragment: encodeURIComponent(fragment) }), { error, runs } = await shown(other);
         const ended = error.includes("takes longer than 10 s here");
