@@ -110,6 +110,13 @@ export function createAside(module, { here, onSaid, onRun }) {
             next();
         }),
 
+        // Nobody wants to know that line any more: it is refused at once, and ends unless it is wanted.
+        leave(line) {
+            const key = keyOf(line);
+            for (const one of asked) if (one.key === key) one.resolve(refusal("was left"));
+            asked = asked.filter((one) => one.key !== key);
+        },
+
         // Ends what runs, as if it took too long.
         cancel: () => now !== null && works && refuse("was cancelled"),
     };

@@ -102,7 +102,8 @@ async function understand(all) {
             next.figure = operands[0];
         }
         if (verb === "table" || (verb !== "plot" && all.length === 1)) {
-            const said = await aside.ask([verb, ...words(given)], MOST);
+            trying = [verb, ...words(given)];
+            const said = await aside.ask(trying, MOST);
             if (said.status === REFUSED) throw new Error(errorOf(said));
         }
         next.shown.add(verb);
@@ -126,15 +127,20 @@ function refuse(error) {
     at.hidden = error === null;
 }
 
-// Of several the last one counts.
-let asking = 0;
+// Of several the last one counts; a control that is touched counts, too.
+let asking = 0, trying = []; // and the line that the program is asked about
+function supersede() {
+    asking++;
+    aside.leave(trying);
+}
 async function set(all) {
-    const mine = ++asking;
+    supersede();
+    const mine = asking;
     let next;
     try {
         next = await understand(typeof all === "function" ? all() : all);
     } catch (error) {
-        if (mine !== asking) return false;
+        if (mine !== asking) return true; // it is not the last one
         refuse(error);
         count();
         want();
@@ -506,7 +512,7 @@ function showAddress() {
 
 let waiting = false;
 function later() {
-    asking++;
+    supersede();
     if (waiting) return;
     waiting = true;
     requestAnimationFrame(() => {

@@ -147,7 +147,9 @@ async function endless() {
     const used = await open({ wait: false, fragment: encodeURIComponent(line) });
     await used.waitForFunction(() => document.querySelector("#link").textContent.includes("-n 0.1"));
     await used.fill("#near-A", "0.7");
+    const begun = Date.now();
     await settled(used);
+    demand(Date.now() - begun < 9000, "a change waits for what it replaces"); // ten seconds are its limit
     demand((await shown(used)).runs.some(({ run }) => run.startsWith("table -n 0.7")), "a page that waits for its link cannot be used");
     await close(used);
     for (const [fragment, says] of [[line, true], ["table -n 0.5 --at 1:2:lin:300000", false]]) { // a busy machine may not end it
