@@ -352,8 +352,12 @@ static void weigh(finding *f, const tally *s, recognised *out) {
     if (!f->chance)
         return;
     const char *more = s->seen.count >= RECOGNISE_DISTINCT_MAX ? "more than " : "";
-    say(f, "%s%zu different numbers lie on the lattice of %s, of random ones %.3g would%s", more, s->seen.count,
-        lattice_name(f->which), s->expected, out->certain ? "" : ": cannot tell");
+    say(f, "%s%zu different numbers lie on the lattice of %s", more, s->seen.count, lattice_name(f->which));
+    if (!out->certain && 2 * s->expected >= (double)s->seen.count)
+        append(f->reason, sizeof f->reason, ": inconclusive, random values would fit as well");
+    else
+        append(f->reason, sizeof f->reason, ", of random ones %.3g would%s", s->expected,
+               out->certain ? "" : ": too few to tell");
 }
 
 void recognise(const image *img, recognised *out) {

@@ -97,6 +97,8 @@ number_text solve_safe_digits(const solve_report *r, const solve_candidate *c, d
 }
 
 static number_text safe_digits(const solve_report *r, const solve_candidate *c, double value, double until) {
+    if (value == r->lo || value == r->hi) /* the run ends at a depth that was asked about */
+        return whole(r, value);
     return in_unit(r, solve_safe_digits(r, c, value, until));
 }
 
