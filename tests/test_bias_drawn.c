@@ -245,7 +245,7 @@ TEST(test_range) {
         const double lo = spec.znear * rng_log(&r, 2, 5), hi = lo * rng_log(&r, 1.1, 10);
         bias_goal goal = {.api = bias_api_get(rng_below(&r, 3)), .factor = bias_factor_least(&setup)};
         if (rng_below(&r, 2) == 0)
-            goal = (bias_goal){.api = goal.api, .slope = rng_log(&r, 1e-4, 1)};
+            goal = (bias_goal){.api = goal.api, .slope = lo * rng_log(&r, 1e-4, 1)};
         const double all = bias_needed_over(&setup, &goal, lo, hi, &worst);
         for (int k = 0; k < 200; k++) {
             const double z = k == 0 ? lo : k == 1 ? hi : rng_log(&r, lo, hi), here = bias_needed(&setup, &goal, z);
