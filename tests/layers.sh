@@ -18,13 +18,14 @@ src/probe         | depthprec core system raster probe
 src/image         | depthprec core system image
 src/shader        | depthprec core image shader
 src/frame         | depthprec core image shader frame
+src/judge         | depthprec core system image shader frame judge
 src/method        | depthprec core shader census method
 src/requirement   | depthprec core system api raster world requirement
 src/model         | core system model
 src/scene         | depthprec core raster world model requirement scene
 src/report        | depthprec core system report
 src/plot          | depthprec core api world census raster shadow image shader frame method requirement model scene plot
-src/cli           | depthprec core system api world census raster shadow image shader frame method requirement model scene probe report plot cli
+src/cli           | depthprec core system api world census raster shadow image shader frame method requirement model scene probe judge report plot cli
 src/web           | depthprec core system raster image shader frame method requirement scene report plot cli web
 '
 

@@ -24,6 +24,7 @@ static const struct {
     {BIT(CMD_WORLD), "world --from-origin 1e5"},
     {BIT(CMD_SCENE), "scene tests/models/street.obj --separation 0.02"},
     {BIT(CMD_LIST), "list synthetic"},
+    {BIT(CMD_JUDGE), "judge --pairs tests/pairs/reversed.csv --csv"},
 };
 
 #define ALL (~0U)
@@ -112,6 +113,9 @@ static const struct {
     {BIT(CMD_PLOT), IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
     {BIT(CMD_PLOT), IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
     {BIT(CMD_PREPASS), IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
+    {BIT(CMD_JUDGE), IDS(OPTION_NEAR), "0.1", NULL, "-f 1000"},
+    {BIT(CMD_JUDGE), IDS(OPTION_FAR), "1000", NULL, "-n 0.1"},
+    {BIT(CMD_JUDGE), IDS(OPTION_PAIRS), NULL, NULL, ""},
     {BIT(CMD_ZFIGHT), IDS(OPTION_RANGE), "1:1.0078125", "zfight -n 1 -f 1.0078125 -F d24 -m d3d --csv", ""},
     {BIT(CMD_BUDGET), IDS(OPTION_SCHEME), "absolute", NULL, "--from-origin 100"},
     {BIT(CMD_PLOT), IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
@@ -145,7 +149,7 @@ static const struct {
     {OPTION_FAR, BIT(CMD_WORLD), "inf"},
     {OPTION_FAR, ALL, "1000"},
     {OPTION_FORMAT, BIT(CMD_BIAS), "fp32,unorm16,unorm24"},
-    {OPTION_FORMAT, BIT(CMD_WORLD) | BIT(CMD_SCENE) | BIT(CMD_SHADOW), "fp32"},
+    {OPTION_FORMAT, BIT(CMD_JUDGE) | BIT(CMD_WORLD) | BIT(CMD_SCENE) | BIT(CMD_SHADOW), "fp32"},
     {OPTION_FORMAT, ALL, "all"},
     {OPTION_MAPPING, BIT(CMD_SHADOW), "d3d"},
     {OPTION_MAPPING, BIT(CMD_WORLD) | BIT(CMD_SCENE), "reversed"},

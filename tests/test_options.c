@@ -154,6 +154,7 @@ TEST(test_whole) {
         {"check", OPTION_THREADS, 1, 1024, "1", "1024", "0", "1025", "a whole number from 1 to 1024"},
         {"budget", OPTION_SUBPIXEL, 1, 8, "1", "8", "0", "9", "a whole number from 1 to 8 bits"},
         {"shadow", OPTION_KERNEL, 1, 64, "1", "64", "0", "65", "a whole number from 1 to 64 texels"},
+        {"judge", OPTION_PAIRS_FOR, 8, 1000000, "8", "1000000", "7", "1000001", "a whole number from 8 to 1000000"},
     };
     tally t = {.name = "whole"};
     for (size_t i = 0; i < sizeof wholes / sizeof wholes[0]; i++) {
@@ -164,11 +165,9 @@ TEST(test_whole) {
             char line[1024] = "";
             options o;
             parse(&o, wholes[i].command, wholes[i].id, k == 0 ? wholes[i].least_text : wholes[i].most_text, line);
-            const uint64_t fields[] = {[0] = o.census.sample,
-                                       o.census.seed,
-                                       (uint64_t)o.out.threads,
-                                       (uint64_t)o.camera.triangles.subpixel,
-                                       o.shadow.kernel};
+            const uint64_t fields[] = {[0] = o.census.sample,   o.census.seed,
+                                       (uint64_t)o.out.threads, (uint64_t)o.camera.triangles.subpixel,
+                                       o.shadow.kernel,         o.judge.depths};
             TALLY(&t, fields[i] == (k == 0 ? wholes[i].least : wholes[i].most), "--%s: %llu, %s",
                   option_name(wholes[i].id), (unsigned long long)fields[i], line);
             options_release(&o);
@@ -468,6 +467,7 @@ TEST(test_texts) {
                  {"texture", OPTION_HISTOGRAM, AT(image.histogram), true},
                  {"scene m.obj", OPTION_RENDER, AT(scene.render), true},
                  {"probe", OPTION_KEEP, AT(probe.keep), true},
+                 {"judge", OPTION_PAIRS, AT(judge.pairs), true},
                  {"probe", OPTION_DEVICE, AT(probe.device), true},
                  {"scene m.obj", OPTION_PATH, AT(scene.path), true},
                  {"scene m.obj", OPTION_CAMERA, AT(scene.camera), false},

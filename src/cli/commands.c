@@ -95,6 +95,11 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec plot pareto linearize -o pareto.svg\n"
      "  depthprec plot stability interval -o stability.svg\n",
      .group = "Methods and hardware"},
+    [CMD_JUDGE] = {"judge", CMD_JUDGE, judge_uses, "", 0, 0, NULL,
+     .summary = "what a function of yours computes, and what it loses",
+     .example = "  depthprec judge --pairs-for 64 -o depths.csv\n"
+     "  depthprec judge --pairs pairs.csv -n 0.1 -f 1000 -F d24 -m d3d\n"
+     "  my-program | depthprec judge --pairs - --json\n"},
     [CMD_PROBE] = {"probe", CMD_PROBE, probe_uses, "", 0, 0, NULL,
      .summary = "what this machine's GPU does to depth, measured",
      .example = "  depthprec probe\n"

@@ -20,6 +20,7 @@ static int (*const commands[CMD_COUNT])(const options *) = {
     [CMD_SHADOW] = cmd_shadow,
     [CMD_SCENE] = cmd_scene,
     [CMD_PROBE] = cmd_probe,
+    [CMD_JUDGE] = cmd_judge,
     [CMD_WORLD] = cmd_world,
     [CMD_LIST] = cmd_list,
     [CMD_HELP] = cmd_help,

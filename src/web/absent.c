@@ -28,6 +28,7 @@ static int absent(const options *o) {
 
 ABSENT(cmd_check)
 ABSENT(cmd_completions)
+ABSENT(cmd_judge)
 ABSENT(cmd_methods)
 ABSENT(cmd_probe)
 ABSENT(cmd_scene)

@@ -101,6 +101,8 @@ typedef enum option_id {
     OPTION_EMIT_NEED,
     OPTION_DEVICE,
     OPTION_KEEP,
+    OPTION_PAIRS,
+    OPTION_PAIRS_FOR,
     OPTION_MATRIX,
     OPTION_LAST_EYE,
     OPTION_LAST_LOOK,
@@ -269,6 +271,11 @@ typedef struct options_probe {
     const char *keep;   /**< file of raw codes; null when not given */
 } options_probe;
 
+typedef struct options_judge {
+    const char *pairs; /**< file of pairs; null when not given */
+    unsigned depths;   /**< how many are printed to ask for; 0 when not given */
+} options_judge;
+
 typedef struct options_shadow {
     unsigned cascades;
     double lambda;       /**< of their split: 0 even, 1 logarithmic */
@@ -343,6 +350,7 @@ typedef struct options {
     options_scene scene;
     options_census census;
     options_probe probe;
+    options_judge judge;
     options_shadow shadow;
     options_image image;
     options_figure figure;

@@ -269,6 +269,11 @@ const option_row option_rows[OPTION_COUNT] = {
         .without = "the first Vulkan device that is not a CPU", .group = "The GPU"},
     [OPTION_KEEP] = {"keep", 0, "FILE",
         "write a CSV of every stored code beside what was drawn", FILE_WRITTEN(probe.keep)},
+    [OPTION_PAIRS] = {"pairs", 0, "FILE",
+        "what went into the function and what came out, two columns: CSV, or npy", FILE_READ(judge.pairs),
+        .without = "with --pairs-for", .group = "Code of your own"},
+    [OPTION_PAIRS_FOR] = {"pairs-for", 0, "N",
+        "print N window depths to put into the function", WHOLE(judge.depths, 8, 1e6, NULL)},
     [OPTION_MATRIX] = {"matrix", 0, "FILE",
         "a projection matrix, 16 numbers in row order, for column vectors: gives the planes and the field of view; may "
         "be off-centre, with an oblique near plane; NDC depth follows --mapping",

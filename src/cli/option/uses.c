@@ -236,6 +236,13 @@ const option_use probe_uses[] = {
     OWN(SEED, HELP("seed of the random scene that is predicted"), DEFAULT("0")),
     TAKE(DEVICE), TAKE(KEEP), GROUP(written), END};
 
+const option_use judge_uses[] = {
+    OWN(NEAR, WITHOUT("with no --far either: the planes that fit; else 0.1")),
+    OWN(FAR, WITHOUT("with no --near either: the planes that fit; else 1000")),
+    OWN(FORMAT, DEFAULT("fp32")),
+    OWN(MAPPING, HELP("what is right: @; all means d3d and reversed")),
+    TAKE(PAIRS), TAKE(PAIRS_FOR), TAKE(LOG_C), GROUP(projected), GROUP(written), END};
+
 const option_use list_uses[] = {
     OWN(TOLERANCE, HELP("list methods: the cases in which each is the cheapest whose bound is at most 0.05, or 5%"),
         WITHOUT("")), GROUP(written), END};

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* judge: what a function of somebody's computes, told from pairs of what went in and what came out. */
+#include <math.h>
+#include <string.h>
+
+#include "cli/setups.h"
+#include "judge/judge.h"
+#include "report/number.h"
+
+enum { SHORT = 3, ENOUGH = 6 };
+
+/* A candidate, in words. */
+typedef struct named {
+    const char *computes, *formula, *called, *from;
+    double factor;
+    const char *trap, *right, *source; /* of a formula that is known to be wrong */
+    setup_fields fields;
+} named;
+
+typedef struct report {
+    const options *o;
+    judge_pairs pairs;
+    judgement found;
+    const char *verdict, *precision;
+    named is;
+    uint64_t count, nan_count;
+} report;
+
+static void name(const options *o, const judge_candidate *c, named *out) {
+    *out = (named){.computes = c->output->name,
+                   .formula = c->trap != NULL ? c->trap->formula : c->output->formula,
+                   .called = c->output->called,
+                   .from = c->input->name,
+                   .factor = c->factor,
+                   .trap = c->trap != NULL ? c->trap->name : NULL,
+                   .right = c->trap != NULL ? c->trap->right : NULL,
+                   .source = c->trap != NULL ? c->trap->source : NULL,
+                   .fields = setup_fields_of(&c->setup, options_unit(o))};
+}
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+/* "minus eye depth from window depth: d3d, near 0.1, far 1000" */
+static void say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
+    const dp_spec *s = &c->setup.spec;
+    const char *by = c->factor != 1 ? ", times " : "";
+    const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL;
+    int used = snprintf(out, SETUP_LABEL_SIZE, "%s%s%s%s from %s", c->trap != NULL ? c->trap->name : "",
+                        c->trap != NULL ? ", as " : "", c->output->name, by, c->input->name);
+    if (c->factor != 1)
+        used = snprintf(out, SETUP_LABEL_SIZE, "%s times %s, from %s", c->output->name,
+                        number_of(c->factor, ENOUGH).text, c->input->name);
+    used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ": %s%s", dp_mapping_get(s->mapping)->name,
+                     s->ortho ? ", orthographic" : "");
+    if (planes)
+        snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ", near %s, far %s",
+                 number_in(number_full(s->znear), options_unit(o)).text,
+                 number_in(number_full(s->zfar), options_unit(o)).text);
+}
+
+static void say_all(page *p, void *item) {
+    const report *r = item;
+    const judgement *j = &r->found;
+    char text[SETUP_LABEL_SIZE];
+    if (j->named)
+        say(r->o, &j->found, text);
+    page_title(p, "%s%s%s", r->verdict, j->because != NULL || j->named ? ": " : "",
+               j->because != NULL ? j->because : text);
+    if (j->because != NULL && j->named)
+        page_note(p, "fits", "%s", text);
+    if (j->named) {
+        page_note(p, "formula", "%s", r->is.formula);
+        page_note(p, r->is.trap != NULL ? "right is" : "called", "%s", r->is.trap != NULL ? r->is.right : r->is.called);
+        page_note(p, "loses", "%s of the value at most, at %s: %s", number_brief(number_of(j->error, SHORT)).text,
+                  number_full(j->at).text, r->precision);
+        if (!isnan(j->intervals))
+            page_note(p, "buffer", "up to %s z-fighting intervals of %s, at z = %s",
+                      number_brief(number_of(j->intervals, SHORT)).text, j->found.setup.spec.format.name,
+                      options_length(r->o, j->z, ENOUGH).text);
+    }
+    if (j->also) {
+        say(r->o, &j->other, text);
+        page_note(p, "fits, too", "%s; at %s they part", text, number_full(j->decides).text);
+    }
+    if (r->nan_count > 0)
+        page_note(p, "left out", "%s of %s values, which are no numbers, the first at %s",
+                  number_full((double)r->nan_count).text, number_full((double)(r->count + r->nan_count)).text,
+                  number_full(r->pairs.nan_at).text);
+}
+
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+static const column named_columns[] = {{FIELD(named, computes, "computes", "")},   {FIELD(named, from, "from", "")},
+                                       {FIELD(named, formula, "formula", "")},     {FIELD(named, called, "called", "")},
+                                       {FIELD(named, factor, "factor", "")},       {FIELD(named, trap, "trap", "")},
+                                       {FIELD(named, right, "right", "")},         {FIELD(named, source, "source", "")},
+                                       {PART(named, fields, NULL, setup_columns)}, {.kind = COLUMN_END}};
+
+static void *found_of(void *of, size_t i) {
+    report *r = of;
+    const judgement *j = &r->found;
+    if (i >= (size_t)j->named + j->also)
+        return NULL;
+    name(r->o, i == 0 ? &j->found : &j->other, &r->is);
+    return &r->is;
+}
+
+static const column columns[] = {{FIELD(report, verdict, "verdict", "")},
+                                 {FIELD(report, found.because, "because", "")},
+                                 {FIELD(report, precision, "precision", "")},
+                                 {FIELD(report, found.error, "error", "1")},
+                                 {FIELD(report, found.at, "at", "")},
+                                 {FIELD(report, found.intervals, "intervals", "")},
+                                 {FIELD(report, found.z, "intervals_z", "scene")},
+                                 {FIELD(report, found.decides, "decides", "")},
+                                 {FIELD(report, count, "pairs", "")},
+                                 {FIELD(report, nan_count, "left_out", "")},
+                                 {LIST("fits", named_columns, found_of)},
+                                 {.kind = COLUMN_END}};
+
+/* ---- What to ask ------------------------------------------------------------------------------------------------- */
+
+/* Window depths that part what is known: the ends, powers of two beside either, and even steps. */
+static void write_depths(output *out, unsigned count) {
+    const unsigned ends = count < 48 ? count / 3 : 16;
+    output_text(out, "depth\n");
+    for (unsigned i = 0; i < count; i++) {
+        const unsigned k = i / 2 + 1;
+        const double even = (double)(i - 2 * ends) / (count - 2 * ends - 1);
+        const double d = i >= 2 * ends ? even : i % 2 == 0 ? ldexp(1, -(int)k) : 1 - ldexp(1, -(int)k - 1);
+        output_text(out, number_of((double)(float)d, 9).text);
+        output_char(out, '\n');
+    }
+}
+
+/* ---- The command ------------------------------------------------------------------------------------------------- */
+
+static int read_pairs(const options *o, judge_pairs *pairs) {
+    char error[PAIRS_ERROR_SIZE];
+    const int status = judge_pairs_read(o->judge.pairs, pairs, error);
+    if (status > 0) {
+        usage_error("%s: %s", o->judge.pairs, strerror(status));
+        return EXIT_IO;
+    }
+    return status < 0 ? usage_error("%s: %s", o->judge.pairs, error) : EXIT_FINE;
+}
+
+static int run(report *r, const setups *all, output *out) {
+    const options *o = r->o;
+    const bool open = !option_given(o, OPTION_NEAR) && !option_given(o, OPTION_FAR) && o->camera.preset_count == 0;
+    judge_function(&r->pairs, all->items, all->count, open, &r->found);
+    r->count = r->pairs.count;
+    r->nan_count = r->pairs.nan_count;
+    r->verdict = judge_verdict_name(r->found.verdict);
+    r->precision = r->found.named ? judge_precision_name(r->found.precision) : NULL;
+    if (r->found.named)
+        name(o, &r->found.found, &r->is);
+    report_write(&(report_spec){"judge", columns, r, .label = 10, .head = say_all}, out, o->out.form);
+    return output_close(out);
+}
+
+int cmd_judge(const options *o) {
+    output out;
+    setups all = {0};
+    report r = {.o = o};
+    if ((o->judge.pairs != NULL) == (o->judge.depths > 0))
+        return usage_error("judge needs --pairs FILE, or --pairs-for N, which prints depths to ask a function for");
+    if (o->judge.depths == 0 && o->camera.format_count > 1)
+        return option_error(OPTION_FORMAT, "must be one format, got %zu", o->camera.format_count);
+    int status = o->judge.depths > 0 ? EXIT_FINE : setups_make(o, &all);
+    if (status == EXIT_FINE && o->judge.depths == 0)
+        status = read_pairs(o, &r.pairs);
+    if (status == EXIT_FINE)
+        status = options_open(o, &out);
+    if (status == EXIT_FINE && o->judge.depths > 0) {
+        write_depths(&out, o->judge.depths);
+        status = output_close(&out);
+    } else if (status == EXIT_FINE) {
+        status = run(&r, &all, &out);
+    }
+    judge_pairs_free(&r.pairs);
+    setups_release(&all);
+    return status;
+}

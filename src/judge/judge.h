@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file judge.h  What a function of somebody's computes, told from what it returns: pairs of what went in and what came
+ * out. How it is spelled is never looked at.
+ *
+ * A candidate is a set-up, what went in and what comes out. It fits where every value is the candidate's, up to what
+ * binary32 may lose in any order of operations, what the values were stored as, and the digits that they were printed
+ * with. Verdicts are reached by what fits: see judge_verdict. A function that is right for some set-up is never called
+ * wrong; where a right and another candidate fit alike, nothing is told.
+ */
+#ifndef JUDGE_JUDGE_H
+#define JUDGE_JUDGE_H
+
+#include "judge/pairs.h"
+#include "shader/constants.h"
+
+/** What goes in. */
+typedef struct judge_input {
+    const char *name;
+    /** The eye depth that it stands for, INFINITY beyond the far end of 1/z; NaN for what is none. */
+    double (*eye)(const dp_setup *setup, double x);
+    double (*window)(double x); /**< the window depth that it is; null: an eye depth */
+} judge_input;
+
+/** What planes can be told from a value: see line. */
+typedef enum judge_planes { JUDGE_PLANES_NONE, JUDGE_PLANES_BOTH, JUDGE_PLANES_RATIO } judge_planes;
+
+/** What comes out, of an eye depth z. */
+typedef struct judge_output {
+    const char *name, *formula;
+    const char *called; /**< what people call it, and where */
+    double (*of)(const dp_setup *setup, double z);
+    double (*window)(double v); /**< the window depth that a value is; null: it is none */
+    bool of_windows;            /**< made of window depths alone: of others it is the one of the other direction */
+    judge_planes planes;
+    /** Of a value at the share of the way of 1/z, orthographic of z, from near to far what is affine in that share:
+     * that of near and far themselves, or far/near at 0 and 1 at 1, orthographic near/far. NaN: none */
+    double (*line)(double v, double share, bool ortho);
+} judge_output;
+
+/** Null beyond the last. */
+enum { JUDGE_WINDOW, JUDGE_NDC, JUDGE_CODES, JUDGE_EYE };
+const judge_input *judge_input_get(size_t index);
+const judge_output *judge_output_get(size_t index);
+
+typedef enum judge_verdict {
+    JUDGE_RIGHT,  /**< for a set-up that was asked about, */
+    JUDGE_OTHER,  /**< for another one alone */
+    JUDGE_WRONG,  /**< a formula that is known to be wrong */
+    JUDGE_UNKNOWN /**< cannot tell */
+} judge_verdict;
+
+/** "right", "another set-up", "wrong", "unknown" */
+const char *judge_verdict_name(judge_verdict verdict);
+
+/** Something that the pairs may be of. */
+typedef struct judge_candidate {
+    dp_setup setup;
+    const judge_input *input;
+    const judge_output *output;
+    const trap_row *trap; /**< of a wrong formula; else null */
+    double factor;        /**< by which the output is multiplied: 1 */
+    bool fitted;          /**< near and far are those that fit */
+} judge_candidate;
+
+/** What a candidate gives; NaN where it gives nothing. */
+double judge_value(const judge_candidate *c, double x);
+
+/** What the values lost, the least that explains them: see judge_precision_name(). */
+typedef enum judge_precision {
+    JUDGE_BINARY32,   /**< roundings of binary32 */
+    JUDGE_DIFFERENCE, /**< the same after a difference from 1, or from a plane: what lay near 0 lost its precision */
+    JUDGE_BINARY16,   /**< values stored in binary16 */
+    JUDGE_BYTES,      /**< or in 8 bits */
+    JUDGE_PRINTED     /**< roundings of binary32, and of the digits that the values are printed with */
+} judge_precision;
+
+const char *judge_precision_name(judge_precision precision);
+
+typedef struct judgement {
+    judge_verdict verdict;
+    bool named;            /**< `found` is there */
+    judge_candidate found; /**< what it computes; of UNKNOWN what it may */
+    bool also;
+    judge_candidate other; /**< where `also`: what fits as well */
+    double decides;        /**< what to put in, so that one of both is left; NaN: nothing would */
+    judge_precision precision;
+    double error, at;    /**< the largest relative error of a value, and what went in there */
+    double intervals, z; /**< the largest error in z-fighting intervals, and the eye depth there; NaN: it has none */
+    const char *because; /**< of UNKNOWN: why, a phrase; else null */
+} judgement;
+
+enum { JUDGE_LEAST = 3, JUDGE_FITTED_LEAST = 5 }; /* different pairs, without and with planes that are to be found */
+
+/**
+ * @param setups      those that are asked about, at least one, of the same planes
+ * @param planes_open whether near and far are not known: those that fit are right then
+ */
+void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t count, bool planes_open, judgement *out);
+
+#endif

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file pairs.h  Pairs of what went into a function and what came out, as text or npy. */
+#ifndef JUDGE_PAIRS_H
+#define JUDGE_PAIRS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { PAIRS_ERROR_SIZE = 256, PAIRS_MOST = 1 << 24 };
+
+typedef struct judge_pair {
+    double in, out;
+} judge_pair;
+
+/** What numbers may be off by, because that is how they were printed. */
+typedef struct judge_digits {
+    double absolute, relative;
+} judge_digits;
+
+typedef struct judge_pairs {
+    judge_pair *pairs; /**< malloc'ed; both are numbers, `out` may be infinite */
+    size_t count, distinct;
+    size_t nan_count; /**< left out: the value is no number, the first */
+    double nan_at;    /**< here */
+    judge_digits in_digits, out_digits;
+    bool half, bytes; /**< all values are numbers of binary16, and not of fewer bits; shares of 255 */
+} judge_pairs;
+
+/**
+ * Two columns parted by commas, semicolons or blanks; lines without two numbers at the top are titles, # begins a
+ * remark. An npy file has two columns, or rows. "-" is stdin, as text.
+ * @return 0, or an errno, or -1 with one sentence in `error`
+ */
+int judge_pairs_read(const char *path, judge_pairs *out, char error[PAIRS_ERROR_SIZE]);
+void judge_pairs_free(judge_pairs *pairs);
+
+#endif

@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What functions compute: in binary32, in the orders of operations of the test, for cameras of all kinds. */
+#include <unistd.h>
+
+#include "judge/judge.h"
+#include "support.h"
+
+enum { PAIRS = 48 };
+
+/* A function of somebody's, of what it reads and its planes. */
+typedef struct written {
+    const char *computes, *from;
+    bool reversed, far_infinite; /* what it is right for: far may be infinite */
+    float (*of)(float d, float n, float f);
+} written;
+
+static float textbook(float d, float n, float f) {
+    return n * f / (f - d * (f - n));
+}
+static float divided(float d, float n, float f) {
+    return 1.0f / ((1.0f / f - 1.0f / n) * d + 1.0f / n);
+}
+static float by_ndc(float d, float n, float f) {
+    return 2.0f * n * f / (f + n - (2.0f * d - 1.0f) * (f - n));
+}
+static float of_ndc(float ndc, float n, float f) {
+    return 2.0f * n * f / (f + n - ndc * (f - n));
+}
+static float complemented(float d, float n, float f) {
+    return n * f / (n + (1.0f - d) * (f - n));
+}
+static float view(float d, float n, float f) {
+    return n * f / ((f - n) * d - f);
+}
+static float linear01(float d, float n, float f) {
+    return 1.0f / ((1.0f - f / n) * d + f / n);
+}
+static float from_near(float d, float n, float f) {
+    return d / ((1.0f - f / n) * d + f / n);
+}
+static float disparity(float d, float n, float f) {
+    return (1.0f / f - 1.0f / n) * d + 1.0f / n;
+}
+static float reversed(float d, float n, float f) {
+    return n * f / (n + d * (f - n));
+}
+static float reversed_swapped(float d, float n, float f) {
+    return textbook(d, f, n);
+}
+static float reversed_difference(float d, float n, float f) {
+    return textbook(1.0f - d, n, f);
+}
+static float reversed_endless(float d, float n, float f) {
+    (void)f;
+    return n / d;
+}
+static float stored(float z, float n, float f) {
+    return f / (f - n) - f * n / (f - n) / z;
+}
+static float stored_reversed(float z, float n, float f) {
+    return n / (f - n) * (f / z - 1.0f);
+}
+static float unchanged(float d, float n, float f) {
+    (void)n;
+    (void)f;
+    return d;
+}
+static float inverted(float d, float n, float f) {
+    (void)n;
+    (void)f;
+    return 1.0f - d;
+}
+
+static const written functions[] = {
+    {"eye depth", "window depth", false, false, textbook},
+    {"eye depth", "window depth", false, false, divided},
+    {"eye depth", "window depth", false, false, by_ndc},
+    {"eye depth", "NDC depth", false, false, of_ndc},
+    {"eye depth", "window depth", false, false, complemented},
+    {"minus eye depth", "window depth", false, false, view},
+    {"eye depth over far", "window depth", false, false, linear01},
+    {"the way from near to far", "window depth", false, false, from_near},
+    {"reciprocal of eye depth", "window depth", false, false, disparity},
+    {"eye depth", "window depth", true, false, reversed},
+    {"eye depth", "window depth", true, false, reversed_swapped},
+    {"eye depth", "window depth", true, false, reversed_difference},
+    {"eye depth", "window depth", true, true, reversed_endless},
+    {"window depth", "eye depth", false, false, stored},
+    {"window depth", "eye depth", true, false, stored_reversed},
+    {"window depth", "window depth", false, false, unchanged},
+    {"1 minus window depth", "window depth", false, false, inverted},
+};
+enum { FUNCTIONS = sizeof functions / sizeof functions[0], ENDLESS = 12, NO_PLANES = 15 };
+
+static judge_pair pair_room[PAIRS];
+
+static dp_setup camera(double znear, double zfar, dp_mapping mapping) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.znear = znear;
+    spec.zfar = zfar;
+    spec.mapping = mapping;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+/* Depths anywhere between the planes, as the function reads them, and its values; sorted as pairs are. */
+static judge_pairs asked(rng *r, const written *w, double n, double f) {
+    judge_pairs p = {.pairs = pair_room, .count = PAIRS, .distinct = PAIRS};
+    const double last = isinf(f) ? 1e6 * n : f;
+    for (int i = 0; i < PAIRS; i++) {
+        const double t = (i + rng_unit(r)) / PAIRS, z = n * pow(last / n, t);
+        const double d = isinf(f) ? n / z : (w->reversed ? n * (f - z) : f * (z - n)) / (z * (f - n));
+        const double x = strcmp(w->from, "eye depth") == 0 ? z : strcmp(w->from, "NDC depth") == 0 ? 2 * d - 1 : d;
+        const int at = w->reversed && strcmp(w->from, "eye depth") != 0 ? PAIRS - 1 - i : i;
+        p.pairs[at] = (judge_pair){(double)(float)x, (double)w->of((float)x, (float)n, (float)f)};
+    }
+    return p;
+}
+
+static dp_mapping mapping_of(const written *w, bool reversed_one) {
+    const bool is_ndc = strcmp(w->from, "NDC depth") == 0;
+    return reversed_one ? (is_ndc ? DP_MAPPING_GL_REVERSED : DP_MAPPING_REVERSED)
+                        : (is_ndc ? DP_MAPPING_GL : DP_MAPPING_D3D);
+}
+
+static bool is_named(const judgement *j, const written *w) {
+    return j->named && strcmp(j->found.output->name, w->computes) == 0 && strcmp(j->found.input->name, w->from) == 0;
+}
+
+/* Right functions, each judged for its own camera, for the other direction, for another near plane, and for none. */
+TEST(test_right) {
+    tally own = {.name = "own camera"}, other = {.name = "another one"}, found = {.name = "planes found"};
+    rng r = rng_make("judged");
+    for (uint64_t i = 0; i < test_cases(200, 2000, 50000); i++) {
+        const written *w = &functions[rng_below(&r, FUNCTIONS)];
+        const double n = (double)(float)rng_log(&r, 0.01, 10);
+        const double f = w->far_infinite ? (double)INFINITY : (double)(float)(n * rng_log(&r, 20, 1e5));
+        const judge_pairs p = asked(&r, w, n, f);
+        dp_setup setup = camera(n, f, mapping_of(w, w->reversed));
+        judgement j;
+        judge_function(&p, &setup, 1, false, &j);
+        TALLY(&own, j.verdict == JUDGE_RIGHT && is_named(&j, w),
+              "%s from %s, near %g, far %g: %s %s, and %s from %s of %s, %g", w->computes, w->from, n, f,
+              judge_verdict_name(j.verdict), j.named ? j.found.output->name : j.because,
+              j.also ? j.other.output->name : "", j.also ? j.other.input->name : "",
+              j.also ? dp_mapping_get(j.other.setup.spec.mapping)->name : "", j.decides);
+        const bool has_planes = w - functions < NO_PLANES;
+        if (!has_planes)
+            continue;
+        if (!w->far_infinite || rng_below(&r, 2)) {
+            setup = camera(3 * n, 7 * n * 40, mapping_of(w, w->reversed));
+        } else {
+            setup = camera(n, 1000 * n, DP_MAPPING_D3D);
+        }
+        judge_function(&p, &setup, 1, false, &j);
+        TALLY(&other, j.verdict == JUDGE_OTHER || j.verdict == JUDGE_UNKNOWN, "%s from %s, near %g, far %g: %s",
+              w->computes, w->from, n, f, judge_verdict_name(j.verdict));
+        if (strcmp(w->computes, "eye depth") != 0)
+            continue;
+        judge_function(&p, &setup, 1, true, &j);
+        TALLY(&found,
+              j.named && fabs(j.found.setup.spec.znear / n - 1) < 1e-4 &&
+                  (w->far_infinite || fabs(1 / j.found.setup.spec.zfar - 1 / f) < 1e-5 / n),
+              "near %g, far %g: %s %g %g", n, f, judge_verdict_name(j.verdict), j.named ? j.found.setup.spec.znear : 0,
+              j.named ? j.found.setup.spec.zfar : 0);
+    }
+    tally_end(&own);
+    tally_end(&other);
+    tally_end(&found);
+}
+
+/* The other direction is another set-up, a factor is one, and both are named. */
+TEST(test_other) {
+    rng r = rng_make("judged otherwise");
+    for (int i = 0; i < 200; i++) {
+        const double n = (double)(float)rng_log(&r, 0.01, 10), f = (double)(float)(n * rng_log(&r, 50, 1e4));
+        judge_pairs p = asked(&r, &functions[9], n, f);
+        dp_setup setup = camera(n, f, DP_MAPPING_D3D);
+        judgement j;
+        judge_function(&p, &setup, 1, false, &j);
+        assert_int_equal(j.verdict, JUDGE_OTHER);
+        assert_true(j.found.setup.reversed && j.found.setup.spec.znear == n && !j.also);
+        p = asked(&r, &functions[0], n, f);
+        const double factor = rng_log(&r, 1e-3, 1e3);
+        for (int k = 0; k < PAIRS; k++)
+            p.pairs[k].out = (double)(float)(p.pairs[k].out * factor);
+        judge_function(&p, &setup, 1, false, &j);
+        assert_int_equal(j.verdict, JUDGE_OTHER);
+        assert_true(fabs(j.found.factor / factor - 1) < 1e-6 || j.found.setup.spec.znear != n);
+    }
+}
+
+/* An article's slip, and a depth that was made NDC first: each by its name. */
+TEST(test_wrong) {
+    rng r = rng_make("judged wrong");
+    for (int i = 0; i < 200; i++) {
+        const double n = (double)(float)rng_log(&r, 0.05, 5), f = (double)(float)(n * rng_log(&r, 100, 1e4));
+        judge_pairs p = asked(&r, &functions[0], n, f);
+        dp_setup setup = camera(n, f, DP_MAPPING_GL);
+        judgement j;
+        for (int k = 0; k < PAIRS; k++)
+            p.pairs[k].out = f / ((1 - n / f) * p.pairs[k].in + f / n);
+        judge_function(&p, &setup, 1, false, &j);
+        assert_int_equal(j.verdict, JUDGE_WRONG);
+        assert_string_equal(j.found.trap->name, "inverted-x");
+        for (int k = 0; k < PAIRS; k++)
+            p.pairs[k].out = n * f / (f - (2 * p.pairs[k].in - 1) * (f - n));
+        judge_function(&p, &setup, 1, false, &j);
+        assert_int_equal(j.verdict, JUDGE_WRONG);
+        assert_string_equal(j.found.trap->name, "ndc-as-depth");
+    }
+}
+
+/* What is none of them, too few, constant, out of order. */
+TEST(test_unknown) {
+    const dp_setup setup = camera(0.1, 1000, DP_MAPPING_D3D);
+    rng r = rng_make("unknown");
+    judge_pairs p = asked(&r, &functions[0], 0.1, 1000);
+    judgement j;
+    p.distinct = p.count = 2;
+    judge_function(&p, &setup, 1, false, &j);
+    assert_true(j.verdict == JUDGE_UNKNOWN && !j.named && strstr(j.because, "too few") != NULL);
+    p.distinct = p.count = 4;
+    judge_function(&p, &setup, 1, true, &j);
+    assert_true(j.verdict == JUDGE_UNKNOWN && strstr(j.because, "too few") != NULL);
+    p.distinct = p.count = PAIRS;
+    for (int k = 0; k < PAIRS; k++)
+        p.pairs[k].out = 0.5;
+    judge_function(&p, &setup, 1, false, &j);
+    assert_true(j.verdict == JUDGE_UNKNOWN && strstr(j.because, "the same") != NULL);
+    for (int i = 0; i < 300; i++) {
+        const double power = rng_log(&r, 1.01, 8), add = rng_unit(&r);
+        for (int k = 0; k < PAIRS; k++)
+            p.pairs[k].out = i % 3 == 0   ? pow(p.pairs[k].in, power) + add
+                             : i % 3 == 1 ? sqrt(p.pairs[k].in) * power
+                                          : rng_unit(&r);
+        judge_function(&p, &setup, 1, false, &j);
+        assert_true(j.verdict == JUDGE_UNKNOWN && !j.named);
+        assert_true((strstr(j.because, "neither") != NULL) == (i % 3 == 2));
+    }
+}
+
+/* Stored in fewer bits, and printed with few digits: right still, and said. */
+TEST(test_precision) {
+    static const struct {
+        const char *line;
+        judge_precision precision;
+    } prints[] = {{"%.9g,%.9g\n", JUDGE_BINARY32}, {"%.9g\t%.6g\n", JUDGE_PRINTED}, {"%.6f; %.4f\n", JUDGE_PRINTED}};
+    const double n = 0.1, f = 1000;
+    const dp_setup setup = camera(n, f, DP_MAPPING_D3D);
+    char error[PAIRS_ERROR_SIZE], path[] = "/tmp/depthprec-judge-XXXXXX";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    for (int i = 0; i < 5; i++) {
+        FILE *out = fopen(path, "w");
+        judge_pairs p;
+        judgement j;
+        double worst = 0, at = 0;
+        fprintf(out, "depth,value\n# a remark\n");
+        for (int k = 0; k <= 64; k++) {
+            const double d = k / 64.0, z = n * f / (f - d * (f - n)), share = z / f;
+            const double byte = rint(share * 255) / 255;
+            const _Float16 half = (_Float16)z;
+            const double v = i == 3 ? (double)half : i == 4 ? byte : (double)(float)z, truth = i == 4 ? share : z;
+            fprintf(out, i < 3 ? prints[i].line : "%.9g,%.17g\n", d, v);
+            if (i == 3 && fabs(v - truth) > worst * truth) {
+                worst = fabs(v - truth) / truth;
+                at = d;
+            }
+        }
+        fclose(out);
+        assert_int_equal(judge_pairs_read(path, &p, error), 0);
+        assert_true(p.count == 65 && p.distinct == 65 && p.nan_count == 0);
+        judge_function(&p, &setup, 1, false, &j);
+        assert_int_equal(j.verdict, JUDGE_RIGHT);
+        assert_int_equal(j.precision, i < 3 ? prints[i].precision : i == 3 ? JUDGE_BINARY16 : JUDGE_BYTES);
+        if (i == 3) {
+            assert_relative(j.error, worst, 1e-9);
+            assert_true(j.at == at);
+        }
+        judge_pairs_free(&p);
+    }
+    unlink(path);
+}
+
+/* The error in z-fighting intervals: one value that is off by a known number of them. */
+TEST(test_intervals) {
+    const double n = 0.5, f = 200, d = 0.75, z = n * f / (f - d * (f - n));
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    dp_setup setup;
+    rng r = rng_make("intervals");
+    judge_pairs p = {.pairs = pair_room, .count = 9, .distinct = 9};
+    judgement j;
+    dp_format_parse("unorm16", found);
+    spec.format = found[0];
+    spec.znear = n;
+    spec.zfar = f;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    for (int k = 0; k < 9; k++)
+        p.pairs[k] = (judge_pair){k / 8.0, n * f / (f - k / 8.0 * (f - n))};
+    const double step = z * z * (1 / n - 1 / f) / 65535; /* dz/dd a code */
+    p.pairs[6].out += 2e-3 * step;
+    judge_function(&p, &setup, 1, false, &j);
+    assert_int_equal(j.verdict, JUDGE_RIGHT);
+    assert_relative(j.intervals, 2e-3, 1e-3);
+    assert_relative(j.z, z, 1e-12);
+    assert_relative(j.error, 2e-3 * step / z, 1e-6);
+    assert_true(j.at == d);
+    (void)r;
+}
