@@ -61,6 +61,11 @@ static void say_other_formats(page *p, void *of) {
     output_char(p->out, '\n');
     page_title(p, "depth24plus, depth24plus-stencil8");
     page_note(p, "", "unorm24 or fp32, as the implementation chooses: both are shown");
+    output_char(p->out, '\n');
+    page_title(p, "rg, EncodeFloatRG, DepthNormals");
+    page_note(p, "",
+              "depth of Unity's DepthNormals, eye depth over far in steps of 1/65025: table and plot, of the mapping "
+              "linear");
 }
 
 enum { WITH_CHOICES = 1 };

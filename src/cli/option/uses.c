@@ -22,6 +22,8 @@ const option_own option_plain = {0};
 #define PERSPECTIVE     "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
 #define ALL_PERSPECTIVE PERSPECTIVE "; all are d3d and reversed"
 
+#define OF_RG           "rg, depth of Unity's DepthNormals, is of the mapping linear"
+
 /* ---- What several commands take ---------------------------------------------------------------------------------- */
 
 static const option_use always[] = {TAKE(HELP), TAKE(VERSION), END};
@@ -86,6 +88,7 @@ static const option_use of_constants[] = {
     TAKE(NEAR), TAKE(FAR), TAKE(MAPPING), TAKE(UNIT), TAKE(ORTHO), TAKE(FOV), TAKE(HFOV),
     OWN(VIEWPORT, DEFAULT("1920x1080")), END};
 const option_use table_uses[] = {
+    OWN(FORMAT, ALSO(OF_RG)),
     OWN(PRESET, .argument = "NAME[,NAME...]", ALSO(OF_VIEW "; several are compared"), .parse = parse_presets),
     FOR(TABLE_OF_DEPTHS, of_depths), FOR(TABLE_OF_DEPTHS | TABLE_OF_CODES, of_stored),
     FOR(TABLE_OF_DEPTHS | TABLE_OF_CONSTANTS, asked_depths), FOR(TABLE_OF_CONSTANTS, of_constants), TAKE(CONSTANTS),
@@ -243,7 +246,7 @@ const option_use list_uses[] = {
 /* The figures: those of set-ups, and those of a model, of shadow maps and of a requirement file, whose options are
  * those of their own commands. */
 enum { SLANTED = FIGURE_SLANTED | FIGURE_MODEL, VIEWED = SLANTED | FIGURE_DRAWN | FIGURE_SHADOW };
-static const option_use of_cameras[] = {TAKE(NEAR), TAKE(FAR), TAKE(FORMAT), TAKE(MAPPING), END};
+static const option_use of_cameras[] = {TAKE(NEAR), TAKE(FAR), OWN(FORMAT, ALSO(OF_RG)), TAKE(MAPPING), END};
 static const option_use of_setups[] = {
     OWN(NEAR, ALSO("with --ortho also 0 or negative")), TAKE(ORTHO), OWN(TOLERANCE,
         WITHOUT("5% for the model; intervals are as exact as the picture shows")),
