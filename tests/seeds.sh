@@ -25,17 +25,53 @@ rows() {
         function close_to(x, y, least) { return x - y <= least && y - x <= least }
         # the shader's two channels, of 8 bits each, as one number
         function rg(v) { y = 255 * v; k = int(y); return 255 * k + int(255 * (y - k) + 0.5) }
-        NR == 1 { for (i = 1; i <= NF; i++) { name[i] = \$i; sub(/ [[].*/, \"\", name[i]) } next }
+        # names may have commas within quotes
+        /\"/ { n = split(\$0, part, /\"/); \$0 = \"\"; for (i = 1; i <= n; i++) { if (i % 2 == 0) gsub(/,/, \";\", part[i]); \$0 = \$0 part[i] } }
+        NR == 1 { for (i = 1; i <= NF; i++) { name[i] = \$i; sub(/ [[].*/, \"\", name[i]); gsub(/;/, \",\", name[i]) } next }
         {
             for (i = 1; i <= NF; i++) a[name[i]] = \$i
+            least = 1e-12
             $formulas
             for (c in want) {
                 seen++
-                if (!close_to(a[c] + 0, want[c], want[c] * 1e-6 + 1e-12)) { print c, a[c], want[c]; bad = 1 }
+                if (!close_to(a[c] + 0, want[c], want[c] * 1e-6 + least) && bad++ < 9) print c, a[c], want[c]
             }
         }
-        END { exit bad || !seen }"
+        END { exit bad > 0 || !seen }"
 }
+
+# ---- Pictures ----
+
+check "raw and Linear01: the curves over z" rows '
+    want["window depth, d3d"] = 20 / 19 * (1 - 1 / a["z"])
+    want["Linear01Depth, z/far"] = a["z"] / 20
+    want["Linear01DepthFromNear"] = (a["z"] - 1) / 19' depthprec plot linear01 -n 1 -f 20 -m d3d
+check "raw and Linear01: several far planes" rows '
+    f = a["series"]
+    sub(/.*far /, "", f)
+    f += 0
+    want["share"] = a["series"] ~ /window/ ? f / (f - 1) * (1 - 1 / a["z"]) : a["series"] ~ /FromNear/ ? (a["z"] - 1) / (f - 1) \
+                                                                                              : a["z"] / f' \
+    depthprec plot linear01 -n 1 -f 10,20,50 -m d3d
+ends() { # each curve ends at its own far plane, at 1
+    depthprec plot linear01 -n 1 -f 50,10,20 -m d3d --csv | tr -d '\r' | awk -F, '
+        NR > 1 { z[$2] = $(NF - 1); y[$2] = $NF }
+        END {
+            for (curve in z) {
+                far = curve
+                sub(/:.*/, "", far)
+                gsub(/[^0-9]/, "", far)
+                seen++
+                bad += far + 0 != z[curve] + 0 || y[curve] < 0.999999 || y[curve] > 1
+            }
+            exit bad || seen != 9
+        }'
+}
+check "raw and Linear01: each curve ends at its far plane" ends
+check "nine tenths of the codes lie in the first ten units" rows '
+    least = 100 / 2 ^ 24
+    want["unorm24 d3d"] = 100 * (1 - 1000 / 999 * (1 - 1 / a["z"]))' \
+    depthprec plot share -n 1 -f 1000 -F d24 -m d3d
 
 # ---- Depth of DepthNormals beside depth buffers ----
 
@@ -46,7 +82,7 @@ check "rg: its codes are those of EncodeFloatRG, depths those of DecodeFloatRG" 
     depthprec table -n .3 -f 1000 -F rg --at .5,1,3.14159,10,99.99,123.456,500,999.9,1000
 check "rg: beside D16, D24 and D32F it is of the mapping linear" says \
     'rg linear 0.016 0.016 0.016 0.016' depthprec table -F rg,d16,d24,d32f -m d3d --at 1,10,100,1000
-check "rg: the far plane itself reads as the camera" says 'frac makes it 0, which shaders read as the camera' \
+check "rg: the far plane itself reads as the camera" says 'Far itself becomes 0 by frac, and reads as the camera.' \
     depthprec table -F rg
 unlike() { # unlike COMMAND...: rg is refused, and where it belongs is said
     "$@" -F rg -o "$scratch/refused.svg" >"$scratch/errors" 2>&1

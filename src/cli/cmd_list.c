@@ -63,9 +63,7 @@ static void say_other_formats(page *p, void *of) {
     page_note(p, "", "unorm24 or fp32, as the implementation chooses: both are shown");
     output_char(p->out, '\n');
     page_title(p, "rg, EncodeFloatRG, DepthNormals");
-    page_note(p, "",
-              "depth of Unity's DepthNormals, eye depth over far in steps of 1/65025: table and plot, of the mapping "
-              "linear");
+    page_note(p, "", "depth of Unity's DepthNormals, in steps of 1/65025 of far: for table and plot");
 }
 
 enum { WITH_CHOICES = 1 };

@@ -210,8 +210,9 @@ void setup_title(page *p, const dp_setup *setup, const setup_fields *fields) {
 void setups_say_rg(page *p, const dp_setup *some, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (dp_format_is_rg(&some[i].spec.format)) {
-            page_text(p, "rg: depth of Unity's DepthNormals, eye depth over far whatever the mapping. At far itself "
-                         "frac makes it 0, which shaders read as the camera.");
+            page_text(
+                p, "rg is depth of Unity's DepthNormals, eye depth over far. Far itself becomes 0 by frac, and reads "
+                   "as the camera.");
             return;
         }
 }

@@ -170,10 +170,10 @@ static int check_rg(const options *o) {
         const bool rg = dp_format_is_rg(&o->camera.formats[i]);
         if (rg && !shown)
             return option_error(OPTION_FORMAT,
-                                "rg is no depth buffer: table and figures of set-ups show it, and texture reads and "
-                                "writes it as a packing (--packing rg, --product pack:rg)");
+                                "rg is no depth buffer: table and figures of set-ups show it, and texture "
+                                "has it as a packing");
         if (rg && o->camera.rounding != DP_ROUND_NEAREST)
-            return option_error(OPTION_ROUNDING, "must be nearest with rg, as colour targets store, got %s",
+            return option_error(OPTION_ROUNDING, "must be nearest with rg, got %s",
                                 dp_rounding_name(o->camera.rounding));
     }
     return EXIT_FINE;
