@@ -40,6 +40,26 @@ rows() {
         END { exit bad > 0 || !seen }"
 }
 
+# ---- The words of articles, in depthprec-texture(1) ----
+
+mkdir "$scratch/work"
+awk '/^\.Ss Words of articles/ { on = 1 }
+    /^\.Ed/ { on = 0 }
+    on && !/^[.A].* .*:$|^\./ { line = $0; more = sub(/ *\\e$/, " ", line); printf "%s%s", line, more ? "" : "\n" }' \
+    man/depthprec-texture.1 >"$scratch/words"
+runs() { # runs COMMAND: as it stands there, one after the other in a folder
+    # Words without quotes or patterns.
+    # shellcheck disable=SC2086
+    (cd "$scratch/work" && depthprec $1 </dev/null)
+}
+count=0
+while read -r word command; do
+    count=$((count + 1))
+    check "$word is known to help" depthprec help "$word"
+    check "$word: depthprec $command" runs "$command"
+done <"$scratch/words"
+check "the table of words has all its lines" [ $count -ge 24 ]
+
 # ---- Pictures ----
 
 check "raw and Linear01: the curves over z" rows '

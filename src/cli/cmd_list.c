@@ -6,6 +6,7 @@
 #include "cli/methods.h"
 #include "report/report.h"
 
+static const name_list topics = {.get = list_topic};
 static const topic all_topics = {"topics", "", list_topic, .bound = "bound"};
 
 /* What is listed, and the thing at hand. */
@@ -108,11 +109,10 @@ static bool write_word(listing *l, output *out) {
 }
 
 bool list_knows(const char *word) {
-    return write_word(&(listing){.word = word}, NULL);
+    return names_find(&topics, word, NULL, NULL) || write_word(&(listing){.word = word}, NULL);
 }
 
 int cmd_list(const options *o) {
-    static const name_list topics = {.get = list_topic};
     list_item asked = {.row = &all_topics};
     listing l = {.o = o};
     int status = EXIT_FINE;
