@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What articles on depth textures of Unity say, item by item: the program shows it, and its numbers agree with formulas
-# that awk computes. Other tests hold the same more closely; README.md of this folder names them.
+# that awk computes. The README.md of this folder names the tests that hold the same more closely.
 . tests/tap.sh
 
 unset NO_COLOR LANGUAGE LANG POSIXLY_CORRECT
@@ -31,6 +31,7 @@ rows() {
         {
             for (i = 1; i <= NF; i++) a[name[i]] = \$i
             least = 1e-12
+            split(\"\", want)
             $formulas
             for (c in want) {
                 seen++
@@ -59,6 +60,102 @@ while read -r word command; do
     check "$word: depthprec $command" runs "$command"
 done <"$scratch/words"
 check "the table of words has all its lines" [ $count -ge 24 ]
+
+# ---- Constants, and what articles say of them that is wrong ----
+
+# of FORMULAS ARGUMENT...: what table --constants says of a camera of near .3 and a depth z of 10, in the first set-up:
+# assignments to want["key"], with the camera's n and f and the window depth d; "reads NAME" is what a trap reads
+of() {
+    formulas=$1
+    shift
+    depthprec table --constants -n .3 --at 10 --json "$@" >"$scratch/constants" || return 1
+    tr ',' '\n' <"$scratch/constants" | awk "
+        /^\"[a-z_]*\":[{]/ { parent = \$0; gsub(/^\"|\":.*/, \"\", parent); parent = parent \".\"; sub(/^[^{]*/, \"\") }
+        {
+            text = \$0
+            gsub(/[][{}]/, \"\", text)
+            key = value = text
+            gsub(/^\"|\":.*/, \"\", key)
+            sub(/^\"[^\"]*\":/, \"\", value)
+            gsub(/\"/, \"\", value)
+            if (key == \"name\") named = value
+            if (key == \"reads\") key = \"reads \" named
+            if (key == \"x\" && parent == \"\") key = named \" x\"
+            if (!(parent key in a)) a[parent key] = value
+            if (/}/) parent = \"\"
+        }
+        END {
+            n = 0.3; f = 1000; z = 10
+            d = f / (f - n) * (1 - n / z)
+            $formulas
+            for (k in want) {
+                seen++
+                off = a[k] - want[k]
+                if (!(k in a) || off * off > 1e-10 * want[k] * want[k]) { print k, a[k], want[k]; bad++ }
+            }
+            exit bad > 0 || !seen
+        }"
+}
+check "_ZBufferParams, d3d" of 'want["zbuffer_params.x"] = 1 - f / n; want["zbuffer_params.y"] = f / n
+    want["zbuffer_params.z"] = (1 - f / n) / f; want["zbuffer_params.w"] = 1 / n' -m d3d
+check "_ZBufferParams, reversed" of 'want["zbuffer_params.x"] = f / n - 1; want["zbuffer_params.y"] = 1
+    want["zbuffer_params.z"] = (f / n - 1) / f; want["zbuffer_params.w"] = 1 / f' -m reversed
+check "_ZBufferParams of an infinite far plane" of 'want["zbuffer_params.z"] = 1 / n; want["zbuffer_params.w"] = 0' \
+    -m reversed -f inf
+check "_ProjectionParams" of 'want["projection_params.y"] = n; want["projection_params.z"] = f
+    want["projection_params.w"] = 1 / f' -m d3d
+check "UNITY_NEAR_CLIP_VALUE: 0, reversed 1, OpenGL -1" of 'want["near_clip_value"] = 0' -m d3d
+check "UNITY_NEAR_CLIP_VALUE, reversed" of 'want["near_clip_value"] = 1' -m reversed
+check "UNITY_NEAR_CLIP_VALUE, OpenGL" of 'want["near_clip_value"] = -1' -m gl
+check "clip z and w, NDC, window and eye depth, both Linear01" of 'want["clip_z"] = d * z; want["clip_w"] = z
+    want["ndc"] = want["window"] = d; want["eye"] = z; want["linear01"] = z / f; want["from_near"] = (z - n) / (f - n)' -m d3d
+check "NDC of OpenGL" of 'want["clip_z"] = (2 * d - 1) * z; want["ndc"] = 2 * d - 1; want["window"] = d' -m gl
+check "corner vectors and rays" of 'top = sin(0.5235987755982988) / cos(0.5235987755982988)
+    want["to_top"] = n * top; want["to_right"] = n * top * 16 / 9; want["top left x"] = -top * 16 / 9' -m d3d
+check "trap: x is no 1 - near/far" of 'want["reads inverted-x"] = 1 / (((1 - n / f) * d + f / n) / f)' -m d3d
+check "trap: f n, not 2 f n" of 'want["reads doubled-product"] = 2 * z' -m d3d
+check "trap: lerp(-1, 1, d) is no depth of Linear01Depth" of '
+    want["reads ndc-as-depth"] = 1 / ((1 / f - 1 / n) * (2 * d - 1) + 1 / n)' -m gl
+check "trap: reversed mixed up" of 'want["reads other-direction"] = 1 / ((1 / f - 1 / n) * (1 - d) + 1 / n)' -m d3d
+check "trap: LinearEyeDepth of an orthographic depth" of '
+    want["reads perspective-of-ortho"] = 1 / ((1 / f - 1 / n) * (z - n) / (f - n) + 1 / n)' -m d3d --ortho
+check "trap: LinearEyeDepth of an oblique near plane" says perspective-of-oblique depthprec list traps
+check "trap: the normal is in xy, depth in zw" says normal-as-depth depthprec list traps
+
+# ---- Textures ----
+
+# A census of all depths of binary32 finds 327,950 codes there, and a few are between depths.
+check "reversed depth whose NDC is of [-1, 1] keeps 1.3 % of its codes beyond 10" rows '
+    least = 0.02
+    if (a["z"] == 10) want["fp32 gl-reversed"] = 100 * 327950 / 25165824' \
+    depthprec plot share -F fp32 -m reversed,gl-reversed --range 10:1000 --model float
+cleared() { # a target that was cleared to black is sky, or holes
+    depthprec texture --synthetic plane --size 16x16 --product pack:depth-normals -o "$scratch/dn.npy" -q || return 1
+    { head -c 128 "$scratch/dn.npy" && head -c 1024 /dev/zero; } >"$scratch/black.npy"
+    says "sky 256 pixels, 100 %" depthprec texture "$scratch/black.npy" --packing depth-normals &&
+        says "256 pixels hold 0, a clear to black or the far plane after frac" \
+            depthprec texture "$scratch/black.npy" --packing depth-normals
+}
+check "DepthNormals cleared to black" cleared
+at_far() { # at far the channels are 255, 0 and not the 0, 0 of frac, which is said
+    says "EncodeFloatRG writes 0, 0" depthprec texture --synthetic plane --parameter distance=1000 --size 4x1 -F fp32 \
+        --product pack:rg -o "$scratch/far.npy" && od -An -v -tu1 -w2 -j128 "$scratch/far.npy" | awk '
+        $1 != 255 || $2 != 0 { bad = 1 } END { exit bad || NR != 4 }'
+}
+check "EncodeFloatRG of the far plane" at_far
+grey() { # five walls at equal distances: window depth is above .97 from the second on, Linear01 even
+    for product in raw linear01; do
+        depthprec texture --synthetic steps --parameter even=1 --parameter count=5 --parameter to=17 -n .3 -f 20 --size 5x1 \
+            -F d24 -m d3d --product $product -o "$scratch/$product.npy" -q || return 1
+        od -An -v -tf4 -w4 -j128 "$scratch/$product.npy" | awk -v product=$product '
+            { z = 1 + 4 * (NR - 1); want = product == "raw" ? 20 / 19.7 * (1 - 0.3 / z) : z / 20; off = $1 - want }
+            off * off > 4e-12 || (product == "raw" && NR > 1 && $1 < 0.95) { print $1, want; bad = 1 }
+            END { exit bad || NR != 5 }' || return 1
+    done
+}
+check "raw is nearly white, Linear01 even" grey
+check "_CurValue and _FocusDistance are the second depth of their effects" says "needs a second depth" depthprec help _CurValue
+check "medium normals take the sky" says "sky at far before all others" depthprec list normals
 
 # ---- Pictures ----
 
