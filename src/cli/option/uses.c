@@ -79,6 +79,7 @@ static const option_use of_depths[] = {
     OWN(TOLERANCE, WITHOUT("5% for the model; intervals are exact")),
     TAKE(RANGE), OWN(VIEWPORT, ALSO("with --constants the shape of the view, 1920x1080 where not given")), END};
 static const option_use of_stored[] = {
+    OWN(FORMAT, ALSO(OF_RG)),
     OWN(MODEL, DEFAULT("exact"), WITHOUT("for several set-ups the fullest that each supports")),
     TAKE(DEPTH), TAKE(CODE), TAKE(LOG_C), TAKE(LINK), GROUP(slanted), GROUP(projected), END};
 static const option_use asked_depths[] = {
@@ -88,7 +89,6 @@ static const option_use of_constants[] = {
     TAKE(NEAR), TAKE(FAR), TAKE(MAPPING), TAKE(UNIT), TAKE(ORTHO), TAKE(FOV), TAKE(HFOV),
     OWN(VIEWPORT, DEFAULT("1920x1080")), END};
 const option_use table_uses[] = {
-    OWN(FORMAT, ALSO(OF_RG)),
     OWN(PRESET, .argument = "NAME[,NAME...]", ALSO(OF_VIEW "; several are compared"), .parse = parse_presets),
     FOR(TABLE_OF_DEPTHS, of_depths), FOR(TABLE_OF_DEPTHS | TABLE_OF_CODES, of_stored),
     FOR(TABLE_OF_DEPTHS | TABLE_OF_CONSTANTS, asked_depths), FOR(TABLE_OF_CONSTANTS, of_constants), TAKE(CONSTANTS),
