@@ -79,6 +79,15 @@ void drawn_bar_is_viridis(const drawn *d) {
         assert_true(lightness(bar->pixels[row]) <= lightness(bar->pixels[row - 1]) + 0.5); /* of 255 */
 }
 
+void drawn_bar_is_grey(const drawn *d) {
+    const svg_mark *bar = d->bar;
+    assert_non_null(bar);
+    for (int row = 0; row < bar->rows; row++) {
+        const int level = (int)lrint(255 * (1 - (row + 0.5) / bar->rows));
+        assert_true(distance(bar->pixels[row], (uint32_t)level * 0x10101U) <= 6);
+    }
+}
+
 void drawn_bar_is_used(const drawn *d) {
     bool low = false, high = false;
     for (size_t i = 0; i < d->svg->count; i++) {

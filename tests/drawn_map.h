@@ -22,6 +22,7 @@ double drawn_bar_px(const drawn *d, uint32_t pixel);
 
 /** Fails unless the bar goes from dark violet below to yellow above, lighter all the way. */
 void drawn_bar_is_viridis(const drawn *d);
+void drawn_bar_is_grey(const drawn *d); /* white above, black below */
 
 /** Fails unless the maps use both ends of the bar. */
 void drawn_bar_is_used(const drawn *d);

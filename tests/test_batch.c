@@ -338,6 +338,17 @@ TEST(test_depths) {
     }
 }
 
+/* As many codes as no power of two has: no sum of powers is their value. */
+TEST(test_rg) {
+    tally t = {.name = "rg"};
+    rng r = rng_make("rg");
+    const dp_setup s = SETUP("rg", .mapping = DP_MAPPING_LINEAR);
+    walk_codes(&t, &s, 1);
+    depths_to_codes(&t, &s, &r, 1, CHUNK);
+    depths_to_codes(&t, &s, &r, 0, CHUNK);
+    tally_end(&t);
+}
+
 /* Depths that become numbers: in each model, surfaces that face and slant; at the planes' floats, too. */
 TEST(test_numbers) {
     tally t = {.name = "numbers"};

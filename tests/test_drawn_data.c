@@ -340,6 +340,8 @@ TEST(numbers_are_those_shown) {
         {"share -F unorm16 -m d3d,reversed", true, false, false, true},
         {"distribution -F fp16,unorm24 -m d3d,reversed", true, false, false, true},
         {"distribution -F unorm4 -m d3d,reversed -n 1 -f 20", true, false, false, false},
+        {"linear01 -n 1 -f 20", true, false, false, true},
+        {"linear01 -n 1 -f 10,20,50 -m d3d", true, false, false, false},
         {"budget -F unorm24,fp32 -m d3d", true, false, true, true},
         {"map -F unorm24 -m d3d,reversed", false, true, false, false},
         {"stability linearize", false, false, false, false},

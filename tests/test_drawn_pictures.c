@@ -59,11 +59,12 @@ static const picture_case cases[] = {
      false,
      false,
      1},
-    {"--synthetic steps --parameter from=10 --parameter to=900 --parameter even=1 -F unorm24 -m d3d --product raw",
-     "Window depth",
+    {"--synthetic steps --parameter from=10 --parameter to=900 --parameter even=1 -F unorm24 -m d3d --sky 0 --product "
+     "raw",
+     "Window depth beside eye depth over far, Linear01Depth",
      "synthetic steps, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
-     "window depth",
-     {""},
+     "depth",
+     {"window depth", "eye depth over far"},
      false,
      false,
      false,
@@ -255,7 +256,10 @@ static void check_bar(const drawn *d, const picture_case *q, const numbers *n) {
                         strstr(q->arguments, "--product linear01") != NULL; /* the scale is that of all of its kind */
     double lo = shares ? 0 : INFINITY, hi = shares ? 1 : -INFINITY;
     assert_string_equal(d->right_caption->text, q->value);
-    drawn_bar_is_viridis(d);
+    if (shares && strstr(q->arguments, "effect") == NULL)
+        drawn_bar_is_grey(d);
+    else
+        drawn_bar_is_viridis(d);
     for (size_t i = 0; i < (size_t)n->width * (size_t)n->height * (size_t)n->channels; i++)
         if (isfinite(n->values[i]) && (!q->largest || n->values[i] > 0)) {
             lo = fmin(lo, (double)n->values[i]);
@@ -278,14 +282,30 @@ static bool is_hatched(const drawn *d) {
     return false;
 }
 
+/* Beside window depth, between 0.1 and 1000, stands eye depth over far. */
+static void put_beside(numbers *n) {
+    const size_t count = (size_t)n->width * (size_t)n->height;
+    float *both = calloc(2 * count, sizeof *both);
+    assert_non_null(both);
+    for (size_t i = 0; i < count; i++) {
+        both[2 * i] = n->values[i];
+        both[2 * i + 1] = (float)(0.1 / (1000 - (double)n->values[i] * (1000 - 0.1)));
+    }
+    free(n->values);
+    n->values = both;
+    n->channels = 2;
+}
+
 static void check_figure(const picture_case *q) {
     char path[320], shown[128] = "", subtitle[256], hatched[64] = "";
     size_t missing = 0;
     snprintf(path, sizeof path, "%s/product.npy", drawn_folder());
     const drawn_theme *look = strstr(q->arguments, "dark") != NULL ? &drawn_dark : &drawn_light;
     drawn *d = drawn_run(look, "texture %s -o %s", q->arguments, path);
-    const numbers n = read_npy(path);
+    numbers n = read_npy(path);
     size_t panels = 0;
+    if (strstr(q->arguments, "raw") != NULL)
+        put_beside(&n);
     assert_string_equal(d->title, q->title);
     for (size_t i = 0; i < (size_t)n.width * (size_t)n.height; i++)
         missing += isnan(n.values[i * (size_t)n.channels]) ? 1 : 0;

@@ -46,6 +46,27 @@ TEST(names_of_rows) {
     assert_null(dp_format_get((size_t)-1));
 }
 
+/* Depth of a colour target: no row, and of no set-up but its own. */
+TEST(rg_is_linear_and_nearest) {
+    static const char *const names[] = {"rg", "EncodeFloatRG", "depthnormals", "_CameraDepthNormalsTexture"};
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    dp_format found[2];
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        check_parse(names[i], "rg");
+    for (size_t i = 0; i < dp_format_count(); i++)
+        assert_string_not_equal(dp_format_get(i)->format.name, "rg");
+    assert_int_equal(dp_format_parse("rg", found), 1);
+    spec.format = found[0];
+    for (int m = 0; m < DP_MAPPING_COUNT; m++)
+        for (int r = 0; r < DP_ROUNDING_COUNT; r++) {
+            spec.mapping = (dp_mapping)m;
+            spec.rounding = (dp_rounding)r;
+            const int fits = m == DP_MAPPING_LINEAR && r == DP_ROUND_NEAREST;
+            assert_int_equal(dp_setup_init(&setup, &spec), fits ? DP_OK : DP_ERROR_FORMAT);
+        }
+}
+
 static const char *const interface_names[][2] = {
     {"D16_UNORM", "unorm16"},
     {"D24_UNORM_S8_UINT", "unorm24"},

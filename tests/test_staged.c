@@ -39,11 +39,20 @@ static uint32_t staged_code(oracle *o, double z) {
     } else {
         w = to_binary32(d);
     }
+    if (strcmp(o->spec.format.name, "rg") == 0) { /* two channels: the whole part k of y = 255 w, and the rest */
+        mpq_set_d(d, (double)w);
+        mpq_set_si(half, 255, 1);
+        mpq_mul(d, d, half);
+        const double y = (double)to_binary32(d), k = floor(y);
+        mpq_clears(d, half, NULL);
+        return (uint32_t)(255 * k + floor(255 * (y - k) + 0.5));
+    }
     mpq_clears(d, half, NULL);
     return oracle_encode(&o->spec.format, o->spec.rounding, (double)w);
 }
 
-static const char *const format_names[] = {"fp16", "unorm16", "unorm24", "fp32", "unorm32", "unorm10", "float5.20"};
+static const char *const format_names[] = {"fp16",    "unorm16", "unorm24",   "fp32",
+                                           "unorm32", "unorm10", "float5.20", "rg"};
 enum { FORMAT_NAMES = sizeof format_names / sizeof format_names[0] };
 
 /* A random set-up of the model; 0 when the combination is not allowed. */
@@ -54,6 +63,10 @@ static int random_setup(rng *r, dp_spec *spec, dp_setup *setup) {
     spec->format = format[0];
     spec->mapping = (dp_mapping)rng_below(r, DP_MAPPING_COUNT);
     spec->rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
+    if (strcmp(format[0].name, "rg") == 0) {
+        spec->mapping = DP_MAPPING_LINEAR;
+        spec->rounding = DP_ROUND_NEAREST;
+    }
     spec->ortho = rng_below(r, 4) == 0;
     spec->znear = rng_log(r, 1e-3, 1e2);
     spec->zfar = rng_below(r, 4) == 0 ? HUGE_VAL : spec->znear * rng_log(r, 1.01, 1e6);
@@ -168,11 +181,11 @@ static uint32_t next_code(const dp_setup *setup, const dp_cell *cell) {
 TEST(worst_is_certified) {
     static const double cameras[][2] = {{0.1, 1000}, {0.3, 77}, {1, 1.5},  {0.01, 1e6}, {5, 5000},      {0.05, 4000},
                                         {0.25, 128}, {1, 2},    {10, 1e5}, {2, 65536},  {0.1, HUGE_VAL}};
-    static const char *const formats[] = {"fp16", "unorm16", "unorm10"};
+    static const char *const formats[] = {"fp16", "unorm16", "unorm10", "rg"};
     tally t = {.name = "staged worst case"};
     const uint64_t count = test_cases(2, 11, 11);
     for (uint64_t c = 0; c < count; c++)
-        for (int f = 0; f < 3; f++)
+        for (int f = 0; f < 4; f++)
             for (int m = 0; m < DP_MAPPING_COUNT; m++)
                 for (int k = 0; k < 2; k++) {
                     dp_spec spec = dp_spec_default();
@@ -286,8 +299,8 @@ TEST(one_wide_cell_counts) {
 }
 
 TEST(worst_is_near_in_each_class) {
-    static const char *const formats[] = {"unorm16", "unorm20", "unorm23",   "unorm24",   "unorm25",
-                                          "unorm28", "fp32",    "float5.18", "float8.21", "fp16"};
+    static const char *const formats[] = {"unorm16", "unorm20",   "unorm23",   "unorm24", "unorm25", "unorm28",
+                                          "fp32",    "float5.18", "float8.21", "fp16",    "rg"};
     static const char *const kinds[] = {"unorm", "float"};
     near_worst seen[2][2][2][2] = {{{{{0}}}}}; /* float, signed NDC, truncated, finer than 23 bits */
     tally t = {.name = "staged worst, by class"};
@@ -298,11 +311,13 @@ TEST(worst_is_near_in_each_class) {
         dp_format format[2];
         double hi, error, interval;
         dp_worst worst;
-        const size_t f = rng_below(&r, 10);
+        const size_t f = rng_below(&r, sizeof formats / sizeof formats[0]);
         if (!random_setup(&r, &spec, &setup))
             continue;
         dp_format_parse(formats[f], format);
         spec.format = format[0];
+        if (strcmp(formats[f], "rg") == 0)
+            spec.mapping = DP_MAPPING_LINEAR;
         if (dp_setup_init(&setup, &spec) != DP_OK || setup.curve == DP_CURVE_LOG)
             continue;
         const double lo = random_depth(&r, &spec);

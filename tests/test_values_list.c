@@ -140,7 +140,7 @@ static bool synthetic(size_t i, listed *l) {
 /* Half a step, and what binary32 adds; with three digits, rounded up. */
 static bool packing_row(size_t i, listed *l) {
     static const double halves[] = {7.81e-06, 7.81e-06, 1.17e-10, 2.33e-10, 2.99e-08, 2.99e-08, 5.97e-08, 0.00197};
-    ROW(struct packing, packing_get(i), "")
+    ROW(struct packing, packing_get(i), r->aliases)
     add_number(l, halves[i]);
     return true;
 }

@@ -8,6 +8,10 @@
  *     FLOAT of E.M bits    an unsigned float with bias B, subnormals kept, no infinities:
  *                          m 2^(1-B-M) in the lowest binade, (2^M + m) 2^(e-B-M) above it
  *
+ * and rg, a UNORM of code_max 65025: what Unity's EncodeFloatRG leaves of eye depth over far (the mapping linear) in
+ * two channels of 8 bits, rounded to nearest. Its code is 255 times the first channel plus the second, but that of far
+ * is stored as 0: frac(255) is 0, and so is frac(1).
+ *
  * Codes of either kind are ordered as their values are, 0 stores 0 and code_max stores 1. For fp16 and fp32 the
  * code is the IEEE 754 bit pattern.
  */
@@ -38,7 +42,7 @@ enum { DP_FORMAT_NAME_SIZE = 16 };
 typedef struct dp_format {
     char name[DP_FORMAT_NAME_SIZE]; /**< the canonical name, "unorm24", "float3.3b5" */
     dp_format_kind kind;
-    int bits;          /**< bits of the code that carry depth: N, or E + M */
+    int bits;          /**< bits of the code that carry depth: N, or E + M; of rg 16 */
     int exponent_bits; /**< FLOAT: E, 2 to 8; else 0 */
     int mantissa_bits; /**< FLOAT: M, 1 to 23; else 0 */
     int bias;          /**< FLOAT: B, 1 to 2^E - 1; else 0 */
@@ -60,7 +64,7 @@ typedef struct dp_format_row {
     const char *source; /**< paper, specification clause */
 } dp_format_row;
 
-/** How many depth formats have a name: fp16, fp32, unorm16, unorm24. */
+/** How many depth formats have a name and a row: fp16, fp32, unorm16, unorm24. */
 DP_API size_t dp_format_count(void);
 
 /** The row of a named depth format; null when out of range. */
@@ -68,7 +72,7 @@ DP_API const dp_format_row *dp_format_get(size_t index);
 
 /**
  * Finds the formats that a name stands for: a canonical name, an alias in the spelling of an API (letter case is
- * ignored), "unormN" with N = 1..32, or "floatE.M" or "floatE.MbB" with E = 2..8, M = 1..23, B = 1..2^E-1
+ * ignored), "rg", "unormN" with N = 1..32, or "floatE.M" or "floatE.MbB" with E = 2..8, M = 1..23, B = 1..2^E-1
  * (2^(E-1)-1 if not given).
  *
  * @param out  receives the formats; "depth24plus" of WebGPU leaves the choice to the implementation and gives two

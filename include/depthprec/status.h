@@ -29,7 +29,7 @@ typedef enum dp_status {
     DP_ERROR_INFINITE,   /**< an infinite far with a mapping or projection that needs a finite one */
     DP_ERROR_ORTHO,      /**< an orthographic projection with a mapping that has none */
     DP_ERROR_LOG_C,      /**< the constant of the logarithmic mapping is not in [1e-12, 1e12] */
-    DP_ERROR_FORMAT,     /**< not a depth format: unknown name, or bits out of range */
+    DP_ERROR_FORMAT,     /**< not a depth format: unknown name, bits out of range, or rg where it has no place */
     DP_ERROR_MAPPING,    /**< not a mapping */
     DP_ERROR_ROUNDING,   /**< not a rounding mode */
     DP_ERROR_MODEL,      /**< not a model, or one that this set-up does not have */

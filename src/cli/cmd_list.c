@@ -6,6 +6,7 @@
 #include "cli/methods.h"
 #include "report/report.h"
 
+static const name_list topics = {.get = list_topic};
 static const topic all_topics = {"topics", "", list_topic, .bound = "bound"};
 
 /* What is listed, and the thing at hand. */
@@ -61,6 +62,9 @@ static void say_other_formats(page *p, void *of) {
     output_char(p->out, '\n');
     page_title(p, "depth24plus, depth24plus-stencil8");
     page_note(p, "", "unorm24 or fp32, as the implementation chooses: both are shown");
+    output_char(p->out, '\n');
+    page_title(p, "rg, EncodeFloatRG, DepthNormals");
+    page_note(p, "", "depth of Unity's DepthNormals, in steps of 1/65025 of far: for table and plot");
 }
 
 enum { WITH_CHOICES = 1 };
@@ -105,11 +109,10 @@ static bool write_word(listing *l, output *out) {
 }
 
 bool list_knows(const char *word) {
-    return write_word(&(listing){.word = word}, NULL);
+    return names_find(&topics, word, NULL, NULL) || write_word(&(listing){.word = word}, NULL);
 }
 
 int cmd_list(const options *o) {
-    static const name_list topics = {.get = list_topic};
     list_item asked = {.row = &all_topics};
     listing l = {.o = o};
     int status = EXIT_FINE;

@@ -396,7 +396,12 @@ int cmd_plot(const options *o) {
                                  .census = census_depths,
                                  .columns = o->figure.width > 0 ? o->figure.width : WIDTH,
                                  .rows = o->figure.height > 0 ? o->figure.height : HEIGHT};
+    p.request.far_count = o->camera.far_count;
+    p.request.fars = o->camera.fars;
     int status = check_output(o);
+    if (status == EXIT_FINE && p.request.far_count > 1 && (p.row->takes & FIGURE_FARS) == 0)
+        status = option_error(OPTION_FAR, "must be one far plane in the figure %s, got '%s'", p.row->name,
+                              o->given[OPTION_FAR]);
     if (status == EXIT_FINE)
         status = check_file_given(o, p.row);
     if (status != EXIT_FINE)

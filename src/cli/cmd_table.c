@@ -253,6 +253,7 @@ static void say_notes(page *p, void *item) {
     char slanted[NUMBER_SIZE + 8];
     snprintf(slanted, sizeof slanted, "at %s", slant_words(&t->slanted.spec.triangles).text);
     say_guarantee(p, t->guarantee_slanted, slanted, "of the farther surface");
+    setups_say_rg(p, &t->setup, 1);
     say_drawn(p, &t->planes);
     per_vertex_say(p, &t->written, t->slant.triangles.depth);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);

@@ -16,6 +16,7 @@
 #include "cli/slant.h"
 #include "core/append.h"
 #include "core/elementary.h"
+#include "core/engine.h"
 #include "report/number.h"
 
 enum {
@@ -206,7 +207,9 @@ static void say_costs(page *p, const comparison *c) {
     for (size_t i = 0; i < c->each->all.count; i++) {
         const dp_mapping mapping = c->rows[i].setup->spec.mapping;
         const dp_mapping_row *row = dp_mapping_get(mapping);
-        if (row->curve != DP_CURVE_PERSPECTIVE && (said >> mapping & 1U) == 0)
+        if (row->curve == DP_CURVE_PERSPECTIVE || dp_format_is_rg(&c->rows[i].setup->spec.format))
+            continue;
+        if ((said >> mapping & 1U) == 0)
             page_text(p, "Cost of %s: %s.", row->name, row->effort);
         said |= 1U << mapping;
     }
@@ -223,9 +226,11 @@ static void say_notes(page *p, void *item) {
         say_facing(p, c, &c->rows[i], limit.text);
     say_costs(p, c);
     for (size_t i = 0; i < c->each->all.count; i++)
-        linear = linear || dp_mapping_get(c->rows[i].setup->spec.mapping)->curve == DP_CURVE_LINEAR;
+        linear = linear || (dp_mapping_get(c->rows[i].setup->spec.mapping)->curve == DP_CURVE_LINEAR &&
+                            !dp_format_is_rg(&c->rows[i].setup->spec.format));
     if (linear)
         page_text(p, "linear is judged without the arithmetic of its shader (model staged).");
+    setups_say_rg(p, c->each->all.items, c->each->all.count);
     for (size_t i = 0; i < c->each->all.count; i++)
         if (c->rows[i].cost.buffer == 0) {
             page_text(p, "No API has %s as a depth buffer.", c->rows[i].setup->spec.format.name);

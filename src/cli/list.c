@@ -342,8 +342,10 @@ static const topic topics[] = {
     {"figures", "figures, for plot", list_figure, .bound = "bound"},
     {"synthetic", "synthetic depth images, for texture --synthetic", list_synthetic, .bound = "bound",
      .shown = "parameters"},
-    {"positions", "positions from window depth, for texture --product position", list_position, .bound = "bound"},
-    {"normals", "normals from depth, for texture --product normal", list_normal, .bound = "bound"},
+    {"positions", "positions from window depth, for texture --product position", list_position, .bound = "bound",
+     .names = "ReconstructViewPos ViewSpacePosAtScreenUV ComputeWorldSpacePosition"},
+    {"normals", "normals from depth, for texture --product normal", list_normal, .bound = "bound",
+     .names = "ReconstructNormal"},
     {"methods", "methods by family: what each claims, for which set-up and far/near", list_method, .bound = "bound"},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };

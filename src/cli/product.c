@@ -51,7 +51,8 @@ bool list_packing(size_t index, list_item *item) {
     const packing *row = packing_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    *item =
+        (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
     append(item->bound, sizeof item->bound, "depth: at most %s%s", number_up(0.5 / row->steps + row->off, 3).text,
            row->linear ? " of far" : "");
     return true;

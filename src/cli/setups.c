@@ -89,8 +89,11 @@ static int add_setups(const options *o, size_t camera, setups *out) {
                     .triangles = o->camera.triangles};
     for (size_t f = 0; f < o->camera.format_count; f++)
         for (size_t m = 0; m < o->camera.mapping_count; m++) {
+            const bool rg = dp_format_is_rg(&o->camera.formats[f]); /* linear, whatever the camera's buffer is */
+            if (rg && m > 0)
+                break;
             spec.format = o->camera.formats[f];
-            spec.mapping = o->camera.mappings[m];
+            spec.mapping = rg ? DP_MAPPING_LINEAR : o->camera.mappings[m];
             const bool shader = dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG;
             spec.model = o->camera.budgeted && shader ? DP_MODEL_EXACT : o->camera.model;
             if (o->camera.budgeted && check_budget(o, &spec) != EXIT_FINE)
@@ -202,6 +205,16 @@ void setup_title(page *p, const dp_setup *setup, const setup_fields *fields) {
     p->unit = unit;
     page_title(p, "%s%s%s%s%s", engine != NULL ? engine : "", engine != NULL ? ": " : "",
                setup_label_as(setup, fields, label), unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
+}
+
+void setups_say_rg(page *p, const dp_setup *some, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (dp_format_is_rg(&some[i].spec.format)) {
+            page_text(
+                p, "rg is depth of Unity's DepthNormals, eye depth over far. Far itself becomes 0 by frac, and reads "
+                   "as the camera.");
+            return;
+        }
 }
 
 clipping clipping_of(const dp_setup *setup) {

@@ -140,7 +140,7 @@ static int nearest_unorm(dp_batch *b) {
     const dp_format *f = &b->setup.spec.format;
     dp_batch_write(b)->numbers.unit = (float)f->code_max;
     dp_batch_write(b)->numbers.split = (float)dp_power2(f->bits);
-    return f->bits >= 2 && f->bits < 24 && b->setup.spec.rounding != DP_ROUND_ZERO;
+    return f->bits >= 2 && f->bits < 24 && !dp_format_is_rg(f) && b->setup.spec.rounding != DP_ROUND_ZERO;
 }
 
 static int nearest_unorm24(dp_batch *b) {
@@ -194,7 +194,7 @@ static int quotient_reversed(dp_batch *b) {
 /* c/M = c 2^-N + c (1/M - 2^-N): right in binary32 for every code of these formats (tests/test_batch.c tries all). */
 static int value_unorm(dp_batch *b) {
     const int bits = b->setup.spec.format.bits;
-    if (bits < 16 || bits > 24)
+    if (bits < 16 || bits > 24 || dp_format_is_rg(&b->setup.spec.format))
         return 0;
     const double unit = dp_power2(-bits);
     dp_batch_write(b)->numbers.unit = (float)unit;

@@ -22,7 +22,10 @@ static int ndc_signed(const dp_setup *setup) {
     return dp_mapping_get(setup->spec.mapping)->ndc_signed;
 }
 
+/* EncodeFloatRG: whole numbers of a rounded 255 w in one channel, and what is left, exactly, in the other. */
 static uint32_t code_of_window(const dp_setup *setup, float w) {
+    if (dp_format_is_rg(&setup->spec.format))
+        return (uint32_t)(255.0 * (double)(255.0F * (w > 0.0F ? w : 0.0F)) + 0.5);
     return dp_format_encode(&setup->spec.format, setup->spec.rounding, (double)w);
 }
 
@@ -85,10 +88,19 @@ dp_boundary dp_boundary_below(const dp_setup *setup, uint32_t code) {
                          .above = code};
 }
 
-double dp_staged_window_step(double d) {
+static double step_at(double d) {
     return d < 0x1p-126 ? 0x1p-149 : dp_power2(dp_exponent(d) - 23);
 }
 
+int dp_staged_twice(const dp_setup *setup) {
+    return ndc_signed(setup) || dp_format_is_rg(&setup->spec.format);
+}
+
+/* 255 d lies in the 8th binade above that of d, or in the one below it: a step over 255 is 256/255 of d's at most. */
+double dp_staged_window_step(const dp_setup *setup, double d) {
+    return dp_format_is_rg(&setup->spec.format) ? step_at(d) * (256.0 / 255.0) : step_at(d);
+}
+
 double dp_staged_ndc_step(const dp_setup *setup, double d) {
-    return ndc_signed(setup) ? 0.5 * dp_staged_window_step(fabs(2.0 * d - 1.0)) : dp_staged_window_step(d);
+    return ndc_signed(setup) ? 0.5 * step_at(fabs(2.0 * d - 1.0)) : step_at(d);
 }

@@ -7,6 +7,7 @@
  *          w is rounded into the format. Each step is monotone, so the codes from `code` up are stored from some
  *          smallest w upwards, hence from some smallest x upwards: the boundary is the midpoint below that x. Codes
  *          that no w or x reaches have no cell of their own, so `below` and `above` may be further apart than one.
+ *          Into rg goes 255 w, rounded to binary32 as well.
  */
 #ifndef CORE_BOUNDARY_H
 #define CORE_BOUNDARY_H
@@ -31,8 +32,11 @@ uint32_t dp_staged_code(const dp_setup *setup, double d);
 float dp_staged_window(const dp_setup *setup, uint32_t code);
 float dp_staged_ndc(const dp_setup *setup, float window);
 
-/* The steps that binary32 takes at d, in units of d: of the window depth, and of the NDC depth. */
-double dp_staged_window_step(double d);
+/* Whether a step of the window depth counts beside one of the NDC depth: another rounding comes between. */
+int dp_staged_twice(const dp_setup *setup);
+
+/* The steps that binary32 takes at d, in units of d: of the window depth, or 255 times that, and of the NDC depth. */
+double dp_staged_window_step(const dp_setup *setup, double d);
 double dp_staged_ndc_step(const dp_setup *setup, double d);
 
 /* Whether the stages change nothing: the format is binary32 itself and NDC depth is d. */

@@ -99,7 +99,7 @@ typedef struct stage {
     double code;   /* step of the format, in d */
     double window; /* step of the window depth */
     double ndc;    /* step of the NDC depth, in d */
-    int ndc_signed;
+    int twice;     /* both count */
 } stage;
 
 /*
@@ -108,7 +108,8 @@ typedef struct stage {
  */
 static double staged_width(const dp_setup *setup, const stage *g, uint32_t low, uint32_t high) {
     const double coarse = larger(g->window, g->ndc);
-    const double tie = g->ndc < g->window ? g->ndc : 0.0;
+    const int odd = dp_format_is_rg(&setup->spec.format); /* its window steps are those of 255 w, here over 255 */
+    const double tie = (g->ndc < g->window ? g->ndc : 0.0) + (odd ? g->window : 0.0);
     /* Boundaries at equal distances, rounded up to a lattice: cells hold the average, rounded down or up. */
     const float first = dp_staged_window(setup, low);
     const float last = dp_staged_window(setup, high + 1U); /* where the cell of high ends */
@@ -125,7 +126,7 @@ static double staged_width(const dp_setup *setup, const stage *g, uint32_t low, 
 
 static double staged_error(const dp_setup *setup, const stage *g) {
     const double format = g->code > g->window ? (setup->spec.rounding == DP_ROUND_ZERO ? g->code : 0.5 * g->code) : 0.0;
-    return format + 0.5 * g->ndc + (g->ndc_signed && g->window > g->ndc ? 0.5 * g->window : 0.0);
+    return format + 0.5 * g->ndc + (g->twice && g->window > g->ndc ? 0.5 * g->window : 0.0);
 }
 
 static uint32_t rank_of_code(const search *s, uint32_t code) {
@@ -134,7 +135,7 @@ static uint32_t rank_of_code(const search *s, uint32_t code) {
 
 static void visit_staged(const search *s, const stage *g, uint32_t low, uint32_t high) {
     const dp_setup *setup = s->setup;
-    const double wide = g->code + g->ndc + (g->ndc_signed ? g->window : 0.0);
+    const double wide = g->code + g->ndc + (g->twice ? g->window : 0.0);
     const double error = staged_error(setup, g);
     const double z_end = dp_cell_of(setup, setup->reversed ? low : high).hi;
     if (dp_curve_reach(setup, z_end, wide) * s->outward < s->worst->interval &&
@@ -181,9 +182,9 @@ static void search_staged(const search *s, uint32_t bottom, uint32_t top) {
         const uint32_t high = dp_staged_code(setup, end);
         const double middle = 0.5 * (begin + end);
         const stage g = {.code = dp_step_num(format, dp_binade(format, middle)) / setup->den,
-                         .window = dp_staged_window_step(middle),
+                         .window = dp_staged_window_step(setup, middle),
                          .ndc = dp_staged_ndc_step(setup, middle),
-                         .ndc_signed = ndc_signed};
+                         .twice = dp_staged_twice(setup)};
         end = begin;
         if (low <= top && high >= bottom)
             visit_staged(s, &g, low > bottom ? low : bottom, high < top ? high : top);

@@ -63,6 +63,12 @@ static const dp_format_row rows[] = {
     },
 };
 
+/*
+ * No depth buffer, and in no list of them: what Unity's EncodeFloatRG leaves of a depth in two channels of 8 bits,
+ * floor(255 d) and the rest of 255 d, is 255 times the one plus the other: (2^8 - 1)^2 + 1 values at equal distances.
+ */
+static const dp_format rg = {"rg", DP_FORMAT_UNORM, 16, 0, 0, 0, DP_RG_CODE_MAX};
+
 /* Names that leave the choice to the implementation: both formats are meant. */
 static const struct {
     const char *names;
@@ -169,7 +175,10 @@ static int parse_row(const char *name, dp_format *out) {
             *out = rows[i].format;
             return 1;
         }
-    return 0;
+    if (!dp_word_among(name, "rg EncodeFloatRG DepthNormals _CameraDepthNormalsTexture"))
+        return 0;
+    *out = rg;
+    return 1;
 }
 
 size_t dp_format_parse(const char *name, dp_format out[2]) {

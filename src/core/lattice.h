@@ -28,6 +28,13 @@ typedef struct dp_scaled {
     uint32_t base;
 } dp_scaled;
 
+enum { DP_RG_CODE_MAX = 255 * 255 };
+
+/* Whether a shader multiplies the window depth by 255, in binary32, before two channels are stored. */
+static inline int dp_format_is_rg(const dp_format *format) {
+    return format->kind == DP_FORMAT_UNORM && format->code_max == DP_RG_CODE_MAX;
+}
+
 /* Whether the codes of a format are the bits of binary16 (10, 15) or of binary32 (23, 127). */
 static inline int dp_format_is_ieee(const dp_format *format, int mantissa_bits, int bias) {
     return format->kind == DP_FORMAT_FLOAT && format->mantissa_bits == mantissa_bits && format->bias == bias;

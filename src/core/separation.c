@@ -43,14 +43,14 @@ static double staged_step(const dp_setup *setup, double z) {
     const dp_format *format = &setup->spec.format;
     const double here = dp_window(setup, z) * (1.0 + DP_WINDOW_ERROR);
     const double code = exact_step(setup, z) / setup->den;
-    const double first = code + dp_staged_window_step(here) + dp_staged_ndc_step(setup, here);
+    const double first = code + dp_staged_window_step(setup, here) + dp_staged_ndc_step(setup, here);
     const double there = setup->reversed ? here - 4.0 * first : here + 4.0 * first;
     const double wide = setup->reversed || format->kind == DP_FORMAT_UNORM
                             ? code
                             : larger(code, dp_step_num(format, dp_binade(format, there)));
     const double ndc = larger(dp_staged_ndc_step(setup, here), dp_staged_ndc_step(setup, there));
-    const double window = larger(dp_staged_window_step(here), dp_staged_window_step(fabs(there)));
-    return wide + ndc + (dp_mapping_get(setup->spec.mapping)->ndc_signed ? window : 0.0);
+    const double window = larger(dp_staged_window_step(setup, here), dp_staged_window_step(setup, fabs(there)));
+    return wide + ndc + (dp_staged_twice(setup) ? window : 0.0);
 }
 
 /* The step of the format where d is at most `d`, or, at a binade end, the larger one that lies ahead. */
@@ -84,8 +84,8 @@ double dp_separation_step(const dp_setup *setup, const dp_setup *other, double n
     const double code = largest_code_step(setup, high);
     if (setup->spec.model == DP_MODEL_EXACT || dp_staged_is_exact(setup))
         return code;
-    const double first =
-        code + dp_staged_window_step(high) + larger(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
+    const double first = code + dp_staged_window_step(setup, high) +
+                         larger(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
     if (setup->reversed)
         low -= 4.0 * first;
     else
@@ -95,10 +95,10 @@ double dp_separation_step(const dp_setup *setup, const dp_setup *other, double n
                             ? code
                             : larger(code, dp_step_num(format, dp_binade(format, high)));
     const double ndc = larger(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
-    const double window = larger(dp_staged_window_step(fabs(low)), dp_staged_window_step(high));
+    const double window = larger(dp_staged_window_step(setup, fabs(low)), dp_staged_window_step(setup, high));
     const double finest = smaller(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
     const int whole = half && window <= finest && (low > 0.5 || high < 0.5); /* x/2 + 1/2 is exact */
-    return wide + ndc + (dp_mapping_get(setup->spec.mapping)->ndc_signed && !whole ? window : 0.0);
+    return wide + ndc + (dp_staged_twice(setup) && !whole ? window : 0.0);
 }
 
 double dp_lattice_least(const dp_setup *outer, const dp_setup *inner, double z, int half) {

@@ -26,7 +26,8 @@ dp_spec dp_spec_default(void) {
 /* The fields that everything behind the door relies on; they may come from a caller's own hand. */
 static int format_is_sound(const dp_format *f) {
     if (f->kind == DP_FORMAT_UNORM)
-        return f->bits >= 1 && f->bits <= 32 && f->code_max == 0xFFFFFFFFU >> (32 - f->bits);
+        return f->bits >= 1 && f->bits <= 32 &&
+               (f->code_max == 0xFFFFFFFFU >> (32 - f->bits) || (f->bits == 16 && dp_format_is_rg(f)));
     return f->kind == DP_FORMAT_FLOAT && f->exponent_bits >= 2 && f->exponent_bits <= 8 && f->mantissa_bits >= 1 &&
            f->mantissa_bits <= 23 && f->bits == f->exponent_bits + f->mantissa_bits && f->bias >= 1 &&
            f->bias < 1 << f->exponent_bits && f->code_max == (uint32_t)f->bias << f->mantissa_bits;
@@ -52,6 +53,8 @@ static dp_status check(const dp_spec *spec) {
     } rules[] = {
         {format_is_sound(&spec->format), DP_ERROR_FORMAT},
         {dp_rounding_name(spec->rounding) != NULL, DP_ERROR_ROUNDING},
+        {!dp_format_is_rg(&spec->format) || (spec->mapping == DP_MAPPING_LINEAR && spec->rounding == DP_ROUND_NEAREST),
+         DP_ERROR_FORMAT},
         {dp_model_name(spec->model) != NULL, DP_ERROR_MODEL},
         {dp_arith_get(spec->arith) != NULL, DP_ERROR_ARITH},
         {any_sign || within(spec->znear, 1e-12, 1e12), DP_ERROR_NEAR},

@@ -13,7 +13,7 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_ERROR_ORTHO] = "an orthographic projection needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
     [DP_ERROR_LOG_C] = "the constant C of the log mapping must be from 1e-12 to 1e12",
     [DP_ERROR_FORMAT] = "not a format: see the list of formats, or unormN with N = 1..32, or floatE.M[bB] with "
-                        "E = 2..8, M = 1..23, B = 1..2^E-1",
+                        "E = 2..8, M = 1..23, B = 1..2^E-1; rg is linear and nearest",
     [DP_ERROR_MAPPING] = "a mapping must be one of " DP_MAPPING_NAMES,
     [DP_ERROR_ROUNDING] = "rounding must be one of nearest, even, zero",
     [DP_ERROR_MODEL] = "this set-up does not have that model",

@@ -109,6 +109,7 @@ typedef struct chart {
     size_t places;      /**< and how often it would have been with one point a pixel column: see refine.h */
     double shape;       /**< width over height that the panels keep, stacked ones together; 0: they fill the page */
     bool colours;       /**< the values of the maps are 0xRRGGBB; directions, see heat.h */
+    bool grey;          /**< the values of the maps go from black to white */
     bool stacked;       /**< panels lie below each other and share x; each has a y of its own, on one scale */
     bool bare;          /**< a field without a value shows the page, not a hatch */
     bool classes;       /**< they are indices of the panel's series, areas, whose tints they have; no colour bar */

@@ -243,7 +243,7 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
             heat_draw_ball(p, strip);
         } else {
             draw_caption(p, c, &c->value, CANVAS_RIGHT, width - MARGIN * s - shift, above, room * 0.5);
-            heat_draw_bar(p, strip, &c->value);
+            heat_draw_bar(p, strip, c);
         }
     }
     for (int i = 0; i < (int)c->panel_count; i++)

@@ -21,10 +21,12 @@ typedef struct figure_request {
     const dp_setup *setups; /**< all with the same planes and projection; at least one, but for figures of a file or of
                                shadow maps */
     size_t count;
-    const char *const *names;          /**< "unorm24 d3d" of each, for legends */
-    bool guaranteed;                   /**< the set-ups are those of dp_setup_guaranteed(), over their lattice */
-    bool every;                        /**< curves have a point in every pixel column, so that they share them */
-    double lo, hi;                     /**< eye depths to show; both NaN when the user left it to the figure */
+    const char *const *names; /**< "unorm24 d3d" of each, for legends */
+    bool guaranteed;          /**< the set-ups are those of dp_setup_guaranteed(), over their lattice */
+    bool every;               /**< curves have a point in every pixel column, so that they share them */
+    double lo, hi;            /**< eye depths to show; both NaN when the user left it to the figure */
+    const double *fars;       /**< the far planes of a figure that shows several; none: that of the set-ups */
+    size_t far_count;
     double at;                         /**< a single depth for the figures that take one, else NaN */
     dp_budget_terms terms;             /**< what is added to the pipeline, for the figures that take it */
     double tolerance;                  /**< of intervals by cheaper ways; 0: none; NaN: what the picture cannot show */
@@ -56,6 +58,7 @@ enum {
     FIGURE_SETUPS = 1 << 11,     /**< set-ups, as the options of a camera say them */
     FIGURE_SHADOW = 1 << 7,      /**< shadow maps, whose cameras are not that of the view */
     FIGURE_GUARANTEED = 1 << 13, /**< what is guaranteed, unless --model is given */
+    FIGURE_FARS = 1 << 14,       /**< several far planes, and no formats */
     FIGURE_STAGED = 1 << 12,     /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
 };
 
@@ -106,7 +109,7 @@ void figure_range(const figure_request *request, double *lo, double *hi);
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
 figure_build distribution_build, share_build, error_build, interval_build, budget_build, needs_build, map_build,
-    pareto_build, stability_build, normals_build, shadow_build, world_build, fight_build, scene_build;
+    linear01_build, pareto_build, stability_build, normals_build, shadow_build, world_build, fight_build, scene_build;
 
 /** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);

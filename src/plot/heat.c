@@ -58,6 +58,11 @@ static canvas_colour grey_of(const chart_axis *ground, double v) {
     return (canvas_colour){level, level, level, 1};
 }
 
+static canvas_colour scale_colour(const chart *c, double share) {
+    const double level = fmin(fmax(share, 0), 1);
+    return c->grey ? (canvas_colour){level, level, level, 1} : theme_viridis(share);
+}
+
 /* The colour of a field that is no hole. */
 static canvas_colour colour_of(const pencil *p, const chart *c, const chart_panel *panel, const fields *f, int column) {
     const double v = f->value[column];
@@ -67,7 +72,7 @@ static canvas_colour colour_of(const pencil *p, const chart *c, const chart_pane
         return grey_of(&c->ground, f->under[column]);
     const uint32_t rgb = c->colours ? (uint32_t)v : 0;
     return c->colours ? (canvas_colour){(rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 1}
-                      : theme_viridis(chart_axis_share(&c->value, v));
+                      : scale_colour(c, chart_axis_share(&c->value, v));
 }
 
 /* Few fields: each a rectangle, for an image as small as that is blurred by those who show it. */
@@ -277,11 +282,11 @@ void heat_draw_ball(const pencil *p, canvas_rect area) {
                     CANVAS_LEFT);
 }
 
-void heat_draw_bar(const pencil *p, canvas_rect strip, const chart_axis *value) {
+void heat_draw_bar(const pencil *p, canvas_rect strip, const chart *c) {
     uint32_t pixels[BAR_STEPS];
     for (int i = 0; i < BAR_STEPS; i++)
-        pixels[i] = theme_pixel(theme_viridis(1 - (i + 0.5) / BAR_STEPS));
+        pixels[i] = theme_pixel(scale_colour(c, 1 - (i + 0.5) / BAR_STEPS));
     canvas_image(p->c, strip, 1, BAR_STEPS, pixels);
-    axes a = {value, value, strip};
+    axes a = {&c->value, &c->value, strip};
     axes_draw_scale(p, &a);
 }

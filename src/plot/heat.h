@@ -17,7 +17,7 @@ uint32_t heat_direction(double x, double y, double z);
 /** Those colours on a ball seen from the camera, and what they mean, from the top of an area downwards. */
 void heat_draw_ball(const pencil *p, canvas_rect area);
 
-/** The colour bar in a strip. */
-void heat_draw_bar(const pencil *p, canvas_rect strip, const chart_axis *value);
+/** The colour bar of a chart in a strip. */
+void heat_draw_bar(const pencil *p, canvas_rect strip, const chart *c);
 
 #endif

@@ -155,6 +155,7 @@ static chart_axis scale_of(const picture *in) {
 void picture_build(const picture *in, chart *out) {
     out->shape = (double)in->width / in->height;
     out->colours = in->directions;
+    out->grey = in->grey;
     if (!in->directions)
         out->value = scale_of(in);
     const int panels = in->directions ? 1 : in->channels;
@@ -165,6 +166,11 @@ void picture_build(const picture *in, chart *out) {
 void picture_lay_under(const picture *ground, chart *out) {
     out->panels[0].map.grounds = rows_of(ground, 0);
     out->ground = scale_of(ground);
+}
+
+void picture_put_beside(const picture *other, const char *title, chart *out) {
+    add_panel(other, out, 0);
+    snprintf(out->panels[out->panel_count - 1].title, CHART_TEXT, "%s", title);
 }
 
 void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name) {

@@ -17,9 +17,10 @@ typedef struct picture {
                             logarithmic colour scale reaches four decades down, and what is less is dark */
     double above;      /**< with `magnitudes`: what is not above it is left out, and the colour scale begins there */
     bool shares;       /**< from 0 to 1 by nature: so is the colour scale, whatever part of it there is */
+    bool grey;         /**< black to white, as a screen shows a depth texture */
     const char *label; /**< "eye depth", for the colour bar */
     const char *unit;
-    const char *const *names; /**< three panels: what each is */
+    const char *const *names; /**< several panels: what each is */
 
     int columns, rows; /**< of fields; set by picture_open(), as the rest */
     float *values;     /**< channels interleaved; NaN is left empty */
@@ -37,6 +38,9 @@ void picture_mark(chart *out, size_t count, const double (*at)[2], const char *n
 
 /** Shows another picture of one channel, of the same size, in grey under the built chart, where that has no value. */
 void picture_lay_under(const picture *ground, chart *out);
+
+/** Shows another picture of one channel, of the same size and scale, beside the built chart, under a title. */
+void picture_put_beside(const picture *other, const char *title, chart *out);
 
 /** Fills in an empty chart whose title and subtitle are set; the chart reads the picture. chart_failed() tells of
  * memory. */

@@ -19,12 +19,13 @@ enum { BYTE = 255 };
 
 /* clang-format off */
 static const packing rows[] = {
-    {.name = "depth-normals", .channels = 4, .weight = {0, 0, 255, 1}, .steps = 65025, .linear = true, .normals = true,
+    {.name = "depth-normals", .aliases = "_CameraDepthNormalsTexture DecodeDepthNormal EncodeDepthNormal",
+     .channels = 4, .weight = {0, 0, 255, 1}, .steps = 65025, .linear = true, .normals = true,
      .wraps = true, .format = "fp32", .off = 0x1p-23, .cut = 1.0 / 255,
      .note = "eye depth over far in zw, as rg; the view-space normal in xy, stereographic",
      .source = UNITY "EncodeDepthNormal, of _CameraDepthNormalsTexture"},
-    {.name = "rg", .channels = 2, .weight = {255, 1}, .steps = 65025, .linear = true,
-     .wraps = true, .format = "fp32", .off = 0x1p-23, .cut = 1.0 / 255,
+    {.name = "rg", .aliases = "EncodeFloatRG DecodeFloatRG", .channels = 2, .weight = {255, 1}, .steps = 65025,
+     .linear = true, .wraps = true, .format = "fp32", .off = 0x1p-23, .cut = 1.0 / 255,
      .note = "eye depth over far, x + y/255: steps of 1/65025; frac makes 1 a 0, which reads as the camera",
      .source = UNITY "EncodeFloatRG"},
     {.name = "rgba", .channels = 4, .weight = {65536 * 255, 256 * 255, 255, 1}, .steps = 0x1p24 * 255,

@@ -13,7 +13,8 @@
 #include "shader/sample_rounding.h"
 
 typedef struct packing {
-    const char *name; /**< "depth-normals", "rg", ... */
+    const char *name;    /**< "depth-normals", "rg", ... */
+    const char *aliases; /**< as list_item has them */
     const char *note, *source;
     uint32_t channels;                   /**< of the texture; a file may have more */
     uint32_t weight[IMAGE_CHANNELS_MAX]; /**< 0: holds no depth */

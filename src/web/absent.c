@@ -44,6 +44,7 @@ ABSENT(link_write)
         return "plot: this figure is not in the page: the program has it";                                             \
     }
 
+ABSENT_FIGURE(linear01_build)
 ABSENT_FIGURE(scene_build)
 ABSENT_FIGURE(normals_build)
 ABSENT_FIGURE(pareto_build)

@@ -6,6 +6,8 @@
 
 #include "cli/depth24plus.h"
 #include "cli/option/rows.h"
+#include "core/engine.h"
+#include "plot/figure.h"
 #include "report/number.h"
 
 /* The rule under which the bias is written. */
@@ -160,6 +162,23 @@ static int check_near(const options *o) {
     return EXIT_FINE;
 }
 
+/* A colour target's depth is compared with a buffer's, and stands for none. */
+static int check_rg(const options *o) {
+    const figure_row *figure = o->command->id == CMD_PLOT ? o->operand_row : NULL;
+    const bool shown = o->command->id == CMD_TABLE || (figure != NULL && (figure->takes & FIGURE_SETUPS) != 0);
+    for (size_t i = 0; i < o->camera.format_count; i++) {
+        const bool rg = dp_format_is_rg(&o->camera.formats[i]);
+        if (rg && !shown)
+            return option_error(OPTION_FORMAT,
+                                "rg is no depth buffer: table and figures of set-ups show it, and texture "
+                                "has it as a packing");
+        if (rg && o->camera.rounding != DP_ROUND_NEAREST)
+            return option_error(OPTION_ROUNDING, "must be nearest with rg, got %s",
+                                dp_rounding_name(o->camera.rounding));
+    }
+    return EXIT_FINE;
+}
+
 int options_complete(options *o) {
     o->camera.model_auto = o->camera.model == DP_MODEL_COUNT;
     if (o->camera.model_auto)
@@ -174,7 +193,9 @@ int options_complete(options *o) {
             "has no guarantee for %s, whose vertex shader spreads [0, 1] to [-1, 1] by 2 z - w: a small "
             "z loses its digits; -F %s tells of the format alone",
             o->camera.platform->name, o->camera.platform->stored);
-    int status = slant_complete(o);
+    int status = check_rg(o);
+    if (status == EXIT_FINE)
+        status = slant_complete(o);
     if (o->camera.preset_count == 1)
         take_preset(o, o->camera.presets[0]);
     take_platform(o);

@@ -137,6 +137,23 @@ int parse_far(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
+static int add_far(options *o, const option_row *row, const char *name) {
+    const int status = parse_far(o, row, name);
+    if (o->camera.far_count == OPTIONS_FARS_MAX)
+        return option_refuse(row, "must be at most %d far planes, got '%s' too", OPTIONS_FARS_MAX, name);
+    o->camera.fars[o->camera.far_count++] = o->camera.zfar;
+    return status;
+}
+
+int parse_fars(options *o, const option_row *row, const char *value) {
+    o->camera.far_count = 0;
+    const int status = parse_names(o, row, value, add_far);
+    for (size_t i = 0; i < o->camera.far_count; i++)
+        if (o->camera.fars[i] > o->camera.zfar)
+            o->camera.zfar = o->camera.fars[i];
+    return status;
+}
+
 /* Three lengths with a sign in between. */
 static int parse_triple(options *o, const option_row *row, const char *value, const char *sign, double least,
                         double *out) {

@@ -159,6 +159,7 @@ typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_f
 enum {
     OPTIONS_TYPED_MAX = 16,
     OPTIONS_FORMATS_MAX = 64,
+    OPTIONS_FARS_MAX = 4,
     OPTIONS_PARAMETERS_MAX = 16,
     OPTIONS_PRESETS_MAX = 16,
     OPTIONS_SCHEMES_MAX = 16
@@ -179,8 +180,10 @@ typedef struct typed_length {
 
 /** What set-ups are made of. */
 typedef struct options_camera {
-    double znear; /**< scene units */
-    double zfar;  /**< scene units or INFINITY */
+    double znear;                  /**< scene units */
+    double zfar;                   /**< scene units or INFINITY; of several the farthest */
+    double fars[OPTIONS_FARS_MAX]; /**< of the figures that take several, in the order given */
+    size_t far_count;
     bool ortho;
     dp_format formats[OPTIONS_FORMATS_MAX]; /**< in the order given, each once */
     size_t format_count;

@@ -134,9 +134,7 @@ int parse_row(options *o, const option_row *row, const char *value) {
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
-/* NAME[,NAME...]: one after the other to `add`. */
-static int parse_names(options *o, const option_row *row, const char *value,
-                       int (*add)(options *, const option_row *, const char *)) {
+int parse_names(options *o, const option_row *row, const char *value, option_parser *add) {
     char name[64];
     const size_t length = strlen(value);
     if (length == 0 || *value == ',' || value[length - 1] == ',' || strstr(value, ",,") != NULL)

@@ -88,7 +88,10 @@ option_parser parse_pixels;  /**< the same, pairs of them with a semicolon in be
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
-option_parser parse_unit, parse_preset, parse_presets, parse_near, parse_far, parse_formats, parse_mappings,
+/** NAME[,NAME...]: one after the other to `add`. */
+int parse_names(options *o, const option_row *row, const char *value, option_parser *add);
+
+option_parser parse_unit, parse_preset, parse_presets, parse_near, parse_far, parse_fars, parse_formats, parse_mappings,
     parse_tolerance, parse_at, parse_schemes, parse_range, parse_origin, parse_distances, parse_error_map,
     parse_size_or_n, parse_figure_size, parse_separation_or_0, parse_intrinsics, parse_metric;
 option_parser parse_product, parse_apis, parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_also;

@@ -22,6 +22,8 @@ const option_own option_plain = {0};
 #define PERSPECTIVE     "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
 #define ALL_PERSPECTIVE PERSPECTIVE "; all are d3d and reversed"
 
+#define OF_RG           "rg, of Unity's DepthNormals, is linear"
+
 /* ---- What several commands take ---------------------------------------------------------------------------------- */
 
 static const option_use always[] = {TAKE(HELP), TAKE(VERSION), END};
@@ -77,6 +79,7 @@ static const option_use of_depths[] = {
     OWN(TOLERANCE, WITHOUT("5% for the model; intervals are exact")),
     TAKE(RANGE), OWN(VIEWPORT, ALSO("with --constants the shape of the view, 1920x1080 where not given")), END};
 static const option_use of_stored[] = {
+    OWN(FORMAT, ALSO(OF_RG)),
     OWN(MODEL, DEFAULT("exact"), WITHOUT("for several set-ups the fullest that each supports")),
     TAKE(DEPTH), TAKE(CODE), TAKE(LOG_C), TAKE(LINK), GROUP(slanted), GROUP(projected), END};
 static const option_use asked_depths[] = {
@@ -250,7 +253,9 @@ const option_use list_uses[] = {
 /* The figures: those of set-ups, and those of a model, of shadow maps and of a requirement file, whose options are
  * those of their own commands. */
 enum { SLANTED = FIGURE_SLANTED | FIGURE_MODEL, VIEWED = SLANTED | FIGURE_DRAWN | FIGURE_SHADOW };
-static const option_use of_cameras[] = {TAKE(NEAR), TAKE(FAR), TAKE(FORMAT), TAKE(MAPPING), END};
+#define FARS OWN(FAR, .argument = "Z|inf[,Z...]", ALSO("several in the figure linear01"), .parse = parse_fars)
+static const option_use of_fars[] = {TAKE(NEAR), FARS, TAKE(MAPPING), TAKE(LOG_C), END};
+static const option_use of_cameras[] = {TAKE(NEAR), FARS, OWN(FORMAT, ALSO(OF_RG)), TAKE(MAPPING), END};
 static const option_use of_setups[] = {
     OWN(NEAR, ALSO("with --ortho also 0 or negative")), TAKE(ORTHO), OWN(TOLERANCE,
         WITHOUT("5% for the model; intervals are as exact as the picture shows")),
@@ -284,7 +289,8 @@ const option_use plot_uses[] = {
     FOR(FIGURE_TERMS, budget_terms),
     FOR(FIGURE_SETUPS, of_setups), FOR(FIGURE_SETUPS | FIGURE_MODEL, of_setups_and_models),
     FOR(FIGURE_SETUPS | FIGURE_MODEL | FIGURE_SHADOW, of_cameras),
-    FOR(FIGURE_AT, of_one_depth), FOR(FIGURE_SETUPS | FIGURE_SHADOW | FIGURE_FILE, of_ranges),
+    FOR(FIGURE_FARS, of_fars), FOR(FIGURE_AT, of_one_depth),
+    FOR(FIGURE_SETUPS | FIGURE_SHADOW | FIGURE_FILE | FIGURE_FARS, of_ranges),
     FOR(VIEWED, of_views), FOR(SLANTED, of_slants), TAKE(UNIT), GROUP(picture), TAKE(LINK),
     OWN(OUTPUT, HELP("draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type says; the numbers of "
         "--json and --csv go to stdout, or to a FILE of another ending"), WITHOUT("")),

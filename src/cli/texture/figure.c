@@ -19,7 +19,8 @@ enum { WIDTH = 800, HISTOGRAM_HEIGHT = 500, BESIDE = 150, ABOVE = 130, HEIGHT_MI
 
 typedef struct drawing {
     picture shown;
-    picture error;          /* with --overlay: of eye depth */
+    bool beside;            /* of window depth: `second` is what Linear01Depth makes of it */
+    picture second;         /* with --overlay the error of eye depth */
     uint64_t known, beyond; /* pixels whose error is known, and those of them in colour */
     progress bar;
     uint64_t done;
@@ -34,20 +35,21 @@ static bool draw_rows(void *context, uint32_t row, uint32_t count, const float *
 
 static bool draw_both(void *context, uint32_t row, uint32_t count, const float *const *values) {
     drawing *d = context;
-    picture_take(&d->error, row, count, values[1]);
-    for (size_t i = 0; i < (size_t)count * d->error.width; i++) {
+    picture_take(&d->second, row, count, values[1]);
+    for (size_t i = 0; i < (size_t)count * d->second.width; i++) {
         d->known += isnan(values[1][i]) ? 0 : 1;
-        d->beyond += (double)values[1][i] > d->error.above ? 1 : 0;
+        d->beyond += (double)values[1][i] > d->second.above ? 1 : 0;
     }
     return draw_rows(context, row, count, values[0]);
 }
 
-/* The product, and with --overlay the error of eye depth beside it. */
+/* The product, and what stands on it or beside it. */
 static bool run(const options *o, const texture_source *s, const texture_product *p, drawing *d) {
-    const frame_product both[] = {p->made, {.kind = FRAME_EYE, .error = true, .radial = p->made.radial}};
+    const frame_product error = {.kind = FRAME_EYE, .error = true, .radial = p->made.radial};
+    const frame_product both[] = {p->made, d->beside ? (frame_product){.kind = FRAME_LINEAR01} : error};
     d->bar = progress_start("rows", s->camera.height, o->out.quiet);
-    const bool good = o->image.overlay > 0 ? frame_run_all(&s->frame, both, 2, false, draw_both, d)
-                                           : frame_run(&s->frame, &p->made, false, draw_rows, d);
+    const bool good = o->image.overlay > 0 || d->beside ? frame_run_all(&s->frame, both, 2, false, draw_both, d)
+                                                        : frame_run(&s->frame, &p->made, false, draw_rows, d);
     progress_end(&d->bar);
     return good;
 }
@@ -56,9 +58,11 @@ static bool run(const options *o, const texture_source *s, const texture_product
 static void build(const options *o, drawing *d, chart *c) {
     if (!(o->image.overlay > 0)) {
         picture_build(&d->shown, c);
+        if (d->beside)
+            picture_put_beside(&d->second, "eye depth over far", c);
         return;
     }
-    picture_build(&d->error, c);
+    picture_build(&d->second, c);
     picture_lay_under(&d->shown, c);
     if (d->shown.missing < (uint64_t)d->shown.width * d->shown.height)
         append(c->subtitle, sizeof c->subtitle, "; grey from %s, light, to %s, dark%s", number_of(c->ground.lo, 4).text,
@@ -98,11 +102,14 @@ static void name_quantity(const char *name, char *out, size_t size) {
         append(out, size, ", method %.*s", length - base - 4, by + 4);
 }
 
-static void describe(const options *o, const texture_source *s, const texture_product *p, const picture *shown,
-                     chart *c) {
+static void describe(const options *o, const texture_source *s, const texture_product *p, const drawing *d, chart *c) {
+    const picture *shown = &d->shown;
+    const uint64_t missing = d->beside ? d->second.missing : shown->missing;
     char title[sizeof c->title], more[160] = "";
     const char *unit = options_unit(o);
     name_quantity(p->name, title, sizeof title);
+    if (d->beside)
+        append(title, sizeof title, " beside eye depth over far, Linear01Depth");
     if (p->made.kind == FRAME_EFFECT) {
         const int wanted = p->made.effect->wanted;
         append(title, sizeof title, ", %s %s", p->made.effect->parameters[wanted].name,
@@ -120,8 +127,8 @@ static void describe(const options *o, const texture_source *s, const texture_pr
                : o->image.overlay > 0 ? "; a colour is the largest error of %.3g pixels"
                                       : "; one of %.3g pixels",
                (double)s->camera.width / shown->columns * s->camera.height / shown->rows);
-    if (shown->missing > 0)
-        append(more, sizeof more, "; hatched: no value, %llu pixels", (unsigned long long)shown->missing);
+    if (missing > 0)
+        append(more, sizeof more, "; hatched: no value, %llu pixels", (unsigned long long)missing);
     words_of(o, s, title, more, c);
 }
 
@@ -135,11 +142,12 @@ static void mark_ties(const frame *f, chart *c) {
 }
 
 /* Fills the page: the picture in its shape, words above, axes around. */
-static int height_of(const options *o, const texture_source *s, int width, bool stacked) {
+static int height_of(const options *o, const texture_source *s, int width, int panels) {
+    static const double shares[] = {1, 0.53, 0.37}; /* of the width, for each panel */
     if (o->figure.height > 0)
         return o->figure.height;
     const double shape = (double)s->camera.height / s->camera.width, scale = width / (double)WIDTH;
-    const double height = ((WIDTH - BESIDE) * shape * (stacked ? 0.37 : 1) + ABOVE) * scale;
+    const double height = ((WIDTH - BESIDE) * shape * shares[panels - 1] + ABOVE) * scale;
     return (int)fmin(fmax(height, HEIGHT_MIN), fmax(HEIGHT_MAX, width));
 }
 
@@ -150,45 +158,62 @@ static bool is_share(const options *o, const texture_product *p) {
                               ((kind == FRAME_RAW || kind == FRAME_LINEAR01) && !(o->image.overlay > 0)));
 }
 
+/* As articles show them: window depth beside eye depth over far, where there is a far plane. */
+static bool has_beside(const options *o, const texture_source *s, const texture_product *p) {
+    const frame_product linear = {.kind = FRAME_LINEAR01};
+    return p->made.kind == FRAME_RAW && is_share(o, p) && s->setup.spec.mapping != DP_MAPPING_LINEAR &&
+           frame_refuses(&s->frame, &linear) == NULL;
+}
+
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p) {
-    static const char *const axes[] = {"x (world)", "y (world)", "z (world)"};
+    static const char *const axes[] = {"x (world)", "y (world)", "z (world)"}, *const raw[] = {"window depth"};
     const int width = o->figure.width > 0 ? o->figure.width : WIDTH;
     const bool is_error = p->made.error, directions = p->made.kind == FRAME_NORMAL && !is_error;
     const bool stacked = frame_channels(&p->made) == 3 && !directions;
-    drawing d = {.shown = {.width = s->camera.width,
+    const bool beside = has_beside(o, s, p), overlay = o->image.overlay > 0;
+    const bool grey = is_share(o, p) && p->made.kind != FRAME_EFFECT;
+    drawing d = {.beside = beside,
+                 .shown = {.width = s->camera.width,
                            .height = s->camera.height,
                            .channels = frame_channels(&p->made),
                            .directions = directions,
                            .magnitudes = is_error,
                            .shares = is_share(o, p),
+                           .grey = grey,
                            .label = is_error                         ? "error"
                                     : p->made.kind == FRAME_POSITION ? "coordinate"
+                                    : beside                         ? "depth"
                                                                      : p->name,
                            .unit = p->unit,
-                           .names = stacked ? axes : NULL},
-                 .error = {.width = s->camera.width,
-                           .height = s->camera.height,
-                           .channels = 1,
-                           .magnitudes = true,
-                           .above = o->image.overlay,
-                           .label = p->made.radial ? "error of the distance" : "error of eye depth",
-                           .unit = "scene units"}};
+                           .names = stacked  ? axes
+                                    : beside ? raw
+                                             : NULL},
+                 .second = {.width = s->camera.width,
+                            .height = s->camera.height,
+                            .channels = 1,
+                            .magnitudes = overlay,
+                            .above = o->image.overlay,
+                            .label = p->made.radial ? "error of the distance" : "error of eye depth",
+                            .unit = "scene units"}};
     output out;
     const int status = output_open(&out, o->image.figure);
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();
-    const int room = stacked ? width / 3 : width, fields = room > WIDTH ? room : WIDTH; /* as a panel has room for */
-    bool good = c != NULL && picture_open(&d.shown, fields, c) &&
-                (!(o->image.overlay > 0) || picture_open(&d.error, fields, c));
+    const int panels = stacked  ? 3
+                       : beside ? 2
+                                : 1,
+              room = width / panels, fields = room > WIDTH ? room : WIDTH; /* as a panel has room for */
+    bool good =
+        c != NULL && picture_open(&d.shown, fields, c) && (!(overlay || beside) || picture_open(&d.second, fields, c));
     if (good)
         good = run(o, s, p, &d);
     if (good) {
-        describe(o, s, p, &d.shown, c);
+        describe(o, s, p, &d, c);
         build(o, &d, c);
         mark_ties(&s->frame, c);
         good =
-            !chart_failed(c) && figure_file_write(o, o->image.figure, c, width, height_of(o, s, width, stacked), &out);
+            !chart_failed(c) && figure_file_write(o, o->image.figure, c, width, height_of(o, s, width, panels), &out);
     }
     chart_free(c);
     if (good)

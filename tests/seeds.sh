@@ -1,0 +1,222 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What articles on depth textures of Unity say, item by item: the program shows it, and its numbers agree with formulas
+# that awk computes. The README.md of this folder names the tests that hold the same more closely.
+. tests/tap.sh
+
+unset NO_COLOR LANGUAGE LANG POSIXLY_CORRECT
+export TERM=dumb
+depthprec() { "$DEPTHPREC" "$@"; }
+
+says() { # says WORDS COMMAND...: it exits 0 and prints these words, however the lines break
+    words=$1
+    shift
+    "$@" >"$scratch/answer" 2>"$scratch/errors" </dev/null || { cat "$scratch/errors" && return 1; }
+    cat "$scratch/answer" "$scratch/errors"
+    cat "$scratch/answer" "$scratch/errors" | tr -s ' \n' '  ' | grep -qF -e "$words"
+}
+
+# rows FORMULAS COMMAND...: the columns of --csv are what awk says: assignments to want["column"], of the columns a["z"]...
+rows() {
+    formulas=$1
+    shift
+    "$@" --csv >"$scratch/rows" 2>/dev/null </dev/null || return 1
+    tr -d '\r' <"$scratch/rows" | awk -F, "
+        function close_to(x, y, least) { return x - y <= least && y - x <= least }
+        # the shader's two channels, of 8 bits each, as one number
+        function rg(v) { y = 255 * v; k = int(y); return 255 * k + int(255 * (y - k) + 0.5) }
+        # names may have commas within quotes
+        /\"/ { n = split(\$0, part, /\"/); \$0 = \"\"; for (i = 1; i <= n; i++) { if (i % 2 == 0) gsub(/,/, \";\", part[i]); \$0 = \$0 part[i] } }
+        NR == 1 { for (i = 1; i <= NF; i++) { name[i] = \$i; sub(/ [[].*/, \"\", name[i]); gsub(/;/, \",\", name[i]) } next }
+        {
+            for (i = 1; i <= NF; i++) a[name[i]] = \$i
+            least = 1e-12
+            split(\"\", want)
+            $formulas
+            for (c in want) {
+                seen++
+                if (!close_to(a[c] + 0, want[c], want[c] * 1e-6 + least) && bad++ < 9) print c, a[c], want[c]
+            }
+        }
+        END { exit bad > 0 || !seen }"
+}
+
+# ---- The words of articles, in depthprec-texture(1) ----
+
+mkdir "$scratch/work"
+awk '/^\.Ss Words of articles/ { on = 1 }
+    /^\.Ed/ { on = 0 }
+    on && !/^[.A].* .*:$|^\./ { line = $0; more = sub(/ *\\e$/, " ", line); printf "%s%s", line, more ? "" : "\n" }' \
+    man/depthprec-texture.1 >"$scratch/words"
+runs() { # runs COMMAND: as it stands there, one after the other in a folder
+    # Words without quotes or patterns.
+    # shellcheck disable=SC2086
+    (cd "$scratch/work" && depthprec $1 </dev/null)
+}
+count=0
+while read -r word command; do
+    count=$((count + 1))
+    check "$word is known to help" depthprec help "$word"
+    check "$word: depthprec $command" runs "$command"
+done <"$scratch/words"
+check "the table of words has all its lines" [ $count -ge 24 ]
+
+# ---- Constants, and what articles say of them that is wrong ----
+
+# of FORMULAS ARGUMENT...: what table --constants says of a camera of near .3 and a depth z of 10, in the first set-up:
+# assignments to want["key"], with the camera's n and f and the window depth d; "reads NAME" is what a trap reads
+of() {
+    formulas=$1
+    shift
+    depthprec table --constants -n .3 --at 10 --json "$@" >"$scratch/constants" || return 1
+    tr ',' '\n' <"$scratch/constants" | awk "
+        /^\"[a-z_]*\":[{]/ { parent = \$0; gsub(/^\"|\":.*/, \"\", parent); parent = parent \".\"; sub(/^[^{]*/, \"\") }
+        {
+            text = \$0
+            gsub(/[][{}]/, \"\", text)
+            key = value = text
+            gsub(/^\"|\":.*/, \"\", key)
+            sub(/^\"[^\"]*\":/, \"\", value)
+            gsub(/\"/, \"\", value)
+            if (key == \"name\") named = value
+            if (key == \"reads\") key = \"reads \" named
+            if (key == \"x\" && parent == \"\") key = named \" x\"
+            if (!(parent key in a)) a[parent key] = value
+            if (/}/) parent = \"\"
+        }
+        END {
+            n = 0.3; f = 1000; z = 10
+            d = f / (f - n) * (1 - n / z)
+            $formulas
+            for (k in want) {
+                seen++
+                off = a[k] - want[k]
+                if (!(k in a) || off * off > 1e-10 * want[k] * want[k]) { print k, a[k], want[k]; bad++ }
+            }
+            exit bad > 0 || !seen
+        }"
+}
+check "_ZBufferParams, d3d" of 'want["zbuffer_params.x"] = 1 - f / n; want["zbuffer_params.y"] = f / n
+    want["zbuffer_params.z"] = (1 - f / n) / f; want["zbuffer_params.w"] = 1 / n' -m d3d
+check "_ZBufferParams, reversed" of 'want["zbuffer_params.x"] = f / n - 1; want["zbuffer_params.y"] = 1
+    want["zbuffer_params.z"] = (f / n - 1) / f; want["zbuffer_params.w"] = 1 / f' -m reversed
+check "_ZBufferParams of an infinite far plane" of 'want["zbuffer_params.z"] = 1 / n; want["zbuffer_params.w"] = 0' \
+    -m reversed -f inf
+check "_ProjectionParams" of 'want["projection_params.y"] = n; want["projection_params.z"] = f
+    want["projection_params.w"] = 1 / f' -m d3d
+check "UNITY_NEAR_CLIP_VALUE: 0, reversed 1, OpenGL -1" of 'want["near_clip_value"] = 0' -m d3d
+check "UNITY_NEAR_CLIP_VALUE, reversed" of 'want["near_clip_value"] = 1' -m reversed
+check "UNITY_NEAR_CLIP_VALUE, OpenGL" of 'want["near_clip_value"] = -1' -m gl
+check "clip z and w, NDC, window and eye depth, both Linear01" of 'want["clip_z"] = d * z; want["clip_w"] = z
+    want["ndc"] = want["window"] = d; want["eye"] = z; want["linear01"] = z / f; want["from_near"] = (z - n) / (f - n)' -m d3d
+check "NDC of OpenGL" of 'want["clip_z"] = (2 * d - 1) * z; want["ndc"] = 2 * d - 1; want["window"] = d' -m gl
+check "corner vectors and rays" of 'top = sin(0.5235987755982988) / cos(0.5235987755982988)
+    want["to_top"] = n * top; want["to_right"] = n * top * 16 / 9; want["top left x"] = -top * 16 / 9' -m d3d
+check "trap: x is no 1 - near/far" of 'want["reads inverted-x"] = 1 / (((1 - n / f) * d + f / n) / f)' -m d3d
+check "trap: f n, not 2 f n" of 'want["reads doubled-product"] = 2 * z' -m d3d
+check "trap: lerp(-1, 1, d) is no depth of Linear01Depth" of '
+    want["reads ndc-as-depth"] = 1 / ((1 / f - 1 / n) * (2 * d - 1) + 1 / n)' -m gl
+check "trap: reversed mixed up" of 'want["reads other-direction"] = 1 / ((1 / f - 1 / n) * (1 - d) + 1 / n)' -m d3d
+check "trap: LinearEyeDepth of an orthographic depth" of '
+    want["reads perspective-of-ortho"] = 1 / ((1 / f - 1 / n) * (z - n) / (f - n) + 1 / n)' -m d3d --ortho
+check "trap: LinearEyeDepth of an oblique near plane" says perspective-of-oblique depthprec list traps
+check "trap: the normal is in xy, depth in zw" says normal-as-depth depthprec list traps
+
+# ---- Textures ----
+
+# A census of all depths of binary32 finds 327,950 codes there, and a few are between depths.
+check "reversed depth whose NDC is of [-1, 1] keeps 1.3 % of its codes beyond 10" rows '
+    least = 0.02
+    if (a["z"] == 10) want["fp32 gl-reversed"] = 100 * 327950 / 25165824' \
+    depthprec plot share -F fp32 -m reversed,gl-reversed --range 10:1000 --model float
+cleared() { # a target that was cleared to black is sky, or holes
+    depthprec texture --synthetic plane --size 16x16 --product pack:depth-normals -o "$scratch/dn.npy" -q || return 1
+    { head -c 128 "$scratch/dn.npy" && head -c 1024 /dev/zero; } >"$scratch/black.npy"
+    says "sky 256 pixels, 100 %" depthprec texture "$scratch/black.npy" --packing depth-normals &&
+        says "256 pixels hold 0, a clear to black or the far plane after frac" \
+            depthprec texture "$scratch/black.npy" --packing depth-normals
+}
+check "DepthNormals cleared to black" cleared
+at_far() { # at far the channels are 255, 0 and not the 0, 0 of frac, which is said
+    says "EncodeFloatRG writes 0, 0" depthprec texture --synthetic plane --parameter distance=1000 --size 4x1 -F fp32 \
+        --product pack:rg -o "$scratch/far.npy" && od -An -v -tu1 -w2 -j128 "$scratch/far.npy" | awk '
+        $1 != 255 || $2 != 0 { bad = 1 } END { exit bad || NR != 4 }'
+}
+check "EncodeFloatRG of the far plane" at_far
+grey() { # five walls at equal distances: window depth is above .97 from the second on, Linear01 even
+    for product in raw linear01; do
+        depthprec texture --synthetic steps --parameter even=1 --parameter count=5 --parameter to=17 -n .3 -f 20 --size 5x1 \
+            -F d24 -m d3d --product $product -o "$scratch/$product.npy" -q || return 1
+        od -An -v -tf4 -w4 -j128 "$scratch/$product.npy" | awk -v product=$product '
+            { z = 1 + 4 * (NR - 1); want = product == "raw" ? 20 / 19.7 * (1 - 0.3 / z) : z / 20; off = $1 - want }
+            off * off > 4e-12 || (product == "raw" && NR > 1 && $1 < 0.95) { print $1, want; bad = 1 }
+            END { exit bad || NR != 5 }' || return 1
+    done
+}
+check "raw is nearly white, Linear01 even" grey
+check "_CurValue and _FocusDistance are the second depth of their effects" says "needs a second depth" depthprec help _CurValue
+check "medium normals take the sky" says "sky at far before all others" depthprec list normals
+
+# ---- Pictures ----
+
+check "raw and Linear01: the curves over z" rows '
+    want["window depth, d3d"] = 20 / 19 * (1 - 1 / a["z"])
+    want["Linear01Depth, z/far"] = a["z"] / 20
+    want["Linear01DepthFromNear"] = (a["z"] - 1) / 19' depthprec plot linear01 -n 1 -f 20 -m d3d
+check "raw and Linear01: several far planes" rows '
+    f = a["series"]
+    sub(/.*far /, "", f)
+    f += 0
+    want["share"] = a["series"] ~ /window/ ? f / (f - 1) * (1 - 1 / a["z"]) : a["series"] ~ /FromNear/ ? (a["z"] - 1) / (f - 1) \
+                                                                                              : a["z"] / f' \
+    depthprec plot linear01 -n 1 -f 10,20,50 -m d3d
+ends() { # each curve ends at its own far plane, at 1
+    depthprec plot linear01 -n 1 -f 50,10,20 -m d3d --csv | tr -d '\r' | awk -F, '
+        NR > 1 { z[$2] = $(NF - 1); y[$2] = $NF }
+        END {
+            for (curve in z) {
+                far = curve
+                sub(/:.*/, "", far)
+                gsub(/[^0-9]/, "", far)
+                seen++
+                bad += far + 0 != z[curve] + 0 || y[curve] < 0.999999 || y[curve] > 1
+            }
+            exit bad || seen != 9
+        }'
+}
+check "raw and Linear01: each curve ends at its far plane" ends
+check "nine tenths of the codes lie in the first ten units" rows '
+    least = 100 / 2 ^ 24
+    want["unorm24 d3d"] = 100 * (1 - 1000 / 999 * (1 - 1 / a["z"]))' \
+    depthprec plot share -n 1 -f 1000 -F d24 -m d3d
+
+# ---- Depth of DepthNormals beside depth buffers ----
+
+check "rg: its codes are those of EncodeFloatRG, depths those of DecodeFloatRG" rows '
+    want["code"] = rg(a["z"] / 1000)
+    want["z_stored"] = 1000 * want["code"] / 65025
+    want["interval"] = want["code"] < 65025 ? 1000 / 65025 : 500 / 65025' \
+    depthprec table -n .3 -f 1000 -F rg --at .5,1,3.14159,10,99.99,123.456,500,999.9,1000
+check "rg: beside D16, D24 and D32F it is of the mapping linear" says \
+    'rg linear 0.016 0.016 0.016 0.016' depthprec table -F rg,d16,d24,d32f -m d3d --at 1,10,100,1000
+check "rg: the far plane itself reads as the camera" says 'Far itself becomes 0 by frac, and reads as the camera.' \
+    depthprec table -F rg
+unlike() { # unlike COMMAND...: rg is refused, and where it belongs is said
+    "$@" -F rg -o "$scratch/refused.svg" >"$scratch/errors" 2>&1
+    [ $? -eq 2 ] && grep -F 'rg is no depth buffer' "$scratch/errors"
+}
+check "rg: is no depth buffer of a shadow map" unlike depthprec shadow
+check "rg: is no depth buffer of an image" unlike depthprec texture --synthetic plane
+check "rg: is no depth buffer of a model's figure" unlike depthprec plot scene tests/models/house.gltf
+as_packed() { # the bytes that texture packs are the codes that table prints
+    depthprec texture --synthetic steps --parameter even=1 --size 16x1 -f 1000 -F fp32 -m linear --product pack:rg \
+        -o "$scratch/rg.npy" -q || return 1
+    od -An -v -tu1 -w2 -j128 "$scratch/rg.npy" | awk '{ print 255 * $1 + $2 }' >"$scratch/packed"
+    at=$(awk 'BEGIN { for (i = 0; i < 16; i++) printf "%s%.17g", i ? "," : "", 1 + 299 * i / 15 }')
+    depthprec table -f 1000 -F rg --at "$at" --json | tr ',' '\n' | sed -n 's/"code"://p' >"$scratch/codes"
+    paste "$scratch/packed" "$scratch/codes"
+    [ "$(grep -c . "$scratch/codes")" -eq 16 ] && cmp "$scratch/packed" "$scratch/codes"
+}
+check "rg: its codes are the bytes that texture packs" as_packed
+
+finish
