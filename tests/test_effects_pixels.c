@@ -276,11 +276,12 @@ static void make(const stage *s, const frame *f, size_t effect, bool error, floa
     double at[PARAMETERS_MAX];
     settings_of(row, effects[effect].parameters, at);
     assert_true(row->given == effects[effect].compares);
-    const frame_product p = {.kind = FRAME_EFFECT,
-                             .effect = row,
-                             .effect_settings = at,
-                             .error = error,
-                             .reference = effects[effect].compares ? s->reference : 0};
+    const int share = parameter_find(row->parameters, "reference01"); /* turn by turn in place of the depth itself */
+    if (row->given && s->reference > 0 && share >= 0 && s->reversed)
+        at[share] = s->reference / FAR;
+    else if (row->given && s->reference > 0)
+        at[parameter_find(row->parameters, "reference")] = s->reference;
+    const frame_product p = {.kind = FRAME_EFFECT, .effect = row, .effect_settings = at, .error = error};
     assert_null(frame_refuses(f, &p));
     assert_true(frame_run(f, &p, false, keep, out));
 }

@@ -120,11 +120,30 @@ static bool encoding(size_t i, listed *l) {
 static bool effect(size_t i, listed *l) {
     ROW(effect_row, effect_get(i), r->aliases)
     for (int k = 0; r->parameters[k].name != NULL; k++) {
-        add_number(l, r->parameters[k].value);
+        if (strncmp(r->parameters[k].name, "reference", 9) != 0) /* which has no default */
+            add_number(l, r->parameters[k].value);
         add_number(l, r->parameters[k].lo);
         add_number(l, r->parameters[k].hi);
     }
     return true;
+}
+
+/* Those of every effect in turn. */
+static bool parameter(size_t i, listed *l) {
+    const effect_row *row;
+    for (size_t e = 0; (row = effect_get(e)) != NULL; e++)
+        for (int k = 0; row->parameters[k].name != NULL; k++) {
+            const texture_parameter *p = &row->parameters[k];
+            if (i-- > 0)
+                continue;
+            *l = (listed){p->name, p->alias, p->note, NULL, {0}, 0};
+            if (strncmp(p->name, "reference", 9) != 0)
+                add_number(l, p->value);
+            add_number(l, p->lo);
+            add_number(l, p->hi);
+            return true;
+        }
+    return false;
 }
 
 static bool synthetic(size_t i, listed *l) {
@@ -186,6 +205,7 @@ static const struct {
               {"packings", "bound", packing_row},
               {"products", "methods", product},
               {"effects", "parameters", effect},
+              {"parameters", "range", parameter},
               {"figures", "bound", figure},
               {"synthetic", "bound", synthetic},
               {"positions", "bound", position},

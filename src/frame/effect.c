@@ -30,7 +30,7 @@ static work work_of(const frame_row *in) {
     const frame_product *product = in->product;
     const texture_camera *c = in->frame->camera, *then = in->frame->last != NULL ? in->frame->last : c;
     const dp_setup *planes = frame_planes(in->frame);
-    const double reference = product->effect->given && product->reference > 0 ? product->reference : (double)NAN;
+    const double reference = effect_reference(product->effect, product->effect_settings, planes->spec.zfar);
     double m[16];
     work w = {.in = in,
               .row = product->effect,

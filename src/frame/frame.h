@@ -103,15 +103,13 @@ typedef struct frame_product {
      */
     bool error;
     bool lost; /**< FRAME_EFFECT: what binary32 has added to the output that is exact for what is stored, instead */
-    const sensor *as;              /**< FRAME_EYE: rounded to its levels, and NaN beyond them; null: not */
-    bool radial;                   /**< FRAME_EYE: distance from the camera in place of eye depth */
-    const position_row *position;  /**< FRAME_POSITION; null: exact, rounded to binary32 */
-    const normal_row *normal;      /**< FRAME_NORMAL */
-    const effect_row *effect;      /**< FRAME_EFFECT */
-    const double *effect_settings; /**< its parameters */
-    /** The eye depth that an effect compares with whose row says `given`; 0: not known, and errors are those of the
-     *  worst one. EFFECT_STEP takes neighbours. */
-    double reference;
+    const sensor *as;             /**< FRAME_EYE: rounded to its levels, and NaN beyond them; null: not */
+    bool radial;                  /**< FRAME_EYE: distance from the camera in place of eye depth */
+    const position_row *position; /**< FRAME_POSITION; null: exact, rounded to binary32 */
+    const normal_row *normal;     /**< FRAME_NORMAL */
+    const effect_row *effect;     /**< FRAME_EFFECT */
+    /** Its parameters. Where a row is `given` and its reference is not, errors are those of the worst one. */
+    const double *effect_settings;
 } frame_product;
 
 /** Numbers a pixel: 3 for places and normals, else 1. */

@@ -101,7 +101,7 @@ typedef struct effect_row {
     bool eye01;            /**< uses z/far, so far must be finite */
     unsigned needs;        /**< EFFECT_POSITION and the like */
     const char *reference; /**< what the depth is compared with; null when with nothing */
-    bool given;            /**< the reference is an eye depth that the user gives with an image */
+    bool given;            /**< the reference is a parameter, which the user gives with an image */
     const char *source;
     effect_kind kind;
     effect_taps taps;
@@ -118,6 +118,10 @@ typedef struct effect_row {
 
 /** The rows in order; null beyond the last. */
 const effect_row *effect_get(size_t index);
+
+/** The eye depth of a row that is `given`, by its parameters `reference`, or `reference01` times far; NaN where neither
+ *  is. */
+double effect_reference(const effect_row *row, const double *parameters, double zfar);
 
 /** Can the effect be had? Not when it needs a finite far plane and there is none. */
 bool effect_applies(const effect_row *row, const dp_setup *setup);

@@ -15,49 +15,68 @@
             .whole = true, .use = PARAMETER_IMAGE                                                                      \
     }
 
+#define REFERENCE(note)                                                                                                \
+    { "reference", note, "scene", 0, 1e18, (double)NAN, .use = PARAMETER_IMAGE }
+#define REFERENCE01(name)                                                                                              \
+    {                                                                                                                  \
+        "reference01", "in place of reference: the same over far, as Linear01Depth", "eye01", 0, 1, (double)NAN,       \
+            .use = PARAMETER_IMAGE, .alias = name                                                                      \
+    }
+
 /* clang-format off */
 static const effect_row rows[] = {
-    {.name = "intersection", .note = "saturate(|eye - scene|/half-width)",
+    {.name = "intersection", .aliases = "IntersectionHighlight _IntersectionWidth",
+     .note = "saturate(|eye - scene|/half-width)",
      .parameters = {
-         {"half-width", "distance from the surface over which the highlight fades", "scene", 1e-12, 1e12, 0.1,
-          .whole = false}},
+         {"half-width", "distance from the surface over which the highlight fades, half of _IntersectionWidth", "scene",
+          1e-12, 1e12, 0.1, .whole = false},
+         REFERENCE("eye depth of the surface")},
      .smallest = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the eye depth of the surface", .given = true,
      .source = DEPTH_TEXTURE "; Lorach 2007, Soft particles",
      .kind = EFFECT_FADE, .apart = eye_apart, .output = intersection, .shader = intersection_shader},
     {.name = "force-field", .aliases = "ForceField", .note = "(1 - (scene - eye)) power",
-     .parameters = {{"power", "how fast the glow falls behind the surface", "1/scene", 1e-12, 1e12, 1, .whole = false}},
+     .parameters = {
+         {"power", "how fast the glow falls behind the surface", "1/scene", 1e-12, 1e12, 1,
+          .alias = "_IntersectionPower"},
+         REFERENCE("eye depth of the surface")},
      .needs = EFFECT_SECOND_DEPTH, .reference = "the eye depth of the surface", .given = true, .source = DEPTH_TEXTURE,
      .kind = EFFECT_GAIN, .apart = eye_apart, .output = force_field, .shader = force_field_shader},
     {.name = "fog", .aliases = "_FogColor", .note = "saturate(eye01 density)",
-     .parameters = {{"density", "how thick the fog is at the far plane", "1", 1e-12, 1e12, 1, .whole = false}},
+     .parameters = {
+         {"density", "how thick the fog is at the far plane", "1", 1e-12, 1e12, 1, .alias = "_FogDensity"}},
      .eye01 = true, .source = DEPTH_TEXTURE,
      .kind = EFFECT_CLAMPED, .quantity = fog_depth, .output = fog, .shader = fog_shader},
-    {.name = "scan-line", .aliases = "ScanLine _CurValue", .note = "saturate(|cur - eye01|/half-width)",
-     .parameters = {{"half-width", "depth over which the line fades, of far", "eye01", 1e-15, 1, 0.01, .whole = false}},
+    {.name = "scan-line", .aliases = "ScanLine _CurValue _LineWidth", .note = "saturate(|cur - eye01|/half-width)",
+     .parameters = {
+         {"half-width", "depth over which the line fades, of far, half of _LineWidth", "eye01", 1e-15, 1, 0.01,
+          .whole = false},
+         REFERENCE("eye depth of the line"), REFERENCE01("_CurValue")},
      .smallest = true, .eye01 = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the depth cur of the line",
      .given = true, .source = DEPTH_TEXTURE,
      .kind = EFFECT_FADE, .apart = eye01_apart, .output = scan_line, .shader = scan_line_shader},
-    {.name = "water-line", .aliases = "WaterLine", .note = "world y < level; with a band, saturate((level - y)/band)",
+    {.name = "water-line", .aliases = "WaterLine WaterFlooded _WaterColor",
+     .note = "world y < level; with a band, saturate((level - y)/band)",
      .parameters = {
          [WATER_BAND] = {"band", "height over which the edge is softened, 0 for a hard one", "scene", 0, 1e12, 0,
                          .whole = false},
-         [WATER_LEVEL] = {"level", "world height of the water", "scene", -1e12, 1e12, 0, .use = PARAMETER_IMAGE}},
+         [WATER_LEVEL] = {"level", "world height of the water", "scene", -1e12, 1e12, 0, .use = PARAMETER_IMAGE,
+                          .alias = "_WaterHeight"}},
      .wanted = WATER_BAND, .smallest = true, .needs = EFFECT_POSITION, .reference = "the level of the water",
      .source = DEPTH_TEXTURE,
      .kind = EFFECT_FADE, .apart = height_apart, .output = water_line, .shader = water_line_shader},
-    {.name = "height-fog", .aliases = "HeightFog",
+    {.name = "height-fog", .aliases = "HeightFog VerticalFog",
      .note = "saturate((y - start)/(end - start) density), y the world height",
      .parameters = {
-         [HEIGHT_DENSITY] = {"density", "how thick the fog is at the height end", "1", 1e-12, 1e12, 1, .whole = false},
-         [HEIGHT_START] = {"start", "world height where fog begins", "scene", -1e12, 1e12, 0, .whole = false},
-         [HEIGHT_END] = {"end", "world height where density is reached", "scene", -1e12, 1e12, -100, .whole = false}},
+         [HEIGHT_DENSITY] = {"density", "the value at the height end", "1", 1e-12, 1e12, 1, .alias = "_FogDensity"},
+         [HEIGHT_START] = {"start", "world height where the value is 0", "scene", -1e12, 1e12, 0, .alias = "_StartY"},
+         [HEIGHT_END] = {"end", "world height where it is density", "scene", -1e12, 1e12, -100, .alias = "_EndY"}},
      .wanted = HEIGHT_DENSITY, .needs = EFFECT_POSITION, .source = DEPTH_TEXTURE,
      .kind = EFFECT_CLAMPED, .quantity = height_share, .output = height_fog, .shader = height_fog_shader},
     {.name = "edge", .aliases = "EdgeDetection",
      .note = "|s1 - s4| > threshold, |s2 - s3| > threshold: Roberts' diagonals of eye01",
      .parameters = {
          [EDGE_THRESHOLD] = {"threshold", "difference of two pixels that makes an edge, of far", "eye01", 0, 1, 0.001,
-                             .whole = false},
+                             .alias = "_EdgeThreshold"},
          SLOPE, SAMPLE_DISTANCE},
      .smallest = true, .eye01 = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the first pixel's place in its cell",
      .source = DEPTH_TEXTURE "; Roberts 1963",
@@ -82,13 +101,16 @@ static const effect_row rows[] = {
      .needs = EFFECT_POSITION | EFFECT_LAST_FRAME, .source = DEPTH_TEXTURE "; Rosado 2007, GPU Gems 3, chapter 27",
      .kind = EFFECT_GAIN, .apart = velocity_apart, .output = velocity, .shader = velocity_shader},
     {.name = "depth-of-field", .aliases = "DepthOfField _FocusDistance", .note = "saturate(|eye01 - focus| level)",
-     .parameters = {{"level", "how fast the picture blurs away from the focus", "1", 1e-12, 1e15, 10, .whole = false}},
+     .parameters = {
+         {"level", "how fast the picture blurs away from the focus", "1", 1e-12, 1e15, 10, .alias = "_FocusLevel"},
+         REFERENCE("eye depth of the focus"), REFERENCE01("_FocusDistance")},
      .eye01 = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the focus", .given = true, .source = DEPTH_TEXTURE,
      .kind = EFFECT_GAIN, .apart = eye01_apart, .output = depth_of_field, .shader = depth_of_field_shader},
     {.name = "soft-particles", .note = "saturate((scene - particle)/fade-distance)",
      .parameters = {
          {"fade-distance", "way from a surface over which a particle fades in", "scene", 1e-12, 1e12, 1,
-             .whole = false}},
+          .whole = false},
+         REFERENCE("eye depth of the particle")},
      .smallest = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the eye depth of the particle", .given = true,
      .source = "Lorach 2007, Soft particles; Unity's Particles/Standard shaders, _SoftParticleFadeParams",
      .kind = EFFECT_FADE, .apart = eye_apart, .output = soft_particles, .shader = soft_particles_shader},
@@ -126,7 +148,7 @@ static const effect_row rows[] = {
                                 .whole = false},
          [CONTACT_STEP] = {"step", "what the ray gains in eye depth from one sample to the next", "scene", 0, 1e12,
                            0.05, .use = PARAMETER_TABLE},
-         SLOPE},
+         SLOPE, REFERENCE("eye depth of the ray")},
      .wanted = CONTACT_THICKNESS, .smallest = true, .needs = EFFECT_SECOND_DEPTH,
      .reference = "the eye depth of the ray", .given = true,
      .source = "screen-space shadows: McGuire and Mara 2014, Efficient GPU screen-space ray tracing",
@@ -136,7 +158,8 @@ static const effect_row rows[] = {
          [SHADOW_BIAS] = {"bias", "what the computed depth is brought nearer by", "scene", 0, 1e12, 0.01,
                           .whole = false},
          [SHADOW_SLOPE] = {"slope", "a plane's change of depth over a texel", "scene", 0, 1e12, 0,
-                           .use = PARAMETER_TABLE}},
+                           .use = PARAMETER_TABLE},
+         REFERENCE("eye depth that is computed")},
      .wanted = SHADOW_BIAS, .smallest = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the computed depth",
      .given = true, .source = "Williams 1978, Casting curved shadows on curved surfaces",
      .kind = EFFECT_STEP, .alone = true, .quiet = true, .critical = shadow_critical, .output = shadow_lit,
@@ -145,8 +168,8 @@ static const effect_row rows[] = {
      .parameters = {
          {"density", "how fast the water hides what is in it", "1/scene", 1e-12, 1e12, 0.5, .whole = false},
          {"refraction", "pixels to the right where the scene is looked at, if that is under water", "pixels", -64, 64,
-             0,
-          .whole = true, .use = PARAMETER_IMAGE}},
+          0, .whole = true, .use = PARAMETER_IMAGE},
+         REFERENCE("eye depth of the surface")},
      .needs = EFFECT_POSITION | EFFECT_SECOND_DEPTH, .reference = "the eye depth of the surface", .given = true,
      .source = "the law of Beer and Lambert; water shaders on the depth texture, as Boat Attack's",
      .kind = EFFECT_DECAY, .apart = along_ray, .output = water_depth, .shader = water_depth_shader},
@@ -155,6 +178,11 @@ static const effect_row rows[] = {
 
 const effect_row *effect_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+}
+
+double effect_reference(const effect_row *row, const double *parameters, double zfar) {
+    const int at = parameter_find(row->parameters, "reference"), share = parameter_find(row->parameters, "reference01");
+    return at >= 0 && !isnan(parameters[at]) ? parameters[at] : share >= 0 ? parameters[share] * zfar : (double)NAN;
 }
 
 bool effect_applies(const effect_row *row, const dp_setup *setup) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/figure_file.h"
 #include "cli/texture/texture.h"
@@ -28,28 +28,25 @@ int texture_effect_normals(const options *o, texture_source *s) {
     return EXIT_FINE;
 }
 
-/* The parameters that are not the synthetic image's are the effect's, but for the depth that it compares with. */
+/* The parameters that are not the synthetic image's are the effect's. */
 int texture_product_effect(const options *o, texture_product *p) {
     options rest = *o;
-    bool compared = false;
     rest.image.parameter_count = 0;
-    for (size_t i = 0; i < o->image.parameter_count; i++) {
-        if (o->image.effect->given && strcmp(o->image.parameters[i].name, "reference") == 0) {
-            p->made.reference = o->image.parameters[i].value;
-            compared = true;
-        } else if (!texture_scene_takes(o, o->image.parameters[i].name)) {
+    for (size_t i = 0; i < o->image.parameter_count; i++)
+        if (!texture_scene_takes(o, o->image.parameters[i].name))
             rest.image.parameters[rest.image.parameter_count++] = o->image.parameters[i];
-        }
-    }
     int status = texture_effect_resolve(&rest, true, &p->made.effect, p->settings);
     if (status != EXIT_FINE)
         return status;
     const effect_row *row = p->made.effect;
     p->made.kind = FRAME_EFFECT;
     p->made.effect_settings = p->settings;
-    if (row->given && (compared || !o->image.error_map) && !(p->made.reference > 0))
-        return option_error(OPTION_PARAMETER, "%s needs reference=Z, %s, a positive eye depth%s", row->name,
-                            row->reference, compared ? "" : "; it was not given");
+    const int at = parameter_find(row->parameters, "reference"), share = parameter_find(row->parameters, "reference01");
+    if (share >= 0 && !isnan(p->settings[at]) && !isnan(p->settings[share]))
+        return option_error(OPTION_PARAMETER, "reference01 conflicts with reference");
+    if (row->given && !o->image.error_map && isnan(effect_reference(row, p->settings, 1)))
+        return option_error(OPTION_PARAMETER, "%s needs reference=Z, the %s%s; it was not given", row->name,
+                            row->parameters[at].note, row->eye01 ? ", or reference01=V, the same over far" : "");
     return EXIT_FINE;
 }
 

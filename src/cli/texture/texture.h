@@ -99,11 +99,10 @@ const char *texture_readings_of(const texture_source *s, const char *what, char 
 /**
  * Sets one --parameter of a synthetic image or an effect, called `whose`.
  * @param unused  parameters of this use count as none: PARAMETER_ALWAYS for none of them
- * @param more    another name that would be taken, for the list of those that are; or null
  * @return EXIT_FINE, or EXIT_USAGE after one line that names those it has
  */
 int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
-                          parameter_use unused, const char *more, double *out);
+                          parameter_use unused, double *out);
 
 /** Options of cameras that have no meaning beside others. @return an exit status, after one line on stderr */
 int texture_camera_check(const options *o);

@@ -122,6 +122,12 @@ static bool in_units(const frame_product *made, const frame_summary *sum) {
     return made->kind == FRAME_EYE && !made->error && !made->radial && sum->count > 0 && sum->lo > 0;
 }
 
+/* An effect without the depth that it compares with. */
+static bool is_open(const frame_product *made) {
+    return made->kind == FRAME_EFFECT && made->effect->given &&
+           isnan(effect_reference(made->effect, made->effect_settings, 1));
+}
+
 /*
  * The product in 16 bits is off by half a grey more; a place in all three coordinates, and a normal by the angle that
  * three such differences of a unit vector can make.
@@ -137,7 +143,7 @@ static bool rounding_of_product(const texture_source *s, const frame_product *ma
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
     plain.error = false;
     /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
-    const bool open = made->kind == FRAME_EFFECT && made->effect->given && !(made->reference > 0);
+    const bool open = is_open(made);
     *more = 0;
     if (open)
         sum.lo = 0;
@@ -258,7 +264,7 @@ static void say_levels(const options *o, const texture_source *s, const texture_
     if (w->levels && w->pixels > 0 && !o->out.quiet)
         message("depthprec: %s: %s %% of the pixels %s off by more than one level", o->out.file,
                 number_of(100.0 * (double)w->beyond / (double)w->pixels, 3).text,
-                s->path != NULL || (p->made.effect->given && !(p->made.reference > 0)) ? "can be" : "are");
+                s->path != NULL || is_open(&p->made) ? "can be" : "are");
 }
 
 /* The product, and beside it the error as a product of its own. */
