@@ -87,7 +87,12 @@ static double intersection(const stage *s, int pixel, double z) {
 
 static double force_field(const stage *s, int pixel, double z) {
     (void)pixel;
-    return (1 - (z - s->reference)) * 0.3;
+    return fmax(0, (1 - (z - s->reference)) * 0.3);
+}
+
+static double force_field_rim(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return fmax(1 - 0.5 * 1.6, (1 - (z - s->reference)) * 0.3);
 }
 
 static double fog(const stage *s, int pixel, double z) {
@@ -184,6 +189,7 @@ static const struct {
 } effects[] = {
     {"intersection", "half-width=3", intersection, true, false, 1},
     {"force-field", "power=0.3", force_field, true, false, 1},
+    {"force-field", "power=0.3 rim-power=1.6 facing=0.5", force_field_rim, true, false, 1},
     {"fog", "density=1.7", fog, false, false, 1},
     {"scan-line", "half-width=0.07", scan_line, true, false, 1},
     {"depth-of-field", "level=4", depth_of_field, true, false, 1},

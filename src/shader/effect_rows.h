@@ -29,6 +29,8 @@ static inline double times(double a, double b) {
 
 /* ---- Eye depth, and its share of far ----------------------------------------------------------------------------- */
 
+enum { FORCE_POWER = 0, FORCE_RIM, FORCE_FACING };
+
 effect_apart eye_apart, eye01_apart, along_ray;
 effect_quantity fog_depth;
 effect_output intersection, soft_particles, force_field, fog, scan_line, depth_of_field, water_depth, contact_shadow,
