@@ -231,6 +231,7 @@ static const hand hands[] = {
     {"water-line", water_error, water_usable},
     {"height-fog", height_error, height_usable},
     {"motion-blur", blur_error, blur_usable},
+    {"motion-vector", blur_error, blur_usable},
     {"depth-of-field", focus_error, focus_usable},
 };
 enum { HAND_COUNT = sizeof hands / sizeof hands[0] };
@@ -611,9 +612,10 @@ TEST(test_rows) {
     static const char *const names[] = {"intersection",   "force-field",    "fog",         "scan-line",
                                         "water-line",     "height-fog",     "edge",        "motion-blur",
                                         "depth-of-field", "soft-particles", "decal",       "ambient-occlusion",
-                                        "contact-shadow", "shadow",         "water-depth", "outline"};
+                                        "contact-shadow", "shadow",         "water-depth", "outline",
+                                        "motion-vector"};
     /* As depthprec-texture(1) documents them: a command without --parameter is read with these in mind. */
-    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10, 1, 0, 0.01, 0.1, 0.01, 0.5, 1};
+    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10, 1, 0, 0.01, 0.1, 0.01, 0.5, 1, 1};
     assert_int_equal(count(), sizeof names / sizeof names[0]);
     for (size_t i = 0; i < count(); i++) {
         const effect_row *row = effect_get(i);

@@ -48,7 +48,7 @@ void frame_codes(const frame *f, uint32_t row, uint32_t *codes) {
 }
 
 int frame_channels(const frame_product *product) {
-    const bool vector = product->kind == FRAME_POSITION || product->kind == FRAME_NORMAL;
+    const bool vector = product->kind == FRAME_POSITION || product->kind == FRAME_NORMAL || product->vector;
     return vector && !product->error ? 3 : 1;
 }
 

@@ -110,9 +110,10 @@ typedef struct frame_product {
     const effect_row *effect;     /**< FRAME_EFFECT */
     /** Its parameters. Where a row is `given` and its reference is not, errors are those of the worst one. */
     const double *effect_settings;
+    bool vector; /**< FRAME_EFFECT that has one: its parts, and its length */
 } frame_product;
 
-/** Numbers a pixel: 3 for places and normals, else 1. */
+/** Numbers a pixel: 3 for places, normals and vectors, else 1. */
 int frame_channels(const frame_product *product);
 
 /** Null, or a sentence about why this cannot be made of this frame. */

@@ -82,6 +82,9 @@ typedef double effect_most(const effect_view *view, const double *parameters, do
  *  it is compared with, if that is `given` or another pixel. */
 typedef double effect_output(const effect_view *view, const double *parameters, double z, double reference);
 typedef float effect_shader(const effect_pixel *pixel, const float *parameters, const effect_pixel *reference);
+/** The vector whose length the output is: to the right and up, in widths and heights of the picture. */
+typedef void effect_vector(const effect_pixel *pixel, const float *parameters, float out[2]);
+typedef void effect_exact_vector(const effect_view *view, const double *parameters, double z, double out[2]);
 /**
  * EFFECT_STEP: below which values of the wanted parameter the output on a plane is 1, the least and the most of them.
  * @param seen   the depth of the pixel
@@ -114,6 +117,9 @@ typedef struct effect_row {
     effect_critical *critical; /**< EFFECT_STEP */
     effect_output *output;
     effect_shader *shader;
+    effect_vector *vector; /**< null: it has none */
+    effect_exact_vector *exact_vector;
+    bool wide; /**< it is shown, besides its length */
 } effect_row;
 
 /** The rows in order; null beyond the last. */
@@ -146,7 +152,7 @@ double effect_usable_over(const effect_row *row, const effect_view *view, const 
  *
  * Every quantity is monotone in the depth, so the largest difference lies at an end of the cell. An output of 8 bits
  * cannot be more than 255 levels off. EFFECT_STEP has the output 0 or 1: its error is 255 where a place of a plane, at
- * a depth of z's cell, gets another answer than the plane should, and 0 elsewhere. Of "motion-blur" it is the length of
+ * a depth of z's cell, gets another answer than the plane should, and 0 elsewhere. Of a vector it is the length of
  * the difference of two velocities.
  *
  * @param parameters  PARAMETERS_MAX numbers, in the order of the row, within their ranges

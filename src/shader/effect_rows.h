@@ -49,6 +49,8 @@ effect_quantity height_share, decal_inside;
 effect_most decal_most;
 effect_output water_line, height_fog, velocity, decal;
 effect_shader water_line_shader, height_fog_shader, velocity_shader, decal_shader;
+effect_vector velocity_vector;
+effect_exact_vector velocity_exact;
 
 /* ---- Two pixels -------------------------------------------------------------------------------------------------- */
 

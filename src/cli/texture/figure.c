@@ -151,7 +151,7 @@ static bool is_share(const options *o, const texture_product *p) {
 }
 
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p) {
-    static const char *const axes[] = {"x (world)", "y (world)", "z (world)"};
+    static const char *const axes[][3] = {{"x (world)", "y (world)", "z (world)"}, {"to the right", "up", "length"}};
     const int width = o->figure.width > 0 ? o->figure.width : WIDTH;
     const bool is_error = p->made.error, directions = p->made.kind == FRAME_NORMAL && !is_error;
     const bool stacked = frame_channels(&p->made) == 3 && !directions;
@@ -165,7 +165,7 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
                                     : p->made.kind == FRAME_POSITION ? "coordinate"
                                                                      : p->name,
                            .unit = p->unit,
-                           .names = stacked ? axes : NULL},
+                           .names = stacked ? axes[p->made.vector] : NULL},
                  .error = {.width = s->camera.width,
                            .height = s->camera.height,
                            .channels = 1,

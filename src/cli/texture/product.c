@@ -98,6 +98,7 @@ int texture_product_resolve(const options *o, texture_product *p) {
                             o->image.error_map ? "error-map" : "product ", o->image.error_map ? "" : row->name);
     if (row->kind == FRAME_EFFECT)
         status = texture_product_effect(o, p);
+    p->made.vector = status == EXIT_FINE && row->kind == FRAME_EFFECT && p->made.effect->wide;
     if (o->image.as != NULL && (row->kind != FRAME_EYE || row->radial))
         return option_error(OPTION_AS, "is for --product eye");
     if (status == EXIT_FINE)

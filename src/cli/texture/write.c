@@ -151,7 +151,7 @@ static bool rounding_of_product(const texture_source *s, const frame_product *ma
         return false;
     const double unit = in_units(&plain, &sum) ? sum.hi / GREYS : (sum.hi - sum.lo) / (GREYS - 1);
     if (sum.count > 0)
-        *more = factors[made->kind] * unit / 2 * (1 + 0x1p-20);
+        *more = factors[made->kind] * (made->vector ? M_SQRT2 : 1) * unit / 2 * (1 + 0x1p-20);
     if (in_units(&plain, &sum))
         *more = fmax(*more, (unit - sum.lo) * (1 + 0x1p-20));
     return true;
