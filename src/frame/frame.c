@@ -21,7 +21,7 @@ enum {
 uint32_t frame_sky_rank(const frame *f) {
     const dp_setup *setup = &f->camera->setup;
     const dp_format *format = &setup->spec.format;
-    if (f->metric)
+    if (f->metric || f->sky < 0)
         return format->code_max + 1;
     const double edge = setup->reversed ? f->sky : 1 - f->sky;
     uint32_t rank = frame_rank(setup, dp_format_encode(format, DP_ROUND_NEAREST, edge));

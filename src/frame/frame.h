@@ -45,13 +45,15 @@ typedef struct frame {
     const sensor *sensor;     /**< metric: what was rounded to its samples; else null */
     const dp_setup *planes;   /**< metric: the planes that effects use; else null: the camera's */
     const frame_normals *normals; /**< for effects; null: those of the synthetic image, or none */
-    double sky;                   /**< window depths this close to the far plane's are sky, [0, 0.5] */
+    double sky;                   /**< window depths this close to the far plane's are sky, [0, 0.5]; below 0 none:
+                                       what was cleared lies at far */
     int threads;                  /**< 0: as many as there are cores */
 } frame;
 
 /**
  * Codes ordered by distance: the rank of a code is the code, or code_max - code in a reversed set-up. Ranks from
- * frame_sky_rank() on are sky: their values are within frame->sky of the far plane's. Metric: code_max + 1.
+ * frame_sky_rank() on are sky: their values are within frame->sky of the far plane's. Metric, or without sky: code_max
+ * + 1.
  */
 uint32_t frame_sky_rank(const frame *f);
 static inline uint32_t frame_rank(const dp_setup *setup, uint32_t code) {

@@ -287,9 +287,10 @@ const option_row option_rows[OPTION_COUNT] = {
         .instead = "; a figure's size is --figure-size"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE",
         "a parameter of the synthetic image or the effect; may be repeated", .parse = parse_parameter},
-    [OPTION_SKY] = {"sky", 0, "T",
-        "window depths within T of the far plane are sky; 0: only the far plane itself",
-        NUMBER(image.sky, 0, 0.5, NULL), .standard = "0.0001",
+    [OPTION_SKY] = {"sky", 0, "T|none",
+        "window depths within T of the far plane are sky, which no product has; 0: only the far plane itself; none: "
+        "sky lies at the far plane, as shaders read it, and fog covers it",
+        .parse = parse_sky, FIELD(double, image.sky), LIMITS(0, 0.5, NULL), .standard = "0.0001",
         .without = "as in Unity's shaders"},
     [OPTION_METRIC] = {"metric", 0, "SCALE|mm|tum|kitti",
         "the samples are eye depths in units of SCALE; of TUM there are 5000 to the metre, of KITTI 256; 0, negative "

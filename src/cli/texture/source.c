@@ -197,7 +197,7 @@ static int unpack(const options *o, texture_source *s) {
     if (!packing_convert(p, zero, &s->picture, &s->unpacked))
         return usage_error("%s: %s", s->path, s->unpacked.wrong);
     warn_of_colours(o, s);
-    s->unpacked.zeros = packing_unwrap(p, &s->picture, o->image.sky > 0 ? 1.0f : NAN);
+    s->unpacked.zeros = packing_unwrap(p, &s->picture, o->image.sky != 0 ? 1.0f : NAN);
     recognise(&s->picture, &s->found);
     dp_format_parse(p->format, formats);
     s->found.format = formats[0];
