@@ -184,6 +184,8 @@ static const option_use of_effect[] = {TAKE(AT), END};
 static const option_use of_image[] = {
     TAKE(SKY), TAKE(METRIC), TAKE(LATTICE), TAKE(RADIAL), TAKE(INTRINSICS), TAKE(AS), TAKE(ERROR_MAP), TAKE(FIGURE),
     GROUP(picture), TAKE(THREADS), TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(CHANNEL), TAKE(OVERLAY),
+    OWN(RANGE, HELP("the values of an effect that are black and white in its PNG"),
+        WITHOUT("0:1, of a vector -1:1")),
     TAKE(HISTOGRAM), TAKE(MATRIX), END};
 static const option_use of_position[] = {
     TAKE(FOV), TAKE(HFOV),

@@ -15,6 +15,8 @@ static int check_alone(const options *o) {
         return option_error(OPTION_ERROR_MAP, "needs --product");
     if (o->image.as != NULL && !texture_product_wanted(o))
         return option_error(OPTION_AS, "needs --product eye");
+    if (option_given(o, OPTION_RANGE) && !texture_product_wanted(o))
+        return option_error(OPTION_RANGE, "needs --product effect");
     if (o->image.sky < 0 && !texture_product_wanted(o) && !option_given(o, OPTION_PIXEL))
         return option_error(OPTION_SKY, "none is for --product and --pixel");
     if (option_given(o, OPTION_NORMAL_FORMAT) && o->image.normal == NULL)

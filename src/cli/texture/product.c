@@ -67,6 +67,9 @@ static int check_files(const options *o) {
         return option_error(o->out.form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
                             "is for statistics, which a product does not have%s",
                             o->out.form == FORM_JSON ? "; with -o FILE it says what the numbers in FILE are" : "");
+    if (option_given(o, OPTION_RANGE) &&
+        (o->out.file == NULL || file != IMAGE_PNG || o->image.error_map || o->image.effect == NULL))
+        return option_error(OPTION_RANGE, "is for the values of an effect in a PNG");
     if (option_given(o, OPTION_NORMAL_FORMAT) && (o->out.file == NULL || file != IMAGE_PNG || o->image.error_map))
         return option_error(OPTION_NORMAL_FORMAT, "is for the normals in a PNG");
     return EXIT_FINE;

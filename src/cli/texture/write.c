@@ -122,17 +122,22 @@ static bool in_units(const frame_product *made, const frame_summary *sum) {
     return made->kind == FRAME_EYE && !made->error && !made->radial && sum->count > 0 && sum->lo > 0;
 }
 
-/* An effect without the depth that it compares with. */
-static bool is_open(const frame_product *made) {
-    return made->kind == FRAME_EFFECT && made->effect->given &&
-           isnan(effect_reference(made->effect, made->effect_settings, 1));
+/* What a PNG spreads over its samples: of an effect what is asked for, or that of a colour; else what is there. */
+static bool range_of(const options *o, const texture_source *s, const frame_product *made, frame_summary *sum) {
+    const bool asked = option_given(o, OPTION_RANGE), wide = made->kind == FRAME_NORMAL || made->vector;
+    *sum = (frame_summary){.lo = asked  ? o->camera.range_lo
+                                 : wide ? -1
+                                        : 0,
+                           .hi = asked ? o->camera.range_hi : 1,
+                           .count = 1};
+    return !made->error && made->kind >= FRAME_NORMAL ? true : frame_summarise(&s->frame, made, sum);
 }
 
 /*
  * The product in 16 bits is off by half a grey more; a place in all three coordinates, and a normal by the angle that
  * three such differences of a unit vector can make.
  */
-static bool rounding_of_product(const texture_source *s, const frame_product *made, double *more) {
+static bool rounding_of_product(const options *o, const texture_source *s, const frame_product *made, double *more) {
     static const double factors[FRAME_KINDS] = {[FRAME_EYE] = 1,
                                                 [FRAME_LINEAR01] = 1,
                                                 [FRAME_RAW] = 1,
@@ -140,14 +145,10 @@ static bool rounding_of_product(const texture_source *s, const frame_product *ma
                                                 [FRAME_NORMAL] = 1.74 * 57.29577951308233,
                                                 [FRAME_EFFECT] = 255};
     frame_product plain = *made;
-    frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
+    frame_summary sum;
     plain.error = false;
-    /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
-    const bool open = is_open(made);
     *more = 0;
-    if (open)
-        sum.lo = 0;
-    else if (made->kind != FRAME_NORMAL && !frame_summarise(&s->frame, &plain, &sum))
+    if (!range_of(o, s, &plain, &sum))
         return false;
     const double unit = in_units(&plain, &sum) ? sum.hi / GREYS : (sum.hi - sum.lo) / (GREYS - 1);
     if (sum.count > 0)
@@ -157,16 +158,16 @@ static bool rounding_of_product(const texture_source *s, const frame_product *ma
     return true;
 }
 
-/* What the samples of a PNG mean; normals have their range by nature, all else that of what was found. */
-static bool scale_of(const texture_source *s, const frame_product *made, writing *w) {
-    frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
+/* What the samples of a PNG mean. */
+static bool scale_of(const options *o, const texture_source *s, const frame_product *made, writing *w) {
+    frame_summary sum;
     if (w->type != IMAGE_U16)
         return true;
     w->directions = made->kind == FRAME_NORMAL && !made->error;
-    if (!w->directions && !frame_summarise(&s->frame, made, &sum))
+    if (!range_of(o, s, made, &sum))
         return false;
     w->upwards = made->error;
-    if (made->error && !rounding_of_product(s, made, &w->more))
+    if (made->error && !rounding_of_product(o, s, made, &w->more))
         return false;
     w->units = in_units(made, &sum);
     w->hi = (sum.count == 0 ? 1 : sum.hi) + w->more;
@@ -264,7 +265,9 @@ static void say_levels(const options *o, const texture_source *s, const texture_
     if (w->levels && w->pixels > 0 && !o->out.quiet)
         message("depthprec: %s: %s %% of the pixels %s off by more than one level", o->out.file,
                 number_of(100.0 * (double)w->beyond / (double)w->pixels, 3).text,
-                s->path != NULL || is_open(&p->made) ? "can be" : "are");
+                s->path != NULL || (p->made.effect->given && isnan(effect_reference(p->made.effect, p->settings, 1)))
+                    ? "can be"
+                    : "are");
 }
 
 /* The product, and beside it the error as a product of its own. */
@@ -296,7 +299,7 @@ int texture_product_write(const options *o, const texture_source *s, const textu
         return status;
     for (int i = 0; i < count; i++) {
         char note[IMAGE_NOTE_SIZE];
-        good = good && scale_of(s, &product[i].made, &w[i]);
+        good = good && scale_of(o, s, &product[i].made, &w[i]);
         m[i] = writing_meaning(&each[i], &product[i], &w[i]);
         writing_note(&w[i], &product[i], &m[i], note);
         good = good && writing_begin(&w[i], note);
