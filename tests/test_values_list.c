@@ -125,6 +125,10 @@ static bool effect(size_t i, listed *l) {
         add_number(l, r->parameters[k].lo);
         add_number(l, r->parameters[k].hi);
     }
+    for (int k = 0; k < 4 && r->mix <= EFFECT_SPARES; k++)
+        add_number(l, r->tint[k]);
+    if (r->mix <= EFFECT_SPARES)
+        add_number(l, r->mix == EFFECT_TINTS);
     return true;
 }
 
@@ -223,7 +227,7 @@ static void check_numbers(const char *bound, const listed *l) {
         at += strspn(at, " ");
         const double number = strtod(at, &end);
         const bool alone =
-            end > at && (at == bound || strchr(" =", at[-1]) != NULL) && (*end == '\0' || strchr(" ,;", *end) != NULL);
+            end > at && (at == bound || strchr(" =,", at[-1]) != NULL) && (*end == '\0' || strchr(" ,;", *end) != NULL);
         if (alone && isdigit((unsigned char)(*at == '-' ? at[1] : *at))) {
             if (fabs(number - l->numbers[n]) > 0.006 * fabs(l->numbers[n]))
                 fail_msg("%s: '%s': number %zu is %g, not %g", l->name, bound, n, number, l->numbers[n]);

@@ -37,6 +37,9 @@ bool list_effect(size_t index, list_item *item) {
         if (i == row->wanted)
             append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
     }
+    if (row->mix <= EFFECT_SPARES)
+        append(item->bound, sizeof item->bound, "; tint %g,%g,%g,%g where it is %d", row->tint[0], row->tint[1],
+               row->tint[2], row->tint[3], row->mix == EFFECT_TINTS);
     for (size_t i = 0, count = 0; i < sizeof needs / sizeof needs[0]; i++)
         if ((row->needs & needs[i].bit) != 0)
             append(item->bound, sizeof item->bound, "%s%s", count++ == 0 ? "; needs " : ", ", needs[i].name);

@@ -44,6 +44,14 @@ typedef enum effect_taps {
     EFFECT_AROUND     /**< its own with each corner; the mean of four outputs */
 } effect_taps;
 
+/** What it does to a picture of colours. */
+typedef enum effect_mix {
+    EFFECT_TINTS = 0, /**< where it is 1 there is its tint */
+    EFFECT_SPARES,    /**< where it is 0 */
+    EFFECT_BLURS,     /**< where it is 1 there is the mean of nine pixels, `blur` apart */
+    EFFECT_SMEARS     /**< the mean of `samples` pixels, its vector apart */
+} effect_mix;
+
 /** What a pixel is to an effect, exactly. */
 typedef struct effect_view {
     const dp_setup *setup;    /**< planes; cells, where none are given */
@@ -120,6 +128,8 @@ typedef struct effect_row {
     effect_vector *vector; /**< null: it has none */
     effect_exact_vector *exact_vector;
     bool wide; /**< it is shown, besides its length */
+    effect_mix mix;
+    double tint[4]; /**< by default: red, green, blue, alpha */
 } effect_row;
 
 /** The rows in order; null beyond the last. */

@@ -15,6 +15,11 @@
             .whole = true, .use = PARAMETER_IMAGE                                                                      \
     }
 
+#define SAMPLES                                                                                                        \
+    {                                                                                                                  \
+        "samples", "on a picture: pixels on the way, a vector apart", "1", 1, 64, 3, .whole = true,                    \
+            .use = PARAMETER_IMAGE, .alias = "numSamples"                                                              \
+    }
 #define REFERENCE(note)                                                                                                \
     { "reference", note, "scene", 0, 1e18, (double)NAN, .use = PARAMETER_IMAGE }
 #define REFERENCE01(name)                                                                                              \
@@ -33,7 +38,8 @@ static const effect_row rows[] = {
          REFERENCE("eye depth of the surface")},
      .smallest = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the eye depth of the surface", .given = true,
      .source = DEPTH_TEXTURE "; Lorach 2007, Soft particles",
-     .kind = EFFECT_FADE, .apart = eye_apart, .output = intersection, .shader = intersection_shader},
+     .kind = EFFECT_FADE, .apart = eye_apart, .output = intersection, .shader = intersection_shader,
+     .mix = EFFECT_SPARES, .tint = {1, 1, 1, 1}},
     {.name = "force-field", .aliases = "ForceField",
      .note = "max(rim, (1 - (scene - eye)) power), rim = 1 - facing rim-power",
      .parameters = {
@@ -45,12 +51,14 @@ static const effect_row rows[] = {
                            0, 1, 1, .use = PARAMETER_IMAGE},
          REFERENCE("eye depth of the surface")},
      .needs = EFFECT_SECOND_DEPTH, .reference = "the eye depth of the surface", .given = true, .source = DEPTH_TEXTURE,
-     .kind = EFFECT_GAIN, .apart = eye_apart, .output = force_field, .shader = force_field_shader},
+     .kind = EFFECT_GAIN, .apart = eye_apart, .output = force_field, .shader = force_field_shader,
+     .tint = {0.25, 0.5, 1, 1}},
     {.name = "fog", .aliases = "_FogColor", .note = "saturate(eye01 density)",
      .parameters = {
          {"density", "how thick the fog is at the far plane", "1", 1e-12, 1e12, 1, .alias = "_FogDensity"}},
      .eye01 = true, .source = DEPTH_TEXTURE,
-     .kind = EFFECT_CLAMPED, .quantity = fog_depth, .output = fog, .shader = fog_shader},
+     .kind = EFFECT_CLAMPED, .quantity = fog_depth, .output = fog, .shader = fog_shader,
+     .tint = {0.5, 0.5, 0.5, 1}},
     {.name = "scan-line", .aliases = "ScanLine _CurValue _LineWidth", .note = "saturate(|cur - eye01|/half-width)",
      .parameters = {
          {"half-width", "depth over which the line fades, of far, half of _LineWidth", "eye01", 1e-15, 1, 0.01,
@@ -58,7 +66,8 @@ static const effect_row rows[] = {
          REFERENCE("eye depth of the line"), REFERENCE01("_CurValue")},
      .smallest = true, .eye01 = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the depth cur of the line",
      .given = true, .source = DEPTH_TEXTURE,
-     .kind = EFFECT_FADE, .apart = eye01_apart, .output = scan_line, .shader = scan_line_shader},
+     .kind = EFFECT_FADE, .apart = eye01_apart, .output = scan_line, .shader = scan_line_shader,
+     .mix = EFFECT_SPARES, .tint = {1, 1, 1, 1}},
     {.name = "water-line", .aliases = "WaterLine WaterFlooded _WaterColor",
      .note = "world y < level; with a band, saturate((level - y)/band)",
      .parameters = {
@@ -68,7 +77,8 @@ static const effect_row rows[] = {
                           .alias = "_WaterHeight"}},
      .wanted = WATER_BAND, .smallest = true, .needs = EFFECT_POSITION, .reference = "the level of the water",
      .source = DEPTH_TEXTURE,
-     .kind = EFFECT_FADE, .apart = height_apart, .output = water_line, .shader = water_line_shader},
+     .kind = EFFECT_FADE, .apart = height_apart, .output = water_line, .shader = water_line_shader,
+     .tint = {0, 0.25, 0.5, 0.5}},
     {.name = "height-fog", .aliases = "HeightFog VerticalFog",
      .note = "saturate((y - start)/(end - start) density), y the world height",
      .parameters = {
@@ -76,7 +86,8 @@ static const effect_row rows[] = {
          [HEIGHT_START] = {"start", "world height where the value is 0", "scene", -1e12, 1e12, 0, .alias = "_StartY"},
          [HEIGHT_END] = {"end", "world height where it is density", "scene", -1e12, 1e12, -100, .alias = "_EndY"}},
      .wanted = HEIGHT_DENSITY, .needs = EFFECT_POSITION, .source = DEPTH_TEXTURE,
-     .kind = EFFECT_CLAMPED, .quantity = height_share, .output = height_fog, .shader = height_fog_shader},
+     .kind = EFFECT_CLAMPED, .quantity = height_share, .output = height_fog, .shader = height_fog_shader,
+     .mix = EFFECT_SPARES, .tint = {0.5, 0.5, 0.5, 1}},
     {.name = "edge", .aliases = "EdgeDetection",
      .note = "|s1 - s4| > threshold, |s2 - s3| > threshold: Roberts' diagonals of eye01",
      .parameters = {
@@ -85,7 +96,8 @@ static const effect_row rows[] = {
          SLOPE, SAMPLE_DISTANCE},
      .smallest = true, .eye01 = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the first pixel's place in its cell",
      .source = DEPTH_TEXTURE "; Roberts 1963",
-     .kind = EFFECT_STEP, .taps = EFFECT_DIAGONALS, .critical = edge_critical, .output = edge, .shader = edge_shader},
+     .kind = EFFECT_STEP, .taps = EFFECT_DIAGONALS, .critical = edge_critical, .output = edge, .shader = edge_shader,
+     .tint = {0, 0, 0, 1}},
     {.name = "outline",
      .note = "|n1 - n4| normal-sensitivity >= 0.1, x and y of packed normals, or |s1 - s4| depth-sensitivity >= 0.1 "
              "s1; likewise 2 and 3",
@@ -99,25 +111,32 @@ static const effect_row rows[] = {
      .source = "shaders on Unity's _CameraDepthNormalsTexture, after CheckSame of EdgeDetectNormals.shader; "
                "Roberts 1963",
      .kind = EFFECT_STEP, .taps = EFFECT_DIAGONALS, .critical = outline_critical, .output = outline,
-     .shader = outline_shader},
+     .shader = outline_shader,
+     .tint = {0, 0, 0, 1}},
     {.name = "motion-blur", .aliases = "MotionBlur",
      .note = "|current - last NDC|/2 strength: the world position, seen by last frame's camera",
-     .parameters = {{"strength", "blur in pictures, of the way since last frame", "1", 1e-12, 1e12, 1, .whole = false}},
+     .parameters = {{"strength", "blur in pictures, of the way since last frame", "1", 1e-12, 1e12, 1, .whole = false},
+                    SAMPLES},
      .needs = EFFECT_POSITION | EFFECT_LAST_FRAME, .source = DEPTH_TEXTURE "; Rosado 2007, GPU Gems 3, chapter 27",
      .kind = EFFECT_GAIN, .apart = velocity_apart, .output = velocity, .shader = velocity_shader,
-     .vector = velocity_vector, .exact_vector = velocity_exact},
+     .vector = velocity_vector, .exact_vector = velocity_exact,
+     .mix = EFFECT_SMEARS},
     {.name = "motion-vector", .aliases = "velocity _CameraMotionVectorsTexture",
      .note = "(current - last NDC)/2 strength: to the right, up, and its length, in pictures",
-     .parameters = {{"strength", "multiple of the way since last frame", "1", 1e-12, 1e12, 1, .whole = false}},
+     .parameters = {{"strength", "multiple of the way since last frame", "1", 1e-12, 1e12, 1, .whole = false}, SAMPLES},
      .needs = EFFECT_POSITION | EFFECT_LAST_FRAME, .source = DEPTH_TEXTURE "; Rosado 2007, GPU Gems 3, chapter 27",
      .kind = EFFECT_GAIN, .apart = velocity_apart, .output = velocity, .shader = velocity_shader,
-     .vector = velocity_vector, .exact_vector = velocity_exact, .wide = true},
+     .vector = velocity_vector, .exact_vector = velocity_exact, .wide = true,
+     .mix = EFFECT_SMEARS},
     {.name = "depth-of-field", .aliases = "DepthOfField _FocusDistance", .note = "saturate(|eye01 - focus| level)",
      .parameters = {
          {"level", "how fast the picture blurs away from the focus", "1", 1e-12, 1e15, 10, .alias = "_FocusLevel"},
+         {"blur", "on a picture: from one of the nine pixels of the blur to the next", "pixels", 0, 64, 1,
+          .use = PARAMETER_IMAGE, .alias = "_BlurLevel"},
          REFERENCE("eye depth of the focus"), REFERENCE01("_FocusDistance")},
      .eye01 = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the focus", .given = true, .source = DEPTH_TEXTURE,
-     .kind = EFFECT_GAIN, .apart = eye01_apart, .output = depth_of_field, .shader = depth_of_field_shader},
+     .kind = EFFECT_GAIN, .apart = eye01_apart, .output = depth_of_field, .shader = depth_of_field_shader,
+     .mix = EFFECT_BLURS},
     {.name = "soft-particles", .note = "saturate((scene - particle)/fade-distance)",
      .parameters = {
          {"fade-distance", "way from a surface over which a particle fades in", "scene", 1e-12, 1e12, 1,
@@ -125,7 +144,8 @@ static const effect_row rows[] = {
          REFERENCE("eye depth of the particle")},
      .smallest = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the eye depth of the particle", .given = true,
      .source = "Lorach 2007, Soft particles; Unity's Particles/Standard shaders, _SoftParticleFadeParams",
-     .kind = EFFECT_FADE, .apart = eye_apart, .output = soft_particles, .shader = soft_particles_shader},
+     .kind = EFFECT_FADE, .apart = eye_apart, .output = soft_particles, .shader = soft_particles_shader,
+     .tint = {1, 1, 1, 0.5}},
     {.name = "decal",
      .note = "inside the box: |p| <= 1/2, p = decal's matrix world; with a feather, saturate(way to a face/feather)",
      .parameters = {
@@ -141,7 +161,8 @@ static const effect_row rows[] = {
      .wanted = DECAL_FEATHER, .smallest = true, .needs = EFFECT_POSITION, .reference = "a face of the box",
      .source = "Persson, Volume decals, GPU Pro 2, 2011; URP's DBuffer and screen-space decals",
      .kind = EFFECT_FADE, .apart = decal_apart, .quantity = decal_inside, .most = decal_most,
-     .output = decal, .shader = decal_shader},
+     .output = decal, .shader = decal_shader,
+     .tint = {1, 0, 0, 1}},
     {.name = "ambient-occlusion",
      .note = "bias < z - z_sample < radius: what hides a part of the sky, checked for range; of four samples",
      .parameters = {
@@ -153,7 +174,8 @@ static const effect_row rows[] = {
      .reference = "the sample's place in its cell",
      .source = "Mittring 2007, Finding next gen: CryEngine 2; range checks as in LearnOpenGL, SSAO",
      .kind = EFFECT_STEP, .taps = EFFECT_AROUND, .quiet = true, .critical = occlusion_critical, .output = occlusion,
-     .shader = occlusion_shader},
+     .shader = occlusion_shader,
+     .tint = {0, 0, 0, 1}},
     {.name = "contact-shadow", .note = "0 <= ray - scene < thickness: a ray that has gone under a surface is stopped",
      .parameters = {
          [CONTACT_THICKNESS] = {"thickness", "how thick surfaces are taken to be", "scene", 0, 1e12, 0.1,
@@ -164,7 +186,8 @@ static const effect_row rows[] = {
      .wanted = CONTACT_THICKNESS, .smallest = true, .needs = EFFECT_SECOND_DEPTH,
      .reference = "the eye depth of the ray", .given = true,
      .source = "screen-space shadows: McGuire and Mara 2014, Efficient GPU screen-space ray tracing",
-     .kind = EFFECT_STEP, .critical = contact_critical, .output = contact_shadow, .shader = contact_shadow_shader},
+     .kind = EFFECT_STEP, .critical = contact_critical, .output = contact_shadow, .shader = contact_shadow_shader,
+     .tint = {0, 0, 0, 1}},
     {.name = "shadow", .note = "lit where computed - bias <= stored: a shadow map's comparison",
      .parameters = {
          [SHADOW_BIAS] = {"bias", "what the computed depth is brought nearer by", "scene", 0, 1e12, 0.01,
@@ -175,7 +198,8 @@ static const effect_row rows[] = {
      .wanted = SHADOW_BIAS, .smallest = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the computed depth",
      .given = true, .source = "Williams 1978, Casting curved shadows on curved surfaces",
      .kind = EFFECT_STEP, .alone = true, .quiet = true, .critical = shadow_critical, .output = shadow_lit,
-     .shader = shadow_lit_shader},
+     .shader = shadow_lit_shader,
+     .mix = EFFECT_SPARES, .tint = {0, 0, 0, 1}},
     {.name = "water-depth", .note = "1 - exp(-density (scene - surface) along the view ray)",
      .parameters = {
          {"density", "how fast the water hides what is in it", "1/scene", 1e-12, 1e12, 0.5, .whole = false},
@@ -184,7 +208,8 @@ static const effect_row rows[] = {
          REFERENCE("eye depth of the surface")},
      .needs = EFFECT_POSITION | EFFECT_SECOND_DEPTH, .reference = "the eye depth of the surface", .given = true,
      .source = "the law of Beer and Lambert; water shaders on the depth texture, as Boat Attack's",
-     .kind = EFFECT_DECAY, .apart = along_ray, .output = water_depth, .shader = water_depth_shader},
+     .kind = EFFECT_DECAY, .apart = along_ray, .output = water_depth, .shader = water_depth_shader,
+     .tint = {0, 0.25, 0.5, 1}},
 };
 /* clang-format on */
 

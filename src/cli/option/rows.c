@@ -323,6 +323,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_AS] = {"as", 0, "NAME[:NUMBERS]",
         "eye depths as another sensor or format would have stored them: the nearest levels of what --lattice has names "
         "for, which begin at 0 where nothing else is said", TEXT(image.as), .without = "not rounded"},
+    [OPTION_PICTURE] = {"picture", 0, "FILE",
+        "a PNG of colours of the same size, onto which --product effect is composed as shaders do; sky then lies at "
+        "the far plane unless --sky is given", FILE_READ(image.picture)},
+    [OPTION_TINT] = {"tint", 0, "R,G,B[,A]",
+        "with --picture: the colour of the fog, line, water, ..., each part from 0 to 1", .parse = parse_tint,
+        FIELD(double, image.tint[0]), .without = "that of the effect"},
     [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL,
         "direction of y in a PNG of normals: up, or down", WORD(image.normal_format, normal_formats),
         .standard = "opengl"},

@@ -186,7 +186,7 @@ static const option_use of_image[] = {
     GROUP(picture), TAKE(THREADS), TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(CHANNEL), TAKE(OVERLAY),
     OWN(RANGE, HELP("the values of an effect that are black and white in its PNG"),
         WITHOUT("0:1, of a vector -1:1")),
-    TAKE(HISTOGRAM), TAKE(MATRIX), END};
+    TAKE(PICTURE), TAKE(TINT), TAKE(HISTOGRAM), TAKE(MATRIX), END};
 static const option_use of_position[] = {
     TAKE(FOV), TAKE(HFOV),
     OWN(EYE, HELP("the camera's place in the world"), DEFAULT("0,0,0")),

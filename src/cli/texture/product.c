@@ -28,6 +28,24 @@ int texture_effect_normals(const options *o, texture_source *s) {
     return EXIT_FINE;
 }
 
+int texture_picture_open(const options *o, texture_source *s) {
+    const image *p = &s->colours;
+    image_error error;
+    if (o->image.picture == NULL)
+        return EXIT_FINE;
+    if (!image_read(o->image.picture, &s->colours, &error)) {
+        usage_error("%s: %s", o->image.picture, error.text);
+        return error.unreadable ? EXIT_IO : EXIT_USAGE;
+    }
+    if (p->file != IMAGE_PNG || p->channels < 3)
+        return option_error(OPTION_PICTURE, "must be a PNG with three channels, or four, got %s of %u",
+                            image_file_name(p->file), p->channels);
+    if (p->width != s->camera.width || p->height != s->camera.height)
+        return option_error(OPTION_PICTURE, "must be as large as the depths, %u x %u pixels, got %u x %u",
+                            s->camera.width, s->camera.height, p->width, p->height);
+    return EXIT_FINE;
+}
+
 /* The parameters that are not the synthetic image's are the effect's. */
 int texture_product_effect(const options *o, texture_product *p) {
     options rest = *o;
@@ -51,12 +69,12 @@ int texture_product_effect(const options *o, texture_product *p) {
 }
 
 static int check_files(const options *o) {
-    image_file file = IMAGE_FILE_COUNT;
+    image_file file = IMAGE_FILE_COUNT, other;
     if (o->out.file == NULL && o->image.figure == NULL)
         return usage_error("texture: a product needs -o FILE that ends in .png, .pfm or .npy, or --figure FILE");
     if (o->out.file != NULL && !image_file_of(o->out.file, &file))
         return option_error(OPTION_OUTPUT, "must end in .png, .pfm or .npy for a product, got '%s'", o->out.file);
-    if (o->image.error_file != NULL && !image_file_of(o->image.error_file, &file))
+    if (o->image.error_file != NULL && !image_file_of(o->image.error_file, &other))
         return option_error(OPTION_ERROR_MAP, "must end in .png, .pfm or .npy, got '%s'", o->image.error_file);
     if (o->image.error_file != NULL && o->out.file == NULL)
         return option_error(OPTION_ERROR_MAP, "needs -o FILE for the product beside it, got '%s'", o->image.error_file);
@@ -67,6 +85,10 @@ static int check_files(const options *o) {
         return option_error(o->out.form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
                             "is for statistics, which a product does not have%s",
                             o->out.form == FORM_JSON ? "; with -o FILE it says what the numbers in FILE are" : "");
+    if (o->image.picture != NULL && (o->out.file == NULL || file != IMAGE_PNG || o->image.effect == NULL ||
+                                     o->image.error_map || o->image.figure != NULL || option_given(o, OPTION_RANGE)))
+        return option_error(OPTION_PICTURE, "is for --product effect and a PNG of -o, without --error-map, --figure "
+                                            "and --range; --error-map=FILE says what the effect is off by");
     if (option_given(o, OPTION_RANGE) &&
         (o->out.file == NULL || file != IMAGE_PNG || o->image.error_map || o->image.effect == NULL))
         return option_error(OPTION_RANGE, "is for the values of an effect in a PNG");
@@ -101,7 +123,8 @@ int texture_product_resolve(const options *o, texture_product *p) {
                             o->image.error_map ? "error-map" : "product ", o->image.error_map ? "" : row->name);
     if (row->kind == FRAME_EFFECT)
         status = texture_product_effect(o, p);
-    p->made.vector = status == EXIT_FINE && row->kind == FRAME_EFFECT && p->made.effect->wide;
+    p->made.vector = status == EXIT_FINE && row->kind == FRAME_EFFECT &&
+                     (p->made.effect->wide || (o->image.picture != NULL && p->made.effect->mix == EFFECT_SMEARS));
     if (o->image.as != NULL && (row->kind != FRAME_EYE || row->radial))
         return option_error(OPTION_AS, "is for --product eye");
     if (status == EXIT_FINE)

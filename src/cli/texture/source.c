@@ -212,6 +212,7 @@ static int unpack(const options *o, texture_source *s) {
 
 void texture_source_close(texture_source *s) {
     image_free(&s->picture);
+    image_free(&s->colours);
     free(s->unpacked.normals);
     frame_normals_free(&s->normals);
 }

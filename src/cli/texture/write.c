@@ -27,7 +27,7 @@ int writing_open(const options *o, writing *w, const char *path, const texture_s
         return status;
     w->source = s;
     w->type = type;
-    w->row_values = (size_t)s->camera.width * channels;
+    w->row_values = w->made_values = (size_t)s->camera.width * channels;
     w->row = malloc(w->row_values * image_type_size(type));
     w->codes = malloc(s->camera.width * sizeof *w->codes);
     w->stream = fopencookie(&w->out, "w", (cookie_io_functions_t){.write = stream_write});
@@ -99,14 +99,16 @@ static void to_greys(const writing *w, const float *values) {
 
 bool writing_take(void *context, uint32_t row, uint32_t count, const float *values) {
     writing *w = context;
-    (void)row;
+    const bool drawn = w->on.picture != NULL;
     for (uint32_t i = 0; i < count; i++) {
-        const float *one = values + (writing_bottom_up(w) ? count - 1 - i : i) * w->row_values;
-        if (w->directions)
+        const float *one = values + (writing_bottom_up(w) ? count - 1 - i : i) * w->made_values;
+        if (drawn)
+            compose_row(&w->on, row + i, one, w->row);
+        else if (w->directions)
             to_colours(w, one);
         else if (w->type == IMAGE_U16)
             to_greys(w, one);
-        if (!image_writer_rows(w->writer, w->type == IMAGE_U16 ? w->row : one, 1))
+        if (!image_writer_rows(w->writer, drawn || w->type == IMAGE_U16 ? w->row : one, 1))
             return false;
     }
     for (size_t i = 0; i < count * w->row_values && w->levels; i++) {
@@ -161,7 +163,7 @@ static bool rounding_of_product(const options *o, const texture_source *s, const
 /* What the samples of a PNG mean. */
 static bool scale_of(const options *o, const texture_source *s, const frame_product *made, writing *w) {
     frame_summary sum;
-    if (w->type != IMAGE_U16)
+    if (w->type != IMAGE_U16 || w->on.picture != NULL)
         return true;
     w->directions = made->kind == FRAME_NORMAL && !made->error;
     if (!range_of(o, s, made, &sum))
@@ -186,7 +188,9 @@ meaning writing_meaning(const options *o, const texture_product *p, const writin
                  .axes = w->directions ? axes[w->down] : NULL,
                  .channels = w->channels,
                  .scale = 1};
-    if (w->file == IMAGE_PNG) {
+    if (w->on.picture != NULL) {
+        m.scale = w->type == IMAGE_U8 ? 1.0 / 255 : 1.0 / GREYS;
+    } else if (w->file == IMAGE_PNG) {
         m.scale = w->directions ? 2.0 / GREYS : w->units ? w->lo : (w->hi - w->lo) / (GREYS - 1);
         m.offset = w->directions ? -1 : w->units ? 0 : w->lo - m.scale;
     }
@@ -204,8 +208,10 @@ void writing_note(const writing *w, const texture_product *p, const meaning *m, 
                  number_full(planes->znear).text, number_full(planes->zfar).text, planes->ortho ? " ortho" : "");
     else
         snprintf(note, IMAGE_NOTE_SIZE, "product=%s%s offset=%s scale=%s%s",
-                 p->made.radial ? "distances" : names[p->made.kind], p->made.error ? ",-the-error" : "",
-                 number_full(m->offset).text, number_full(m->scale).text,
+                 w->on.picture != NULL ? "colours"
+                 : p->made.radial      ? "distances"
+                                       : names[p->made.kind],
+                 p->made.error ? ",-the-error" : "", number_full(m->offset).text, number_full(m->scale).text,
                  m->axes == NULL      ? ""
                  : m->axes == axes[0] ? " y=up"
                                       : " y=down");
@@ -237,7 +243,7 @@ int writing_say(const options *o, const texture_product *p, const writing *w, me
         report_write(&(report_spec){"texture", meaning_columns, m, .label = 14}, &out, FORM_JSON);
         return output_close(&out);
     }
-    if (w->file != IMAGE_PNG || o->out.quiet)
+    if (w->file != IMAGE_PNG || w->on.picture != NULL || o->out.quiet)
         return EXIT_FINE;
     if (w->directions)
         message("depthprec: %s: 0 is -1, 65535 is 1, %s; 0 in all three where there is no value", o->out.file, m->axes);
@@ -270,6 +276,12 @@ static void say_levels(const options *o, const texture_source *s, const texture_
                     : "are");
 }
 
+static void take_picture(const options *o, const texture_source *s, const frame_product *made, compose *on) {
+    const double *tint = option_given(o, OPTION_TINT) ? o->image.tint : made->effect->tint;
+    *on = (compose){.row = made->effect, .parameters = made->effect_settings, .picture = &s->colours};
+    memcpy(on->tint, tint, sizeof on->tint);
+}
+
 /* The product, and beside it the error as a product of its own. */
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
     options each[2] = {*o, *o};
@@ -288,8 +300,15 @@ int texture_product_write(const options *o, const texture_source *s, const textu
         const frame_product *made = &product[opened].made;
         one->levels = made->kind == FRAME_EFFECT && made->error;
         image_file_of(each[opened].out.file, &one->file);
-        status = writing_open(o, one, each[opened].out.file, s, one->file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32,
-                              (uint32_t)frame_channels(made));
+        const bool drawn = opened == 0 && o->image.picture != NULL;
+        status = writing_open(o, one, each[opened].out.file, s,
+                              drawn                    ? s->colours.type
+                              : one->file == IMAGE_PNG ? IMAGE_U16
+                                                       : IMAGE_F32,
+                              drawn ? s->colours.channels : (uint32_t)frame_channels(made));
+        one->made_values = (size_t)s->camera.width * (size_t)frame_channels(made);
+        if (drawn)
+            take_picture(o, s, made, &one->on);
     }
     if (status != EXIT_FINE && opened == 2) {
         writing_end(&w[0], false);
