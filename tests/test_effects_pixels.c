@@ -198,6 +198,8 @@ static const struct {
     {"water-line", "band=0 level=-1.5", hard_line, false, true, 1},
     {"height-fog", "density=0.8 start=4 end=-30", height_fog, false, false, 1},
     {"soft-particles", "fade-distance=4", soft_particles, true, false, 1},
+    {"ray-march", "step=4", soft_particles, true, false, 1},
+    {"thickness", "scale=4", soft_particles, true, false, 1},
     {"decal", "feather=0.7 yaw=25 x=1 y=-0.5 z=18 width=3 height=4 depth=30", decal, false, false, 1},
     {"decal", "feather=0 yaw=25 x=1 y=-0.5 z=18 width=3 height=4 depth=30", hard_decal, false, true, 1},
     {"contact-shadow", "thickness=5", contact_shadow, true, true, 1},

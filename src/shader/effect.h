@@ -106,11 +106,13 @@ typedef struct effect_row {
     const char *aliases; /**< what articles and shaders call it, separated by one space; or null */
     const char *note;    /**< the formula */
     texture_parameter parameters[PARAMETERS_MAX + 1];
-    int wanted;            /**< the parameter whose usable values are looked for */
-    bool smallest;         /**< it is usable from some value up; else from some value down */
-    int ceiling;           /**< EFFECT_STEP: another parameter, beyond which differences count for nothing; 0: none */
-    bool eye01;            /**< uses z/far, so far must be finite */
-    unsigned needs;        /**< EFFECT_POSITION and the like */
+    int wanted;     /**< the parameter whose usable values are looked for */
+    bool smallest;  /**< it is usable from some value up; else from some value down */
+    int ceiling;    /**< EFFECT_STEP: another parameter, beyond which differences count for nothing; 0: none */
+    int behind;     /**< EFFECT_FADE: another parameter, how far behind it the other end of an eye depth lies, which is
+                         stored too; 0: none */
+    bool eye01;     /**< uses z/far, so far must be finite */
+    unsigned needs; /**< EFFECT_POSITION and the like */
     const char *reference; /**< what the depth is compared with; null when with nothing */
     bool given;            /**< the reference is a parameter, which the user gives with an image */
     const char *source;
@@ -145,7 +147,7 @@ bool effect_applies(const effect_row *row, const dp_setup *setup);
 /**
  * How far the error stays within so many levels, from `lo` on: the last such depth before the first that was found
  * beyond; `hi` where none is beyond, NaN where `lo` is. Depths are tried at 64 places of each run of them whose steps
- * grow with the depth, and at its end: with the step grows the error, but for effects that compare two pixels or
+ * grow with the depth, and at its end: with the step grows the error, but for effects of two depths, pixels or
  * frames, which effect_is_steady() tells.
  */
 bool effect_is_steady(const effect_row *row);

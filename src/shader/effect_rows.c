@@ -17,8 +17,8 @@
 
 #define SAMPLES                                                                                                        \
     {                                                                                                                  \
-        "samples", "on a picture: pixels on the way, a vector apart", "1", 1, 64, 3, .whole = true,                    \
-            .use = PARAMETER_IMAGE, .alias = "numSamples"                                                              \
+        "samples", "on a picture: pixels on the way, a vector apart", "1", 1, 64, 3,                                   \
+            .whole = true, .use = PARAMETER_IMAGE, .alias = "numSamples"                                               \
     }
 #define REFERENCE(note)                                                                                                \
     { "reference", note, "scene", 0, 1e18, (double)NAN, .use = PARAMETER_IMAGE }
@@ -210,6 +210,26 @@ static const effect_row rows[] = {
      .source = "the law of Beer and Lambert; water shaders on the depth texture, as Boat Attack's",
      .kind = EFFECT_DECAY, .apart = along_ray, .output = water_depth, .shader = water_depth_shader,
      .tint = {0, 0.25, 0.5, 1}},
+    {.name = "thickness", .aliases = "translucency",
+     .note = "saturate((back - front)/scale), both stored: how thick it is what light shines through",
+     .parameters = {
+         {"scale", "thickness that lets nothing through", "scene", 1e-12, 1e12, 1, .whole = false},
+         [THICKNESS_BEHIND] = {"thickness", "from the front to the back", "scene", 0, 1e12, 0.1,
+                               .use = PARAMETER_TABLE},
+         REFERENCE("eye depth of the front, exactly")},
+     .smallest = true, .behind = THICKNESS_BEHIND, .needs = EFFECT_SECOND_DEPTH, .reference = "either depth",
+     .given = true, .source = DEPTH_TEXTURE "; Barre-Brisebois and Bouchard 2011, translucency by thickness",
+     .kind = EFFECT_FADE, .apart = eye_apart, .output = soft_particles, .shader = soft_particles_shader,
+     .tint = {0, 0, 0, 1}},
+    {.name = "ray-march", .note = "saturate((scene - ray)/step): how much of its next step is before the surface",
+     .parameters = {
+         {"step", "what the ray gains in eye depth from one sample to the next", "scene", 1e-12, 1e12, 0.1,
+          .whole = false},
+         REFERENCE("eye depth of the ray")},
+     .smallest = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the eye depth of the ray", .given = true,
+     .source = "McGuire and Mara 2014, Efficient GPU screen-space ray tracing",
+     .kind = EFFECT_FADE, .apart = eye_apart, .output = soft_particles, .shader = soft_particles_shader,
+     .tint = {1, 1, 1, 1}},
 };
 /* clang-format on */
 

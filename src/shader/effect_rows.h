@@ -29,6 +29,7 @@ static inline double times(double a, double b) {
 
 /* ---- Eye depth, and its share of far ----------------------------------------------------------------------------- */
 
+enum { THICKNESS_BEHIND = 1 };
 enum { FORCE_POWER = 0, FORCE_RIM, FORCE_FACING };
 
 effect_apart eye_apart, eye01_apart, along_ray;
