@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Effects on a picture of colours: each sample by the mixing formulas of shaders, written here, of what the same effect
- * is without a picture; pixels that have no value, and alpha, stay as they are. */
+ * is without a picture; alpha stays as it is, and pixels that have no value or hide the surface. */
 #include "image/image.h"
 #include "printed.h"
 
@@ -86,13 +86,18 @@ TEST(mixed_as_shaders_do) {
         const char *const sky = strstr(rows[at].options, "--sky") != NULL ? "" : "--sky none"; /* with a picture, too */
         static const char scene[] = "texture --synthetic sphere --size 40x24 -f 30 --fov 70 -q";
         char path[256], made[256], out[256];
-        image picture, numbers, got;
+        image picture, numbers, got, eyes;
+        const bool surface = strstr(rows[at].options, "intersection") || strstr(rows[at].options, "force-field");
+        int hidden = 0;
         tally t = {.name = rows[at].options};
         make_picture(i % 2 == 1, path);
         snprintf(made, sizeof made, "%s", scratch_file("made.npy"));
         snprintf(out, sizeof out, "%s", scratch_file("out.png"));
         printed p = print_of("%s %s %s -o %s", scene, rows[at].options, sky, made);
         printed_free(&p);
+        p = print_of("%s %s --product eye -o %s", scene, sky, scratch_file("eyes.npy"));
+        printed_free(&p);
+        read(scratch_file("eyes.npy"), &eyes);
         p = print_of("%s %s %s --picture %s -o %s", scene, rows[at].options, rows[at].of_picture, path, out);
         assert_string_equal(p.errors, "");
         read(path, &picture);
@@ -106,14 +111,18 @@ TEST(mixed_as_shaders_do) {
             const int pixel = k / (int)channels, x = pixel % WIDTH, y = pixel / WIDTH;
             const uint32_t channel = (uint32_t)k % channels;
             const float *value = (const float *)numbers.data + (size_t)pixel * numbers.channels;
-            const bool kept = isnan(*value) || channel == 3;
+            const bool before = surface && ((const float *)eyes.data)[pixel] < 9;
+            const bool kept = isnan(*value) || channel == 3 || before;
+            hidden += before;
             const double want = kept ? sample(&picture, x, y, channel)
                                      : by_hand(rows[at].mix, rows[at].tint, &picture, x, y, channel, value);
             TALLY(&t, fabs(sample(&got, x, y, channel) - want) * most <= (kept ? 0 : 0.5 + 1e-6),
                   "%d,%d channel %u: %.9g, not %.9g", x, y, channel, most * sample(&got, x, y, channel), most * want);
         }
         tally_end(&t);
+        assert_true((hidden > 20) == surface);
         printed_free(&p);
+        image_free(&eyes);
         image_free(&picture);
         image_free(&numbers);
         image_free(&got);

@@ -416,11 +416,16 @@ static double error_at(const work *w, frame_ranges *last, uint32_t x) {
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
+static bool is_hidden(const work *w, uint32_t x) {
+    return w->in->product->hides && seen_as(w, w->in->depth[x]).eye < w->other.eye;
+}
+
 void frame_effect(const frame_row *in) {
     const work w = work_of(in);
     places(&w);
     for (uint32_t x = 0; x < w.camera->width; x++) {
-        const bool alone = w.row->taps == EFFECT_ALONE, none = alone && isnan(in->eyes[NORMAL_REACH][x]);
+        const bool alone = w.row->taps == EFFECT_ALONE,
+                   none = alone && (isnan(in->eyes[NORMAL_REACH][x]) || is_hidden(&w, x));
         const float value = none ? NAN : alone ? output_at(&w, x) : corners(&w, x);
         if (in->product->vector) {
             float *out = in->out + 3 * (size_t)x;

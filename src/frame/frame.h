@@ -112,6 +112,7 @@ typedef struct frame_product {
     const effect_row *effect;     /**< FRAME_EFFECT */
     /** Its parameters. Where a row is `given` and its reference is not, errors are those of the worst one. */
     const double *effect_settings;
+    bool hides;  /**< FRAME_EFFECT of a `surface`: none where the scene is before it */
     bool vector; /**< FRAME_EFFECT that has one: its parts, and its length */
 } frame_product;
 

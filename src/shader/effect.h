@@ -131,6 +131,7 @@ typedef struct effect_row {
     effect_exact_vector *exact_vector;
     bool wide; /**< it is shown, besides its length */
     effect_mix mix;
+    bool surface;   /**< a depth test hides it where the scene is before its reference, not its value */
     double tint[4]; /**< by default: red, green, blue, alpha */
 } effect_row;
 

@@ -39,7 +39,7 @@ static const effect_row rows[] = {
      .smallest = true, .needs = EFFECT_SECOND_DEPTH, .reference = "the eye depth of the surface", .given = true,
      .source = DEPTH_TEXTURE "; Lorach 2007, Soft particles",
      .kind = EFFECT_FADE, .apart = eye_apart, .output = intersection, .shader = intersection_shader,
-     .mix = EFFECT_SPARES, .tint = {1, 1, 1, 1}},
+     .mix = EFFECT_SPARES, .surface = true, .tint = {1, 1, 1, 1}},
     {.name = "force-field", .aliases = "ForceField",
      .note = "max(rim, (1 - (scene - eye)) power), rim = 1 - facing rim-power",
      .parameters = {
@@ -52,7 +52,7 @@ static const effect_row rows[] = {
          REFERENCE("eye depth of the surface")},
      .needs = EFFECT_SECOND_DEPTH, .reference = "the eye depth of the surface", .given = true, .source = DEPTH_TEXTURE,
      .kind = EFFECT_GAIN, .apart = eye_apart, .output = force_field, .shader = force_field_shader,
-     .tint = {0.25, 0.5, 1, 1}},
+     .surface = true, .tint = {0.25, 0.5, 1, 1}},
     {.name = "fog", .aliases = "_FogColor", .note = "saturate(eye01 density)",
      .parameters = {
          {"density", "how thick the fog is at the far plane", "1", 1e-12, 1e12, 1, .alias = "_FogDensity"}},

@@ -131,6 +131,7 @@ int texture_product_resolve(const options *o, texture_product *p) {
         status = texture_lattice(OPTION_AS, o->image.as, &p->as);
     if (o->image.as != NULL)
         p->made.as = &p->as;
+    p->made.hides = o->image.picture != NULL && row->kind == FRAME_EFFECT && p->made.effect->surface;
     p->error = p->made;
     p->error.error = true;
     return status == EXIT_FINE ? check_files(o) : status;
