@@ -87,6 +87,7 @@ each normals texture -o product.npy $synthetic sphere --error-map --product norm
 each effects texture -o product.png $synthetic steps --product effect:
 each effects texture -o product.png $synthetic steps --parameter reference=10 --product effect:
 texture -o product.png $synthetic steps --product effect:motion-blur --last-eye 1,0.5,-1 --last-look 2,0.5,18
+texture -o product.npy $synthetic steps --product effect:motion-vector --last-eye 1,0.5,-1 --error-map=product.pfm
 texture -o depth.png -F unorm16 $synthetic decals
 texture depth.png --product normal:projective -o product.npy --error-map=product.pfm
 texture depth.png --product linear01 -o product.npy --error-map=product.pfm

@@ -44,11 +44,12 @@ static bool keep(void *context, uint32_t row, uint32_t count, const float *value
 
 void stage_effect(const stage *s, const char *effect, const double *at, double reference, bool error,
                   float out[PIXELS]) {
-    const frame_product p = {.kind = FRAME_EFFECT,
-                             .effect = effect_find(effect),
-                             .effect_settings = at,
-                             .error = error,
-                             .reference = reference};
+    double settings[PARAMETERS_MAX];
+    memcpy(settings, at, sizeof settings);
+    if (reference > 0)
+        stage_set(effect, settings, "reference", reference);
+    const frame_product p = {
+        .kind = FRAME_EFFECT, .effect = effect_find(effect), .effect_settings = settings, .error = error};
     assert_null(frame_refuses(&s->frame, &p));
     assert_true(frame_run(&s->frame, &p, false, keep, out));
 }

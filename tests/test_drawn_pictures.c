@@ -122,7 +122,7 @@ static const picture_case cases[] = {
      1},
     {"--synthetic plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --product "
      "effect:force-field "
-     "--parameter reference=20 --parameter power=2",
+     "--parameter reference=50 --parameter power=2",
      "Force-field, power 2",
      "synthetic plane, 640 x 240; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "force-field",

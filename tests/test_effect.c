@@ -231,6 +231,8 @@ static const hand hands[] = {
     {"water-line", water_error, water_usable},
     {"height-fog", height_error, height_usable},
     {"motion-blur", blur_error, blur_usable},
+    {"motion-vector", blur_error, blur_usable},
+    {"ray-march", intersection_error, intersection_usable},
     {"depth-of-field", focus_error, focus_usable},
 };
 enum { HAND_COUNT = sizeof hands / sizeof hands[0] };
@@ -373,7 +375,7 @@ TEST(test_outputs) {
             const effect_row *row = effect_get(i);
             const cell k = cell_of(&c, code);
             double p[PARAMETERS_MAX], worst = 0;
-            if (row->kind == EFFECT_STEP)
+            if (row->kind == EFFECT_STEP || row->behind > 0) /* test_thickness */
                 continue;
             parameters_of(row, p);
             const double usable = effect_usable(row, &view, p, (double)k.stored, 1);
@@ -605,15 +607,48 @@ TEST(test_shadow) {
     tally_end(&t);
 }
 
+/* ---- Two stored depths ---------------------------------------------------------------------------------------------
+ */
+
+/* A front and a back: what both cells allow of the difference, found by trying their ends. */
+TEST(test_thickness) {
+    const effect_row *row = effect_find("thickness");
+    const int behind = parameter_find(row->parameters, "thickness");
+    rng r = rng_make("thickness");
+    tally t = {.name = "thickness"};
+    for (uint64_t i = 0; i < test_cases(2000, 60000, 1000000); i++) {
+        place at;
+        any_place(&r, 1, &at);
+        double p[PARAMETERS_MAX];
+        parameter_defaults(row->parameters, p);
+        p[behind] = rng_log(&r, 1e-3, 1) * at.z;
+        const long double back = fminl((long double)at.z + (long double)p[behind], at.c.f);
+        const uint32_t code = dp_code(&at.setup, (double)back);
+        const cell k = cell_of(&at.c, code);
+        long double most = 0;
+        for (int e = 0; e < 4; e++)
+            most =
+                fmaxl(most, fabsl((e % 2 == 0 ? k.lo : k.hi) - (e < 2 ? at.k.lo : at.k.hi) - (k.stored - at.k.stored)));
+        const long double slack_of_ends = 0x1p-46L * k.hi / most + 1e-11L;
+        const double levels = effect_error(row, &at.view, p, at.z), usable = effect_usable(row, &at.view, p, at.z, 1);
+        TALLY(&t, fabsl((long double)levels - 255 * fminl(most, 1)) <= 255 * fminl(most, 1) * slack_of_ends,
+              "z %a, %a thick: %.12g levels, not %.12Lg", at.z, p[behind], levels, 255 * most);
+        TALLY(&t, fabsl((long double)usable - 255 * most) <= 255 * most * slack_of_ends, "z %a: from %.12g, not %.12Lg",
+              at.z, usable, 255 * most);
+    }
+    tally_end(&t);
+}
+
 /* ---- Rows and limits --------------------------------------------------------------------------------------------- */
 
 TEST(test_rows) {
     static const char *const names[] = {"intersection",   "force-field",    "fog",         "scan-line",
                                         "water-line",     "height-fog",     "edge",        "motion-blur",
                                         "depth-of-field", "soft-particles", "decal",       "ambient-occlusion",
-                                        "contact-shadow", "shadow",         "water-depth", "outline"};
+                                        "contact-shadow", "shadow",         "water-depth", "outline",
+                                        "motion-vector",  "thickness",      "ray-march"};
     /* As depthprec-texture(1) documents them: a command without --parameter is read with these in mind. */
-    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10, 1, 0, 0.01, 0.1, 0.01, 0.5, 1};
+    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10, 1, 0, 0.01, 0.1, 0.01, 0.5, 1, 1, 1, 0.1};
     assert_int_equal(count(), sizeof names / sizeof names[0]);
     for (size_t i = 0; i < count(); i++) {
         const effect_row *row = effect_get(i);
@@ -623,7 +658,9 @@ TEST(test_rows) {
         int parameters = 0;
         for (; row->parameters[parameters].name != NULL; parameters++) {
             const texture_parameter *p = &row->parameters[parameters];
-            assert_true(p->lo <= p->value && p->value <= p->hi && p->unit[0] != '\0' && p->note[0] != '\0');
+            const bool given = strncmp(p->name, "reference", 9) == 0; /* has no default */
+            assert_true(given ? isnan(p->value) : p->lo <= p->value && p->value <= p->hi);
+            assert_true(p->lo < p->hi && p->unit[0] != '\0' && p->note[0] != '\0');
             assert_int_equal(parameter_find(row->parameters, p->name), parameters);
         }
         assert_true(parameters >= 1 && parameters <= PARAMETERS_MAX && row->wanted < parameters);

@@ -195,6 +195,41 @@ TEST(test_refracted_scene) {
     assert_true(shifted > 20);
 }
 
+/* Without sky the cleared far plane is fogged as a surface there is: of an image within half of the last cell, of a
+ * scene exactly. With it nothing is, at whatever limit. */
+TEST(test_fog_on_sky) {
+    static float got[PIXELS], off[PIXELS];
+    static const double sky[] = {-1, 0, 1e-4}, parameters[PARAMETERS_MAX] = {8, 4, 0};
+    double at[PARAMETERS_MAX];
+    stage s;
+    stage_make(&s);
+    parameter_defaults(effect_find("fog")->parameters, at);
+    stage_set("fog", at, "density", 0.6);
+    for (int k = 0; k < PIXELS; k++)
+        s.codes[k] = k % ACROSS < 9 ? code_of(10) : CODE_MAX;
+    for (int i = 0; i < 6; i++) {
+        int clear = 0;
+        s.frame.sky = sky[i % 3];
+        s.frame.synthetic = i < 3 ? NULL : synthetic_find("sphere");
+        s.frame.parameters = parameters;
+        stage_effect(&s, "fog", at, 0, false, got);
+        stage_effect(&s, "fog", at, 0, true, off);
+        for (int k = 0; k < PIXELS; k++) {
+            double slope[2];
+            stage_slopes(k, slope);
+            const bool far = i < 3 ? k % ACROSS >= 9 : (slope[0] * slope[0] + slope[1] * slope[1] + 1) * (64 - 16) > 64;
+            clear += isnan(got[k]);
+            assert_true((isnan(got[k]) != 0) == (far && i % 3 > 0) && isnan(got[k]) == isnan(off[k]));
+            if (!far || i % 3 > 0)
+                continue;
+            const double cell = 255 * 0.6 * (1 - eye_of(CODE_MAX - 0.5) / 100);
+            assert_scene((double)got[k], 0.6, 1e-7);
+            assert_true(i < 3 ? (double)off[k] >= cell && (double)off[k] < cell + 1e-4 : off[k] < 1e-4f);
+        }
+        assert_true((clear > 20) == (i % 3 > 0));
+    }
+}
+
 static double dimmed(double z, double surface, double ray) {
     return 1 - exp(-0.05 * fmax(z - surface, 0) * ray);
 }

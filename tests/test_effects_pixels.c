@@ -6,6 +6,7 @@
 #include "frame/frame.h"
 #include "named.h"
 #include "support.h"
+#include "synthetic_stage.h"
 
 enum { ACROSS = 7, DOWN = 9, PIXELS = ACROSS * DOWN, CODE_MAX = 65535 };
 
@@ -87,7 +88,12 @@ static double intersection(const stage *s, int pixel, double z) {
 
 static double force_field(const stage *s, int pixel, double z) {
     (void)pixel;
-    return (1 - (z - s->reference)) * 0.3;
+    return fmax(0, (1 - (z - s->reference)) * 0.3);
+}
+
+static double force_field_rim(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return fmax(1 - 0.5 * 1.6, (1 - (z - s->reference)) * 0.3);
 }
 
 static double fog(const stage *s, int pixel, double z) {
@@ -184,6 +190,7 @@ static const struct {
 } effects[] = {
     {"intersection", "half-width=3", intersection, true, false, 1},
     {"force-field", "power=0.3", force_field, true, false, 1},
+    {"force-field", "power=0.3 rim-power=1.6 facing=0.5", force_field_rim, true, false, 1},
     {"fog", "density=1.7", fog, false, false, 1},
     {"scan-line", "half-width=0.07", scan_line, true, false, 1},
     {"depth-of-field", "level=4", depth_of_field, true, false, 1},
@@ -191,6 +198,8 @@ static const struct {
     {"water-line", "band=0 level=-1.5", hard_line, false, true, 1},
     {"height-fog", "density=0.8 start=4 end=-30", height_fog, false, false, 1},
     {"soft-particles", "fade-distance=4", soft_particles, true, false, 1},
+    {"ray-march", "step=4", soft_particles, true, false, 1},
+    {"thickness", "scale=4", soft_particles, true, false, 1},
     {"decal", "feather=0.7 yaw=25 x=1 y=-0.5 z=18 width=3 height=4 depth=30", decal, false, false, 1},
     {"decal", "feather=0 yaw=25 x=1 y=-0.5 z=18 width=3 height=4 depth=30", hard_decal, false, true, 1},
     {"contact-shadow", "thickness=5", contact_shadow, true, true, 1},
@@ -276,11 +285,12 @@ static void make(const stage *s, const frame *f, size_t effect, bool error, floa
     double at[PARAMETERS_MAX];
     settings_of(row, effects[effect].parameters, at);
     assert_true(row->given == effects[effect].compares);
-    const frame_product p = {.kind = FRAME_EFFECT,
-                             .effect = row,
-                             .effect_settings = at,
-                             .error = error,
-                             .reference = effects[effect].compares ? s->reference : 0};
+    const int share = parameter_find(row->parameters, "reference01"); /* turn by turn in place of the depth itself */
+    if (row->given && s->reference > 0 && share >= 0 && s->reversed)
+        at[share] = s->reference / FAR;
+    else if (row->given && s->reference > 0)
+        at[parameter_find(row->parameters, "reference")] = s->reference;
+    const frame_product p = {.kind = FRAME_EFFECT, .effect = row, .effect_settings = at, .error = error};
     assert_null(frame_refuses(f, &p));
     assert_true(frame_run(f, &p, false, keep, out));
 }
@@ -477,6 +487,54 @@ TEST(test_velocity) {
         const double strength[PARAMETERS_MAX] = {1};
         assert_relative(row->output(&seen, strength, 10, 0), pictures[i].velocity, 1e-12);
     }
+}
+
+/* The velocity itself: both parts, with their signs, and its length; off by no more than its error map says. */
+TEST(test_vector) {
+    enum { PARTS = 3 };
+    static uint32_t codes[PIXELS];
+    static float got[PARTS * PIXELS], bound[PIXELS];
+    const image depths = {
+        .width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes};
+    const double strength[PARAMETERS_MAX] = {1.5};
+    rng r = rng_make("vectors");
+    tally t = {.name = "vectors"};
+    for (uint64_t i = 0; i < test_cases(30, 300, 3000); i++) {
+        stage s;
+        stage_any(&r, &s);
+        const frame f = {.camera = &s.camera, .last = &s.before, .image = &depths, .sky = 0, .threads = 1};
+        frame_product p = {
+            .kind = FRAME_EFFECT, .effect = effect_find("motion-vector"), .effect_settings = strength, .vector = true};
+        for (size_t k = 0; k < PIXELS; k++)
+            codes[k] = k == 11 ? s.reversed ? 0 : CODE_MAX : 600 + (uint32_t)rng_below(&r, 64000);
+        assert_int_equal(frame_channels(&p), PARTS);
+        float *all = frame_made(&f, &p, false);
+        memcpy(got, all, sizeof got);
+        free(all);
+        p.error = true;
+        assert_int_equal(frame_channels(&p), 1);
+        assert_true(frame_run(&f, &p, false, keep, bound));
+        for (int k = 0; k < PIXELS; k++) {
+            double world[3], last[2], parts[2], most = 0;
+            for (int at = -1; at <= 1; at++) {
+                world_of(&s, k, eye_of(&s, codes[k] + at / 2.0), world);
+                last_ndc(&s, world, last);
+                parts[0] = 1.5 * (ndc_x(k) - last[0]) / 2;
+                parts[1] = 1.5 * (ndc_y(k) - last[1]) / 2;
+                most = fmax(most, hypot((double)got[PARTS * k] - parts[0], (double)got[PARTS * k + 1] - parts[1]));
+                if (at == 0 && k != 11)
+                    TALLY(&t,
+                          fabs((double)got[PARTS * k] - parts[0]) < ROUNDED &&
+                              fabs((double)got[PARTS * k + 1] - parts[1]) < ROUNDED &&
+                              fabs((double)got[PARTS * k + 2] - hypot(parts[0], parts[1])) < ROUNDED,
+                          "pixel %d: %.9g %.9g, not %.9g %.9g", k, (double)got[PARTS * k], (double)got[PARTS * k + 1],
+                          parts[0], parts[1]);
+            }
+            TALLY(&t, k == 11 ? isnan(got[PARTS * k]) && isnan(got[PARTS * k + 2]) : 255 * most <= (double)bound[k],
+                  "pixel %d: %.9g levels off, not %.9g", k, 255 * most, (double)bound[k]);
+        }
+    }
+    tally_end(&t);
 }
 
 /* Fog over the ground is thicker the lower the camera stands. */

@@ -13,11 +13,13 @@ enum { WIDTH = 2100, HEIGHT = 260, PIXELS = WIDTH * HEIGHT };
 
 /* One of each. */
 enum { PRODUCTS = 14 };
-static double settings[PARAMETERS_MAX];
+static double settings[2][PARAMETERS_MAX];
 
 static size_t products(frame_product out[PRODUCTS]) {
     const effect_row *effect = effect_find("intersection");
-    parameter_defaults(effect->parameters, settings);
+    for (int i = 0; i < 2; i++)
+        parameter_defaults(effect->parameters, settings[i]);
+    settings[0][parameter_find(effect->parameters, "reference")] = 10;
     const frame_product all[] = {
         {.kind = FRAME_EYE},
         {.kind = FRAME_EYE, .radial = true},
@@ -31,8 +33,8 @@ static size_t products(frame_product out[PRODUCTS]) {
         {.kind = FRAME_POSITION, .position = position_find("view"), .error = true},
         {.kind = FRAME_NORMAL, .normal = normal_find("high")},
         {.kind = FRAME_NORMAL, .normal = normal_find("projective"), .error = true},
-        {.kind = FRAME_EFFECT, .effect = effect, .effect_settings = settings, .reference = 10},
-        {.kind = FRAME_EFFECT, .effect = effect, .effect_settings = settings, .error = true},
+        {.kind = FRAME_EFFECT, .effect = effect, .effect_settings = settings[0]},
+        {.kind = FRAME_EFFECT, .effect = effect, .effect_settings = settings[1], .error = true},
     };
     memcpy(out, all, sizeof all);
     return sizeof all / sizeof all[0];

@@ -77,7 +77,7 @@ static const struct {
     {"shadow", OPTION_ANGLE, AT(angle), 75, 0, 89.9, "0", "89.9", "-1", "89.91", "a number from 0 to 89.9 degrees"},
     {"shadow", OPTION_CASTERS, AT(shadow.casters), 100, 0, 1e12, "0", "1e12", "-1", "2e12",
      "a number from 0 to 1e12 scene units"},
-    {"texture", OPTION_SKY, AT(image.sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5"},
+    {"texture", OPTION_SKY, AT(image.sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5, or none"},
     {"texture", OPTION_METRIC, AT(image.metric), 0, 1e-9, 1e6, "1e-9", "1e6", "0", "1e7",
      "a number from 1e-9 to 1e6 scene units, mm, tum or kitti"},
 };
@@ -463,6 +463,7 @@ TEST(test_texts) {
                  {"texture", OPTION_AS, AT(image.as), false},
                  {"table", OPTION_OUTPUT, AT(out.file), true},
                  {"texture", OPTION_MATRIX, AT(image.matrix), true},
+                 {"texture", OPTION_PICTURE, AT(image.picture), true},
                  {"texture", OPTION_FIGURE, AT(image.figure), true},
                  {"texture", OPTION_HISTOGRAM, AT(image.histogram), true},
                  {"scene m.obj", OPTION_RENDER, AT(scene.render), true},
@@ -558,6 +559,12 @@ TEST(test_places) {
     assert_int_equal(parse(&o, "texture", OPTION_LAST_LOOK, "5,6,-7", line), EXIT_FINE);
     assert_true(o.view.last_look[0] == 5 && o.view.last_look[2] == -7 && o.view.look[0] == 0 &&
                 o.view.last_eye[0] == 0);
+    assert_int_equal(parse(&o, "texture", OPTION_TINT, "0,1,0.25", line), EXIT_FINE);
+    assert_true(o.image.tint[0] == 0 && o.image.tint[1] == 1 && o.image.tint[2] == 0.25 && o.image.tint[3] == 1);
+    assert_int_equal(parse(&o, "texture", OPTION_TINT, "0,1,0.25,0.5", line), EXIT_FINE);
+    assert_true(o.image.tint[3] == 0.5);
+    assert_int_equal(parse(&o, "texture", OPTION_SKY, "none", line), EXIT_FINE);
+    assert_true(o.image.sky < 0);
     assert_int_equal(parse(&o, "texture", OPTION_INTRINSICS, "1,1e9,-1e6,0.5", line), EXIT_FINE);
     assert_true(o.view.intrinsics[0] == 1 && o.view.intrinsics[1] == 1e9 && o.view.intrinsics[2] == -1e6 &&
                 o.view.intrinsics[3] == 0.5 && o.view.spec.fov_y == 60);

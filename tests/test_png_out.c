@@ -124,6 +124,42 @@ TEST(meanings) {
     }
 }
 
+/* An effect is from 0 to 1 whatever there is of it, a vector from -1 to 1, or as is asked; beyond that it is clipped.
+ */
+TEST(effects_are_not_stretched) {
+    static const struct {
+        const char *options;
+        double lo, hi;
+    } rows[] = {
+        {"--product effect:fog --parameter density=0.1", 0, 1},
+        {"--product effect:fog --parameter density=40 --range 0.2:3", 0.2, 3},
+        {"--product effect:force-field --parameter reference=4 --parameter power=2", 0, 1},
+        {"--product effect:motion-vector --last-eye 1,0,0", -1, 1},
+        {"--product effect:motion-vector --last-eye 1,0,0 --range -0.01:0.02", -0.01, 0.02},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const double lo = rows[i].lo, hi = rows[i].hi;
+        char plain[256];
+        image codes, numbers;
+        tally t = {.name = rows[i].options};
+        snprintf(plain, sizeof plain, "%.*s", (int)(strstr(rows[i].options, " --range") - rows[i].options),
+                 rows[i].options);
+        make(strstr(rows[i].options, " --range") != NULL ? plain : rows[i].options, "p.npy", "");
+        make(rows[i].options, "p.png", "");
+        const size_t count = pair_of("p.png", "p.npy", &codes, &numbers);
+        for (size_t k = 0; k < count; k++) {
+            const double value = (double)((const float *)numbers.data)[k];
+            const double share = fmin(fmax((value - lo) / (hi - lo), 0), 1);
+            const uint16_t code = ((const uint16_t *)codes.data)[k];
+            TALLY(&t, isnan(value) ? code == 0 : fabs(share * 65534 - (code - 1.0)) <= 0.5000001,
+                  "sample %zu: %u of %.9g", k, code, value);
+        }
+        tally_end(&t);
+        image_free(&codes);
+        image_free(&numbers);
+    }
+}
+
 /* A file of numbers has no scale. */
 TEST(numbers_as_they_are) {
     printed p = made("--product position:exact", "p.npy", "--json");

@@ -120,11 +120,34 @@ static bool encoding(size_t i, listed *l) {
 static bool effect(size_t i, listed *l) {
     ROW(effect_row, effect_get(i), r->aliases)
     for (int k = 0; r->parameters[k].name != NULL; k++) {
-        add_number(l, r->parameters[k].value);
+        if (strncmp(r->parameters[k].name, "reference", 9) != 0) /* which has no default */
+            add_number(l, r->parameters[k].value);
         add_number(l, r->parameters[k].lo);
         add_number(l, r->parameters[k].hi);
     }
+    for (int k = 0; k < 4 && r->mix <= EFFECT_SPARES; k++)
+        add_number(l, r->tint[k]);
+    if (r->mix <= EFFECT_SPARES)
+        add_number(l, r->mix == EFFECT_TINTS);
     return true;
+}
+
+/* Those of every effect in turn. */
+static bool parameter(size_t i, listed *l) {
+    const effect_row *row;
+    for (size_t e = 0; (row = effect_get(e)) != NULL; e++)
+        for (int k = 0; row->parameters[k].name != NULL; k++) {
+            const texture_parameter *p = &row->parameters[k];
+            if (i-- > 0)
+                continue;
+            *l = (listed){p->name, p->alias, p->note, NULL, {0}, 0};
+            if (strncmp(p->name, "reference", 9) != 0)
+                add_number(l, p->value);
+            add_number(l, p->lo);
+            add_number(l, p->hi);
+            return true;
+        }
+    return false;
 }
 
 static bool synthetic(size_t i, listed *l) {
@@ -186,6 +209,7 @@ static const struct {
               {"packings", "bound", packing_row},
               {"products", "methods", product},
               {"effects", "parameters", effect},
+              {"parameters", "range", parameter},
               {"figures", "bound", figure},
               {"synthetic", "bound", synthetic},
               {"positions", "bound", position},
@@ -203,7 +227,7 @@ static void check_numbers(const char *bound, const listed *l) {
         at += strspn(at, " ");
         const double number = strtod(at, &end);
         const bool alone =
-            end > at && (at == bound || strchr(" =", at[-1]) != NULL) && (*end == '\0' || strchr(" ,;", *end) != NULL);
+            end > at && (at == bound || strchr(" =,", at[-1]) != NULL) && (*end == '\0' || strchr(" ,;", *end) != NULL);
         if (alone && isdigit((unsigned char)(*at == '-' ? at[1] : *at))) {
             if (fabs(number - l->numbers[n]) > 0.006 * fabs(l->numbers[n]))
                 fail_msg("%s: '%s': number %zu is %g, not %g", l->name, bound, n, number, l->numbers[n]);

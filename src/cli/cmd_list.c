@@ -22,9 +22,11 @@ typedef struct listing {
 static void *next_item(void *of, size_t i) {
     listing *l = of;
     list_item *item = &l->item;
-    const name_list named = {.get = l->topic->get};
-    size_t index = i;
-    if (l->word != NULL ? i > 0 || !names_find(&named, l->word, &index, item) : !l->topic->get(i, item))
+    size_t index = 0;
+    for (size_t left = i; l->topic->get(index, item); index++)
+        if ((l->word == NULL || names_is(item, l->word)) && left-- == 0)
+            break;
+    if (!l->topic->get(index, item))
         return NULL;
     if (item->source != NULL && *item->source == '\0')
         item->source = NULL;

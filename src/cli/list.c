@@ -340,6 +340,8 @@ static const topic topics[] = {
     {"products", "what texture makes of the depths, for --product", list_product, .bound = "methods"},
     {"effects", "effects for texture --product effect: formulas and parameters", list_effect, .bound = "parameters"},
     {"figures", "figures, for plot", list_figure, .bound = "bound"},
+    {"parameters", "parameters of effects, for texture --parameter: default, unit and range", list_parameter,
+     .bound = "range"},
     {"synthetic", "synthetic depth images, for texture --synthetic", list_synthetic, .bound = "bound",
      .shown = "parameters"},
     {"positions", "positions from window depth, for texture --product position", list_position, .bound = "bound",

@@ -50,6 +50,7 @@ bool list_vertices(size_t index, list_item *item);
 bool list_filter(size_t index, list_item *item);
 bool list_product(size_t index, list_item *item);
 bool list_effect(size_t index, list_item *item);
+bool list_parameter(size_t index, list_item *item);
 bool list_topic(size_t index, list_item *item);
 bool list_figure(size_t index, list_item *item);
 bool list_synthetic(size_t index, list_item *item);

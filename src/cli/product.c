@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/product.h"
 
+#include <math.h>
 #include <stddef.h>
 
 #include "cli/option/options.h"
@@ -8,6 +9,14 @@
 #include "report/number.h"
 
 /* ---- Methods ---------------------------------------------------------------------------------------------------- */
+
+/* Its default, its unit and its range. */
+static void append_parameter(list_item *item, const char *before, const char *name, const texture_parameter *p) {
+    append(item->bound, sizeof item->bound, "%s%s", before, name);
+    if (!isnan(p->value))
+        append(item->bound, sizeof item->bound, " %g", p->value);
+    append(item->bound, sizeof item->bound, " [%s], %g to %g", p->unit, p->lo, p->hi);
+}
 
 bool list_effect(size_t index, list_item *item) {
     static const struct {
@@ -24,15 +33,30 @@ bool list_effect(size_t index, list_item *item) {
         (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
     for (int i = 0; row->parameters[i].name != NULL; i++) {
         const texture_parameter *p = &row->parameters[i];
-        append(item->bound, sizeof item->bound, "%s%s %g [%s], %g to %g", i > 0 ? "; " : "", p->name, p->value, p->unit,
-               p->lo, p->hi);
+        append_parameter(item, i > 0 ? "; " : "", p->name, p);
         if (i == row->wanted)
             append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
     }
+    if (row->mix <= EFFECT_SPARES)
+        append(item->bound, sizeof item->bound, "; tint %g,%g,%g,%g where it is %d", row->tint[0], row->tint[1],
+               row->tint[2], row->tint[3], row->mix == EFFECT_TINTS);
     for (size_t i = 0, count = 0; i < sizeof needs / sizeof needs[0]; i++)
         if ((row->needs & needs[i].bit) != 0)
             append(item->bound, sizeof item->bound, "%s%s", count++ == 0 ? "; needs " : ", ", needs[i].name);
     return true;
+}
+
+/* Of each effect, so names come again. */
+bool list_parameter(size_t index, list_item *item) {
+    const effect_row *row;
+    for (size_t k = 0; (row = effect_get(k)) != NULL; k++)
+        for (const texture_parameter *p = row->parameters; p->name != NULL; p++)
+            if (index-- == 0) {
+                *item = (list_item){.name = p->name, .aliases = p->alias, .note = p->note, .row = p};
+                append_parameter(item, "of ", row->name, p);
+                return true;
+            }
+    return false;
 }
 
 bool list_position(size_t index, list_item *item) {

@@ -30,7 +30,7 @@ static work work_of(const frame_row *in) {
     const frame_product *product = in->product;
     const texture_camera *c = in->frame->camera, *then = in->frame->last != NULL ? in->frame->last : c;
     const dp_setup *planes = frame_planes(in->frame);
-    const double reference = product->effect->given && product->reference > 0 ? product->reference : (double)NAN;
+    const double reference = effect_reference(product->effect, product->effect_settings, planes->spec.zfar);
     double m[16];
     work w = {.in = in,
               .row = product->effect,
@@ -385,6 +385,16 @@ static double through_error(const work *w, const effect_view *view, uint32_t x, 
     return error + rounding_error(w, view, fmax(seen[0], seen[1]));
 }
 
+/* Of a vector, which may turn without growing: in parts. */
+static double vector_off(const work *w, const effect_view *view, uint32_t x, double z) {
+    const effect_pixel pixel = pixel_at(w, x);
+    float seen[2];
+    double exact[2];
+    w->row->vector(&pixel, w->rounded, seen);
+    w->row->exact_vector(view, w->parameters, z, exact);
+    return LEVELS * dp_hypot((double)seen[0] - exact[0], (double)seen[1] - exact[1]);
+}
+
 static double error_at(const work *w, frame_ranges *last, uint32_t x) {
     const effect_view view = view_at(w, x);
     const uint32_t beside = aside_of(w, x);
@@ -395,21 +405,37 @@ static double error_at(const work *w, frame_ranges *last, uint32_t x) {
         const effect_pixel pixel = pixel_at(w, x);
         return worst_error(w, &view, &pixel, frame_range_of(w->in, last, x));
     }
-    const double seen = (double)output_at(w, x);
-    if (w->in->frame->synthetic != NULL)
-        return isnan(frame_truth(w->in, x).z) ? (double)NAN : LEVELS * fabs(seen - true_output(w, &view, x));
-    const double stored = dp_stored(&w->camera->setup, w->in->codes[x]);
-    return LEVELS * fabs(seen - exact_at(w, &view, x)) + range_error(w, &view, stored, frame_range_of(w->in, last, x));
+    const bool scene = w->in->frame->synthetic != NULL;
+    const double seen = (double)output_at(w, x), stored = dp_stored(&w->camera->setup, w->in->codes[x]);
+    const double z = scene ? frame_truth(w->in, x).z : stored;
+    const double off = isnan(z)       ? (double)NAN
+                       : w->row->wide ? vector_off(w, &view, x, z)
+                                      : LEVELS * fabs(seen - (scene ? true_output : exact_at)(w, &view, x));
+    return scene ? off : off + range_error(w, &view, stored, frame_range_of(w->in, last, x));
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+static bool is_hidden(const work *w, uint32_t x) {
+    return w->in->product->hides && seen_as(w, w->in->depth[x]).eye < w->other.eye;
+}
 
 void frame_effect(const frame_row *in) {
     const work w = work_of(in);
     places(&w);
     for (uint32_t x = 0; x < w.camera->width; x++) {
-        const bool alone = w.row->taps == EFFECT_ALONE, none = alone && isnan(in->eyes[NORMAL_REACH][x]);
+        const bool alone = w.row->taps == EFFECT_ALONE,
+                   none = alone && (isnan(in->eyes[NORMAL_REACH][x]) || is_hidden(&w, x));
         const float value = none ? NAN : alone ? output_at(&w, x) : corners(&w, x);
+        if (in->product->vector) {
+            float *out = in->out + 3 * (size_t)x;
+            const effect_pixel pixel = pixel_at(&w, x);
+            w.row->vector(&pixel, w.rounded, out);
+            out[0] = none ? NAN : out[0];
+            out[1] = none ? NAN : out[1];
+            out[2] = value;
+            continue;
+        }
         in->out[x] = value;
         if (in->product->lost && !none) {
             const effect_view view = view_at(&w, x);

@@ -21,7 +21,7 @@ enum {
 uint32_t frame_sky_rank(const frame *f) {
     const dp_setup *setup = &f->camera->setup;
     const dp_format *format = &setup->spec.format;
-    if (f->metric)
+    if (f->metric || f->sky < 0)
         return format->code_max + 1;
     const double edge = setup->reversed ? f->sky : 1 - f->sky;
     uint32_t rank = frame_rank(setup, dp_format_encode(format, DP_ROUND_NEAREST, edge));
@@ -48,7 +48,7 @@ void frame_codes(const frame *f, uint32_t row, uint32_t *codes) {
 }
 
 int frame_channels(const frame_product *product) {
-    const bool vector = product->kind == FRAME_POSITION || product->kind == FRAME_NORMAL;
+    const bool vector = product->kind == FRAME_POSITION || product->kind == FRAME_NORMAL || product->vector;
     return vector && !product->error ? 3 : 1;
 }
 

@@ -45,13 +45,15 @@ typedef struct frame {
     const sensor *sensor;     /**< metric: what was rounded to its samples; else null */
     const dp_setup *planes;   /**< metric: the planes that effects use; else null: the camera's */
     const frame_normals *normals; /**< for effects; null: those of the synthetic image, or none */
-    double sky;                   /**< window depths this close to the far plane's are sky, [0, 0.5] */
+    double sky;                   /**< window depths this close to the far plane's are sky, [0, 0.5]; below 0 none:
+                                       what was cleared lies at far */
     int threads;                  /**< 0: as many as there are cores */
 } frame;
 
 /**
  * Codes ordered by distance: the rank of a code is the code, or code_max - code in a reversed set-up. Ranks from
- * frame_sky_rank() on are sky: their values are within frame->sky of the far plane's. Metric: code_max + 1.
+ * frame_sky_rank() on are sky: their values are within frame->sky of the far plane's. Metric, or without sky: code_max
+ * + 1.
  */
 uint32_t frame_sky_rank(const frame *f);
 static inline uint32_t frame_rank(const dp_setup *setup, uint32_t code) {
@@ -103,18 +105,18 @@ typedef struct frame_product {
      */
     bool error;
     bool lost; /**< FRAME_EFFECT: what binary32 has added to the output that is exact for what is stored, instead */
-    const sensor *as;              /**< FRAME_EYE: rounded to its levels, and NaN beyond them; null: not */
-    bool radial;                   /**< FRAME_EYE: distance from the camera in place of eye depth */
-    const position_row *position;  /**< FRAME_POSITION; null: exact, rounded to binary32 */
-    const normal_row *normal;      /**< FRAME_NORMAL */
-    const effect_row *effect;      /**< FRAME_EFFECT */
-    const double *effect_settings; /**< its parameters */
-    /** The eye depth that an effect compares with whose row says `given`; 0: not known, and errors are those of the
-     *  worst one. EFFECT_STEP takes neighbours. */
-    double reference;
+    const sensor *as;             /**< FRAME_EYE: rounded to its levels, and NaN beyond them; null: not */
+    bool radial;                  /**< FRAME_EYE: distance from the camera in place of eye depth */
+    const position_row *position; /**< FRAME_POSITION; null: exact, rounded to binary32 */
+    const normal_row *normal;     /**< FRAME_NORMAL */
+    const effect_row *effect;     /**< FRAME_EFFECT */
+    /** Its parameters. Where a row is `given` and its reference is not, errors are those of the worst one. */
+    const double *effect_settings;
+    bool hides;  /**< FRAME_EFFECT of a `surface`: none where the scene is before it */
+    bool vector; /**< FRAME_EFFECT that has one: its parts, and its length */
 } frame_product;
 
-/** Numbers a pixel: 3 for places and normals, else 1. */
+/** Numbers a pixel: 3 for places, normals and vectors, else 1. */
 int frame_channels(const frame_product *product);
 
 /** Null, or a sentence about why this cannot be made of this frame. */

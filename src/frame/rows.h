@@ -35,6 +35,8 @@ typedef void frame_make(const frame_row *in);
 static inline synthetic_hit frame_truth(const frame_row *in, uint32_t x) {
     synthetic_hit hit;
     in->frame->synthetic->hit(in->frame->camera, in->frame->parameters, x, in->row, &hit);
+    if (isinf(hit.z) && in->frame->sky < 0)
+        hit = (synthetic_hit){.z = frame_planes(in->frame)->spec.zfar, .normal = {0, 0, -1}};
     if (isinf(hit.z) || isnan(in->eyes[NORMAL_REACH][x]))
         hit.z = NAN;
     return hit;

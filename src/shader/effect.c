@@ -44,12 +44,21 @@ typedef struct cell_case {
     const effect_view *view;
     dp_cell cell;
     double first, last; /* the outermost depths that are stored as the cell's code */
+    dp_cell behind;     /* of the other depth that is stored */
 } cell_case;
 
-/* Of the quantity, from the stored depth to the farther end. Errors are made of it, as outputs would cancel. */
+static double off(double end, double stored) {
+    return end == stored ? 0 : end - stored;
+}
+
+/* Of the quantity, from the stored depth to the farther end; of two stored depths, which may be off either way, what is
+ * between them. Errors are made of it, as outputs would cancel. */
 static double change(const cell_case *at, const double *p) {
-    return fmax(at->row->apart(at->view, p, at->cell.lo, at->cell.stored),
-                at->row->apart(at->view, p, at->cell.hi, at->cell.stored));
+    const dp_cell *own = &at->cell, *other = &at->behind;
+    if (at->row->behind > 0)
+        return fmax(off(other->hi, other->stored) - off(own->lo, own->stored),
+                    off(own->hi, own->stored) - off(other->lo, other->stored));
+    return fmax(at->row->apart(at->view, p, own->lo, own->stored), at->row->apart(at->view, p, own->hi, own->stored));
 }
 
 static double fade_error(const cell_case *at, const double *p) {
@@ -238,11 +247,13 @@ static double inside(const dp_setup *setup, uint32_t code, double end, double z)
     return z;
 }
 
-static cell_case case_at(const effect_row *row, const effect_view *view, double z) {
+static cell_case case_at(const effect_row *row, const effect_view *view, const double *p, double z) {
     const dp_setup *setup = view->setup;
     cell_case at = {.row = row, .view = view};
     const uint32_t code = dp_code(setup, z);
     at.cell = dp_cell_of(setup, code);
+    if (row->behind > 0)
+        at.behind = dp_cell_of(setup, dp_code(setup, fmin(z + p[row->behind], setup->spec.zfar)));
     if (row->kind == EFFECT_STEP) {
         at.first = inside(setup, code, at.cell.lo, z);
         at.last = inside(setup, code, at.cell.hi, z);
@@ -259,7 +270,7 @@ static double error_in(const cell_case *at, const double *parameters) {
 }
 
 double effect_error(const effect_row *row, const effect_view *view, const double *parameters, double z) {
-    const cell_case at = case_at(row, view, z);
+    const cell_case at = case_at(row, view, parameters, z);
     return has_error(&at) ? error_in(&at, parameters) : (double)NAN;
 }
 
@@ -293,7 +304,7 @@ static void to_last_usable(const cell_case *at, double *p, double levels) {
 
 double effect_usable(const effect_row *row, const effect_view *view, const double *parameters, double z,
                      double levels) {
-    const cell_case at = case_at(row, view, z);
+    const cell_case at = case_at(row, view, parameters, z);
     const texture_parameter *range = &row->parameters[row->wanted];
     double p[PARAMETERS_MAX];
     if (!has_error(&at))
@@ -309,7 +320,7 @@ double effect_usable(const effect_row *row, const effect_view *view, const doubl
 }
 
 double effect_ceiling(const effect_row *row, const effect_view *view, const double *parameters, double z) {
-    const cell_case at = case_at(row, view, z);
+    const cell_case at = case_at(row, view, parameters, z);
     const texture_parameter *range = &row->parameters[row->ceiling];
     const double slope = slope_of(&at, parameters);
     double apart[2];

@@ -44,6 +44,14 @@ typedef enum effect_taps {
     EFFECT_AROUND     /**< its own with each corner; the mean of four outputs */
 } effect_taps;
 
+/** What it does to a picture of colours. */
+typedef enum effect_mix {
+    EFFECT_TINTS = 0, /**< where it is 1 there is its tint */
+    EFFECT_SPARES,    /**< where it is 0 */
+    EFFECT_BLURS,     /**< where it is 1 there is the mean of nine pixels, `blur` apart */
+    EFFECT_SMEARS     /**< the mean of `samples` pixels, its vector apart */
+} effect_mix;
+
 /** What a pixel is to an effect, exactly. */
 typedef struct effect_view {
     const dp_setup *setup;    /**< planes; cells, where none are given */
@@ -82,6 +90,9 @@ typedef double effect_most(const effect_view *view, const double *parameters, do
  *  it is compared with, if that is `given` or another pixel. */
 typedef double effect_output(const effect_view *view, const double *parameters, double z, double reference);
 typedef float effect_shader(const effect_pixel *pixel, const float *parameters, const effect_pixel *reference);
+/** The vector whose length the output is: to the right and up, in widths and heights of the picture. */
+typedef void effect_vector(const effect_pixel *pixel, const float *parameters, float out[2]);
+typedef void effect_exact_vector(const effect_view *view, const double *parameters, double z, double out[2]);
 /**
  * EFFECT_STEP: below which values of the wanted parameter the output on a plane is 1, the least and the most of them.
  * @param seen   the depth of the pixel
@@ -95,13 +106,15 @@ typedef struct effect_row {
     const char *aliases; /**< what articles and shaders call it, separated by one space; or null */
     const char *note;    /**< the formula */
     texture_parameter parameters[PARAMETERS_MAX + 1];
-    int wanted;            /**< the parameter whose usable values are looked for */
-    bool smallest;         /**< it is usable from some value up; else from some value down */
-    int ceiling;           /**< EFFECT_STEP: another parameter, beyond which differences count for nothing; 0: none */
-    bool eye01;            /**< uses z/far, so far must be finite */
-    unsigned needs;        /**< EFFECT_POSITION and the like */
+    int wanted;     /**< the parameter whose usable values are looked for */
+    bool smallest;  /**< it is usable from some value up; else from some value down */
+    int ceiling;    /**< EFFECT_STEP: another parameter, beyond which differences count for nothing; 0: none */
+    int behind;     /**< EFFECT_FADE: another parameter, how far behind it the other end of an eye depth lies, which is
+                         stored too; 0: none */
+    bool eye01;     /**< uses z/far, so far must be finite */
+    unsigned needs; /**< EFFECT_POSITION and the like */
     const char *reference; /**< what the depth is compared with; null when with nothing */
-    bool given;            /**< the reference is an eye depth that the user gives with an image */
+    bool given;            /**< the reference is a parameter, which the user gives with an image */
     const char *source;
     effect_kind kind;
     effect_taps taps;
@@ -114,10 +127,20 @@ typedef struct effect_row {
     effect_critical *critical; /**< EFFECT_STEP */
     effect_output *output;
     effect_shader *shader;
+    effect_vector *vector; /**< null: it has none */
+    effect_exact_vector *exact_vector;
+    bool wide; /**< it is shown, besides its length */
+    effect_mix mix;
+    bool surface;   /**< a depth test hides it where the scene is before its reference, not its value */
+    double tint[4]; /**< by default: red, green, blue, alpha */
 } effect_row;
 
 /** The rows in order; null beyond the last. */
 const effect_row *effect_get(size_t index);
+
+/** The eye depth of a row that is `given`, by its parameters `reference`, or `reference01` times far; NaN where neither
+ *  is. */
+double effect_reference(const effect_row *row, const double *parameters, double zfar);
 
 /** Can the effect be had? Not when it needs a finite far plane and there is none. */
 bool effect_applies(const effect_row *row, const dp_setup *setup);
@@ -125,7 +148,7 @@ bool effect_applies(const effect_row *row, const dp_setup *setup);
 /**
  * How far the error stays within so many levels, from `lo` on: the last such depth before the first that was found
  * beyond; `hi` where none is beyond, NaN where `lo` is. Depths are tried at 64 places of each run of them whose steps
- * grow with the depth, and at its end: with the step grows the error, but for effects that compare two pixels or
+ * grow with the depth, and at its end: with the step grows the error, but for effects of two depths, pixels or
  * frames, which effect_is_steady() tells.
  */
 bool effect_is_steady(const effect_row *row);
@@ -142,7 +165,7 @@ double effect_usable_over(const effect_row *row, const effect_view *view, const 
  *
  * Every quantity is monotone in the depth, so the largest difference lies at an end of the cell. An output of 8 bits
  * cannot be more than 255 levels off. EFFECT_STEP has the output 0 or 1: its error is 255 where a place of a plane, at
- * a depth of z's cell, gets another answer than the plane should, and 0 elsewhere. Of "motion-blur" it is the length of
+ * a depth of z's cell, gets another answer than the plane should, and 0 elsewhere. Of a vector it is the length of
  * the difference of two velocities.
  *
  * @param parameters  PARAMETERS_MAX numbers, in the order of the row, within their ranges

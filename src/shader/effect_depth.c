@@ -28,11 +28,11 @@ float intersection_shader(const effect_pixel *pixel, const float *p, const effec
 
 double force_field(const effect_view *view, const double *p, double z, double reference) {
     (void)view;
-    return (1 - minus(z, reference)) * p[0];
+    return fmax(1 - p[FORCE_FACING] * p[FORCE_RIM], (1 - minus(z, reference)) * p[FORCE_POWER]);
 }
 
 float force_field_shader(const effect_pixel *pixel, const float *p, const effect_pixel *reference) {
-    return (1.0f - (pixel->eye - reference->eye)) * p[0];
+    return fmaxf(1.0f - p[FORCE_FACING] * p[FORCE_RIM], (1.0f - (pixel->eye - reference->eye)) * p[FORCE_POWER]);
 }
 
 double fog_depth(const effect_view *view, const double *p, double z) {

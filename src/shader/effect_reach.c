@@ -37,7 +37,7 @@ static double part_of(double lo, double hi, int i, int count) {
 }
 
 bool effect_is_steady(const effect_row *row) {
-    return (row->kind != EFFECT_STEP || row->alone) && (row->needs & EFFECT_LAST_FRAME) == 0;
+    return row->behind == 0 && (row->kind != EFFECT_STEP || row->alone) && (row->needs & EFFECT_LAST_FRAME) == 0;
 }
 
 /* The ends of runs of depths whose steps grow with the depth: where a float's step is halved, and `hi`. Of the last

@@ -29,6 +29,9 @@ static inline double times(double a, double b) {
 
 /* ---- Eye depth, and its share of far ----------------------------------------------------------------------------- */
 
+enum { THICKNESS_BEHIND = 1 };
+enum { FORCE_POWER = 0, FORCE_RIM, FORCE_FACING };
+
 effect_apart eye_apart, eye01_apart, along_ray;
 effect_quantity fog_depth;
 effect_output intersection, soft_particles, force_field, fog, scan_line, depth_of_field, water_depth, contact_shadow,
@@ -47,6 +50,8 @@ effect_quantity height_share, decal_inside;
 effect_most decal_most;
 effect_output water_line, height_fog, velocity, decal;
 effect_shader water_line_shader, height_fog_shader, velocity_shader, decal_shader;
+effect_vector velocity_vector;
+effect_exact_vector velocity_exact;
 
 /* ---- Two pixels -------------------------------------------------------------------------------------------------- */
 

@@ -57,9 +57,16 @@ static double last_ndc(const effect_view *view, int k, double z) {
     return (view->last.from[k] + view->last.per[k] * z) / w;
 }
 
+void velocity_exact(const effect_view *view, const double *p, double z, double out[2]) {
+    for (int k = 0; k < 2; k++)
+        out[k] = p[0] / 2 * (view->ndc[k] - last_ndc(view, k, z));
+}
+
 double velocity(const effect_view *view, const double *p, double z, double reference) {
+    double way[2];
     (void)reference;
-    return p[0] / 2 * dp_hypot(view->ndc[0] - last_ndc(view, 0, z), view->ndc[1] - last_ndc(view, 1, z));
+    velocity_exact(view, p, z, way);
+    return dp_hypot(way[0], way[1]);
 }
 
 /* A quotient of two linear functions moves by (from w_per - per w)(z' - z)/(w(z) w(z')): nothing cancels. */
@@ -77,15 +84,27 @@ double velocity_apart(const effect_view *view, const double *p, double z, double
     return dp_hypot(moved[0], moved[1]) / 2;
 }
 
-float velocity_shader(const effect_pixel *pixel, const float *p, const effect_pixel *reference) {
+static void halfway(const effect_pixel *pixel, float out[2]) {
     float clip[3];
-    (void)reference;
     for (int k = 0; k < 3; k++) {
         const float *m = pixel->last[k];
         clip[k] = m[0] * pixel->world[0] + m[1] * pixel->world[1] + m[2] * pixel->world[2] + m[3];
     }
-    const float x = (pixel->ndc[0] - clip[0] / clip[2]) / 2.0f, y = (pixel->ndc[1] - clip[1] / clip[2]) / 2.0f;
-    return sqrtf(x * x + y * y) * p[0];
+    for (int k = 0; k < 2; k++)
+        out[k] = (pixel->ndc[k] - clip[k] / clip[2]) / 2.0f;
+}
+
+float velocity_shader(const effect_pixel *pixel, const float *p, const effect_pixel *reference) {
+    float way[2];
+    (void)reference;
+    halfway(pixel, way);
+    return sqrtf(way[0] * way[0] + way[1] * way[1]) * p[0];
+}
+
+void velocity_vector(const effect_pixel *pixel, const float *p, float out[2]) {
+    halfway(pixel, out);
+    out[0] *= p[0];
+    out[1] *= p[0];
 }
 
 /* ---- Decals ------------------------------------------------------------------------------------------------------ */

@@ -18,15 +18,16 @@ typedef struct texture_parameter {
     const char *note; /**< what it is */
     const char *unit; /**< "scene units", "eye01", "1", ... */
     double lo, hi;    /**< allowed range, ends included */
-    double value;     /**< default */
+    double value;     /**< default; NaN: none */
     bool whole;       /**< a whole number */
     parameter_use use;
+    const char *alias; /**< what shaders call it; or null */
 } texture_parameter;
 
-/** The index of a name in a list; -1 when there is none. */
+/** The index of a name or alias in a list; -1 when there is none. */
 static inline int parameter_find(const texture_parameter *list, const char *name) {
     for (int i = 0; list[i].name != NULL; i++)
-        if (strcmp(list[i].name, name) == 0)
+        if (strcmp(list[i].name, name) == 0 || (list[i].alias != NULL && strcmp(list[i].alias, name) == 0))
             return i;
     return -1;
 }

@@ -178,19 +178,34 @@ int parse_light_box(options *o, const option_row *row, const char *value) {
     return parse_triple(o, row, value, "x", 1e-12, o->shadow.light_box);
 }
 
+/* Numbers with commas between them, each within its limits. @return how many, 0 where one is wrong */
+static int numbers_of(const char *text, int most, const double limits[][2], double *out) {
+    for (int i = 0; i < most; i++) {
+        const size_t length = strcspn(text, ",");
+        if (!number_parse_part(text, length, NUMBER_FINITE, &out[i]) ||
+            !(out[i] >= limits[i][0] && out[i] <= limits[i][1]))
+            return 0;
+        if (text[length] == '\0')
+            return i + 1;
+        text += length + 1;
+    }
+    return 0;
+}
+
 int parse_intrinsics(options *o, const option_row *row, const char *value) {
     static const double limits[][2] = {{1, 1e9}, {1, 1e9}, {-1e6, 1e6}, {-1e6, 1e6}};
-    double *out = option_field(o, row);
-    const char *at = value;
-    for (int i = 0; i < 4; i++) {
-        const size_t length = strcspn(at, ",");
-        if (!number_parse_part(at, length, NUMBER_FINITE, &out[i]) ||
-            !(out[i] >= limits[i][0] && out[i] <= limits[i][1]) || (at[length] == '\0') != (i == 3))
-            return option_refuse(row, "must be %s, the first two from 1 to 1e9, the others from -1e6 to 1e6, got '%s'",
-                                 row->argument, value);
-        at += length + 1;
-    }
-    return EXIT_FINE;
+    return numbers_of(value, 4, limits, option_field(o, row)) == 4
+               ? EXIT_FINE
+               : option_refuse(row, "must be %s, the first two from 1 to 1e9, the others from -1e6 to 1e6, got '%s'",
+                               row->argument, value);
+}
+
+int parse_tint(options *o, const option_row *row, const char *value) {
+    static const double limits[][2] = {{0, 1}, {0, 1}, {0, 1}, {0, 1}};
+    o->image.tint[3] = 1;
+    return numbers_of(value, 4, limits, o->image.tint) >= 3
+               ? EXIT_FINE
+               : option_refuse(row, "must be %s, each from 0 to 1, got '%s'", row->argument, value);
 }
 
 /* ---- Depths ------------------------------------------------------------------------------------------------------ */

@@ -29,10 +29,14 @@ static bool among(const char *text, const char *list) {
     return false;
 }
 
+bool names_is(const list_item *item, const char *text) {
+    return strcasecmp(item->name, text) == 0 || among(text, item->aliases);
+}
+
 bool names_find(const name_list *n, const char *text, size_t *index, list_item *item) {
     list_item tried;
     for (size_t i = 0; names_get(n, i, &tried); i++)
-        if (strcasecmp(tried.name, text) == 0 || among(text, tried.aliases)) {
+        if (names_is(&tried, text)) {
             if (index != NULL)
                 *index = i;
             if (item != NULL)

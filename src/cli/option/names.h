@@ -22,6 +22,9 @@ enum { NAMES_SIZE = 512 };
 /** Name `index`, words first; false behind the last. A word has no row. */
 bool names_get(const name_list *n, size_t index, list_item *item);
 
+/** Is it called so, in any case? */
+bool names_is(const list_item *item, const char *text);
+
 /** Letter case does not matter. `index` and `item` may be null. */
 bool names_find(const name_list *n, const char *text, size_t *index, list_item *item);
 

@@ -118,6 +118,8 @@ typedef enum option_id {
     OPTION_PIXEL,
     OPTION_PRODUCT,
     OPTION_AS,
+    OPTION_PICTURE,
+    OPTION_TINT,
     OPTION_NORMAL_FORMAT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
@@ -300,6 +302,8 @@ typedef struct options_image {
     const char *lattice;    /**< what it was rounded to before; null when not given */
     bool radial;            /**< metric depth is the distance along the ray */
     const char *as;         /**< what eye depth is rounded to; null when not given */
+    const char *picture;    /**< file of the colours that an effect is composed on; null when not given */
+    double tint[4];         /**< red, green, blue, alpha */
     const char *channel;    /**< of FILE, by name; null: that which is depth */
     const packing *packing; /**< of FILE */
     depths pixels;          /**< column and row of each in turn; count is 0 when not given */

@@ -97,6 +97,16 @@ int parse_number(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
+/* None is below 0. */
+int parse_sky(options *o, const option_row *row, const char *value) {
+    char limits[OPTION_TEXT_SIZE];
+    o->image.sky = -1;
+    if (strcmp(value, "none") == 0 ||
+        (number_parse(value, NUMBER_FINITE, &o->image.sky) && o->image.sky >= row->least && o->image.sky <= row->most))
+        return EXIT_FINE;
+    return option_refuse(row, "must be a number from %s, or none, got '%s'", option_limits(row, limits), value);
+}
+
 int parse_whole(options *o, const option_row *row, const char *value) {
     char limits[OPTION_TEXT_SIZE];
     uint64_t whole;

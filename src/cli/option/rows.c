@@ -292,9 +292,10 @@ const option_row option_rows[OPTION_COUNT] = {
         .instead = "; a figure's size is --figure-size"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE",
         "a parameter of the synthetic image or the effect; may be repeated", .parse = parse_parameter},
-    [OPTION_SKY] = {"sky", 0, "T",
-        "window depths within T of the far plane are sky; 0: only the far plane itself",
-        NUMBER(image.sky, 0, 0.5, NULL), .standard = "0.0001",
+    [OPTION_SKY] = {"sky", 0, "T|none",
+        "window depths within T of the far plane are sky, which no product has; 0: only the far plane itself; none: "
+        "sky lies at the far plane, as shaders read it, and fog covers it",
+        .parse = parse_sky, FIELD(double, image.sky), LIMITS(0, 0.5, NULL), .standard = "0.0001",
         .without = "as in Unity's shaders"},
     [OPTION_METRIC] = {"metric", 0, "SCALE|mm|tum|kitti",
         "the samples are eye depths in units of SCALE; of TUM there are 5000 to the metre, of KITTI 256; 0, negative "
@@ -327,6 +328,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_AS] = {"as", 0, "NAME[:NUMBERS]",
         "eye depths as another sensor or format would have stored them: the nearest levels of what --lattice has names "
         "for, which begin at 0 where nothing else is said", TEXT(image.as), .without = "not rounded"},
+    [OPTION_PICTURE] = {"picture", 0, "FILE",
+        "a PNG of colours of the same size, onto which --product effect is composed as shaders do; sky then lies at "
+        "the far plane unless --sky is given", FILE_READ(image.picture)},
+    [OPTION_TINT] = {"tint", 0, "R,G,B[,A]",
+        "with --picture: the colour of the fog, line, water, ..., each part from 0 to 1", .parse = parse_tint,
+        FIELD(double, image.tint[0]), .without = "that of the effect"},
     [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL,
         "direction of y in a PNG of normals: up, or down", WORD(image.normal_format, normal_formats),
         .standard = "opengl"},

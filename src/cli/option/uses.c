@@ -187,7 +187,9 @@ static const option_use of_effect[] = {TAKE(AT), END};
 static const option_use of_image[] = {
     TAKE(SKY), TAKE(METRIC), TAKE(LATTICE), TAKE(RADIAL), TAKE(INTRINSICS), TAKE(AS), TAKE(ERROR_MAP), TAKE(FIGURE),
     GROUP(picture), TAKE(THREADS), TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(CHANNEL), TAKE(OVERLAY),
-    TAKE(HISTOGRAM), TAKE(MATRIX), END};
+    OWN(RANGE, HELP("the values of an effect that are black and white in its PNG"),
+        WITHOUT("0:1, of a vector -1:1")),
+    TAKE(PICTURE), TAKE(TINT), TAKE(HISTOGRAM), TAKE(MATRIX), END};
 static const option_use of_position[] = {
     TAKE(FOV), TAKE(HFOV),
     OWN(EYE, HELP("the camera's place in the world"), DEFAULT("0,0,0")),

@@ -15,6 +15,14 @@ static int check_alone(const options *o) {
         return option_error(OPTION_ERROR_MAP, "needs --product");
     if (o->image.as != NULL && !texture_product_wanted(o))
         return option_error(OPTION_AS, "needs --product eye");
+    if (option_given(o, OPTION_RANGE) && !texture_product_wanted(o))
+        return option_error(OPTION_RANGE, "needs --product effect");
+    if (o->image.picture != NULL && !texture_product_wanted(o))
+        return option_error(OPTION_PICTURE, "needs --product effect");
+    if (option_given(o, OPTION_TINT) && o->image.picture == NULL)
+        return option_error(OPTION_TINT, "needs --picture");
+    if (o->image.sky < 0 && !texture_product_wanted(o) && !option_given(o, OPTION_PIXEL))
+        return option_error(OPTION_SKY, "none is for --product and --pixel");
     if (option_given(o, OPTION_NORMAL_FORMAT) && o->image.normal == NULL)
         return option_error(OPTION_NORMAL_FORMAT, "needs --product normal or packed-normal");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
@@ -48,6 +56,8 @@ static int make_product(const options *o, const texture_source *source, texture_
 int cmd_texture(const options *given) {
     options own = *given, *o = &own;
     texture_product product = {0};
+    if (o->image.picture != NULL && !option_given(o, OPTION_SKY))
+        own.image.sky = -1;
     const bool beside = o->image.product != NULL && o->image.product->packed, packed = o->image.pack != NULL || beside;
     const bool described = option_given(o, OPTION_PIXEL) && o->image.effect != NULL;
     const bool made = !packed && texture_product_wanted(o);
@@ -63,6 +73,8 @@ int cmd_texture(const options *given) {
         status = texture_source_open(o, &source);
     if (status == EXIT_FINE && (made || described))
         status = texture_effect_normals(o, &source);
+    if (status == EXIT_FINE && made)
+        status = texture_picture_open(o, &source);
     if (status == EXIT_FINE && made)
         status = make_product(o, &source, &product);
     else if (status == EXIT_FINE && o->image.pack != NULL)

@@ -24,9 +24,14 @@ int texture_effect_resolve(const options *o, bool pictured, const effect_row **r
     int status = EXIT_FINE;
     *row = o->image.effect;
     parameter_defaults((*row)->parameters, parameters);
-    for (size_t i = 0; i < o->image.parameter_count && status == EXIT_FINE; i++)
-        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->image.parameters[i], unused,
-                                       pictured && (*row)->given ? "reference" : NULL, parameters);
+    for (size_t i = 0; i < o->image.parameter_count && status == EXIT_FINE; i++) {
+        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->image.parameters[i], unused, parameters);
+        for (size_t k = 0; k < i && status == EXIT_FINE; k++)
+            if (parameter_find((*row)->parameters, o->image.parameters[k].name) ==
+                parameter_find((*row)->parameters, o->image.parameters[i].name))
+                status = option_error(OPTION_PARAMETER, "must not be given twice for '%s', got '%s' too",
+                                      o->image.parameters[k].name, o->image.parameters[i].name);
+    }
     return status;
 }
 

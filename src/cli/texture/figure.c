@@ -166,7 +166,8 @@ static bool has_beside(const options *o, const texture_source *s, const texture_
 }
 
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p) {
-    static const char *const axes[] = {"x (world)", "y (world)", "z (world)"}, *const raw[] = {"window depth"};
+    static const char *const axes[][3] = {{"x (world)", "y (world)", "z (world)"}, {"to the right", "up", "length"}};
+    static const char *const raw[] = {"window depth"};
     const int width = o->figure.width > 0 ? o->figure.width : WIDTH;
     const bool is_error = p->made.error, directions = p->made.kind == FRAME_NORMAL && !is_error;
     const bool stacked = frame_channels(&p->made) == 3 && !directions;
@@ -185,7 +186,7 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
                                     : beside                         ? "depth"
                                                                      : p->name,
                            .unit = p->unit,
-                           .names = stacked  ? axes
+                           .names = stacked  ? axes[p->made.vector]
                                     : beside ? raw
                                              : NULL},
                  .second = {.width = s->camera.width,

@@ -80,6 +80,7 @@ static void describe_pixel(const options *o, const texture_source *s, pixel *p, 
     p->interval = p->range.hi - p->range.lo;
     if (f->synthetic != NULL)
         f->synthetic->hit(&s->camera, f->parameters, p->column, p->row, &hit);
+    hit.z = f->synthetic != NULL && f->sky < 0 ? fmin(hit.z, setup->spec.zfar) : hit.z;
     const frame_product share = {.kind = FRAME_LINEAR01};
     const bool has_share = texture_far_known(o) && frame_refuses(f, &share) == NULL;
     const double along = camera_radial(&s->camera, p->column, p->row);

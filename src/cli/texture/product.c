@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/figure_file.h"
 #include "cli/texture/texture.h"
@@ -28,38 +28,53 @@ int texture_effect_normals(const options *o, texture_source *s) {
     return EXIT_FINE;
 }
 
-/* The parameters that are not the synthetic image's are the effect's, but for the depth that it compares with. */
+int texture_picture_open(const options *o, texture_source *s) {
+    const image *p = &s->colours;
+    image_error error;
+    if (o->image.picture == NULL)
+        return EXIT_FINE;
+    if (!image_read(o->image.picture, &s->colours, &error)) {
+        usage_error("%s: %s", o->image.picture, error.text);
+        return error.unreadable ? EXIT_IO : EXIT_USAGE;
+    }
+    if (p->file != IMAGE_PNG || p->channels < 3)
+        return option_error(OPTION_PICTURE, "must be a PNG with three channels, or four, got %s of %u",
+                            image_file_name(p->file), p->channels);
+    if (p->width != s->camera.width || p->height != s->camera.height)
+        return option_error(OPTION_PICTURE, "must be as large as the depths, %u x %u pixels, got %u x %u",
+                            s->camera.width, s->camera.height, p->width, p->height);
+    return EXIT_FINE;
+}
+
+/* The parameters that are not the synthetic image's are the effect's. */
 int texture_product_effect(const options *o, texture_product *p) {
     options rest = *o;
-    bool compared = false;
     rest.image.parameter_count = 0;
-    for (size_t i = 0; i < o->image.parameter_count; i++) {
-        if (o->image.effect->given && strcmp(o->image.parameters[i].name, "reference") == 0) {
-            p->made.reference = o->image.parameters[i].value;
-            compared = true;
-        } else if (!texture_scene_takes(o, o->image.parameters[i].name)) {
+    for (size_t i = 0; i < o->image.parameter_count; i++)
+        if (!texture_scene_takes(o, o->image.parameters[i].name))
             rest.image.parameters[rest.image.parameter_count++] = o->image.parameters[i];
-        }
-    }
     int status = texture_effect_resolve(&rest, true, &p->made.effect, p->settings);
     if (status != EXIT_FINE)
         return status;
     const effect_row *row = p->made.effect;
     p->made.kind = FRAME_EFFECT;
     p->made.effect_settings = p->settings;
-    if (row->given && (compared || !o->image.error_map) && !(p->made.reference > 0))
-        return option_error(OPTION_PARAMETER, "%s needs reference=Z, %s, a positive eye depth%s", row->name,
-                            row->reference, compared ? "" : "; it was not given");
+    const int at = parameter_find(row->parameters, "reference"), share = parameter_find(row->parameters, "reference01");
+    if (share >= 0 && !isnan(p->settings[at]) && !isnan(p->settings[share]))
+        return option_error(OPTION_PARAMETER, "reference01 conflicts with reference");
+    if (row->given && !o->image.error_map && isnan(effect_reference(row, p->settings, 1)))
+        return option_error(OPTION_PARAMETER, "%s needs reference=Z, the %s%s; it was not given", row->name,
+                            row->parameters[at].note, row->eye01 ? ", or reference01=V, the same over far" : "");
     return EXIT_FINE;
 }
 
 static int check_files(const options *o) {
-    image_file file = IMAGE_FILE_COUNT;
+    image_file file = IMAGE_FILE_COUNT, other;
     if (o->out.file == NULL && o->image.figure == NULL)
         return usage_error("texture: a product needs -o FILE that ends in .png, .pfm or .npy, or --figure FILE");
     if (o->out.file != NULL && !image_file_of(o->out.file, &file))
         return option_error(OPTION_OUTPUT, "must end in .png, .pfm or .npy for a product, got '%s'", o->out.file);
-    if (o->image.error_file != NULL && !image_file_of(o->image.error_file, &file))
+    if (o->image.error_file != NULL && !image_file_of(o->image.error_file, &other))
         return option_error(OPTION_ERROR_MAP, "must end in .png, .pfm or .npy, got '%s'", o->image.error_file);
     if (o->image.error_file != NULL && o->out.file == NULL)
         return option_error(OPTION_ERROR_MAP, "needs -o FILE for the product beside it, got '%s'", o->image.error_file);
@@ -70,6 +85,13 @@ static int check_files(const options *o) {
         return option_error(o->out.form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
                             "is for statistics, which a product does not have%s",
                             o->out.form == FORM_JSON ? "; with -o FILE it says what the numbers in FILE are" : "");
+    if (o->image.picture != NULL && (o->out.file == NULL || file != IMAGE_PNG || o->image.effect == NULL ||
+                                     o->image.error_map || o->image.figure != NULL || option_given(o, OPTION_RANGE)))
+        return option_error(OPTION_PICTURE, "is for --product effect and a PNG of -o, without --error-map, --figure "
+                                            "and --range; --error-map=FILE says what the effect is off by");
+    if (option_given(o, OPTION_RANGE) &&
+        (o->out.file == NULL || file != IMAGE_PNG || o->image.error_map || o->image.effect == NULL))
+        return option_error(OPTION_RANGE, "is for the values of an effect in a PNG");
     if (option_given(o, OPTION_NORMAL_FORMAT) && (o->out.file == NULL || file != IMAGE_PNG || o->image.error_map))
         return option_error(OPTION_NORMAL_FORMAT, "is for the normals in a PNG");
     return EXIT_FINE;
@@ -101,12 +123,15 @@ int texture_product_resolve(const options *o, texture_product *p) {
                             o->image.error_map ? "error-map" : "product ", o->image.error_map ? "" : row->name);
     if (row->kind == FRAME_EFFECT)
         status = texture_product_effect(o, p);
+    p->made.vector = status == EXIT_FINE && row->kind == FRAME_EFFECT &&
+                     (p->made.effect->wide || (o->image.picture != NULL && p->made.effect->mix == EFFECT_SMEARS));
     if (o->image.as != NULL && (row->kind != FRAME_EYE || row->radial))
         return option_error(OPTION_AS, "is for --product eye");
     if (status == EXIT_FINE)
         status = texture_lattice(OPTION_AS, o->image.as, &p->as);
     if (o->image.as != NULL)
         p->made.as = &p->as;
+    p->made.hides = o->image.picture != NULL && row->kind == FRAME_EFFECT && p->made.effect->surface;
     p->error = p->made;
     p->error.error = true;
     return status == EXIT_FINE ? check_files(o) : status;

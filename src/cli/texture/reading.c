@@ -212,7 +212,10 @@ const char *texture_zeros_of(const options *o, const texture_source *s, char out
              (unsigned long long)s->unpacked.zeros);
     if (planes->znear < end)
         append(out, READINGS_SIZE, ", or depths up to %s", number_in(number_up(end, 3), options_unit(o)).text);
-    append(out, READINGS_SIZE, o->image.sky > 0 ? ": they count as sky; --sky 0 makes them holes" : ": they are holes");
+    append(out, READINGS_SIZE,
+           o->image.sky > 0   ? ": they count as sky; --sky 0 makes them holes"
+           : o->image.sky < 0 ? ": they lie at the far plane"
+                              : ": they are holes");
     return out;
 }
 

@@ -25,8 +25,8 @@ bool texture_scene_takes(const options *o, const char *name) {
 }
 
 int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
-                          parameter_use unused, const char *more, double *out) {
-    const char *words[PARAMETERS_MAX + 2];
+                          parameter_use unused, double *out) {
+    const char *words[PARAMETERS_MAX + 1];
     const name_list known = {.words = words};
     const int index = parameter_find(list, given->name);
     char text[NAMES_SIZE];
@@ -34,7 +34,6 @@ int texture_parameter_set(const char *whose, const texture_parameter *list, cons
     for (int i = 0; list[i].name != NULL; i++)
         if (list[i].use == PARAMETER_ALWAYS || list[i].use != unused)
             words[count++] = list[i].name;
-    words[count++] = more;
     words[count] = NULL;
     if (index < 0 || (list[index].use != PARAMETER_ALWAYS && list[index].use == unused))
         return option_error(OPTION_PARAMETER, "of %s %s", whose, names_refuse(&known, given->name, text));
@@ -54,7 +53,7 @@ static int synthetic_parameters(const options *o, const synthetic_row *synthetic
     for (size_t i = 0; i < o->image.parameter_count && status == EXIT_FINE; i++)
         if (o->image.effect == NULL || texture_scene_takes(o, o->image.parameters[i].name))
             status = texture_parameter_set(synthetic->name, synthetic->parameters, &o->image.parameters[i],
-                                           PARAMETER_ALWAYS, NULL, out);
+                                           PARAMETER_ALWAYS, out);
     return status;
 }
 
@@ -198,7 +197,7 @@ static int unpack(const options *o, texture_source *s) {
     if (!packing_convert(p, zero, &s->picture, &s->unpacked))
         return usage_error("%s: %s", s->path, s->unpacked.wrong);
     warn_of_colours(o, s);
-    s->unpacked.zeros = packing_unwrap(p, &s->picture, o->image.sky > 0 ? 1.0f : NAN);
+    s->unpacked.zeros = packing_unwrap(p, &s->picture, o->image.sky != 0 ? 1.0f : NAN);
     recognise(&s->picture, &s->found);
     dp_format_parse(p->format, formats);
     s->found.format = formats[0];
@@ -213,6 +212,7 @@ static int unpack(const options *o, texture_source *s) {
 
 void texture_source_close(texture_source *s) {
     image_free(&s->picture);
+    image_free(&s->colours);
     free(s->unpacked.normals);
     frame_normals_free(&s->normals);
 }

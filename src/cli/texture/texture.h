@@ -54,6 +54,7 @@ typedef struct texture_source {
     double fov_y; /**< degrees; read where there is no matrix, and no orthographic camera */
     dp_setup setup;
     texture_camera camera, last; /**< last frame's: where an effect needs it */
+    image colours;               /**< of --picture */
     frame_normals normals;       /**< where an effect needs them that no synthetic image has */
     frame frame;                 /**< points into this struct, which must stay where it is */
 } texture_source;
@@ -99,11 +100,10 @@ const char *texture_readings_of(const texture_source *s, const char *what, char 
 /**
  * Sets one --parameter of a synthetic image or an effect, called `whose`.
  * @param unused  parameters of this use count as none: PARAMETER_ALWAYS for none of them
- * @param more    another name that would be taken, for the list of those that are; or null
  * @return EXIT_FINE, or EXIT_USAGE after one line that names those it has
  */
 int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
-                          parameter_use unused, const char *more, double *out);
+                          parameter_use unused, double *out);
 
 /** Options of cameras that have no meaning beside others. @return an exit status, after one line on stderr */
 int texture_camera_check(const options *o);
@@ -148,6 +148,9 @@ bool texture_product_wanted(const options *o);
 /** The normals of an effect that needs some: of --product, those of the packing, else by projective.
  *  @return an exit status, after one line on stderr */
 int texture_effect_normals(const options *o, texture_source *s);
+
+/** Reads the picture that an effect is composed on: PNG, of the image's size. @return as above */
+int texture_picture_open(const options *o, texture_source *s);
 
 /** The effect of --product, its parameters and reference, as above. */
 int texture_product_effect(const options *o, texture_product *out);

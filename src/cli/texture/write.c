@@ -27,7 +27,7 @@ int writing_open(const options *o, writing *w, const char *path, const texture_s
         return status;
     w->source = s;
     w->type = type;
-    w->row_values = (size_t)s->camera.width * channels;
+    w->row_values = w->made_values = (size_t)s->camera.width * channels;
     w->row = malloc(w->row_values * image_type_size(type));
     w->codes = malloc(s->camera.width * sizeof *w->codes);
     w->stream = fopencookie(&w->out, "w", (cookie_io_functions_t){.write = stream_write});
@@ -99,14 +99,16 @@ static void to_greys(const writing *w, const float *values) {
 
 bool writing_take(void *context, uint32_t row, uint32_t count, const float *values) {
     writing *w = context;
-    (void)row;
+    const bool drawn = w->on.picture != NULL;
     for (uint32_t i = 0; i < count; i++) {
-        const float *one = values + (writing_bottom_up(w) ? count - 1 - i : i) * w->row_values;
-        if (w->directions)
+        const float *one = values + (writing_bottom_up(w) ? count - 1 - i : i) * w->made_values;
+        if (drawn)
+            compose_row(&w->on, row + i, one, w->row);
+        else if (w->directions)
             to_colours(w, one);
         else if (w->type == IMAGE_U16)
             to_greys(w, one);
-        if (!image_writer_rows(w->writer, w->type == IMAGE_U16 ? w->row : one, 1))
+        if (!image_writer_rows(w->writer, drawn || w->type == IMAGE_U16 ? w->row : one, 1))
             return false;
     }
     for (size_t i = 0; i < count * w->row_values && w->levels; i++) {
@@ -122,11 +124,22 @@ static bool in_units(const frame_product *made, const frame_summary *sum) {
     return made->kind == FRAME_EYE && !made->error && !made->radial && sum->count > 0 && sum->lo > 0;
 }
 
+/* What a PNG spreads over its samples: of an effect what is asked for, or that of a colour; else what is there. */
+static bool range_of(const options *o, const texture_source *s, const frame_product *made, frame_summary *sum) {
+    const bool asked = option_given(o, OPTION_RANGE), wide = made->kind == FRAME_NORMAL || made->vector;
+    *sum = (frame_summary){.lo = asked  ? o->camera.range_lo
+                                 : wide ? -1
+                                        : 0,
+                           .hi = asked ? o->camera.range_hi : 1,
+                           .count = 1};
+    return !made->error && made->kind >= FRAME_NORMAL ? true : frame_summarise(&s->frame, made, sum);
+}
+
 /*
  * The product in 16 bits is off by half a grey more; a place in all three coordinates, and a normal by the angle that
  * three such differences of a unit vector can make.
  */
-static bool rounding_of_product(const texture_source *s, const frame_product *made, double *more) {
+static bool rounding_of_product(const options *o, const texture_source *s, const frame_product *made, double *more) {
     static const double factors[FRAME_KINDS] = {[FRAME_EYE] = 1,
                                                 [FRAME_LINEAR01] = 1,
                                                 [FRAME_RAW] = 1,
@@ -134,33 +147,29 @@ static bool rounding_of_product(const texture_source *s, const frame_product *ma
                                                 [FRAME_NORMAL] = 1.74 * 57.29577951308233,
                                                 [FRAME_EFFECT] = 255};
     frame_product plain = *made;
-    frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
+    frame_summary sum;
     plain.error = false;
-    /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
-    const bool open = made->kind == FRAME_EFFECT && made->effect->given && !(made->reference > 0);
     *more = 0;
-    if (open)
-        sum.lo = 0;
-    else if (made->kind != FRAME_NORMAL && !frame_summarise(&s->frame, &plain, &sum))
+    if (!range_of(o, s, &plain, &sum))
         return false;
     const double unit = in_units(&plain, &sum) ? sum.hi / GREYS : (sum.hi - sum.lo) / (GREYS - 1);
     if (sum.count > 0)
-        *more = factors[made->kind] * unit / 2 * (1 + 0x1p-20);
+        *more = factors[made->kind] * (made->vector ? M_SQRT2 : 1) * unit / 2 * (1 + 0x1p-20);
     if (in_units(&plain, &sum))
         *more = fmax(*more, (unit - sum.lo) * (1 + 0x1p-20));
     return true;
 }
 
-/* What the samples of a PNG mean; normals have their range by nature, all else that of what was found. */
-static bool scale_of(const texture_source *s, const frame_product *made, writing *w) {
-    frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
-    if (w->type != IMAGE_U16)
+/* What the samples of a PNG mean. */
+static bool scale_of(const options *o, const texture_source *s, const frame_product *made, writing *w) {
+    frame_summary sum;
+    if (w->type != IMAGE_U16 || w->on.picture != NULL)
         return true;
     w->directions = made->kind == FRAME_NORMAL && !made->error;
-    if (!w->directions && !frame_summarise(&s->frame, made, &sum))
+    if (!range_of(o, s, made, &sum))
         return false;
     w->upwards = made->error;
-    if (made->error && !rounding_of_product(s, made, &w->more))
+    if (made->error && !rounding_of_product(o, s, made, &w->more))
         return false;
     w->units = in_units(made, &sum);
     w->hi = (sum.count == 0 ? 1 : sum.hi) + w->more;
@@ -179,7 +188,9 @@ meaning writing_meaning(const options *o, const texture_product *p, const writin
                  .axes = w->directions ? axes[w->down] : NULL,
                  .channels = w->channels,
                  .scale = 1};
-    if (w->file == IMAGE_PNG) {
+    if (w->on.picture != NULL) {
+        m.scale = w->type == IMAGE_U8 ? 1.0 / 255 : 1.0 / GREYS;
+    } else if (w->file == IMAGE_PNG) {
         m.scale = w->directions ? 2.0 / GREYS : w->units ? w->lo : (w->hi - w->lo) / (GREYS - 1);
         m.offset = w->directions ? -1 : w->units ? 0 : w->lo - m.scale;
     }
@@ -197,8 +208,10 @@ void writing_note(const writing *w, const texture_product *p, const meaning *m, 
                  number_full(planes->znear).text, number_full(planes->zfar).text, planes->ortho ? " ortho" : "");
     else
         snprintf(note, IMAGE_NOTE_SIZE, "product=%s%s offset=%s scale=%s%s",
-                 p->made.radial ? "distances" : names[p->made.kind], p->made.error ? ",-the-error" : "",
-                 number_full(m->offset).text, number_full(m->scale).text,
+                 w->on.picture != NULL ? "colours"
+                 : p->made.radial      ? "distances"
+                                       : names[p->made.kind],
+                 p->made.error ? ",-the-error" : "", number_full(m->offset).text, number_full(m->scale).text,
                  m->axes == NULL      ? ""
                  : m->axes == axes[0] ? " y=up"
                                       : " y=down");
@@ -230,7 +243,7 @@ int writing_say(const options *o, const texture_product *p, const writing *w, me
         report_write(&(report_spec){"texture", meaning_columns, m, .label = 14}, &out, FORM_JSON);
         return output_close(&out);
     }
-    if (w->file != IMAGE_PNG || o->out.quiet)
+    if (w->file != IMAGE_PNG || w->on.picture != NULL || o->out.quiet)
         return EXIT_FINE;
     if (w->directions)
         message("depthprec: %s: 0 is -1, 65535 is 1, %s; 0 in all three where there is no value", o->out.file, m->axes);
@@ -258,7 +271,15 @@ static void say_levels(const options *o, const texture_source *s, const texture_
     if (w->levels && w->pixels > 0 && !o->out.quiet)
         message("depthprec: %s: %s %% of the pixels %s off by more than one level", o->out.file,
                 number_of(100.0 * (double)w->beyond / (double)w->pixels, 3).text,
-                s->path != NULL || (p->made.effect->given && !(p->made.reference > 0)) ? "can be" : "are");
+                s->path != NULL || (p->made.effect->given && isnan(effect_reference(p->made.effect, p->settings, 1)))
+                    ? "can be"
+                    : "are");
+}
+
+static void take_picture(const options *o, const texture_source *s, const frame_product *made, compose *on) {
+    const double *tint = option_given(o, OPTION_TINT) ? o->image.tint : made->effect->tint;
+    *on = (compose){.row = made->effect, .parameters = made->effect_settings, .picture = &s->colours};
+    memcpy(on->tint, tint, sizeof on->tint);
 }
 
 /* The product, and beside it the error as a product of its own. */
@@ -279,8 +300,15 @@ int texture_product_write(const options *o, const texture_source *s, const textu
         const frame_product *made = &product[opened].made;
         one->levels = made->kind == FRAME_EFFECT && made->error;
         image_file_of(each[opened].out.file, &one->file);
-        status = writing_open(o, one, each[opened].out.file, s, one->file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32,
-                              (uint32_t)frame_channels(made));
+        const bool drawn = opened == 0 && o->image.picture != NULL;
+        status = writing_open(o, one, each[opened].out.file, s,
+                              drawn                    ? s->colours.type
+                              : one->file == IMAGE_PNG ? IMAGE_U16
+                                                       : IMAGE_F32,
+                              drawn ? s->colours.channels : (uint32_t)frame_channels(made));
+        one->made_values = (size_t)s->camera.width * (size_t)frame_channels(made);
+        if (drawn)
+            take_picture(o, s, made, &one->on);
     }
     if (status != EXIT_FINE && opened == 2) {
         writing_end(&w[0], false);
@@ -290,7 +318,7 @@ int texture_product_write(const options *o, const texture_source *s, const textu
         return status;
     for (int i = 0; i < count; i++) {
         char note[IMAGE_NOTE_SIZE];
-        good = good && scale_of(s, &product[i].made, &w[i]);
+        good = good && scale_of(o, s, &product[i].made, &w[i]);
         m[i] = writing_meaning(&each[i], &product[i], &w[i]);
         writing_note(&w[i], &product[i], &m[i], note);
         good = good && writing_begin(&w[i], note);

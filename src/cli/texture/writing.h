@@ -5,6 +5,7 @@
 
 #include "cli/progress.h"
 #include "cli/texture/texture.h"
+#include "frame/compose.h"
 
 enum { GREYS = 65535 };
 
@@ -15,7 +16,8 @@ typedef struct writing {
     image_writer *writer;
     image_file file;
     uint32_t channels;
-    size_t row_values;
+    size_t row_values, made_values; /* in a row: samples of the file, and numbers of the product */
+    compose on;                     /* a picture, or none */
     const texture_source *source;
     void *row;            /* room for a row of the file's samples */
     double lo, hi, scale; /* of the 16 bits of a PNG */
