@@ -64,6 +64,12 @@ ABSENT_ROWS(finder_filter_row, finder_filter_get)
 ABSENT_ROWS(normal_row, normal_get)
 ABSENT_ROWS(pack_row, pack_get)
 ABSENT_ROWS(packing, packing_get)
+
+const pack_row *packing_normals(const packing *p) {
+    (void)p;
+    return NULL;
+}
+
 ABSENT_ROWS(position_row, position_get)
 ABSENT_ROWS(sensor_row, sensor_get)
 ABSENT_ROWS(synthetic_row, synthetic_get)

@@ -388,12 +388,13 @@ int parse_parameter(options *o, const option_row *row, const char *value) {
 /* The method of normals that a product compares or holds, behind a second colon. */
 static int read_normals(options *o, const option_row *row, const char *value) {
     static const name_list normals = {.get = list_normal};
-    const bool packed = o->image.pack != NULL && o->image.pack->normals;
+    const bool packed = o->image.pack != NULL && o->image.pack->encoded != NULL;
     const bool compared = o->image.effect != NULL && (o->image.effect->needs & EFFECT_NORMALS) != 0;
     char text[NAMES_SIZE];
     list_item item;
     if (!packed && !compared)
-        return option_refuse(row, "takes NORMALS with effect:outline and pack:depth-normals, got '%s'", value);
+        return option_refuse(
+            row, "takes NORMALS with effect:outline and packings of normals, got '%s'", value);
     if (!names_find(&normals, value, NULL, &item))
         return option_refuse(row, "NORMALS %s", names_refuse(&normals, value, text));
     o->image.normals_by = item.row;

@@ -48,6 +48,9 @@ static int make_product(const options *o, const texture_source *source, texture_
 int cmd_texture(const options *given) {
     options own = *given, *o = &own;
     texture_product product = {0};
+    if (o->image.packing != NULL && o->image.packing->steps == 0 && o->image.normal != NULL)
+        for (size_t i = 0; !own.image.product->packed; i++) /* of no depth, there are no other normals */
+            own.image.product = product_get(i);
     const bool beside = o->image.product != NULL && o->image.product->packed, packed = o->image.pack != NULL || beside;
     const bool described = option_given(o, OPTION_PIXEL) && o->image.effect != NULL;
     const bool made = !packed && texture_product_wanted(o);
