@@ -57,7 +57,7 @@ static const stands_for all[] = {
     {"rgb24", 0, 3, big, false},
     {"rgb24-le", 0, 3, small, false},
     {"carla", 0, 3, small, false},
-    {"r8-linear01", 0, 1, byte, false},
+    {"linear01", 0, 1, byte, false},
 };
 enum { ALL = sizeof all / sizeof all[0] };
 
@@ -188,7 +188,7 @@ static const struct {
     void (*run)(float v, uint8_t *texel);
 } shaders[] = {{"rg", shader_rg},       {"depth-normals", shader_depth_normals},
                {"rgba", shader_rgba},   {"rgba-r166", shader_rgba_r166},
-               {"carla", shader_carla}, {"r8-linear01", shader_byte}};
+               {"carla", shader_carla}, {"linear01", shader_byte}};
 
 static float any_depth(rng *r, uint64_t k) {
     return (float)(k % 3 == 0   ? rng_unit(r)
@@ -672,7 +672,7 @@ TEST(cleared_to_black) {
          "in.npy: 7 pixels hold 0, a clear to black or the far plane after frac: they are holes"},
         {"rg", "0.0001", "0.0003", "\"invalid\":0,\"sky\":{\"pixels\":7,", "\"zeros\":7},\"lo\":8.8",
          "after frac, or depths up to 0.000313: they count"}, /* half of 40/65025, and binary32 */
-        {"r8-linear01", "0.0001", "1", "\"invalid\":0,\"sky\":{\"pixels\":0,", "\"zeros\":0},\"lo\":0,", NULL}};
+        {"linear01", "0.0001", "1", "\"invalid\":0,\"sky\":{\"pixels\":0,", "\"zeros\":0},\"lo\":0,", NULL}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         float eyes[PIXELS], fog[PIXELS];
         const char *const in = truth_path("in.npy");
@@ -716,6 +716,44 @@ TEST(normals_come_back) {
     assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--product", "packed-normal", "-o", npy, NULL}),
                      2);
     assert_true(was_said("--product: packed-normal needs FILE with --packing depth-normals or camera-normals"));
+}
+
+/* A pass of one's own that writes eye depth over far in binary32, to targets of more than 8 bits: within the bound, of
+ * which 16 bits reach nearly all. */
+TEST(linear01_of_any_type) {
+    static const image_type types[] = {IMAGE_U16, IMAGE_F16, IMAGE_F32, IMAGE_F64};
+    static const float over_far = 1.0F / 500;
+    rng r = rng_make("linear01");
+    for (size_t t = 0; t < sizeof types / sizeof types[0]; t++) {
+        double given[PIXELS], data[PIXELS], most = 0;
+        float eyes[PIXELS], bounds[PIXELS];
+        for (int i = 0; i < PIXELS; i++) {
+            const float z = (float)(0.3 + 499 * rng_unit(&r) * rng_unit(&r)), stored = z * over_far;
+            const int halves = stored < 0x1p-14F ? -24 : ilogbf(stored) - 10;
+            given[i] = (double)z;
+            truth_store(data, types[t], (size_t)i,
+                        types[t] == IMAGE_U16   ? floor((double)stored * 65535 + 0.5)
+                        : types[t] == IMAGE_F16 ? ldexp(rint(ldexp((double)stored, -halves)), halves)
+                                                : (double)stored);
+        }
+        truth_write(truth_path("in.npy"), IMAGE_NPY, types[t], data);
+        assert_int_equal(
+            run((const char *const[]){truth_path("in.npy"), "--packing", "linear01", "-f", "500", "--product", "eye",
+                                      "-o", truth_path("eye.npy"), "--error-map", NULL}),
+            0);
+        truth_floats("eye.npy", 1, bounds);
+        assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--packing", "COMPUTE_DEPTH_01", "-f", "500",
+                                                   "--product", "eye", "-o", truth_path("eye.npy"), NULL}),
+                         0);
+        truth_floats("eye.npy", 1, eyes);
+        for (int i = 0; i < PIXELS; i++) {
+            const double off = fabs((double)eyes[i] - given[i]);
+            if (!(off <= (double)bounds[i]))
+                fail_msg("%s: %g is off by %g, bound %g", image_type_name(types[t]), given[i], off, (double)bounds[i]);
+            most = fmax(most, off / (double)bounds[i]);
+        }
+        assert_true(most > (types[t] <= IMAGE_F16 ? 0.9 : 0.3));
+    }
 }
 
 /* ---- Normals alone ------------------------------------------------------------------------------------------------*/

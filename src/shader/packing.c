@@ -55,10 +55,10 @@ static const packing rows[] = {
      .off = 0.5 / 16777215, /* cut off, or rounded */
      .note = "eye depth over far in 24 bits, red the lowest byte, as CARLA's depth camera: far is 1000 m",
      .source = "CARLA, Sensors reference, Depth camera"},
-    {.name = "r8-linear01", .channels = 1, .weight = {1}, .steps = 255, .linear = true,
-     .format = "fp32", .off = 0x1p-23,
-     .note = "eye depth over far in 8 bits",
-     .source = UNITY "Linear01Depth, written to a target of 8 bits"},
+    {.name = "linear01", .aliases = "r8-linear01 COMPUTE_DEPTH_01", .channels = 1, .weight = {1}, .steps = 255,
+     .linear = true, .format = "fp32", .off = 0x1p-23,
+     .note = "eye depth over far in one channel of 8 bits, which the bound is of, of 16, or of a float",
+     .source = UNITY "COMPUTE_DEPTH_01 or Linear01Depth, written by a pass of one's own"},
 };
 /* clang-format on */
 
@@ -319,6 +319,24 @@ static bool replace(const packing *p, const uint8_t *bytes, image *img, unpacked
     return true;
 }
 
+/* One channel of more than 8 bits is the depth itself: it stays as it is, in steps or numbers of its own. */
+static bool keep_alone(const image *img, grain *out) {
+    static const int bits[IMAGE_TYPE_COUNT] = {[IMAGE_F16] = 11, [IMAGE_F32] = 24, [IMAGE_F64] = 53};
+    out->kind = img->type == IMAGE_U16 ? GRAIN_STEPS : GRAIN_FLOATS;
+    out->steps = UINT16_MAX;
+    out->bits = bits[img->type];
+    out->least = img->type == IMAGE_F16 ? 0x1p-24 : 0x1p-149;
+    return true;
+}
+
+static bool all_bytes(const image *img) {
+    const size_t count = (size_t)img->width * img->height;
+    size_t i = 0;
+    while (i < count && byte_of(img, i * img->channels, BYTE) >= 0)
+        i++;
+    return i == count;
+}
+
 bool packing_convert(const packing *p, bool zero, image *img, unpacked *out) {
     *out = (unpacked){.grain = {.kind = GRAIN_STEPS,
                                 .rounding = zero ? GRAIN_ZERO : GRAIN_NEAREST,
@@ -328,6 +346,8 @@ bool packing_convert(const packing *p, bool zero, image *img, unpacked *out) {
                                 .least = 0x1p-149}};
     if (img->channels < p->channels)
         return refuse(out, "the packing %s takes %u channels, got %u", p->name, p->channels, img->channels);
+    if (p->channels == 1 && img->type != IMAGE_U32 && (img->type == IMAGE_F16 || !all_bytes(img)))
+        return keep_alone(img, &out->grain);
     if (img->type == IMAGE_U32 || img->type == IMAGE_F16)
         return refuse(out, "the packing %s takes samples of u1, or of u2, f4 or f8 that were of 8 bits, got %s",
                       p->name, image_type_name(img->type));

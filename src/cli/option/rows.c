@@ -292,7 +292,7 @@ const option_row option_rows[OPTION_COUNT] = {
         NUMBER(image.sky, 0, 0.5, NULL), .standard = "0.0001",
         .without = "as in Unity's shaders"},
     [OPTION_METRIC] = {"metric", 0, "SCALE|mm|tum|kitti",
-        "the samples are eye depths in units of SCALE; of TUM there are 5000 to the metre, of KITTI 256; 0, negative "
+        "the samples are eye depths in units of SCALE, 1 of COMPUTE_EYEDEPTH; of TUM there are 5000 to the metre, of KITTI 256; 0, negative "
         "numbers, NaN and infinity are holes",
         .parse = parse_metric, .names = &samples, FIELD(double, image.metric),
         LIMITS(METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},

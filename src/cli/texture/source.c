@@ -211,9 +211,12 @@ static int unpack(const options *o, texture_source *s) {
     s->found.certain = true;
     s->found.steps = 0;
     const char *towards = p->linear ? NULL : s->found.towards;
-    snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in steps of 1/%s%s%s", p->name,
-             p->linear ? "eye depth over far" : "window depth", number_of(p->steps, 10).text,
-             towards != NULL ? "; " : "", towards != NULL ? towards : "");
+    const grain *g = &s->unpacked.grain;
+    const bool steps = g->kind == GRAIN_STEPS;
+    snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in %s%s%s%s%s", p->name,
+             p->linear ? "eye depth over far" : "window depth", steps ? "steps of 1/" : "numbers of ",
+             number_of(steps ? g->steps : g->bits, 10).text, steps ? "" : " bits", towards != NULL ? "; " : "",
+             towards != NULL ? towards : "");
     return EXIT_FINE;
 }
 
