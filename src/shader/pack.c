@@ -202,7 +202,8 @@ static const pack_row rows[] = {
      .note = "octahedral, two SNORM channels, each to the nearest", .normal = {0.02092, 0.05938},
      .source = CIGOLLE ", oct", .encode = oct_encode, .decode = oct_decode},
     {.name = "oct-888", .kind = PACK_NORMAL, .layout = PACK_OCT_888, .channels = 3, .bits = 8, .sphere = true,
-     .note = "octahedral, 0.5 x + 0.5 times 4095.5 cut off to 12 bits each, both in three UNORM channels; back by k/4095",
+     .note = "octahedral, 0.5 x + 0.5 times 4095.5 cut off to 12 bits each, both in three UNORM "
+             "channels; back by k/4095",
      .normal = {0.02901, 0.1090}, .source = URP "PackNormalOctQuadEncode, PackFloat2To888, of _GBUFFER_NORMALS_OCT",
      .encode = oct_888_encode, .decode = oct_888_decode},
     {.name = "xyz-8", .kind = PACK_NORMAL, .layout = PACK_XYZ, .channels = 3, .bits = 8, .sphere = true,

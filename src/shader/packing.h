@@ -71,10 +71,10 @@ static inline bool packing_cleared(const packing *p, const uint8_t *normal) {
 
 /**
  * Converts the image, of u1, or of u2, f4 or f8 whose samples are those of 8 bits, which becomes one channel of f4 or
- * f8: of NaN where it holds no depth, and as it was where it is one channel of more than 8 bits. SNORM channels are bytes as they lie in memory, or numbers from -1 to 1, and
- * refused where an eighth of the texels have no length of 1. Refused are fewer channels, and what was resampled:
- * samples between those of 8 bits, or neighbours where the coarse channel steps by one and the finer one has been
- * averaged over its jump, far more often than surfaces stand out elsewhere.
+ * f8: of NaN where it holds no depth, and as it was where it is one channel of more than 8 bits. SNORM channels are
+ * bytes as they lie in memory, or numbers from -1 to 1. Refused are fewer channels, SNORM texels of which an eighth
+ * have no length of 1, and what was resampled: samples between those of 8 bits, or neighbours where the coarse channel
+ * steps by one and the finer one has been averaged over its jump, far more often than surfaces stand out elsewhere.
  * @param zero  channels were truncated; what that tears apart is in the margin of the grain, and nothing is refused
  * @return false after the sentence; the image is then as it was
  */

@@ -83,6 +83,7 @@ typedef enum option_id {
     OPTION_KERNEL,
     OPTION_ANGLE,
     OPTION_CURVATURE,
+    OPTION_CAMERA_DEPTH,
     OPTION_API,
     OPTION_UNITS,
     OPTION_FACTOR,
@@ -277,6 +278,7 @@ typedef struct options_shadow {
     unsigned kernel;     /**< the filter reads so many texels in either direction */
     double curvature;    /**< radius of curvature of receivers, scene units; NaN when not given */
     double facet;        /**< of the circles about their triangles, scene units */
+    dp_spec camera;      /**< of the depth texture that receivers are rebuilt from: format, mapping, far */
 } options_shadow;
 
 /** A depth image, and what is made of it. Rows and names are null when not given. */

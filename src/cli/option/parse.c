@@ -393,8 +393,7 @@ static int read_normals(options *o, const option_row *row, const char *value) {
     char text[NAMES_SIZE];
     list_item item;
     if (!packed && !compared)
-        return option_refuse(
-            row, "takes NORMALS with effect:outline and packings of normals, got '%s'", value);
+        return option_refuse(row, "takes NORMALS with effect:outline and packings of normals, got '%s'", value);
     if (!names_find(&normals, value, NULL, &item))
         return option_refuse(row, "NORMALS %s", names_refuse(&normals, value, text));
     o->image.normals_by = item.row;

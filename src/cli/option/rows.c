@@ -214,6 +214,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_CURVATURE] = {"curvature", 0, "Z[:FACET]",
         "receivers curve away from the light with a radius of at least Z; tessellated into triangles of circumradius "
         "FACET or less, or smooth", .parse = parse_curvature, FIELD(double, shadow.curvature), .without = "flat"},
+    [OPTION_CAMERA_DEPTH] = {"camera-depth", 0, "FORMAT:MAPPING[:FAR]",
+        "screen-space shadows: receivers are rebuilt from the camera's depth texture in this format and mapping, of "
+        "the view's near plane and FAR, else --far", .parse = parse_camera_depth, FIELD(dp_spec, shadow.camera)},
     [OPTION_API] = {"api", 0, "NAME[,NAME...]",
         "the API whose depth-bias rule applies: @; several, or all, are compared, each with its call",
         .parse = parse_apis, FIELD(unsigned, bias.apis), .names = &apis, .standard = "d3d11",
@@ -292,7 +295,8 @@ const option_row option_rows[OPTION_COUNT] = {
         NUMBER(image.sky, 0, 0.5, NULL), .standard = "0.0001",
         .without = "as in Unity's shaders"},
     [OPTION_METRIC] = {"metric", 0, "SCALE|mm|tum|kitti",
-        "the samples are eye depths in units of SCALE, 1 of COMPUTE_EYEDEPTH; of TUM there are 5000 to the metre, of KITTI 256; 0, negative "
+        "the samples are eye depths in units of SCALE, 1 of COMPUTE_EYEDEPTH; of TUM there are 5000 to the metre, of "
+        "KITTI 256; 0, negative "
         "numbers, NaN and infinity are holes",
         .parse = parse_metric, .names = &samples, FIELD(double, image.metric),
         LIMITS(METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},

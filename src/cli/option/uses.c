@@ -210,7 +210,7 @@ static const option_use of_cascades[] = {
         DEFAULT("1000")),
     TAKE(FOV), TAKE(HFOV),
     OWN(VIEWPORT, HELP("size of the view in pixels; sets its aspect ratio"), DEFAULT("1920x1080")),
-    GROUP(cascades), END};
+    TAKE(CAMERA_DEPTH), GROUP(cascades), END};
 static const option_use of_box[] = {
     OWN(RANGE, HELP("with --light-box: where receivers lie along the light, from the front of the box"),
         WITHOUT("the whole box, less 1/256 where units have no effect at window depth 0")), END};
