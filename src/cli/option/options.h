@@ -117,6 +117,7 @@ typedef enum option_id {
     OPTION_PIXEL,
     OPTION_PRODUCT,
     OPTION_AS,
+    OPTION_HI_Z,
     OPTION_NORMAL_FORMAT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
@@ -292,6 +293,9 @@ typedef struct options_image {
     const char *lattice;    /**< what it was rounded to before; null when not given */
     bool radial;            /**< metric depth is the distance along the ray */
     const char *as;         /**< what eye depth is rounded to; null when not given */
+    unsigned hi_z;          /**< a level of the pyramid of the farthest depths, or of */
+    bool hi_z_nearest;      /**< ... the nearest */
+    dp_format hi_z_format;  /**< what it is rounded to; of no bits where that is the image's own */
     const char *channel;    /**< of FILE, by name; null: that which is depth */
     const packing *packing; /**< of FILE */
     depths pixels;          /**< column and row of each in turn; count is 0 when not given */

@@ -424,6 +424,31 @@ int parse_product(options *o, const option_row *row, const char *value) {
 }
 
 /* With a name it stands beside the product. */
+/* LEVEL, then nearest and FORMAT in any order. */
+int parse_hi_z(options *o, const option_row *row, const char *value) {
+    char text[64] = "", *rest = NULL;
+    uint64_t level;
+    bool good = true;
+    append(text, sizeof text, "%s", value);
+    const char *word = strtok_r(text, ":", &rest);
+    good = word != NULL && number_parse_count(word, 16, &level);
+    o->image.hi_z_nearest = false;
+    o->image.hi_z_format = (dp_format){.bits = 0};
+    while (good && (word = strtok_r(NULL, ":", &rest)) != NULL) {
+        dp_format formats[2];
+        if (strcmp(word, "nearest") == 0 || strcmp(word, "farthest") == 0)
+            o->image.hi_z_nearest = *word == 'n';
+        else if ((good = dp_format_parse(word, formats) == 1 && formats[0].bits <= 31))
+            o->image.hi_z_format = formats[0];
+    }
+    if (!good)
+        return option_refuse(
+            row, "must be LEVEL, 0 to 16, and may have :nearest and :FORMAT, up to 31 bits, behind it, got '%s'",
+            value);
+    o->image.hi_z = (unsigned)level;
+    return EXIT_FINE;
+}
+
 int parse_error_map(options *o, const option_row *row, const char *value) {
     o->image.error_map = value == NULL;
     o->image.error_file = value;

@@ -326,6 +326,10 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_AS] = {"as", 0, "NAME[:NUMBERS]",
         "eye depths as another sensor or format would have stored them: the nearest levels of what --lattice has names "
         "for, which begin at 0 where nothing else is said", TEXT(image.as), .without = "not rounded"},
+    [OPTION_HI_Z] = {"hi-z", 0, "LEVEL[:nearest][:FORMAT]",
+        "write a level of the conservative pyramid of the farthest depths, or of the nearest, as window depth: 0 is "
+        "the image, each further one half as wide and high; in FORMAT rounded to the safe side",
+        .parse = parse_hi_z, FIELD(unsigned, image.hi_z)},
     [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL,
         "direction of y in a PNG of normals: up, or down", WORD(image.normal_format, normal_formats),
         .standard = "opengl"},

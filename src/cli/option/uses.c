@@ -183,6 +183,7 @@ enum { TEXTURE_EFFECT = 1, TEXTURE_PLACED = 2, TEXTURE_IMAGE = 4 };
 static const option_use of_effect[] = {TAKE(AT), END};
 static const option_use of_image[] = {
     TAKE(SKY), TAKE(METRIC), TAKE(LATTICE), TAKE(RADIAL), TAKE(INTRINSICS), TAKE(AS), TAKE(ERROR_MAP), TAKE(FIGURE),
+    TAKE(HI_Z),
     GROUP(picture), TAKE(THREADS), TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(CHANNEL), TAKE(OVERLAY),
     TAKE(HISTOGRAM), TAKE(MATRIX), END};
 static const option_use of_position[] = {
