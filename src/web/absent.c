@@ -139,3 +139,25 @@ int parse_arith(options *o, const option_row *row, const char *value) {
 int parse_raster(options *o, const option_row *row, const char *value) {
     return parse_row(o, row, value);
 }
+
+/* ---- Of commands that are not here ------------------------------------------------------------------------------- */
+
+double shadow_rebuilt(const dp_setup *camera, double lo, double hi, double world) {
+    (void)camera;
+    (void)lo;
+    (void)world;
+    return hi;
+}
+
+#define ABSENT_PARSER(name)                                                                                            \
+    int name(options *o, const option_row *row, const char *value) {                                                   \
+        (void)row;                                                                                                     \
+        (void)value;                                                                                                   \
+        return absent(o);                                                                                              \
+    }
+
+ABSENT_PARSER(parse_camera_depth)
+ABSENT_PARSER(parse_error_map)
+ABSENT_PARSER(parse_hi_z)
+ABSENT_PARSER(parse_parameter)
+ABSENT_PARSER(parse_product)

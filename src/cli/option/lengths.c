@@ -326,28 +326,6 @@ int parse_cascades(options *o, const option_row *row, const char *value) {
 }
 
 /* Z, or Z:FACET. */
-/* FORMAT:MAPPING or FORMAT:MAPPING:FAR. */
-int parse_camera_depth(options *o, const option_row *row, const char *value) {
-    char text[80] = "", *rest = NULL;
-    append(text, sizeof text, "%s", value);
-    const char *format = strtok_r(text, ":", &rest), *mapping = strtok_r(NULL, ":", &rest);
-    const char *far = strtok_r(NULL, "", &rest);
-    dp_spec *camera = &o->shadow.camera;
-    dp_format formats[2];
-    lengths seen = {.o = o};
-    camera->zfar = 0.0;
-    if (mapping == NULL || dp_format_parse(format, formats) != 1 ||
-        dp_mapping_parse(mapping, &camera->mapping) != DP_OK ||
-        dp_mapping_get(camera->mapping)->curve != DP_CURVE_PERSPECTIVE ||
-        (far != NULL && !read_length(&seen, far, strlen(far), NUMBER_FAR, &camera->zfar)))
-        return option_refuse(
-            row,
-            "must be FORMAT:MAPPING or FORMAT:MAPPING:FAR, MAPPING one of " DP_MAPPING_NAMES_PERSPECTIVE ", got '%s'",
-            value);
-    camera->format = formats[0];
-    return EXIT_FINE;
-}
-
 int parse_curvature(options *o, const option_row *row, const char *value) {
     const size_t split = strcspn(value, ":");
     lengths seen = {.o = o};
