@@ -12,7 +12,7 @@ src/api           | depthprec core system api
 src/world         | depthprec core world
 src/census        | depthprec core census
 src/raster        | depthprec core raster
-src/shadow        | depthprec core api shadow
+src/shadow        | depthprec core api image shader shadow
 src/system       | system
 src/probe         | depthprec core system raster probe
 src/image         | depthprec core system image

@@ -281,6 +281,38 @@ static void oct_search(search *s) {
     s->codes = (uint64_t)((2 * s->most + 1) * (2 * s->most + 1));
 }
 
+/* The same where codes begin at whole numbers of 4095.5ths and are given back as 4095ths: no sign is like another. */
+static void oct_888_offer(search *s, double x, double y) {
+    const double size = fabs(x) + fabs(y);
+    const double lower[3] = {copysign(1 - fabs(y), x), copysign(1 - fabs(x), y), 1 - size};
+    offer(s, size > 1 ? lower : (const double[]){x, y, 1 - size});
+}
+
+static void oct_888_search(search *s) {
+    enum { MOST = 4095 };
+    for (int a = 0; a <= MOST; a++)
+        for (int b = 0; b <= a; b++) {
+            const double x[2] = {a / 4095.5 * 2 - 1, fmin((a + 1) / 4095.5 * 2 - 1, 1)};
+            const double y[2] = {b / 4095.5 * 2 - 1, fmin((b + 1) / 4095.5 * 2 - 1, 1)};
+            const double u = a / 4095.0 * 2 - 1, v = b / 4095.0 * 2 - 1, size = fabs(u) + fabs(v);
+            s->back[0] = size > 1 ? copysign(1 - fabs(v), u) : u;
+            s->back[1] = size > 1 ? copysign(1 - fabs(u), v) : v;
+            s->back[2] = 1 - size;
+            for (int i = 0; i < 2; i++) {
+                oct_888_offer(s, x[i], y[0]);
+                oct_888_offer(s, x[i], y[1]);
+                for (int fold = -1; fold <= 1; fold++) {
+                    const double at_y = fold * (1 - fabs(x[i])), at_x = fold * (1 - fabs(y[i]));
+                    if (between(at_y, y[0], y[1]))
+                        oct_888_offer(s, x[i], at_y);
+                    if (between(at_x, x[0], x[1]))
+                        oct_888_offer(s, at_x, y[i]);
+                }
+            }
+        }
+    s->codes = (MOST + 1) * (MOST + 1);
+}
+
 static void stereo_offer(search *s, double x, double y) {
     const double r2 = x * x + y * y;
     if (r2 <= 1 + 0x1p-50)
@@ -367,8 +399,10 @@ static void mean(const pack_row *row, pack_error *out) {
 }
 
 static void measure_normal(const pack_row *row, pack_error *out) {
-    static void (*const searches[])(search *) = {
-        [PACK_STEREO] = stereo_search, [PACK_OCT] = oct_search, [PACK_XYZ] = xyz_search};
+    static void (*const searches[])(search *) = {[PACK_STEREO] = stereo_search,
+                                                 [PACK_OCT] = oct_search,
+                                                 [PACK_OCT_888] = oct_888_search,
+                                                 [PACK_XYZ] = xyz_search};
     const uint32_t codes = 1U << (row->layout == PACK_STEREO ? row->bits : row->bits - 1);
     search s = {.row = row, .most = codes - 1};
     searches[row->layout](&s);

@@ -15,7 +15,7 @@ static const struct {
     {"gap, normal offset", true, {SHADOW_NORMAL}},
     {"texel, kernel, lookup", false, {SHADOW_CAUSE_TEXEL, SHADOW_CAUSE_KERNEL, SHADOW_CAUSE_LOOKUP, -1}},
     {"snapping, set-up", false, {SHADOW_CAUSE_SNAPPING, SHADOW_CAUSE_SETUP, -1}},
-    {"position", false, {SHADOW_CAUSE_POSITION, -1}},
+    {"position", false, {SHADOW_CAUSE_POSITION, SHADOW_CAUSE_RECEIVER, -1}},
     {"format", false, {SHADOW_CAUSE_FORMAT, -1}},
 };
 
@@ -95,7 +95,7 @@ TEST(one_box) {
 }
 
 TEST(cascades) {
-    const shadow_split split = {0.5, 60, 40, 2, 3, 0.25, 30, true};
+    const shadow_split split = {0.5, 60, 40, 2, 3, 0.25, 30, true, NULL};
     const shadow_light model = light_of("fp32", 512, 1.5, 75);
     drawn *d = drawn_run(&drawn_light, "plot shadow -n 0.5 -f 60 --fov 40 --viewport 640x320 --cascades 3:0.25 "
                                        "--casters 30 --size 512");

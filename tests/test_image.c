@@ -192,6 +192,7 @@ static const struct {
     {{.dxgi = 61}, IMAGE_U8, 1, NULL, -1},
     {{.dxgi = 49}, IMAGE_U8, 2, NULL, -1},
     {{.dxgi = 28}, IMAGE_U8, 4, NULL, -1},
+    {{.dxgi = 31}, IMAGE_U8, 4, NULL, -1},
     {{FOURCC, 114, 0, {0}, 0}, IMAGE_F32, 1, NULL, -1},
     {{FOURCC, 111, 0, {0}, 0}, IMAGE_F16, 1, NULL, -1},
     {{FOURCC, 82, 0, {0}, 0}, IMAGE_F32, 1, "fp32", -1},

@@ -714,6 +714,34 @@ TEST(test_pairs) {
     tally_end(&t);
 }
 
+TEST(test_behind_colons) {
+    static const char *const cameras[] = {"", "d24", "d24:", ":d3d", "all:d3d", "d24:linear", "d24:d3d,gl"};
+    static const char *const far[] = {"d24:d3d:x", "d24:d3d:nan", "d24:d3d:1:2"};
+    static const char *const levels[] = {"", "x", "17", "-1", "1.5", ":nearest", "2:middle", "2:unorm32", "2:all"};
+    tally t = {.name = "behind colons"};
+    char line[1024] = "";
+    options o;
+    assert_int_equal(parse(&o, "shadow", OPTION_CAMERA_DEPTH, "d24:reversed", line), EXIT_FINE);
+    assert_string_equal(o.shadow.camera.format.name, "unorm24");
+    assert_true(o.shadow.camera.mapping == DP_MAPPING_REVERSED && o.shadow.camera.zfar == 0 && o.camera.zfar == 1000);
+    assert_int_equal(parse(&o, "shadow", OPTION_CAMERA_DEPTH, "fp32:gl:2km", line), EXIT_FINE);
+    assert_true(o.shadow.camera.mapping == DP_MAPPING_GL && o.shadow.camera.zfar == 2000 && o.camera.zfar == 1000);
+    assert_int_equal(parse(&o, "texture", OPTION_HI_Z, "16:d16:nearest", line), EXIT_FINE);
+    assert_string_equal(o.image.hi_z_format.name, "unorm16");
+    assert_true(o.image.hi_z == 16 && o.image.hi_z_nearest);
+    assert_int_equal(parse(&o, "texture", OPTION_HI_Z, "0", line), EXIT_FINE);
+    assert_true(o.image.hi_z == 0 && !o.image.hi_z_nearest && o.image.hi_z_format.bits == 0);
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++)
+        refused(&t, "shadow", OPTION_CAMERA_DEPTH, cameras[i],
+                "FORMAT:MAPPING[:FAR], MAPPING one of d3d, gl, reversed, gl-reversed");
+    for (size_t i = 0; i < sizeof far / sizeof far[0]; i++)
+        TALLY(&t, parse(&o, "shadow", OPTION_CAMERA_DEPTH, far[i], line) == EXIT_USAGE, "%s", far[i]);
+    for (size_t i = 0; i < sizeof levels / sizeof levels[0]; i++)
+        refused(&t, "texture", OPTION_HI_Z, levels[i],
+                "LEVEL, 0 to 16, and may have :nearest and :FORMAT, up to 31 bits, behind it");
+    tally_end(&t);
+}
+
 /* 65 formats are refused: nothing that was asked for is left out. */
 TEST(test_formats) {
     char all[2048] = "unorm1";

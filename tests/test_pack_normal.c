@@ -63,6 +63,22 @@ static long double oct_error(vec n, int bits, uint32_t codes[3]) {
     return degrees_between(n, back);
 }
 
+static long double oct_888_error(vec n, int bits, uint32_t codes[3]) {
+    const long double s = fabsl(n.x) + fabsl(n.y) + fabsl(n.z), t = fmaxl(-n.z / s, 0);
+    const int i = (int)((0.5L * (n.x / s + sign_of(n.x) * t) + 0.5L) * 4095.5L);
+    const int j = (int)((0.5L * (n.y / s + sign_of(n.y) * t) + 0.5L) * 4095.5L);
+    (void)bits;
+    codes[0] = (uint32_t)(i % 256);
+    codes[1] = (uint32_t)(j % 256);
+    codes[2] = (uint32_t)(i / 256 + 16 * (j / 256));
+    vec back = {2 * i / 4095.0L - 1, 2 * j / 4095.0L - 1, 0};
+    back.z = 1 - fabsl(back.x) - fabsl(back.y);
+    const long double down = fmaxl(-back.z, 0);
+    back.x -= sign_of(back.x) * down;
+    back.y -= sign_of(back.y) * down;
+    return degrees_between(n, back);
+}
+
 static long double xyz_error(vec n, int bits, uint32_t codes[3]) {
     const long double most = (long double)((1 << (bits - 1)) - 1);
     const vec c = {rounded(n.x * most), rounded(n.y * most), rounded(n.z * most)};
@@ -74,7 +90,7 @@ static long double xyz_error(vec n, int bits, uint32_t codes[3]) {
 
 static long double own_error(const pack_row *row, vec n, uint32_t codes[3]) {
     static long double (*const all[PACK_LAYOUTS])(vec, int, uint32_t *) = {
-        [PACK_STEREO] = stereo_error, [PACK_OCT] = oct_error, [PACK_XYZ] = xyz_error};
+        [PACK_STEREO] = stereo_error, [PACK_OCT] = oct_error, [PACK_OCT_888] = oct_888_error, [PACK_XYZ] = xyz_error};
     return all[row->layout](n, row->bits, codes);
 }
 
@@ -92,6 +108,7 @@ TEST(test_normals_sampled) {
         const pack_row *row = pack_get(i);
         const uint64_t cases = test_cases(20000, 150000, 4000000);
         long double sum = 0, squares = 0;
+        double most = 0;
         uint64_t differ = 0;
         if (row->kind == PACK_DEPTH)
             continue;
@@ -104,17 +121,24 @@ TEST(test_normals_sampled) {
             const long double error = own_error(row, n, own);
             row->encode(row, in, codes);
             row->decode(row, codes, back);
-            if (memcmp(own, codes, sizeof own[0] * (row->layout == PACK_XYZ ? 3 : 2)) != 0)
+            if (memcmp(own, codes, sizeof own[0] * (size_t)(row->kind == PACK_NORMAL ? row->channels : 2)) != 0)
                 differ++;
             else
                 TALLY(&t, fabsl(degrees_between(n, (vec){back[0], back[1], back[2]}) - error) < 1e-12L,
                       "%s %La %La %La", row->name, n.x, n.y, n.z);
+            if (row->kind == PACK_NORMAL) {
+                const double reach = pack_reach(row, codes, false);
+                TALLY(&t, error <= (long double)reach && reach <= e->normal.max * 1.01, "%s: %.9Lg, bound %.9g",
+                      row->name, error, reach);
+                most = fmax(most, (double)error / reach);
+            }
             TALLY(&t, error <= (long double)e->normal.max * (1 + 1e-12L), "%s: %.9Lg at %La %La %La", row->name, error,
                   n.x, n.y, n.z);
             sum += error;
             squares += error * error;
         }
         const long double mean = sum / cases, spread = sqrtl((squares / cases - mean * mean) / cases);
+        TALLY(&t, row->kind != PACK_NORMAL || most > 0.98, "%s: %g of the bound of a code is reached", row->name, most);
         TALLY(&t, differ <= 1, "%s: %llu codes differ", row->name, (unsigned long long)differ);
         TALLY(&t, fabsl(mean - (long double)e->normal.mean) <= 5 * hypotl(spread, (long double)e->normal_spread),
               "%s: mean %.9Lg +- %.2Lg, %.9g measured", row->name, mean, spread, e->normal.mean);

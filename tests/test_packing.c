@@ -57,7 +57,7 @@ static const stands_for all[] = {
     {"rgb24", 0, 3, big, false},
     {"rgb24-le", 0, 3, small, false},
     {"carla", 0, 3, small, false},
-    {"r8-linear01", 0, 1, byte, false},
+    {"linear01", 0, 1, byte, false},
 };
 enum { ALL = sizeof all / sizeof all[0] };
 
@@ -122,10 +122,10 @@ TEST(every_code_in_images) {
             const long double want = fminl(all[i].depth(given + 4 * k), 1);
             TALLY(&t, fabsl(d - want) <= (img.type == IMAGE_F32 ? 0x1p-24L : 0x1p-53L) * want, "pixel %zu", k);
             TALLY(&t, packing_nearest(p, d) == (uint64_t)rintl(want * (long double)p->steps), "pixel %zu back", k);
-            if (p->normals)
+            if (p->encoded != NULL)
                 TALLY(&t, memcmp(out.normals + 2 * k, given + 4 * k, 2) == 0, "normal %zu", k);
         }
-        assert_true(p->normals == (out.normals != NULL));
+        assert_true((p->encoded != NULL) == (out.normals != NULL));
         tally_end(&t);
         image_free(&img);
         free(out.normals);
@@ -188,7 +188,7 @@ static const struct {
     void (*run)(float v, uint8_t *texel);
 } shaders[] = {{"rg", shader_rg},       {"depth-normals", shader_depth_normals},
                {"rgba", shader_rgba},   {"rgba-r166", shader_rgba_r166},
-               {"carla", shader_carla}, {"r8-linear01", shader_byte}};
+               {"carla", shader_carla}, {"linear01", shader_byte}};
 
 static float any_depth(rng *r, uint64_t k) {
     return (float)(k % 3 == 0   ? rng_unit(r)
@@ -643,16 +643,20 @@ TEST(the_far_plane_wraps) {
     assert_false(was_said("at the far plane"));
 }
 
+static void write_texels(const uint8_t *texels, uint32_t channels) {
+    FILE *f = fopen(truth_path("in.npy"), "wb");
+    assert_non_null(f);
+    image_writer *w = image_writer_open(f, IMAGE_NPY, IMAGE_U8, WIDTH, HEIGHT, channels, NULL);
+    assert_true(w != NULL && image_writer_rows(w, texels, HEIGHT) && image_writer_close(w));
+    assert_int_equal(fclose(f), 0);
+}
+
 /* A target that was cleared to black, with a few depths; `cleared` pixels of it are still 0. */
 static void write_cleared(const packing *p, int cleared) {
     uint8_t texels[4 * PIXELS] = {0};
     for (int i = cleared; i < PIXELS; i++)
         packing_texel(p, packing_nearest(p, 0.2 + 0.003 * i), texels + (size_t)i * p->channels);
-    FILE *f = fopen(truth_path("in.npy"), "wb");
-    assert_non_null(f);
-    image_writer *w = image_writer_open(f, IMAGE_NPY, IMAGE_U8, WIDTH, HEIGHT, p->channels, NULL);
-    assert_true(w != NULL && image_writer_rows(w, texels, HEIGHT) && image_writer_close(w));
-    assert_int_equal(fclose(f), 0);
+    write_texels(texels, p->channels);
 }
 
 /* What no surface writes is no depth: sky, or with --sky 0 a hole. Without frac a 0 is what it says. */
@@ -668,7 +672,7 @@ TEST(cleared_to_black) {
          "in.npy: 7 pixels hold 0, a clear to black or the far plane after frac: they are holes"},
         {"rg", "0.0001", "0.0003", "\"invalid\":0,\"sky\":{\"pixels\":7,", "\"zeros\":7},\"lo\":8.8",
          "after frac, or depths up to 0.000313: they count"}, /* half of 40/65025, and binary32 */
-        {"r8-linear01", "0.0001", "1", "\"invalid\":0,\"sky\":{\"pixels\":0,", "\"zeros\":0},\"lo\":0,", NULL}};
+        {"linear01", "0.0001", "1", "\"invalid\":0,\"sky\":{\"pixels\":0,", "\"zeros\":0},\"lo\":0,", NULL}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         float eyes[PIXELS], fog[PIXELS];
         const char *const in = truth_path("in.npy");
@@ -711,7 +715,162 @@ TEST(normals_come_back) {
     }
     assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--product", "packed-normal", "-o", npy, NULL}),
                      2);
-    assert_true(was_said("--product: packed-normal needs FILE with --packing depth-normals"));
+    assert_true(was_said("--product: packed-normal needs FILE with --packing depth-normals or camera-normals"));
+}
+
+/* A pass of one's own that writes eye depth over far in binary32, to targets of more than 8 bits: within the bound, of
+ * which 16 bits reach nearly all. */
+TEST(linear01_of_any_type) {
+    static const image_type types[] = {IMAGE_U16, IMAGE_F16, IMAGE_F32, IMAGE_F64};
+    static const float over_far = 1.0F / 500;
+    rng r = rng_make("linear01");
+    for (size_t t = 0; t < sizeof types / sizeof types[0]; t++) {
+        double given[PIXELS], data[PIXELS], most = 0;
+        float eyes[PIXELS], bounds[PIXELS];
+        for (int i = 0; i < PIXELS; i++) {
+            const float z = (float)(0.3 + 499 * rng_unit(&r) * rng_unit(&r)), stored = z * over_far;
+            const int halves = stored < 0x1p-14F ? -24 : ilogbf(stored) - 10;
+            given[i] = (double)z;
+            truth_store(data, types[t], (size_t)i,
+                        types[t] == IMAGE_U16   ? floor((double)stored * 65535 + 0.5)
+                        : types[t] == IMAGE_F16 ? ldexp(rint(ldexp((double)stored, -halves)), halves)
+                                                : (double)stored);
+        }
+        truth_write(truth_path("in.npy"), IMAGE_NPY, types[t], data);
+        assert_int_equal(
+            run((const char *const[]){truth_path("in.npy"), "--packing", "linear01", "-f", "500", "--product", "eye",
+                                      "-o", truth_path("eye.npy"), "--error-map", NULL}),
+            0);
+        truth_floats("eye.npy", 1, bounds);
+        assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--packing", "COMPUTE_DEPTH_01", "-f", "500",
+                                                   "--product", "eye", "-o", truth_path("eye.npy"), NULL}),
+                         0);
+        truth_floats("eye.npy", 1, eyes);
+        for (int i = 0; i < PIXELS; i++) {
+            const double off = fabs((double)eyes[i] - given[i]);
+            if (!(off <= (double)bounds[i]))
+                fail_msg("%s: %g is off by %g, bound %g", image_type_name(types[t]), given[i], off, (double)bounds[i]);
+            most = fmax(most, off / (double)bounds[i]);
+        }
+        assert_true(most > (types[t] <= IMAGE_F16 ? 0.9 : 0.3));
+    }
+}
+
+/* ---- Normals alone ------------------------------------------------------------------------------------------------*/
+
+/* The shader: SNORM to the nearest; or folded octahedral, 12 bits each, cut off, with the third channel for high bits.
+ */
+static void camera_texel(const float n[3], bool oct, uint8_t texel[3]) {
+    const float size = fabsf(n[0]) + fabsf(n[1]) + fabsf(n[2]), fold = n[2] < 0 ? -n[2] / size : 0;
+    int code[2];
+    for (int i = 0; i < 3; i++)
+        texel[i] = (uint8_t)(int)roundf(n[i] * 127);
+    for (int i = 0; i < 2; i++) {
+        const float at = n[i] / size + (n[i] >= 0 ? fold : -fold);
+        code[i] = (int)(fminf(fmaxf(at * 0.5F + 0.5F, 0), 1) * 4095.5F);
+        texel[i] = oct ? (uint8_t)(code[i] % 256) : texel[i];
+    }
+    texel[2] = oct ? (uint8_t)(code[0] / 256 + code[1] / 256 * 16) : texel[2];
+}
+
+static double degrees_between(const double a[3], const double b[3]) {
+    const double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return atan2(sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * 180 / M_PI;
+}
+
+/* _CameraNormalsTexture of a camera that looks along the world's x, so that its right is the world's -z: what comes out
+ * is within the bound of each pixel, which some come close to; a cleared texel has none. */
+TEST(normals_of_the_camera) {
+    rng r = rng_make("camera normals");
+    double most = 0;
+    for (int round = 0; round < 16; round++) {
+        const bool oct = round % 2 == 1;
+        const char *name = oct ? "camera-normals-oct" : "camera-normals", *in = truth_path("in.npy");
+        uint8_t texels[3 * PIXELS] = {0};
+        float given[3 * PIXELS], normals[3 * PIXELS], bounds[PIXELS];
+        for (int i = 1; i < PIXELS; i++) {
+            const double z = 2 * rng_unit(&r) - 1, turn = 2 * M_PI * rng_unit(&r), across = sqrt(1 - z * z);
+            float *n = given + 3 * (size_t)i;
+            n[0] = (float)(across * cos(turn));
+            n[1] = (float)(across * sin(turn));
+            n[2] = (float)z;
+            camera_texel(n, oct, texels + 3 * (size_t)i);
+        }
+        write_texels(texels, 3);
+        assert_int_equal(run((const char *const[]){in, "--packing", name, "--look", "1,0,0", "--product", "normal",
+                                                   "-o", truth_path("place.npy"), NULL}),
+                         0);
+        truth_floats("place.npy", 3, normals);
+        assert_int_equal(run((const char *const[]){in, "--packing", name, "--product", "packed-normal", "--error-map",
+                                                   "-o", truth_path("map.npy"), NULL}),
+                         0);
+        truth_floats("map.npy", 1, bounds);
+        assert_true(isnan(normals[0]) && isnan(normals[1]) && isnan(normals[2]) && isnan(bounds[0]));
+        for (int i = 1; i < PIXELS; i++) {
+            const float *n = given + 3 * (size_t)i, *o = normals + 3 * (size_t)i;
+            const double own[3] = {-(double)n[2], (double)n[1], (double)n[0]};
+            const double off = degrees_between(own, (const double[]){(double)o[0], (double)o[1], (double)o[2]});
+            assert_true(off <= (double)bounds[i] && (double)bounds[i] < (oct ? 0.1095 : 0.391));
+            most = fmax(most, off / (double)bounds[i]);
+        }
+    }
+    assert_true(most > 0.95);
+    uint8_t half[3 * PIXELS];
+    for (int i = 0; i < 3 * PIXELS; i++)
+        half[i] = (uint8_t)(i % 3 == 2 ? 255 : 128); /* 0.5 n + 0.5 of z */
+    write_texels(half, 3);
+    assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--packing", "camera-normals", "--product",
+                                               "normal", "-o", truth_path("place.npy"), NULL}),
+                     2);
+    assert_true(was_said("240 of 240 texels hold no vector of length 1: no SNORM normals"));
+}
+
+/* A plane whose normal is 124 degrees from the axis, seen at the left edge of a view of 160 degrees: stereographic
+ * channels end at 1.7777, which is tan of half of 121.3 degrees; octahedral ones hold it. */
+TEST(normals_that_are_lost) {
+    const double n[2] = {sin(124 * M_PI / 180), -cos(124 * M_PI / 180)}, wide = tan(80 * M_PI / 180) * WIDTH / HEIGHT;
+    float depths[PIXELS];
+    for (int i = 0; i < PIXELS; i++) {
+        const double slope = ((2.0 * (i % WIDTH) + 1) / WIDTH - 1) * wide, towards = n[0] * slope + n[1];
+        depths[i] = towards < -0.5 ? (float)(-10 / towards) : 0;
+    }
+    const char *in = truth_path("eye.npy"), *png = truth_path("in.png");
+    FILE *f = fopen(in, "wb");
+    image_writer *w = image_writer_open(f, IMAGE_NPY, IMAGE_F32, WIDTH, HEIGHT, 1, NULL);
+    assert_true(w != NULL && image_writer_rows(w, depths, HEIGHT) && image_writer_close(w));
+    assert_int_equal(fclose(f), 0);
+    for (int oct = 0; oct < 2; oct++) {
+        float seen[3 * PIXELS];
+        double worst = 0;
+        int lost = 0;
+        char words[128];
+        assert_int_equal(
+            run((const char *const[]){in, "--metric", "1", "-f", "100", "--fov", "160", "--product",
+                                      oct ? "pack:camera-normals-oct" : "pack:depth-normals", "-o", png, NULL}),
+            0);
+        snprintf(words, sizeof words, "have normals that stereo-8 does not hold: they come back up to");
+        assert_true(was_said(words) == (oct == 0));
+        if (oct)
+            continue;
+        assert_int_equal(
+            run((const char *const[]){png, "--product", "packed-normal", "-o", truth_path("place.npy"), "-q", NULL}),
+            0);
+        truth_floats("place.npy", 3, seen);
+        for (int i = 0; i < PIXELS; i++) {
+            const double back[3] = {(double)seen[3 * i], (double)seen[3 * i + 1], (double)seen[3 * i + 2]};
+            const double off = degrees_between(back, (const double[]){n[0], 0, n[1]});
+            lost += depths[i] > 0 && off > 1.2;
+            worst = depths[i] > 0 ? fmax(worst, off) : worst;
+        }
+        assert_true(lost > 20 && fabs(worst - 2.7) < 0.1);
+        assert_int_equal(run((const char *const[]){in, "--metric", "1", "-f", "100", "--fov", "160", "--product",
+                                                   "pack:depth-normals", "-o", png, NULL}),
+                         0);
+        snprintf(words, sizeof words, "%d pixels have normals that stereo-8 does not hold: they come back up to %.2f",
+                 lost, worst);
+        if (!was_said(words))
+            fail_msg("not said: %s", words);
+    }
 }
 
 TEST(warnings) {
@@ -825,11 +984,14 @@ TEST(refusals) {
         {{in, "--product", "pack:rg", "-o", "x.pfm"}, "must end in .png or .npy for --product pack, got 'x.pfm'"},
         {{in, "--product", "pack:rg", "--json", "-o", out}, "--json: conflicts with --product pack"},
         {{in, "--product", "pack:rg:low", "-o", out},
-         "--product: takes NORMALS with effect:outline and pack:depth-normals, got 'low'"},
+         "--product: takes NORMALS with effect:outline and packings of normals, got 'low'"},
         {{"--synthetic", "plane", "-f", "inf", "--product", "pack:rg", "-o", out}, "it needs a finite far plane"},
         {{"--synthetic", "plane", "--ortho", "-n", "-5", "-f", "9", "--product", "pack:rg", "-o", out},
          "it needs near not less than 0"},
         {{in, "--metric", "1", "--product", "pack:rgb24", "-o", out}, "rgb24 holds window depth, which"},
+        {{in, "--packing", "camera-normals"}, "camera-normals holds normals and no depth: --product packed-normal"},
+        {{in, "--packing", "camera-normals", "--product", "packed-normal", "--error-map", "-o", out},
+         "must end in .pfm or .npy for the bounds of packed normals"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         assert_int_equal(run(rows[i].words), 2);

@@ -87,7 +87,7 @@ static double format_part(const shadow_light *light) {
 
 static void expected_parts(const shadow_light *light, const lengths *l, shadow_part part[SHADOW_CAUSE_COUNT]) {
     const dp_triangles *t = &light->triangles;
-    const double moved = 3 * eps * l->position + light->position;
+    const double moved = 3 * eps * l->position;
     const double c2 = t->plane.box * l->box * (1 + 2 * t->plane.origin * eps * l->far_off) + t->plane.range;
     part[SHADOW_CAUSE_TEXEL] = (shadow_part){0.5, 0};
     part[SHADOW_CAUSE_KERNEL] = (shadow_part){light->kernel - 0.5, 0};
@@ -98,6 +98,7 @@ static void expected_parts(const shadow_light *light, const lengths *l, shadow_p
         (shadow_part){eps * (t->plane.origin * l->far_off + c2 * l->reach), eps * t->plane.value};
     part[SHADOW_CAUSE_POSITION] = (shadow_part){l->vertex + 4 * eps * l->matrix / l->smaller + moved / l->diagonal,
                                                 8 * eps * l->matrix / l->depth + 6 * eps + moved / l->depth};
+    part[SHADOW_CAUSE_RECEIVER] = (shadow_part){light->position / l->diagonal, light->position / l->depth};
     part[SHADOW_CAUSE_FORMAT] = (shadow_part){0, format_part(light)};
 }
 

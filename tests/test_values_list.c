@@ -160,11 +160,16 @@ static bool synthetic(size_t i, listed *l) {
     return true;
 }
 
-/* Half a step, and what binary32 adds; with three digits, rounded up. */
+/* Of depth half a step, and what binary32 adds; of normals degrees; with three digits, rounded up. */
 static bool packing_row(size_t i, listed *l) {
-    static const double halves[] = {7.81e-06, 7.81e-06, 1.17e-10, 2.33e-10, 2.99e-08, 2.99e-08, 5.97e-08, 0.00197};
+    static const double halves[] = {7.81e-06, 0,        0,        7.81e-06, 1.17e-10,
+                                    2.33e-10, 2.99e-08, 2.99e-08, 5.97e-08, 0.00197};
+    static const double angles[] = {1.13, 0.391, 0.109};
     ROW(struct packing, packing_get(i), r->aliases)
-    add_number(l, halves[i]);
+    if (halves[i] > 0)
+        add_number(l, halves[i]);
+    if (i < sizeof angles / sizeof angles[0])
+        add_number(l, angles[i]);
     return true;
 }
 

@@ -22,7 +22,7 @@ static const struct {
     {"shadow --light-box 30mx20mx50m --size 512x256 -F unorm16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
      "--triangle-class pixels=64,slim=8 --kernel 3 --angle 60 --from-origin 1km --curvature 2m:5cm --unit m",
      5, 48.65, NULL},
-    {"shadow -f 300 --cascades 2 --hfov 100 --api all", 0, 0, NULL},
+    {"shadow -f 300 --cascades 2 --hfov 100 --api all --camera-depth d16:reversed:2km --unit m", 0, 0, NULL},
     {"shadow --light-box 8x8x64 --api vulkan-float -m reversed --subpixel 1 --kernel 1 --angle 30", 0, 64,
      NULL}, /* no factor */
     {"shadow --light-box 10x10x40 --size 1024x1024 -F unorm24 --raster softpipe --range 10:30 --kernel 1 --angle 3 "
@@ -182,7 +182,13 @@ static double radius_of(const shadow_case *c, double from, double to) {
 /* Of a box the light alone. */
 static shadow_cascade map_of(const shadow_case *c, const char *format, dp_mapping mapping, int i) {
     const shadow_light model = light_of(c, format, mapping);
-    const shadow_split split = {c->znear, c->zfar, fov_of(c), c->aspect, c->cascades, c->lambda, c->casters, true};
+    dp_triangles drawn = dp_triangles_default();
+    drawn.fov_y = fov_of(c);
+    const dp_setup camera =
+        SETUP("unorm16", .znear = c->znear, .zfar = 2000, .mapping = DP_MAPPING_REVERSED, .triangles = drawn);
+    const shadow_split split = {c->znear,   c->zfar,     fov_of(c),
+                                c->aspect,  c->cascades, c->lambda,
+                                c->casters, true,        is_given(c->line, "--camera-depth") ? &camera : NULL};
     shadow_cascade made = {.light = model};
     if (c->box[2] > 0) {
         assert_int_equal(shadow_light_check(&model), SHADOW_OK);
@@ -297,6 +303,7 @@ static void want_head(values *v, const shadow_case *c) {
     want(v, "size.width=%u size.height=%u kernel=%u", (unsigned)c->width, (unsigned)c->height, (unsigned)c->kernel);
     want(v, "angle=%f subpixel=%u pixels=%f slim=%f", c->angle, (unsigned)c->subpixel, c->pixels, c->slim);
     want(v, "from_origin=%f curvature=%f facet=%f", c->world, c->curvature > 0 ? c->curvature : NAN, c->facet);
+    want_text(v, "camera_depth", is_given(c->line, "--camera-depth") ? "d16:reversed:2km" : NULL);
     if (c->box[2] > 0) {
         want_text(v, "view", NULL);
         return;
@@ -556,7 +563,7 @@ static const char columns[] =
     /* and of all */
     "limited, texel [scene] = causes.texel, kernel [scene] = causes.kernel, lookup [scene] = causes.lookup, "
     "snapping [scene] = causes.snapping, set-up [scene] = causes.set-up, position [scene] = causes.position, "
-    "format [scene] = causes.format";
+    "receiver [scene] = causes.receiver, format [scene] = causes.format";
 
 TEST(each_number) {
     for (size_t i = 0; i < CASES; i++) {

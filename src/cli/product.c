@@ -75,10 +75,15 @@ bool list_packing(size_t index, list_item *item) {
     const packing *row = packing_get(index);
     if (row == NULL)
         return false;
+    const pack_row *encoded = packing_normals(row);
     *item =
         (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
-    append(item->bound, sizeof item->bound, "depth: at most %s%s", number_up(0.5 / row->steps + row->off, 3).text,
-           row->linear ? " of far" : "");
+    if (row->steps > 0)
+        append(item->bound, sizeof item->bound, "depth: at most %s%s", number_up(0.5 / row->steps + row->off, 3).text,
+               row->linear ? " of far" : "");
+    if (encoded != NULL)
+        append(item->bound, sizeof item->bound, "%snormal: at most %s degrees%s", row->steps > 0 ? "; " : "",
+               number_up(encoded->normal.max, 3).text, encoded->sphere ? "" : " where it faces the camera");
     return true;
 }
 
@@ -103,8 +108,8 @@ static const product_row rows[] = {
      .unit_of_error = "scene units"},
     {"normal", "normals, by default projective", FRAME_NORMAL, METHOD(normals, image.normal, "projective"),
      .by = "normals by ", .unit = "", .unit_of_error = "degrees"},
-    {"packed-normal", "the normals that --packing depth-normals holds beside the depth", FRAME_NORMAL, .packed = true,
-     .by = "", .unit = "", .unit_of_error = ""},
+    {"packed-normal", "the normals that --packing depth-normals or camera-normals holds, in view space", FRAME_NORMAL,
+     .packed = true, .by = "", .unit = "", .unit_of_error = ""},
     {"pack", "the depths in several channels of 8 bits, a PNG or NPY, as --packing reads them back", FRAME_EYE,
      METHOD(packings, image.pack, NULL), .by = "", .unit = "", .unit_of_error = ""},
     {"effect", "an effect that reads depth; without an image, the usable values of its parameter", FRAME_EFFECT,

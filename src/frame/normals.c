@@ -23,7 +23,11 @@ static bool pack_rows(void *context, uint32_t row, uint32_t count, const float *
         if (m->out->off == NULL)
             continue;
         const double off = isnan(values[0][i]) ? 0 : found && !isnan(values[2][i]) ? (double)values[2][i] : 180;
-        m->out->off[first + i] = (uint16_t)ceil(off * FRAME_NORMAL_DEGREE);
+        double back[3];
+        packing_normal(m->out->own + 2 * (first + i), back);
+        const double lost = found ? normal_angle((const double[]){n[0], n[1], -n[2]}, back) * (180 / M_PI) : 0;
+        const double all = off + (lost > pack_stereo()->normal.max ? lost : 0); /* beyond what the channels hold */
+        m->out->off[first + i] = (uint16_t)ceil(fmin(all, 180) * FRAME_NORMAL_DEGREE);
     }
     return true;
 }

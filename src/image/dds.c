@@ -46,6 +46,7 @@ static const pixels formats[] = {
     {BY_DXGI, 61, IMAGE_U8, 1, NULL, AS_IT_IS},       /* R8_UNORM */
     {BY_DXGI, 49, IMAGE_U8, 2, NULL, AS_IT_IS},       /* R8G8_UNORM */
     {BY_DXGI, 28, IMAGE_U8, 4, NULL, AS_IT_IS},       /* R8G8B8A8_UNORM */
+    {BY_DXGI, 31, IMAGE_U8, 4, NULL, AS_IT_IS},       /* R8G8B8A8_SNORM: for --packing camera-normals */
     {BY_D3D9, 114, IMAGE_F32, 1, NULL, AS_IT_IS},     /* R32F */
     {BY_D3D9, 111, IMAGE_F16, 1, NULL, AS_IT_IS},     /* R16F */
     {BY_D3D9, 82, IMAGE_F32, 1, "fp32", AS_IT_IS},    /* D32F_LOCKABLE */

@@ -29,7 +29,7 @@ static const struct {
 } groups[] = {
     {"texel, kernel, lookup", 1u << SHADOW_CAUSE_TEXEL | 1u << SHADOW_CAUSE_KERNEL | 1u << SHADOW_CAUSE_LOOKUP},
     {"snapping, set-up", 1u << SHADOW_CAUSE_SNAPPING | 1u << SHADOW_CAUSE_SETUP},
-    {"position", 1u << SHADOW_CAUSE_POSITION},
+    {"position", 1u << SHADOW_CAUSE_POSITION | 1u << SHADOW_CAUSE_RECEIVER},
     {"format", 1u << SHADOW_CAUSE_FORMAT},
 };
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "shader/normal.h"
 #include "shader/pack_rg.h"
 
 /* ---- Depth ------------------------------------------------------------------------------------------------------- */
@@ -100,21 +101,51 @@ static void fold(double *x, double *y) {
     *y = copysign(1 - fabs(a), b);
 }
 
-static void oct_encode(const pack_row *row, const double *in, uint32_t codes[]) {
+/* Places of the unfolded octahedron, from -1 to 1. */
+static void oct_place(const double *in, double *x, double *y) {
     const double s = fabs(in[0]) + fabs(in[1]) + fabs(in[2]);
-    double x = in[0] / s, y = in[1] / s;
+    *x = in[0] / s;
+    *y = in[1] / s;
     if (in[2] < 0)
+        fold(x, y);
+}
+
+static void oct_normal(double x, double y, double *out) {
+    const double z = 1 - fabs(x) - fabs(y);
+    if (z < 0)
         fold(&x, &y);
+    unit((const double[]){x, y, z}, out);
+}
+
+static void oct_encode(const pack_row *row, const double *in, uint32_t codes[]) {
+    double x, y;
+    oct_place(in, &x, &y);
     codes[0] = snorm_encode(row->bits, x);
     codes[1] = snorm_encode(row->bits, y);
 }
 
 static void oct_decode(const pack_row *row, const uint32_t codes[], double *out) {
-    double x = snorm_decode(row->bits, codes[0]), y = snorm_decode(row->bits, codes[1]);
-    const double z = 1 - fabs(x) - fabs(y);
-    if (z < 0)
-        fold(&x, &y);
-    unit((const double[]){x, y, z}, out);
+    oct_normal(snorm_decode(row->bits, codes[0]), snorm_decode(row->bits, codes[1]), out);
+}
+
+/* 12 bits each, cut off after a factor of 4095.5: the low bytes, then both high halves in the third. */
+static void oct_888_encode(const pack_row *row, const double *in, uint32_t codes[]) {
+    double x, y;
+    (void)row;
+    oct_place(in, &x, &y);
+    const uint32_t i = (uint32_t)((0.5 * x + 0.5) * 4095.5), j = (uint32_t)((0.5 * y + 0.5) * 4095.5);
+    codes[0] = i & PACK_BYTE;
+    codes[1] = j & PACK_BYTE;
+    codes[2] = i >> 8 | j >> 8 << 4;
+}
+
+static double oct_888_number(const uint32_t codes[], int axis) {
+    return codes[axis] | (axis == 0 ? codes[2] & 15 : codes[2] >> 4) << 8;
+}
+
+static void oct_888_decode(const pack_row *row, const uint32_t codes[], double *out) {
+    (void)row;
+    oct_normal(oct_888_number(codes, 0) / 4095 * 2 - 1, oct_888_number(codes, 1) / 4095 * 2 - 1, out);
 }
 
 /* ---- Both -------------------------------------------------------------------------------------------------------- */
@@ -132,6 +163,7 @@ static void both_decode(const pack_row *row, const uint32_t codes[], double *out
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 #define UNITY   "UnityCG.cginc of Unity's built-in shaders, "
+#define URP     "Packing.hlsl of Unity's Core RP library, "
 #define CIGOLLE "Cigolle et al. 2014, A survey of efficient representations for independent unit vectors"
 
 enum { STEREO_8 = 4 };
@@ -169,6 +201,11 @@ static const pack_row rows[] = {
     {.name = "oct-12", .kind = PACK_NORMAL, .layout = PACK_OCT, .channels = 2, .bits = 12, .sphere = true,
      .note = "octahedral, two SNORM channels, each to the nearest", .normal = {0.02092, 0.05938},
      .source = CIGOLLE ", oct", .encode = oct_encode, .decode = oct_decode},
+    {.name = "oct-888", .kind = PACK_NORMAL, .layout = PACK_OCT_888, .channels = 3, .bits = 8, .sphere = true,
+     .note = "octahedral, 0.5 x + 0.5 times 4095.5 cut off to 12 bits each, both in three UNORM "
+             "channels; back by k/4095",
+     .normal = {0.02901, 0.1090}, .source = URP "PackNormalOctQuadEncode, PackFloat2To888, of _GBUFFER_NORMALS_OCT",
+     .encode = oct_888_encode, .decode = oct_888_decode},
     {.name = "xyz-8", .kind = PACK_NORMAL, .layout = PACK_XYZ, .channels = 3, .bits = 8, .sphere = true,
      .note = "the three components in SNORM channels, normalized after reading", .normal = {0.1703, 0.3904},
      .source = CIGOLLE ", snorm", .encode = xyz_encode, .decode = xyz_decode},
@@ -191,4 +228,95 @@ const pack_row *pack_get(size_t index) {
 
 const pack_row *pack_stereo(void) {
     return &rows[STEREO_8];
+}
+
+/* ---- The largest angle of a code --------------------------------------------------------------------------------- */
+
+/* Outweighs the roundings of a shader: a part of the plane or of the cube. */
+static const double wider = 0x1p-20;
+
+typedef struct reach {
+    double back[3], most; /* radians */
+} reach;
+
+static void offer(reach *r, const double n[3]) {
+    r->most = fmax(r->most, normal_angle(r->back, n));
+}
+
+/* Corners of the square; its angles are largest there. */
+static void stereo_reach(const pack_row *row, const uint32_t codes[], double half, reach *r) {
+    const double most = (double)((1U << row->bits) - 1);
+    for (int k = 0; k < 4; k++) {
+        double v[2];
+        for (int i = 0; i < 2; i++) {
+            const double code = codes[i] + (k >> i & 1 ? half : -half);
+            v[i] = PACK_STEREO_SCALE * (2 * code / most - 1 + (k >> i & 1 ? wider : -wider));
+            r->most = codes[i] == 0 || codes[i] == (uint32_t)most ? M_PI : r->most;
+        }
+        offer(r, (const double[]){2 * v[0], 2 * v[1], 1 - v[0] * v[0] - v[1] * v[1]});
+    }
+}
+
+/* Corners of the rectangle, and where its sides meet the folds: on each face its piece is convex. */
+static void rectangle_reach(const double x[2], const double y[2], reach *r) {
+    double n[3];
+    for (int k = 0; k < 4; k++) {
+        oct_normal(x[k & 1], y[k >> 1], n);
+        offer(r, n);
+    }
+    for (int side = 0; side < 4; side++) {
+        const bool along = side >= 2;
+        const double at = along ? y[side & 1] : x[side & 1], *other = along ? x : y;
+        const double folds[] = {0, 1 - fabs(at), fabs(at) - 1};
+        for (int k = 0; k < 3; k++) {
+            if (!(folds[k] > other[0] && folds[k] < other[1]))
+                continue;
+            oct_normal(along ? folds[k] : at, along ? at : folds[k], n);
+            offer(r, n);
+        }
+    }
+}
+
+static void oct_reach(const pack_row *row, const uint32_t codes[], double half, reach *r) {
+    const double most = (double)((1U << (row->bits - 1)) - 1);
+    double side[2][2];
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++) {
+            const double whole = row->layout == PACK_OCT_888
+                                     ? (oct_888_number(codes, i) + k) / 4095.5 * 2 - 1
+                                     : snorm_decode(row->bits, codes[i]) + (2 * k - 1) * half / most;
+            side[i][k] = fmin(fmax(whole + (2 * k - 1) * wider, -1), 1);
+        }
+    rectangle_reach(side[0], side[1], r);
+}
+
+/* Places of the sphere on the twelve edges of the cube. */
+static void xyz_reach(const pack_row *row, const uint32_t codes[], double half, reach *r) {
+    const double most = (double)((1U << (row->bits - 1)) - 1);
+    double side[3][2];
+    bool met = false;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 2; k++)
+            side[i][k] = snorm_decode(row->bits, codes[i]) + (2 * k - 1) * (half / most + wider);
+    for (int edge = 0; edge < 24; edge++) {
+        const int axis = edge / 8, i = (axis + 1) % 3, j = (axis + 2) % 3;
+        double n[3];
+        n[i] = side[i][edge & 1];
+        n[j] = side[j][edge >> 1 & 1];
+        n[axis] = sqrt(1 - n[i] * n[i] - n[j] * n[j]) * ((edge & 4) != 0 ? 1 : -1);
+        if (!(n[axis] >= side[axis][0] && n[axis] <= side[axis][1]))
+            continue;
+        met = true;
+        offer(r, n);
+    }
+    r->most = met ? r->most : M_PI;
+}
+
+double pack_reach(const pack_row *row, const uint32_t codes[], bool truncated) {
+    static void (*const reaches[])(const pack_row *, const uint32_t *, double, reach *) = {
+        [PACK_STEREO] = stereo_reach, [PACK_OCT] = oct_reach, [PACK_OCT_888] = oct_reach, [PACK_XYZ] = xyz_reach};
+    reach r = {.most = 0};
+    row->decode(row, codes, r.back);
+    reaches[row->layout](row, codes, truncated ? 1 : 0.5, &r);
+    return r.most * (180 / M_PI) * (1 + 0x1p-40);
 }

@@ -19,7 +19,7 @@ typedef enum pack_kind { PACK_DEPTH = 0, PACK_NORMAL, PACK_DEPTH_NORMAL, PACK_KI
 #define PACK_STEREO_SCALE 1.7777
 
 /** How normals, or depths where there are none, are laid out. */
-typedef enum pack_layout { PACK_RG = 0, PACK_STEREO, PACK_OCT, PACK_XYZ, PACK_LAYOUTS } pack_layout;
+typedef enum pack_layout { PACK_RG = 0, PACK_STEREO, PACK_OCT, PACK_OCT_888, PACK_XYZ, PACK_LAYOUTS } pack_layout;
 
 enum { PACK_CHANNELS_MAX = 4, PACK_INPUTS_MAX = 4 };
 
@@ -55,5 +55,12 @@ const pack_row *pack_get(size_t index);
 
 /** The row "stereo-8". */
 const pack_row *pack_stereo(void);
+
+/**
+ * Of normals: the largest angle, degrees, between what the codes give back and a unit vector that a shader in binary32
+ * stores as them; 180 where a channel may have been clipped, or no unit vector is stored so.
+ * @param truncated  channels were cut off; else they are the nearest
+ */
+double pack_reach(const pack_row *row, const uint32_t codes[], bool truncated);
 
 #endif

@@ -15,15 +15,24 @@ enum { BYTE = 255 };
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 #define UNITY "UnityCG.cginc of Unity's built-in shaders, "
+#define URP   "Unity's Universal RP, "
 #define THREE "packing.glsl.js of three.js, packDepthToRGBA, "
 
 /* clang-format off */
 static const packing rows[] = {
-    {.name = "depth-normals", .aliases = "_CameraDepthNormalsTexture DecodeDepthNormal EncodeDepthNormal",
-     .channels = 4, .weight = {0, 0, 255, 1}, .steps = 65025, .linear = true, .normals = true,
+    {.name = "depth-normals", .channels = 4, .weight = {0, 0, 255, 1}, .steps = 65025, .linear = true,
+     .encoded = "stereo-8", .aliases = "_CameraDepthNormalsTexture DecodeDepthNormal EncodeDepthNormal",
      .wraps = true, .format = "fp32", .off = 0x1p-23, .cut = 1.0 / 255,
      .note = "eye depth over far in zw, as rg; the view-space normal in xy, stereographic",
-     .source = UNITY "EncodeDepthNormal, of _CameraDepthNormalsTexture"},
+     .source = UNITY "EncodeDepthNormal"},
+    {.name = "camera-normals", .channels = 3, .linear = true, .encoded = "xyz-8", .world = true, .format = "fp32",
+     .aliases = "_CameraNormalsTexture SampleSceneNormals",
+     .note = "no depth: the world-space normal in xyz, R8G8B8A8_SNorm: bytes as in memory, or numbers from -1 to 1",
+     .source = URP "pass DepthNormals of its shaders, forward"},
+    {.name = "camera-normals-oct", .channels = 3, .linear = true, .encoded = "oct-888", .world = true, .format = "fp32",
+     .aliases = "_GBUFFER_NORMALS_OCT PackNormalOctQuadEncode",
+     .note = "no depth: the same octahedral, 12 bits each in three UNORM channels, with accurate G-buffer normals",
+     .source = URP "pass DepthNormals of its shaders, with _GBUFFER_NORMALS_OCT"},
     {.name = "rg", .aliases = "EncodeFloatRG DecodeFloatRG", .channels = 2, .weight = {255, 1}, .steps = 65025,
      .linear = true, .wraps = true, .format = "fp32", .off = 0x1p-23, .cut = 1.0 / 255,
      .note = "eye depth over far, x + y/255: steps of 1/65025; frac makes 1 a 0, which reads as the camera",
@@ -46,10 +55,10 @@ static const packing rows[] = {
      .off = 0.5 / 16777215, /* cut off, or rounded */
      .note = "eye depth over far in 24 bits, red the lowest byte, as CARLA's depth camera: far is 1000 m",
      .source = "CARLA, Sensors reference, Depth camera"},
-    {.name = "r8-linear01", .channels = 1, .weight = {1}, .steps = 255, .linear = true,
-     .format = "fp32", .off = 0x1p-23,
-     .note = "eye depth over far in 8 bits",
-     .source = UNITY "Linear01Depth, written to a target of 8 bits"},
+    {.name = "linear01", .aliases = "r8-linear01 COMPUTE_DEPTH_01", .channels = 1, .weight = {1}, .steps = 255,
+     .linear = true, .format = "fp32", .off = 0x1p-23,
+     .note = "eye depth over far in one channel of 8 bits, which the bound is of, of 16, or of a float",
+     .source = UNITY "COMPUTE_DEPTH_01 or Linear01Depth, written by a pass of one's own"},
 };
 /* clang-format on */
 
@@ -67,7 +76,7 @@ uint64_t packing_number(const packing *p, const uint8_t *texel) {
 }
 
 double packing_depth(const packing *p, uint64_t number) {
-    return fmin((double)number / p->steps, 1);
+    return p->steps == 0 ? (double)NAN : fmin((double)number / p->steps, 1);
 }
 
 uint64_t packing_nearest(const packing *p, double depth) {
@@ -94,6 +103,13 @@ void packing_texel(const packing *p, uint64_t number, uint8_t *texel) {
         number -= share * weight;
         above = weight;
     }
+}
+
+const pack_row *packing_normals(const packing *p) {
+    size_t i = 0;
+    while (p->encoded != NULL && strcmp(pack_get(i)->name, p->encoded) != 0)
+        i++;
+    return p->encoded != NULL ? pack_get(i) : NULL;
 }
 
 void packing_normal(const uint8_t *texel, double normal[3]) {
@@ -139,8 +155,9 @@ static bool refuse(unpacked *out, const char *format, ...) {
     return false;
 }
 
-/* The sample of 8 bits that a wider one stands for; -1 where it stands for none. */
-static int byte_of(const image *img, size_t sample) {
+/* The sample of 8 bits that a wider one stands for; -1 where it stands for none. Numbers are shares of `most`, and are
+ * of either sign where that is 127. */
+static int byte_of(const image *img, size_t sample, int most) {
     const uint16_t wide = img->type == IMAGE_U16 ? ((const uint16_t *)img->data)[sample] : 0;
     if (img->type == IMAGE_U8)
         return ((const uint8_t *)img->data)[sample];
@@ -148,18 +165,20 @@ static int byte_of(const image *img, size_t sample) {
         return wide % 257 == 0 ? wide / 257 : -1;
     const double number =
         img->type == IMAGE_F32 ? (double)((const float *)img->data)[sample] : ((const double *)img->data)[sample];
-    const double code = rint(number * BYTE);
-    return code >= 0 && code <= BYTE && fabs(number * BYTE - code) <= BYTE * 0x1p-22 ? (int)code : -1;
+    const double code = rint(number * most);
+    const bool fits = code >= (most < BYTE ? -most : 0) && code <= most;
+    return fits && fabs(number * most - code) <= most * 0x1p-22 ? (int)code & BYTE : -1;
 }
 
 static uint8_t *bytes_of(const packing *p, const image *img, unpacked *out) {
     const size_t count = (size_t)img->width * img->height, channels = img->channels, own = p->channels;
+    const int most = p->encoded != NULL && packing_normals(p)->layout == PACK_XYZ ? 127 : BYTE;
     uint8_t *bytes = malloc(count * own);
     if (bytes == NULL)
         refuse(out, "no memory");
     for (size_t i = 0; bytes != NULL && i < count; i++)
         for (size_t k = 0; k < own; k++) {
-            const int byte = byte_of(img, i * channels + k);
+            const int byte = byte_of(img, i * channels + k, most);
             if (byte < 0) {
                 refuse(out, "pixel %zu,%zu lies between the codes of 8 bits: it was resampled, or is not of 8 bits",
                        i % img->width, i / img->width);
@@ -257,12 +276,29 @@ static bool is_premultiplied(const uint8_t *bytes, size_t count) {
     return telling >= LEAST;
 }
 
+/* Rounded to SNORM a unit vector is as long as 127 codes, but for sqrt(3) of one; blending leaves a few others. */
+static bool are_normals(const packing *p, const uint8_t *bytes, size_t count, unpacked *out) {
+    enum { FEW = 8, LENGTH = 127, MOST = 2 };
+    size_t drawn = 0, wrong = 0;
+    if (packing_normals(p)->layout != PACK_XYZ)
+        return true;
+    for (size_t i = 0; i < count; i++) {
+        const int8_t *at = (const int8_t *)bytes + i * p->channels;
+        const double length = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+        drawn += length > 0;
+        wrong += length > 0 && fabs(length - LENGTH) > MOST;
+    }
+    return FEW * wrong <= drawn ||
+           refuse(out, "%zu of %zu texels hold no vector of length 1: no SNORM normals, or resampled", wrong, drawn);
+}
+
 static bool replace(const packing *p, const uint8_t *bytes, image *img, unpacked *out) {
     const size_t count = (size_t)img->width * img->height, own = p->channels;
+    const size_t beside = p->encoded != NULL ? (size_t)packing_normals(p)->channels : 0;
     const image_type type = p->steps <= 0x1p24 ? IMAGE_F32 : IMAGE_F64;
     void *depths = malloc(count * image_type_size(type));
-    out->normals = p->normals ? malloc(2 * count) : NULL;
-    if (depths == NULL || (p->normals && out->normals == NULL)) {
+    out->normals = beside > 0 ? malloc(beside * count) : NULL;
+    if (depths == NULL || (beside > 0 && out->normals == NULL)) {
         free(depths);
         free(out->normals);
         return refuse(out, "no memory");
@@ -273,14 +309,32 @@ static bool replace(const packing *p, const uint8_t *bytes, image *img, unpacked
             ((float *)depths)[i] = (float)depth;
         else
             ((double *)depths)[i] = depth;
-        if (p->normals)
-            memcpy(out->normals + 2 * i, bytes + own * i, 2);
+        if (beside > 0)
+            memcpy(out->normals + beside * i, bytes + own * i, beside);
     }
     free(img->data);
     img->data = depths;
     img->type = type;
     img->channels = 1;
     return true;
+}
+
+/* One channel of more than 8 bits is the depth itself: it stays as it is, in steps or numbers of its own. */
+static bool keep_alone(const image *img, grain *out) {
+    static const int bits[IMAGE_TYPE_COUNT] = {[IMAGE_F16] = 11, [IMAGE_F32] = 24, [IMAGE_F64] = 53};
+    out->kind = img->type == IMAGE_U16 ? GRAIN_STEPS : GRAIN_FLOATS;
+    out->steps = UINT16_MAX;
+    out->bits = bits[img->type];
+    out->least = img->type == IMAGE_F16 ? 0x1p-24 : 0x1p-149;
+    return true;
+}
+
+static bool all_bytes(const image *img) {
+    const size_t count = (size_t)img->width * img->height;
+    size_t i = 0;
+    while (i < count && byte_of(img, i * img->channels, BYTE) >= 0)
+        i++;
+    return i == count;
 }
 
 bool packing_convert(const packing *p, bool zero, image *img, unpacked *out) {
@@ -292,6 +346,8 @@ bool packing_convert(const packing *p, bool zero, image *img, unpacked *out) {
                                 .least = 0x1p-149}};
     if (img->channels < p->channels)
         return refuse(out, "the packing %s takes %u channels, got %u", p->name, p->channels, img->channels);
+    if (p->channels == 1 && img->type != IMAGE_U32 && (img->type == IMAGE_F16 || !all_bytes(img)))
+        return keep_alone(img, &out->grain);
     if (img->type == IMAGE_U32 || img->type == IMAGE_F16)
         return refuse(out, "the packing %s takes samples of u1, or of u2, f4 or f8 that were of 8 bits, got %s",
                       p->name, image_type_name(img->type));
@@ -302,6 +358,7 @@ bool packing_convert(const packing *p, bool zero, image *img, unpacked *out) {
     bool good = may_tear || !was_resampled(p, bytes, img) ||
                 refuse(out, "was resampled: channels were averaged where the coarse one steps; take the texture as it "
                             "was rendered, or resize it by nearest neighbours");
+    good = good && (p->steps > 0 || are_normals(p, bytes, (size_t)img->width * img->height, out));
     out->premultiplied = p->channels == 4 && is_premultiplied(bytes, (size_t)img->width * img->height);
     good = good && replace(p, bytes, img, out);
     free(bytes);

@@ -81,14 +81,17 @@ shadow_status shadow_cascade_of(const shadow_split *split, const shadow_light *m
     if (status != SHADOW_OK || index < 0 || index >= split->count)
         return SHADOW_CASCADES;
     shadow_cascade c = {.from = split_at(split, index), .to = split_at(split, index + 1)};
+    shadow_light rebuilt = *model;
+    if (split->camera != NULL)
+        rebuilt.position += shadow_rebuilt(split->camera, c.from, c.to, model->world);
     bound(split, &c);
-    status = fit(split, model, &c, 0.0);
+    status = fit(split, &rebuilt, &c, 0.0);
     /* A deeper box rounds more, which opens a wider gap: a little, but where small triangles leave hardly any slope. */
     for (int i = 0; i < ROUNDS && status == SHADOW_OK; i++) {
         const double gap = widest_gap(&c.light);
         if (c.light.receiver_hi + gap <= c.light.setup.spec.zfar)
             break;
-        status = fit(split, model, &c, 1.25 * gap);
+        status = fit(split, &rebuilt, &c, 1.25 * gap);
     }
     if (status == SHADOW_OK)
         *out = c;

@@ -78,7 +78,7 @@ static void parts_of(const shadow_light *light, const ground *g, shadow_part par
     const dp_plane_error *p = &t->plane;
     const double far_off = g->size + g->reach;
     const double box = p->box * g->box * (1.0 + 2.0 * p->origin * eps * far_off);
-    const double moved = 3.0 * g->place + light->position;
+    const double moved = 3.0 * g->place;
     part[SHADOW_CAUSE_TEXEL] = (shadow_part){0.5, 0.0};
     part[SHADOW_CAUSE_KERNEL] = (shadow_part){light->kernel - 0.5, 0.0};
     part[SHADOW_CAUSE_LOOKUP] =
@@ -88,6 +88,7 @@ static void parts_of(const shadow_light *light, const ground *g, shadow_part par
     part[SHADOW_CAUSE_POSITION] =
         (shadow_part){g->vertex + g->turned / fmin(g->texel_x, g->texel_y) + moved / g->diagonal,
                       2.0 * g->turned_depth + moved / g->depth};
+    part[SHADOW_CAUSE_RECEIVER] = (shadow_part){light->position / g->diagonal, light->position / g->depth};
     part[SHADOW_CAUSE_FORMAT] = (shadow_part){0.0, eps + format_loss(&light->setup)};
 }
 

@@ -26,7 +26,7 @@ const char *shadow_cause_name(shadow_cause cause) {
     static const char *const names[SHADOW_CAUSE_COUNT] = {
         [SHADOW_CAUSE_TEXEL] = "texel",       [SHADOW_CAUSE_KERNEL] = "kernel", [SHADOW_CAUSE_LOOKUP] = "lookup",
         [SHADOW_CAUSE_SNAPPING] = "snapping", [SHADOW_CAUSE_SETUP] = "set-up",  [SHADOW_CAUSE_POSITION] = "position",
-        [SHADOW_CAUSE_FORMAT] = "format",
+        [SHADOW_CAUSE_RECEIVER] = "receiver", [SHADOW_CAUSE_FORMAT] = "format",
     };
     return (unsigned)cause < SHADOW_CAUSE_COUNT ? names[cause] : NULL;
 }

@@ -66,7 +66,7 @@ typedef struct shadow_light {
     int subtexel;           /**< bits to which coordinates are rounded before texels are chosen; 0: not rounded */
     double world;           /**< the largest |coordinate| of positions; 0: positions are given about the box's middle */
     double position;        /**< how far the shader's position of a point may be off the surface, scene units, besides
-                                 the rounding to binary32; 0: not at all */
+                                 the rounding to binary32: shadow_rebuilt(); 0: not at all */
     double radius;          /**< the smallest radius of curvature of surfaces, which bend away from the light as spheres
                                  do, scene units; INFINITY: planes */
     double facet;       /**< curved surfaces are drawn as triangles in circles of at most this radius, scene units */
@@ -91,6 +91,7 @@ typedef enum shadow_cause {
     SHADOW_CAUSE_SNAPPING,  /**< vertices moved to the subpixel grid */
     SHADOW_CAUSE_SETUP,     /**< the plane of a triangle set up and evaluated */
     SHADOW_CAUSE_POSITION,  /**< positions, and the light's matrix: of the map and of the point */
+    SHADOW_CAUSE_RECEIVER,  /**< the receiver rebuilt from the camera's depth: light->position */
     SHADOW_CAUSE_FORMAT,    /**< the bias added, the format, and what is read back of it */
     SHADOW_CAUSE_COUNT
 } shadow_cause;
@@ -120,6 +121,16 @@ typedef struct shadow_bias {
                             most: no bias below that share of this one is enough */
     bool limited;      /**< the gap reaches beyond the planes behind receiver_hi: depths there are clamped */
 } shadow_bias;
+
+/**
+ * How far a position that a shader rebuilds from the camera's depth texture may be off the surface, scene units: of
+ * receivers at eye depths from lo to hi, in triangles of the set-up's class, by the rays to the corners of the picture
+ * in binary32.
+ * @param camera  in perspective, of the model exact, with triangles: planes, format and view
+ * @param world   as shadow_light has it
+ * @return INFINITY where nothing is left of the depth
+ */
+double shadow_rebuilt(const dp_setup *camera, double lo, double hi, double world);
 
 /** What a light's map needs. */
 typedef struct shadow_need {
@@ -179,6 +190,8 @@ typedef struct shadow_split {
     double lambda;        /**< 0 uniform to 1 logarithmic */
     double casters;       /**< how far before a cascade's sphere, towards the light, things cast shadows; 0 or more */
     bool stable;          /**< the box moves in whole texels with the view */
+    const dp_setup
+        *camera; /**< receivers are rebuilt from its depth texture: see shadow_rebuilt(); null: they are not */
 } shadow_split;
 
 /** Near 0.1, far 100, 60 degrees, 16:9, 4 cascades, lambda 0.5, casters 100 before, stable. */

@@ -66,6 +66,12 @@ ABSENT_ROWS(finder_filter_row, finder_filter_get)
 ABSENT_ROWS(normal_row, normal_get)
 ABSENT_ROWS(pack_row, pack_get)
 ABSENT_ROWS(packing, packing_get)
+
+const pack_row *packing_normals(const packing *p) {
+    (void)p;
+    return NULL;
+}
+
 ABSENT_ROWS(position_row, position_get)
 ABSENT_ROWS(sensor_row, sensor_get)
 ABSENT_ROWS(synthetic_row, synthetic_get)
@@ -135,3 +141,25 @@ int parse_arith(options *o, const option_row *row, const char *value) {
 int parse_raster(options *o, const option_row *row, const char *value) {
     return parse_row(o, row, value);
 }
+
+/* ---- Of commands that are not here ------------------------------------------------------------------------------- */
+
+double shadow_rebuilt(const dp_setup *camera, double lo, double hi, double world) {
+    (void)camera;
+    (void)lo;
+    (void)world;
+    return hi;
+}
+
+#define ABSENT_PARSER(name)                                                                                            \
+    int name(options *o, const option_row *row, const char *value) {                                                   \
+        (void)row;                                                                                                     \
+        (void)value;                                                                                                   \
+        return absent(o);                                                                                              \
+    }
+
+ABSENT_PARSER(parse_camera_depth)
+ABSENT_PARSER(parse_error_map)
+ABSENT_PARSER(parse_hi_z)
+ABSENT_PARSER(parse_parameter)
+ABSENT_PARSER(parse_product)

@@ -83,6 +83,7 @@ typedef enum option_id {
     OPTION_KERNEL,
     OPTION_ANGLE,
     OPTION_CURVATURE,
+    OPTION_CAMERA_DEPTH,
     OPTION_API,
     OPTION_UNITS,
     OPTION_FACTOR,
@@ -120,6 +121,7 @@ typedef enum option_id {
     OPTION_AS,
     OPTION_PICTURE,
     OPTION_TINT,
+    OPTION_HI_Z,
     OPTION_NORMAL_FORMAT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
@@ -289,6 +291,7 @@ typedef struct options_shadow {
     unsigned kernel;     /**< the filter reads so many texels in either direction */
     double curvature;    /**< radius of curvature of receivers, scene units; NaN when not given */
     double facet;        /**< of the circles about their triangles, scene units */
+    dp_spec camera;      /**< of the depth texture that receivers are rebuilt from: format, mapping, far */
 } options_shadow;
 
 /** A depth image, and what is made of it. Rows and names are null when not given. */
@@ -304,6 +307,9 @@ typedef struct options_image {
     const char *as;         /**< what eye depth is rounded to; null when not given */
     const char *picture;    /**< file of the colours that an effect is composed on; null when not given */
     double tint[4];         /**< red, green, blue, alpha */
+    unsigned hi_z;          /**< a level of the pyramid of the farthest depths, or of */
+    bool hi_z_nearest;      /**< ... the nearest */
+    dp_format hi_z_format;  /**< what it is rounded to; of no bits where that is the image's own */
     const char *channel;    /**< of FILE, by name; null: that which is depth */
     const packing *packing; /**< of FILE */
     depths pixels;          /**< column and row of each in turn; count is 0 when not given */

@@ -214,6 +214,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_CURVATURE] = {"curvature", 0, "Z[:FACET]",
         "receivers curve away from the light with a radius of at least Z; tessellated into triangles of circumradius "
         "FACET or less, or smooth", .parse = parse_curvature, FIELD(double, shadow.curvature), .without = "flat"},
+    [OPTION_CAMERA_DEPTH] = {"camera-depth", 0, "FORMAT:MAPPING[:FAR]",
+        "screen-space shadows: receivers are rebuilt from the camera's depth texture in this format and mapping, of "
+        "the view's near plane and FAR, else --far", .parse = parse_camera_depth, FIELD(dp_spec, shadow.camera)},
     [OPTION_API] = {"api", 0, "NAME[,NAME...]",
         "the API whose depth-bias rule applies: @; several, or all, are compared, each with its call",
         .parse = parse_apis, FIELD(unsigned, bias.apis), .names = &apis, .standard = "d3d11",
@@ -298,7 +301,8 @@ const option_row option_rows[OPTION_COUNT] = {
         .parse = parse_sky, FIELD(double, image.sky), LIMITS(0, 0.5, NULL), .standard = "0.0001",
         .without = "as in Unity's shaders"},
     [OPTION_METRIC] = {"metric", 0, "SCALE|mm|tum|kitti",
-        "the samples are eye depths in units of SCALE; of TUM there are 5000 to the metre, of KITTI 256; 0, negative "
+        "the samples are eye depths in units of SCALE, 1 of COMPUTE_EYEDEPTH; of TUM there are 5000 to the metre, of "
+        "KITTI 256; 0, negative "
         "numbers, NaN and infinity are holes",
         .parse = parse_metric, .names = &samples, FIELD(double, image.metric),
         LIMITS(METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
@@ -334,6 +338,10 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_TINT] = {"tint", 0, "R,G,B[,A]",
         "with --picture: the colour of the fog, line, water, ..., each part from 0 to 1", .parse = parse_tint,
         FIELD(double, image.tint[0]), .without = "that of the effect"},
+    [OPTION_HI_Z] = {"hi-z", 0, "LEVEL[:nearest][:FORMAT]",
+        "write a level of the conservative pyramid of the farthest depths, or of the nearest, as window depth: 0 is "
+        "the image, each further one half as wide and high; in FORMAT rounded to the safe side",
+        .parse = parse_hi_z, FIELD(unsigned, image.hi_z)},
     [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL,
         "direction of y in a PNG of normals: up, or down", WORD(image.normal_format, normal_formats),
         .standard = "opengl"},

@@ -97,6 +97,6 @@ option_parser parse_unit, parse_preset, parse_presets, parse_near, parse_far, pa
 option_parser parse_product, parse_apis, parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_also;
 option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
 option_parser parse_viewport, parse_slant, parse_slant_or_plane, parse_triangle, parse_light_box, parse_ortho,
-    parse_cascades, parse_curvature;
+    parse_cascades, parse_curvature, parse_camera_depth, parse_hi_z;
 
 #endif

@@ -186,6 +186,7 @@ enum { TEXTURE_EFFECT = 1, TEXTURE_PLACED = 2, TEXTURE_IMAGE = 4 };
 static const option_use of_effect[] = {TAKE(AT), END};
 static const option_use of_image[] = {
     TAKE(SKY), TAKE(METRIC), TAKE(LATTICE), TAKE(RADIAL), TAKE(INTRINSICS), TAKE(AS), TAKE(ERROR_MAP), TAKE(FIGURE),
+    TAKE(HI_Z),
     GROUP(picture), TAKE(THREADS), TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(CHANNEL), TAKE(OVERLAY),
     OWN(RANGE, HELP("the values of an effect that are black and white in its PNG"),
         WITHOUT("0:1, of a vector -1:1")),
@@ -215,7 +216,7 @@ static const option_use of_cascades[] = {
         DEFAULT("1000")),
     TAKE(FOV), TAKE(HFOV),
     OWN(VIEWPORT, HELP("size of the view in pixels; sets its aspect ratio"), DEFAULT("1920x1080")),
-    GROUP(cascades), END};
+    TAKE(CAMERA_DEPTH), GROUP(cascades), END};
 static const option_use of_box[] = {
     OWN(RANGE, HELP("with --light-box: where receivers lie along the light, from the front of the box"),
         WITHOUT("the whole box, less 1/256 where units have no effect at window depth 0")), END};

@@ -87,6 +87,8 @@ static void say_maps(page *p, void *item) {
                    number_of(v->fov_y, DIGITS).text, t->width, t->height);
         page_title(p, "%d cascade%s, lambda %s, casters up to %s towards the light", v->count, v->count == 1 ? "" : "s",
                    number_full(v->lambda).text, number_full(v->casters).text);
+        if (option_given(o, OPTION_CAMERA_DEPTH))
+            page_title(p, "receivers rebuilt from the camera's depth, %s", o->given[OPTION_CAMERA_DEPTH]);
     } else {
         const double texel =
             fmax(o->shadow.light_box[0] / o->view.spec.width, o->shadow.light_box[1] / o->view.spec.height);
@@ -230,6 +232,7 @@ static const column cause_columns[] = {{FIELD(shadow_row, cause[SHADOW_CAUSE_TEX
                                        {FIELD(shadow_row, cause[SHADOW_CAUSE_SNAPPING], "snapping", "scene")},
                                        {FIELD(shadow_row, cause[SHADOW_CAUSE_SETUP], "set-up", "scene")},
                                        {FIELD(shadow_row, cause[SHADOW_CAUSE_POSITION], "position", "scene")},
+                                       {FIELD(shadow_row, cause[SHADOW_CAUSE_RECEIVER], "receiver", "scene")},
                                        {FIELD(shadow_row, cause[SHADOW_CAUSE_FORMAT], "format", "scene")},
                                        {.kind = COLUMN_END}};
 
@@ -324,6 +327,7 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
                                  {FIELD(shadow, o.world.terms.world, "from_origin", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, o.shadow.curvature, "curvature", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, o.shadow.facet, "facet", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.given[OPTION_CAMERA_DEPTH], "camera_depth", ""), .only = AS_JSON},
                                  {PART(shadow, view, "view", view_columns), .only = AS_JSON, .pointed = true},
                                  {LIST("setups", setup_report, next_setup), .head = say_answer},
                                  {.kind = COLUMN_END}};

@@ -86,6 +86,24 @@ static int split_of(const options *o, shadow_split *out) {
     return view_vertical(o, t->width, t->height, &out->fov_y);
 }
 
+/* The depth texture of --camera-depth: planes, picture and triangles of the view. */
+static int camera_of(const options *o, shadow_maps *out) {
+    dp_spec spec = dp_spec_default();
+    spec.format = o->shadow.camera.format;
+    spec.mapping = o->shadow.camera.mapping;
+    spec.znear = o->camera.znear;
+    spec.zfar = o->shadow.camera.zfar > 0.0 ? o->shadow.camera.zfar : o->camera.zfar;
+    spec.triangles = o->camera.triangles;
+    spec.triangles.fov_y = out->view.fov_y;
+    spec.triangles.slant_lo = 0.0;
+    spec.triangles.slant_hi = 90.0;
+    if (!(spec.zfar >= o->camera.zfar) || dp_setup_init(&out->camera, &spec) != DP_OK)
+        return option_error(OPTION_CAMERA_DEPTH, "FAR must be at least --far and beyond --near, got '%s'",
+                            o->given[OPTION_CAMERA_DEPTH]);
+    out->view.camera = &out->camera;
+    return EXIT_FINE;
+}
+
 /* What the options could not see one by one. */
 static int refused(const options *o, shadow_status status) {
     const uint32_t side = o->view.spec.width < o->view.spec.height ? o->view.spec.width : o->view.spec.height;
@@ -103,6 +121,9 @@ static int refused(const options *o, shadow_status status) {
     if (status == SHADOW_BOX && side < least)
         return option_error(OPTION_SIZE, "must be at least %u texels a side for a filter of %ux%u, got '%ux%u'", least,
                             o->shadow.kernel, o->shadow.kernel, o->view.spec.width, o->view.spec.height);
+    if (status == SHADOW_POSITION && option_given(o, OPTION_CAMERA_DEPTH))
+        return option_error(OPTION_CAMERA_DEPTH, "leaves nothing of a receiver's position at the far end, got '%s'",
+                            o->given[OPTION_CAMERA_DEPTH]);
     return option_error(OPTION_FAR, "makes a map too large or too small: %s", shadow_status_text(status));
 }
 
@@ -121,6 +142,8 @@ int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mappi
     const shadow_light light = light_of(o, format, mapping);
     if (!box)
         status = split_of(o, &out->view);
+    if (status == EXIT_FINE && option_given(o, OPTION_CAMERA_DEPTH))
+        status = camera_of(o, out);
     if (status != EXIT_FINE)
         return status;
     shadow_status made = shadow_light_check(&light);

@@ -10,6 +10,7 @@
 
 typedef struct shadow_maps {
     shadow_split view; /**< count is 0 where there is one box and no view */
+    dp_setup camera;   /**< with --camera-depth, of its depth texture */
     size_t count;
     shadow_cascade items[SHADOW_CASCADES_MAX]; /**< of a box the light alone is set */
 } shadow_maps;

@@ -58,13 +58,17 @@ int cmd_texture(const options *given) {
     texture_product product = {0};
     if (o->image.picture != NULL && !option_given(o, OPTION_SKY))
         own.image.sky = -1;
+    if (o->image.packing != NULL && o->image.packing->steps == 0 && o->image.normal != NULL)
+        for (size_t i = 0; !own.image.product->packed; i++) /* of no depth, there are no other normals */
+            own.image.product = product_get(i);
     const bool beside = o->image.product != NULL && o->image.product->packed, packed = o->image.pack != NULL || beside;
     const bool described = option_given(o, OPTION_PIXEL) && o->image.effect != NULL;
     const bool made = !packed && texture_product_wanted(o);
     if (o->image.effect != NULL && o->operand_count == 0 && o->image.synthetic == NULL)
         return texture_effect_table(o);
     texture_source source = {0};
-    int status = packed ? texture_pack_check(o) : check_alone(o);
+    const bool reduced = option_given(o, OPTION_HI_Z);
+    int status = reduced ? texture_hi_z_check(o) : packed ? texture_pack_check(o) : check_alone(o);
     if (status == EXIT_FINE && made)
         status = texture_product_resolve(o, &product);
     else if (status == EXIT_FINE && described)
@@ -73,9 +77,11 @@ int cmd_texture(const options *given) {
         status = texture_source_open(o, &source);
     if (status == EXIT_FINE && (made || described))
         status = texture_effect_normals(o, &source);
-    if (status == EXIT_FINE && made)
+    if (status == EXIT_FINE && made && !reduced)
         status = texture_picture_open(o, &source);
-    if (status == EXIT_FINE && made)
+    if (status == EXIT_FINE && reduced)
+        status = texture_hi_z_write(o, &source);
+    else if (status == EXIT_FINE && made)
         status = make_product(o, &source, &product);
     else if (status == EXIT_FINE && o->image.pack != NULL)
         status = texture_pack_write(o, &source);
@@ -86,7 +92,7 @@ int cmd_texture(const options *given) {
     else if (status == EXIT_FINE && o->image.histogram != NULL)
         status = texture_histogram_draw(o, &source);
     else if (status == EXIT_FINE && o->image.synthetic != NULL && o->out.file != NULL && o->out.form == FORM_TEXT)
-        status = texture_depth_write(o, &source);
+        status = texture_depth_write(o, &source, &source.setup.spec.format, NULL);
     else if (status == EXIT_FINE)
         status = texture_report_write(o, &source);
     texture_source_close(&source);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/texture/writing.h"
+#include "core/bits.h"
 #include "frame/image_depths.h"
 #include "report/message.h"
 #include "report/number.h"
@@ -17,7 +18,7 @@ int texture_pack_check(const options *o) {
         OPTION_FIGURE_SIZE, OPTION_TITLE,     OPTION_PICTURE, OPTION_TINT,      OPTION_RANGE};
     const char *name = o->image.pack != NULL ? "pack" : "packed-normal";
     image_file file;
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+    for (size_t i = o->image.pack == NULL && o->image.error_map; i < sizeof others / sizeof others[0]; i++)
         if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->image.synthetic == NULL))
             return option_error(others[i], "conflicts with --product %s", name);
     if (o->out.file == NULL)
@@ -25,7 +26,27 @@ int texture_pack_check(const options *o) {
     if (!image_file_of(o->out.file, &file) || (o->image.pack != NULL && file == IMAGE_PFM))
         return option_error(OPTION_OUTPUT, "must end in .png%s or .npy for --product %s, got '%s'",
                             o->image.pack != NULL ? "" : ", .pfm", name, o->out.file);
+    if (o->image.error_map && file == IMAGE_PNG)
+        return option_error(OPTION_OUTPUT, "must end in .pfm or .npy for the bounds of packed normals, got '%s'",
+                            o->out.file);
     return EXIT_FINE;
+}
+
+/* The normal that a pixel of the image holds, in view space, z along the axis. @return false where it holds none */
+static bool held_normal(const texture_source *s, const packing *from, size_t pixel, uint32_t codes[3], double n[3]) {
+    const pack_row *row = packing_normals(from);
+    const uint8_t *at = s->unpacked.normals + (size_t)row->channels * pixel;
+    double held[3];
+    if (packing_cleared(from, at))
+        return false;
+    for (int k = 0; k < row->channels; k++)
+        codes[k] = at[k];
+    row->decode(row, codes, held);
+    for (int k = 0; k < 3; k++) {
+        const double *axis = s->camera.axis[k];
+        n[k] = from->world ? axis[0] * held[0] + axis[1] * held[1] + axis[2] * held[2] : k < 2 ? held[k] : -held[k];
+    }
+    return true;
 }
 
 /* A packed texture on its way; rows of depths and of texels. */
@@ -34,8 +55,9 @@ typedef struct packing_on {
     const packing *p;
     double *depths;
     uint8_t *texels;
-    uint64_t holes, far;
-    const uint8_t *normals; /* those that the image has, to be written as they are; else null */
+    uint64_t holes, far, lost;
+    double worst;        /* of the normals that are lost: how far they come back off, degrees */
+    const packing *from; /* whose normals the image has, to be written; else null */
 } packing_on;
 
 static void depths_of(const texture_source *s, uint32_t row, uint32_t *codes, double *d) {
@@ -58,6 +80,33 @@ static double packed_depth(packing_on *on, double d) {
     return on->p->linear ? dp_eye(&s->setup, d, 1 - d) / frame_planes(&s->frame)->spec.zfar : d;
 }
 
+/* Towards the camera where nothing is drawn, or cleared where there is no depth. What comes back farther off than all
+ * that the encoding holds is lost. */
+static void pack_normal(packing_on *on, size_t pixel, const float *found, uint8_t *texel) {
+    const texture_source *s = on->w.source;
+    const pack_row *row = packing_normals(on->p);
+    double n[3] = {found[0], found[1], found[2]}, given[3], back[3];
+    uint32_t codes[PACK_CHANNELS_MAX];
+    if (on->from != NULL ? !held_normal(s, on->from, pixel, codes, n) : isnan(n[0])) {
+        memset(texel, 0, (size_t)row->channels);
+        if (on->p->steps > 0)
+            packing_normal_texel((const double[]){0, 0, 1}, texel);
+        return;
+    }
+    if (on->p->world)
+        camera_turn(&s->camera, n, given);
+    else
+        memcpy(given, (const double[]){n[0], n[1], -n[2]}, sizeof given);
+    if (on->from != on->p)
+        row->encode(row, given, codes);
+    row->decode(row, codes, back);
+    const double off = normal_angle(given, back) * (180 / M_PI);
+    on->lost += off > row->normal.max;
+    on->worst = fmax(on->worst, off);
+    for (int k = 0; k < row->channels; k++)
+        texel[k] = (uint8_t)codes[k];
+}
+
 static bool take_packed(void *context, uint32_t row, uint32_t count, const float *values) {
     packing_on *on = context;
     const packing *p = on->p;
@@ -66,13 +115,10 @@ static bool take_packed(void *context, uint32_t row, uint32_t count, const float
         depths_of(on->w.source, row + i, on->w.codes, on->depths);
         for (uint32_t x = 0; x < width; x++) {
             uint8_t *texel = on->texels + (size_t)x * p->channels;
-            if (p->normals && on->normals != NULL) {
-                memcpy(texel, on->normals + 2 * ((size_t)(row + i) * width + x), 2);
-            } else if (p->normals) {
-                const float *n = values + 3 * ((size_t)i * width + x);
-                const bool drawn = !isnan(n[0]);
-                packing_normal_texel(drawn ? (const double[]){n[0], n[1], -n[2]} : (const double[]){0, 0, 1}, texel);
-            }
+            if (p->encoded != NULL)
+                pack_normal(on, (size_t)(row + i) * width + x, values + 3 * ((size_t)i * width + x), texel);
+            if (p->steps == 0)
+                continue;
             const double depth = packed_depth(on, on->depths[x]);
             on->far += depth == 1;
             packing_texel(p, packing_nearest(p, depth), texel);
@@ -94,8 +140,9 @@ static void note_of_packing(const options *o, const texture_source *s, char note
 }
 
 int texture_pack_write(const options *o, const texture_source *s) {
-    packing_on on = {.p = o->image.pack, .normals = o->image.normals_by == NULL ? s->unpacked.normals : NULL};
-    frame_product product = {.kind = o->image.pack->normals ? FRAME_NORMAL : FRAME_EYE,
+    const bool held = o->image.normals_by == NULL && s->unpacked.normals != NULL;
+    packing_on on = {.p = o->image.pack, .from = held ? o->image.packing : NULL};
+    frame_product product = {.kind = o->image.pack->encoded != NULL ? FRAME_NORMAL : FRAME_EYE,
                              .normal =
                                  o->image.normals_by != NULL ? o->image.normals_by : normal_get(NORMAL_PROJECTIVE)};
     const dp_spec *planes = &frame_planes(&s->frame)->spec;
@@ -105,7 +152,7 @@ int texture_pack_write(const options *o, const texture_source *s) {
                             s->camera.radial ? "--radial" : s->matrix.path);
     if (!o->image.pack->linear && !texture_is_window(o))
         return option_error(OPTION_PRODUCT, "%s holds window depth, which %s is not", o->image.pack->name, s->path);
-    if (o->image.pack->linear && (isinf(planes->zfar) || planes->znear < 0))
+    if (o->image.pack->linear && o->image.pack->steps > 0 && (isinf(planes->zfar) || planes->znear < 0))
         return option_error(OPTION_PRODUCT, "%s holds eye depth over far: it needs %s", o->image.pack->name,
                             planes->znear < 0 ? "near not less than 0" : "a finite far plane");
     note_of_packing(o, s, note);
@@ -126,34 +173,41 @@ int texture_pack_write(const options *o, const texture_source *s) {
         message("depthprec: %s: %llu pixels at the far plane are written as 255, 0, which shaders read as 1; "
                 "EncodeFloatRG writes 0, 0, which they read as 0, the camera",
                 o->out.file, (unsigned long long)on.far);
+    if (good && on.lost > 0 && !o->out.quiet)
+        message("depthprec: %s: %llu pixels have normals that %s does not hold: they come back up to %s degrees off",
+                o->out.file, (unsigned long long)on.lost, packing_normals(on.p)->name, number_up(on.worst, 4).text);
     return writing_close(&on.w, 1, good);
 }
 
 int texture_packed_normal_write(const options *o, const texture_source *s) {
-    const uint32_t width = s->camera.width, height = s->camera.height;
-    const texture_product p = {.made = {.kind = FRAME_NORMAL}, .name = "normals, packed", .unit = ""};
+    const uint32_t width = s->camera.width, height = s->camera.height, values = o->image.error_map ? 1 : 3;
+    const bool zero = s->unpacked.grain.rounding == GRAIN_ZERO;
+    const texture_product p = {
+        .made = {.kind = FRAME_NORMAL, .error = o->image.error_map}, .name = "normals, packed", .unit = ""};
     writing w = {.down = o->image.normal_format != 0};
     char note[IMAGE_NOTE_SIZE];
     if (s->unpacked.normals == NULL)
-        return option_error(OPTION_PRODUCT, "packed-normal needs FILE with --packing depth-normals");
+        return option_error(OPTION_PRODUCT, "packed-normal needs FILE with --packing depth-normals or camera-normals");
     image_file_of(o->out.file, &w.file);
     const bool png = w.file == IMAGE_PNG;
     w.directions = png;
-    int status = writing_open(o, &w, o->out.file, s, png ? IMAGE_U16 : IMAGE_F32, 3);
+    int status = writing_open(o, &w, o->out.file, s, png ? IMAGE_U16 : IMAGE_F32, values);
     if (status != EXIT_FINE)
         return status;
-    float *row = malloc(3 * (size_t)width * sizeof *row);
+    float *row = malloc(values * (size_t)width * sizeof *row);
     meaning m = writing_meaning(o, &p, &w);
     writing_note(&w, &p, &m, note);
     bool good = writing_begin(&w, note) && row != NULL;
     for (uint32_t i = 0; i < height && good; i++) {
         const uint32_t y = writing_bottom_up(&w) ? height - 1 - i : i;
         for (uint32_t x = 0; x < width; x++) {
-            double n[3];
-            packing_normal(s->unpacked.normals + 2 * ((size_t)y * width + x), n);
-            for (int k = 0; k < 3; k++)
-                row[3 * (size_t)x + (size_t)k] =
-                    (float)(k == 2 ? -n[k] : n[k]); /* away from the camera, as view space has it */
+            uint32_t codes[3];
+            double n[3] = {NAN, NAN, NAN};
+            const bool drawn = held_normal(s, o->image.packing, (size_t)y * width + x, codes, n);
+            if (o->image.error_map && drawn)
+                n[0] = pack_reach(packing_normals(o->image.packing), codes, zero);
+            for (uint32_t k = 0; k < values; k++)
+                row[values * (size_t)x + k] = o->image.error_map ? dp_float_up(n[0]) : (float)n[k];
         }
         good = writing_take(&w, y, 1, row);
     }

@@ -194,19 +194,28 @@ static int unpack(const options *o, texture_source *s) {
     const packing *p = o->image.packing;
     const bool zero = option_given(o, OPTION_ROUNDING) && o->camera.rounding == DP_ROUND_ZERO;
     dp_format formats[2];
+    if (p->steps == 0 && (o->image.product == NULL || !o->image.product->packed))
+        return option_error(OPTION_PACKING, "%s holds normals and no depth: --product packed-normal writes them",
+                            p->name);
     if (!packing_convert(p, zero, &s->picture, &s->unpacked))
         return usage_error("%s: %s", s->path, s->unpacked.wrong);
     warn_of_colours(o, s);
     s->unpacked.zeros = packing_unwrap(p, &s->picture, o->image.sky != 0 ? 1.0f : NAN);
-    recognise(&s->picture, &s->found);
+    if (p->steps == 0)
+        s->found = (recognised){.depth = true};
+    else
+        recognise(&s->picture, &s->found);
     dp_format_parse(p->format, formats);
     s->found.format = formats[0];
     s->found.certain = true;
     s->found.steps = 0;
     const char *towards = p->linear ? NULL : s->found.towards;
-    snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in steps of 1/%s%s%s", p->name,
-             p->linear ? "eye depth over far" : "window depth", number_of(p->steps, 10).text,
-             towards != NULL ? "; " : "", towards != NULL ? towards : "");
+    const grain *g = &s->unpacked.grain;
+    const bool steps = g->kind == GRAIN_STEPS;
+    snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in %s%s%s%s%s", p->name,
+             p->linear ? "eye depth over far" : "window depth", steps ? "steps of 1/" : "numbers of ",
+             number_of(steps ? g->steps : g->bits, 10).text, steps ? "" : " bits", towards != NULL ? "; " : "",
+             towards != NULL ? towards : "");
     return EXIT_FINE;
 }
 

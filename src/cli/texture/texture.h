@@ -173,8 +173,14 @@ int texture_pack_write(const options *o, const texture_source *s);
 /** Writes the normals that the image holds beside its depths. */
 int texture_packed_normal_write(const options *o, const texture_source *s);
 
-/** The depth image of a synthetic image, to the file of -o: integers or floats as the format has them. */
-int texture_depth_write(const options *o, const texture_source *s);
+/** Codes of a format as a depth image of the camera's size, to the file of -o: integers or floats as the format has
+ *  them. Null: those of a synthetic image, of its format. */
+int texture_depth_write(const options *o, const texture_source *s, const dp_format *format, const uint32_t *codes);
+
+/** --hi-z: what has no meaning beside it; and the level, to the file of -o, whose size the source then has.
+ *  @return an exit status */
+int texture_hi_z_check(const options *o);
+int texture_hi_z_write(const options *o, texture_source *s);
 
 /** Draws the file of --figure. */
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p);

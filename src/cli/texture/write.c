@@ -351,24 +351,21 @@ static bool depth_type(const dp_format *format, image_file file, image_type *out
     return image_holds(file, *out, 1);
 }
 
-static void depth_row(const writing *w, uint32_t row) {
-    const dp_format *format = &w->source->setup.spec.format;
-    frame_codes(&w->source->frame, row, w->codes);
-    const bool values = w->type == IMAGE_F32;
+static void depth_row(const writing *w, const dp_format *format, const uint32_t *codes) {
     for (size_t i = 0; i < w->row_values; i++)
-        if (values)
-            ((float *)w->row)[i] = (float)dp_format_value(format, w->codes[i]);
+        if (w->type == IMAGE_F32)
+            ((float *)w->row)[i] = (float)dp_format_value(format, codes[i]);
         else if (w->type == IMAGE_F64)
-            ((double *)w->row)[i] = dp_format_value(format, w->codes[i]);
+            ((double *)w->row)[i] = dp_format_value(format, codes[i]);
         else if (w->type == IMAGE_U32)
-            ((uint32_t *)w->row)[i] = w->codes[i];
+            ((uint32_t *)w->row)[i] = codes[i];
         else if (w->type == IMAGE_U8)
-            ((uint8_t *)w->row)[i] = (uint8_t)w->codes[i];
+            ((uint8_t *)w->row)[i] = (uint8_t)codes[i];
         else
-            ((uint16_t *)w->row)[i] = (uint16_t)w->codes[i]; /* of fp16 the code is the bits */
+            ((uint16_t *)w->row)[i] = (uint16_t)codes[i]; /* of fp16 the code is the bits */
 }
 
-int texture_depth_write(const options *o, const texture_source *s) {
+int texture_depth_write(const options *o, const texture_source *s, const dp_format *format, const uint32_t *codes) {
     image_type type;
     writing w = {0};
     if (!image_file_of(o->out.file, &w.file))
@@ -376,15 +373,18 @@ int texture_depth_write(const options *o, const texture_source *s) {
                             "must end in .png, .pfm or .npy for the depths, got '%s'; --json or --csv writes "
                             "statistics",
                             o->out.file);
-    if (!depth_type(&s->setup.spec.format, w.file, &type))
+    if (!depth_type(format, w.file, &type))
         return option_error(OPTION_OUTPUT, "%s does not hold %s: .npy does, got '%s'", image_file_name(w.file),
-                            s->setup.spec.format.name, o->out.file);
+                            format->name, o->out.file);
     const int status = writing_open(o, &w, o->out.file, s, type, 1);
     if (status != EXIT_FINE)
         return status;
     bool good = writing_begin(&w, NULL);
     for (uint32_t i = 0; i < s->camera.height && good; i++) {
-        depth_row(&w, writing_bottom_up(&w) ? s->camera.height - 1 - i : i);
+        const uint32_t row = writing_bottom_up(&w) ? s->camera.height - 1 - i : i;
+        if (codes == NULL)
+            frame_codes(&s->frame, row, w.codes);
+        depth_row(&w, format, codes == NULL ? w.codes : codes + (size_t)row * s->camera.width);
         good = image_writer_rows(w.writer, w.row, 1);
         progress_step(&w.bar, i + 1);
     }
