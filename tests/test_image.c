@@ -114,9 +114,12 @@ TEST(pgm_of_others) {
     static const struct {
         const char *header;
         uint32_t maxval, most;
-    } rows[] = {{"P5\n3 2\n65535\n", 65535, 0},          {"P5 3 2 255 ", 255, 0},
-                {"P5\r\n3 2\r\n255\r\n", 255, 0},         {"P5\n# CREATOR: GIMP\n3 2\n255\n", 255, 0},
-                {"P5\n3 # wide\n2\n#\n10000\n", 10000, 10000}, {"P5\r3\t2 256\r", 256, 256},
+    } rows[] = {{"P5\n3 2\n65535\n", 65535, 0},
+                {"P5 3 2 255 ", 255, 0},
+                {"P5\r\n3 2\r\n255\r\n", 255, 0},
+                {"P5\n# CREATOR: GIMP\n3 2\n255\n", 255, 0},
+                {"P5\n3 # wide\n2\n#\n10000\n", 10000, 10000},
+                {"P5\r3\t2 256\r", 256, 256},
                 {"P5\n3 2\n200\n", 200, 200}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const bool wide = rows[i].maxval > 255;

@@ -54,9 +54,11 @@ TEST(other_files) {
         {"P", 1, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM by its first bytes"},
         {"\x89PNG\r\n\n\n", 8, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM by its first bytes"},
         {"hello, depth", 12, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM by its first bytes"},
-        {"PK\3\4....", 8, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but a zip archive: of an .npz, unpack the .npy"},
+        {"PK\3\4....", 8,
+         "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but a zip archive: of an .npz, unpack the .npy"},
         {"\xff\xd8\xff\xe0....", 8,
-         "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
+         "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but JPEG, which keeps no depths: save PNG of 16 bits, PFM or "
+         ".npy"},
         {"P2\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but PGM in plain text: convert it to P5"},
         {"P6\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but PPM: convert it to PNG of 16 bits"},
         {"\xabKTX 20\xbb", 8, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but KTX: save its pixels as .npy"},

@@ -146,7 +146,7 @@ static image image_of(const made *m, const double *z) {
 static sensor found_in(const made *m, const double *z) {
     image img = image_of(m, z);
     metric out;
-    assert_null(metric_convert(&img, m->unit > 0 ? m->unit : 1, NULL, &out));
+    assert_null(metric_convert(&img, m->unit > 0 ? m->unit : 1, INFINITY, NULL, &out));
     image_free(&img);
     return out.sensor;
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4. DDS,
- *  EXR, TIFF, PGM, raw and ROS's compressedDepth are read; of an EXR one channel, by a library that must be there then, as
- * for TIFF.
+ * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4. DDS, EXR, TIFF, PGM,
+ *  raw and ROS's compressedDepth are read; of an EXR one channel, by a library that must be there then, as for TIFF.
  *
  * Files are not trusted: sizes are checked before memory is asked for (IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX;
  * what a file of known length cannot hold is refused), and what is damaged, cut short, followed by anything
@@ -101,8 +100,8 @@ void image_free(image *image);
 typedef struct image_writer image_writer;
 
 /** Which sample types and channels a kind of file holds: PNG u1 u2, 1 to 4; PFM f4, 1 or 3; npy all, 1 to 4; DDS all
- *  but f8, 1 to 4; EXR u4, f2 and f4, 1; TIFF all, 1 to 4; PGM u1 and u2, 1; raw u2, u4 and f4, 1, or 2 with a stencil; compressedDepth
- * u2, which may become f4, 1. */
+ *  but f8, 1 to 4; EXR u4, f2 and f4, 1; TIFF all, 1 to 4; PGM u1 and u2, 1; raw u2, u4 and f4, 1, or 2 with a
+ *  stencil; compressedDepth u2, which may become f4, 1. */
 bool image_holds(image_file file, image_type type, uint32_t channels);
 
 /** Writes the header. @return null when out of memory, when the stream failed, or the file cannot hold it; the stream

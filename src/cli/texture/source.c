@@ -85,7 +85,8 @@ static int check_together(const options *o) {
     if (file && o->image.synthetic != NULL)
         return option_error(OPTION_SYNTHETIC, "replaces FILE, got '%s' too", o->operands[0]);
     if (!file && o->image.synthetic == NULL)
-        return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF, PGM or raw image, or --synthetic NAME");
+        return usage_error(
+            "texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF, PGM or raw image, or --synthetic NAME");
     if (file && o->image.effect == NULL && o->image.parameter_count > 0)
         return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
     if (o->image.metric > 0 && !file)
@@ -248,7 +249,9 @@ static int read_metric(const options *o, texture_source *s) {
     int status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
     if (status != EXIT_FINE)
         return status;
-    const char *wrong = metric_convert(&s->picture, o->image.metric, given.row != NULL ? &given : NULL, &s->metric);
+    const double zfar = option_given(o, OPTION_FAR) ? o->camera.zfar : (double)INFINITY;
+    const char *wrong =
+        metric_convert(&s->picture, o->image.metric, zfar, given.row != NULL ? &given : NULL, &s->metric);
     if (wrong != NULL)
         return usage_error("%s: no metric depth: %s", s->path, wrong);
     texture_lattice_warn(o, s);
