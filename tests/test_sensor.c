@@ -387,3 +387,17 @@ TEST(averages_are_not_levels) {
     tally_end(&t);
     assert_true(10 * found >= 9 * rounds);
 }
+
+/* Some averages lie near a level by chance; what the residual shows is the file's rounding, half a millimetre. */
+TEST(averages_are_not_in_the_residual) {
+    static const made m = {.type = IMAGE_U16, .unit = 0.001};
+    static double z[N];
+    rng r = rng_make("residual");
+    for (int round = 0; round < 4; round++) {
+        for (int k = 0; k < N; k++)
+            z[k] = 1 / (0.0028953 * (double)(120 + rng_below(&r, 130)));
+        spoil(&r, 0, 0.1, z);
+        const sensor s = found_in(&m, z);
+        assert_true(s.found && s.residual > 0.00045 && s.residual < 0.00055);
+    }
+}

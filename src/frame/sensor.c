@@ -344,6 +344,18 @@ static bool count_all(const image *img, const sensor_file *file, sensor *s) {
     return on >= SENSOR_SHARE * (on + s->off_pixels);
 }
 
+/* What chance leaves near a level, of averages, is not counted: each value that tells lies on one. */
+static double residual_of(const depths *d, const sensor_file *file, const sensor *s) {
+    double below = (double)INFINITY, above = -(double)INFINITY;
+    for (size_t i = 0; i < d->count; i++)
+        if (holds(s, file, d->samples[i])) {
+            const double z = d->samples[i] * file->scale, off = z - sensor_round(s, z);
+            below = fmin(below, off);
+            above = fmax(above, off);
+        }
+    return above >= below ? 0.5 * (above - below) : s->residual;
+}
+
 static void name_like(sensor *s) {
     for (size_t i = 0; i < sizeof known_steps / sizeof known_steps[0]; i++) {
         const struct known_step *k = &known_steps[i];
@@ -429,16 +441,16 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
     }
     *out = of_file(img, file, &d);
     out->found = out->found && !c.unclear;
+    if (c.row != NULL) {
+        sensor s = of_fit(c.row, &c.fit);
+        s.other = c.other;
+        s.found = c.other == NULL;
+        s.file_step = tried.step;
+        if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale))
+            *out = s, out->residual = residual_of(&d, &tried, &s);
+        name_like(out);
+    }
     depths_free(&d);
-    if (c.row == NULL)
-        return;
-    sensor s = of_fit(c.row, &c.fit);
-    s.other = c.other;
-    s.found = c.other == NULL;
-    s.file_step = tried.step;
-    if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale))
-        *out = s;
-    name_like(out);
 }
 
 /* The offset that most pixels are on. */
