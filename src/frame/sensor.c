@@ -62,8 +62,8 @@ static interval interval_of(const sensor_file *file, double x) {
         return (interval){z - 0.5 * file->step, z + file->step};
     frexp(z, &exponent);
     const double unit = ldexp(1, exponent - (file->digits < DIGITS_MOST ? file->digits : DIGITS_MOST));
-    /* what was computed in numbers of so many bits; of binary16 itself it was only stored */
-    return file->digits == 11 ? (interval){z - 0.5 * unit, z + unit} : (interval){z - 2 * unit, z + 2 * unit};
+    /* a product, a sum and a quotient in numbers of so many bits; of binary16 itself it was only stored */
+    return file->digits == 11 ? (interval){z - 0.5 * unit, z + unit} : (interval){z - 3 * unit, z + 3 * unit};
 }
 
 static fit_value value_of(grain_levels levels, interval z) {
