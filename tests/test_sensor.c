@@ -388,6 +388,16 @@ TEST(averages_are_not_levels) {
     assert_true(10 * found >= 9 * rounds);
 }
 
+/* Within a binade numbers of binary16 are even in z, and so are levels that are apart by nearly as much. */
+TEST(one_binade_is_not_binary16) {
+    static const made m = {.type = IMAGE_U16, .unit = 0.001};
+    static double z[N];
+    rng r = rng_make("binade");
+    for (int k = 0; k < N; k++)
+        z[k] = rng_below(&r, 2) == 0 ? rng_uniform(&r, 0.5, 1) : ldexp((double)(1024 + rng_below(&r, 60)), -7);
+    assert_false(found_in(&m, z).found);
+}
+
 /* Some averages lie near a level by chance; what the residual shows is the file's rounding, half a millimetre. */
 TEST(averages_are_not_in_the_residual) {
     static const made m = {.type = IMAGE_U16, .unit = 0.001};
