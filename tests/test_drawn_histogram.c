@@ -234,6 +234,32 @@ static void check_levels(double unit) {
     drawn_close(d);
 }
 
+/* Along rays distances are shown, as depths would be that are these. */
+TEST(distances) {
+    static const char *const words[][2] = {{"", "eye depth"}, {"--radial --fov 60", "distance from the camera"}};
+    char path[320];
+    json_t *roots[2], *points[2];
+    snprintf(path, sizeof path, "%s/whole.npy", drawn_folder());
+    write_whole(path);
+    for (int k = 0; k < 2; k++) {
+        char *text = drawn_output("texture %s --metric mm %s -q --json --histogram %s/beside.svg", path, words[k][0],
+                                  drawn_folder());
+        roots[k] = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+        const json_t *panel = json_array_get(json_object_get(roots[k], "panels"), 0);
+        points[k] = json_object_get(json_array_get(json_object_get(panel, "series"), 0), "points");
+        assert_string_equal(json_string_value(json_object_get(json_object_get(roots[k], "x"), "label")), words[k][1]);
+        assert_int_equal(json_array_size(points[k]), 2 * BINS);
+        free(text);
+    }
+    for (size_t i = 0; i < 2 * BINS; i++) {
+        const json_t *depth = json_array_get(points[0], i), *distance = json_array_get(points[1], i);
+        assert_true(json_equal(json_object_get(depth, "z"), json_object_get(distance, "distance")) &&
+                    json_equal(json_object_get(depth, "count"), json_object_get(distance, "count")));
+    }
+    json_decref(roots[0]);
+    json_decref(roots[1]);
+}
+
 TEST(metric_levels) {
     check_levels(1);
     check_levels(0.001);

@@ -109,6 +109,38 @@ TEST(pfm_of_others) {
         }
 }
 
+/* Samples are what they are; the largest that a file may hold says how many bytes each has. */
+TEST(pgm_of_others) {
+    static const struct {
+        const char *header;
+        uint32_t maxval, most;
+    } rows[] = {{"P5\n3 2\n65535\n", 65535, 0},
+                {"P5 3 2 255 ", 255, 0},
+                {"P5\r\n3 2\r\n255\r\n", 255, 0},
+                {"P5\n# CREATOR: GIMP\n3 2\n255\n", 255, 0},
+                {"P5\n3 # wide\n2\n#\n10000\n", 10000, 10000},
+                {"P5\r3\t2 256\r", 256, 256},
+                {"P5\n3 2\n200\n", 200, 200}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const bool wide = rows[i].maxval > 255;
+        uint8_t bytes[6];
+        uint16_t words[6];
+        handmade h = {.size = 0};
+        image got;
+        image_error error;
+        handmade_text(&h, rows[i].header);
+        for (uint32_t k = 0; k < 6; k++) {
+            const uint32_t sample = rows[i].maxval * k / 5;
+            bytes[k] = (uint8_t)sample;
+            words[k] = (uint16_t)sample;
+            handmade_number(&h, sample, wide ? 2 : 1, 0);
+        }
+        assert_samples(&h, IMAGE_PGM, wide ? IMAGE_U16 : IMAGE_U8, 3, 2, 1, wide ? (const void *)words : bytes);
+        assert_true(parse(&h, &got, &error) && got.most == rows[i].most);
+        image_free(&got);
+    }
+}
+
 /* A sample may look like the other half of a line end. */
 TEST(pfm_line_ends) {
     static const char *const headers[] = {"Pf\r1 1\r-1\r", "Pf\n1 1\n-1\r", "Pf\r\n1 1\r\n-1\r\n", "Pf\r\n1 1\r\n-1\n"};

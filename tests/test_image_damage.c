@@ -51,16 +51,18 @@ TEST(other_files) {
         const char *sentence;
     } rows[] = {
         {"", 0, "is empty"},
-        {"P", 1, "neither PNG, PFM, npy, DDS, EXR nor TIFF by its first bytes"},
-        {"\x89PNG\r\n\n\n", 8, "neither PNG, PFM, npy, DDS, EXR nor TIFF by its first bytes"},
-        {"hello, depth", 12, "neither PNG, PFM, npy, DDS, EXR nor TIFF by its first bytes"},
-        {"PK\3\4....", 8, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but a zip archive: of an .npz, unpack the .npy"},
+        {"P", 1, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM by its first bytes"},
+        {"\x89PNG\r\n\n\n", 8, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM by its first bytes"},
+        {"hello, depth", 12, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM by its first bytes"},
+        {"PK\3\4....", 8,
+         "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but a zip archive: of an .npz, unpack the .npy"},
         {"\xff\xd8\xff\xe0....", 8,
-         "neither PNG, PFM, npy, DDS, EXR nor TIFF, but JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
-        {"P5\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but PGM: convert it to PNG of 16 bits"},
-        {"P6\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but PPM: convert it to PNG of 16 bits"},
-        {"\xabKTX 20\xbb", 8, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but KTX: save its pixels as .npy"},
-        {"#?RADIANCE", 10, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but Radiance HDR: convert it to PFM"},
+         "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but JPEG, which keeps no depths: save PNG of 16 bits, PFM or "
+         ".npy"},
+        {"P2\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but PGM in plain text: convert it to P5"},
+        {"P6\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but PPM: convert it to PNG of 16 bits"},
+        {"\xabKTX 20\xbb", 8, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but KTX: save its pixels as .npy"},
+        {"#?RADIANCE", 10, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but Radiance HDR: convert it to PFM"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         handmade h = {.size = 0};
@@ -110,6 +112,32 @@ TEST(pfm_sentences) {
                  "write 1 or -1 there once they are what they should be",
                  scales[i]);
         refused(&h, sentence);
+    }
+}
+
+TEST(pgm_sentences) {
+    static const char *const rows[][2] = {
+        {"P5", "cut short within its header"},
+        {"P5x1 1 1\n", "PGM: a blank must follow 'P5'"},
+        {"P5\n1 1 255", "cut short within its header"},
+        {"P5\n# never ends", "cut short within its header"},
+        {"P5\r\n1 1\r\n255\ra", "PGM: CR LF must follow its maxval, as it follows 'P5'"},
+        {"P5\n-1 1 255\n", "PGM: its width must be a whole number, got '-1'"},
+        {"P5\n1 1\a 255\n", "PGM: its height must be a number"},
+        {"P5\n1 1 255.0\n", "PGM: its maxval must be a whole number, got '255.0'"},
+        {"P5\n1 1 0\na", "PGM: its maxval must be from 1 to 65535, got 0"},
+        {"P5\n1 1 65536\naaaa", "PGM: its maxval must be from 1 to 65535, got 65536"},
+        {"P5\n0 1 255\n", "width and height must be from 1 to 65536 pixels, got 0 x 1"},
+        {"P5\n65536 4097 255\n", "must have at most 268435456 pixels, got 65536 x 4097"},
+        {"P5\n2 1 256\nabc", "cut short: 2 x 1 pixels, 1 channel of u2, take 4 bytes, and 3 follow the header"},
+        {"P5\n1 1 255\nab", "too long: 1 x 1 pixels, 1 channel of u1, take 1 bytes, and 2 follow the header"},
+        {"P5\n1 2 9\n\11\12", "PGM: a sample is 10, above its maxval of 9"},
+        {"P5\n2 1 4095\n\17\377\20\01", "PGM: a sample is 4097, above its maxval of 4095"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        handmade h = {.size = 0};
+        handmade_text(&h, rows[i][0]);
+        refused(&h, rows[i][1]);
     }
 }
 
@@ -296,7 +324,7 @@ TEST(png_sentences) {
 
 /* ---- Every byte ---------------------------------------------------------------------------------------------------*/
 
-enum { SMALL = 12 };
+enum { SMALL = 14 };
 
 /* Small files of each kind, all of them right. */
 static size_t small_files(handmade files[SMALL]) {
@@ -310,6 +338,10 @@ static size_t small_files(handmade files[SMALL]) {
     handmade_bytes(&files[n++], samples, 24);
     handmade_text(&files[n], "PF\n2 2\n1\n");
     handmade_bytes(&files[n++], samples, 48);
+    handmade_text(&files[n], "P5\n3 2\n200\n");
+    handmade_bytes(&files[n++], samples, 6);
+    handmade_text(&files[n], "P5 3 2 # wide, high\n50000 ");
+    handmade_bytes(&files[n++], samples, 12);
     static const char *const headers[] = {"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }",
                                           "{'descr': '>f4', 'fortran_order': True, 'shape': (2, 1, 3), }",
                                           "{'descr': '|u1', 'fortran_order': False, 'shape': (6, 4)}"};
@@ -347,7 +379,7 @@ TEST(cut_anywhere) {
     tally_end(&t);
 }
 
-/* Each bit of a PNG is under a checksum; PFM and npy have none, and then an image comes of it or a sentence. */
+/* Each bit of a PNG is under a checksum; PFM, PGM and npy have none, and then an image comes of it or a sentence. */
 TEST(bits_flipped) {
     handmade files[SMALL];
     tally t = {.name = "bits flipped"};
@@ -403,7 +435,7 @@ TEST(unreadable_paths) {
     assert_false(error.unreadable);
     assert_string_equal(error.text, "is empty");
     assert_false(image_read("/dev/zero", &got, &error));
-    assert_string_equal(error.text, "neither PNG, PFM, npy, DDS, EXR nor TIFF by its first bytes");
+    assert_string_equal(error.text, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM by its first bytes");
 }
 
 /* What a child that may not have more than 128 MiB beyond what it has says to a file or a pipe, as stdin. */

@@ -417,15 +417,18 @@ TEST(the_largest_word_may_be_a_hole) {
     }
 }
 
-/* So is what stands a hundred times as far as all else in numbers, whichever it is. */
+/* So is what stands a hundred times as far as all else in numbers, whichever it is, or where --far is. */
 TEST(the_largest_number_may_be_a_hole) {
     static const struct {
         image_type type;
         double top;
         bool hole;
-    } cases[] = {{IMAGE_F32, 1e10, true},  {IMAGE_F64, 3.4e38, true}, {IMAGE_F16, 65504, true},
-                 {IMAGE_F32, 900.5, true}, {IMAGE_F32, 899.5, false}, {IMAGE_U32, 4294967295, true},
-                 {IMAGE_U32, 899, false}};
+        const char *far;
+    } cases[] = {
+        {IMAGE_F32, 1e10, true, NULL},     {IMAGE_F64, 3.4e38, true, NULL},     {IMAGE_F16, 65504, true, NULL},
+        {IMAGE_F32, 900.5, true, NULL},    {IMAGE_F32, 899.5, false, NULL},     {IMAGE_U32, 4294967295, true, NULL},
+        {IMAGE_U32, 899, false, NULL},     {IMAGE_F32, 65.504, true, "65.504"}, {IMAGE_F32, 20, false, "20.1"},
+        {IMAGE_F16, 65.5, true, "65.504"}, {IMAGE_U32, 20, true, "20"},         {IMAGE_F64, 20, false, "inf"}};
     rng r = rng_make("numbers");
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         static double data[PIXELS];
@@ -440,6 +443,10 @@ TEST(the_largest_number_may_be_a_hole) {
         truth_write(truth_path("in.npy"), IMAGE_NPY, cases[k].type, data);
         truth_add(&c, truth_path("in.npy"));
         truth_add_number(&c, 0, "--metric", 1);
+        if (cases[k].far != NULL) {
+            truth_add(&c, "--far");
+            truth_add(&c, cases[k].far);
+        }
         json_t *root = statistics(&c);
         assert_true(number_in(root, "invalid") == (cases[k].hole ? (double)holes : 0));
         assert_true(cases[k].hole == (number_in(root, "hi") < 9.1));

@@ -144,7 +144,28 @@ static void check_places(tally *t, const storing *s, const rays *k, const comman
               "%s, %s: a distance at %.9Lg", s->name, k->value, z[i]);
 }
 
-/* The lattice is that of the distances, the range that of the depths. */
+/* Pixels are counted by their distances; one near the end of a band may be in either. */
+static void check_bands(const json_t *bands, const storing *s, const rays *k, const long double *z) {
+    size_t all = 0, holes = 0;
+    for (int i = 0; i < PIXELS; i++)
+        holes += isnan(z[i]) ? 1 : 0;
+    for (size_t b = 0; b < json_array_size(bands); b++) {
+        const double lo = number_in(json_array_get(bands, b), "lo"), hi = number_in(json_array_get(bands, b), "hi");
+        const size_t pixels = (size_t)number_in(json_array_get(bands, b), "pixels");
+        size_t least = 0, most = 0;
+        for (int i = 0; i < PIXELS; i++) {
+            const double r = (double)(z[i] * ray(k, i));
+            const double off = s->step > 0 ? r : s->type < IMAGE_F16 ? 2 * s->scale : 1e-6 * r;
+            least += r - off >= lo && r + off < hi;
+            most += r + off >= lo && r - off < hi;
+        }
+        assert_true(least <= pixels && pixels <= most);
+        all += pixels;
+    }
+    assert_int_equal(all, PIXELS - holes);
+}
+
+/* The lattice is that of the distances, as bands are; the range is that of the depths. */
 static void check_statistics(const storing *s, const rays *k, const command *c, const long double *z) {
     json_t *root = truth_statistics(c);
     const json_t *lattice = json_object_get(root, "lattice");
@@ -155,7 +176,7 @@ static void check_statistics(const storing *s, const rays *k, const command *c, 
     }
     assert_relative(number_in(root, "radial"), (double)longest, 1e-9);
     assert_relative(number_in(root, "lo"), (double)least, 0.1);
-    assert_int_equal(json_array_size(json_object_get(root, "bands")), 0);
+    check_bands(json_object_get(root, "bands"), s, k, z);
     assert_string_equal(json_string_value(json_object_get(lattice, "name")), s->step == 0 ? "file"
                                                                              : s->inverse ? "inverse"
                                                                                           : "even");
@@ -222,6 +243,74 @@ TEST(normals_of_distances) {
     }
     print_message("# normals: %.3f of the bound is used\n", used);
     assert_true(used > 0.1 && used <= 1);
+    tally_end(&t);
+}
+
+/* What effects make of a depth at a height, or of two pixels at either end of both diagonals, with far at 8. */
+static double clamped(double x) {
+    return fmin(fmax(x, 0), 1);
+}
+
+static double across(const double *z, int i, int aside) {
+    const int x = i % WIDTH, y = i / WIDTH, left = x > 0 ? x - 1 : 0, right = x + 1 < WIDTH ? x + 1 : x;
+    const int above = y > 0 ? y - 1 : 0, below = y + 1 < HEIGHT ? y + 1 : y;
+    return fabs(z[above * WIDTH + (aside ? right : left)] - z[below * WIDTH + (aside ? left : right)]) / 8;
+}
+
+static const struct {
+    const char *effect, *parameters[2];
+} effects[] = {{"effect:fog", {"density=3"}},
+               {"effect:soft-particles", {"fade-distance=4", "reference=1.5"}},
+               {"effect:water-line", {"band=0.7", "level=0.1"}},
+               {"effect:edge", {"threshold=0.01"}}};
+enum { EFFECTS = sizeof effects / sizeof effects[0], HEIGHTS = 2, EDGES = 3 };
+
+static double output_of(int effect, const rays *k, const double *z, int i) {
+    long double s[2];
+    slopes(k, i, s);
+    return effect == 0         ? clamped(z[i] / 8 * 3)
+           : effect == 1       ? clamped((z[i] - 1.5) / 4)
+           : effect == HEIGHTS ? clamped((0.1 - (double)s[1] * z[i]) / 0.7)
+                               : across(z, i, 0) > 0.01 || across(z, i, 1) > 0.01;
+}
+
+TEST(effects_of_distances) {
+    tally t = {.name = "effects"};
+    rng r = rng_make("effects of distances");
+    static double data[PIXELS];
+    double z[PIXELS], used[EFFECTS] = {0};
+    float seen[PIXELS], map[PIXELS];
+    for (int round = 0; round < 4 * EFFECTS; round++) {
+        const int e = round % EFFECTS;
+        const rays *k = &cameras[e == HEIGHTS ? 0 : round / EFFECTS % 2]; /* a height needs a frustum that is centred */
+        const double slope = rng_uniform(&r, 0.1, 0.6);
+        for (int i = 0; i < PIXELS; i++) {
+            long double s[2];
+            slopes(k, i, s);
+            z[i] = 2 / ((double)s[0] * slope + 1);
+            truth_store(data, IMAGE_U16, (size_t)i, rint(1000 * z[i] * (double)ray(k, i)));
+        }
+        truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+        READING(c, &storings[0], k);
+        truth_add(&c, "--far");
+        truth_add(&c, "8");
+        for (int p = 0; p < 2 && effects[e].parameters[p] != NULL; p++) {
+            truth_add(&c, "--parameter");
+            truth_add(&c, effects[e].parameters[p]);
+        }
+        truth_product(&c, "effect.npy", effects[e].effect, NULL, false);
+        truth_product(&c, "map.npy", effects[e].effect, NULL, true);
+        truth_floats("effect.npy", 1, seen);
+        truth_floats("map.npy", 1, map);
+        for (int i = 0; i < PIXELS; i++) {
+            const double off = 255 * fabs((double)seen[i] - output_of(e, k, z, i));
+            TALLY(&t, off <= (double)map[i], "%s, pixel %d: off by %g, not within %g", effects[e].effect, i, off,
+                  (double)map[i]);
+            used[e] = fmax(used[e], map[i] > 0 ? off / (double)map[i] : 0);
+        }
+    }
+    print_message("# effects: %.3f, %.3f, %.3f and %.3f of the bound is used\n", used[0], used[1], used[2], used[3]);
+    assert_true(used[0] > 0.4 && used[1] > 0.4 && used[HEIGHTS] > 0.4);
     tally_end(&t);
 }
 
@@ -315,22 +404,19 @@ TEST(what_has_no_rays_is_refused) {
 TEST(products_of_shared_depths_are_refused) {
     static const struct {
         const char *option, *value, *words;
-    } bad[] = {{"--product", "effect:fog", "--product eye writes them"},
+    } bad[] = {{"--product", "effect:water-line", "this effect is for a frustum that is centred"},
                {"--product", "position:view", "this method is for a frustum that is centred"},
-               {"--product", "pack:rgba", "which --radial does not have"},
-               {"--histogram", "h.svg", "which --radial does not have"}};
+               {"--product", "pack:rgba", "which --radial does not have; --product eye writes a file of depths"}};
     static double data[PIXELS];
     for (int i = 0; i < PIXELS; i++)
         truth_store(data, IMAGE_F32, (size_t)i, 2 + i % 7);
     truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, data);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        READING(c, &storings[1], &cameras[FIRST_FOV]);
+        READING(c, &storings[1], &cameras[1]);
         truth_add(&c, bad[i].option);
-        truth_add(&c, *bad[i].value == 'h' ? truth_path("image.svg") : bad[i].value);
-        if (*bad[i].value != 'h') {
-            truth_add(&c, "-o");
-            truth_add(&c, truth_path(strncmp(bad[i].value, "pack", 4) == 0 ? "out.png" : "out.npy"));
-        }
+        truth_add(&c, bad[i].value);
+        truth_add(&c, "-o");
+        truth_add(&c, truth_path(strncmp(bad[i].value, "pack", 4) == 0 ? "out.png" : "out.npy"));
         assert_int_equal(truth_run(c.arguments, c.count), 2);
         assert_true(truth_said(bad[i].words));
     }

@@ -146,7 +146,7 @@ static image image_of(const made *m, const double *z) {
 static sensor found_in(const made *m, const double *z) {
     image img = image_of(m, z);
     metric out;
-    assert_null(metric_convert(&img, m->unit > 0 ? m->unit : 1, NULL, &out));
+    assert_null(metric_convert(&img, m->unit > 0 ? m->unit : 1, INFINITY, NULL, &out));
     image_free(&img);
     return out.sensor;
 }
@@ -386,4 +386,28 @@ TEST(averages_are_not_levels) {
     print_message("# averages: %d of %d found\n", (int)found, (int)rounds);
     tally_end(&t);
     assert_true(10 * found >= 9 * rounds);
+}
+
+/* Within a binade numbers of binary16 are even in z, and so are levels that are apart by nearly as much. */
+TEST(one_binade_is_not_binary16) {
+    static const made m = {.type = IMAGE_U16, .unit = 0.001};
+    static double z[N];
+    rng r = rng_make("binade");
+    for (int k = 0; k < N; k++)
+        z[k] = rng_below(&r, 2) == 0 ? rng_uniform(&r, 0.5, 1) : ldexp((double)(1024 + rng_below(&r, 60)), -7);
+    assert_false(found_in(&m, z).found);
+}
+
+/* Some averages lie near a level by chance; what the residual shows is the file's rounding, half a millimetre. */
+TEST(averages_are_not_in_the_residual) {
+    static const made m = {.type = IMAGE_U16, .unit = 0.001};
+    static double z[N];
+    rng r = rng_make("residual");
+    for (int round = 0; round < 4; round++) {
+        for (int k = 0; k < N; k++)
+            z[k] = 1 / (0.0028953 * (double)(120 + rng_below(&r, 130)));
+        spoil(&r, 0, 0.1, z);
+        const sensor s = found_in(&m, z);
+        assert_true(s.found && s.residual > 0.00045 && s.residual < 0.00055);
+    }
 }

@@ -39,7 +39,7 @@ static bool name(const double *z, sensor_buffer *out) {
         lo = fmin(lo, (double)(float)z[i]);
         hi = fmax(hi, (double)(float)z[i]);
     }
-    assert_null(metric_convert(&img, 1, NULL, &m));
+    assert_null(metric_convert(&img, 1, INFINITY, NULL, &m));
     const bool named = sensor_buffer_find(&m.sensor, lo, hi, out);
     assert_true(named == (out->bits > 0) && (!named || m.sensor.found));
     image_free(&img);

@@ -204,6 +204,58 @@ TEST(carla) {
     tally_end(&t);
 }
 
+/* PGM's lengths are those of PNG, whatever the largest that it may hold; codes are those of a format that ends there.
+ */
+static size_t pgm(const double *samples, unsigned most) {
+    size_t largest = 0;
+    FILE *out = fopen(truth_path("in.npy"), "wb");
+    assert_non_null(out);
+    fprintf(out, "P5\n%d %d\n%u\n", WIDTH, HEIGHT, most);
+    for (int i = 0; i < PIXELS; i++) {
+        fputc((int)samples[i] >> 8, out);
+        fputc((int)samples[i] & 255, out);
+        largest = samples[i] > samples[largest] ? (size_t)i : largest;
+    }
+    fclose(out);
+    return largest;
+}
+
+TEST(greys) {
+    static const unsigned most[] = {65535, 10000, 4095};
+    tally t = {.name = "greys"};
+    rng r = rng_make("greys");
+    double z[PIXELS], samples[PIXELS];
+    for (size_t k = 0; k < sizeof most / sizeof most[0]; k++) {
+        command c = {.count = 0};
+        for (int i = 0; i < PIXELS; i++) {
+            samples[i] = i % 7 == 0 ? 0 : floor(rng_uniform(&r, 300, 4000));
+            z[i] = i % 7 == 0 ? (double)NAN : 0.001 * samples[i];
+        }
+        const size_t largest = pgm(samples, most[k]);
+        truth_add(&c, truth_path("in.npy"));
+        command window = c;
+        truth_add(&c, "--metric");
+        truth_add(&c, "mm");
+        check_depths(&t, "PGM", &c, z, 1);
+        if (most[k] == 65535)
+            continue;
+        assert_int_equal(truth_run(window.arguments, window.count), 2);
+        assert_true(truth_said("its samples are shares of"));
+        truth_add(&window, "--format");
+        truth_add(&window, most[k] == 4095 ? "unorm12" : "unorm16");
+        truth_add(&window, "--mapping");
+        truth_add(&window, "linear");
+        if (most[k] == 10000) {
+            assert_int_equal(truth_run(window.arguments, window.count), 2);
+            continue;
+        }
+        json_t *root = truth_statistics(&window);
+        assert_relative(number_in(root, "hi"), samples[largest] / 4095 * 1000, 1e-9);
+        json_decref(root);
+    }
+    tally_end(&t);
+}
+
 /* Units by name are those lengths, in any scene unit. */
 TEST(units_by_name) {
     static const struct {

@@ -57,9 +57,13 @@ static effect_view view_at(const work *w, uint32_t x) {
     return view;
 }
 
-static effect_pixel seen_as(const work *w, float d) {
+/* @param d  the window depth of the code */
+static effect_pixel seen_as(const work *w, uint32_t column, uint32_t row, uint32_t code, float d) {
     effect_pixel p = {.last = w->last};
-    decode_apply(&w->eye, &d, &p.eye, 1);
+    if (camera_is_shared(w->camera))
+        decode_apply(&w->eye, &d, &p.eye, 1);
+    else
+        p.eye = (float)pixel_stored(w->camera, column, row, code);
     if (w->decodes)
         decode_apply(&w->eye01, &d, &p.eye01, 1);
     else
@@ -67,9 +71,13 @@ static effect_pixel seen_as(const work *w, float d) {
     return p;
 }
 
+static effect_pixel seen_at(const work *w, uint32_t x) {
+    return seen_as(w, x, w->in->row, w->in->codes[x], w->in->depth[x]);
+}
+
 static effect_pixel pixel_at(const work *w, uint32_t x) {
     const position_state *s = w->in->position;
-    effect_pixel p = seen_as(w, w->in->depth[x]);
+    effect_pixel p = seen_at(w, x);
     for (int k = 0; k < 3 && (w->row->needs & EFFECT_POSITION) != 0; k++)
         p.world[k] = w->in->planes[k][x];
     p.stretch = (float)camera_radial(w->camera, x, w->in->row);
@@ -84,8 +92,12 @@ static void places(const work *w) {
     const position_row *by = &position_rows[w->camera->ortho ? POSITION_EXTENTS : POSITION_RAYS];
     if (!position_applies(by, w->camera)) /* a far plane at 0, by which nothing can be divided */
         by = &position_rows[POSITION_VIEW];
-    if ((w->row->needs & EFFECT_POSITION) != 0)
+    if ((w->row->needs & EFFECT_POSITION) == 0)
+        return;
+    if (camera_is_shared(w->camera))
         by->run(in->position, in->row, 0, in->depth, w->camera->width, in->planes[0], in->planes[1], in->planes[2]);
+    else
+        frame_exact_places(in);
 }
 
 /* ---- Corners ----------------------------------------------------------------------------------------------------- */
@@ -155,7 +167,8 @@ static float corners(const work *w, uint32_t x) {
     if (!taps_of(w, x, at))
         return NAN;
     for (int i = 0; i < TAPS; i++) {
-        seen[i] = seen_as(w, (float)dp_format_value(&w->camera->setup.spec.format, at[i].code));
+        seen[i] = seen_as(w, at[i].column, at[i].row, at[i].code,
+                          (float)dp_format_value(&w->camera->setup.spec.format, at[i].code));
         double normal[3] = {0, 0, 0};
         if ((w->row->needs & EFFECT_NORMALS) != 0)
             packed_normal(w, &at[i], normal);
@@ -182,7 +195,7 @@ static double exact_corners(const work *w, uint32_t x) {
         effect_view view = {.setup = w->planes};
         double z[2];
         for (int i = 0; i < 2; i++) {
-            z[i] = dp_stored(&w->camera->setup, two[i]->code);
+            z[i] = pixel_stored(w->camera, two[i]->column, two[i]->row, two[i]->code);
             if (normals && w->in->frame->normals != NULL)
                 packed_normal(w, two[i], view.normals[i]);
             else if (normals)
@@ -220,8 +233,8 @@ static void views_between(const work *w, const tap *a, const tap *b, effect_view
 /* Whether an output can be, and must be, 1 when two depths lie where their samples allow: it depends on how far apart
  * they are, which is decided at the ends, or where they are the same. */
 static void outputs_between(const work *w, const tap *a, const tap *b, double out[2]) {
-    const grain_range one = grain_range_of(&w->camera->setup, w->in->frame->grain, a->code);
-    const grain_range two = grain_range_of(&w->camera->setup, w->in->frame->grain, b->code);
+    const grain_range one = pixel_range_of(w->camera, w->in->frame->grain, a->column, a->row, a->code);
+    const grain_range two = pixel_range_of(w->camera, w->in->frame->grain, b->column, b->row, b->code);
     const bool around = w->row->taps == EFFECT_AROUND;
     const double same = fmax(one.lo, two.lo), wanted = w->parameters[w->row->wanted];
     const double pairs[3][2] = {{one.lo, two.hi}, {one.hi, two.lo}, {same, same}};
@@ -325,14 +338,14 @@ static uint32_t looks_at(const work *w, uint32_t x) {
     const uint32_t at = aside_of(w, x);
     if (at == x || isnan(w->in->eyes[NORMAL_REACH][at]))
         return x;
-    return seen_as(w, w->in->depth[at]).eye >= w->other.eye ? at : x;
+    return seen_at(w, at).eye >= w->other.eye ? at : x;
 }
 
 static float output_at(const work *w, uint32_t x) {
     const uint32_t at = looks_at(w, x);
     effect_pixel pixel = pixel_at(w, x);
     if (at != x) {
-        const effect_pixel beside = seen_as(w, w->in->depth[at]);
+        const effect_pixel beside = seen_at(w, at);
         pixel.eye = beside.eye;
         pixel.eye01 = beside.eye01;
     }
@@ -341,8 +354,8 @@ static float output_at(const work *w, uint32_t x) {
 
 /* Exact for what is stored. */
 static double exact_at(const work *w, const effect_view *view, uint32_t x) {
-    return w->row->output(view, w->parameters, dp_stored(&w->camera->setup, w->in->codes[looks_at(w, x)]),
-                          w->reference);
+    const uint32_t at = looks_at(w, x);
+    return w->row->output(view, w->parameters, pixel_stored(w->camera, at, w->in->row, w->in->codes[at]), w->reference);
 }
 
 /* In a synthetic image the truth decides where the effect should have looked. */
@@ -373,7 +386,7 @@ static double through_error(const work *w, const effect_view *view, uint32_t x, 
     ranges[1] = *frame_range_of(w->in, &last, beside);
     if (!isnan(w->reference))
         return refracted_error(w, view, (double)output_at(w, x), w->reference, ranges);
-    const double seen[2] = {(double)seen_as(w, w->in->depth[x]).eye, (double)seen_as(w, w->in->depth[beside]).eye};
+    const double seen[2] = {(double)seen_at(w, x).eye, (double)seen_at(w, beside).eye};
     double error = 0;
     for (int i = 0; i < 12; i++) {
         const grain_range *range = &ranges[i / 6];
@@ -406,7 +419,7 @@ static double error_at(const work *w, frame_ranges *last, uint32_t x) {
         return worst_error(w, &view, &pixel, frame_range_of(w->in, last, x));
     }
     const bool scene = w->in->frame->synthetic != NULL;
-    const double seen = (double)output_at(w, x), stored = dp_stored(&w->camera->setup, w->in->codes[x]);
+    const double seen = (double)output_at(w, x), stored = pixel_stored(w->camera, x, w->in->row, w->in->codes[x]);
     const double z = scene ? frame_truth(w->in, x).z : stored;
     const double off = isnan(z)       ? (double)NAN
                        : w->row->wide ? vector_off(w, &view, x, z)
@@ -446,7 +459,8 @@ void frame_effect(const frame_row *in) {
 
 void frame_effect_error(const frame_row *in) {
     const work w = work_of(in);
-    const bool alike = in->frame->synthetic == NULL && (w.row->needs & EFFECT_POSITION) == 0; /* as far as codes are */
+    const bool alike = in->frame->synthetic == NULL && camera_is_shared(w.camera) &&
+                       (w.row->needs & EFFECT_POSITION) == 0; /* as far as codes are */
     frame_ranges last = frame_no_range();
     places(&w);
     for (uint32_t x = 0; x < w.camera->width; x++) {

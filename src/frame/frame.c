@@ -47,6 +47,14 @@ void frame_codes(const frame *f, uint32_t row, uint32_t *codes) {
         image_codes(f->image, &f->camera->setup.spec.format, row, 0, f->camera->width, codes);
 }
 
+frame frame_along(const frame *f, texture_camera *camera) {
+    frame out = *f;
+    *camera = *f->camera;
+    camera->radial = false;
+    out.camera = camera;
+    return out;
+}
+
 int frame_channels(const frame_product *product) {
     const bool vector = product->kind == FRAME_POSITION || product->kind == FRAME_NORMAL || product->vector;
     return vector && !product->error ? 3 : 1;
@@ -55,12 +63,10 @@ int frame_channels(const frame_product *product) {
 /* What is made from planes that all pixels share, or for a view axis in the middle of the picture. */
 static const char *camera_refuses(const frame *f, const frame_product *product) {
     const bool oblique = f->camera->oblique.on, centred = camera_is_centred(f->camera);
-    const bool shared = camera_is_shared(f->camera);
+    const bool shared = camera_is_shared(f->camera), aside = f->camera->centre[0] != 0 || f->camera->centre[1] != 0;
     if (product->kind == FRAME_POSITION && product->position != NULL && !centred)
         return "this method is for a frustum that is centred, without an oblique plane; 'exact' is for each";
-    if (product->kind == FRAME_EFFECT && f->camera->radial)
-        return "effects read depths along the view axis: --product eye writes them";
-    if (product->kind == FRAME_EFFECT && (oblique || (!centred && (product->effect->needs & EFFECT_POSITION) != 0)))
+    if (product->kind == FRAME_EFFECT && (oblique || (aside && (product->effect->needs & EFFECT_POSITION) != 0)))
         return "this effect is for a frustum that is centred, without an oblique plane";
     if (product->kind == FRAME_LINEAR01 && oblique)
         return "this is for a far plane that all pixels share";

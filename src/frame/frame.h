@@ -116,6 +116,10 @@ typedef struct frame_product {
     bool vector; /**< FRAME_EFFECT that has one: its parts, and its length */
 } frame_product;
 
+/** Distances along the rays of a radial frame, as depths of one whose camera, in `camera`, is not: they have the codes
+ *  and levels. Another frame is itself. */
+frame frame_along(const frame *f, texture_camera *camera);
+
 /** Numbers a pixel: 3 for places, normals and vectors, else 1. */
 int frame_channels(const frame_product *product);
 

@@ -48,13 +48,18 @@ static double find_top(const image *img) {
     return top && next > 0 ? most : (double)NAN;
 }
 
+static void clear_between(image *img, double lo, double hi) {
+    const size_t size = image_type_size(img->type), count = (size_t)img->width * img->height;
+    for (size_t i = 0; i < count; i++)
+        if (image_sample(img, i) >= lo && image_sample(img, i) <= hi)
+            memset((char *)img->data + i * img->channels * size, 0, size);
+}
+
 /* Such samples become 0. */
 static double clear_top(image *img) {
     const double top = find_top(img);
-    const size_t size = image_type_size(img->type), count = (size_t)img->width * img->height;
-    for (size_t i = 0; i < count && !isnan(top); i++)
-        if (image_sample(img, i) == top)
-            memset((char *)img->data + i * img->channels * size, 0, size);
+    if (!isnan(top))
+        clear_between(img, top, top);
     return top;
 }
 
@@ -236,8 +241,10 @@ static bool replace(image *img, const metric *m, double scale) {
     return true;
 }
 
-const char *metric_convert(image *img, double scale, const sensor *given, metric *out) {
+const char *metric_convert(image *img, double scale, double zfar, const sensor *given, metric *out) {
+    const double end = zfar / scale, off = img->type == IMAGE_F16 ? 0x1p-10 : 0x1p-20;
     look l;
+    clear_between(img, end * (1 - off), end * (1 + off));
     *out = (metric){.top = clear_top(img)};
     look_at(img, &l);
     const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"

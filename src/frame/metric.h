@@ -34,10 +34,11 @@ typedef struct metric {
 /**
  * Converts the image, which becomes one channel of u4 or f4; holes become UINT32_MAX or NaN.
  * @param scale  from METRIC_SCALE_MIN to METRIC_SCALE_MAX
+ * @param zfar  where nothing was drawn simulators leave their far plane: samples there are holes; INFINITY: none are
  * @param given  what sensor_given() takes, or null
  * @return null, or why not: one sentence; the image is then as it was, but for such holes
  */
-const char *metric_convert(image *img, double scale, const sensor *given, metric *out);
+const char *metric_convert(image *img, double scale, double zfar, const sensor *given, metric *out);
 
 /**
  * Whether samples can be nothing but metric depth, where nobody says what they are: numbers above 1 and none below 0 of

@@ -6,7 +6,6 @@
 
 #include "shader/clones.h"
 #include "shader/normal_corner.h"
-#include "shader/oblique.h"
 
 static const double TO_DEGREES = 180 / M_PI;
 
@@ -164,13 +163,6 @@ static void make_raw_error(const frame_row *in) {
     }
 }
 
-/* From the camera, along the world's axes. */
-static void exact_place(const frame_row *in, uint32_t x, double z, double relative[3]) {
-    double view[3];
-    camera_view(camera_of(in), x, in->row, z, view);
-    camera_turn(camera_of(in), view, relative);
-}
-
 static void places(const frame_row *in) {
     const texture_camera *c = camera_of(in);
     if (in->found)
@@ -182,13 +174,7 @@ static void places(const frame_row *in) {
             hide(eyes_of(in), in->planes[k], c->width);
         return;
     }
-    for (uint32_t x = 0; x < c->width; x++) {
-        double relative[3] = {NAN, NAN, NAN};
-        if (!isnan(eyes_of(in)[x]))
-            exact_place(in, x, pixel_stored(c, x, in->row, in->codes[x]), relative);
-        for (int k = 0; k < 3; k++)
-            in->planes[k][x] = (float)(c->origin[k] + relative[k]);
-    }
+    frame_exact_places(in);
 }
 
 static void make_position(const frame_row *in) {
@@ -245,7 +231,7 @@ static void make_position_error(const frame_row *in) {
         const float world[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
         const double z = frame_truth(in, x).z;
         double relative[3];
-        exact_place(in, x, z, relative);
+        frame_exact_place(in, x, z, relative);
         /* a hole, not an error without bound */
         in->out[x] = isnan(z) ? NAN : frame_upwards(position_off(camera_of(in), relative, world));
     }

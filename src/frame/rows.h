@@ -7,6 +7,7 @@
 
 #include "core/bits.h"
 #include "frame/frame.h"
+#include "shader/oblique.h"
 
 enum { FRAME_NUMBERS = 8 };
 
@@ -53,9 +54,10 @@ static inline frame_ranges frame_no_range(void) {
 }
 
 static inline const grain_range *frame_range_of(const frame_row *in, frame_ranges *last, uint32_t x) {
+    const texture_camera *c = in->frame->camera;
     const uint32_t code = in->codes[x];
-    if (code != last->code)
-        *last = (frame_ranges){code, grain_range_of(&in->frame->camera->setup, in->frame->grain, code)};
+    if (code != last->code || !camera_is_shared(c))
+        *last = (frame_ranges){code, pixel_range_of(c, in->frame->grain, x, in->row, code)};
     return &last->range;
 }
 
@@ -63,6 +65,25 @@ static inline const grain_range *frame_range_of(const frame_row *in, frame_range
  *  before. */
 DP_INLINE float frame_upwards(double error) {
     return dp_float_up(error * (1 + 0x1p-48));
+}
+
+/** From the camera, along the world's axes. */
+static inline void frame_exact_place(const frame_row *in, uint32_t x, double z, double relative[3]) {
+    double view[3];
+    camera_view(in->frame->camera, x, in->row, z, view);
+    camera_turn(in->frame->camera, view, relative);
+}
+
+/** World places of what is stored, in the planes. */
+static inline void frame_exact_places(const frame_row *in) {
+    const texture_camera *c = in->frame->camera;
+    for (uint32_t x = 0; x < c->width; x++) {
+        double relative[3] = {(double)NAN, (double)NAN, (double)NAN};
+        if (!isnan(in->eyes[NORMAL_REACH][x]))
+            frame_exact_place(in, x, pixel_stored(c, x, in->row, in->codes[x]), relative);
+        for (int k = 0; k < 3; k++)
+            in->planes[k][x] = (float)(c->origin[k] + relative[k]);
+    }
 }
 
 /** Those of FRAME_EFFECT, in effect.c. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "frame/sensor.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -62,8 +63,8 @@ static interval interval_of(const sensor_file *file, double x) {
         return (interval){z - 0.5 * file->step, z + file->step};
     frexp(z, &exponent);
     const double unit = ldexp(1, exponent - (file->digits < DIGITS_MOST ? file->digits : DIGITS_MOST));
-    /* what was computed in numbers of so many bits; of binary16 itself it was only stored */
-    return file->digits == 11 ? (interval){z - 0.5 * unit, z + unit} : (interval){z - 2 * unit, z + 2 * unit};
+    /* a product, a sum and a quotient in numbers of so many bits; of binary16 itself it was only stored */
+    return file->digits == 11 ? (interval){z - 0.5 * unit, z + unit} : (interval){z - 3 * unit, z + 3 * unit};
 }
 
 static fit_value value_of(grain_levels levels, interval z) {
@@ -157,8 +158,15 @@ static bool holds_half(interval z) {
     return floor(z.hi / gap) * gap >= z.lo;
 }
 
-/* No constant is looked for, so nothing is lost to other lattices. */
-static bool find_halves(const depths *d, const sensor_file *file, fit *out) {
+static int binade_of(const sensor_file *file, double x) {
+    int exponent;
+    frexp(x * file->scale, &exponent);
+    return exponent;
+}
+
+/* No constant is looked for, so nothing is lost to other lattices. @param without  a binade whose values do not count
+ */
+static bool find_halves(const depths *d, const sensor_file *file, int without, fit *out) {
     double *chances = malloc((d->count + 1) * sizeof *chances);
     double all = 0, on_pixels = 0;
     size_t told = 0, on = 0;
@@ -169,7 +177,7 @@ static bool find_halves(const depths *d, const sensor_file *file, fit *out) {
         const bool held = holds_half(z);
         all += d->pixels[i];
         on_pixels += held ? d->pixels[i] : 0;
-        if (chance < 0.5) { /* others tell hardly anything */
+        if (chance < 0.5 && binade_of(file, d->samples[i]) != without) { /* others tell hardly anything */
             chances[told++] = chance;
             on += held;
         }
@@ -180,6 +188,15 @@ static bool find_halves(const depths *d, const sensor_file *file, fit *out) {
     out->bits = told > 0 ? fit_chance(chances, told, on) : 0;
     free(chances);
     return out->bits > 0;
+}
+
+/* Within a binade numbers of binary16 are even: that they are not must show in all binades but any one. */
+static bool halves_change(const depths *d, const sensor_file *file) {
+    fit f;
+    for (int e = binade_of(file, d->samples[0]); e <= binade_of(file, d->samples[d->count - 1]); e++)
+        if (!find_halves(d, file, e, &f) || f.bits < FIT_WHOLE)
+            return false;
+    return true;
 }
 
 static bool find_even(const depths *d, const sensor_file *file, grain_levels levels, fit *out) {
@@ -344,6 +361,18 @@ static bool count_all(const image *img, const sensor_file *file, sensor *s) {
     return on >= SENSOR_SHARE * (on + s->off_pixels);
 }
 
+/* What chance leaves near a level, of averages, is not counted: each value that tells lies on one. */
+static double residual_of(const depths *d, const sensor_file *file, const sensor *s) {
+    double below = (double)INFINITY, above = -(double)INFINITY;
+    for (size_t i = 0; i < d->count; i++)
+        if (holds(s, file, d->samples[i])) {
+            const double z = d->samples[i] * file->scale, off = z - sensor_round(s, z);
+            below = fmin(below, off);
+            above = fmax(above, off);
+        }
+    return above >= below ? 0.5 * (above - below) : s->residual;
+}
+
 static void name_like(sensor *s) {
     for (size_t i = 0; i < sizeof known_steps / sizeof known_steps[0]; i++) {
         const struct known_step *k = &known_steps[i];
@@ -404,9 +433,11 @@ static void choose(const depths *d, const sensor_file *file, choice *c) {
         const bool half = row->levels == GRAIN_HALF;
         if (half && file->digits == 11)
             continue; /* they are so by themselves */
-        const bool found = half ? find_halves(d, file, &f) : find_even(d, file, row->levels, &f);
+        const bool found = half ? find_halves(d, file, INT_MAX, &f) : find_even(d, file, row->levels, &f);
         if (found && fit_explains(&f))
             consider(c, row, &f);
+        if (found && half && !halves_change(d, file))
+            consider(c, row - 1, &f);
         c->unclear = c->unclear || (!found && fit_explains(&f));
     }
     if (c->next <= c->fit.bits - FIT_BITS)
@@ -429,16 +460,16 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
     }
     *out = of_file(img, file, &d);
     out->found = out->found && !c.unclear;
+    if (c.row != NULL) {
+        sensor s = of_fit(c.row, &c.fit);
+        s.other = c.other;
+        s.found = c.other == NULL;
+        s.file_step = tried.step;
+        if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale))
+            *out = s, out->residual = residual_of(&d, &tried, &s);
+        name_like(out);
+    }
     depths_free(&d);
-    if (c.row == NULL)
-        return;
-    sensor s = of_fit(c.row, &c.fit);
-    s.other = c.other;
-    s.found = c.other == NULL;
-    s.file_step = tried.step;
-    if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale))
-        *out = s;
-    name_like(out);
 }
 
 /* The offset that most pixels are on. */

@@ -44,7 +44,7 @@ typedef struct sensor {
     double bits;               /**< -log2 of the chance of random values, less that of all lattices tried */
     double off_pixels;         /**< on no level: interpolated, or of something else */
     double residual;           /**< of all others: how far the farthest is from its level, scene units, where all are
-                                    shifted alike so that this is least */
+                                    shifted alike so that this is least; of a found one without values that are rare */
     const sensor_row *other;   /**< explains the values, too; null: none does */
     const char *like;          /**< a standard lattice with such a step; null: none is known */
 } sensor;

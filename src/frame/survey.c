@@ -290,26 +290,39 @@ static bool visit_pixels(surveying *s, survey *out) {
     return codes != NULL;
 }
 
-bool survey_make(const frame *f, survey *out) {
-    const dp_setup *setup = &f->camera->setup;
-    surveying s = {.f = f, .setup = setup, .sky = frame_sky_rank(f)};
+/* The bands, and all else where depths are those of the codes. */
+static bool visit_codes(surveying *s, const frame *f, double sky_from, survey *out) {
+    const survey own = *out;
+    s->f = f;
+    make_bands(s, sky_from);
+    const bool good = visit(s);
+    out->codes = 0;
+    out->sky = s->sky_pixels;
+    out->true_sky = s->true_sky;
+    out->invalid = s->invalid;
+    out->sky_from = sky_from;
+    if (!good || !finish(s, out))
+        return false;
+    out->lo = isnan(own.lo) ? out->lo : own.lo;
+    out->hi = isnan(own.hi) ? out->hi : own.hi;
+    return true;
+}
+
+bool survey_make(const frame *given, survey *out) {
+    texture_camera camera;
+    const frame along = frame_along(given, &camera), *f = &along;
+    const dp_setup *setup = &camera.setup;
+    surveying s = {.f = given, .setup = setup, .sky = frame_sky_rank(f)};
+    bool good = true;
     const double sky_from = f->metric ? setup->spec.zfar : dp_cell_of(setup, frame_code(setup, s.sky)).lo;
     s.used = calloc((size_t)(setup->spec.format.code_max >> 6) + 2, sizeof *s.used);
     if (s.used == NULL)
         return false;
     *out = (survey){.pixels = (uint64_t)f->camera->width * f->camera->height, .lo = NAN, .hi = NAN, .sky_from = NAN};
-    if (!camera_is_shared(f->camera)) {
-        const bool visited = visit_pixels(&s, out);
-        free(s.used);
-        return visited;
-    }
-    make_bands(&s, sky_from);
-    bool good = visit(&s);
-    out->sky = s.sky_pixels;
-    out->true_sky = s.true_sky;
-    out->invalid = s.invalid;
-    out->sky_from = sky_from;
-    good = good && finish(&s, out);
+    if (!camera_is_shared(given->camera))
+        good = visit_pixels(&s, out);
+    if (good && camera_is_shared(&camera))
+        good = visit_codes(&s, f, sky_from, out);
     free(s.used);
     return good;
 }

@@ -30,9 +30,9 @@ typedef struct survey {
 } survey;
 
 /**
- * Visits all pixels. Where a code has another depth in each pixel there are no bands, and `sky_from` is NaN;
- * what lies beyond infinity is invalid. Bands end at 1, 2 and 5 times powers of ten, or at powers of ten where those
- * would be too many.
+ * Visits all pixels. Where planes are oblique there are no bands, and `sky_from` is NaN; what lies beyond infinity is
+ * invalid. Bands end at 1, 2 and 5 times powers of ten, or at powers of ten where those would be too many; they are of
+ * distances where the camera is radial.
  *
  * Memory: a bit for each code of the format, of which only what is used is touched (fp32: 127 MiB of addresses).
  * @return false when out of memory

@@ -17,7 +17,7 @@ enum { HEAD_SIZE = 20 };
 static const image_kind *const kinds[IMAGE_FILE_COUNT] = {
     [IMAGE_PNG] = &image_kind_png, [IMAGE_PFM] = &image_kind_pfm, [IMAGE_NPY] = &image_kind_npy,
     [IMAGE_DDS] = &image_kind_dds, [IMAGE_EXR] = &image_kind_exr, [IMAGE_TIFF] = &image_kind_tiff,
-    [IMAGE_RAW] = &image_kind_raw, [IMAGE_ROS] = &image_kind_ros};
+    [IMAGE_PGM] = &image_kind_pgm, [IMAGE_RAW] = &image_kind_raw, [IMAGE_ROS] = &image_kind_ros};
 
 /* Files that people have instead, so that they are told what to do and not only what is wrong. */
 static const struct {
@@ -27,7 +27,7 @@ static const struct {
 } others[] = {
     {"PK\3\4", 4, "a zip archive: of an .npz, unpack the .npy"},
     {"\xff\xd8\xff", 3, "JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
-    {"P5", 2, "PGM: convert it to PNG of 16 bits"},
+    {"P2", 2, "PGM in plain text: convert it to P5"},
     {"P6", 2, "PPM: convert it to PNG of 16 bits"},
     {"\xabKTX", 4, "KTX: save its pixels as .npy"},
     {"#?RADIANCE", 8, "Radiance HDR: convert it to PFM"},

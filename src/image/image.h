@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4. DDS,
- *  EXR, TIFF, raw and ROS's compressedDepth are read; of an EXR one channel, by a library that must be there then, as
- * for TIFF.
+ * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4. DDS, EXR, TIFF, PGM,
+ *  raw and ROS's compressedDepth are read; of an EXR one channel, by a library that must be there then, as for TIFF.
  *
  * Files are not trusted: sizes are checked before memory is asked for (IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX;
  * what a file of known length cannot hold is refused), and what is damaged, cut short, followed by anything
@@ -39,6 +38,7 @@ typedef enum image_file {
     IMAGE_DDS = IMAGE_WRITTEN_COUNT,
     IMAGE_EXR,
     IMAGE_TIFF,
+    IMAGE_PGM,
     IMAGE_RAW,
     IMAGE_ROS,
     IMAGE_FILE_COUNT
@@ -58,6 +58,7 @@ typedef struct image {
     bool named_depth;           /**< its channel is called Z or depth */
     const char *says;           /**< the depth format that the file names, "unorm24"; null when it names none */
     unsigned colours;           /**< IMAGE_SRGB, ... */
+    uint32_t most;              /**< the largest sample, where the file says another than the type's; else 0 */
     bool size_assumed;          /**< of a raw one: by its length alone */
     const char *lossy;          /**< the compression, where it may have changed samples: "PXR24"; else null */
     char note[IMAGE_NOTE_SIZE]; /**< of a PNG that depthprec wrote: the note; of compressedDepth the same; else "" */
@@ -99,8 +100,8 @@ void image_free(image *image);
 typedef struct image_writer image_writer;
 
 /** Which sample types and channels a kind of file holds: PNG u1 u2, 1 to 4; PFM f4, 1 or 3; npy all, 1 to 4; DDS all
- *  but f8, 1 to 4; EXR u4, f2 and f4, 1; TIFF all, 1 to 4; raw u2, u4 and f4, 1, or 2 with a stencil; compressedDepth
- * u2, which may become f4, 1. */
+ *  but f8, 1 to 4; EXR u4, f2 and f4, 1; TIFF all, 1 to 4; PGM u1 and u2, 1; raw u2, u4 and f4, 1, or 2 with a
+ *  stencil; compressedDepth u2, which may become f4, 1. */
 bool image_holds(image_file file, image_type type, uint32_t channels);
 
 /** Writes the header. @return null when out of memory, when the stream failed, or the file cannot hold it; the stream

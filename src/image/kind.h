@@ -92,7 +92,7 @@ typedef struct image_kind {
 } image_kind;
 
 extern const image_kind image_kind_png, image_kind_pfm, image_kind_npy, image_kind_dds, image_kind_exr, image_kind_tiff,
-    image_kind_raw, image_kind_ros;
+    image_kind_pgm, image_kind_raw, image_kind_ros;
 
 /** Writes the samples alone, the lowest byte first on every machine: `rows` of PFM and npy. */
 bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count);

@@ -108,7 +108,9 @@ static void add_steps(chart *out, chart_panel *panel, const double *counts, int 
     }
 }
 
-bool histogram_build(const frame *f, bool codes, chart *out, uint64_t *counted) {
+bool histogram_build(const frame *given, bool codes, chart *out, uint64_t *counted) {
+    texture_camera camera;
+    const frame along = frame_along(given, &camera), *f = &along;
     const frame_product eye = {.kind = FRAME_EYE};
     bins b = {.width = f->camera->width};
     frame_summary sum;
@@ -119,6 +121,10 @@ bool histogram_build(const frame *f, bool codes, chart *out, uint64_t *counted) 
     if (sum.count == 0)
         return true;
     b.x = axis_of(&sum);
+    if (given->camera->radial) {
+        b.x.label = "distance from the camera";
+        b.x.key = "distance";
+    }
     if (!frame_run(f, &eye, false, count_rows, &b))
         return false;
     const bool levels = f->sensor != NULL && f->sensor->row->levels != GRAIN_FINE;

@@ -251,9 +251,9 @@ int texture_histogram_draw(const options *o, const texture_source *s) {
     char more[96] = "";
     output out;
     canvas_format type;
-    if (!camera_is_shared(&s->camera))
+    if (s->camera.oblique.on)
         return option_error(OPTION_HISTOGRAM, "needs planes that all pixels share, which %s does not have",
-                            s->camera.radial ? "--radial" : s->matrix.path);
+                            s->matrix.path);
     int status = figure_file_type(o, OPTION_HISTOGRAM, o->image.histogram, &type);
     if (status == EXIT_FINE)
         status = output_open(&out, o->image.histogram);
@@ -265,7 +265,7 @@ int texture_histogram_draw(const options *o, const texture_source *s) {
         if (counted < pixels)
             snprintf(more, sizeof more, "; %llu pixels of sky or holes are left out",
                      (unsigned long long)(pixels - counted));
-        words_of(o, s, "Pixels over eye depth", more, c);
+        words_of(o, s, s->camera.radial ? "Pixels over distance from the camera" : "Pixels over eye depth", more, c);
         status = write_histogram(o, c, &out);
     } else {
         output_abandon(&out);

@@ -148,8 +148,9 @@ int texture_pack_write(const options *o, const texture_source *s) {
     const dp_spec *planes = &frame_planes(&s->frame)->spec;
     char note[IMAGE_NOTE_SIZE];
     if (!camera_is_shared(&s->camera))
-        return option_error(OPTION_PRODUCT, "pack needs planes that all pixels share, which %s does not have",
-                            s->camera.radial ? "--radial" : s->matrix.path);
+        return option_error(OPTION_PRODUCT, "pack needs planes that all pixels share, which %s does not have%s",
+                            s->camera.radial ? "--radial" : s->matrix.path,
+                            s->camera.radial ? "; --product eye writes a file of depths that has them" : "");
     if (!o->image.pack->linear && !texture_is_window(o))
         return option_error(OPTION_PRODUCT, "%s holds window depth, which %s is not", o->image.pack->name, s->path);
     if (o->image.pack->linear && o->image.pack->steps > 0 && (isinf(planes->zfar) || planes->znear < 0))

@@ -84,7 +84,8 @@ static int check_together(const options *o) {
     if (file && o->image.synthetic != NULL)
         return option_error(OPTION_SYNTHETIC, "replaces FILE, got '%s' too", o->operands[0]);
     if (!file && o->image.synthetic == NULL)
-        return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF or raw image, or --synthetic NAME");
+        return usage_error(
+            "texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF, PGM or raw image, or --synthetic NAME");
     if (file && o->image.effect == NULL && o->image.parameter_count > 0)
         return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
     if (o->image.metric > 0 && !file)
@@ -257,7 +258,9 @@ static int read_metric(const options *o, texture_source *s) {
     int status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
     if (status != EXIT_FINE)
         return status;
-    const char *wrong = metric_convert(&s->picture, o->image.metric, given.row != NULL ? &given : NULL, &s->metric);
+    const double zfar = option_given(o, OPTION_FAR) ? o->camera.zfar : (double)INFINITY;
+    const char *wrong =
+        metric_convert(&s->picture, o->image.metric, zfar, given.row != NULL ? &given : NULL, &s->metric);
     if (wrong != NULL)
         return usage_error("%s: no metric depth: %s", s->path, wrong);
     texture_lattice_warn(o, s);
@@ -289,6 +292,11 @@ static int read_image(options *o, texture_source *s) {
         status = guess(o, s);
     if (status == EXIT_FINE)
         status = check_window(o);
+    if (status == EXIT_FINE && s->picture.most > 0 && o->image.metric == 0 &&
+        o->camera.formats[0].code_max != s->picture.most)
+        return usage_error("%s: its samples are shares of %u: --metric UNIT reads them as lengths, --format NAME as "
+                           "the codes of a format that ends there",
+                           s->path, s->picture.most);
     if (status != EXIT_FINE || o->image.packing != NULL)
         return status != EXIT_FINE ? status : unpack(o, s);
     warn_of_channels(o, s);

@@ -140,7 +140,7 @@ static void say_metric(statistics *r, page *p) {
     if (s->row->levels != GRAIN_FINE)
         say_levels(r, p);
     if (r->source.camera.radial)
-        page_note(p, "radial", "all this is of distances along the rays, up to %s z; what follows is of z",
+        page_note(p, "radial", "lattice and bands are of distances along the rays, up to %s z; all else is of z",
                   number_of(r->named.radial, 6).text);
 }
 

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
+ * PGM: "P5", width, height and the largest sample as words, one blank, and samples of one byte up to 255, else of two,
+ * the higher one first. Whoever writes lengths has them as they are, whatever the largest.
+ *
  * PFM: "Pf" (one channel) or "PF" (three), width, height and scale as words, one blank, and binary32 samples, the
  * bottom row first. The sign of the scale says which byte comes first. Its magnitude is 1 here and nothing else,
  * because some programs multiply the samples by it and others do not.
  *
  * Between the words may be any blanks, and comments from # to the end of their line. The one blank before the samples
  * is CR LF where that also follows the first word: the samples themselves may begin with any byte.
- * Source: Paul Debevec's description of the format, http://www.pauldebevec.com/Research/HDR/PFM/
+ * Sources: https://netpbm.sourceforge.net/doc/pgm.html; Paul Debevec's description of PFM,
+ * http://www.pauldebevec.com/Research/HDR/PFM/
  */
 #include <math.h>
 #include <stdlib.h>
@@ -19,13 +23,16 @@ enum { WORD_SIZE = 32, HEADER_MAX = 10000 };
 /* The header, a character at a time. */
 typedef struct header {
     image_source *source;
+    const char *name;
+    char magic[3];
     size_t size; /* what was read of it */
     char last;
+    bool returns; /* CR LF follows the magic */
 } header;
 
 static bool next(header *h) {
     if (h->size++ >= HEADER_MAX)
-        return source_fail(h->source, "PFM: its header must have at most %d bytes", HEADER_MAX);
+        return source_fail(h->source, "%s: its header must have at most %d bytes", h->name, HEADER_MAX);
     return source_header(h->source, &h->last, 1);
 }
 
@@ -51,7 +58,7 @@ static bool word(header *h, const char *what, char out[WORD_SIZE]) {
         return false;
     while (!is_blank(h->last)) {
         if (length + 1 >= WORD_SIZE || h->last < 0x21 || h->last > 0x7e)
-            return source_fail(h->source, "PFM: its %s must be a number", what);
+            return source_fail(h->source, "%s: its %s must be a number", h->name, what);
         out[length++] = h->last;
         if (!next(h))
             return false;
@@ -61,13 +68,12 @@ static bool word(header *h, const char *what, char out[WORD_SIZE]) {
 }
 
 static bool side(header *h, const char *what, uint64_t *out) {
-    image_source *source = h->source;
     char text[WORD_SIZE];
     if (!word(h, what, text))
         return false;
     const size_t length = strlen(text);
     if (strspn(text, "0123456789") != length || length > 18)
-        return source_fail(source, "PFM: its %s must be a whole number, got '%s'", what, text);
+        return source_fail(h->source, "%s: its %s must be a whole number, got '%s'", h->name, what, text);
     *out = strtoull(text, NULL, 10);
     return true;
 }
@@ -98,24 +104,50 @@ static void flip(image *img) {
         }
 }
 
+/* The magic, the blank behind it, and the sides. */
+static bool begin(header *h, uint64_t sides[2]) {
+    if (!source_header(h->source, h->magic, 2) || !next(h))
+        return false;
+    if (!is_blank(h->last))
+        return source_fail(h->source, "%s: a blank must follow '%s'", h->name, h->magic);
+    h->returns = h->last == '\r' && h->source->ready_size > 0 && *h->source->ready == '\n';
+    return side(h, "width", &sides[0]) && side(h, "height", &sides[1]);
+}
+
+/* The blank before the samples. */
+static bool end(header *h, const char *last) {
+    return !h->returns || h->last != '\r' || (next(h) && h->last == '\n') ||
+           source_fail(h->source, "%s: CR LF must follow its %s, as it follows '%s'", h->name, last, h->magic);
+}
+
 static bool read_pfm(image_source *source, image *out) {
-    header h = {.source = source};
-    char magic[2];
-    uint64_t width = 0, height = 0;
+    header h = {.source = source, .name = "PFM"};
+    uint64_t sides[2] = {0};
     bool little = true;
-    if (!source_header(source, magic, sizeof magic) || !next(&h))
-        return false;
-    if (!is_blank(h.last))
-        return source_fail(source, "PFM: a blank must follow '%.2s'", magic);
-    const bool returns = h.last == '\r' && source->ready_size > 0 && *source->ready == '\n';
-    if (!side(&h, "width", &width) || !side(&h, "height", &height) || !read_scale(&h, &little))
-        return false;
-    if (returns && h.last == '\r' && (!next(&h) || h.last != '\n'))
-        return source_fail(source, "PFM: CR LF must follow its scale, as it follows '%.2s'", magic);
-    if (!source_shape(source, out, width, height, magic[1] == 'F' ? 3 : 1, IMAGE_F32) ||
+    if (!begin(&h, sides) || !read_scale(&h, &little) || !end(&h, "scale") ||
+        !source_shape(source, out, sides[0], sides[1], h.magic[1] == 'F' ? 3 : 1, IMAGE_F32) ||
         !source_samples(source, out, little))
         return false;
     flip(out);
+    return true;
+}
+
+static bool read_pgm(image_source *source, image *out) {
+    header h = {.source = source, .name = "PGM"};
+    uint64_t sides[2] = {0}, most = 0;
+    if (!begin(&h, sides) || !side(&h, "maxval", &most) || !end(&h, "maxval"))
+        return false;
+    if (most < 1 || most > UINT16_MAX)
+        return source_fail(source, "PGM: its maxval must be from 1 to 65535, got %llu", (unsigned long long)most);
+    const image_type type = most > UINT8_MAX ? IMAGE_U16 : IMAGE_U8;
+    if (!source_shape(source, out, sides[0], sides[1], 1, type) || !source_samples(source, out, false))
+        return false;
+    out->most = most == UINT8_MAX || most == UINT16_MAX ? 0 : (uint32_t)most;
+    for (size_t i = 0; i < (size_t)out->width * out->height && out->most > 0; i++) {
+        const unsigned sample = type == IMAGE_U8 ? ((uint8_t *)out->data)[i] : ((uint16_t *)out->data)[i];
+        if (sample > out->most)
+            return source_fail(source, "PGM: a sample is %u, above its maxval of %u", sample, out->most);
+    }
     return true;
 }
 
@@ -134,4 +166,14 @@ const image_kind image_kind_pfm = {
     .read = read_pfm,
     .begin = begin_pfm,
     .rows = image_rows_plain,
+};
+
+const image_kind image_kind_pgm = {
+    .name = "PGM",
+    .ending = ".pgm",
+    .magic = {"P5"},
+    .magic_size = 2,
+    .types = 1U << IMAGE_U8 | 1U << IMAGE_U16,
+    .channels = 1U << 1,
+    .read = read_pgm,
 };
