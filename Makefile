@@ -28,7 +28,8 @@ PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 HEADERS := $(wildcard include/depthprec/*.h)
 CORE := $(wildcard src/core/*.c)
 PAGE := $(wildcard src/web/*.c)
-ROOMS := $(filter-out $(CORE) $(PAGE),$(wildcard src/*/*.c src/*/*/*.c))
+WINDOWS := $(wildcard src/windows/*.c)
+ROOMS := $(filter-out $(CORE) $(PAGE) $(WINDOWS),$(wildcard src/*/*.c src/*/*/*.c))
 TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
@@ -36,8 +37,8 @@ FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 WEB := $(wildcard tests/web/*.c tests/python/*.c)
 MAN := $(patsubst %,$(B)/%,$(wildcard man/*.[1-9]))
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh
-SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
-ALL_C := $(CORE) $(ROOMS) $(PAGE) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
+SCRIPTS := $(wildcard src/*.sh src/windows/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
+ALL_C := $(CORE) $(ROOMS) $(PAGE) $(WINDOWS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h src/*/*/*.h tests/*.h tests/*/*.h)
 
 objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
@@ -169,6 +170,51 @@ $(B)/plain/depthprec: $(PLAIN_O) $(B)/libdepthprec.a
 	@mkdir -p $(@D)
 	$(call say,LD)
 	$(Q)$(LINK) -s -o $@ $^ -Wl,-Bstatic $(PLAIN_LIBS) -Wl,-Bdynamic -ldl -pthread -lm
+
+# ---- For Windows -------------------------------------------------------------------------------------------------
+
+# The program of a wheel, by mingw-w64, and the library. Windows keeps the stack aligned to 16 bytes, so that no vector of
+# 32 may be moved there as if it were aligned. What a format may hold is judged where the others are built.
+.PHONY: windows
+windows:
+	@sh src/packages.sh windows
+	@$(MAKE) $(PARALLEL) $(B)/windows/depthprec.exe $(B)/windows/depthprec.dll
+
+MINGW ?= x86_64-w64-mingw32
+WINDOWS_CC ?= $(MINGW)-gcc-posix
+WINDOWS_ROOT := $(B)/windows/root
+WINDOWS_FLAGS := -Wall -Wextra -Wno-format -Wno-format-extra-args $(OPTIMIZE_release) $(EXACT) -fopenmp -Wa,-muse-unaligned-vector-move \
+    -D__USE_MINGW_ANSI_STDIO=1 -D_FILE_OFFSET_BITS=64 -DLIBCONFIG_STATIC -isystem $(WINDOWS_ROOT)/include
+WINDOWS_LINK := $(WINDOWS_CC) -s -static -fopenmp -Wl,--no-insert-timestamp,--stack,8388608
+windows_objects = $(patsubst %.c,$(B)/windows/obj/%.o,$(1))
+WINDOWS_CORE_O := $(call windows_objects,$(CORE) src/windows/fma.c)
+WINDOWS_O := $(call windows_objects,$(filter-out src/plot/canvas.c src/system/sandbox.c,$(ROOMS)) src/web/canvas.c src/web/plain.c src/windows/posix.c)
+
+$(WINDOWS_ROOT)/lib/libwindows.a: src/windows/libraries.sh
+	$(call say,GET)
+	$(Q)sh $< $(WINDOWS_CC) $(MINGW)-ar $(WINDOWS_ROOT)
+
+$(B)/windows/obj/%.o: %.c Makefile | $(WINDOWS_ROOT)/lib/libwindows.a
+	@mkdir -p $(@D)
+	$(call say,CC)
+	$(Q)$(WINDOWS_CC) -std=gnu11 $(INCLUDES) $(WINDOWS_FLAGS) -MMD -MP -c -o $@ $<
+
+# The page has these, too, and no header of a system.
+$(call windows_objects,src/web/canvas.c src/report/output.c src/cli/methods.c): WINDOWS_FLAGS += -include system/posix.h
+
+$(B)/windows/manifest.o: src/windows/depthprec.manifest
+	@mkdir -p $(@D)
+	$(Q)echo '1 24 "$<"' | $(MINGW)-windres -o $@
+
+$(B)/windows/depthprec.exe: $(WINDOWS_O) $(WINDOWS_CORE_O) $(B)/windows/manifest.o $(WINDOWS_ROOT)/lib/libwindows.a
+	$(call say,LD)
+	$(Q)$(WINDOWS_LINK) -o $@ $^
+
+# With its import library, which linkers of both kinds read, and what it exports.
+$(B)/windows/depthprec.dll: $(WINDOWS_CORE_O) $(HEADERS)
+	$(call say,LD)
+	$(Q){ echo EXPORTS; sed -n 's/^DP_API.*[ *]\(dp_[a-z0-9_]*\)(.*/\1/p' $(HEADERS); } >$(@:dll=def)
+	$(Q)$(WINDOWS_LINK) -shared -o $@ $(WINDOWS_CORE_O) $(@:dll=def) -Wl,--out-implib,$(@:dll=lib)
 
 # ---- For the web -------------------------------------------------------------------------------------------------
 
@@ -309,6 +355,8 @@ $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepth
 # This one counts calls.
 $(B)/tests/test_once: LDFLAGS += $(patsubst %,-Wl$(comma)--wrap=dp_%,pipeline_prepare chain_make slant_make log_shader_make)
 
+$(B)/tests/test_windows_fma: $(B)/obj/src/windows/fma.o
+
 mutants:
 	@sh src/packages.sh check
 	@CC='$(CC)' sh tests/mutants.sh --run
@@ -353,7 +401,7 @@ lint-format:
 # What is not built on the way by clang with sanitizers is judged, too: benchmarks and fuzz targets.
 lint-clang: $(B)/build.cflags $(B)/check.cflags
 	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN_clang) -Werror $(EXACT) \
-	    @$(B)/build.cflags @$(B)/check.cflags $(filter-out $(PAGE),$(ALL_C))
+	    @$(B)/build.cflags @$(B)/check.cflags $(filter-out $(PAGE) $(WINDOWS),$(ALL_C))
 
 lint-cppcheck:
 	$(Q)cppcheck -q --std=c11 --error-exitcode=1 --inline-suppr --enable=warning,performance,portability \
@@ -451,6 +499,8 @@ help:
 ##                  addresses; DEPTHPREC_FULL=1 adds keyboard, speed and more
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
 ## make wheel       the Python package: a wheel and its sources in build/dist (needs python3)
+## make windows     build/windows/depthprec.exe and the library as a DLL, by mingw-w64; fetches the sources of its libraries
+##                  from Debian once
 ## make man         the manual pages in build/man/, completed with what the program says of itself
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
@@ -461,4 +511,4 @@ help:
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 ## WERROR=-Werror makes warnings errors
 
--include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(PLAIN_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))
+-include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(B)/obj/src/windows/fma.d $(PLAIN_O) $(WINDOWS_CORE_O) $(WINDOWS_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))
