@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|clang|lint|fuzz|web|browser|cross|deb|windows|wine|
-#     probe
+# Installs the packages that a job needs and this machine lacks:  packages.sh JOB, which is
+# build, check, clang, lint, fuzz, web, browser, cross, deb, windows, wine or probe.
 # Silent and quick when nothing is missing, so that every `make` may call it.
 # packages.sh --missing JOB installs nothing: it names what is missing and the one command that installs it.
 # packages.sh --libraries JOB prints Debian's names of the libraries of a job.
@@ -81,7 +81,7 @@ fuzz) jobs=' build clang fuzz ' ;;
 web) jobs=' web ' ;;
 browser) jobs=' web browser ' ;;
 cross) jobs=' build check cross ' ;;
-deb) jobs=' build check deb ' ;;
+deb) jobs=' build check web deb ' ;;
 windows) jobs=' windows ' ;;
 wine) jobs=' build check windows wine ' ;;
 probe) jobs=' build check probe ' ;;
