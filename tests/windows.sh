@@ -33,6 +33,7 @@ colour on a terminal, not with NO_COLOR (script)
 what is read is not overwritten, by whatever name
 so does reading
 names that are no UTF-8: JSON and CSV are
+what no link can hold, 2
 END
 recorded() {
     mkdir "$scratch/cases"

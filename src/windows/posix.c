@@ -60,17 +60,19 @@ static HANDLE handle_of(const char *path, DWORD access, DWORD disposition, DWORD
 }
 
 static int stat_handle(HANDLE of, struct windows_stat *out) {
+    static uint64_t unknown; /* no two files that Windows does not identify are the same */
     BY_HANDLE_FILE_INFORMATION info;
     const DWORD type = of != INVALID_HANDLE_VALUE ? GetFileType(of) : FILE_TYPE_UNKNOWN;
     if (type == FILE_TYPE_UNKNOWN)
         return failed();
-    *out = (struct windows_stat){.st_mode = type == FILE_TYPE_CHAR ? S_IFCHR : S_IFIFO};
+    *out = (struct windows_stat){.st_dev = UINT64_MAX, .st_ino = ++unknown};
+    out->st_mode = type == FILE_TYPE_CHAR ? S_IFCHR : type == FILE_TYPE_PIPE ? S_IFIFO : S_IFREG;
     if (type != FILE_TYPE_DISK)
         return 0;
     if (!GetFileInformationByHandle(of, &info)) { /* Wine does not know of its standard streams which files they are */
         LARGE_INTEGER size = {.QuadPart = 0};
         GetFileSizeEx(of, &size);
-        *out = (struct windows_stat){.st_mode = S_IFREG, .st_size = size.QuadPart};
+        out->st_size = size.QuadPart;
         return 0;
     }
     *out =
@@ -113,7 +115,7 @@ FILE *windows_fopen(const char *path, const char *how) {
 
 ssize_t windows_write(int fd, const void *bytes, size_t size) {
     const int written = _write(fd, bytes, size < 1 << 30 ? (unsigned)size : 1 << 30);
-    if (written < 0 && (GetLastError() == ERROR_NO_DATA || GetLastError() == ERROR_BROKEN_PIPE))
+    if (written < 0 && GetFileType((HANDLE)_get_osfhandle(fd)) == FILE_TYPE_PIPE)
         errno = EPIPE;
     return written;
 }
