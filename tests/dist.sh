@@ -5,9 +5,9 @@
 
 release() { git clone -q . "$1" && make -C "$1" --no-print-directory dist CC="$CC"; }
 check "make dist" release "$scratch/one"
-check "make dist elsewhere" release "$scratch/another of another length"
+check "make dist elsewhere" release "$scratch/another-length"
 one=$scratch/one/build/dist
-check "the same bytes" diff -r "$one" "$scratch/another of another length/build/dist"
+check "the same bytes" diff -r "$one" "$scratch/another-length/build/dist"
 digests() { (cd "$one" && sha256sum -c SHA256SUMS && ls | grep -cvx SHA256SUMS >"$scratch/count" && [ "$(wc -l <SHA256SUMS)" -eq "$(cat "$scratch/count")" ]); }
 check "SHA256SUMS has all of it" digests
 version=$(sed -n 's/^#define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h)
