@@ -28,16 +28,17 @@ PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 HEADERS := $(wildcard include/depthprec/*.h)
 CORE := $(wildcard src/core/*.c)
 PAGE := $(wildcard src/web/*.c)
-ROOMS := $(filter-out $(CORE) $(PAGE),$(wildcard src/*/*.c src/*/*/*.c))
+WINDOWS := $(wildcard src/windows/*.c)
+ROOMS := $(filter-out $(CORE) $(PAGE) $(WINDOWS),$(wildcard src/*/*.c src/*/*/*.c))
 TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 WEB := $(wildcard tests/web/*.c tests/python/*.c)
 MAN := $(patsubst %,$(B)/%,$(wildcard man/*.[1-9]))
-TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh
-SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
-ALL_C := $(CORE) $(ROOMS) $(PAGE) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
+TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh tests/windows.sh tests/dist.sh
+SCRIPTS := $(wildcard src/*.sh src/windows/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
+ALL_C := $(CORE) $(ROOMS) $(PAGE) $(WINDOWS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h src/*/*/*.h tests/*.h tests/*/*.h)
 
 objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
@@ -170,6 +171,66 @@ $(B)/plain/depthprec: $(PLAIN_O) $(B)/libdepthprec.a
 	$(call say,LD)
 	$(Q)$(LINK) -s -o $@ $^ -Wl,-Bstatic $(PLAIN_LIBS) -Wl,-Bdynamic -ldl -pthread -lm
 
+# ---- For Windows -------------------------------------------------------------------------------------------------
+
+# The program of a wheel, by mingw-w64, and the library. Windows keeps the stack aligned to 16 bytes, so that no vector of
+# 32 may be moved there as if it were aligned. What a format may hold is judged where the others are built.
+.PHONY: windows
+windows:
+	@$(if $(MSYSTEM),,sh src/packages.sh windows)
+	@$(MAKE) $(PARALLEL) $(B)/windows/depthprec.exe $(B)/windows/depthprec.dll
+
+MINGW ?= x86_64-w64-mingw32
+WINDOWS_CC ?= $(MINGW)-gcc-posix
+WINDRES ?= $(MINGW)-windres
+WINDOWS_ROOT := $(B)/windows/root
+WINDOWS_LIBRARIES := $(WINDOWS_ROOT)/lib/libwindows.a
+WINDOWS_FLAGS := -Wall -Wextra -Wno-format -Wno-format-extra-args $(OPTIMIZE_release) $(EXACT) -fopenmp \
+    -Wa,-muse-unaligned-vector-move -D__USE_MINGW_ANSI_STDIO=1 -D_FILE_OFFSET_BITS=64
+WINDOWS_LINK = $(WINDOWS_CC) -s -static -fopenmp -Wl,--no-insert-timestamp,--stack,8388608
+WINDOWS_CANVAS := src/web/canvas.c src/web/plain.c
+WINDOWS_HEADERS := -DLIBCONFIG_STATIC -isystem $(WINDOWS_ROOT)/include
+# In a shell of MSYS2 it is the whole program, with the libraries there.
+ifdef MSYSTEM
+WINDOWS_CC := gcc
+WINDRES := windres
+WINDOWS_LIBRARIES :=
+WINDOWS_LINK = gcc -s -fopenmp -Wl,--stack,8388608
+WINDOWS_CANVAS := src/plot/canvas.c
+WINDOWS_HEADERS = $(shell pkg-config --cflags $(PKGS_build))
+WINDOWS_DYNAMIC = $(shell pkg-config --libs $(PKGS_build))
+endif
+windows_objects = $(patsubst %.c,$(B)/windows/obj/%.o,$(1))
+WINDOWS_CORE_O := $(call windows_objects,$(CORE) src/windows/fma.c)
+WINDOWS_O := $(call windows_objects,$(filter-out src/plot/canvas.c src/system/sandbox.c,$(ROOMS)) $(WINDOWS_CANVAS) \
+    src/windows/posix.c)
+
+$(WINDOWS_ROOT)/lib/libwindows.a: src/windows/libraries.sh
+	$(call say,GET)
+	$(Q)sh $< $(WINDOWS_CC) $(MINGW)-ar $(WINDOWS_ROOT)
+
+$(B)/windows/obj/%.o: %.c Makefile | $(WINDOWS_LIBRARIES)
+	@mkdir -p $(@D)
+	$(call say,CC)
+	$(Q)$(WINDOWS_CC) -std=gnu11 $(INCLUDES) $(WINDOWS_FLAGS) $(WINDOWS_HEADERS) -MMD -MP -c -o $@ $<
+
+# The page has these, too, and no header of a system.
+$(call windows_objects,src/web/canvas.c src/report/output.c src/cli/methods.c): WINDOWS_FLAGS += -include system/posix.h
+
+$(B)/windows/manifest.o: src/windows/depthprec.manifest
+	@mkdir -p $(@D)
+	$(Q)echo '1 24 "$<"' | $(WINDRES) -o $@
+
+$(B)/windows/depthprec.exe: $(WINDOWS_O) $(WINDOWS_CORE_O) $(B)/windows/manifest.o $(WINDOWS_LIBRARIES)
+	$(call say,LD)
+	$(Q)$(WINDOWS_LINK) -o $@ $^ $(WINDOWS_DYNAMIC)
+
+# With its import library, which linkers of both kinds read, and what it exports.
+$(B)/windows/depthprec.dll: $(WINDOWS_CORE_O) $(HEADERS)
+	$(call say,LD)
+	$(Q){ echo EXPORTS; sed -n 's/^DP_API.*[ *]\(dp_[a-z0-9_]*\)(.*/\1/p' $(HEADERS); } >$(@:dll=def)
+	$(Q)$(WINDOWS_LINK) -shared -o $@ $(WINDOWS_CORE_O) $(@:dll=def) -Wl,--out-implib,$(@:dll=lib)
+
 # ---- For the web -------------------------------------------------------------------------------------------------
 
 # The program as WebAssembly, for the page: the same files, with the same bits; src/web stands in for what needs files,
@@ -232,7 +293,7 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
-.PHONY: check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
+.PHONY: cross-windows check-dist check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves and what clang makes for the web no sanitizer has a say.
 ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims python web)
@@ -246,7 +307,7 @@ check:
 check-programs: $(TEST_PROGRAMS)
 
 # All cases, the whole of what .ci/run takes a part of, and what it leaves out. `make cross` and `make deb` need Debian.
-FULL := check check-web check-probe cross deb
+FULL := check check-web check-probe cross cross-windows check-dist
 check-full:
 	@failed=; for t in $(FULL); do echo "make $$t"; DEPTHPREC_FULL=1 $(MAKE) --no-print-directory $$t || failed="$$failed $$t"; done; \
 	    [ -z "$$failed" ] || { echo "failed: make$$failed" && exit 1; }
@@ -299,7 +360,15 @@ check-probe:
 MACHINES ?= aarch64 s390x
 cross:
 	@sh src/packages.sh cross
+	@[ -z '$(filter windows,$(MACHINES))' ] || sh src/packages.sh wine
 	@for m in $(MACHINES); do CC='$(CC)' sh tests/cross.sh $$m || exit 1; done
+
+# A release, twice.
+check-dist:
+	@CC='$(CC)' TEST_SECONDS=7200 sh tests/run.sh tests/dist.sh
+
+cross-windows:
+	@$(MAKE) --no-print-directory cross MACHINES=windows
 
 $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
 	@mkdir -p $(@D)
@@ -308,6 +377,8 @@ $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepth
 
 # This one counts calls.
 $(B)/tests/test_once: LDFLAGS += $(patsubst %,-Wl$(comma)--wrap=dp_%,pipeline_prepare chain_make slant_make log_shader_make)
+
+$(B)/tests/test_windows_fma: $(B)/obj/src/windows/fma.o
 
 mutants:
 	@sh src/packages.sh check
@@ -353,7 +424,7 @@ lint-format:
 # What is not built on the way by clang with sanitizers is judged, too: benchmarks and fuzz targets.
 lint-clang: $(B)/build.cflags $(B)/check.cflags
 	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN_clang) -Werror $(EXACT) \
-	    @$(B)/build.cflags @$(B)/check.cflags $(filter-out $(PAGE),$(ALL_C))
+	    @$(B)/build.cflags @$(B)/check.cflags $(filter-out $(PAGE) $(WINDOWS),$(ALL_C))
 
 lint-cppcheck:
 	$(Q)cppcheck -q --std=c11 --error-exitcode=1 --inline-suppr --enable=warning,performance,portability \
@@ -422,9 +493,8 @@ clean distclean:
 	$(Q)rm -rf build
 
 dist:
-	@mkdir -p build
-	$(Q)git archive --prefix=depthprec-$(VERSION)/ -o build/depthprec-$(VERSION).tar.gz HEAD
-	@echo build/depthprec-$(VERSION).tar.gz
+	@for p in web windows deb; do sh src/packages.sh $$p || exit 1; done
+	@sh .ci/dist.sh
 
 deb:
 	@sh src/packages.sh deb
@@ -436,10 +506,11 @@ help:
 ## make demo        install what is missing, build, print the table of one camera and draw its figures
 ## make             build the library and the program into build/
 ## make check       install what is missing, build, run the tests: at most 5 minutes on two cores
-## make check-full  all cases, and check-web, check-probe, cross and deb: hours, before a release (Debian)
+## make check-full  all cases, and check-web, check-probe, cross, cross-windows and check-dist: hours, before a release (Debian)
 ## make check-baseline  the tests that know it, without AVX
 ## make check-probe  a Vulkan driver without a GPU, and what the probe finds there (Debian): a part, see check-full
 ## make cross       built for MACHINES="aarch64 s390x" and run, emulated: the tests, and the same bytes as here (Debian)
+## make cross-windows  the same for Windows, by Wine
 ## make asan        the tests, built by clang, under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
 ## make mutants     whether the tests notice the changes of the source in tests/mutants.txt: an hour (ROOM=, ONLY=)
@@ -451,14 +522,17 @@ help:
 ##                  addresses; DEPTHPREC_FULL=1 adds keyboard, speed and more
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
 ## make wheel       the Python package: a wheel and its sources in build/dist (needs python3)
+## make windows     build/windows/depthprec.exe and the library as a DLL, by mingw-w64; fetches the sources of its libraries
+##                  from Debian once
 ## make man         the manual pages in build/man/, completed with what the program says of itself
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
 ##                  uninstall, installcheck
-## make dist        a source archive in build/; make clean removes build/
+## make dist        what is released, into build/dist: sources, Debian's packages, Python's, npm's, Windows', the page, SHA256SUMS
+##                  (Debian); make clean removes build/
 ## make deb         Debian's source package and three packages in build/deb/, judged by lintian (Debian)
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 ## WERROR=-Werror makes warnings errors
 
--include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(PLAIN_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))
+-include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(B)/obj/src/windows/fma.d $(PLAIN_O) $(WINDOWS_CORE_O) $(WINDOWS_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))

@@ -16,15 +16,19 @@ tree=$out/depthprec-$version
 
 rm -rf "$out"
 mkdir -p "$tree"
-tar -c --exclude=./build --exclude=./.git --exclude=./shared . | tar -x -C "$tree"
-tar -cz -C "$out" -f "$out/depthprec_$version.orig.tar.gz" "depthprec-$version"
+: "${SOURCE_DATE_EPOCH:=$(date +%s -r include/depthprec/depthprec.h)}"
+export SOURCE_DATE_EPOCH
+umask 022
+tar -c --exclude=./build --exclude=./.git --exclude=./shared --exclude=__pycache__ . | tar -x -C "$tree"
+tar -c -C "$out" --sort=name --owner=0 --group=0 --numeric-owner --mode=go=rX,u+rw --mtime="@$SOURCE_DATE_EPOCH" \
+    "depthprec-$version" | gzip -9n >"$out/depthprec_$version.orig.tar.gz"
 cp -r .ci/debian "$tree/debian"
 {
     echo "depthprec ($version-1~upstream) unstable; urgency=medium" # below the first revision that Debian itself may make
     echo
-    echo "  * Version $version of upstream, whose history says what has changed."
+    echo "  * Version $version of upstream: its CHANGELOG.md says what has changed."
     echo
-    echo " -- $(sed -n 's/^Maintainer: //p' .ci/debian/control)  $(date -R -r include/depthprec/depthprec.h)"
+    echo " -- $(sed -n 's/^Maintainer: //p' .ci/debian/control)  $(date -R -u -d "@$SOURCE_DATE_EPOCH")"
 } >"$tree/debian/changelog"
 
 if ! (cd "$tree" && dpkg-buildpackage -us -uc -j"${JOBS:-$(nproc)}") >"$out/log" 2>&1; then

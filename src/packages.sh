@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|clang|lint|fuzz|web|browser|cross|deb|probe
+# Installs the packages that a job needs and this machine lacks:  packages.sh JOB, which is
+# build, check, clang, lint, fuzz, web, browser, cross, deb, windows, wine or probe.
 # Silent and quick when nothing is missing, so that every `make` may call it.
 # packages.sh --missing JOB installs nothing: it names what is missing and the one command that installs it.
 # packages.sh --libraries JOB prints Debian's names of the libraries of a job.
@@ -60,6 +61,10 @@ cross | command qemu-s390x                            | qemu-user             | 
 deb   | command dpkg-buildpackage                     | dpkg-dev              | -                  | -
 deb   | command dh                                    | debhelper             | -                  | -
 deb   | command lintian                               | lintian               | -                  | -
+windows | command x86_64-w64-mingw32-gcc-posix        | gcc-mingw-w64-x86-64-posix | -              | -
+windows | command dpkg-source                         | dpkg-dev              | -                  | -
+wine  | command wine                                  | wine                  | -                  | -
+wine  | file lib/wine/wine64                          | wine64                | -                  | -
 probe | file lib*/*/libvulkan.so.1                    | libvulkan1            | vulkan-loader      | vulkan-icd-loader
 probe | file share/vulkan/icd.d/lvp_icd*.json         | mesa-vulkan-drivers   | mesa-vulkan-drivers | vulkan-swrast
 probe | file lib*/*/libEGL_mesa.so.0                  | libegl-mesa0          | mesa-libEGL        | mesa
@@ -76,10 +81,12 @@ fuzz) jobs=' build clang fuzz ' ;;
 web) jobs=' web ' ;;
 browser) jobs=' web browser ' ;;
 cross) jobs=' build check cross ' ;;
-deb) jobs=' build check deb ' ;;
+deb) jobs=' build check web deb ' ;;
+windows) jobs=' windows ' ;;
+wine) jobs=' build check windows wine ' ;;
 probe) jobs=' build check probe ' ;;
 *)
-    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, browser, cross, deb or probe, got '$job'" >&2
+    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, browser, cross, deb, windows, wine or probe, got '$job'" >&2
     exit 2
     ;;
 esac

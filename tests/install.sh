@@ -43,6 +43,7 @@ same_version() { [ -n "$(header_version)" ] && [ "$(pkg-config --modversion dept
 soname() { readelf -d "$stage/usr/lib/libdepthprec.so" | grep -q 'SONAME.*\[libdepthprec\.so\.0\]'; }
 
 check "pkg-config knows the version" same_version
+check "and CHANGELOG.md what is new in it" grep -qF "## [$(header_version)] - 20" CHANGELOG.md
 check "a program links with the shared library" build_shared
 check "it needs libdepthprec.so.0" needs "$scratch/shared" 'libdepthprec\.so\.0'
 check "it prints the right code" expect_code "$scratch/shared"

@@ -13,7 +13,8 @@ src/world         | depthprec core world
 src/census        | depthprec core census
 src/raster        | depthprec core raster
 src/shadow        | depthprec core api image shader shadow
-src/system       | system
+src/windows       | system windows
+src/system        | windows system
 src/probe         | depthprec core system raster probe
 src/image         | depthprec core system image
 src/shader        | depthprec core image shader
@@ -22,9 +23,9 @@ src/judge         | depthprec core system image shader frame judge
 src/method        | depthprec core shader census method
 src/requirement   | depthprec core system api raster world requirement
 src/model         | core system model
-src/scene         | depthprec core raster world model requirement scene
+src/scene         | depthprec core system raster world model requirement scene
 src/report        | depthprec core system report
-src/plot          | depthprec core api world census raster shadow image shader frame method requirement model scene plot
+src/plot          | depthprec core system api world census raster shadow image shader frame method requirement model scene plot
 src/cli           | depthprec core system api world census raster shadow image shader frame method requirement model scene probe judge report plot cli
 src/web           | depthprec core system raster image shader frame method requirement scene report plot cli web
 '
@@ -52,7 +53,7 @@ cairo_elsewhere() {
 read_elsewhere() {
     lines -rnE '\<(fopen|fopen64|freopen|json_load_file|config_read_file|gzopen)\(' src >"$scratch/read"
     grep -q '^src/system/input\.c:' "$scratch/read" || return
-    lines -vE '^src/system/input\.c:|"/proc/' "$scratch/read"
+    lines -vE '^src/(system/input\.c|windows/posix\.h):|"/proc/' "$scratch/read"
 }
 
 core_inside() {
@@ -60,8 +61,8 @@ core_inside() {
     lines -vE '^src/core/|"core/(append|bits|elementary|engine|expansion)\.h"' "$scratch/core"
 }
 
-objects() { # those of the program: the page's stand-ins (src/web) have the names of what they stand in for
-    for source in src/*/*.c src/*/*/*.c; do echo "$B/obj/${source%.c}.o"; done | grep -v /obj/src/web/
+objects() { # those of the program: those of src/web and src/windows have the names of what they stand in for
+    for source in src/*/*.c src/*/*/*.c; do echo "$B/obj/${source%.c}.o"; done | grep -v '/obj/src/\(web\|windows\)/'
 }
 
 echo "$layers" >"$scratch/layers"

@@ -246,6 +246,9 @@ TEST(texts) {
         assert_non_null(dp_model_name((dp_model)i));
     assert_null(dp_model_name(DP_MODEL_COUNT));
     assert_null(dp_model_name((dp_model)-1));
+    char numbers[32];
+    snprintf(numbers, sizeof numbers, "%d.%d.%d", DP_VERSION_MAJOR, DP_VERSION_MINOR, DP_VERSION_PATCH);
+    assert_string_equal(numbers, DP_VERSION);
     assert_string_equal(dp_version(), DP_VERSION);
 }
 

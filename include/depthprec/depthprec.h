@@ -32,9 +32,9 @@
 #include "depthprec/vertices.h"
 
 #define DP_VERSION_MAJOR 0
-#define DP_VERSION_MINOR 1
+#define DP_VERSION_MINOR 2
 #define DP_VERSION_PATCH 0
-#define DP_VERSION       "0.1.0"
+#define DP_VERSION       "0.2.0"
 
 DP_BEGIN
 

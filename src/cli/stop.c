@@ -2,8 +2,9 @@
 #include "cli/stop.h"
 
 #include "report/message.h"
-#include <signal.h>
 #include <stdio.h>
+
+#include "system/posix.h"
 
 static volatile sig_atomic_t interrupted;
 

@@ -430,7 +430,7 @@ static double error_at(const work *w, frame_ranges *last, uint32_t x) {
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 static bool is_hidden(const work *w, uint32_t x) {
-    return w->in->product->hides && seen_as(w, w->in->depth[x]).eye < w->other.eye;
+    return w->in->product->hides && seen_at(w, x).eye < w->other.eye;
 }
 
 void frame_effect(const frame_row *in) {

@@ -5,12 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "core/append.h"
 #include "image/kind.h"
 #include "system/input.h"
+#include "system/posix.h"
 
 enum { HEAD_SIZE = 20 };
 

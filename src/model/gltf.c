@@ -103,7 +103,7 @@ static bool place(const placed *p, const gltf_accessor *positions) {
 }
 
 /* Triangle i of a strip begins at vertex i, and every other one turns the other way. */
-static void corners_of(long mode, size_t i, size_t of[3]) {
+static void corners_of(long long mode, size_t i, size_t of[3]) {
     const size_t first = mode == TRIANGLES ? 3 * i : i;
     const size_t swap = mode == STRIP && i % 2 == 1 ? 1 : 0;
     of[0] = mode == FAN ? 0 : first;
@@ -111,7 +111,7 @@ static void corners_of(long mode, size_t i, size_t of[3]) {
     of[2] = first + 2 - swap;
 }
 
-static bool join(const placed *p, long mode, size_t first, size_t vertices, const gltf_accessor *indices,
+static bool join(const placed *p, long long mode, size_t first, size_t vertices, const gltf_accessor *indices,
                  uint32_t surface) {
     const bool mirrored = transform_mirrors(&p->world);
     const size_t corners = indices != NULL ? indices->count : vertices;
@@ -138,7 +138,7 @@ static bool join(const placed *p, long mode, size_t first, size_t vertices, cons
 static bool add_surface(const placed *p, const json_t *primitive, uint32_t *surface) {
     gltf *g = p->g;
     const json_t *materials = gltf_rows(g, "materials");
-    long material;
+    long long material;
     if (p->shared != NULL && (*p->shared)++ < g->source->out->surfaces) {
         *surface = (uint32_t)(*p->shared - 1);
         return true;
@@ -158,7 +158,7 @@ static bool add_surface(const placed *p, const json_t *primitive, uint32_t *surf
 static bool add_primitive(const placed *p, const json_t *primitive) {
     gltf *g = p->g;
     const size_t accessors = json_array_size(gltf_rows(g, "accessors"));
-    long mode, position, indices;
+    long long mode, position, indices;
     uint32_t surface;
     gltf_accessor at, order = {0};
     if (!gltf_index(g, primitive, "mode", FAN + 1, TRIANGLES, &mode) ||
@@ -197,7 +197,7 @@ static bool add_instances(const placed *p, const json_t *attributes) {
     const size_t first = g->source->out->surfaces;
     size_t count = 0;
     for (int k = 0; k < 3; k++) {
-        long index;
+        long long index;
         if (!gltf_index(g, attributes, parts[k].name, json_array_size(gltf_rows(g, "accessors")), -1, &index) ||
             (index >= 0 && !gltf_open(g, index, parts[k].components, false, &of[k])))
             return false;
@@ -230,7 +230,7 @@ static double member(const json_t *object, const char *key, double otherwise) {
 }
 
 /* It looks along -z. What its numbers allow is judged where it is used. */
-static bool add_camera(gltf *g, long node, long index, const transform *world) {
+static bool add_camera(gltf *g, long long node, long long index, const transform *world) {
     static const double origin[3] = {0};
     const json_t *row = json_array_get(gltf_rows(g, "cameras"), (size_t)index);
     const json_t *type = json_object_get(row, "type");
@@ -286,11 +286,11 @@ static bool is_morphed(const json_t *mesh) {
     return json_array_size(json_object_get(json_array_get(json_object_get(mesh, "primitives"), 0), "targets")) > 0;
 }
 
-static bool add_node(gltf *g, long index, const transform *world) {
+static bool add_node(gltf *g, long long index, const transform *world) {
     const json_t *node = json_array_get(gltf_rows(g, "nodes"), (size_t)index);
     const json_t *meshes = gltf_rows(g, "meshes"), *cameras = gltf_rows(g, "cameras");
     const json_t *instancing = json_object_get(json_object_get(node, "extensions"), "EXT_mesh_gpu_instancing");
-    long mesh, camera;
+    long long mesh, camera;
     if (!gltf_index(g, node, "mesh", json_array_size(meshes), -1, &mesh) ||
         !gltf_index(g, node, "camera", json_array_size(cameras), -1, &camera))
         return false;
@@ -316,8 +316,8 @@ static bool add_node(gltf *g, long index, const transform *world) {
  */
 
 typedef struct tree {
-    long *parent; /* -1: none */
-    long *stack;
+    long long *parent; /* -1: none */
+    long long *stack;
     transform *world;
     size_t nodes, depth;
 } tree;
@@ -335,7 +335,7 @@ static bool read_parents(gltf *g, tree *t) {
                 return model_fail(g->source, "glTF: node %zu has a child that is not there", i);
             if (t->parent[(size_t)index] != -1)
                 return model_fail(g->source, "glTF: node %.0f has two parents", index);
-            t->parent[(size_t)index] = (long)i;
+            t->parent[(size_t)index] = (long long)i;
         }
     }
     return true;
@@ -344,11 +344,11 @@ static bool read_parents(gltf *g, tree *t) {
 /* The roots of the scene that is shown, or of all nodes where the file has none. The first is put on top. */
 static bool push_roots(gltf *g, tree *t) {
     const json_t *scenes = gltf_rows(g, "scenes");
-    long scene;
+    long long scene;
     if (json_array_size(scenes) == 0) {
         for (size_t i = t->nodes; i-- > 0;)
             if (t->parent[i] < 0)
-                t->stack[t->depth++] = (long)i;
+                t->stack[t->depth++] = (long long)i;
         return true;
     }
     if (!gltf_index(g, g->root, "scene", json_array_size(scenes), 0, &scene))
@@ -360,7 +360,7 @@ static bool push_roots(gltf *g, tree *t) {
         if (!(index >= 0.0 && index < (double)t->nodes) || t->parent[(size_t)index] != -1)
             return model_fail(g->source, "glTF: the scene has a root that is none");
         t->parent[(size_t)index] = -2; /* not twice */
-        t->stack[t->depth++] = (long)index;
+        t->stack[t->depth++] = (long long)index;
     }
     return true;
 }
@@ -370,7 +370,7 @@ static bool walk(gltf *g, tree *t) {
     if (!read_parents(g, t) || !push_roots(g, t))
         return false;
     while (t->depth > 0) {
-        const long i = t->stack[--t->depth];
+        const long long i = t->stack[--t->depth];
         const json_t *node = json_array_get(nodes, (size_t)i);
         transform local;
         if (!local_of(g, node, &local))
@@ -380,7 +380,7 @@ static bool walk(gltf *g, tree *t) {
             return false;
         const json_t *children = json_object_get(node, "children");
         for (size_t k = json_array_size(children); k-- > 0;)
-            t->stack[t->depth++] = (long)json_integer_value(json_array_get(children, k));
+            t->stack[t->depth++] = (long long)json_integer_value(json_array_get(children, k));
     }
     return true;
 }

@@ -12,23 +12,23 @@ enum { FLOAT = 5126 };
 /* ---- JSON -------------------------------------------------------------------------------------------------------- */
 
 /* A whole number from 0 on, or `otherwise` where it is missing. */
-static bool whole(gltf *g, const json_t *object, const char *key, long otherwise, long *out) {
+static bool whole(gltf *g, const json_t *object, const char *key, long long otherwise, long long *out) {
     const json_t *value = json_object_get(object, key);
     const double number = json_is_number(value) ? json_number_value(value) : -1.0;
     *out = otherwise;
     if (value == NULL && otherwise >= -1)
         return true;
-    if (!(number >= 0.0 && number <= 0x1p53 && number == (double)(long)number))
+    if (!(number >= 0.0 && number <= 0x1p53 && number == (double)(long long)number))
         return model_fail(g->source, "glTF: %s must be a whole number", key);
-    *out = (long)number;
+    *out = (long long)number;
     return true;
 }
 
-bool gltf_index(gltf *g, const json_t *object, const char *key, size_t count, long otherwise, long *out) {
+bool gltf_index(gltf *g, const json_t *object, const char *key, size_t count, long long otherwise, long long *out) {
     if (!whole(g, object, key, otherwise, out))
         return false;
     if (*out >= 0 && (size_t)*out >= count)
-        return model_fail(g->source, "glTF: %s is %ld, and there are %zu", key, *out, count);
+        return model_fail(g->source, "glTF: %s is %lld, and there are %zu", key, *out, count);
     return true;
 }
 
@@ -41,7 +41,7 @@ const json_t *gltf_rows(const gltf *g, const char *key) {
 
 static const char *const named[GLTF_NAMED] = {"nodes", "meshes", "materials", "cameras"};
 
-const char *gltf_name(gltf *g, gltf_named kind, long index) {
+const char *gltf_name(gltf *g, gltf_named kind, long long index) {
     if (index < 0)
         return "";
     const char **kept = &g->names[kind][index];
@@ -96,7 +96,7 @@ static void unescape(char *text) {
 static bool load(gltf *g, const json_t *row, size_t i) {
     const char *uri = json_string_value(json_object_get(row, "uri"));
     file_bytes *out = &g->buffer[i];
-    long size;
+    long long size;
     if (!whole(g, row, "byteLength", -2, &size))
         return false;
     if (uri == NULL) {
@@ -118,7 +118,7 @@ static bool load(gltf *g, const json_t *row, size_t i) {
             return false;
     }
     if ((size_t)size > out->size)
-        return model_fail(g->source, "glTF: cut short: buffer %zu has %zu bytes of %ld", i, out->size, size);
+        return model_fail(g->source, "glTF: cut short: buffer %zu has %zu bytes of %lld", i, out->size, size);
     g->bytes += out->size;
     return true;
 }
@@ -172,7 +172,7 @@ static size_t kind_of(int component) {
 /* Elements of `components` in a buffer view, from an offset on; all lie within the view, and the view in its buffer. */
 static bool run(gltf *g, const json_t *object, int component, size_t count, int components, gltf_run *out) {
     const json_t *views = gltf_rows(g, "bufferViews");
-    long view, offset, buffer, start, length, stride;
+    long long view, offset, buffer, start, length, stride;
     if (!gltf_index(g, object, "bufferView", json_array_size(views), -2, &view) ||
         !whole(g, object, "byteOffset", 0, &offset))
         return false;
@@ -184,10 +184,10 @@ static bool run(gltf *g, const json_t *object, int component, size_t count, int 
     const size_t step = stride == 0 ? size : (size_t)stride;
     const file_bytes *b = &g->buffer[buffer];
     if ((size_t)start > b->size || (size_t)length > b->size - (size_t)start)
-        return model_fail(g->source, "glTF: bufferView %ld reaches beyond its buffer", view);
+        return model_fail(g->source, "glTF: bufferView %lld reaches beyond its buffer", view);
     const size_t room = (size_t)offset > (size_t)length ? 0 : (size_t)length - (size_t)offset;
     if (count > 0 && (room < size || (count - 1) > (room - size) / step))
-        return model_fail(g->source, "glTF: an accessor of %zu elements reaches beyond bufferView %ld", count, view);
+        return model_fail(g->source, "glTF: an accessor of %zu elements reaches beyond bufferView %lld", count, view);
     *out = (gltf_run){b->at == NULL ? NULL : b->at + start + offset, step, component};
     return true;
 }
@@ -207,13 +207,13 @@ static double fetch(const gltf_run *r, size_t element, int component) {
 
 /* The kind of numbers; `is_whole`: for indices. */
 static bool read_component(gltf *g, const json_t *object, bool is_whole, int *out) {
-    long component;
+    long long component;
     if (!whole(g, object, "componentType", -2, &component))
         return false;
     *out = component > FLOAT ? 0 : (int)component;
     const size_t kind = kind_of(*out);
     if (kind == KINDS || (is_whole && (kinds[kind].is_signed || *out == FLOAT)))
-        return model_fail(g->source, "glTF: componentType %ld cannot be %s", component,
+        return model_fail(g->source, "glTF: componentType %lld cannot be %s", component,
                           is_whole ? "that of indices" : "one");
     return true;
 }
@@ -222,7 +222,7 @@ static bool read_component(gltf *g, const json_t *object, bool is_whole, int *ou
 static bool open_sparse(gltf *g, const json_t *sparse, int component, gltf_accessor *out) {
     const json_t *indices = json_object_get(sparse, "indices");
     int index;
-    long count;
+    long long count;
     if (!whole(g, sparse, "count", -2, &count) || !read_component(g, indices, true, &index) ||
         !run(g, indices, index, (size_t)count, 1, &out->index) ||
         !run(g, json_object_get(sparse, "values"), component, (size_t)count, out->components, &out->value))
@@ -239,19 +239,20 @@ static bool open_sparse(gltf *g, const json_t *sparse, int component, gltf_acces
     return true;
 }
 
-bool gltf_open(gltf *g, long index, int components, bool is_whole, gltf_accessor *out) {
+bool gltf_open(gltf *g, long long index, int components, bool is_whole, gltf_accessor *out) {
     static const char *const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     const json_t *row = json_array_get(gltf_rows(g, "accessors"), (size_t)index);
     const char *type = json_string_value(json_object_get(row, "type"));
     const json_t *sparse = json_object_get(row, "sparse");
-    long count;
+    long long count;
     int component;
     if (!whole(g, row, "count", -2, &count) || !read_component(g, row, is_whole, &component))
         return false;
     if (type == NULL || strcmp(type, types[components]) != 0)
-        return model_fail(g->source, "glTF: accessor %ld must be %s", index, types[components]);
+        return model_fail(g->source, "glTF: accessor %lld must be %s", index, types[components]);
     if ((size_t)count > g->bytes) /* that many cannot be there, even where they are zeros */
-        return model_fail(g->source, "glTF: accessor %ld has %ld elements, more than the file has bytes", index, count);
+        return model_fail(g->source, "glTF: accessor %lld has %lld elements, more than the file has bytes", index,
+                          count);
     *out = (gltf_accessor){.count = (size_t)count,
                            .components = components,
                            .base.component = component,

@@ -37,20 +37,20 @@ typedef struct gltf_accessor {
 } gltf_accessor;
 
 /* Member `key` of an object as an index below `count`; `otherwise` where it is missing, -1 for none. */
-bool gltf_index(gltf *g, const json_t *object, const char *key, size_t count, long otherwise, long *out);
+bool gltf_index(gltf *g, const json_t *object, const char *key, size_t count, long long otherwise, long long *out);
 
 /* The array `key` of the root; its size is 0 where there is none. */
 const json_t *gltf_rows(const gltf *g, const char *key);
 
 /* The name of a row, "" where it has none and for index -1; null when there is no memory. */
-const char *gltf_name(gltf *g, gltf_named kind, long index);
+const char *gltf_name(gltf *g, gltf_named kind, long long index);
 
 /* Reads all buffers: beside the file, within it, or as base64 in their uri. */
 bool gltf_load(gltf *g);
 void gltf_unload(gltf *g);
 
 /* An accessor by its index, of so many components. Whole numbers where `whole`, for indices. */
-bool gltf_open(gltf *g, long index, int components, bool whole, gltf_accessor *out);
+bool gltf_open(gltf *g, long long index, int components, bool whole, gltf_accessor *out);
 
 /* Element i, below count. Numbers may be NaN or infinite where they are binary32. */
 void gltf_get(const gltf_accessor *a, size_t i, double out[4]);

@@ -8,6 +8,7 @@
 
 #include "core/elementary.h"
 #include "model/source.h"
+#include "system/posix.h"
 
 static bool no_memory(model_error *error) {
     snprintf(error->text, sizeof error->text, "there is no memory for it");
@@ -48,7 +49,7 @@ bool model_parse(const void *bytes, size_t size, bool obj, const char *folder, c
 }
 
 bool model_read(const char *path, const model_asked *asked, model *out, model_error *error) {
-    const char *slash = strrchr(path, '/'), *name = slash != NULL ? slash + 1 : path, *dot = strrchr(name, '.');
+    const char *name = path_name(path), *dot = strrchr(name, '.');
     char *folder = strndup(path, (size_t)(name - path));
     file_bytes file;
     *error = (model_error){0};

@@ -3,7 +3,6 @@
  * Wavefront OBJ: v, f, o, g, usemtl and mtllib, of which d and Tr alone are read; polygons are cut into triangles,
  * curves are left out. A surface is what shares its object, its group and its material.
  */
-#include <locale.h>
 #include <math.h>
 #include <search.h>
 #include <stdlib.h>
@@ -11,6 +10,7 @@
 
 #include "model/polygon.h"
 #include "model/source.h"
+#include "system/posix.h"
 
 /* Names of the parts that come; "" before the first. */
 typedef struct obj_names {

@@ -13,6 +13,7 @@
 #include "plot/notes.h"
 #include "requirement/check.h"
 #include "requirement/model.h"
+#include "system/posix.h"
 
 enum { COLOUR_SEPARATION = 0, COLOUR_MISSED = 1, COLOUR_MET = 2, COLOUR_ERROR = 3 };
 enum { MARKER_MET = 0, MARKER_MISSED = 4 };
@@ -154,10 +155,8 @@ static void add_panel(needs *s, chart *out, const check_verdict *first) {
 
 static void write_subtitle(const needs *s, chart *out) {
     const need_file *file = s->request.file;
-    const char *slash = strrchr(file->path, '/');
     char text[sizeof out->subtitle];
-    snprintf(text, sizeof text, "%.100s: %zu met, %zu missed", slash != NULL ? slash + 1 : file->path, s->passed,
-             s->count - s->passed);
+    snprintf(text, sizeof text, "%.100s: %zu met, %zu missed", path_name(file->path), s->passed, s->count - s->passed);
     out->unit = file->unit[0] != '\0' ? file->unit : NULL;
     if (s->ties > 0)
         append(text, sizeof text, "; not shown: %zu of ties", s->ties);

@@ -18,6 +18,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 /** Exit statuses; every command returns one of these. */
 enum {
@@ -77,6 +78,12 @@ static inline void output_char(output *out, char c) {
 static inline bool output_failed(const output *out) {
     return out->error != 0;
 }
+
+/** A stream into the output, beside which nothing else is written; null when out of memory. */
+FILE *output_stream(output *out);
+
+/** Ends the stream. @return false when not all of it could be written, which the output remembers */
+bool output_stream_close(output *out, FILE *stream);
 
 /** Writes what waits, closes, renames. @return as output_open() (a closed pipe is quiet) */
 int output_close(output *out);

@@ -2,16 +2,13 @@
 #include "report/output.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "report/message.h"
 #include "system/input.h"
+#include "system/posix.h"
 
 /* The temporary files, for the signal handler: empty where there is none. */
 typedef char temporary_path[4096 + 64];
@@ -54,8 +51,8 @@ static int refuse_input(const char *path) {
 
 /* Opens the target's temporary neighbour, which is named after the process and not after it: no name too long. */
 static int open_temporary(output *out, const struct stat *old) {
-    const char *target = out->target, *slash = strrchr(target, '/');
-    const int folder = slash == NULL ? 0 : (int)(slash - target) + 1;
+    const char *target = out->target;
+    const int folder = (int)(path_name(target) - target);
     int slot = 0;
     while (slot < OUTPUTS_MAX - 1 && temporaries[slot][0] != '\0')
         slot++;
@@ -123,11 +120,10 @@ int output_check(const char *path) {
 
 /* What a path would name, though the file may not be there: its folder's identity and the name in it. */
 static bool name_in_folder(const char *path, struct stat *folder, const char **name) {
-    const char *slash = strrchr(path, '/');
-    char *copy = slash == NULL ? strdup(".") : strndup(path, (size_t)(slash - path) + 1);
+    *name = path_name(path);
+    char *copy = *name == path ? strdup(".") : strndup(path, (size_t)(*name - path));
     const bool known = copy != NULL && stat(copy, folder) == 0;
     free(copy);
-    *name = slash == NULL ? path : slash + 1;
     return known;
 }
 
@@ -146,6 +142,22 @@ void output_reserve_streams(void) {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
         if (fcntl(fd, F_GETFD) < 0 && errno == EBADF)
             (void)!open("/dev/null", wrong_way[fd]);
+}
+
+FILE *output_stream(output *out) {
+    const int fd = dup(out->fd);
+    FILE *stream = fd >= 0 ? fdopen(fd, "wb") : NULL;
+    if (fd >= 0 && stream == NULL)
+        close(fd);
+    return stream;
+}
+
+bool output_stream_close(output *out, FILE *stream) {
+    const bool failed = ferror(stream) != 0;
+    errno = 0;
+    if ((fclose(stream) != 0 || failed) && out->error == 0)
+        out->error = errno != 0 ? errno : EIO;
+    return out->error == 0;
 }
 
 static void drop_temporary(output *out) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/terminal.h"
 
-#include <sys/ioctl.h>
+#include "system/posix.h"
 
 int terminal_columns(int fd) {
     struct winsize size;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "requirement/reader.h"
 #include "core/append.h"
+#include "system/posix.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -82,8 +83,8 @@ bool reader_string(reader *r, const config_setting_t *s, const char **out) {
 
 /* Where the requirement file lies; an absolute path stays. */
 static void beside(const reader *r, const char *name, char *out, size_t size) {
-    const char *slash = name[0] != '/' ? strrchr(r->file->path, '/') : NULL;
-    snprintf(out, size, "%.*s%s", slash != NULL ? (int)(slash + 1 - r->file->path) : 0, r->file->path, name);
+    const char *path = r->file->path;
+    snprintf(out, size, "%.*s%s", path_is_absolute(name) ? 0 : (int)(path_name(path) - path), path, name);
 }
 
 bool reader_row(reader *r, const config_setting_t *s, const char *key, bool (*known)(const char *name),

@@ -13,6 +13,7 @@
 #include "scene/body.h"
 #include "scene/hidden.h"
 #include "scene/pairs.h"
+#include "system/posix.h"
 
 /* Of the extent: what lies against something in a file of binary32 numbers is hardly ever exactly against it. */
 #define AGAINST 1e-9

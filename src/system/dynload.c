@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "system/dynload.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "system/posix.h"
 
 bool dynload_open(const library *l, dynload_function *functions[], char error[DYNLOAD_ERROR_SIZE]) {
     void *handle = NULL;

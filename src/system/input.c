@@ -2,13 +2,14 @@
 #include "system/input.h"
 
 #include <errno.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+
+#include "system/posix.h"
 
 typedef struct identity {
-    dev_t device;
-    ino_t number;
+    uint64_t device, number;
 } identity;
 
 static identity *known; /* for as long as the program runs */

@@ -76,7 +76,8 @@ static bool takes_argument(const option_row *row) {
 }
 
 static void make_getopt_arrays(const char *mode, char *letters, struct option *longs) {
-    letters = stpcpy(letters, mode);
+    while (*mode != '\0')
+        *letters++ = *mode++;
     *letters++ = ':'; /* a missing argument is told apart from an unknown option */
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];

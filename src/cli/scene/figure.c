@@ -10,6 +10,7 @@
 #include "core/append.h"
 #include "plot/notes.h"
 #include "report/number.h"
+#include "system/posix.h"
 
 enum { WITHIN_DIGITS = 4 };
 
@@ -26,8 +27,7 @@ static double fights_from(const scene *s, const scene_finding *f) {
 
 static void describe(const scene *s, const fights_asked *a, chart *c) {
     char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle], name[61]; /* cut between characters */
-    const char *slash = strrchr(s->file, '/');
-    snprintf(subtitle, sizeof subtitle, "%s: ", notes_clean(name, sizeof name, slash != NULL ? slash + 1 : s->file));
+    snprintf(subtitle, sizeof subtitle, "%s: ", notes_clean(name, sizeof name, path_name(s->file)));
     if (a->count == 0)
         append(subtitle, sizeof subtitle, "no surfaces z-fight");
     else

@@ -12,6 +12,7 @@
 #include "plot/pixels.h"
 #include "report/number.h"
 #include "scene/render.h"
+#include "system/posix.h"
 
 enum { STEPS = 1000 };
 

@@ -14,6 +14,7 @@
 #include "plot/notes.h"
 #include "plot/picture.h"
 #include "report/number.h"
+#include "system/posix.h"
 
 enum { WIDTH = 800, HISTOGRAM_HEIGHT = 500, BESIDE = 150, ABOVE = 130, HEIGHT_MIN = 240, HEIGHT_MAX = 1200 };
 
@@ -75,7 +76,7 @@ static void build(const options *o, drawing *d, chart *c) {
 /* Title and subtitle: what holds for all of a source, and more. */
 static void words_of(const options *o, const texture_source *s, const char *title, const char *more, chart *c) {
     char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle];
-    const char *slash = s->path != NULL ? strrchr(s->path, '/') : NULL, *unit = options_unit(o);
+    const char *unit = options_unit(o);
     c->unit = unit;
     setup_label(&s->setup, true, label);
     if (o->image.metric > 0)
@@ -84,10 +85,8 @@ static void words_of(const options *o, const texture_source *s, const char *titl
     else if (unit != NULL)
         append(label, sizeof label, ", lengths in %s", unit);
     snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s", s->path != NULL ? "" : "synthetic ",
-             s->path == NULL ? s->frame.synthetic->name
-             : slash != NULL ? slash + 1
-                             : s->path,
-             s->camera.width, s->camera.height, label, more);
+             s->path == NULL ? s->frame.synthetic->name : path_name(s->path), s->camera.width, s->camera.height, label,
+             more);
     notes_clean(c->title, sizeof c->title, o->figure.title != NULL ? o->figure.title : title);
     notes_clean(c->subtitle, sizeof c->subtitle, subtitle);
 }

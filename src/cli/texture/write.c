@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#define _GNU_SOURCE /* fopencookie */
-
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,12 +13,6 @@
 
 enum { STREAM_BUFFER = 1 << 16 };
 
-static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
-    output *out = cookie;
-    output_bytes(out, bytes, size);
-    return output_failed(out) ? 0 : (ssize_t)size; /* what a cookie reports as an error */
-}
-
 int writing_open(const options *o, writing *w, const char *path, const texture_source *s, image_type type,
                  uint32_t channels) {
     int status = output_open(&w->out, path);
@@ -30,7 +23,7 @@ int writing_open(const options *o, writing *w, const char *path, const texture_s
     w->row_values = w->made_values = (size_t)s->camera.width * channels;
     w->row = malloc(w->row_values * image_type_size(type));
     w->codes = malloc(s->camera.width * sizeof *w->codes);
-    w->stream = fopencookie(&w->out, "w", (cookie_io_functions_t){.write = stream_write});
+    w->stream = output_stream(&w->out);
     w->channels = channels;
     w->bar = progress_start("rows", s->camera.height, o->out.quiet || path == o->image.error_file); /* one bar */
     return EXIT_FINE;
@@ -50,7 +43,7 @@ static bool writing_end(writing *w, bool good) {
     progress_end(&w->bar);
     if (w->writer != NULL && !image_writer_close(w->writer))
         good = false;
-    if (w->stream != NULL && fclose(w->stream) != 0)
+    if (w->stream != NULL && !output_stream_close(&w->out, w->stream))
         good = false;
     free(w->row);
     free(w->codes);
@@ -108,8 +101,10 @@ bool writing_take(void *context, uint32_t row, uint32_t count, const float *valu
             to_colours(w, one);
         else if (w->type == IMAGE_U16)
             to_greys(w, one);
-        if (!image_writer_rows(w->writer, drawn || w->type == IMAGE_U16 ? w->row : one, 1))
+        if (!image_writer_rows(w->writer, drawn || w->type == IMAGE_U16 ? w->row : one, 1)) {
+            w->out.error = ferror(w->stream) != 0 ? errno : w->out.error;
             return false;
+        }
     }
     for (size_t i = 0; i < count * w->row_values && w->levels; i++) {
         w->pixels += isnan(values[i]) ? 0 : 1;

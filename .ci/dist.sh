@@ -1,0 +1,43 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What is released, into build/dist: of one commit the same bytes, whenever and wherever it is made.
+set -eu
+LC_ALL=C TZ=UTC0
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export LC_ALL TZ SOURCE_DATE_EPOCH
+umask 022
+
+version=$(sed -n 's/^#define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h)
+out=$PWD/build/dist
+if [ -n "$(git status --porcelain)" ]; then
+    echo "depthprec: a release is made of a commit: git status names what is in none" >&2
+    exit 1
+fi
+rm -rf "$out"
+mkdir -p "$out"
+for target in web windows wheel $(sed -n 's/^\(npm\):.*/\1/p' Makefile); do make --no-print-directory $target; done
+sh .ci/deb.sh
+for file in build/deb/*.dsc build/deb/*.tar.* build/deb/*.deb; do
+    case $file in *-dbgsym_*) ;; *) cp "$file" "$out" ;; esac
+done
+cp build/depthprec.html "$out/depthprec-$version.html"
+git archive --format=tar --prefix="depthprec-$version/" HEAD | gzip -9n >"$out/depthprec-$version-source.tar.gz"
+
+python3 - "$out/depthprec-$version-windows-x86_64.zip" "depthprec-$version/" <<'END'
+import glob, os, stat, sys, time, zipfile
+files = {os.path.basename(path): path for path in [
+    "build/windows/root/NOTICES.txt", "README.md", "CHANGELOG.md", *glob.glob("LICENSE*"),
+    *("build/windows/depthprec." + end for end in ("exe", "dll", "lib", "def"))]}
+files.update({path: path for path in glob.glob("include/depthprec/*.h")})
+with zipfile.ZipFile(sys.argv[1], "w") as out:
+    for name, path in sorted(files.items()):
+        entry = zipfile.ZipInfo(sys.argv[2] + name, time.gmtime(int(os.environ["SOURCE_DATE_EPOCH"]))[:6])
+        entry.external_attr, entry.create_system = (stat.S_IFREG | 0o644) << 16, 3
+        entry.compress_type = zipfile.ZIP_DEFLATED
+        with open(path, "rb") as file:
+            out.writestr(entry, file.read(), compresslevel=9)
+END
+
+cd "$out"
+sha256sum -- * >SHA256SUMS
+ls -l

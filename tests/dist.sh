@@ -1,0 +1,41 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A release, made twice of the last commit, in folders of different names:  make check-dist
+. tests/tap.sh
+
+release() { git clone -q . "$1" && make -C "$1" --no-print-directory dist CC="$CC"; }
+check "make dist" release "$scratch/one"
+check "make dist elsewhere" release "$scratch/another-length"
+one=$scratch/one/build/dist
+check "the same bytes" diff -r "$one" "$scratch/another-length/build/dist"
+digests() { (cd "$one" && sha256sum -c SHA256SUMS && [ "$(wc -l <SHA256SUMS)" -eq $(($(ls | wc -l) - 1)) ]); }
+check "SHA256SUMS has all of it" digests
+version=$(sed -n 's/^#define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h)
+has() { # has NAME TOOL... : the file has what stands on stdin, as the tool lists it
+    file=$1
+    shift
+    [ -e "$one/$file" ] && "$@" "$one/$file" >"$scratch/list" || return
+    while read -r wanted; do lines -c -- "$wanted" "$scratch/list" | grep -qv '^0$' || { echo "$file lacks $wanted" && return 1; }; done
+}
+listed() { python3 -m zipfile -l "$1"; }
+check "the source archive" has "depthprec-$version-source.tar.gz" tar -tzf <<END
+depthprec-$version/Makefile
+depthprec-$version/CHANGELOG.md
+END
+check "Windows" has "depthprec-$version-windows-x86_64.zip" listed <<END
+depthprec.exe
+depthprec.dll
+depthprec.lib
+include/depthprec/depthprec.h
+LICENSE.GPL-3.0
+NOTICES.txt
+END
+check "Debian's program, with the page" has "depthprec_$version-1~upstream_$(dpkg --print-architecture).deb" dpkg-deb -c <<END
+usr/bin/depthprec
+usr/share/doc/depthprec/depthprec.html
+END
+! grep -q '^npm:' Makefile || check "npm's" sh -c "ls '$one'/*.tgz"
+for more in "depthprec-$version.tar.gz" "depthprec-$version-*.whl" "depthprec-$version.html" "libdepthprec-dev_$version-*.deb"; do
+    check "$more" sh -c "ls '$one'/$more"
+done
+finish
