@@ -8,7 +8,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <gsl/gsl_chebyshev.h>
-#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_sort_float.h>
 #include <gsl/gsl_spline.h>
@@ -158,7 +157,7 @@ sandbox_end sandbox_run(bool (*work)(void *of, FILE *out), void *of, sandbox_lim
     (void)of;
     (void)limits;
     (void)made;
-    missing("this file, which a library reads in a process of its own, is");
+    missing("what a GPU or libassimp does is");
 }
 
 void sandbox_close(FILE *made) {
@@ -220,13 +219,6 @@ MISSING(TIMED, gsl_cheb_series *, gsl_cheb_alloc, size_t n)
 MISSING(TIMED, int, gsl_cheb_init, gsl_cheb_series *s, const gsl_function *f, double a, double b)
 MISSING(TIMED, void, gsl_cheb_free, gsl_cheb_series *s)
 const gsl_interp_type *gsl_interp_cspline;
-
-#define INVERTED "a matrix that is inverted, as places in the world need it, is"
-MISSING(INVERTED, gsl_matrix_view, gsl_matrix_view_array, double *base, size_t n1, size_t n2)
-MISSING(INVERTED, gsl_vector_view, gsl_vector_view_array, double *v, size_t n)
-MISSING(INVERTED, int, gsl_linalg_LU_decomp, gsl_matrix *a, gsl_permutation *p, int *sign)
-MISSING(INVERTED, int, gsl_linalg_LU_invert, const gsl_matrix *lu, const gsl_permutation *p, gsl_matrix *inverse)
-MISSING(INVERTED, int, gsl_linalg_SV_decomp_jacobi, gsl_matrix *a, gsl_matrix *q, gsl_vector *s)
 
 #define JSON "JSON, as in glTF and in the profile of a GPU, is"
 MISSING(JSON, json_t *, json_loadb, const char *bytes, size_t size, size_t flags, json_error_t *error)
