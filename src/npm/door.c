@@ -14,8 +14,8 @@ enum { BLOCK = 1 << 16, NUMBERS = 16, TEXT = 512 };
 
 _Static_assert(DP_TASK_CODE == 0 && DP_TASK_EYE == 1 && DP_TASK_LO == 5 && DP_TASK_HI == 6 && DP_TASK_WINDOW == 7 &&
                    DP_TASK_SEPARATION == 8 && DP_TASK_INTERVAL == 9 && DP_REAL_DOUBLE == 1 && DP_WORD_32 == 1 &&
-                   DP_LAYOUT_ROWS == 1 && DP_LAYOUT_COLUMNS == 2 && DP_ERROR_DEPTH == 13 &&
-                   DP_ERROR_MATRIX == 20 && DP_ERROR_CONVENTION == 21,
+                   DP_LAYOUT_ROWS == 1 && DP_LAYOUT_COLUMNS == 2 && DP_ERROR_DEPTH == 13 && DP_ERROR_MATRIX == 20 &&
+                   DP_ERROR_CONVENTION == 21,
                "index.js has these numbers");
 
 static dp_setup setup;
@@ -168,9 +168,10 @@ EXPORT(worst) dp_status door_worst(void) {
     if (status == DP_OK)
         status = dp_separation_over(&guaranteed, numbers[0], numbers[1], 0.0, &apart);
     if (status == DP_OK) {
-        const double all[] = {cells.lo,          cells.hi,          cells.error,         cells.error_z,
-                              cells.error_code,  cells.interval,    cells.interval_lo,   cells.interval_hi,
-                              cells.interval_code, cells.blind_from, apart.bound,        apart.z};
+        const double all[] = {cells.lo,          cells.hi,          cells.error,
+                              cells.error_z,     cells.error_code,  cells.interval,
+                              cells.interval_lo, cells.interval_hi, cells.interval_code,
+                              cells.blind_from,  apart.bound,       apart.z};
         memcpy(numbers, all, sizeof all);
     }
     return status;

@@ -54,8 +54,8 @@ __attribute__((constructor)) static void go_home(void) {
 }
 
 static int cannot_write(const output *out, int error) {
-    message("depthprec: cannot write %s%s%s: %s", out->path != NULL ? "'" : "", out->path != NULL ? out->path : "to stdout",
-            out->path != NULL ? "'" : "", strerror(error));
+    message("depthprec: cannot write %s%s%s: %s", out->path != NULL ? "'" : "",
+            out->path != NULL ? out->path : "to stdout", out->path != NULL ? "'" : "", strerror(error));
     return EXIT_IO;
 }
 
@@ -229,5 +229,4 @@ MISSING(JSON, size_t, json_array_size, const json_t *of)
 MISSING(JSON, const char *, json_string_value, const json_t *of)
 MISSING(JSON, json_int_t, json_integer_value, const json_t *of)
 MISSING(JSON, double, json_number_value, const json_t *of)
-void json_delete(json_t *of) {
-}
+void json_delete(json_t *of) {}
