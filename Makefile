@@ -35,7 +35,7 @@ TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
-WEB := $(wildcard tests/web/*.c tests/python/*.c)
+WEB := $(wildcard tests/web/*.c tests/python/*.c tests/npm/*.c)
 MAN := $(patsubst %,$(B)/%,$(wildcard man/*.[1-9]))
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
@@ -276,7 +276,7 @@ $(B)/dist/depthprec-$(VERSION).tgz: $(NPM_FILES) src/npm/package.json Makefile
 .PHONY: check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves and what clang makes for the web no sanitizer has a say.
-ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims python web)
+ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims python npm web)
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 
 check:
