@@ -166,5 +166,10 @@ if command -v python3 >/dev/null 2>&1; then
 else
     skip "the same bits by Python" "there is no python3"
 fi
+if [ -n "${DEPTHPREC_FULL-}" ] && (cd "$site" && npm install --no-audit --no-fund --ignore-scripts three@0.187.0 @cesium/engine@26.3.0) >"$scratch/log" 2>&1; then
+    check "matrices of three.js and Cesium" tests_of engines.mjs
+else
+    skip "matrices of three.js and Cesium" "make check-full fetches them by npm, where there is a network"
+fi
 check "the command prints what the program prints" compare
 finish
