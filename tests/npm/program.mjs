@@ -64,6 +64,9 @@ test("files are those of the fs that is given, and whole or not there", async ()
     const piped = await run(`texture - ${words}`, { input: fs.readFileSync("made.npy") });
     assert.deepEqual(piped.recognised, JSON.parse(native(["texture", "made.npy", ...words.split(" ")])).recognised);
     await refuses(() => run("texture made.npy -n 0.1 --product eye -o made.npy", { fs }), /must not be a file that is read/);
+    fs.writeFileSync("old.svg", "old");
+    await refuses(() => run("plot stability -o old.svg", { fs }), /native program/); // once it is open
+    assert.equal(fs.readFileSync("old.svg", "utf8"), "old");
     await refuses(() => run("table -o none/here.txt", { fs }), /cannot write 'none\/here.txt': No such file/);
     assert.deepEqual(fs.readFileSync("made.npy"), fs.readFileSync("native.npy"));
 });
