@@ -51,20 +51,16 @@ static bool take(parser *p, const char *one_of) {
 }
 
 static config_setting_t *add(parser *p, config_setting_t *parent) {
-    config_setting_t *s = calloc(1, sizeof *s);
-    if (s != NULL) {
-        s->parent = parent;
-        s->config = p->config;
-        s->line = p->line;
-    }
-    if (s == NULL || parent == NULL)
-        return s;
     config_list_t *list = parent->value.list;
     if (list == NULL)
         list = parent->value.list = calloc(1, sizeof *list);
-    config_setting_t **more = list != NULL ? realloc(list->elements, (list->length + 1) * sizeof(void *)) : NULL;
-    if (more == NULL)
+    config_setting_t *s = calloc(1, sizeof *s),
+                     **more = list != NULL ? realloc(list->elements, (list->length + 1) * sizeof s) : NULL;
+    if (s == NULL || more == NULL) {
+        free(s);
         return NULL;
+    }
+    *s = (config_setting_t){.parent = parent, .config = p->config, .line = p->line};
     list->elements = more;
     list->elements[list->length++] = s;
     return s;
@@ -205,7 +201,7 @@ void config_destroy(config_t *config) {
 
 int config_read_string(config_t *config, const char *text) {
     parser p = {.config = config, .at = text, .line = 1};
-    config->root = add(&p, NULL);
+    config->root = calloc(1, sizeof *config->root);
     if (config->root == NULL)
         return CONFIG_FALSE;
     config->root->type = CONFIG_TYPE_GROUP;
