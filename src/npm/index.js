@@ -23,7 +23,7 @@ const LAYOUTS = { undefined: 0, rows: 1, columns: 2 };
 const WORST = ["lo", "hi", "error", "errorZ", "errorCode", "interval", "intervalLo", "intervalHi", "intervalCode", "blindFrom",
     "separation", "separationZ"];
 
-export const USUAL = Object.freeze({ near: 0.1, far: 1000, format: "fp32", mapping: "d3d", ortho: false, rounding: "nearest",
+const USUAL = Object.freeze({ near: 0.1, far: 1000, format: "fp32", mapping: "d3d", ortho: false, rounding: "nearest",
     model: "exact", arith: "ieee", logC: 1, viewport: undefined, fov: 60, subpixel: 8, slant: Object.freeze([0, 90]),
     triangleClass: Object.freeze([2, 512, 16]) });
 

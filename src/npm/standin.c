@@ -106,12 +106,12 @@ bool output_same_file(const char *a, const char *b) {
 
 static bool no_png(image_source *source, image *out) {
     (void)out;
-    return source_fail(source, "PNG is not read in the npm package: save .npy or PFM, or " WAY_OUT);
+    return source_fail(source, "PNG is not read in the npm package: save .npy or PFM, or take the native program");
 }
 
 static bool no_png_written(image_writer *writer) {
     (void)writer;
-    missing("PNG is");
+    missing("writing PNG is");
 }
 
 const image_kind image_kind_png = {.name = "PNG",
@@ -127,7 +127,7 @@ bool pixels_write_png(FILE *out, const pixels *p, const notes *words) {
     (void)out;
     (void)p;
     (void)words;
-    missing("PNG is");
+    missing("writing PNG is");
 }
 
 /* ---- Threads, processes, devices --------------------------------------------------------------------------------- */

@@ -72,8 +72,10 @@ test("files are those of the fs that is given, and whole or not there", async ()
 });
 
 test("refusals", async () => {
-    for (const [asked, said] of [["tabl", /^unknown command .tabl.; did you mean/], ["plot error -n 0.1 --type png -o -", /must be svg.*rsvg-convert/s], ["methods interval", /^methods.*native program/], ["probe", /GPU.*native program/]])
-        await refuses(() => run(asked), said);
+    fs.writeFileSync("made.png", Uint8Array.of(0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 13));
+    fs.writeFileSync("made.gltf", "{}");
+    for (const [asked, said] of [["texture made.png", /PNG is not read.*\.npy/], ["scene made.gltf", /glTF.*native program/], ["tabl", /^unknown command .tabl.; did you mean/], ["plot error -n 0.1 --type png -o -", /must be svg.*rsvg-convert/s], ["methods interval", /^methods.*native program/], ["probe", /GPU.*native program/]])
+        await refuses(() => run(asked, { fs }), said);
     await refuses(() => run(["table", "a\0b"]), /zero byte/);
     await refuses(() => run([3]), /words must be text/, TypeError);
     await refuses(() => solve({ camera: {} }), /must be a Camera/, TypeError);
