@@ -23,18 +23,20 @@ PKGS_build := cairo gsl jansson libconfig libpng zlib
 PKGS_opened := OpenEXR assimp vulkan egl gl
 PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 
+VERSION := $(shell sed -n 's/^.define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h)
+
 # ---- Rooms: a new file in a layer's folder is picked up ----------------------------------------------------------
 
 HEADERS := $(wildcard include/depthprec/*.h)
 CORE := $(wildcard src/core/*.c)
-PAGE := $(wildcard src/web/*.c)
+PAGE := $(wildcard src/web/*.c src/npm/*.c)
 WINDOWS := $(wildcard src/windows/*.c)
 ROOMS := $(filter-out $(CORE) $(PAGE) $(WINDOWS),$(wildcard src/*/*.c src/*/*/*.c))
 TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
-WEB := $(wildcard tests/web/*.c tests/python/*.c)
+WEB := $(wildcard tests/web/*.c tests/python/*.c tests/npm/*.c)
 MAN := $(patsubst %,$(B)/%,$(wildcard man/*.[1-9]))
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh tests/windows.sh tests/dist.sh
 SCRIPTS := $(wildcard src/*.sh src/windows/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
@@ -291,12 +293,51 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $(filter %.o,$^) $(filter %rooms.a,$^) $(B)/libdepthprec.a -lm
 
+# ---- For npm -----------------------------------------------------------------------------------------------------
+
+# The library behind a door, which imports nothing; and the whole program but what needs cairo, PNG, JSON, GSL, threads and
+# processes, for which src/npm stands in. Written by tar and gzip: names sorted, times fixed.
+.PHONY: npm
+npm:
+	@sh src/packages.sh npm
+	@$(MAKE) $(PARALLEL) $(B)/dist/depthprec-$(VERSION).tgz
+
+NPM_NOT := $(patsubst %,src/%.c,plot/canvas plot/pixels image/png cli/cmd_methods cli/stop frame/strips probe/opengl probe/vulkan \
+    report/output_file report/terminal system/dynload system/sandbox)
+NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still) \
+    src/npm/config.c src/npm/standin.c)
+NPM_DOOR_O := $(call web_objects,src/npm/door.c)
+NPM_FILES := $(wildcard src/npm/*.js src/npm/*.ts src/npm/*.md) src/web/engine.js src/web/command.js LICENSE LICENSE.MIT \
+    LICENSE.GPL-3.0 $(B)/npm/core.data.js $(B)/npm/program.data.js
+
+$(B)/web/obj/src/scene/find.o: WEB_FLAGS += -include npm/standin.h
+$(B)/npm/core.wasm: $(NPM_DOOR_O) $(WEB_CORE_O)
+$(B)/npm/program.wasm: $(NPM_O) $(WEB_CORE_O)
+$(B)/npm/%.wasm:
+	@mkdir -p $(@D)
+	$(call say,WEB)
+	$(Q)$(WEB_LINK) -o $@ $^
+
+# Text, which every bundler takes; the program compressed, because it is read only when it is asked for.
+$(B)/npm/core.data.js: PACK := cat
+$(B)/npm/program.data.js: PACK := gzip -9n
+$(B)/npm/%.data.js: $(B)/npm/%.wasm
+	$(Q){ printf 'export default "'; $(PACK) <$< | base64 | tr -d '\n'; echo '";'; } >$@
+
+$(B)/dist/depthprec-$(VERSION).tgz: $(NPM_FILES) src/npm/package.json Makefile
+	@mkdir -p $(@D)
+	$(call say,PACK)
+	$(Q)rm -rf $(B)/npm/package && mkdir $(B)/npm/package && cp $(NPM_FILES) $(B)/npm/package
+	$(Q)sed 's/@version@/$(VERSION)/' src/npm/package.json >$(B)/npm/package/package.json
+	$(Q)tar -C $(B)/npm --format=ustar --sort=name --mtime=@499162500 --owner=0 --group=0 --numeric-owner \
+	    --mode=u=rwX,go=rX -cf - package | gzip -9n >$@
+
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
 .PHONY: cross-windows check-dist check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves and what clang makes for the web no sanitizer has a say.
-ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims python web)
+ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims python npm web)
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 
 check:
@@ -445,7 +486,6 @@ lint-licence:
 # ---- Install -----------------------------------------------------------------------------------------------------
 
 .PHONY: install uninstall installcheck plots bench clean distclean dist deb help
-VERSION = $(shell sed -n 's/^.define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h)
 D = $(DESTDIR)
 COMPLETIONS := bash-completion/completions/depthprec zsh/site-functions/_depthprec fish/vendor_completions.d/depthprec.fish
 
@@ -524,6 +564,7 @@ help:
 ## make wheel       the Python package: a wheel and its sources in build/dist (needs python3)
 ## make windows     build/windows/depthprec.exe and the library as a DLL, by mingw-w64; fetches the sources of its libraries
 ##                  from Debian once
+## make npm         the npm package, for node and browsers, in build/dist
 ## make man         the manual pages in build/man/, completed with what the program says of itself
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
@@ -535,4 +576,4 @@ help:
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 ## WERROR=-Werror makes warnings errors
 
--include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(B)/obj/src/windows/fma.d $(PLAIN_O) $(WINDOWS_CORE_O) $(WINDOWS_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))
+-include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(B)/obj/src/windows/fma.d $(PLAIN_O) $(WINDOWS_CORE_O) $(WINDOWS_O) $(WEB_CORE_O) $(WEB_O) $(NPM_O) $(NPM_DOOR_O) $(SAMPLES_O))

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the packages that a job needs and this machine lacks:  packages.sh JOB, which is
-# build, check, clang, lint, fuzz, web, browser, cross, deb, windows, wine or probe.
+# build, check, clang, lint, fuzz, web, npm, browser, cross, deb, windows, wine or probe.
 # Silent and quick when nothing is missing, so that every `make` may call it.
 # packages.sh --missing JOB installs nothing: it names what is missing and the one command that installs it.
 # packages.sh --libraries JOB prints Debian's names of the libraries of a job.
@@ -47,10 +47,10 @@ lint  | command clang-format                          | clang-format          | 
 lint  | command cppcheck                              | cppcheck              | cppcheck           | cppcheck
 lint  | command codespell                             | codespell             | codespell          | codespell
 fuzz  | file lib*/clang/*/lib/*/libclang_rt.fuzzer*.a | libclang-rt-dev       | compiler-rt        | compiler-rt
-web   | command clang                                 | clang                 | clang              | clang
-web   | command wasm-ld                               | lld                   | lld                | lld
-web   | file lib/wasm32-wasi/libc.a                   | wasi-libc             | -                  | -
-web   | file lib/llvm*/lib/clang/*/lib/wasi/*wasm32.a | libclang-rt-dev-wasm32 | -                 | -
+wasm  | command clang                                 | clang                 | clang              | clang
+wasm  | command wasm-ld                               | lld                   | lld                | lld
+wasm  | file lib/wasm32-wasi/libc.a                   | wasi-libc             | -                  | -
+wasm  | file lib/llvm*/lib/clang/*/lib/wasi/*wasm32.a | libclang-rt-dev-wasm32 | -                 | -
 web   | command node                                  | nodejs                | nodejs             | nodejs
 web   | command zopfli                                | zopfli                | zopfli             | zopfli
 browser | command chromium                            | chromium              | chromium           | chromium
@@ -78,15 +78,16 @@ check) jobs=' build check ' ;;
 clang) jobs=' build check clang ' ;;
 lint) jobs=' build check clang lint ' ;;
 fuzz) jobs=' build clang fuzz ' ;;
-web) jobs=' web ' ;;
-browser) jobs=' web browser ' ;;
+web) jobs=' wasm web ' ;;
+npm) jobs=' build wasm ' ;;
+browser) jobs=' wasm web browser ' ;;
 cross) jobs=' build check cross ' ;;
-deb) jobs=' build check web deb ' ;;
+deb) jobs=' build check wasm web deb ' ;;
 windows) jobs=' windows ' ;;
 wine) jobs=' build check windows wine ' ;;
 probe) jobs=' build check probe ' ;;
 *)
-    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, browser, cross, deb, windows, wine or probe, got '$job'" >&2
+    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, npm, browser, cross, deb, windows, wine or probe, got '$job'" >&2
     exit 2
     ;;
 esac

@@ -27,6 +27,7 @@ src/scene         | depthprec core system raster world model requirement scene
 src/report        | depthprec core system report
 src/plot          | depthprec core system api world census raster shadow image shader frame method requirement model scene plot
 src/cli           | depthprec core system api world census raster shadow image shader frame method requirement model scene probe judge report plot cli
+src/npm           | depthprec cli core frame image plot probe report system npm
 src/web           | depthprec core system raster image shader frame method requirement scene report plot cli web
 '
 
@@ -61,8 +62,8 @@ core_inside() {
     lines -vE '^src/core/|"core/(append|bits|elementary|engine|expansion)\.h"' "$scratch/core"
 }
 
-objects() { # those of the program: those of src/web and src/windows have the names of what they stand in for
-    for source in src/*/*.c src/*/*/*.c; do echo "$B/obj/${source%.c}.o"; done | grep -v '/obj/src/\(web\|windows\)/'
+objects() { # those of the program: stand-ins (src/web, src/npm, src/windows) have the names of what they stand in for
+    for source in src/*/*.c src/*/*/*.c; do echo "$B/obj/${source%.c}.o"; done | grep -vE '/obj/src/(web|npm|windows)/'
 }
 
 echo "$layers" >"$scratch/layers"

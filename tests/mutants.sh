@@ -85,7 +85,7 @@ export CC TEST_SECONDS LC_ALL=C B=build
 
 stale >&2
 [ -z "$(stale)" ] || exit 1
-make -j"${JOBS:-2}" --no-print-directory all check-programs >&2 || exit 1
+make -j"${JOBS:-2}" --no-print-directory all check-programs npm >&2 || exit 1
 
 mkdir -p build/mutants
 folder=$(mktemp -d "$PWD/build/mutants/XXXXXX") || exit 1
@@ -104,7 +104,7 @@ copy() { # copy TREE: what git and make know of the working tree, and its build,
     for part in Makefile README.md LICENSE* .clang-format .ci include src tests man plots; do
         cp -a "$part" "$1"
     done
-    for part in obj tests depthprec libdepthprec.a libdepthprec.so.0 librooms.a libsupport.a \
+    for part in obj web npm dist tests depthprec libdepthprec.a libdepthprec.so.0 librooms.a libsupport.a \
         build.cflags build.libs check.cflags check.libs; do
         cp -a "build/$part" "$1/build"
     done

@@ -9,8 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <gsl/gsl_fit.h>
-
 enum { POINTS = 4096 };
 
 /* Points of a line, y over u. */
@@ -51,13 +49,29 @@ static double ratio_of(const points *p) {
     return above / below;
 }
 
+/* y = c0 + c1 u by least squares. */
+static void line_of(const points *p, double *c0, double *c1) {
+    double weight = 0, u = 0, y = 0, above = 0, below = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        weight += p->weight[i];
+        u += (p->u[i] - u) * (p->weight[i] / weight);
+        y += (p->y[i] - y) * (p->weight[i] / weight);
+    }
+    for (size_t i = 0; i < p->count; i++) {
+        above += p->weight[i] * (p->u[i] - u) * (p->y[i] - y);
+        below += p->weight[i] * (p->u[i] - u) * (p->u[i] - u);
+    }
+    *c1 = above / below;
+    *c0 = y - u * *c1;
+}
+
 bool judge_planes_of(const judge_pairs *pairs, const dp_setup *setup, const judge_input *input,
                      const judge_output *output, bool alike, double *znear, double *zfar) {
     static _Thread_local points p;
     const bool ortho = setup->spec.ortho, ratio = output->planes == JUDGE_PLANES_RATIO;
     const bool decodes = input->window != NULL && output->planes != JUDGE_PLANES_NONE;
     const bool encodes = input == judge_input_get(JUDGE_EYE) && output->window != NULL;
-    double c0, c1, cov00, cov01, cov11, chi;
+    double c0, c1;
     if (setup->curve == DP_CURVE_LOG || (!ortho && setup->curve != DP_CURVE_PERSPECTIVE) || !(decodes || encodes))
         return false;
     p.count = 0;
@@ -69,7 +83,7 @@ bool judge_planes_of(const judge_pairs *pairs, const dp_setup *setup, const judg
         *znear = ortho ? *zfar * ratio_of(&p) : *zfar / ratio_of(&p);
         return isfinite(*zfar);
     }
-    gsl_fit_wlinear(p.u, 1, p.weight, 1, p.y, 1, p.count, &c0, &c1, &cov00, &cov01, &cov11, &chi);
+    line_of(&p, &c0, &c1);
     if (decodes) {
         *znear = ortho ? c0 : 1 / c0;
         *zfar = ortho ? c0 + c1 : 1 / (c0 + c1);

@@ -112,7 +112,7 @@ static void sort_entries(const tree *t, entry *e, uint32_t first, uint32_t leave
     const uint32_t from = tree_first(t, first);
     const uint32_t middle = tree_first(t, first + half);
     const uint32_t end = tree_first(t, first + leaves);
-    select_least(e + from, end - from, middle - from, longest_axis(e + from, end - from));
+    select_least(e + from, (ptrdiff_t)(end - from), (ptrdiff_t)(middle - from), longest_axis(e + from, end - from));
 #pragma omp task if (end - from > TASK_ITEMS)
     sort_entries(t, e, first, half);
     sort_entries(t, e, first + half, half);

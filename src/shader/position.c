@@ -5,8 +5,6 @@
 #include <float.h>
 #include <math.h>
 
-#include <gsl/gsl_linalg.h>
-
 #include "core/engine.h"
 
 static bool has_matrix(const dp_setup *setup) {
@@ -113,35 +111,86 @@ static void refine(const double m[16], double inverse[16]) {
         inverse[i] += more[i];
 }
 
+/* By elimination, with the largest pivot of each column. @return false of a singular one */
+static bool eliminate(const double m[16], double inverse[16]) {
+    double rows[4][8] = {{0}};
+    for (int i = 0; i < 16; i++) {
+        rows[i / 4][i % 4] = m[i];
+        rows[i / 4][4 + i % 4] = i % 5 == 0 ? 1 : 0;
+    }
+    for (int c = 0; c < 4; c++) {
+        int pivot = c;
+        for (int i = c + 1; i < 4; i++)
+            pivot = fabs(rows[i][c]) > fabs(rows[pivot][c]) ? i : pivot;
+        for (int k = 0; k < 8; k++) {
+            const double above = rows[c][k];
+            rows[c][k] = rows[pivot][k];
+            rows[pivot][k] = above;
+        }
+        for (int i = 0; i < 4 && rows[c][c] != 0; i++) {
+            const double share = rows[i][c] / rows[c][c];
+            for (int k = c; k < 8 && i != c; k++)
+                rows[i][k] -= share * rows[c][k];
+        }
+        if (rows[c][c] == 0)
+            return false;
+    }
+    for (int i = 0; i < 16; i++)
+        inverse[i] = rows[i / 4][4 + i % 4] / rows[i / 4][i / 4];
+    return true;
+}
+
 /* As an engine does: the matrix in binary32, inverted with care, the inverse in binary32 again. */
 static void invert(const texture_camera *camera, float out[16]) {
-    double m[16], inverse[16], lu[16];
-    size_t order[4];
-    int sign;
+    double m[16], inverse[16];
     position_matrix(camera, m);
     for (int i = 0; i < 16; i++)
-        lu[i] = m[i] = (double)(float)m[i];
-    gsl_matrix_view a = gsl_matrix_view_array(lu, 4, 4), b = gsl_matrix_view_array(inverse, 4, 4);
-    gsl_permutation p = {4, order};
-    gsl_linalg_LU_decomp(&a.matrix, &p, &sign);
-    const bool regular = lu[0] * lu[5] * lu[10] * lu[15] != 0;
-    if (regular) {
-        gsl_linalg_LU_invert(&a.matrix, &p, &b.matrix);
+        m[i] = (double)(float)m[i];
+    const bool regular = eliminate(m, inverse);
+    if (regular)
         refine(m, inverse);
-    }
     for (int i = 0; i < 16; i++)
         out[i] = regular ? (float)inverse[i] : (float)NAN;
 }
 
+static double of_columns(const double m[16], int j, int k) {
+    return m[j] * m[k] + m[4 + j] * m[4 + k] + m[8 + j] * m[8 + k] + m[12 + j] * m[12 + k];
+}
+
+/* Rotates two columns until they are orthogonal. @return false where they were */
+static bool rotate(double m[16], int j, int k) {
+    const double a = of_columns(m, j, j), b = of_columns(m, k, k), both = of_columns(m, j, k);
+    if (fabs(both) <= 4 * DBL_EPSILON * sqrt(a) * sqrt(b))
+        return false;
+    const double half = (b - a) / (2 * both);
+    const double tangent = (half < 0 ? -1 : 1) / (fabs(half) + sqrt(1 + half * half));
+    const double cosine = 1 / sqrt(1 + tangent * tangent), sine = cosine * tangent;
+    for (int i = 0; i < 16; i += 4) {
+        const double x = m[i + j], y = m[i + k];
+        m[i + j] = cosine * x - sine * y;
+        m[i + k] = sine * x + cosine * y;
+    }
+    return true;
+}
+
+/* Singular values are the lengths of columns that were made orthogonal (Jacobi's method, which converges fast). */
 double position_condition(const texture_camera *camera) {
-    double m[16], v[16], s[4];
+    double m[16], least = (double)INFINITY, most = 0;
     if (!has_matrix(&camera->setup))
         return (double)NAN;
     position_matrix(camera, m);
-    gsl_matrix_view a = gsl_matrix_view_array(m, 4, 4), b = gsl_matrix_view_array(v, 4, 4);
-    gsl_vector_view c = gsl_vector_view_array(s, 4);
-    gsl_linalg_SV_decomp_jacobi(&a.matrix, &b.matrix, &c.vector);
-    return s[3] > s[0] * DBL_EPSILON ? s[0] / s[3] : (double)INFINITY;
+    bool turned = true;
+    for (int sweep = 0; turned && sweep < 32; sweep++) {
+        turned = false;
+        for (int j = 0; j < 4; j++)
+            for (int k = j + 1; k < 4; k++)
+                turned = rotate(m, j, k) || turned;
+    }
+    for (int j = 0; j < 4; j++) {
+        least = fmin(least, sqrt(of_columns(m, j, j)));
+        most = fmax(most, sqrt(of_columns(m, j, j)));
+    }
+    return least > most * DBL_EPSILON ? most / least : (double)INFINITY;
 }
 
 /* ---- Constants --------------------------------------------------------------------------------------------------- */

@@ -69,15 +69,15 @@ function system(memory, streams) {
     };
 }
 
-// Of the module's bytes, or of the module that another thread has compiled.
-export async function load(from) {
+// Of the module's bytes, or of the module that another thread has compiled; a host knows more of a system.
+export async function load(from, host = () => ({})) {
     const module = from instanceof WebAssembly.Module ? from : await WebAssembly.compile(from);
 
     function begin(most) {
         let instance;
         const memory = () => instance.exports.memory, streams = new Streams(most), decoder = new TextDecoder();
         instance = new WebAssembly.Instance(module, {
-            wasi_snapshot_preview1: system(memory, streams),
+            wasi_snapshot_preview1: { ...system(memory, streams), ...host(memory, streams) },
             page: {
                 measure: (text, length, size, bold) =>
                     engine.measure(decoder.decode(new Uint8Array(memory().buffer, text, length)), size, bold !== 0),

@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page in place of report/output_file.c, system/input.c, report/terminal.c and cli/stop.c: no files, no terminal,
- * no signals. */
+/* The page in place of report/output_file.c and system/input.c: no files. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/stop.h"
 #include "plot/canvas.h"
 #include "report/output.h"
-#include "report/terminal.h"
 #include "system/input.h"
 
 int output_open(output *out, const char *path) {
@@ -46,21 +43,4 @@ void input_expect(const char *path) {
 bool input_is_read(const char *path) {
     (void)path;
     return false;
-}
-
-void output_reserve_streams(void) {}
-
-int terminal_columns(int fd) {
-    (void)fd;
-    return 0;
-}
-
-void stop_watch(void) {}
-
-bool stop_asked(void) {
-    return false;
-}
-
-void stop_end(output *out) {
-    (void)out;
 }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The five functions, against the program: node --test, with DEPTHPREC the native one without cairo.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import fs from "node:fs";
+import test from "node:test";
+import { Camera, DepthprecError, bias, check, recognise, run, solve } from "depthprec";
+
+const native = (words, encoding = "utf8") => execFileSync(process.env.DEPTHPREC, words, { encoding, stdio: ["ignore", "pipe", "ignore"] });
+const camera = new Camera({ near: 0.2, far: 3000, format: "unorm24", rounding: "even" });
+const words = ["--near=0.2", "--far=3000", "--format=unorm24", "--mapping=d3d", "--rounding=even"];
+const wide = new Camera({ near: 0.2, far: 3000, format: "unorm24", viewport: [1920, 1080], slant: [0, 60] });
+const refuses = (work, said, kind = DepthprecError) => assert.rejects(work, (error) => error.constructor === kind && (said.test(error.message) || assert.fail(error.message)));
+
+test("with options as words and as an object they are the program's commands", async () => {
+    for (const [got, asked] of [
+        [await solve({ camera, near: null, separation: 0.01, at: 500 }), ["solve", ...words.slice(1), "--separation=0.01", "--at=500"]],
+        [await solve({ far: "10km", format: "d24", separation: "1cm", at: "5km" }), ["solve", "--far=10km", "--format=d24", "--separation=1cm", "--at=5km"]],
+        [await solve({ camera: wide, for: "separation", at: 100 }), ["solve", ...words.slice(0, 4), "--viewport=1920x1080", "--slant=0:60", "--for=separation", "--at=100"]],
+        [await bias({ camera, api: "vulkan", separation: 0.02, at: [300, 400] }), ["bias", ...words, "--api=vulkan", "--separation=0.02", "--at=300,400"]],
+        [await run("list formats --json"), ["list", "formats"]], [await run(["world", "--json"]), ["world"]],
+        [await run("check engine.need --json", { fs }), ["check", "engine.need"]]]) assert.deepEqual(got, JSON.parse(native([...asked, "--json"])));
+    for (const asked of [["table", "-n", "0.3"], ["help"], ["budget", "--csv"], ["plot", "error", "-n", "0.1", "--type", "svg", "-o", "-"]]) assert.equal(await run(asked), native(asked));
+});
+
+test("requirements are an object", async () => {
+    const needs = { unit: "m", cameras: { world: new Camera({ far: Infinity, mapping: "reversed" }), web: { near: "50 cm", far: 2000, format: "unorm24", mapping: "d3d" } },
+        requirements: { decals: { camera: "world", range: [0.5, 50], separation: "0.1 mm" }, props: { camera: "web", at: "1 km", separation: "1 mm" } } };
+    const found = await check(needs);
+    assert.deepEqual([found.passed, ...found.requirements.map((row) => row.passed)], [false, true, false]);
+    assert.equal(found.requirements[0].setup.far, null);
+    await refuses(() => check({ cameras: { "a b": {} } }), /a name must be/);
+    await refuses(() => check({ camera: {} }), /camera/);
+    await refuses(() => check({ cameras: { a: { near: undefined } } }), /must hold words/, TypeError);
+    for (const bad of [null, [], "engine.need", undefined]) await refuses(() => check(bad), /must be an object/, TypeError);
+});
+
+test("presets have the planes of the program's list", async () => {
+    for (const { name, camera: row } of (await run("list presets --json")).items) {
+        const [near, far] = row.replaceAll(",", "").split(" ").filter((word) => /^([\d.]+|inf)$/.test(word)).map((word) => (word === "inf" ? Infinity : Number(word)));
+        const c = await Camera.preset(name).catch((error) => (assert.match(error.message, /unorm24 or fp32/), Camera.preset(name, { format: "fp32" })));
+        assert.deepEqual([c.near, c.far], [near, far], name);
+    }
+    await refuses(() => Camera.preset("none"), /none/);
+});
+
+test("images", async () => {
+    const c = new Camera({ format: "unorm16", mapping: "reversed" }), z = Float32Array.from({ length: 64 * 48 }, (_, i) => 1 + i * 0.029), data = c.encode(z);
+    const codes = await recognise({ data, width: 64, height: 48 });
+    assert.deepEqual([codes.format, codes.width, codes.height, codes.type, codes.channels], ["unorm16", 64, 48, "u2", 1]);
+    const windows = await recognise({ data: Float32Array.from(data, (code) => code / 65535), width: 64, height: 48 });
+    assert.deepEqual([windows.format, windows.certain], ["unorm16", true]);
+    await refuses(() => recognise({ data: z, width: 64, height: 48 }), /cannot be window depth/);
+    await refuses(() => recognise({ data: z, width: 64, height: 47 }), /got 3072 for 64 x 47/);
+    for (const bad of [z, null, { data: [1], width: 1, height: 1 }, { data: new BigInt64Array(1), width: 1, height: 1 }]) await refuses(() => recognise(bad), /must be/, TypeError);
+});
+
+test("files are those of the fs that is given, and whole or not there", async () => {
+    await refuses(() => run("check engine.need"), /the file '.*engine\.need' needs a file system/, Error);
+    await run("texture --synthetic plane --parameter tilt=60 -F d16 -o made.npy", { fs });
+    native(["texture", "--synthetic", "plane", "--parameter", "tilt=60", "-F", "d16", "-o", "native.npy"]);
+    assert.deepEqual(fs.readFileSync("made.npy"), fs.readFileSync("native.npy"));
+    const words = "-n 0.1 -f 1000 -m d3d --json";
+    const piped = await run(`texture - ${words}`, { input: fs.readFileSync("made.npy") });
+    assert.deepEqual(piped.recognised, JSON.parse(native(["texture", "made.npy", ...words.split(" ")])).recognised);
+    await refuses(() => run("texture made.npy -n 0.1 --product eye -o made.npy", { fs }), /must not be a file that is read/);
+    fs.writeFileSync("old.svg", "old");
+    await refuses(() => run("plot stability -o old.svg", { fs }), /native program/); // once it is open
+    assert.equal(fs.readFileSync("old.svg", "utf8"), "old");
+    await refuses(() => run("table -o none/here.txt", { fs }), /cannot write 'none\/here.txt': No such file/);
+    assert.deepEqual(fs.readFileSync("made.npy"), fs.readFileSync("native.npy"));
+});
+
+test("refusals", async () => {
+    fs.writeFileSync("made.png", Uint8Array.of(0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 13));
+    fs.writeFileSync("made.gltf", "{}");
+    for (const [asked, said] of [["texture made.png", /PNG is not read.*\.npy/], ["scene made.gltf", /glTF.*native program/], ["tabl", /^unknown command .tabl.; did you mean/], ["plot error -n 0.1 --type png -o -", /must be svg.*rsvg-convert/s], ["methods interval", /^methods.*native program/], ["probe", /GPU.*native program/]])
+        await refuses(() => run(asked, { fs }), said);
+    await refuses(() => run(["table", "a\0b"]), /zero byte/);
+    await refuses(() => run([3]), /words must be text/, TypeError);
+    await refuses(() => solve({ camera: {} }), /must be a Camera/, TypeError);
+});
