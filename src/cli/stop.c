@@ -4,7 +4,7 @@
 #include "report/message.h"
 #include <stdio.h>
 
-#include "system/posix.h"
+#include "system/process.h"
 
 static volatile sig_atomic_t interrupted;
 

@@ -5,6 +5,7 @@
  * be done is named, and ends the command. Files are the host's, files.js: one that is written is there when the
  * command has ended well.
  */
+#define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
 #include <gsl/gsl_chebyshev.h>
@@ -95,6 +96,19 @@ int output_close(output *out) {
     if (out->error == 0 || out->error == EPIPE)
         return out->error == 0 ? EXIT_FINE : EXIT_IO;
     return cannot_write(out, out->error);
+}
+
+static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
+    output_bytes(cookie, bytes, size);
+    return (ssize_t)size;
+}
+
+FILE *output_stream(output *out) {
+    return fopencookie(out, "w", (cookie_io_functions_t){.write = stream_write});
+}
+
+bool output_stream_close(output *out, FILE *stream) {
+    return fclose(stream) == 0 && !output_failed(out);
 }
 
 bool output_same_file(const char *a, const char *b) {

@@ -8,7 +8,7 @@
 
 #include "report/message.h"
 #include "system/input.h"
-#include "system/posix.h"
+#include "system/process.h"
 
 /* The temporary files, for the signal handler: empty where there is none. */
 typedef char temporary_path[4096 + 64];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/terminal.h"
 
-#include "system/posix.h"
+#include "system/process.h"
 
 int terminal_columns(int fd) {
     struct winsize size;

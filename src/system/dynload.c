@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "system/posix.h"
+#include "system/process.h"
 
 bool dynload_open(const library *l, dynload_function *functions[], char error[DYNLOAD_ERROR_SIZE]) {
     void *handle = NULL;

@@ -19,10 +19,6 @@
 #ifdef _WIN32
 #include "windows/posix.h"
 #else
-#include <dlfcn.h>
-#include <signal.h>
-#include <sys/ioctl.h>
-
 #define PATH_ENDS_FOLDER "/"
 #endif
 
