@@ -209,7 +209,7 @@ WINDOWS_O := $(call windows_objects,$(filter-out src/plot/canvas.c src/system/sa
 
 $(WINDOWS_ROOT)/lib/libwindows.a: src/windows/libraries.sh
 	$(call say,GET)
-	$(Q)sh $< $(WINDOWS_CC) $(MINGW)-ar $(WINDOWS_ROOT)
+	$(Q)sh $< '$(WINDOWS_CC)' $(MINGW)-ar $(WINDOWS_ROOT)
 
 $(B)/windows/obj/%.o: %.c Makefile | $(WINDOWS_LIBRARIES)
 	@mkdir -p $(@D)
