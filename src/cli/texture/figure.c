@@ -47,7 +47,7 @@ static bool draw_both(void *context, uint32_t row, uint32_t count, const float *
 /* The product, and what stands on it or beside it. */
 static bool run(const options *o, const texture_source *s, const texture_product *p, drawing *d) {
     const frame_product error = {.kind = FRAME_EYE, .error = true, .radial = p->made.radial};
-    const frame_product both[] = {p->made, d->beside ? (frame_product){.kind = FRAME_LINEAR01} : error};
+    const frame_product linear01 = {.kind = FRAME_LINEAR01}, both[] = {p->made, d->beside ? linear01 : error};
     d->bar = progress_start("rows", s->camera.height, o->out.quiet);
     const bool good = o->image.overlay > 0 || d->beside ? frame_run_all(&s->frame, both, 2, false, draw_both, d)
                                                         : frame_run(&s->frame, &p->made, false, draw_rows, d);

@@ -13,9 +13,9 @@
 
 int texture_pack_check(const options *o) {
     static const option_id others[] = {
-        OPTION_ERROR_MAP,   OPTION_AS,        OPTION_FIGURE,  OPTION_OVERLAY,   OPTION_HISTOGRAM, OPTION_PIXEL,
-        OPTION_AT,          OPTION_JSON,      OPTION_CSV,     OPTION_PARAMETER, OPTION_TYPE,      OPTION_THEME,
-        OPTION_FIGURE_SIZE, OPTION_TITLE,     OPTION_PICTURE, OPTION_TINT,      OPTION_RANGE};
+        OPTION_ERROR_MAP,   OPTION_AS,    OPTION_FIGURE,  OPTION_OVERLAY,   OPTION_HISTOGRAM, OPTION_PIXEL,
+        OPTION_AT,          OPTION_JSON,  OPTION_CSV,     OPTION_PARAMETER, OPTION_TYPE,      OPTION_THEME,
+        OPTION_FIGURE_SIZE, OPTION_TITLE, OPTION_PICTURE, OPTION_TINT,      OPTION_RANGE};
     const char *name = o->image.pack != NULL ? "pack" : "packed-normal";
     image_file file;
     for (size_t i = o->image.pack == NULL && o->image.error_map; i < sizeof others / sizeof others[0]; i++)
