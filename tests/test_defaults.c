@@ -115,7 +115,6 @@ static const struct {
     {BIT(CMD_PREPASS), IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
     {BIT(CMD_JUDGE), IDS(OPTION_NEAR), "0.1", NULL, "-f 1000"},
     {BIT(CMD_JUDGE), IDS(OPTION_FAR), "1000", NULL, "-n 0.1"},
-    {BIT(CMD_JUDGE), IDS(OPTION_PAIRS), NULL, NULL, ""},
     {BIT(CMD_ZFIGHT), IDS(OPTION_RANGE), "1:1.0078125", "zfight -n 1 -f 1.0078125 -F d24 -m d3d --csv", ""},
     {BIT(CMD_BUDGET), IDS(OPTION_SCHEME), "absolute", NULL, "--from-origin 100"},
     {BIT(CMD_PLOT), IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},

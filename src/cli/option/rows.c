@@ -274,7 +274,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "write a CSV of every stored code beside what was drawn", FILE_WRITTEN(probe.keep)},
     [OPTION_PAIRS] = {"pairs", 0, "FILE",
         "what went into the function and what came out, two columns: CSV, or npy", FILE_READ(judge.pairs),
-        .without = "with --pairs-for", .group = "Code of your own"},
+        .group = "Code of your own"},
     [OPTION_PAIRS_FOR] = {"pairs-for", 0, "N",
         "print N window depths to put into the function", WHOLE(judge.depths, 8, 1e6, NULL)},
     [OPTION_MATRIX] = {"matrix", 0, "FILE",
