@@ -290,6 +290,82 @@ TEST(test_precision) {
     unlink(path);
 }
 
+/* Beside the far plane two shares are the same in 8 bits; where it says that they part they do. */
+TEST(test_decides) {
+    const double n = 1, f = 10;
+    const dp_setup setup = camera(n, f, DP_MAPPING_D3D);
+    judge_pairs p = {.pairs = pair_room, .count = 4, .distinct = 4, .bytes = true};
+    judgement j;
+    for (int k = 0; k < 4; k++)
+        p.pairs[k] = (judge_pair){0.9999 + k * 2e-5, k == 0 ? 254.5 / 255 : 1};
+    judge_function(&p, &setup, 1, false, &j);
+    assert_true(j.verdict == JUDGE_RIGHT && j.also && j.precision == JUDGE_BYTES);
+    assert_string_equal(j.found.output->name, "eye depth over far");
+    assert_string_equal(j.other.output->name, "the way from near to far");
+    const double z = n * f / (f - j.decides * (f - n));
+    assert_true(j.decides == 0 && z / f - (z - n) / (f - n) > 1.02 / 255); /* 0.1 and 0: nowhere more of the value */
+}
+
+/* An npy file of two columns, and a text with values that are no numbers. */
+TEST(test_read) {
+    char error[PAIRS_ERROR_SIZE], path[] = "/tmp/depthprec-judge-XXXXXX.npy";
+    static const float rows[6] = {0.5F, 2.0F, 0.25F, 3.0F, 1.0F, 4.0F};
+    const int file = mkstemps(path, 4);
+    assert_true(file >= 0);
+    judge_pairs p;
+    FILE *out = fdopen(file, "wb");
+    const char *order = *(const char *)&(uint16_t){1} != 0 ? "<" : ">";
+    char head[119];
+    snprintf(head, sizeof head, "{'descr': '%sf4', 'fortran_order': False, 'shape': (3, 2), }", order);
+    memset(head + strlen(head), ' ', sizeof head - 2 - strlen(head));
+    head[117] = '\n';
+    fwrite("\x93NUMPY\x01\0\x76\0", 1, 10, out);
+    fwrite(head, 1, 118, out);
+    fwrite(rows, 1, sizeof rows, out);
+    fclose(out);
+    assert_int_equal(judge_pairs_read(path, &p, error), 0);
+    assert_true(p.count == 3 && p.pairs[0].in == 0.25 && p.pairs[0].out == 3 && p.pairs[2].out == 4);
+    assert_true(p.out_digits.absolute == 0 && p.out_digits.relative == 0);
+    judge_pairs_free(&p);
+    unlink(path);
+    path[strlen(path) - 4] = '\0';
+    out = fopen(path, "w");
+    fprintf(out, "0.5,nan\n0.25,1e-3\n0.75,NaN\n0.125,0.5\n");
+    fclose(out);
+    assert_int_equal(judge_pairs_read(path, &p, error), 0);
+    assert_true(p.count == 2 && p.nan_count == 2 && p.nan_at == 0.5);
+    assert_true(p.out_digits.absolute > 4.9e-4 && p.out_digits.absolute < 5.1e-4);
+    judge_pairs_free(&p);
+    unlink(path);
+}
+
+/* What loses a little more than it must is right still, and not right times 1.0000012. */
+TEST(test_factor_of_one) {
+    const double n = 0.1, f = 1000;
+    const dp_setup setup = camera(n, f, DP_MAPPING_D3D);
+    judge_pairs p = {.pairs = pair_room, .count = 9, .distinct = 9};
+    judgement j;
+    for (int k = 0; k < 9; k++)
+        p.pairs[k] = (judge_pair){k / 8.0, n * f / (f - k / 8.0 * (f - n)) * (1 + 20 * 0x1p-24)};
+    judge_function(&p, &setup, 1, false, &j);
+    assert_int_equal(j.verdict, JUDGE_RIGHT);
+    assert_int_equal(j.precision, JUDGE_DIFFERENCE);
+}
+
+/* Of a way from near to far their ratio alone is told. */
+TEST(test_ratio) {
+    rng r = rng_make("ratio");
+    for (int i = 0; i < 50; i++) {
+        const double n = rng_log(&r, 0.01, 10), f = n * rng_log(&r, 20, 1e4);
+        const judge_pairs p = asked(&r, &functions[7], n, f);
+        const dp_setup setup = camera(n, 777 * n, DP_MAPPING_D3D);
+        judgement j;
+        judge_function(&p, &setup, 1, true, &j);
+        assert_true(j.verdict == JUDGE_RIGHT && is_named(&j, &functions[7]));
+        assert_relative(j.found.setup.spec.zfar / j.found.setup.spec.znear, f / n, 1e-3);
+    }
+}
+
 /* The error in z-fighting intervals: one value that is off by a known number of them. */
 TEST(test_intervals) {
     const double n = 0.5, f = 200, d = 0.75, z = n * f / (f - d * (f - n));
@@ -303,14 +379,17 @@ TEST(test_intervals) {
     spec.znear = n;
     spec.zfar = f;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    for (int k = 0; k < 9; k++)
-        p.pairs[k] = (judge_pair){k / 8.0, n * f / (f - k / 8.0 * (f - n))};
     const double step = z * z * (1 / n - 1 / f) / 65535; /* dz/dd a code */
-    p.pairs[6].out += 2e-3 * step;
-    judge_function(&p, &setup, 1, false, &j);
-    assert_int_equal(j.verdict, JUDGE_RIGHT);
-    assert_relative(j.intervals, 2e-3, 1e-3);
-    assert_relative(j.z, z, 1e-12);
-    assert_relative(j.error, 2e-3 * step / z, 1e-6);
-    assert_true(j.at == d);
+    for (int over = 0; over < 2; over++) {               /* z, and z/far */
+        const double unit = over ? f : 1;
+        for (int k = 0; k < 9; k++)
+            p.pairs[k] = (judge_pair){k / 8.0, n * f / (f - k / 8.0 * (f - n)) / unit};
+        p.pairs[6].out += 2e-3 * step / unit;
+        judge_function(&p, &setup, 1, false, &j);
+        assert_int_equal(j.verdict, JUDGE_RIGHT);
+        assert_relative(j.intervals, 2e-3, 1e-3);
+        assert_relative(j.z, z, 1e-12);
+        assert_relative(j.error, 2e-3 * step / z, 1e-6);
+        assert_true(j.at == d);
+    }
 }

@@ -79,7 +79,8 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
      "  depthprec texture depth.png -f 1000 --product normal:high -o normals.npy\n"
      "  depthprec texture --synthetic decals --parameter gap=0.01 -F d24 -m reversed\n",
-     .files_from = 1, .words = "COMPUTE_EYEDEPTH _CameraDepthTexture", .part = texture_asked, .parts = texture_parts},
+     .files_from = 1, .words = "COMPUTE_EYEDEPTH Hi-Z HiZ _CameraDepthTexture",
+     .part = texture_asked, .parts = texture_parts},
     [CMD_SHADOW] = {"shadow", CMD_SHADOW, shadow_uses, "", 0, 0, NULL,
      .summary = "shadow maps: the bias that prevents acne, and its gap",
      .example = "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"

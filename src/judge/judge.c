@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Candidates are tried from the least loss to the greatest, and at each from what is asked about to what is known to be
- * wrong, so that a function is called wrong only where it is right for nothing.
+ * wrong; other planes come last, because nearly every wrong formula is right for some.
  */
 #include "judge/judge.h"
 
@@ -126,7 +126,7 @@ typedef struct search {
 /* One that fits is the answer where there is none yet; else whatever differs from the answer fits besides. */
 static void try(search *s, const judge_candidate *c) {
     judgement *out = s->out;
-    if ((out->also && out->named) || !fits(c, s->pairs, s->precision))
+    if (out->also || !fits(c, s->pairs, s->precision))
         return;
     if (!out->named) {
         out->named = true;
@@ -146,8 +146,8 @@ static void try(search *s, const judge_candidate *c) {
     }
 }
 
-static void try_functions(search *s, const dp_setup *setup, double factor) {
-    judge_candidate c = {.setup = *setup, .factor = factor};
+static void try_functions(search *s, const dp_setup *setup) {
+    judge_candidate c = {.setup = *setup, .factor = 1};
     for (size_t i = 0; (c.input = judge_input_get(i)) != NULL; i++)
         for (size_t k = 0; (c.output = judge_output_get(k)) != NULL; k++)
             if (c.input->window != NULL || !c.output->of_windows)
@@ -175,20 +175,12 @@ static void each_set_up(search *s, void (*of)(search *s, const dp_setup *setup))
 
 static void try_other(search *s, const dp_setup *setup) {
     if (!is_asked(s, setup))
-        try_functions(s, setup, 1);
-}
-
-/* What loses more than it must is not right for planes beside those that it is right for. */
-static const double SAME = 1e-4;
-
-static bool same_planes(const dp_setup *a, const dp_setup *b) {
-    const double n = b->spec.znear;
-    return fabs(a->spec.znear - n) <= SAME * fabs(n) && fabs(n / a->spec.zfar - n / b->spec.zfar) <= SAME;
+        try_functions(s, setup);
 }
 
 /* Planes that fit, with the fewest digits that do. */
 static void try_planes(search *s, const dp_setup *setup) {
-    judge_candidate c = {.setup = *setup, .factor = 1, .fitted = true};
+    judge_candidate c = {.setup = *setup, .factor = 1};
     const judge_verdict as = s->as;
     if (setup->spec.ortho != s->setups[0].spec.ortho || (as == JUDGE_RIGHT && is_asked(s, setup) == s->others))
         return;
@@ -202,7 +194,7 @@ static void try_planes(search *s, const dp_setup *setup) {
             for (int n = 0; n < 2 * DIGITS; n++) {
                 c.setup = *setup;
                 if (!judge_planes_set(&c.setup, znear, zfar, 1 + n % DIGITS, fit_far != (n < DIGITS)) ||
-                    (s->as != JUDGE_RIGHT && same_planes(&c.setup, &s->setups[0])) || !fits(&c, s->pairs, s->precision))
+                    !fits(&c, s->pairs, s->precision))
                     continue;
                 try(s, &c);
                 break;
@@ -228,10 +220,10 @@ static void try_factor(search *s) {
     const judge_pair *first = s->pairs->pairs, *last = first + s->pairs->count - 1;
     for (size_t i = 0; i < s->count; i++)
         for (size_t in = 0; judge_input_get(in) != NULL; in++) {
-            judge_candidate c = {s->setups[i], judge_input_get(in), judge_output_get(0), NULL, 1, false};
+            judge_candidate c = {s->setups[i], judge_input_get(in), judge_output_get(0), NULL, 1};
             const judge_pair *nearer = judge_value(&c, first->in) < judge_value(&c, last->in) ? first : last;
             c.factor = nearer->out / judge_value(&c, nearer->in); /* few functions lose anything there */
-            if (isfinite(c.factor) && c.factor != 0 && fabs(c.factor - 1) > SAME)
+            if (isfinite(c.factor) && c.factor != 0)
                 try(s, &c);
         }
 }
@@ -292,12 +284,11 @@ static bool is_printed(const judge_pairs *p) {
     return false;
 }
 
-/* A formula that is known to be wrong is right for other planes, too, which no camera has: so it comes before those. */
 static void try_all(search *s, bool planes_open) {
     const bool fit = s->pairs->distinct >= JUDGE_FITTED_LEAST;
     s->as = JUDGE_RIGHT;
     for (size_t i = 0; i < s->count && !planes_open; i++)
-        try_functions(s, &s->setups[i], 1);
+        try_functions(s, &s->setups[i]);
     if (planes_open && fit)
         each_set_up(s, try_planes);
     if (planes_open)
@@ -311,6 +302,28 @@ static void try_all(search *s, bool planes_open) {
     s->as = JUDGE_OTHER;
     if (!s->out->named && fit)
         each_set_up(s, try_planes);
+}
+
+static bool is_possible(const judge_pairs *p, judge_precision precision) {
+    return (precision != JUDGE_BINARY16 || p->half) && (precision != JUDGE_BYTES || p->bytes);
+}
+
+/* What is right and loses more may be met more closely by another factor or other planes: where both are the same at
+ * what it loses, it is right. */
+static void excuse(search *s) {
+    judgement *out = s->out, right = *out;
+    right.named = right.also = false;
+    right.decides = (double)NAN;
+    s->out = &right;
+    s->as = JUDGE_RIGHT;
+    for (int k = (int)out->precision + 1; k <= JUDGE_BYTES && !right.named; k++) {
+        s->precision = right.precision = (judge_precision)k;
+        for (size_t i = 0; i < s->count && is_possible(s->pairs, s->precision); i++)
+            try_functions(s, &s->setups[i]);
+    }
+    if (right.named && isnan(parts(&right.found, &out->found, s->pairs, s->precision)))
+        *out = right;
+    s->out = out;
 }
 
 void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t count, bool planes_open, judgement *out) {
@@ -327,11 +340,11 @@ void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t cou
     for (int k = 0; k <= 2 * JUDGE_BYTES + 1 && out->because == NULL && !out->named; k++) {
         s.precision = out->precision = (judge_precision)(k % (JUDGE_BYTES + 1));
         s.others = k > JUDGE_BYTES;
-        if ((s.precision == JUDGE_BINARY16 && !pairs->half) || (s.precision == JUDGE_BYTES && !pairs->bytes) ||
-            (s.others && !planes_open))
-            continue;
-        try_all(&s, planes_open);
+        if (is_possible(pairs, s.precision) && (planes_open || !s.others))
+            try_all(&s, planes_open);
     }
+    if (out->named && !planes_open && (out->verdict == JUDGE_OTHER || out->verdict == JUDGE_WRONG))
+        excuse(&s);
     if (out->precision == JUDGE_BINARY32 && is_printed(pairs))
         out->precision = JUDGE_PRINTED;
     if (out->named)

@@ -5,8 +5,8 @@
  *
  * A candidate is a set-up, what went in and what comes out. It fits where every value is the candidate's, up to what
  * binary32 may lose in any order of operations, what the values were stored as, and the digits that they were printed
- * with. Verdicts are reached by what fits: see judge_verdict. A function that is right for some set-up is never called
- * wrong; where a right and another candidate fit alike, nothing is told.
+ * with. A function that is right for the planes at hand, in any mapping or with a factor, is never called wrong; where
+ * a right and another candidate fit alike, nothing is told.
  */
 #ifndef JUDGE_JUDGE_H
 #define JUDGE_JUDGE_H
@@ -60,7 +60,6 @@ typedef struct judge_candidate {
     const judge_output *output;
     const trap_row *trap; /**< of a wrong formula; else null */
     double factor;        /**< by which the output is multiplied: 1 */
-    bool fitted;          /**< near and far are those that fit */
 } judge_candidate;
 
 /** What a candidate gives; NaN where it gives nothing. */

@@ -23,7 +23,7 @@ typedef struct judge_pairs {
     size_t nan_count; /**< left out: the value is no number, the first */
     double nan_at;    /**< here */
     judge_digits in_digits, out_digits;
-    bool half, bytes; /**< all values are numbers of binary16, and not of fewer bits; shares of 255 */
+    bool half, bytes; /**< all values are numbers of binary16; shares of 255 */
 } judge_pairs;
 
 /**

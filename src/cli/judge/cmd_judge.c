@@ -43,13 +43,12 @@ static void name(const options *o, const judge_candidate *c, named *out) {
 /* "minus eye depth from window depth: d3d, near 0.1, far 1000" */
 static void say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
     const dp_spec *s = &c->setup.spec;
-    const char *by = c->factor != 1 ? ", times " : "";
     const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL;
-    int used = snprintf(out, SETUP_LABEL_SIZE, "%s%s%s%s from %s", c->trap != NULL ? c->trap->name : "",
-                        c->trap != NULL ? ", as " : "", c->output->name, by, c->input->name);
+    int used = snprintf(out, SETUP_LABEL_SIZE, "%s%s%s", c->trap != NULL ? c->trap->name : "",
+                        c->trap != NULL ? ", as " : "", c->output->name);
     if (c->factor != 1)
-        used = snprintf(out, SETUP_LABEL_SIZE, "%s times %s, from %s", c->output->name,
-                        number_of(c->factor, ENOUGH).text, c->input->name);
+        used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, " times %s,", number_of(c->factor, ENOUGH).text);
+    used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, " from %s", c->input->name);
     used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ": %s%s", dp_mapping_get(s->mapping)->name,
                      s->ortho ? ", orthographic" : "");
     if (planes)
