@@ -205,73 +205,107 @@ TEST(lattices_are_found_or_assumed) {
     tally_end(&t);
 }
 
-/* ---- What was not rounded, or not by one lattice ----------------------------------------------------------------- */
-
-typedef void making(rng *r, double *z);
-
-static void random_numbers(rng *r, double *z) {
-    for (int i = 0; i < N; i++)
-        z[i] = rng_log(r, 0.5, 8);
+/* Draws of fine steps that would be off by more than they say: averages lie on a level by chance, or a level was
+ * skipped where only the farthest depths tell. */
+TEST(bounds_hold_where_averages_are_on_levels) {
+    static const struct {
+        uint64_t state;
+        bool found;
+    } draws[] = {{688002064, true}, {1781005343, true}, {2551007653, true}, {1303003909, false}, {2187006561, false}};
+    static double z[N];
+    const kind *k = &kinds[9];
+    for (size_t i = 0; i < sizeof draws / sizeof draws[0]; i++) {
+        rng r = {draws[i].state};
+        const made m = draw(&r, k);
+        scene(&r, m.lo, m.hi, rng_below(&r, 2) == 0 ? 0 : rng_log(&r, 1e-4, 1e-2), z);
+        for (int p = 0; p < N; p++)
+            z[p] = level_of(k, &m, z[p]);
+        spoil(&r, rng_uniform(&r, 0, 0.5), rng_uniform(&r, 0, 0.08), z);
+        const sensor s = found_in(&m, z);
+        assert_int_equal(s.found, draws[i].found);
+        if (s.found)
+            assert_true(fabs(s.step - m.step) <= s.step_off && s.step_off * s.levels < 3 * s.step);
+    }
 }
 
-static void random_of_few(rng *r, double *z) {
+/* ---- What was not rounded, or not by one lattice ----------------------------------------------------------------- */
+
+/* The step of a lattice that may be found all the same; 0: none may. */
+typedef double making(rng *r, double *z);
+
+static double random_numbers(rng *r, double *z) {
+    for (int i = 0; i < N; i++)
+        z[i] = rng_log(r, 0.5, 8);
+    return 0;
+}
+
+static double random_of_few(rng *r, double *z) {
     double values[64];
     const size_t count = 1 + rng_below(r, 64);
     for (size_t i = 0; i < count; i++)
         values[i] = rng_uniform(r, 0.5, 8);
     for (int i = 0; i < N; i++)
         z[i] = values[rng_below(r, count)];
+    return 0;
 }
 
-static void constant(rng *r, double *z) {
+static double constant(rng *r, double *z) {
     const double at = rng_log(r, 0.5, 8);
     for (int i = 0; i < N; i++)
         z[i] = at;
+    return 0;
 }
 
 /* Of a level floor 1/z is even from row to row; of a wall along the view axis from column to column. */
-static void level_floor(rng *r, double *z) {
+static double level_floor(rng *r, double *z) {
     const double least = rng_uniform(r, 0.1, 0.5), step = rng_log(r, 0.001, 0.01);
     const bool wall = rng_below(r, 2) == 0;
     for (int i = 0; i < N; i++)
         z[i] = 1 / (least + step * (wall ? i % W : i / W));
+    return 0;
 }
 
-static void slanted_floor(rng *r, double *z) {
+static double slanted_floor(rng *r, double *z) {
     const double least = rng_uniform(r, 0.1, 0.5), step = rng_log(r, 0.0005, 0.005);
     const double across = step * (double)rng_below(r, 5) / (double)(1 + rng_below(r, 4));
     for (int i = 0; i < N; i++)
         z[i] = 1 / (least + step * (i / W) + across * (i % W));
+    return 0;
 }
 
-static void ramp(rng *r, double *z) {
+static double ramp(rng *r, double *z) {
     const double least = rng_uniform(r, 0.5, 2), step = rng_log(r, 0.001, 0.03);
     for (int i = 0; i < N; i++)
         z[i] = least + step * (i % W);
+    return 0;
 }
 
-static void bowl(rng *r, double *z) {
+static double bowl(rng *r, double *z) {
     const double least = rng_uniform(r, 0.5, 2), step = rng_log(r, 1e-4, 1e-3);
     for (int i = 0; i < N; i++)
         z[i] = least + step * ((i % W) * (i % W) + (i / W) * (i / W));
+    return 0;
 }
 
-static void smooth(rng *r, double *z) {
+static double smooth(rng *r, double *z) {
     scene(r, 0.5, 8, 0, z);
+    return 0;
 }
 
 /* Half of the pixels of each. */
-static void two_lattices(rng *r, double *z) {
+static double two_lattices(rng *r, double *z) {
     const double steps[2] = {rng_log(r, 0.002, 0.02), rng_log(r, 0.002, 0.02)};
     scene(r, 0.5, 6, 1e-3, z);
     for (int i = 0; i < N; i++) {
         const double step = steps[i % 2];
         z[i] = 1 / (step * (0.37 * (i % 2) + rint(1 / z[i] / step)));
     }
+    return 0;
 }
 
-/* Lattices of their own in four quarters, as pictures that were put together. */
-static void quarters(rng *r, double *z) {
+/* Lattices of their own in four quarters, as pictures that were put together: one as far as the file's rounding tells,
+ * where their offsets are alike, but none of a part of their step. */
+static double quarters(rng *r, double *z) {
     double offset[4];
     for (int i = 0; i < 4; i++)
         offset[i] = rng_unit(r);
@@ -281,6 +315,7 @@ static void quarters(rng *r, double *z) {
         const double shift = offset[(i % W < W / 2) + 2 * (i / W < H / 2)];
         z[i] = 1 / (step * (shift + rint(1 / z[i] / step)));
     }
+    return step;
 }
 
 static const struct {
@@ -310,10 +345,10 @@ TEST(nothing_is_found_where_nothing_is) {
     rng r = rng_make("nothing");
     for (size_t k = 0; k < sizeof nothings / sizeof nothings[0]; k++)
         for (uint64_t i = 0; i < rounds; i++) {
-            nothings[k].make(&r, z);
+            const double step = nothings[k].make(&r, z);
             const sensor s = found_in(&files[i % 4], z);
-            TALLY(&t, !s.found, "%s, file %d: found %s of step %.9g", nothings[k].name, (int)(i % 4), s.row->name,
-                  s.step);
+            TALLY(&t, !s.found || fabs(s.step - step) <= s.step_off, "%s, file %d: found %s of step %.9g",
+                  nothings[k].name, (int)(i % 4), s.row->name, s.step);
         }
     tally_end(&t);
 }
@@ -343,7 +378,8 @@ TEST(levels_are_not_counted_over_gaps) {
     tally_end(&t);
 }
 
-/* Of a narrow range 1/z is nearly as even as z: both are named, unless the samples tell. */
+/* Of a narrow range 1/z is nearly as even as z: both are named, unless the samples tell, or happen to be multiples of
+ * more than the unit, which leaves too few bits for either. */
 TEST(two_kinds_that_fit_are_both_named) {
     const uint64_t rounds = test_cases(4, 40, 1000);
     static double z[N];
@@ -357,11 +393,60 @@ TEST(two_kinds_that_fit_are_both_named) {
             z[k] = 1 / (step * rint((1 / at + 30 * step * rng_unit(&r)) / step));
         const sensor s = found_in(&m, z);
         both += s.other != NULL && s.other != s.row;
-        TALLY(&t, s.found ? strcmp(s.row->name, "inverse") == 0 : s.other != NULL,
+        TALLY(&t, s.found ? strcmp(s.row->name, "inverse") == 0 : s.other != NULL || s.file_step > 1.5 * m.unit,
               "1/z of %g in steps of %.9g: found %d, %s", at, step, s.found, s.row->name);
     }
     tally_end(&t);
     assert_true(2 * both > rounds);
+}
+
+/* Pixels of these samples in any order. */
+static sensor found_of(const made *m, const int *samples, uint64_t count) {
+    static double z[N];
+    rng r = rng_make("order");
+    for (int k = 0; k < N; k++)
+        z[k] = samples[rng_below(&r, count)] * m->unit;
+    return found_in(m, z);
+}
+
+/* 1/5.9 in steps of 2.88643657e-05: each a multiple of a millimetre to a tenth of one, by chance. */
+TEST(multiples_may_be_levels_of_another_kind) {
+    static const made m = {.type = IMAGE_U16, .unit = 0.0001};
+    int samples[31];
+    for (int i = 0; i < 31; i++) {
+        samples[i] = (int)lrint(1e4 / (2.88643657e-05 * (5901 - i)));
+        assert_int_equal(samples[i] % 10, 0);
+    }
+    const sensor s = found_of(&m, samples, 31);
+    assert_true(!s.found && s.other != NULL);
+}
+
+/* Least squares leave two of these off the lattice, with which all but those explain it. */
+TEST(ends_of_a_rounding_are_on_the_lattice) {
+    static const made m = {.type = IMAGE_U16, .unit = 0.0001};
+    const double step = 3.33480776e-05;
+    int samples[31];
+    for (int i = 0; i < 31; i++)
+        samples[i] = (int)lrint(1e4 / (step * (5489 - i)));
+    const sensor s = found_of(&m, samples, 31);
+    assert_true(s.off_pixels == 0 && (s.other != NULL || strcmp(s.row->name, "inverse") == 0));
+    assert_true(fabs(s.step - (strcmp(s.row->name, "even") == 0 ? step * 5.478 * 5.478 : step)) < 0.01 * s.step);
+}
+
+/* A fifth of the four quarters' step holds all: .506, .311, .898 and .71 are nearly so many fifths apart. */
+TEST(a_part_of_a_step_is_not_found) {
+    static const made m = {.type = IMAGE_U16, .unit = 0.001};
+    static const double offsets[] = {0.506, 0.311, 0.898, 0.71};
+    static double z[N];
+    rng r = rng_make("part");
+    for (int round = 0; round < 12; round++) {
+        scene(&r, 0.5, 6, 0, z);
+        for (int i = 0; i < N; i++) {
+            const double shift = offsets[(i % W < W / 2) + 2 * (i / W < H / 2)];
+            z[i] = 1 / (0.01282 * (shift + rint(1 / z[i] / 0.01282)));
+        }
+        assert_false(found_in(&m, z).found);
+    }
 }
 
 /* Averages of neighbours lie on half of the step, too: where levels are nearly as many as pixels, half of the step

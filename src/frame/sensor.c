@@ -231,6 +231,11 @@ static bool holds(const sensor *s, const sensor_file *file, double x) {
     return fit_holds(&f, &v);
 }
 
+/* Which level it is on. */
+static bool tells(const sensor *s, const sensor_file *file, double x) {
+    return is_depth(x) && holds(s, file, x) && value_of(s->row->levels, interval_of(file, x)).off < 0.5 * s->step;
+}
+
 double sensor_round(const sensor *s, double z) {
     const double gap = s->row->levels == GRAIN_HALF ? half_gap(z) : 0;
     const double level = gap > 0 ? rint(z / gap) * gap : depth_of(s, rint(level_of(s, z)));
@@ -321,6 +326,29 @@ static bool is_surface(const image *img, const sensor *s, double scale) {
     return counts[1] >= RUNS_LEAST && counts[1] >= counts[0];
 }
 
+/*
+ * Pictures of several lattices that were put together lie on a finer one. But most neighbours are of the same picture,
+ * and so the same number of its levels, or a multiple of that, lies between them.
+ */
+static bool is_put_together(const image *img, const sensor_file *file, const sensor *s) {
+    enum { MOST = 8 };
+    const size_t all = (size_t)img->width * img->height, stride = (1 + (all - 1) / LOOKED_AT) | 1U;
+    size_t apart = 0, multiples[MOST + 1] = {0};
+    for (size_t i = 0; i + 1 < all && s->row->levels != GRAIN_HALF; i += stride) {
+        const double x = image_sample(img, i), next = image_sample(img, i + 1);
+        if (!tells(s, file, x) || !tells(s, file, next))
+            continue;
+        const double between = rint(level_of(s, x * file->scale)) - rint(level_of(s, next * file->scale));
+        apart += between != 0;
+        for (int q = 2; q <= MOST; q++)
+            multiples[q] += between != 0 && fmod(between, q) == 0;
+    }
+    for (int q = 2; q <= MOST; q++)
+        if (apart >= RUNS_LEAST && multiples[q] >= SENSOR_SHARE * (double)apart)
+            return true;
+    return false;
+}
+
 /* ---- Together ---------------------------------------------------------------------------------------------------- */
 
 static sensor of_fit(const sensor_row *row, const fit *f) {
@@ -404,7 +432,7 @@ static sensor of_file(const image *img, const sensor_file *file, const depths *d
     s.file_step = file->unit;
     s.step_off = file->unit * divisor / d->samples[d->count - 1];
     const sensor_file units = {.step = file->unit, .scale = file->scale};
-    return count_all(img, &units, &s) ? s : of_file(img, file, &(depths){0});
+    return count_all(img, &units, &s) && !is_surface(img, &s, file->scale) ? s : of_file(img, file, &(depths){0});
 }
 
 /* What was chosen; the next row, where it explains the values nearly as well. */
@@ -436,7 +464,7 @@ static void choose(const depths *d, const sensor_file *file, choice *c) {
         const bool found = half ? find_halves(d, file, INT_MAX, &f) : find_even(d, file, row->levels, &f);
         if (found && fit_explains(&f))
             consider(c, row, &f);
-        if (found && half && !halves_change(d, file))
+        if (found && half && fit_explains(&f) && !halves_change(d, file))
             consider(c, row - 1, &f);
         c->unclear = c->unclear || (!found && fit_explains(&f));
     }
@@ -465,7 +493,7 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
         s.other = c.other;
         s.found = c.other == NULL;
         s.file_step = tried.step;
-        if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale))
+        if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale) && !is_put_together(img, &tried, &s))
             *out = s, out->residual = residual_of(&d, &tried, &s);
         name_like(out);
     }

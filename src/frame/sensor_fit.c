@@ -18,10 +18,13 @@ enum {
     PEAKS = 12,
     TELLING = 6, /* of a step, the share that a value may be off by to count, or to be fitted */
     FITTING = 5,
-    ENDS = 64,      /* values at either end that bound the step */
-    TOLD = 4096,    /* values that the chance is of, at most: any choice of them proves it */
-    EXPONENTS = 48, /* of Chernoff's base */
-    EXTENSIONS = 64
+    WEIGHT_MOST = 16, /* of a value, in pixels */
+    ENDS = 64,        /* values at either end that bound the step */
+    SIGMAS = 4,       /* of how many may be astray */
+    TOLD = 4096,      /* values that the chance is of, at most: any choice of them proves it */
+    EXPONENTS = 48,   /* of Chernoff's base */
+    EXTENSIONS = 64,
+    ROUNDS = 64
 };
 
 /* What of an `off` a cover of all lattices may shift each of step and offset by, and log2 of the octaves of steps. */
@@ -121,7 +124,7 @@ static bool regress(const fit_value *values, size_t a, size_t b, double slack, f
             continue;
         pixels += v->pixels;
         const double k = rint((v->at - f->offset) / f->step) - first, u = v->at - origin;
-        const double weight = fmin(v->pixels, 16) / (v->off * v->off) * (f->step * f->step);
+        const double weight = fmin(v->pixels, WEIGHT_MOST) / (v->off * v->off) * (f->step * f->step);
         sum += weight;
         sk += weight * k;
         su += weight * u;
@@ -255,15 +258,59 @@ static bool try_origin(const fit_value *values, size_t count, comb *c, double or
     return found;
 }
 
+static size_t held_of(const fit_value *values, size_t count, const fit *f) {
+    size_t held = 0;
+    for (size_t i = 0; i < count; i++)
+        held += fit_holds(f, &values[i]);
+    return held;
+}
+
+/* Least squares leave a value that is at the end of its rounding off the lattice: those that are farthest off, as a
+ * share of their rounding, weigh more each time (Lawson's way to the least maximum), while that holds more of them. */
+static void polish(const fit_value *values, size_t count, fit *best) {
+    fit_value *near = malloc(count * sizeof *near);
+    fit f = *best;
+    size_t some = 0, most;
+    for (size_t i = 0; i < count && near != NULL; i++)
+        if (can_tell(best, &values[i], FITTING) &&
+            residual(best, values[i].at) <= values[i].off + 0.0625 * best->step) {
+            near[some] = values[i];
+            near[some++].pixels = 1;
+        }
+    most = held_of(near, some, best);
+    for (int round = 0; round < ROUNDS && most < some && regress(near, 0, some, 0.0625, &f); round++) {
+        double heaviest = 0;
+        const size_t held = held_of(near, some, &f);
+        if (held > most) {
+            most = held;
+            weigh(values, count, TELLING, &f);
+            if (is_better(&f, best))
+                *best = f;
+        }
+        for (size_t i = 0; i < some; i++) {
+            near[i].pixels *= residual(&f, near[i].at) / near[i].off;
+            heaviest = fmax(heaviest, near[i].pixels);
+        }
+        for (size_t i = 0; i < some; i++)
+            near[i].pixels /= heaviest;
+    }
+    free(near);
+}
+
 /* Over a gap a level may have been skipped, or been counted twice. @return whether another number of levels fits nearly
  * as well, so that the values do not tell */
 static bool may_have_slipped(const fit_value *values, size_t count, const fit *best) {
     enum { MOST = 16, QUARTERS = 4, ANCHORS = 8 };
-    const double range = values[count - 1].at - values[0].at, levels = range / best->step;
+    size_t first = 0, last = count - 1; /* those that tell */
+    while (first < last && !can_tell(best, &values[first], FITTING))
+        first++;
+    while (last > first && !can_tell(best, &values[last], FITTING))
+        last--;
+    const double range = values[last].at - values[first].at, levels = range / best->step;
     for (int quarters = -MOST; quarters <= MOST; quarters++)
         for (size_t i = 0; i < ANCHORS && levels > MOST; i++) {
             fit f = {.step = range / (levels + (double)quarters / QUARTERS),
-                     .offset = values[(count - 1) * i / (ANCHORS - 1)].at};
+                     .offset = values[first + (last - first) * i / (ANCHORS - 1)].at};
             f.offset -= residual_of(best, f.offset);
             if (quarters == 0 || !regress(values, 0, count, 0.125, &f) || !regress(values, 0, count, 0.03125, &f) ||
                 !regress(values, 0, count, 0, &f) || fabs(range / f.step - levels) < 0.5)
@@ -277,59 +324,100 @@ static bool may_have_slipped(const fit_value *values, size_t count, const fit *b
 
 /* ---- What it leaves open ------------------------------------------------------------------------------------------*/
 
-/*
- * Any other lattice that holds the same values by the same k: (k_j - k_i) step lies within off_i + off_j of their
- * difference, for every pair.
- */
-static void bound(const fit_value *values, size_t count, fit *f) {
-    const fit_value *ends[2][ENDS];
-    size_t filled[2] = {0, 0};
-    f->offset -= f->step * rint(f->offset / f->step);
-    for (size_t i = 0; i < count && filled[0] < ENDS; i++)
-        if (can_tell(f, &values[i], FITTING) && fit_holds(f, &values[i]))
-            ends[0][filled[0]++] = &values[i];
-    for (size_t i = count; i-- > 0 && filled[1] < ENDS;)
-        if (can_tell(f, &values[i], FITTING) && fit_holds(f, &values[i]))
-            ends[1][filled[1]++] = &values[i];
-    double lo = 0, hi = (double)INFINITY;
-    for (size_t i = 0; i < filled[0]; i++)
-        for (size_t j = 0; j < filled[1]; j++) {
-            const double apart = rint((ends[1][j]->at - ends[0][i]->at) / f->step);
-            const double off = ends[0][i]->off + ends[1][j]->off, difference = ends[1][j]->at - ends[0][i]->at;
-            if (apart < 1)
-                continue;
-            lo = fmax(lo, (difference - off) / apart);
-            hi = fmin(hi, (difference + off) / apart);
-        }
-    f->step_off = fmax(fmax(hi - f->step, f->step - lo), 0);
-    f->offset_off = (double)INFINITY;
-    for (int side = 0; side < 2; side++)
-        for (size_t i = 0; i < filled[side]; i++) {
-            const fit_value *v = ends[side][i];
-            const double k = rint((v->at - f->offset) / f->step);
-            f->offset_off = fmin(f->offset_off, fabs(k) * f->step_off + v->off + residual(f, v->at));
+/* Values at one end that bound the lattice, and how many among them are seen off it: averages of neighbours, of which
+ * as many lie on it. */
+typedef struct end_values {
+    const fit_value *at[ENDS];
+    size_t count;
+    double astray;
+} end_values;
+
+static void take_end(const fit_value *values, size_t count, const fit *f, bool last, end_values *e) {
+    *e = (end_values){.count = 0};
+    for (size_t i = 0; i < count && e->count < ENDS; i++) {
+        const fit_value *v = &values[last ? count - 1 - i : i];
+        if (can_tell(f, v, FITTING) && fit_holds(f, v))
+            e->at[e->count++] = v;
+        else
+            e->astray += can_tell(f, v, FITTING);
+    }
+}
+
+/* Inserts into the least `size` numbers, upwards. */
+static void keep_least(double *least, size_t size, double x) {
+    for (size_t i = 0; i < size; i++)
+        if (x < least[i]) {
+            const double next = least[i];
+            least[i] = x;
+            x = next;
         }
 }
 
 /*
+ * Any other lattice that holds the same values by the same k: (k_j - k_i) step lies within off_i + off_j of their
+ * difference. Of pairs that share no value as many are wrong at most as averages are on a level, and the next strictest
+ * holds.
+ */
+static void bound(const fit_value *values, size_t count, fit *f) {
+    end_values e[2];
+    double above = (double)INFINITY, below = (double)INFINITY, offs[2 * ENDS + 1];
+    f->offset -= f->step * rint(f->offset / f->step);
+    for (int side = 0; side < 2; side++)
+        take_end(values, count, f, side == 1, &e[side]);
+    const double mean = e[0].astray + e[1].astray;
+    const size_t size = 1 + (size_t)fmin(ceil(mean + SIGMAS * sqrt(mean)), 2 * ENDS);
+    for (size_t shift = 0; shift < e[1].count; shift++) {
+        double up[2 * ENDS + 1], down[2 * ENDS + 1];
+        for (size_t i = 0; i < size; i++)
+            up[i] = down[i] = (double)INFINITY;
+        for (size_t i = 0; i < e[0].count && i < e[1].count; i++) {
+            const fit_value *a = e[0].at[i], *b = e[1].at[(i + shift) % e[1].count];
+            const double apart = rint((b->at - a->at) / f->step), off = a->off + b->off, difference = b->at - a->at;
+            if (apart < 1)
+                continue;
+            keep_least(up, size, (difference + off) / apart - f->step);
+            keep_least(down, size, f->step - (difference - off) / apart);
+        }
+        above = fmin(above, up[size - 1]);
+        below = fmin(below, down[size - 1]);
+    }
+    f->step_off = fmax(fmax(above, below), 0);
+    for (size_t i = 0; i < size; i++)
+        offs[i] = (double)INFINITY;
+    for (int side = 0; side < 2; side++)
+        for (size_t i = 0; i < e[side].count; i++) {
+            const fit_value *v = e[side].at[i];
+            const double k = rint((v->at - f->offset) / f->step);
+            keep_least(offs, size, fabs(k) * f->step_off + v->off + residual(f, v->at));
+        }
+    f->offset_off = offs[size - 1];
+}
+
+/*
  * Two lattices that were put together lie on a finer one, but on few of its residues: of one lattice levels are missing
- * without regard to them. By chi squared and its bound for a chance of e^-15.
+ * without regard to them. By chi squared and its bound for a chance of e^-15. And where averages of neighbours lie half
+ * way between levels few pixels have them.
  */
 static bool is_mixed(const fit_value *values, size_t count, const fit *f) {
-    enum { MOST = 64 };
+    enum { MOST = 64, HALVES = 3 };
     for (int q = 2; q <= MOST; q++) {
-        double of[MOST] = {0}, all = 0, last = (double)NAN, squares = 0;
+        double of[MOST] = {0}, weights[MOST] = {0}, all = 0, sum = 0, last = (double)NAN, squares = 0, most = 0;
         for (size_t i = 0; i < count; i++) {
             const double k = rint((values[i].at - f->offset) / f->step);
             if (!can_tell(f, &values[i], FITTING) || !fit_holds(f, &values[i]) || k == last)
                 continue;
-            of[(int)(k - q * floor(k / q))]++;
+            const int residue = (int)(k - q * floor(k / q));
+            of[residue]++;
+            weights[residue] += fmin(values[i].pixels, WEIGHT_MOST);
+            sum += fmin(values[i].pixels, WEIGHT_MOST);
             all++;
             last = k;
         }
-        for (int i = 0; i < q; i++)
+        for (int i = 0; i < q; i++) {
             squares += of[i] * of[i];
-        if (q / all * squares - all > q - 1 + 2 * sqrt(15.0 * (q - 1)) + 30)
+            most = fmax(most, weights[i]);
+        }
+        if (q / all * squares - all > q - 1 + 2 * sqrt(15.0 * (q - 1)) + 30 || (q <= HALVES && most >= 0.875 * sum))
             return true;
     }
     return false;
@@ -348,8 +436,10 @@ bool fit_find(const fit_value *values, size_t count, fit *out) {
             found = try_origin(values, count, &c, c.at[k], out) || found;
     }
     free(c.scores);
+    if (found)
+        polish(values, count, out);
     if (!found || may_have_slipped(values, count, out) || is_mixed(values, count, out))
         return false;
     bound(values, count, out);
-    return true;
+    return isfinite(out->step_off);
 }
