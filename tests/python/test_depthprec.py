@@ -465,9 +465,10 @@ class Memory(unittest.TestCase):
                                    (memoryview(codes)[:2], memoryview(codes).cast("B").cast("d"), c.decode)):
             with self.assertRaisesRegex(ValueError, "must not overlap"):
                 method(given, out=out)
-        outs = [memoryview(codes).cast("B").cast("f"), array.array("f", bytes(16)), array.array("f", bytes(16))]
+        outs = [array.array("f", bytes(16)), array.array("f", bytes(16)), memoryview(codes).cast("B").cast("f")]
         with self.assertRaisesRegex(ValueError, "must not overlap"):
             c.decode(codes, bounds=True, out=outs)
+        self.assertEqual(bytes(outs[0]), bytes(16))  # refused before anything was written
 
     def test_strides(self):
         c = self.camera

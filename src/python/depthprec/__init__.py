@@ -300,6 +300,8 @@ class Camera:
         if out is None:
             out = _arrays.made(values, read, self._written(name, read.format)[0])
         write = memoryview(out)
+        if write.readonly or not write.c_contiguous:
+            raise ValueError("out must be contiguous memory that can be written")
         kind = name, read.format, write.format
         call, in_place = self._calls.get(kind) or self._call(*kind)
         start, to, count = _arrays.places(read, write, in_place)

@@ -86,7 +86,7 @@ def given(values, what, direct=REALS):
 
 
 def _copied(view, what, direct):
-    """In the order of the indices; integers that are no `direct` codes as double, or as uint32 where codes are asked."""
+    """In the order of the indices; what is not `direct` as uint32 where codes are asked, else as double."""
     code, target = KINDS.get(view.format), "I" if "I" in direct else "d"
     if code is None:
         raise TypeError("%s must be float32, float64 or integers in the order of this machine's bytes, got '%s'"
@@ -122,8 +122,6 @@ def made(values, read, code):
 def places(read, write, in_place):
     """Where the elements that are read lie, where those that are written go, and how many they are."""
     size, room, count = read.nbytes, write.nbytes, read.nbytes // read.itemsize
-    if write.readonly or not write.c_contiguous:
-        raise ValueError("out must be contiguous memory that can be written")
     if room != count * write.itemsize:
         raise ValueError("out must have as many elements as are read, %d, got %d" % (count, room // write.itemsize))
     start, to = address(read), ctypes.addressof(_lent(write))
