@@ -15,6 +15,7 @@ Camera is the library itself (MIT). The five functions run the command beside it
 import ctypes as _ctypes
 import math as _math
 from collections import namedtuple as _namedtuple
+from functools import partial as _partial
 
 from . import _arrays, _core
 from ._core import Error
@@ -49,7 +50,7 @@ class Camera:
     Raises Error, a ValueError, with the library's sentence. Source: depthprec(3), setup.h.
     """
 
-    __slots__ = ("_given", "_setups", "_batches", "_narrow")
+    __slots__ = ("_given", "_setups", "_calls", "_words", "_direct")
 
     def __init__(self, near=0.1, far=1000.0, format="fp32", mapping="d3d", *, ortho=False, rounding="nearest",
                  model="exact", arith="ieee", log_c=1.0, viewport=None, fov=60.0, subpixel=8, slant=(0.0, 90.0),
@@ -73,7 +74,8 @@ class Camera:
             spec.triangles = _triangles(viewport, fov, subpixel, slant, triangle_class)
         setup = _core.Setup()
         _core.demand(_core.setup_init(setup, spec))
-        self._setups, self._batches, self._narrow = {"own": setup}, {}, spec.format.bits <= 16
+        self._setups, self._calls, self._words = {"own": setup}, {}, "HI" if spec.format.bits <= 16 else "I"
+        self._direct = {format for format, code in _arrays.KINDS.items() if code in "fd" + self._words}
         self._given = {"near": spec.znear, "far": spec.zfar, "format": spec.format.name.decode(),
                        "mapping": _core.mapping_get(spec.mapping)[0].decode(), "ortho": bool(ortho),
                        "rounding": rounding, "model": model, "arith": _core.arith_get(spec.arith)[0].decode(),
@@ -165,13 +167,10 @@ class Camera:
         Returns uint16 for formats of at most 16 bits, else uint32, of the same shape; an int of a number.
         Source: depthprec(3), DP_TASK_CODE: dp_code() of each element, to the bit.
         """
-        given = _arrays.given(z, "eye depths")
-        if given is None:
+        read = _arrays.given(z, "eye depths")
+        if read is None:
             return self._number("code", _number(z, "an eye depth"), write=_ctypes.c_uint32)
-        real = given.real()
-        result, address, _held, size = _arrays.output(given, "HI" if self._narrow else "I", out)
-        self._run("code", real, int(size == 4), given.address, address, given.count)
-        return result
+        return self._fill("code", z, read, out)
 
     def decode(self, values, *, bounds=False, out=None):
         """The eye depths that codes, or window depths, give back.
@@ -188,24 +187,17 @@ class Camera:
         window depth in [0, 1].
         Source: depthprec(3), DP_TASK_EYE, _LO and _HI: dp_stored() and dp_cell_of().
         """
-        given = _arrays.given(values, "codes or window depths")
-        if given is None:
+        read = _arrays.given(values, "codes or window depths", self._direct)
+        if read is None:
             return self._decode_number(values, bounds)
-        outs = (out,) if not bounds else (None,) * 3 if out is None else tuple(out)
-        if len(outs) != (3 if bounds else 1):
+        if not bounds:
+            return self._fill("eye", values, read, out)
+        outs = (None,) * 3 if out is None else tuple(out)
+        if len(outs) != 3:
             raise ValueError("out must be three arrays with bounds, got %d" % len(outs))
-        floating = given.code in _arrays.REALS
-        word = None if floating else given.word(self._narrow)
-        made = [_arrays.output(given, given.code if floating else "df", each, not (floating or bounds))
-                for each in outs]
-        if floating:
-            addresses = [address for _, address, _, _ in made] + [None] * (3 - len(made))
-            _core.demand(_core.batch_windows(self._setups["own"], _arrays.REALS[given.code], given.address, *addresses,
-                                             given.count))
-        else:
-            for name, (_, address, _, size) in zip(("eye", "lo", "hi"), made):
-                self._run(name, int(size == 8), word, given.address, address, given.count)
-        return Decoded(*(result for result, _, _, _ in made)) if bounds else made[0][0]
+        for run in (False, True):  # all are looked at before one is written
+            outs = [self._fill(name, values, read, each, run) for name, each in zip(Decoded._fields, outs)]
+        return Decoded(*outs)
 
     def window_depth(self, z, *, out=None):
         """The window depth in [0, 1] of eye depths, before the buffer rounds it: within 2^-50 relative, and rounded
@@ -275,32 +267,62 @@ class Camera:
             self._setups[name] = made
         return self._setups[name]
 
-    def _run(self, name, real, word, read, write, count):
-        """What a method asks of the library, of the elements at one address to those at another."""
-        batch = self._batches.get((name, real, word))
-        if batch is None:
-            made = _core.Batch()
-            setup = self._setup_of(name if name in ("separation", "lattice") else "own")
-            task = _core.TASK["separation" if name == "lattice" else name]
-            _core.demand(_core.batch_init(made, setup, task, real, word, _core.path_best()))
-            batch = self._batches[name, real, word] = _ctypes.byref(made)
-        _core.batch_run(batch, read, write, count)
+    def _written(self, name, read):
+        """The types of elements that a method writes, the first of them unasked."""
+        return self._words if name == "code" else _arrays.KINDS[read] if read in _arrays.REALS else "df"
+
+    def _call(self, name, read, write):
+        """What a method asks of the library, made once for elements of one format and those of another: a function of
+        their addresses and count, and whether it works in place."""
+        codes = self._written(name, read)
+        if _arrays.KINDS.get(write, "?") not in codes:
+            raise TypeError("out must have elements of type '%s', got '%s'" % ("' or '".join(codes), write))
+        kinds = _arrays.KINDS[read] + _arrays.KINDS[write]
+        real, word = int("f" not in kinds), int("H" not in kinds)
+        setup = self._setup_of(name if name in ("separation", "lattice") else "own")
+        task = {"lattice": "separation", "z": "eye"}.get(name, name)
+        windows = task in _core.WINDOWS and read in _arrays.REALS
+        if windows:
+            before = (None,) * _core.WINDOWS.index(task)
+            after = (None,) * (2 - len(before))
+
+            def call(start, to, count):
+                _core.demand(_core.batch_windows(setup, real, start, *before, to, *after, count))
+        else:
+            batch = _core.Batch()
+            _core.demand(_core.batch_init(batch, setup, _core.TASK[task], real, word, _core.path_best()))
+            call = _partial(_core.batch_run, batch)
+        made = self._calls[name, read, write] = call, not windows and name not in Decoded._fields
+        return made
+
+    def _fill(self, name, values, read, out, run=True):
+        """`out`, or new memory of the kind of `values`, with what a method makes of `read`."""
+        if out is None:
+            out = _arrays.made(values, read, self._written(name, read.format)[0])
+        write = memoryview(out)
+        if write.readonly or not write.c_contiguous:
+            raise ValueError("out must be contiguous memory that can be written")
+        kind = name, read.format, write.format
+        call, in_place = self._calls.get(kind) or self._call(*kind)
+        start, to, count = _arrays.places(read, write, in_place)
+        if run:
+            call(start, to, count)
+        return out
 
     def _map(self, name, z, out):
-        given = _arrays.given(z, "eye depths")
-        if given is None:
-            z = _number(z, "an eye depth")
-            if not self.near <= z <= self.far:
-                _core.demand("DEPTH")
-            return self._number(name, z)
-        real = given.real()
-        result, address, _held, _ = _arrays.output(given, given.code, out)
-        self._run(name, real, 1, given.address, address, given.count)
-        return result
+        read = _arrays.given(z, "eye depths")
+        if read is not None:
+            return self._fill(name, z, read, out)
+        z = _number(z, "an eye depth")
+        if not self.near <= z <= self.far:
+            _core.demand("DEPTH")
+        return self._number(name, z)
 
     def _number(self, name, value, read=_ctypes.c_double, write=_ctypes.c_double):
         got = write()
-        self._run(name, 1, 1, _ctypes.byref(read(value)), _ctypes.byref(got), 1)
+        kind = name, read._type_, write._type_
+        call, _ = self._calls.get(kind) or self._call(*kind)
+        call(_ctypes.byref(read(value)), _ctypes.byref(got), 1)
         return got.value
 
     def _decode_number(self, value, bounds):
@@ -368,11 +390,11 @@ def _triangles(viewport, fov, subpixel, slant, triangle_class):
 def _sixteen(matrix):
     if isinstance(matrix, (list, tuple)) and all(isinstance(row, (list, tuple)) for row in matrix):
         matrix = [value for row in matrix for value in row]
-    given = _arrays.given(matrix, "a matrix")
-    if given is None or given.count != 16:
-        raise Error("a matrix must have 16 numbers, got %d" % (1 if given is None else given.count))
-    given.convert("d")
-    return (_ctypes.c_double * 16)(*given.view)
+    read = _arrays.given(matrix, "a matrix")
+    count = 1 if read is None else read.nbytes // read.itemsize
+    if count != 16:
+        raise Error("a matrix must have 16 numbers, got %d" % count)
+    return (_ctypes.c_double * 16)(*memoryview(read.tobytes()).cast(_arrays.KINDS[read.format]))
 
 
 def _find(numbers, layout, mapping):

@@ -8,6 +8,7 @@ library = ctypes.CDLL(os.path.join(os.path.dirname(os.path.abspath(__file__)), "
 
 TASKS = ("code", "eye", "width", "encode", "decode", "lo", "hi", "window", "separation", "interval")
 TASK = {name: number for number, name in enumerate(TASKS)}
+WINDOWS = ("eye", "lo", "hi")  # what dp_batch_windows() writes
 MODELS = ("exact", "staged", "float")
 ROUNDINGS = ("nearest", "even", "zero")
 STATUSES = ("OK", "NULL", "NEAR", "FAR", "PLANES", "INFINITE", "ORTHO", "LOG_C", "FORMAT", "MAPPING", "ROUNDING",
