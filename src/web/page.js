@@ -42,7 +42,17 @@ const SECOND = "table -n 0.1 -f 1000 -F fp32 -m reversed --unit m";
 
 let engine, aside, picture;
 const takes = {}; // options of each command
-const state = { setups: [], asked: {}, figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]) };
+// What a page shows at first: a link says only what differs from it.
+const start = () => ({
+    setups: [], figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]),
+    asked: {
+        solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]),
+        bias: new Map([["separation", "2cm"], ["at", "100m"], ["api", "all"]]),
+        zfight: new Map(),
+        prepass: new Map([["sample", "100000"]]),
+    },
+});
+const state = start();
 const fields = []; // of each set-up: its controls by option
 
 const errorOf = ({ err }) => err.trim().replace(/^depthprec: /, "");
@@ -79,11 +89,61 @@ function shown() {
     return all;
 }
 
+// ---- The address --------------------------------------------------------------------------------------------------
+
+// What is seen beside the commands: the gap of the picture, in thousandths of its slider, and the colours.
+const SEEN = { gap: /^(1000|\d{1,3})$/, theme: /^(system|light|dark)$/ };
+const SEEN_FIRST = { gap: "400", theme: "system" };
+
+function seen() {
+    const now = { gap: $("#gap").value, theme: document.documentElement.dataset.theme ?? "system" };
+    return Object.entries(now).filter(([name, value]) => value !== SEEN_FIRST[name]).map((pair) => pair.join("="));
+}
+
+// Takes the last words from those of a link, where they are these.
+function takeSeen(all) {
+    const said = { ...SEEN_FIRST };
+    if (all.at(-1)?.[0] === "page")
+        for (const word of all.pop().slice(1)) {
+            const [name, value] = word.split("=");
+            if (!Object.hasOwn(SEEN, name) || !SEEN[name].test(value))
+                throw new Error(`page ${word}: it takes gap=0 to gap=1000 and theme=light or theme=dark`);
+            said[name] = value;
+        }
+    return said;
+}
+
+function see({ gap, theme }) {
+    $("#gap").value = gap;
+    $("#gap").dispatchEvent(new Event("input"));
+    setTheme(theme);
+}
+
+function link() {
+    const first = start(), simple = [...state.setups[0].keys()].every((name) => takes.table.has(name));
+    const asks = ({ asked }, verb) => join(words(asked[verb]));
+    const usual = simple && state.shown.size === first.shown.size &&
+        [...state.shown].every((verb) => first.shown.has(verb) && (verb in first.asked ? asks(state, verb) === asks(first, verb) : true));
+    const told = shown().filter(([verb]) => verb === "table" ||
+        (verb === "plot" ? !simple || state.figure !== first.figure : !usual));
+    return toFragment(seen().length === 0 ? told : [...told, ["page", ...seen()]]);
+}
+
+let linked = true; // what is shown came by the address: it is no step back
+// Not at each step of a drag: browsers count, and a set-up or a command that is refused is no link.
+function showAddress() {
+    const fragment = link();
+    const fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "") &&
+        shown().every((line) => engine.parse(line).status === 0);
+    if (fine && location.hash.slice(1) !== fragment)
+        history[linked ? "replaceState" : "pushState"](null, "", `#${fragment}`);
+}
+
 // ---- Setting the page ---------------------------------------------------------------------------------------------
 
 // What commands say, put together before anything is taken: one that is refused leaves the page as it was.
-async function understand(all) {
-    const next = { setups: [], asked: { ...state.asked }, figure: state.figure, shown: new Set(["table", "plot"]) };
+async function understand(all, from) {
+    const next = { setups: [], asked: { ...from.asked }, figure: from.figure, shown: new Set(["table", "plot"]) };
     if (all.length === 0) throw new Error("there is no command in it: table -n 0.1 -f 1000 is one");
     if (all.length > VERBS.length + 1) throw new Error(`the page shows at most ${VERBS.length + 1} commands`);
     for (const line of all) {
@@ -116,7 +176,7 @@ async function understand(all) {
         else if (next.setups.length === 0) next.setups.push(given);
         else for (const [name, value] of given) if (!takes.table.has(name)) next.setups[0].set(name, value);
     }
-    if (all.length === 1) for (const verb of state.shown) next.shown.add(verb);
+    if (all.length === 1) for (const verb of from.shown) next.shown.add(verb);
     if (next.shown.size === 2) for (const verb of ["solve", "bias"]) next.shown.add(verb);
     return next;
 }
@@ -133,12 +193,15 @@ function supersede() {
     asking++;
     aside.leave(trying);
 }
-async function set(all) {
+async function set(all, byLink = false) {
     supersede();
     const mine = asking;
-    let next;
+    let next, said;
+    linked = byLink;
     try {
-        next = await understand(typeof all === "function" ? all() : all);
+        const lines = all();
+        said = byLink ? takeSeen(lines) : null;
+        next = await understand(lines, byLink ? start() : state);
     } catch (error) {
         if (mine !== asking) return true; // it is not the last one
         refuse(error);
@@ -149,10 +212,13 @@ async function set(all) {
     if (mine !== asking) return true;
     Object.assign(state, next);
     refuse(null);
+    if (byLink) see(said);
     fill();
     update();
     return true;
 }
+
+const setLink = (fragment) => set(() => (fragment === "" ? commands(STANDARD) : fromFragment(fragment)), true);
 
 // ---- Controls -----------------------------------------------------------------------------------------------------
 
@@ -170,10 +236,14 @@ function slide(option, step) {
 
 // Where a slider stands for a text. This places the thumb alone: the command reads the text itself.
 const METRES = { nm: 1e-9, um: 1e-6, mm: 1e-3, cm: 1e-2, in: 0.0254, ft: 0.3048, m: 1, km: 1e3 };
+function numberOf(text, unit) {
+    const [, number, of] = /^\s*([-+.\de]+)\s*([a-z]*)/i.exec(text) ?? [];
+    return /^\s*inf/i.test(text) ? Infinity : Number(number) * (of in METRES ? METRES[of] / (METRES[unit] ?? 1) : 1);
+}
+
 function stepOf(option, text, unit) {
-    const [lo, hi] = SLIDERS[option], [, number, of] = /^\s*([-+.\de]+)\s*([a-z]*)/i.exec(text) ?? [];
-    if (/^\s*inf/i.test(text)) return STEPS;
-    const value = Number(number) * (of in METRES ? METRES[of] / (METRES[unit] ?? 1) : 1);
+    const [lo, hi] = SLIDERS[option], value = numberOf(text, unit);
+    if (value === Infinity) return STEPS;
     const top = STEPS - (option === "far");
     return value > 0 ? Math.max(0, Math.min(top, Math.round(((Math.log10(value) - lo) / (hi - lo)) * STEPS))) : 0;
 }
@@ -185,6 +255,14 @@ function buildSetup(index) {
         if (value === null) to.delete(option);
         else to.set(option, value);
         later();
+    };
+    // A plane that is dragged pushes the other one before it.
+    const push = (option) => {
+        const setup = state.setups[index], other = option === "near" ? "far" : "near", beside = option === "near" ? 10 : -10;
+        const [near, far] = ["near", "far"].map((name) => numberOf(own[name].value || STARTS[name], setup.get("unit")));
+        if (!(near >= far)) return;
+        own[other].value = slide(other, Math.max(stepOf(other, own[option].value) + beside, 0));
+        setup.set(other, own[other].value);
     };
     const plain = { spellcheck: "false", autocomplete: "off" };
     const text = (option, label, hint) => {
@@ -210,8 +288,9 @@ function buildSetup(index) {
         own[`${option}-slider`] = slider;
         slider.addEventListener("input", () => {
             own[option].value = slide(option, Number(slider.value));
-            slider.setAttribute("aria-valuetext", own[option].value);
+            push(option);
             change(option, own[option].value);
+            showSliders(index);
         });
         return make("div", { class: "length" }, text(option, label, STARTS[option]), slider);
     };
@@ -232,7 +311,7 @@ function buildSetup(index) {
         }
     });
     own.more = more;
-    own.refused = make("p", { class: "refused", role: "status" });
+    own.refused = make("p", { class: "refused", role: "status", id: `refused-${letter}` });
     fields[index] = own;
     const details = make("details", {}, make("summary", {}, "Arithmetic, viewport and more"),
         make("div", { class: "row" }, select("model", "Model", choices("model")),
@@ -247,6 +326,7 @@ function buildSetup(index) {
             select("mapping", "Mapping", names("mappings")),
             make("span", {}, ortho, make("label", { for: ortho.id }, " orthographic"))),
         details, own.refused));
+    for (const option of Object.keys(STARTS)) own[option].setAttribute("aria-describedby", own.refused.id);
 }
 
 function show(input, value) {
@@ -275,8 +355,9 @@ function fitQuestions() {
 }
 
 function refuseSetup(index, text) {
-    const { refused } = fields[index];
-    if (refused.textContent !== text) refused.textContent = text;
+    const own = fields[index];
+    if (own.refused.textContent !== text) own.refused.textContent = text;
+    for (const option of Object.keys(STARTS)) own[option].setAttribute("aria-invalid", text.startsWith(`--${option}: `));
 }
 
 // The controls show the state.
@@ -333,7 +414,14 @@ function save(name, text, type) {
 }
 
 const RUN = { json: ["--json"], csv: ["--csv"] };
-const TYPE = { json: "application/json", csv: "text/csv", svg: "image/svg+xml" };
+const TYPE = { json: "application/json", csv: "text/csv", svg: "image/svg+xml", png: "image/png" };
+
+// The figure as the page shows it, two pixels for one of its own.
+async function png(one) {
+    const image = $("img", one), canvas = make("canvas", { width: 2 * image.naturalWidth, height: 2 * image.naturalHeight });
+    canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+    return new Promise((done) => canvas.toBlob(done, TYPE.png));
+}
 
 // One output of a panel: of set-up A or B.
 function outputOf(panel, index) {
@@ -345,13 +433,13 @@ function outputOf(panel, index) {
         const saves = make("div", { class: "saves" });
         const one = make("div", { class: drawn ? "figure" : "text" }, make("h3", {}, `Set-up ${letter}`),
             make("p", { class: "answer" }), body, make("p", { class: "refused", role: "status" }), saves);
-        for (const kind of drawn ? ["svg", "csv", "json"] : ["csv", "json"]) {
+        for (const kind of drawn ? ["svg", "png", "csv", "json"] : ["csv", "json"]) {
             const name = kind.toUpperCase(), told = { "data-export": kind, "aria-label": `${name} of ${title}` };
             const button = make("button", { type: "button", ...told }, name);
             button.addEventListener("click", async () => {
-                const line = split(one.dataset.run);
-                const said = kind === "svg" ? one.said : await aside.ask([...line, ...RUN[kind]]);
-                save(`depthprec-${verb}-${letter}.${kind}`, said.out, TYPE[kind]);
+                const run = async () => (await aside.ask([...split(one.dataset.run), ...RUN[kind]])).out;
+                const what = kind === "svg" ? one.said.out : kind === "png" ? await png(one) : await run();
+                save(`depthprec-${verb}-${letter}.${kind}`, what, TYPE[kind]);
             });
             saves.append(button);
         }
@@ -502,17 +590,10 @@ function showRun(line) {
     }, NAMED_MS);
 }
 
-// Not at each step of a drag: browsers count, and a set-up or a command that is refused is no link.
-function showAddress() {
-    const all = shown(), fragment = toFragment(all);
-    const fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "") &&
-        all.every((line) => engine.parse(line).status === 0);
-    if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
-}
-
 let waiting = false;
 function later() {
     supersede();
+    linked = false;
     if (waiting) return;
     waiting = true;
     requestAnimationFrame(() => {
@@ -525,6 +606,13 @@ function later() {
 // ---- The page's own controls --------------------------------------------------------------------------------------
 
 const SCHEMES = ["system", "light", "dark"];
+
+function setTheme(scheme) {
+    const { dataset } = document.documentElement;
+    if (scheme === "system") delete dataset.theme;
+    else dataset.theme = scheme;
+    $("#theme").textContent = `Colours: ${scheme}`;
+}
 
 function listen() {
     $("#line").addEventListener("submit", (event) => {
@@ -541,11 +629,7 @@ function listen() {
         later();
     });
     $("#theme").addEventListener("click", () => {
-        const { dataset } = document.documentElement;
-        const next = SCHEMES[(SCHEMES.indexOf(dataset.theme ?? "system") + 1) % 3];
-        if (next === "system") delete dataset.theme;
-        else dataset.theme = next;
-        $("#theme").textContent = `Colours: ${next}`;
+        setTheme(SCHEMES[(SCHEMES.indexOf(document.documentElement.dataset.theme ?? "system") + 1) % 3]);
         later();
     });
     const copies = (id, text) =>
@@ -557,7 +641,11 @@ function listen() {
                 $("#copied").textContent = "The browser does not let this page copy.";
             }
         });
-    copies("#copy", () => `${location.href.split("#")[0]}#${toFragment(shown())}`);
+    const address = () => `${location.href.split("#")[0]}#${link()}`;
+    copies("#copy", address);
+    $("#share").hidden = !navigator.share;
+    $("#share").addEventListener("click", () => navigator.share({ title: document.title, url: address() }).catch(() => {}));
+    $("#gap").addEventListener("change", later);
     copies("#copy-commands", () => $("#link").textContent);
     for (const input of document.querySelectorAll("[data-shows]"))
         input.addEventListener("change", () => {
@@ -583,7 +671,7 @@ function listen() {
         });
         $("#figures").append(make("span", {}, input, make("label", { for: input.id }, ` ${name}`)));
     }
-    addEventListener("hashchange", () => set(() => fromFragment(location.hash.slice(1))));
+    addEventListener("hashchange", () => setLink(location.hash.slice(1)));
     addEventListener("resize", later);
     for (const [when, is] of [["beforeprint", true], ["afterprint", false]])
         addEventListener(when, () => {
@@ -631,20 +719,14 @@ async function begin() {
     for (const verb of VERBS) takes[verb] = engine.takes(verb);
     $("#version").textContent = engine.run(["--version"]).out.split("\n")[0].replace(/^depthprec /, "");
     for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
-    state.asked = {
-        solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]),
-        bias: new Map([["separation", "2cm"], ["at", "100m"], ["api", "all"]]),
-        zfight: new Map(),
-        prepass: new Map([["sample", "100000"]]),
-    };
     buildSetup(0);
     buildSetup(1);
     listen();
-    const link = location.hash.slice(1);
-    await set(commands(STANDARD)); // something to change, however long the link takes
-    if (link !== "" && !(await set(() => fromFragment(link)))) {
+    const fragment = location.hash.slice(1);
+    await setLink(""); // something to change, however long the link takes
+    if (fragment !== "" && !(await setLink(fragment))) {
         refuse(`The link is refused, so the standard set-up is shown. ${$("#error").textContent}`);
-        if (link.length <= LONGEST) $("#command").value = written(link); // to be mended: the address is no longer it
+        if (fragment.length <= LONGEST) $("#command").value = written(fragment); // to be mended: the address is no longer it
     }
     opened = true;
     want();
@@ -652,7 +734,7 @@ async function begin() {
     picture = createPicture({ ...controls, engine, onStatus: showPicture });
     $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));
     picture.set(commandOf("table", state.setups[0]));
-    window.depthprec = { engine, state: () => shown().map(join), set: (fragment) => set(() => fromFragment(fragment)) };
+    window.depthprec = { engine, state: () => shown().map(join), set: setLink };
 }
 
 const NEEDED = "It needs WebAssembly and DecompressionStream, which browsers have since 2023.";

@@ -96,6 +96,60 @@ async function question(page, [panel, option, value, line]) {
     if (panel === "solve") demand(above === sentence(said.out), `${option} at ${value}: above stands ${above}\nnot ${sentence(said.out)}`);
 }
 
+const hashOf = (page) => decodeURIComponent(new URL(page.url()).hash.slice(1));
+const shows = (page) => page.evaluate(() => [document.querySelector("#near-A").value, document.querySelector("#gap").value,
+    document.documentElement.dataset.theme ?? "system", document.querySelector("[name=figure]:checked").value].join(" "));
+
+// A link says what differs from a page that nobody has touched; each change is a step that Back undoes.
+async function address() {
+    const page = await open(), plain = "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m";
+    demand(hashOf(page) === plain, `the first link: ${hashOf(page)}`);
+    await put(page, "#near-A", "0.25");
+    demand(hashOf(page) === plain.replace("0.1", "0.25"), `near: ${hashOf(page)}`);
+    await updated(page, () => page.locator("#figure-share").check());
+    demand(hashOf(page) === `${plain.replace("0.1", "0.25")} ; plot share -n 0.25 -f 1000 -F unorm24 -m d3d --unit m`, `figure: ${hashOf(page)}`);
+    await updated(page, () => page.locator("#theme").click());
+    await updated(page, () => page.locator("#gap").evaluate((one) => {
+        one.value = 650;
+        for (const type of ["input", "change"]) one.dispatchEvent(new Event(type));
+    }));
+    demand(hashOf(page).endsWith(" ; page gap=650 theme=light"), `gap and theme: ${hashOf(page)}`);
+    const other = await open({ fragment: new URL(page.url()).hash.slice(1) });
+    demand(await shows(other) === "0.25 650 light share", `opened elsewhere: ${await shows(other)}`);
+    await other.reload();
+    await settled(other);
+    demand(await shows(other) === "0.25 650 light share", `reloaded: ${await shows(other)}`);
+    await close(other);
+    const steps = ["0.25 400 light share", "0.25 400 system share", "0.25 400 system interval", "0.1 400 system interval"];
+    for (const step of steps) {
+        await updated(page, () => page.goBack());
+        demand(await shows(page) === step, `back: ${await shows(page)}, not ${step}`);
+    }
+    await updated(page, () => page.goForward());
+    demand(await shows(page) === steps[2], `forward: ${await shows(page)}`);
+    await close(page);
+}
+
+// A plane that is dragged pushes the other; a field that is refused says so itself.
+async function planes() {
+    const page = await open(), values = () => page.evaluate(() => ["near", "far"].map((name) => document.querySelector(`#${name}-A`).value).join(" "));
+    await put(page, "#a [data-slider=far]", "0");
+    await put(page, "#a [data-slider=near]", "400");
+    const [near, far] = (await values()).split(" ").map(Number);
+    demand(near === 10 && far > 10 && far < 20, `near pushes far: ${near} ${far}`);
+    await put(page, "#a [data-slider=far]", "0");
+    const pushed = await values();
+    demand(Number(pushed.split(" ")[0]) < 1 && pushed.endsWith(" 1"), `far pushes near: ${pushed}`);
+    await put(page, "#near-A", "-3");
+    const said = await page.evaluate(() => {
+        const field = document.querySelector("#near-A");
+        return [field.getAttribute("aria-invalid"), document.getElementById(field.getAttribute("aria-describedby")).textContent,
+            document.querySelector("#far-A").getAttribute("aria-invalid")];
+    });
+    demand(said[0] === "true" && said[1].startsWith("--near: ") && said[2] === "false", `refused: ${said}`);
+    await close(page);
+}
+
 export async function controls() {
     await test("each control of both set-ups: table, sentence and letter are those of the command", async () => {
         for (const which of [0, 1])
@@ -115,4 +169,6 @@ export async function controls() {
         }
         return `${QUESTIONS.length} fields`;
     });
+    await test("a link holds what differs, Back and Forward step through changes", address);
+    await test("a plane pushes the other, a refused field is marked", planes);
 }

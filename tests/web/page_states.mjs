@@ -118,8 +118,10 @@ async function thereAndBack(page, r, count) {
         }
         await settled(page);
         const { hash } = new URL(page.url());
-        const said = commandsOf(hash).map((text) => `depthprec ${text}`).join("\n");
-        if (said !== before.link) { // a set-up that is refused has no link
+        const said = commandsOf(hash).map((text) => `depthprec ${text}`), all = before.link.split("\n");
+        demand(said.every((text) => all.includes(text) || text.startsWith("depthprec page ")) || said[0] !== all[0],
+            `the link says what the page does not: ${hash}`);
+        if (said[0] !== all[0]) { // a set-up that is refused has no link
             demand(++refused < 10 * count, "hardly a state has a link");
             i--;
             continue;
@@ -147,7 +149,10 @@ async function files(r, count) {
             const run = await button.evaluate((one) => one.closest("[data-run]").dataset.run);
             const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
             const bytes = readFileSync(await download.path(), "utf8");
-            if (kind === "svg") {
+            if (kind === "png") {
+                const png = readFileSync(await download.path()), width = png.readUInt32BE(16);
+                demand(png.toString("latin1", 1, 4) === "PNG" && width >= 640 && png.length > 1000, `${run}: no PNG`);
+            } else if (kind === "svg") {
                 const root = await page.evaluate((text) => new DOMParser().parseFromString(text, "image/svg+xml").documentElement.nodeName, bytes);
                 demand(root === "svg" && bytes.length > 1000, `${run}: no SVG`);
             } else {
