@@ -609,3 +609,15 @@ TEST(counted_in_slots) {
     }
     free(d);
 }
+
+/* Numbers that are proved to be finer than 24 bits, and are steps of ten. */
+TEST(steps_are_no_format) {
+    float x[1024];
+    for (int i = 0; i < 1024; i++)
+        x[i] = (float)(i / 1023.0);
+    const dp_image img = {x, DP_IMAGE_F32, 1024, 1, 1};
+    dp_recognised r;
+    assert_int_equal(dp_recognise(&img, NULL, slots, &r), DP_OK);
+    assert_true(r.reason == DP_REASON_SINGLES && r.proved && !r.certain && r.steps == 1023 && r.steps_certain);
+    assert_true(r.at_zero == 1 && r.at_one == 1 && r.off > 0 && strcmp(r.closest, "unorm24") == 0);
+}

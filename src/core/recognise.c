@@ -43,7 +43,7 @@ static extent extent_of(const dp_image *image, size_t count) {
     uint32_t first = 0;
     for (size_t i = 0; i < count; i++) {
         const double x = dp_image_number(image, i);
-        if (!isfinite(x))
+        if (!integers && !isfinite(x))
             continue;
         e.least = x < e.least ? x : e.least;
         e.greatest = x > e.greatest ? x : e.greatest;
