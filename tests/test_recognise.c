@@ -594,18 +594,22 @@ TEST(arguments) {
 
 /* Without memory no value is counted; with it, up to a limit, with which steps are not looked for. */
 TEST(counted_in_slots) {
-    enum { COUNT = 70000 };
+    enum { COUNT = 80000, SKY = COUNT / 8 };
+    static const uint16_t millimetres[] = {0, 0, 500, 700, 900};
+    const dp_image sensor = {millimetres, DP_IMAGE_U16, 5, 1, 1};
     double *d = malloc(COUNT * sizeof *d);
     assert_non_null(d);
     for (int i = 0; i < COUNT; i++)
-        d[i] = i / 16777215.0;
+        d[i] = i < SKY ? 0 : i / 16777215.0;
     const dp_image img = {d, DP_IMAGE_F64, COUNT, 1, 1};
     for (int with = 0; with < 2; with++) {
         dp_recognised r;
         assert_int_equal(dp_recognise(&img, NULL, with ? slots : NULL, &r), DP_OK);
         assert_true(strcmp(r.format.name, "unorm24") == 0 && r.proved == with && r.steps == 0);
         assert_int_equal(r.distinct, with ? DP_RECOGNISE_DISTINCT : 0);
-        assert_true(r.at_zero == 1 && r.mass == 1 && r.reversed == 1);
+        assert_true(r.at_zero == SKY && r.sky == 1 && r.mass == 1 && r.reversed == 1 && r.direction == with);
+        assert_int_equal(dp_recognise(&sensor, NULL, with ? slots : NULL, &r), DP_OK);
+        assert_true(r.depth && r.metric == with && r.at_zero == 2);
     }
     free(d);
 }

@@ -113,7 +113,7 @@ typedef struct dp_recognised {
  *
  * @param known  the format where it is known, one of dp_format_get(): all else is then found; or null
  * @param slots  memory for DP_RECOGNISE_SLOTS numbers, not read before it is written; null: no value is counted, so
- * that `distinct` and `steps` are 0 and no lattice of numbers is proved
+ * that `distinct` and `steps` are 0 and neither a lattice of numbers, direction nor millimetres are found
  * @return DP_OK; DP_ERROR_NULL; DP_ERROR_BATCH for a type that does not exist; DP_ERROR_FORMAT for another `known`;
  *         *out is left as it was then
  *

@@ -224,18 +224,20 @@ static void direct(const tally *s, dp_recognised *out) {
     if (s->inner == 0 || (out->sky >= 0 && out->mass >= 0 && out->sky != out->mass))
         return;
     out->reversed = out->mass >= 0 ? out->mass : out->sky;
-    const size_t inner_values = out->distinct - (out->at_zero > 0) - (out->at_one > 0);
+    if (out->distinct == 0) /* there is no memory to count in */
+        return;
+    const uint64_t inner_values = out->distinct - (out->at_zero > 0) - (out->at_one > 0);
     out->direction = !out->metric && out->sky >= 0 && out->sky == out->mass && other == 0 &&
                      16 * most >= out->samples && most * inner_values >= 16 * s->inner;
 }
 
-/* ---- Together -----------------------------------------------------------------------------------------------------*/
+/* ---- Conclusions --------------------------------------------------------------------------------------------------*/
 
 /* Millimetres of a sensor are whole numbers of 16 bits, with 0 where it saw nothing and nothing else below 100. */
 static void suspect(const dp_image *image, const tally *s, dp_recognised *out) {
     enum { LEAST = 100, MOST = 30000 };
     double least = 1, most = 0;
-    if (image->type != DP_IMAGE_U16 || out->at_zero < 1 + out->samples / 1000)
+    if (image->type != DP_IMAGE_U16 || out->distinct == 0 || out->at_zero < 1 + out->samples / 1000)
         return;
     for (size_t i = 0; i < s->seen.size; i++) {
         const double d = dp_float64(s->seen.slots[i]);
@@ -287,6 +289,8 @@ static void conclude(const dp_image *image, const extent *e, const finding *f, c
     out->least = !looked ? out->lo : some ? e->least : (double)NAN;
     out->greatest = !looked ? out->hi : some ? e->greatest : (double)NAN;
 }
+
+/* ---- Public ------------------------------------------------------------------------------------------------------ */
 
 /* Which of the named lattices a format is; DP_LATTICE_COUNT for none. */
 static dp_lattice named(const dp_format *format) {
