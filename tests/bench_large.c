@@ -11,9 +11,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "core/clones.h"
 #include "depthprec/depthprec.h"
 #include "parallel.h"
-#include "shader/clones.h"
 #include "timing.h"
 
 enum { RUNS = 7, WAYS = 4 };

@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "aims.h"
+#include "core/clones.h"
 #include "raster/raster.h"
-#include "shader/clones.h"
 #include "timing.h"
 
 enum { SIZE = 512, TRIANGLES = 400, RUNS = 31 };

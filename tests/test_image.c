@@ -254,13 +254,14 @@ TEST(dds_of_others) {
         assert_samples(&h, IMAGE_DDS, dds_rows[i].type, 2, 1, dds_rows[i].channels, want);
         image got;
         image_error error;
-        recognised found;
+        dp_recognised found;
+        char why[RECOGNISE_WHY_SIZE];
         assert_true(parse(&h, &got, &error));
         if (dds_rows[i].says == NULL)
             assert_null(got.says);
         else
             assert_string_equal(got.says, dds_rows[i].says);
-        recognise(&got, &found);
+        recognise(&got, &found, why);
         if (dds_rows[i].says != NULL)
             assert_string_equal(found.format.name, dds_rows[i].says);
         image_free(&got);
@@ -292,12 +293,13 @@ TEST(dds_names_its_format) {
         handmade h = {.size = 0};
         image got;
         image_error error;
-        recognised found;
+        dp_recognised found;
+        char why[RECOGNISE_WHY_SIZE];
         handmade_dds(&h, 3, 1, &(handmade_dds_of){.dxgi = named ? 46 : 42});
         for (uint32_t k = 0; k < 3; k++)
             handmade_number(&h, 7 + k, 4, 1);
         assert_true(parse(&h, &got, &error));
-        recognise(&got, &found);
+        recognise(&got, &found, why);
         assert_true(found.depth);
         assert_int_equal(found.certain, named);
         assert_string_equal(found.format.name, named ? "unorm24" : "unorm16");

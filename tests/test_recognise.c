@@ -3,12 +3,13 @@
 
 #include <gmp.h>
 
+#include "core/recognise_lattice.h"
 #include "frame/recognise.h"
-#include "frame/recognise_lattice.h"
 #include "oracle.h"
 #include "support.h"
 
 enum { SIDE = 64, SAMPLES = SIDE * SIDE };
+static char why[RECOGNISE_WHY_SIZE];
 
 /* A square image, in one channel. */
 typedef struct square {
@@ -56,11 +57,11 @@ static float next_float(float x, int steps) {
 /* ---- Lattices -----------------------------------------------------------------------------------------------------*/
 
 static void expect(const square *s, const char *format, bool certain, int reversed) {
-    recognised r;
-    recognise(&s->img, &r);
+    dp_recognised r;
+    recognise(&s->img, &r, why);
     if (!r.depth || strcmp(r.format.name, format) != 0 || r.certain != certain || r.reversed != reversed)
         fail_msg("wanted %s, certain %d, reversed %d; got depth %d %s, certain %d, reversed %d: %s", format, certain,
-                 reversed, r.depth, r.format.name, r.certain, r.reversed, r.why);
+                 reversed, r.depth, r.format.name, r.certain, r.reversed, why);
     assert_int_equal(r.samples, SAMPLES);
     assert_int_equal(r.invalid, 0);
 }
@@ -124,17 +125,16 @@ TEST(one_off) {
         const int at = (int)rng_below(&r, SAMPLES);
         s->data.f32[at] = rows[k].sample;
         expect(s, rows[k].to, true, 1);
-        recognised found;
-        recognise(&s->img, &found);
+        dp_recognised found;
+        recognise(&s->img, &found, why);
         if (strcmp(rows[k].to, "fp32") == 0 &&
-            (strstr(found.why, "1 of 4096 samples are off the lattice of ") == NULL ||
-             strstr(found.why, rows[k].from) == NULL))
-            fail_msg("row %zu: %s", k, found.why);
+            (strstr(why, "1 of 4096 samples are off the lattice of ") == NULL || strstr(why, rows[k].from) == NULL))
+            fail_msg("row %zu: %s", k, why);
         /* A code of unorm24 beside those of unorm16. */
         if (strcmp(rows[k].from, "unorm16") == 0) {
             const dp_format finer = format_of("unorm24");
             s->data.f32[at] = (float)value_of(&finer, 100 * 257 + 128);
-            recognise(&s->img, &found);
+            recognise(&s->img, &found, why);
             assert_string_equal(found.format.name, "fp32"); /* unorm16's are not unorm24's */
         }
         free(s);
@@ -171,13 +171,13 @@ TEST(all_codes) {
                         s->data.f32[i] = (float)dp_format_value(&f, c);
                     code += stride;
                 }
-                recognised found;
-                recognise(&s->img, &found);
+                dp_recognised found;
+                recognise(&s->img, &found, why);
                 size_t at = 0;
                 while (strcmp(names[at], found.format.name) != 0)
                     at++;
                 TALLY(&t, found.depth && at <= k, "%s near %u%s: %s", names[k], code, multiplied ? " multiplied" : "",
-                      found.why);
+                      why);
             }
     }
     free(s);
@@ -191,35 +191,37 @@ TEST(chances) {
     rng r = rng_make("chances");
     for (int e = -1; e >= -9; e -= 2)
         for (int source = 0; source < 2; source++) {
-            size_t off[LATTICE_COUNT] = {0};
+            size_t off[DP_LATTICE_COUNT] = {0};
             for (uint64_t k = 0; k < blocks; k++) {
                 double d[BLOCK];
                 for (int i = 0; i < BLOCK; i++) {
                     const double x = ldexp(rng_uniform(&r, 1, 2), e);
                     d[i] = (double)(float)(source == 0 ? x : floor(x * 16777215) / 16777215);
                 }
-                lattice_single(d, BLOCK, off);
+                dp_lattice_single(d, BLOCK, off);
             }
             const double n = (double)(blocks * BLOCK);
-            for (int k = 0; k < (source == 0 ? LATTICE_FP32 : LATTICE_UNORM24); k++) {
-                const double claim = lattice_chance((lattice)k, true, ldexp(1.5, e));
+            for (int k = 0; k < (source == 0 ? DP_LATTICE_FP32 : DP_LATTICE_UNORM24); k++) {
+                const double claim = dp_lattice_chance((dp_lattice)k, true, ldexp(1.5, e));
                 const double share = (n - (double)off[k]) / n, noise = 6 * sqrt(claim / n);
                 if (share > claim + noise || (source == 0 && share < claim - noise - claim / 1000))
-                    fail_msg("%s at 2^%d: %g of the numbers, claimed %g", lattice_name((lattice)k), e, share, claim);
+                    fail_msg("%s at 2^%d: %g of the numbers, claimed %g", dp_lattice_name((dp_lattice)k), e, share,
+                             claim);
             }
         }
-    assert_true(lattice_chance(LATTICE_UNORM24, true, 0) == 1 && lattice_chance(LATTICE_FP16, true, 1) == 1);
-    assert_true(lattice_chance(LATTICE_FP32, true, 0.01) == 1);
-    assert_relative(lattice_chance(LATTICE_UNORM24, false, 0.6), 3 * 0x1p-53 * 16777215, 1e-15);
+    assert_true(dp_lattice_chance(DP_LATTICE_UNORM24, true, 0) == 1 &&
+                dp_lattice_chance(DP_LATTICE_FP16, true, 1) == 1);
+    assert_true(dp_lattice_chance(DP_LATTICE_FP32, true, 0.01) == 1);
+    assert_relative(dp_lattice_chance(DP_LATTICE_UNORM24, false, 0.6), 3 * 0x1p-53 * 16777215, 1e-15);
 }
 
 TEST(too_few) {
     const dp_format f = format_of("unorm24");
     square *s = square_of(IMAGE_F32);
-    for (int different = 1; different <= 2 * RECOGNISE_LEAST; different++) {
+    for (int different = 1; different <= 2 * DP_RECOGNISE_LEAST; different++) {
         for (int i = 0; i < SAMPLES; i++)
             s->data.f32[i] = (float)value_of(&f, 4001 + (uint32_t)(i % different) * 13);
-        expect(s, "unorm24", different >= RECOGNISE_LEAST, 1);
+        expect(s, "unorm24", different >= DP_RECOGNISE_LEAST, 1);
     }
     for (int i = 0; i < SAMPLES; i++)
         s->data.f32[i] = i % 2 ? 0 : 1;
@@ -274,17 +276,17 @@ TEST(integers) {
     };
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         square *s = square_of(rows[k].type);
-        recognised r;
+        dp_recognised r;
         fill(s, rows[k].lo, rows[k].hi, rows[k].first);
         if (rows[k].format != NULL && strstr(rows[k].why, "sky") != NULL)
             fill(s, rows[k].lo, rows[k].lo + 1, rows[k].first);
-        recognise(&s->img, &r);
+        recognise(&s->img, &r, why);
         const bool right = rows[k].format == NULL ? !r.depth
                                                   : r.depth && strcmp(r.format.name, rows[k].format) == 0 &&
                                                         r.certain == rows[k].certain && r.reversed == rows[k].reversed;
-        if (!right || strstr(r.why, rows[k].why) == NULL)
+        if (!right || strstr(why, rows[k].why) == NULL)
             fail_msg("row %zu: depth %d, %s, certain %d, reversed %d: %s", k, r.depth, r.format.name, r.certain,
-                     r.reversed, r.why);
+                     r.reversed, why);
         free(s);
     }
 }
@@ -292,26 +294,26 @@ TEST(integers) {
 /* Widened bytes, and the packing of OpenGL with the stencil in the low byte. */
 TEST(packings) {
     square *s = square_of(IMAGE_U16);
-    recognised r;
+    dp_recognised r;
     for (uint32_t i = 0; i < SAMPLES; i++)
         s->data.u16[i] = (uint16_t)(i % 256 * 257);
-    recognise(&s->img, &r);
-    assert_true(r.depth && !r.certain && strstr(r.why, "16 bits that repeat 8") != NULL);
+    recognise(&s->img, &r, why);
+    assert_true(r.depth && !r.certain && strstr(why, "16 bits that repeat 8") != NULL);
     s->img.type = IMAGE_U32;
     for (uint32_t stencil = 0; stencil < 256; stencil += 255)
         for (uint32_t most = 0x3F; most < 0x100; most += 0x40) {
             for (uint32_t i = 0; i < SAMPLES; i++)
                 s->data.u32[i] = ((most << 24) - 0x101 * i) / 256 * 256 + stencil;
-            recognise(&s->img, &r);
-            assert_true(!r.depth && r.invalid == SAMPLES && strstr(r.why, "shift right by 8 first") != NULL);
+            recognise(&s->img, &r, why);
+            assert_true(!r.depth && r.invalid == SAMPLES && strstr(why, "shift right by 8 first") != NULL);
         }
     for (uint32_t i = 0; i < SAMPLES; i++) /* low bytes that differ in a bit */
         s->data.u32[i] = 0x3A000000 + i * 0x180;
-    recognise(&s->img, &r);
+    recognise(&s->img, &r, why);
     assert_true(r.depth && strcmp(r.format.name, "fp32") == 0);
     for (uint32_t i = 0; i < SAMPLES; i++) /* fp16 in the bits of fp32: its low bytes are equal too */
         s->data.u32[i] = 0x3E000000 + i % 0xC00 * 0x2000;
-    recognise(&s->img, &r);
+    recognise(&s->img, &r, why);
     assert_string_equal(r.format.name, "fp32");
     assert_true(r.depth);
     free(s);
@@ -345,14 +347,14 @@ TEST(no_depth) {
                 else
                     s->data.f32[i] = x;
             }
-            recognised r;
-            recognise(&s->img, &r);
+            dp_recognised r;
+            recognise(&s->img, &r, why);
             assert_false(r.depth);
             assert_false(r.certain);
             assert_int_equal(r.reversed, -1);
             assert_int_equal(r.invalid, rows[k].invalid);
-            if (strstr(r.why, rows[k].why) == NULL)
-                fail_msg("'%s' is not in '%s'", rows[k].why, r.why);
+            if (strstr(why, rows[k].why) == NULL)
+                fail_msg("'%s' is not in '%s'", rows[k].why, why);
             if (r.invalid == SAMPLES)
                 assert_true(isnan(r.lo) && isnan(r.hi));
             else
@@ -374,11 +376,11 @@ TEST(holes) {
             else
                 s->data.f64[i] = x;
         }
-        recognised r;
-        recognise(&s->img, &r);
+        dp_recognised r;
+        recognise(&s->img, &r, why);
         if (!r.depth || r.holes != SAMPLES / 2 || r.invalid != SAMPLES / 2)
             fail_msg("%s: depth %d, %zu holes of %zu invalid: %s", image_type_name((image_type)type), r.depth, r.holes,
-                     r.invalid, r.why);
+                     r.invalid, why);
         free(s);
     }
 }
@@ -392,8 +394,8 @@ TEST(nine_of_ten) {
                 const double d = (i * 100LL < percent * (long long)SAMPLES ? 0.1 : 0.5) + i * 1e-6;
                 s->data.f32[i] = (float)(reversed ? d : 1 - d);
             }
-            recognised r;
-            recognise(&s->img, &r);
+            dp_recognised r;
+            recognise(&s->img, &r, why);
             assert_int_equal(r.reversed, percent >= 90 ? reversed : -1);
             assert_false(r.direction);
             free(s);
@@ -432,12 +434,12 @@ TEST(directions) {
                              : i < rows[k].zeros + rows[k].ones
                                  ? 1
                                  : (float)(rows[k].lo + (rows[k].hi - rows[k].lo) * i / SAMPLES);
-        recognised r;
-        recognise(&s->img, &r);
+        dp_recognised r;
+        recognise(&s->img, &r, why);
         assert_int_equal(r.at_zero, rows[k].zeros);
         assert_int_equal(r.at_one, rows[k].ones);
-        if (r.reversed != rows[k].reversed || strstr(r.why, rows[k].why) == NULL)
-            fail_msg("row %zu: %d, %s", k, r.reversed, r.why);
+        if (r.reversed != rows[k].reversed || strstr(why, rows[k].why) == NULL)
+            fail_msg("row %zu: %d, %s", k, r.reversed, why);
     }
     free(s);
 }
@@ -468,8 +470,8 @@ TEST(counted) {
             lo = x >= 0 && x < lo ? x : lo;
             hi = x <= 1 && x > hi ? x : hi;
         }
-        recognised found;
-        recognise(&img, &found);
+        dp_recognised found;
+        recognise(&img, &found, why);
         assert_int_equal(found.samples, pixels);
         assert_int_equal(found.at_zero, zero);
         assert_int_equal(found.at_one, one);
@@ -480,8 +482,146 @@ TEST(counted) {
         d[i] = (i % 777) / 1000.0;
     const image img = {
         .width = WIDTH, .height = HEIGHT, .channels = 1, .type = IMAGE_F64, .file = IMAGE_NPY, .data = d};
-    recognised found;
-    recognise(&img, &found);
+    dp_recognised found;
+    recognise(&img, &found, why);
     assert_int_equal(found.distinct, 777);
     free(d);
+}
+
+/* ---- The library's function -------------------------------------------------------------------------------------- */
+
+static uint64_t slots[DP_RECOGNISE_SLOTS];
+
+/* Codes in a row, their values by definition. */
+static const struct {
+    const char *format;
+    uint32_t first, different;
+    double most; /* that is 1; 0: binary16 of the binade of first */
+    dp_reason reason;
+    bool proved;
+} typed[DP_IMAGE_TYPE_COUNT] = {
+    [DP_IMAGE_U8] = {"unorm16", 10, 201, 255, DP_REASON_BYTES, false},
+    [DP_IMAGE_U16] = {"unorm16", 20000, 777, 65535, DP_REASON_WORDS, false},
+    [DP_IMAGE_U32] = {"unorm24", 70000, 777, 16777215, DP_REASON_LONGS_24, true},
+    [DP_IMAGE_F16] = {"fp16", 0x2C00, 777, 0, DP_REASON_HALVES, false},
+    [DP_IMAGE_F32] = {"unorm16", 1000, 777, 65535, DP_REASON_LATTICE, true},
+    [DP_IMAGE_F64] = {"unorm24", 1000, 777, 16777215, DP_REASON_LATTICE, true},
+};
+
+static double typed_value(int type, uint32_t code) {
+    const double value = typed[type].most > 0 ? code / typed[type].most : 0x1p-4 * (1 + (code - 0x2C00) / 1024.0);
+    return type == DP_IMAGE_F32 ? (double)(float)value : value;
+}
+
+/* The sample of a code, or of a hole, whose channel is filled with what is no depth. */
+static void store(void *data, int type, size_t at, uint32_t code, bool hole) {
+    static const size_t sizes[] = {1, 2, 4, 2, 4, 8};
+    const double x = hole ? (double)NAN : typed_value(type, code);
+    const float narrow = (float)x;
+    const uint32_t bits = !hole ? code : type == DP_IMAGE_F16 ? 0x7C00 : UINT32_MAX;
+    unsigned char *to = (unsigned char *)data + at * sizes[type];
+    if (type == DP_IMAGE_F32)
+        memcpy(to, &narrow, sizeof narrow);
+    else if (type == DP_IMAGE_F64)
+        memcpy(to, &x, sizeof x);
+    else if (type == DP_IMAGE_U32)
+        memcpy(to, &bits, sizeof bits);
+    else if (type == DP_IMAGE_U8)
+        *to = (uint8_t)bits;
+    else
+        memcpy(to, &(const uint16_t){(uint16_t)bits}, sizeof(uint16_t));
+}
+
+/* Each type in rows of any length, between other channels; every fourth number is a hole. */
+TEST(each_type_and_stride) {
+    static const size_t shapes[][2] = {{SAMPLES, 1}, {1, SAMPLES}, {SIDE, SIDE}};
+    double *data = malloc(4 * SAMPLES * sizeof *data);
+    assert_non_null(data);
+    for (int type = 0; type < DP_IMAGE_TYPE_COUNT; type++)
+        for (size_t stride = 1; stride <= 4; stride++)
+            for (size_t k = 0; k < 3; k++) {
+                const uint32_t last = typed[type].first + typed[type].different - 1;
+                const dp_image img = {data, (dp_image_type)type, shapes[k][0], shapes[k][1], stride};
+                const bool numbers = type >= DP_IMAGE_F16, codes = type <= DP_IMAGE_U32;
+                dp_recognised r;
+                for (size_t i = 0; i < stride * SAMPLES; i++)
+                    store(data, type, i, typed[type].first + (uint32_t)(i / stride % typed[type].different),
+                          i % stride > 0 || (numbers && i / stride % 4 == 3));
+                assert_int_equal(dp_recognise(&img, NULL, slots, &r), DP_OK);
+                if (!r.depth || strcmp(r.format.name, typed[type].format) != 0 || r.reason != typed[type].reason ||
+                    r.proved != typed[type].proved || r.certain != r.proved || r.samples != SAMPLES ||
+                    r.holes != (numbers ? SAMPLES / 4 : 0) || r.invalid != r.holes ||
+                    r.distinct != typed[type].different || r.steps != (type == DP_IMAGE_U8 ? 255 : 0))
+                    fail_msg(
+                        "type %d, stride %zu: %s, reason %d, proved %d, %zu of %zu invalid, %zu different, steps %g",
+                        type, stride, r.format.name, r.reason, r.proved, r.invalid, r.samples, r.distinct, r.steps);
+                assert_true(r.lo == typed_value(type, typed[type].first) && r.hi == typed_value(type, last));
+                assert_true(r.least == (codes ? typed[type].first : r.lo) && r.greatest == (codes ? last : r.hi));
+                assert_true(r.at_zero == 0 && r.at_one == 0 && r.sky == -1 && !r.metric && !r.direction);
+            }
+    free(data);
+}
+
+TEST(no_samples) {
+    for (int type = 0; type < DP_IMAGE_TYPE_COUNT; type++)
+        for (size_t width = 0; width < 2; width++) {
+            const dp_image none = {NULL, (dp_image_type)type, width, 1 - width, 1};
+            dp_recognised r;
+            assert_int_equal(dp_recognise(&none, NULL, slots, &r), DP_OK);
+            assert_true(!r.depth && !r.certain && r.reason == DP_REASON_EMPTY && r.samples == 0 && r.invalid == 0);
+            assert_true(isnan(r.lo) && isnan(r.hi) && isnan(r.least) && isnan(r.greatest) && r.reversed == -1);
+        }
+}
+
+TEST(arguments) {
+    static const uint32_t codes[] = {7, 8, 9};
+    const dp_image good = {codes, DP_IMAGE_U32, 3, 1, 1}, bare = {NULL, DP_IMAGE_U32, 3, 1, 1};
+    const dp_image odd = {codes, DP_IMAGE_TYPE_COUNT, 3, 1, 1};
+    const dp_format narrow = format_of("unorm10"), known = format_of("unorm24");
+    dp_recognised r = {.samples = 77};
+    assert_int_equal(dp_recognise(NULL, NULL, slots, &r), DP_ERROR_NULL);
+    assert_int_equal(dp_recognise(&good, NULL, slots, NULL), DP_ERROR_NULL);
+    assert_int_equal(dp_recognise(&bare, NULL, slots, &r), DP_ERROR_NULL);
+    assert_int_equal(dp_recognise(&odd, NULL, slots, &r), DP_ERROR_BATCH);
+    assert_int_equal(dp_recognise(&good, &narrow, slots, &r), DP_ERROR_FORMAT);
+    assert_int_equal(r.samples, 77);
+    assert_int_equal(dp_recognise(&good, NULL, slots, &r), DP_OK);
+    assert_true(strcmp(r.format.name, "unorm16") == 0 && !r.certain && r.distinct == 3 && r.hi == 9 / 65535.0);
+    assert_int_equal(dp_recognise(&good, &known, slots, &r), DP_OK);
+    assert_true(strcmp(r.format.name, "unorm24") == 0 && r.certain && r.hi == 9 / 16777215.0);
+    assert_true(r.reason == DP_REASON_GIVEN && r.greatest == 9);
+}
+
+/* Without memory no value is counted; with it, up to a limit, with which steps are not looked for. */
+TEST(counted_in_slots) {
+    enum { COUNT = 80000, SKY = COUNT / 8 };
+    static const uint16_t millimetres[] = {0, 0, 500, 700, 900};
+    const dp_image sensor = {millimetres, DP_IMAGE_U16, 5, 1, 1};
+    double *d = malloc(COUNT * sizeof *d);
+    assert_non_null(d);
+    for (int i = 0; i < COUNT; i++)
+        d[i] = i < SKY ? 0 : i / 16777215.0;
+    const dp_image img = {d, DP_IMAGE_F64, COUNT, 1, 1};
+    for (int with = 0; with < 2; with++) {
+        dp_recognised r;
+        assert_int_equal(dp_recognise(&img, NULL, with ? slots : NULL, &r), DP_OK);
+        assert_true(strcmp(r.format.name, "unorm24") == 0 && r.proved == with && r.steps == 0);
+        assert_int_equal(r.distinct, with ? DP_RECOGNISE_DISTINCT : 0);
+        assert_true(r.at_zero == SKY && r.sky == 1 && r.mass == 1 && r.reversed == 1 && r.direction == with);
+        assert_int_equal(dp_recognise(&sensor, NULL, with ? slots : NULL, &r), DP_OK);
+        assert_true(r.depth && r.metric == with && r.at_zero == 2);
+    }
+    free(d);
+}
+
+/* Numbers that are proved to be finer than 24 bits, and are steps of ten. */
+TEST(steps_are_no_format) {
+    float x[1024];
+    for (int i = 0; i < 1024; i++)
+        x[i] = (float)(i / 1023.0);
+    const dp_image img = {x, DP_IMAGE_F32, 1024, 1, 1};
+    dp_recognised r;
+    assert_int_equal(dp_recognise(&img, NULL, slots, &r), DP_OK);
+    assert_true(r.reason == DP_REASON_SINGLES && r.proved && !r.certain && r.steps == 1023 && r.steps_certain);
+    assert_true(r.at_zero == 1 && r.at_one == 1 && r.off > 0 && strcmp(r.closest, "unorm24") == 0);
 }

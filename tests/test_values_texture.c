@@ -303,7 +303,7 @@ static uint64_t write_image(const char *path, bool floats, bool damaged, uint32_
     return floats ? holes : 0;
 }
 
-static void want_image(values *v, const char *path, const image *shot, const recognised *found) {
+static void want_image(values *v, const char *path, const image *shot, const dp_recognised *found, const char *why) {
     values_under(v, "%s", "");
     want(v, "file=%s type=%s channels=%u", path, image_type_name(shot->type), 1U);
     want_text(v, "synthetic", NULL);
@@ -313,7 +313,7 @@ static void want_image(values *v, const char *path, const image *shot, const rec
     want_count(v, "zeros", 0); /* of packings, in test_packing */
     values_under(v, "recognised.");
     want_text(v, "format", found->depth ? found->format.name : NULL);
-    want(v, "certain=%d why=%s", found->certain, found->why);
+    want(v, "certain=%d why=%s", found->certain, why);
     if (found->direction)
         want_bool(v, "reversed", found->reversed);
     else
@@ -438,16 +438,17 @@ TEST(images_of_depths) {
         char line[1024];
         image shot;
         image_error error;
-        recognised found;
+        dp_recognised found;
+        char why[RECOGNISE_WHY_SIZE];
         values v = values_of(c->line);
         const uint64_t holes = write_image(path, images[i].floats, images[i].damaged, images[i].sky, images[i].spread);
         assert_true(image_read(path, &shot, &error));
-        recognise(&shot, &found);
+        recognise(&shot, &found, why);
         const frame f = {.camera = &camera,
                          .image = &shot,
                          .grain = &images[i].samples,
                          .sky = number_behind(c->line, "--sky", 1e-4)};
-        want_image(&v, path, &shot, &found);
+        want_image(&v, path, &shot, &found, why);
         want_samples(&v, &images[i].samples, images[i].coarser);
         want_readings(&v, i, &camera.setup);
         want_camera(&v, c, &f);

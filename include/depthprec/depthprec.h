@@ -26,6 +26,7 @@
 #include "depthprec/mapping.h"
 #include "depthprec/pipeline.h"
 #include "depthprec/projection.h"
+#include "depthprec/recognise.h"
 #include "depthprec/setup.h"
 #include "depthprec/status.h"
 #include "depthprec/triangles.h"

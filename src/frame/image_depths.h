@@ -1,31 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file image_depths.h  Samples of an image as they are, as window depths, and as codes. */
+/** @file image_depths.h  Channel 0 of an image, as reading.h reads it. */
 #ifndef FRAME_IMAGE_DEPTHS_H
 #define FRAME_IMAGE_DEPTHS_H
 
-#include "depthprec/depthprec.h"
+#include "core/reading.h"
 #include "image/image.h"
 
-/** Channel 0 of a pixel, counted along the rows, as it is; NaN for the infinities of f2. */
-double image_sample(const image *image, size_t pixel);
+_Static_assert((int)IMAGE_F64 == DP_IMAGE_F64 && (int)IMAGE_TYPE_COUNT == DP_IMAGE_TYPE_COUNT, "other types");
 
-/**
- * Whether integers of an image are codes of the format, which is so where the type has at least as many bits as the
- * codes; else they are shares of the type's maximum.
- */
-bool image_are_codes(const image *image, const dp_format *format);
+static inline dp_image image_channel(const image *img) {
+    return (dp_image){img->data, (dp_image_type)img->type, img->width, img->height, img->channels};
+}
 
-/**
- * The window depth of `count` pixels of a row from `column` on, channel 0: codes by their format, shares of the type's
- * maximum, correctly rounded, or the numbers themselves. NaN where it is not finite or outside [0, 1], or above
- * code_max; never -0.
- */
-void image_depths(const image *image, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
-                  double *d);
+static inline double image_sample(const image *img, size_t pixel) {
+    const dp_image channel = image_channel(img);
+    return dp_image_number(&channel, pixel);
+}
 
-/** The same as codes of the format, the nearest where a sample is not on the lattice; UINT32_MAX where invalid (and for
- *  1 in unorm32). */
-void image_codes(const image *image, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
-                 uint32_t *codes);
+static inline bool image_are_codes(const image *img, const dp_format *format) {
+    return dp_image_holds_codes((dp_image_type)img->type, format);
+}
+
+/** Of `count` pixels of a row from x on. */
+static inline void image_depths(const image *img, const dp_format *format, uint32_t row, uint32_t x, uint32_t count,
+                                double *d) {
+    const dp_image channel = image_channel(img);
+    dp_reading r;
+    dp_reading_begin(&r, &channel, format, DP_REAL_DOUBLE);
+    dp_reading_depths(&r, (size_t)row * img->width + x, count, d);
+}
+
+static inline void image_codes(const image *img, const dp_format *format, uint32_t row, uint32_t x, uint32_t count,
+                               uint32_t *codes) {
+    const dp_image channel = image_channel(img);
+    dp_image_codes(&channel, format, (size_t)row * img->width + x, count, codes);
+}
 
 #endif

@@ -6,9 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/recognise_lattice.h"
 #include "frame/image_depths.h"
-#include "frame/recognise.h"
-#include "frame/recognise_lattice.h"
 
 enum {
     BITS_MAX = 31,
@@ -28,7 +27,7 @@ typedef struct look {
     double least, most;
     uint32_t divisor;      /* integers: of all */
     size_t depths, single; /* single: are binary32 */
-    distinct_set seen;
+    dp_distinct seen;
 } look;
 
 /* Where nothing was seen some sensors write 65535 and some programs 1e10 or the like: the largest sample is that where
@@ -66,7 +65,7 @@ static double clear_top(image *img) {
 static void look_at(const image *img, look *l) {
     const size_t count = (size_t)img->width * img->height;
     *l = (look){.least = (double)INFINITY};
-    distinct_init(&l->seen, count);
+    dp_distinct_init(&l->seen, malloc(DP_RECOGNISE_SLOTS * sizeof(uint64_t)), count);
     for (size_t i = 0; i < count; i++) {
         const double x = image_sample(img, i);
         if (!is_depth(x))
@@ -76,7 +75,7 @@ static void look_at(const image *img, look *l) {
         l->most = fmax(l->most, x);
         l->single += (double)(float)x == x;
         if (img->type < IMAGE_F16)
-            l->divisor = common_divisor(l->divisor, (uint32_t)x);
+            l->divisor = (uint32_t)dp_common_divisor(l->divisor, (uint32_t)x);
     }
 }
 
@@ -93,9 +92,9 @@ static void look_through(const image *img, const sensor_file *file, const sensor
 /* ---- Integers ---------------------------------------------------------------------------------------------------- */
 
 static void add_all(const image *img, look *l, double scale) {
-    for (size_t i = 0; i < (size_t)img->width * img->height && l->seen.count < RECOGNISE_DISTINCT_MAX; i++)
+    for (size_t i = 0; i < (size_t)img->width * img->height && l->seen.count < DP_RECOGNISE_DISTINCT; i++)
         if (is_depth(image_sample(img, i)))
-            distinct_add(&l->seen, image_sample(img, i) * scale);
+            dp_distinct_add(&l->seen, image_sample(img, i) * scale);
 }
 
 /* How many bits hold the most. */
@@ -135,12 +134,12 @@ static const char *of_integers(const image *img, double scale, look *l, const se
 static double find_step(const image *img, look *l, int exponent) {
     static const double steps[] = {1, 0.1, 0.01, 0.001, 0.0002, 0.0001, 0.00390625};
     static const int bits[] = {[IMAGE_F16] = 11, [IMAGE_F32] = 24, [IMAGE_F64] = 53};
-    const grid_source source = {.bits = bits[img->type], .finest = (double)INFINITY};
+    const dp_grid_source source = {.bits = bits[img->type], .finest = (double)INFINITY};
     add_all(img, l, ldexp(1, -exponent - 1)); /* below 1, which says nothing on a grid */
-    if (l->seen.count >= RECOGNISE_DISTINCT_MAX || l->seen.count < VALUES_LEAST)
+    if (l->seen.count >= DP_RECOGNISE_DISTINCT || l->seen.count < VALUES_LEAST)
         return 0;
     for (size_t i = 0; i < sizeof steps / sizeof steps[0]; i++)
-        if (grid_agreement(&l->seen, &source, ldexp(1, exponent + 1) / steps[i]) >= RECOGNISE_BITS)
+        if (dp_grid_agreement(&l->seen, &source, ldexp(1, exponent + 1) / steps[i]) >= DP_RECOGNISE_BITS)
             return steps[i];
     return 0;
 }
@@ -207,7 +206,7 @@ static const char *guess_integers(const image *img, const char **why) {
     look_at(&copy, &l);
     if (l.depths < copy.height * width && l.most <= FAR)
         sensor_find(&copy, &millimetres, &seen);
-    distinct_free(&l.seen);
+    free(l.seen.slots);
     free(copy.data);
     *why = "its levels are those of a sensor that is known";
     return seen.found && seen.like != NULL ? "mm" : NULL;
@@ -250,7 +249,7 @@ const char *metric_convert(image *img, double scale, double zfar, const sensor *
     const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"
                         : img->type < IMAGE_F16 ? of_integers(img, scale, &l, given, out)
                                                 : of_numbers(img, scale, &l, given, out);
-    distinct_free(&l.seen);
+    free(l.seen.slots);
     if (wrong == NULL)
         sensor_into(&out->sensor, out->zfar, &out->grain);
     if (wrong == NULL && !replace(img, out, scale))

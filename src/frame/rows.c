@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "shader/clones.h"
+#include "core/clones.h"
 #include "shader/normal_corner.h"
 
 static const double TO_DEGREES = 180 / M_PI;

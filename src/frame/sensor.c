@@ -6,8 +6,8 @@
 #include <stdlib.h>
 
 #include "core/elementary.h"
+#include "core/recognise_lattice.h"
 #include "frame/image_depths.h"
-#include "frame/recognise_lattice.h"
 #include "frame/sensor_fit.h"
 
 enum {
@@ -413,7 +413,7 @@ static void name_like(sensor *s) {
 static double common_step(const depths *d, double *bits) {
     uint32_t divisor = 0;
     for (size_t i = 0; i < d->count; i++)
-        divisor = common_divisor(divisor, (uint32_t)d->samples[i]);
+        divisor = (uint32_t)dp_common_divisor(divisor, (uint32_t)d->samples[i]);
     *bits = divisor > 1 ? (double)d->count * dp_log2(divisor) - INTEGER_BITS : 0;
     return divisor;
 }

@@ -5,8 +5,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "core/clones.h"
 #include "core/elementary.h"
-#include "shader/clones.h"
 
 enum {
     WINDOW = 48,         /* values that a comb is laid on, */

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 
 #include "core/bits.h"
+#include "core/clones.h"
 #include "frame/frame.h"
 #include "frame/strips.h"
-#include "shader/clones.h"
 
 /* Magnitudes by their leading 20 bits below the sign: 8 of the exponent, 12 of the significand, so an upper end of a
    bin is at most 2^-11 above what lies in it (subnormals aside). */

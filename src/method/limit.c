@@ -2,7 +2,7 @@
 /* What no method can beat: loops that read a family's inputs, write its outputs and do next to nothing in between. */
 #include "method/method.h"
 
-#include "shader/clones.h"
+#include "core/clones.h"
 
 enum { BLOCK = 1024 };
 

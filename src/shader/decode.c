@@ -3,9 +3,9 @@
 
 #include <math.h>
 
+#include "core/clones.h"
 #include "core/elementary.h"
 #include "core/engine.h"
-#include "shader/clones.h"
 
 /* ---- Constants --------------------------------------------------------------------------------------------------- */
 

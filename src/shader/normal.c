@@ -8,7 +8,7 @@
 #include <math.h>
 
 #include "core/bits.h"
-#include "shader/clones.h"
+#include "core/clones.h"
 #include "shader/half.h"
 
 /* Selection: compilers make jumps of conditions as it suits them, and then no vectors; masks stay what they are */

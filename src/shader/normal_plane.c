@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/clones.h"
 #include "core/elementary.h"
 #include "core/engine.h"
-#include "shader/clones.h"
 #include "shader/normal.h"
 
 enum { NORMAL_BLOCK = 256 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The rows: binary32 loops over the pixels of a line. */
 #include "core/bits.h"
-#include "shader/clones.h"
+#include "core/clones.h"
 #include "shader/half.h"
 #include "shader/position.h"
 

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
+#include "core/clones.h"
 #include "core/engine.h"
-#include "shader/clones.h"
 
 enum { GRAIN_ROW = 256 };
 

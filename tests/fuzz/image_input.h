@@ -45,11 +45,12 @@ static inline void use_image(const uint8_t *data, size_t size, image_file file) 
     if (file != IMAGE_EXR && file != IMAGE_TIFF)
         demand((uint64_t)img.width * img.height * img.channels * image_type_size(img.type) <=
                (uint64_t)size * (file == IMAGE_ROS ? 2064 : 1032)); /* which becomes twice as wide */
-    recognised found;
-    recognise(&img, &found);
+    dp_recognised found;
+    char why[RECOGNISE_WHY_SIZE];
+    recognise(&img, &found, why);
     demand(found.samples == (size_t)img.width * img.height && found.invalid <= found.samples);
     demand(found.depth == (found.invalid == found.holes && found.holes < found.samples) &&
-           memchr(found.why, '\0', sizeof found.why) != NULL);
+           memchr(why, '\0', sizeof why) != NULL);
     demand(found.at_zero + found.at_one + found.invalid <= found.samples);
     demand(found.distinct <= found.samples && !(found.lo > found.hi) && !(found.lo < 0.0) && !(found.hi > 1.0));
     for (size_t i = 0; i < dp_format_count(); i++)

@@ -65,9 +65,9 @@ static const column sample_columns[] = {{FIELD(statistics, named.step, "step", "
                                         {.kind = COLUMN_END}};
 
 static const column recognised_columns[] = {{FIELD(statistics, named.format, "format", "")},
-                                            {FIELD(statistics, source.found.certain, "certain", "")},
+                                            {FIELD(statistics, named.certain, "certain", "")},
                                             {FIELD(statistics, named.reversed, "reversed", "")},
-                                            {FIELD(statistics, source.found.why, "why", "")},
+                                            {FIELD(statistics, source.why, "why", "")},
                                             {.kind = COLUMN_END}};
 
 static const column gap_columns[] = {
@@ -214,6 +214,7 @@ static void name_all(statistics *r) {
     r->named.type = image_type_name(s->type);
     r->named.rounded = g->kind == GRAIN_CODES ? NULL : grain_rounding_name(g->rounding);
     r->named.format = s->found.depth ? s->found.format.name : NULL;
+    r->named.certain = s->found.certain != 0;
     r->named.format_from = texture_origin_name(s->format_from);
     r->named.mapping_from = texture_origin_name(s->mapping_from);
     r->named.direction_from = texture_origin_name(s->direction_from);

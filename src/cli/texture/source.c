@@ -203,17 +203,17 @@ static int unpack(const options *o, texture_source *s) {
     warn_of_colours(o, s);
     s->unpacked.zeros = packing_unwrap(p, &s->picture, o->image.sky != 0 ? 1.0f : NAN);
     if (p->steps == 0)
-        s->found = (recognised){.depth = true};
+        s->found = (dp_recognised){.depth = true};
     else
-        recognise(&s->picture, &s->found);
+        recognise(&s->picture, &s->found, s->why);
     dp_format_parse(p->format, formats);
     s->found.format = formats[0];
     s->found.certain = true;
     s->found.steps = 0;
-    const char *towards = p->linear ? NULL : s->found.towards;
+    const char *towards = p->linear || p->steps == 0 ? NULL : recognise_towards(&s->found);
     const grain *g = &s->unpacked.grain;
     const bool steps = g->kind == GRAIN_STEPS;
-    snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in %s%s%s%s%s", p->name,
+    snprintf(s->why, sizeof s->why, "packing %s, %s, in %s%s%s%s%s", p->name,
              p->linear ? "eye depth over far" : "window depth", steps ? "steps of 1/" : "numbers of ",
              number_of(steps ? g->steps : g->bits, 10).text, steps ? "" : " bits", towards != NULL ? "; " : "",
              towards != NULL ? towards : "");
@@ -302,7 +302,7 @@ static int read_image(options *o, texture_source *s) {
     warn_of_channels(o, s);
     if (o->image.metric > 0)
         return read_metric(o, s);
-    recognise(&s->picture, &s->found);
+    recognise(&s->picture, &s->found, s->why);
     return EXIT_FINE;
 }
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
@@ -311,8 +311,7 @@ static int choose_format(const options *o, texture_source *s, dp_format *out) {
     const bool given = texture_is_window(o) && (option_given(o, OPTION_FORMAT) || chosen);
     s->format_from = given ? ORIGIN_GIVEN : s->path != NULL && s->found.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED;
     if (!given && s->path != NULL && !s->found.depth)
-        return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path,
-                           s->found.why);
+        return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path, s->why);
     if (given && o->camera.format_count > 1 && option_given(o, OPTION_FORMAT))
         return option_error(OPTION_FORMAT, "must be one format, got %zu", o->camera.format_count);
     dp_format usual[2];

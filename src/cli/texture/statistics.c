@@ -44,7 +44,7 @@ static void say_origins(const statistics *r, page *p) {
     char readings[READINGS_SIZE];
     const bool other = statistics_of_image(r) && s->found.depth && strcmp(s->found.format.name, name) != 0;
     if (statistics_of_image(r))
-        page_note(p, "recognised", "%s", s->found.why);
+        page_note(p, "recognised", "%s", s->why);
     if (statistics_of_image(r) && s->picture.lossy != NULL)
         page_note(p, "compression", "%s, which may have changed the depths: no error here counts that",
                   s->picture.lossy);

@@ -48,7 +48,7 @@ typedef struct statistics {
         const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from,
             *metric_from;
         double metric, radial, step, steps, steps_or, bits, fov, half_height;
-        bool coarser;
+        bool coarser, certain;
         const bool *reversed;
         const survey_pairs *pairs;
         const sensor_buffer *buffer;

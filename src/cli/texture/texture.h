@@ -36,7 +36,8 @@ typedef struct texture_matrix {
 typedef struct texture_source {
     const char *path; /**< null for a synthetic image */
     image picture;
-    recognised found;
+    dp_recognised found;
+    char why[RECOGNISE_WHY_SIZE];
     texture_origin format_from, mapping_from, direction_from, metric_from;
     image_type type; /**< of the file, where --metric has changed the picture's */
     uint32_t channels;

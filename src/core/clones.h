@@ -1,11 +1,11 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /**
- * @file clones.h  Loops compiled for several instruction sets, chosen when the program starts.
+ * @file clones.h  For the rooms above too: loops compiled for several instruction sets, chosen when the program starts.
  *
  * Element-wise loops give the same bits in each, because contraction is off (see the Makefile).
  */
-#ifndef SHADER_CLONES_H
-#define SHADER_CLONES_H
+#ifndef CORE_CLONES_H
+#define CORE_CLONES_H
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__ELF__) &&                             \
     !defined(__SANITIZE_ADDRESS__)

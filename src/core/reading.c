@@ -1,13 +1,15 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Samples of a row as window depths or codes: blocks that stay in the first-level cache, through the batch kernels. */
-#include "frame/image_depths.h"
+/* SPDX-License-Identifier: MIT */
+/* Samples as window depths or codes: blocks that stay in the first-level cache, through the batch kernels. */
+#include "core/reading.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "shader/clones.h"
+#include "core/clones.h"
 
 enum { BLOCK = 1024 };
+
+static const size_t sizes[DP_IMAGE_TYPE_COUNT] = {1, 2, 4, 2, 4, 8};
 
 /* A block of samples side by side, and of depths of either type. */
 typedef union block {
@@ -68,13 +70,13 @@ CLONES static void unsign(const uint16_t *from, size_t step, size_t count, uint1
 
 /* ---- Blocks -------------------------------------------------------------------------------------------------------*/
 
-/* Channel 0 alone, side by side: bytes as words, binary16 without a sign of 0. */
-static const void *samples(const image *img, size_t first, size_t count, block *scratch) {
-    const size_t step = img->channels, size = image_type_size(img->type);
-    const void *at = (const unsigned char *)img->data + first * step * size;
-    if (img->type == IMAGE_U8)
+/* Samples alone, side by side: bytes as words, binary16 without a sign of 0. */
+static const void *side_by_side(const dp_image *image, size_t first, size_t count, block *scratch) {
+    const size_t step = image->stride, size = sizes[image->type];
+    const void *at = (const unsigned char *)image->data + first * step * size;
+    if (image->type == DP_IMAGE_U8)
         words_of_bytes(at, step, count, scratch->u16);
-    else if (img->type == IMAGE_F16)
+    else if (image->type == DP_IMAGE_F16)
         unsign(at, step, count, scratch->u16);
     else if (step == 1)
         return at;
@@ -93,60 +95,51 @@ static void prepare(dp_batch *batch, const dp_format *format, dp_task task, dp_r
     dp_batch_init(batch, &setup, task, real, word, dp_path_best());
 }
 
-/* How the samples of an image are read in a format, which for f2 is always its own; in binary32 f2 and f4 alone. */
-typedef struct reading {
-    const image *img;
-    dp_format format;
-    bool codes;
-    dp_real real;
-    dp_batch decode; /**< codes alone */
-} reading;
-
-static reading begin(const image *img, const dp_format *format, dp_real real) {
-    reading r = {.img = img, .format = *format, .codes = image_are_codes(img, format), .real = real};
-    if (img->type == IMAGE_F16) {
-        dp_format half[2];
+void dp_reading_begin(dp_reading *r, const dp_image *image, const dp_format *format, dp_real real) {
+    dp_format half[2];
+    const bool halves = image->type == DP_IMAGE_F16;
+    if (halves)
         dp_format_parse("fp16", half);
-        r.format = half[0];
-        r.codes = true;
-    }
-    if (r.codes)
-        prepare(&r.decode, &r.format, DP_TASK_DECODE, real, img->type == IMAGE_U32 ? DP_WORD_32 : DP_WORD_16);
-    return r;
+    r->image = image;
+    r->format = halves ? half[0] : *format;
+    r->codes = halves || dp_image_holds_codes(image->type, format);
+    r->real = real;
+    if (r->codes)
+        prepare(&r->decode, &r->format, DP_TASK_DECODE, real, image->type == DP_IMAGE_U32 ? DP_WORD_32 : DP_WORD_16);
 }
 
 /* Shares of the type's maximum. */
-static void shares(const reading *r, const uint16_t *words, size_t count, double *d) {
-    const double most = r->img->type == IMAGE_U8 ? 255 : 65535;
+static void shares(const dp_reading *r, const uint16_t *words, size_t count, double *d) {
+    const double most = r->image->type == DP_IMAGE_U8 ? 255 : 65535;
     for (size_t i = 0; i < count; i++)
         d[i] = words[i] / most;
 }
 
-static void decoded(const reading *r, const void *codes, size_t count, void *d) {
+static void decoded(const dp_reading *r, const void *codes, size_t count, void *d) {
     const uint32_t code_max = r->format.code_max;
     dp_batch_run(&r->decode, codes, d, count);
     if (r->real == DP_REAL_FLOAT)
         bar_float_16(codes, code_max, count, d);
-    else if (r->img->type == IMAGE_U32)
+    else if (r->image->type == DP_IMAGE_U32)
         bar_double_32(codes, code_max, count, d);
     else
         bar_double_16(codes, code_max, count, d);
 }
 
-static void block_depths(const reading *r, const void *at, size_t count, void *d) {
+static void block_depths(const dp_reading *r, const void *at, size_t count, void *d) {
     if (r->codes)
         decoded(r, at, count, d);
-    else if (r->img->type == IMAGE_F32 && r->real == DP_REAL_FLOAT)
+    else if (r->image->type == DP_IMAGE_F32 && r->real == DP_REAL_FLOAT)
         clean_float(at, count, d);
-    else if (r->img->type == IMAGE_F32)
+    else if (r->image->type == DP_IMAGE_F32)
         clean_float_double(at, count, d);
-    else if (r->img->type == IMAGE_F64)
+    else if (r->image->type == DP_IMAGE_F64)
         clean_double(at, count, d);
     else
         shares(r, at, count, d);
 }
 
-/* ---- Public ------------------------------------------------------------------------------------------------------ */
+/* ---- For the rooms above ----------------------------------------------------------------------------------------- */
 
 /* The number that the bits of a binary16 stand for; NaN for infinities, too. */
 static double half_of(uint16_t bits) {
@@ -157,40 +150,39 @@ static double half_of(uint16_t bits) {
     return bits >> 15 ? -size : size;
 }
 
-double image_sample(const image *img, size_t pixel) {
-    const size_t i = pixel * img->channels;
-    const void *at = img->data;
-    switch (img->type) {
-    case IMAGE_U8:
+double dp_image_number(const dp_image *image, size_t pixel) {
+    const size_t i = pixel * image->stride;
+    const void *at = image->data;
+    switch (image->type) {
+    case DP_IMAGE_U8:
         return ((const uint8_t *)at)[i];
-    case IMAGE_U16:
+    case DP_IMAGE_U16:
         return ((const uint16_t *)at)[i];
-    case IMAGE_U32:
+    case DP_IMAGE_U32:
         return ((const uint32_t *)at)[i];
-    case IMAGE_F16:
+    case DP_IMAGE_F16:
         return half_of(((const uint16_t *)at)[i]);
-    case IMAGE_F32:
+    case DP_IMAGE_F32:
         return (double)((const float *)at)[i];
     default:
         return ((const double *)at)[i];
     }
 }
 
-bool image_are_codes(const image *img, const dp_format *format) {
-    return img->type <= IMAGE_U32 && 8 * image_type_size(img->type) >= (size_t)format->bits;
+bool dp_image_holds_codes(dp_image_type type, const dp_format *format) {
+    return type <= DP_IMAGE_U32 && 8 * sizes[type] >= (size_t)format->bits;
 }
 
-void image_depths(const image *img, const dp_format *format, uint32_t row, uint32_t column, uint32_t count, double *d) {
+void dp_reading_depths(const dp_reading *r, size_t first, size_t count, double *d) {
     block scratch;
-    const reading r = begin(img, format, DP_REAL_DOUBLE);
     for (size_t i = 0; i < count; i += BLOCK) {
         const size_t some = count - i < BLOCK ? count - i : BLOCK;
-        block_depths(&r, samples(img, (size_t)row * img->width + column + i, some, &scratch), some, d + i);
+        block_depths(r, side_by_side(r->image, first + i, some, &scratch), some, d + i);
     }
 }
 
 /* What is no code becomes the nearest one, from binary32 where the samples have no more bits. */
-static void encoded(const dp_batch *encode, const reading *r, const void *at, size_t count, uint32_t *codes) {
+static void encoded(const dp_batch *encode, const dp_reading *r, const void *at, size_t count, uint32_t *codes) {
     block d;
     block_depths(r, at, count, &d);
     dp_batch_run(encode, &d, codes, count);
@@ -200,19 +192,19 @@ static void encoded(const dp_batch *encode, const reading *r, const void *at, si
         bar_codes_double(d.real64, count, codes);
 }
 
-void image_codes(const image *img, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
-                 uint32_t *codes) {
+void dp_image_codes(const dp_image *image, const dp_format *format, size_t first, size_t count, uint32_t *codes) {
     block scratch;
-    const bool single = img->type == IMAGE_F16 || img->type == IMAGE_F32;
-    const bool are_codes = image_are_codes(img, format);
-    const reading r = begin(img, format, single ? DP_REAL_FLOAT : DP_REAL_DOUBLE);
+    const bool single = image->type == DP_IMAGE_F16 || image->type == DP_IMAGE_F32;
+    const bool are_codes = dp_image_holds_codes(image->type, format);
+    dp_reading r;
     dp_batch encode;
+    dp_reading_begin(&r, image, format, single ? DP_REAL_FLOAT : DP_REAL_DOUBLE);
     if (!are_codes)
         prepare(&encode, format, DP_TASK_ENCODE, r.real, DP_WORD_32);
     for (size_t i = 0; i < count; i += BLOCK) {
         const size_t some = count - i < BLOCK ? count - i : BLOCK;
-        const void *at = samples(img, (size_t)row * img->width + column + i, some, &scratch);
-        if (are_codes && img->type == IMAGE_U32)
+        const void *at = side_by_side(image, first + i, some, &scratch);
+        if (are_codes && image->type == DP_IMAGE_U32)
             widen_32(at, format->code_max, some, codes + i);
         else if (are_codes)
             widen_16(at, format->code_max, some, codes + i);

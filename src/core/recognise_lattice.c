@@ -1,21 +1,19 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "frame/recognise_lattice.h"
+/* SPDX-License-Identifier: MIT */
+#include "core/recognise_lattice.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "core/bits.h"
+#include "core/clones.h"
 #include "core/elementary.h"
-#include "frame/recognise.h"
-#include "shader/clones.h"
+#include "depthprec/recognise.h"
 
 enum { BLOCK = 4096, BITS_LEAST = 8, BITS_MOST = 16 };
 
 static const double unorm16_max = 65535, unorm24_max = 16777215;
 
-const char *lattice_name(lattice which) {
-    static const char *const names[LATTICE_COUNT] = {"fp16", "unorm16", "unorm24", "fp32"};
+const char *dp_lattice_name(dp_lattice which) {
+    static const char *const names[DP_LATTICE_COUNT] = {"fp16", "unorm16", "unorm24", "fp32"};
     return names[which];
 }
 
@@ -44,7 +42,7 @@ static inline int32_t off_half(float x) {
     return x < 0x1p-14F ? small : normal;
 }
 
-CLONES static void single_block(const double *d, size_t count, int32_t sums[LATTICE_COUNT]) {
+CLONES static void single_block(const double *d, size_t count, int32_t sums[DP_LATTICE_COUNT]) {
     const double reciprocal16 = 1 / unorm16_max, reciprocal24 = 1 / unorm24_max;
     int32_t half = 0, unorm16 = 0, unorm24 = 0, single = 0;
     for (size_t i = 0; i < count; i++) {
@@ -57,17 +55,17 @@ CLONES static void single_block(const double *d, size_t count, int32_t sums[LATT
         unorm24 += off_unorm(x, unorm24_max, reciprocal24) | wide;
         single += wide;
     }
-    sums[LATTICE_FP16] = half;
-    sums[LATTICE_UNORM16] = unorm16;
-    sums[LATTICE_UNORM24] = unorm24;
-    sums[LATTICE_FP32] = single;
+    sums[DP_LATTICE_FP16] = half;
+    sums[DP_LATTICE_UNORM16] = unorm16;
+    sums[DP_LATTICE_UNORM24] = unorm24;
+    sums[DP_LATTICE_FP32] = single;
 }
 
-void lattice_single(const double *d, size_t count, size_t off[LATTICE_COUNT]) {
+void dp_lattice_single(const double *d, size_t count, size_t off[DP_LATTICE_COUNT]) {
     for (size_t i = 0; i < count; i += BLOCK) {
-        int32_t sums[LATTICE_COUNT];
+        int32_t sums[DP_LATTICE_COUNT];
         single_block(d + i, count - i < BLOCK ? count - i : BLOCK, sums);
-        for (int k = 0; k < LATTICE_COUNT; k++)
+        for (int k = 0; k < DP_LATTICE_COUNT; k++)
             off[k] += (size_t)sums[k];
     }
 }
@@ -77,32 +75,32 @@ static bool off_unorm_double(double x, double code_max) {
     return distance > 1 || distance < -1;
 }
 
-void lattice_double(const double *d, size_t count, size_t off[LATTICE_COUNT]) {
+void dp_lattice_double(const double *d, size_t count, size_t off[DP_LATTICE_COUNT]) {
     for (size_t i = 0; i < count; i++) {
         if (isnan(d[i]))
             continue;
         const bool wide = (double)(float)d[i] != d[i];
-        off[LATTICE_FP16] += wide || off_half((float)d[i]);
-        off[LATTICE_UNORM16] += off_unorm_double(d[i], unorm16_max);
-        off[LATTICE_UNORM24] += off_unorm_double(d[i], unorm24_max);
-        off[LATTICE_FP32] += wide;
+        off[DP_LATTICE_FP16] += wide || off_half((float)d[i]);
+        off[DP_LATTICE_UNORM16] += off_unorm_double(d[i], unorm16_max);
+        off[DP_LATTICE_UNORM24] += off_unorm_double(d[i], unorm24_max);
+        off[DP_LATTICE_FP32] += wide;
     }
 }
 
-double lattice_chance(lattice which, bool single, double d) {
-    if (d == 0 || d == 1 || which == LATTICE_FP32)
+double dp_lattice_chance(dp_lattice which, bool single, double d) {
+    if (d == 0 || d == 1 || which == DP_LATTICE_FP32)
         return 1;
-    if (which == LATTICE_FP16)
+    if (which == DP_LATTICE_FP16)
         return 0x1p-13;
     int exponent;
     frexp(d, &exponent);
     const double ulp = ldexp(1, exponent - (single ? 24 : 53));
-    return fmin(1, 3 * ulp * (which == LATTICE_UNORM16 ? unorm16_max : unorm24_max));
+    return fmin(1, 3 * ulp * (which == DP_LATTICE_UNORM16 ? unorm16_max : unorm24_max));
 }
 
-uint32_t common_divisor(uint32_t a, uint32_t b) {
+size_t dp_common_divisor(size_t a, size_t b) {
     while (b != 0) {
-        const uint32_t rest = a % b;
+        const size_t rest = a % b;
         a = b;
         b = rest;
     }
@@ -111,22 +109,17 @@ uint32_t common_divisor(uint32_t a, uint32_t b) {
 
 /* ---- Different numbers --------------------------------------------------------------------------------------------*/
 
-void distinct_init(distinct_set *set, size_t most) {
+void dp_distinct_init(dp_distinct *set, uint64_t *slots, size_t most) {
     size_t size = 64;
-    while (size < 2 * most && size < 2 * RECOGNISE_DISTINCT_MAX)
+    while (size / 2 < most && size < DP_RECOGNISE_SLOTS)
         size *= 2;
-    *set = (distinct_set){.slots = malloc(size * sizeof(uint64_t)), .size = size};
-    if (set->slots != NULL)
-        memset(set->slots, 0xFF, size * sizeof(uint64_t)); /* a NaN */
+    *set = (dp_distinct){.slots = slots, .size = slots != NULL ? size : 0};
+    for (size_t i = 0; i < set->size; i++)
+        slots[i] = UINT64_MAX; /* a NaN */
 }
 
-void distinct_free(distinct_set *set) {
-    free(set->slots);
-    set->slots = NULL;
-}
-
-bool distinct_add(distinct_set *set, double d) {
-    if (set->slots == NULL || set->count >= RECOGNISE_DISTINCT_MAX)
+bool dp_distinct_add(dp_distinct *set, double d) {
+    if (set->slots == NULL || set->count >= DP_RECOGNISE_DISTINCT)
         return false;
     const uint64_t bits = dp_bits64(d);
     uint64_t slot = (bits * UINT64_C(0x9E3779B97F4A7C15)) >> 40 & (set->size - 1);
@@ -144,7 +137,7 @@ bool distinct_add(distinct_set *set, double d) {
  * shifted up. */
 
 /* How far a sample near d may lie beside the grid, in steps of it: integers half a code, numbers 1.5 units. */
-static double tolerance(const grid_source *s, double d, double steps) {
+static double tolerance(const dp_grid_source *s, double d, double steps) {
     int exponent;
     if (s->top > 0)
         return 0.5 * (1 + 0x1p-20) * steps / s->top;
@@ -153,7 +146,7 @@ static double tolerance(const grid_source *s, double d, double steps) {
 }
 
 /* -log2 of the chance; negative when one is off. */
-static double agreement(const distinct_set *set, const grid_source *s, double steps, bool shifted) {
+static double agreement(const dp_distinct *set, const dp_grid_source *s, double steps, bool shifted) {
     double bits = 0;
     for (size_t i = 0; i < set->size; i++) {
         const double d = dp_float64(set->slots[i]); /* empty slots are NaN */
@@ -167,26 +160,26 @@ static double agreement(const distinct_set *set, const grid_source *s, double st
     return bits;
 }
 
-double grid_agreement(const distinct_set *set, const grid_source *s, double steps) {
+double dp_grid_agreement(const dp_distinct *set, const dp_grid_source *s, double steps) {
     return agreement(set, s, steps, false);
 }
 
-static bool better(grid *best, const distinct_set *set, const grid_source *s, double steps, bool shifted) {
+static bool better(dp_grid *best, const dp_distinct *set, const dp_grid_source *s, double steps, bool shifted) {
     if (!(steps < s->finest))
         return false;
     const double bits = agreement(set, s, steps, shifted);
     if (!(bits > 0))
         return false;
-    *best = (grid){steps, bits};
+    *best = (dp_grid){steps, bits};
     return true;
 }
 
-grid grid_find(const distinct_set *set, const grid_source *s) {
-    grid best = {0};
-    if (set->slots == NULL || set->count == 0 || set->count >= RECOGNISE_DISTINCT_MAX)
+dp_grid dp_grid_find(const dp_distinct *set, const dp_grid_source *s) {
+    dp_grid best = {0};
+    if (set->count == 0 || set->count >= DP_RECOGNISE_DISTINCT)
         return best;
     if (agreement(set, s, 1, false) >= 0) /* nothing but 0 and 1: any number of bits */
-        return (grid){ldexp(1, BITS_LEAST) - 1, 0};
+        return (dp_grid){ldexp(1, BITS_LEAST) - 1, 0};
     for (int n = BITS_LEAST; n <= BITS_MOST; n++) {
         const double power = ldexp(1, n);
         if (better(&best, set, s, power - 1, false))
