@@ -503,6 +503,7 @@ function showSetup(index, said) {
     const one = place.children[index];
     const letter = state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : [];
     if (said.status !== REFUSED) one.replaceChildren(...letter, answers(said.out));
+    document.documentElement.dataset.answered = "";
     one.classList.toggle("stale", said.status === REFUSED);
 }
 

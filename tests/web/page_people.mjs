@@ -171,6 +171,19 @@ export async function people() {
         await close(page);
         demand(wide <= 360, `${wide} px`);
     });
+    await test("nothing that is read moves while the page opens", async () => {
+        for (const [width, fragment] of [[360, ""], [1280, ""], [1280, TWO]]) {
+            const page = await open({ width, height: 740, fragment });
+            const shift = await page.evaluate(() => new Promise((done) => {
+                let sum = 0;
+                new PerformanceObserver((list) => list.getEntries().forEach(({ value }) => (sum += value)))
+                    .observe({ type: "layout-shift", buffered: true });
+                setTimeout(() => done(sum), 500);
+            }));
+            await close(page);
+            demand(shift < 0.05, `${width} px: layout shift ${shift}`);
+        }
+    });
     await test("colours follow the system while the page is open", async () => {
         const page = await open({ theme: "light" }), colour = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
         const light = await colour();
