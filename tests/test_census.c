@@ -250,6 +250,17 @@ static dp_setup setup_of(double znear, double zfar, const char *format, dp_mappi
     return setup;
 }
 
+/* Where it was met a key may have had the guarantee of either end of its block. */
+TEST(a_guarantee_rises_within_a_block) {
+    static census_result want, got;
+    const double zfar = 0x1.4135070aae935p-3;
+    const dp_setup setup = setup_of(0x1.6cb7bcbf44f15p-9, zfar, "float5.9", DP_MAPPING_GL, "fused");
+    const census_request q = {.setup = &setup, .lo = 0x1.30cb2de8b6fbfp-3, .hi = zfar, .bound = jumping_bound};
+    plain_census(&q, &want);
+    assert_int_equal(census_run(&q, &got), CENSUS_DONE);
+    assert_true(same_result(&want, &got) && got.bands[0].slack == want.bands[0].slack);
+}
+
 static dp_setup ortho_of(double znear, double zfar, const char *format) {
     dp_spec spec = setup_of(1.0, 2.0, format, DP_MAPPING_D3D, "ieee").spec;
     dp_setup setup;

@@ -57,7 +57,7 @@ static int worth_a_look(const census_parts *c, size_t block, size_t from, double
 void census_bridge(const census_parts *c, census_result *result) {
     int band = -1;
     int64_t highest = INT64_MIN;
-    double highest_bound = 0.0; /* where it was met */
+    double highest_bound = 0.0; /* the greatest where it may have been met */
     for (size_t i = 0; i + 1 < c->segment_count; i++) {
         const census_segment *s = &c->segments[i];
         const size_t from = c->segments[i + 1].block;
@@ -80,7 +80,7 @@ void census_bridge(const census_parts *c, census_result *result) {
             if (worth_a_look(c, block, from, fmin(here, last), &result->bands[band]))
                 look_at_block(c, block, from, highest, census_falls(here, last), &result->bands[band]);
             highest = top;
-            highest_bound = here;
+            highest_bound = fmax(here, last);
         }
     }
 }
