@@ -93,7 +93,7 @@ function shown() {
 
 // What is seen beside the commands: the gap of the picture, in thousandths of its slider, and the colours.
 const SEEN = { gap: /^(1000|\d{1,3})$/, theme: /^(system|light|dark)$/ };
-const SEEN_FIRST = { gap: "400", theme: "system" };
+const SEEN_FIRST = { gap: "300", theme: "system" };
 
 function seen() {
     const now = { gap: $("#gap").value, theme: document.documentElement.dataset.theme ?? "system" };
@@ -554,7 +554,7 @@ function update(dragged = false) {
     for (const panel of document.querySelectorAll("[data-panel]"))
         panel.hidden = panel.dataset.panel !== "view" && !state.shown.has(panel.dataset.panel);
     $("#link").textContent = shown().map((line) => `depthprec ${join(line)}`).join("\n");
-    picture?.set(commandOf("table", state.setups[0]));
+    showPicture();
     clearTimeout(resting);
     resting = !dragged ? null : setTimeout(() => {
         resting = null;
@@ -686,13 +686,29 @@ function listen() {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", later);
 }
 
-// What the picture says of itself: the guarantee's mark is at three quarters of the slider.
-function showPicture(text, { drawn, hasMark, error }) {
-    $("#view-says").textContent = text;
-    $("#view-drawn").textContent = drawn;
-    $("#mark").hidden = !hasMark;
-    $("#view").hidden = error !== "";
+// Beside A its second set-up, or what reversed fp32 makes of the same planes.
+function pictured() {
+    const [a, b] = state.setups, best = new Map([...a, ["format", "fp32"], ["mapping", "reversed"]]);
+    const lines = [a, b ?? best].map((setup) => commandOf("table", new Map([...setup].filter(([name]) => name !== "at" || setup === a))));
+    return join(lines[0]) === join(lines[1]) || a.has("preset") && b === undefined ? lines.slice(0, 1) : lines;
 }
+
+function showPicture() {
+    const lines = pictured(), [, second] = document.querySelectorAll("#picture figure");
+    second.hidden = lines.length === 1;
+    picture?.set(lines);
+}
+
+// Each picture says what it is of; the guarantee's mark is at three quarters of the slider.
+const viewOf = (figure, index) => ({
+    canvas: $("canvas", figure),
+    onStatus(text, { drawn, hasMark, error }) {
+        $(".answer", figure).textContent = text;
+        $(".name", figure).textContent = drawn;
+        if (index === 0) $("#mark").hidden = !hasMark;
+        $("canvas", figure).hidden = error !== "";
+    },
+});
 
 // Letters of the figures are measured as the page draws them.
 function measurer() {
@@ -731,10 +747,10 @@ async function begin() {
     }
     opened = true;
     want();
-    const controls = { canvas: $("#view"), slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is") };
-    picture = createPicture({ ...controls, engine, onStatus: showPicture });
+    const views = [...document.querySelectorAll("#picture figure")].map(viewOf);
+    picture = createPicture({ views, engine, slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is") });
     $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));
-    picture.set(commandOf("table", state.setups[0]));
+    showPicture();
     window.depthprec = { engine, state: () => shown().map(join), set: setLink };
 }
 

@@ -64,11 +64,21 @@ PAGE_EXPORT("picture_set") int picture_set(int n) {
     return status;
 }
 
-/** Draws a frame; `place` is that of the slider. @return how many pixels are wrong */
-PAGE_EXPORT("picture_draw") int picture_draw(double place, unsigned frame, int marks) {
+/** The gap at a place of the slider, scene units; 0 without a picture. */
+PAGE_EXPORT("picture_gap") double picture_gap(double place) {
+    return picture.z > 0.0 ? draw_picture_gap(&picture, place) : 0.0;
+}
+
+/** How far things are, scene units: for a second picture of them. */
+PAGE_EXPORT("picture_z") double picture_z(void) {
+    return picture.z;
+}
+
+/** Draws a frame. @return how many pixels are wrong */
+PAGE_EXPORT("picture_draw") int picture_draw(double gap, unsigned frame, int marks) {
     if (!(picture.z > 0.0))
         return 0;
-    count = draw_picture_frame(&picture, draw_picture_gap(&picture, place), frame, marks != 0, pixels);
+    count = draw_picture_frame(&picture, gap, frame, marks != 0, pixels);
     return (int)count.wrong;
 }
 
@@ -97,9 +107,8 @@ static void say_guarantee(void) {
         printf("No separation is guaranteed at this depth.\n");
 }
 
-/** Says the gap at a place of the slider, and what it does, as the last frame was; `quiet`: none was wrong lately. */
-PAGE_EXPORT("picture_say") void picture_say(double place, int quiet) {
-    const double gap = draw_picture_gap(&picture, place);
+/** Says the gap, and what it does, as the last frame was; `quiet`: none was wrong lately. */
+PAGE_EXPORT("picture_say") void picture_say(double gap, int quiet) {
     const double share = 100.0 * (double)count.wrong / fmax((double)count.covered, 1.0);
     char label[SETUP_LABEL_SIZE];
     if (!(picture.z > 0.0))
@@ -113,9 +122,4 @@ PAGE_EXPORT("picture_say") void picture_say(double place, int quiet) {
     printf("%s, things about %s away, drawn by the model of %s\n", setup_label(&picture.setup, false, label),
            number_in(number_brief(number_of(picture.z, DIGITS)), unit).text, picture.camera.target.row->name);
     fflush(NULL);
-}
-
-/** Whether the guarantee holds at a place of the slider. */
-PAGE_EXPORT("picture_safe") int picture_safe(double place) {
-    return picture.z > 0.0 && draw_picture_gap(&picture, place) >= picture.guaranteed;
 }

@@ -117,10 +117,10 @@ async function address() {
     const other = await open({ fragment: new URL(page.url()).hash.slice(1) });
     demand(await shows(other) === "0.25 650 light share", `opened elsewhere: ${await shows(other)}`);
     await other.reload();
-    await settled(other);
+    await other.waitForFunction(() => document.documentElement.dataset.ready !== undefined);
     demand(await shows(other) === "0.25 650 light share", `reloaded: ${await shows(other)}`);
     await close(other);
-    const steps = ["0.25 400 light share", "0.25 400 system share", "0.25 400 system interval", "0.1 400 system interval"];
+    const steps = ["0.25 300 light share", "0.25 300 system share", "0.25 300 system interval", "0.1 300 system interval"];
     for (const step of steps) {
         await updated(page, () => page.goBack());
         demand(await shows(page) === step, `back: ${await shows(page)}, not ${step}`);

@@ -97,7 +97,7 @@ async function keys() {
 }
 
 const still = async (page) => {
-    const view = page.locator("#view");
+    const view = page.locator("#picture canvas").first();
     if (!(await view.isVisible())) return true;
     await view.scrollIntoViewIfNeeded();
     await settled(page);
