@@ -27,6 +27,7 @@ static int absent(const options *o) {
     }
 
 ABSENT(cmd_check)
+ABSENT(cmd_code)
 ABSENT(cmd_completions)
 ABSENT(cmd_judge)
 ABSENT(cmd_methods)
@@ -60,6 +61,7 @@ ABSENT_FIGURE(stability_build)
         return NULL;                                                                                                   \
     }
 
+ABSENT_ROWS(code_language, code_language_get)
 ABSENT_ROWS(constant_row, constant_get)
 ABSENT_ROWS(effect_row, effect_get)
 ABSENT_ROWS(finder_filter_row, finder_filter_get)

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* code: a method or a projection matrix for the camera at hand, in a language, to take away. */
+#include <string.h>
+
+#include "cli/option/rows.h"
+#include "cli/setups.h"
+#include "code/code.h"
+#include "core/append.h"
+
+/* What --what names, in its order. */
+enum { WHAT_LINEARIZE, WHAT_PROJECTION };
+
+typedef struct wanted_code {
+    const options *o;
+    const code_language *language;
+    const method_row *row;
+    dp_setup setup;
+    texture_camera camera;
+} wanted_code;
+
+/* "glsl has no table-linear, which looks numbers up; it has unity, ..." */
+static int refuse_method(const wanted_code *w, const char *given, const char *lacks) {
+    char all[NAMES_SIZE] = "";
+    for (size_t i = 0; i < *linearize_family.method_count; i++)
+        if (code_lacks(w->language, &linearize_family.methods[i], &w->setup) == NULL)
+            append(all, sizeof all, "%s%s", all[0] != '\0' ? ", " : "", linearize_family.methods[i].name);
+    return lacks != NULL
+               ? usage_error("code: %s is not in %s: it %s; there are %s", given, w->language->name, lacks, all)
+               : usage_error("code: METHOD must be one of %s, got '%s'", all, given);
+}
+
+static int find_method(wanted_code *w) {
+    const options *o = w->o;
+    if (o->operand_count == 0) {
+        w->row = code_best(w->language, &w->setup);
+        return w->row != NULL ? EXIT_FINE : usage_error("code: no method leaves a digit for this camera");
+    }
+    for (size_t i = 0; i < *linearize_family.method_count; i++) {
+        const method_row *row = &linearize_family.methods[i];
+        if (strcmp(row->name, o->operands[0]) != 0)
+            continue;
+        const char *lacks = code_lacks(w->language, row, &w->setup);
+        w->row = row;
+        return lacks == NULL ? EXIT_FINE : refuse_method(w, row->name, lacks);
+    }
+    return refuse_method(w, o->operands[0], NULL);
+}
+
+static int find_camera(wanted_code *w) {
+    const options *o = w->o;
+    const int width = (int)o->view.spec.width, height = (int)o->view.spec.height;
+    camera_spec view = o->view.spec;
+    if (o->operand_count > 0)
+        return usage_error("code: a projection matrix has no METHOD, got '%s'", o->operands[0]);
+    if (o->code.uniforms)
+        return option_error(OPTION_UNIFORMS, "conflicts with --what projection, all of which is constants");
+    if (w->language->matrix == NULL)
+        return option_error(OPTION_LANGUAGE, "must be one with matrices, glsl, hlsl, wgsl, msl, c or numpy, got %s",
+                            w->language->name);
+    if (o->camera.preset_count > 0 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
+        view.fov_y = preset_fov_y(o->camera.presets[0], width, height);
+    else if (view_vertical(o, width, height, &view.fov_y) != EXIT_FINE)
+        return EXIT_USAGE;
+    const char *wrong = camera_init(&w->camera, &w->setup, &view);
+    return wrong == NULL ? EXIT_FINE : usage_error("code: %s", wrong);
+}
+
+/* One camera whose depth a matrix makes. */
+static int find_setup(wanted_code *w) {
+    setups all = {0};
+    const int status = setups_make(w->o, &all);
+    const size_t count = all.count;
+    if (count > 0)
+        w->setup = all.items[0];
+    setups_release(&all);
+    if (status != EXIT_FINE)
+        return status;
+    if (count > 1)
+        return option_error(OPTION_MAPPING, "and --format must be one each, got %zu set-ups", count);
+    if (w->setup.curve != DP_CURVE_PERSPECTIVE)
+        return option_error(OPTION_MAPPING, "must be one of " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
+                            dp_mapping_get(w->setup.spec.mapping)->name);
+    return EXIT_FINE;
+}
+
+int cmd_code(const options *o) {
+    output out;
+    wanted_code w = {.o = o, .language = o->code.language};
+    const bool projection = o->code.what == WHAT_PROJECTION;
+    int status = find_setup(&w);
+    if (status == EXIT_FINE)
+        status = projection ? find_camera(&w) : find_method(&w);
+    if (status == EXIT_FINE && o->code.uniforms && w.language->form != CODE_INFIX)
+        status = option_error(OPTION_UNIFORMS, "conflicts with %s, which is about one camera", w.language->name);
+    if (status == EXIT_FINE)
+        status = options_open(o, &out);
+    if (status != EXIT_FINE)
+        return status;
+    if (projection)
+        code_projection(&out, w.language, &w.camera);
+    else
+        code_linearize(&out, w.language, w.row, &w.setup, o->code.uniforms);
+    return output_close(&out);
+}
