@@ -29,14 +29,14 @@ static void put(output *out, const char *template, const char *a, const char *b)
 }
 
 const char *code_number(double value, bool wide, char out[CODE_TEXT_SIZE]) {
-    const double size = fabs(value), to = wide ? value : (double)(float)value;
+    const double to = wide ? value : (double)(float)value;
     int count = 1;
     do
-        snprintf(out, CODE_TEXT_SIZE, "%.*e", count - 1, value);
+        snprintf(out, CODE_TEXT_SIZE, "%.*e", count - 1, to);
     while ((wide ? strtod(out, NULL) : (double)strtof(out, NULL)) != to && count++ < 17);
     const int places = count - 1 - atoi(strchr(out, 'e') + 1);
-    if (value == 0 || (size >= 1e-4 && size < 1e9))
-        snprintf(out, CODE_TEXT_SIZE, "%.*f", places > 1 ? places : 1, value);
+    if (to == 0 || (fabs(to) >= 1e-4 && fabs(to) < 1e9))
+        snprintf(out, CODE_TEXT_SIZE, "%.*f", places > 1 ? places : 1, to);
     return out;
 }
 
@@ -187,12 +187,12 @@ static void say_depth(output *out, const code_language *l, const dp_setup *setup
 
 static void say_bound(output *out, const code_language *l, const method_row *row, const dp_setup *setup) {
     const double bound = code_bound(l, row, setup), nearest = bound_over(row->bound, setup, &bound_nearest);
-    const double n = setup->spec.znear, least = l->how.flushes ? 0x1p-126 : 0x1p-149;
+    const double n = setup->spec.znear, least = l->how.flushes ? 0x1p-125 : 0x1p-149;
     const bool infinite = isinf(setup->spec.zfar), same = l->how.rounding == 1;
     char rules[CODE_RULES_SIZE];
     char where[NUMBER_SIZE + 32] = "for any d from 0 to 1";
     if (infinite && setup->reversed)
-        snprintf(where, sizeof where, "up to a depth of %s", number_down(fmin(n / least, 0x1p127), 3).text);
+        snprintf(where, sizeof where, "up to a depth of %s", number_down(fmin(n / least, l->how.flushes ? 0x1p125 : 0x1p127), 3).text);
     else if (infinite)
         snprintf(where, sizeof where, "for any d below 1");
     output_format(out, "%s %s: %s.\n", l->comment, l->rules, code_language_rules(l, rules));

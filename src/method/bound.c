@@ -87,7 +87,7 @@ double bound_over(const bound_steps *row, const dp_setup *setup, const bound_ari
     s.slope = infinite ? 1 / n : (f - n) / n / f;
     s.base = 1 / f;
     if (infinite && reversed)
-        s.least = dp_float_up(fmax(n * 0x1p-127, how->flushes ? 0x1p-126 : 0x1p-149));
+        s.least = dp_float_up(how->flushes ? fmax(n, 1) * 0x1p-125 : fmax(n * 0x1p-127, 0x1p-149));
     else if (infinite)
         s.most = 1 - 0x1p-24f;
     bound_begin(row, setup, how, &s.walk);

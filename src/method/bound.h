@@ -58,8 +58,8 @@ term bound_run(bound_walk *w, const bound_piece *p); /**< the eye depth througho
 
 /**
  * Of a perspective set-up with a standard or reversed mapping onto [0, 1]: no binary32 window depth, whose eye depth is
- * at most 2^127, has a greater relative error. INFINITY where the divisor may come to 0. Where numbers may be flushed a
- * window depth below 2^-126 counts as long as far is finite.
+ * at most 2^127, has a greater relative error. INFINITY where the divisor may come to 0. Where numbers
+ * may be flushed and far is infinite the depth is at most 2^125, too, and that of window depth 2^-125.
  */
 double bound_over(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how);
 

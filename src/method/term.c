@@ -153,8 +153,12 @@ term term_product(const term *a, const term *b) {
 
 term term_quotient(const term *a, const term *b, range exact) {
     term t = {exact, without_end, either(a->share, b->share), FINEST};
+    const range computed = range_sum(b->exact, b->off);
     if (!has_zero(b->exact))
         t.exact = within(exact, range_quotient(a->exact, b->exact));
+    if (!has_zero(computed) &&
+        has_end(b->share)) /* a.off/(b + b.off), and what the divisor's share makes of the rest */
+        t.off = range_sum(range_quotient(a->off, computed), range_product(t.exact, either((range){0, 0}, b->share)));
     cut(&t);
     return t;
 }
