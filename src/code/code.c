@@ -105,7 +105,7 @@ static void call(const writer *w, const steps_node *of, char *out) {
 static void expression(const writer *w, int index, int outer, char *out) {
     const steps_node *of = &w->steps->node[index];
     const bool prefix = w->l != NULL && w->l->form == CODE_PREFIX, tight = w->l == NULL;
-    if (of->kind == STEPS_NUMBER && w->l != NULL) {
+    if (of->kind == STEPS_NUMBER && w->l != NULL && w->l->form != CODE_PROOF) {
         put_literal(out, w->l, of->value, w->wide);
     } else if (of->kind == STEPS_NUMBER) {
         append(out, CODE_TEXT_SIZE, "%g", of->value);

@@ -27,10 +27,10 @@ typedef struct search {
 static double worst_of(search *s, float a, float b) {
     bound_piece p = {.reversed = s->reversed, .d = term_any(a, b)};
     const range rest = range_outward(1 - (double)b, 1 - (double)a);
-    if (s->walk.how->flushes && a < FLT_MIN)
-        p.d.off = (range){-FLT_MIN, 0};
-    if (s->walk.how->flushes && a < FLT_MIN)
+    if (s->walk.how->flushes && a < FLT_MIN) {
+        p.d.off = (range){(double)-FLT_MIN, 0};
         p.d.share = (range){-1, 0};
+    }
     p.near = s->reversed ? p.d.exact : rest;
     p.inverse = range_outward((s->slope * p.near.lo + s->base) * (1 - 0x1p-49),
                               (s->slope * p.near.hi + s->base) * (1 + 0x1p-49));
