@@ -93,7 +93,7 @@ proof() {
     gappa "$scratch/code" 2>&1 | awk -F'[{,]' -v said="$said" '/z -\/ z_exact in \[/ {
         lo = -$2; for (i = 3; i <= NF; i++) if ($i ~ /^-?[0-9.]+(e-?[0-9]+)?$/) hi = $i
         proven = lo > hi ? lo : hi; found = 1 }
-        END { if (!found || !(said <= 1.1 * proven) || !(proven <= 1.5 * said)) { print proven, said; exit 1 } }'
+        END { if (!found || !(said <= 1.6 * proven) || !(proven <= 1.5 * said)) { print proven, said; exit 1 } }'
 }
 if command -v gappa >/dev/null; then
     check "Gappa proves what its scripts say" each gappa proof

@@ -4,6 +4,7 @@
  * default. The languages of lists, depths and sizes are tried in cli/errors.txt.
  */
 #include "cli/option/uses.h"
+#include "code/language.h"
 #include "parsed.h"
 #include "scene/find.h"
 #include "support.h"
@@ -254,6 +255,7 @@ TEST(test_words) {
          WORD_AT(scene.transforms),
          "exact or binary32",
          {{"exact", 0}, {"binary32", 1}}},
+        {"code", OPTION_WHAT, WORD_AT(code.what), "linearize or projection", {{"linearize", 0}, {"projection", 1}}},
         {"prepass",
          OPTION_VERTICES,
          WORD_AT(census.vertices),
@@ -335,6 +337,7 @@ TEST(test_rows) {
          "normal"},
         {"texture", OPTION_PRODUCT, AT(image.effect), "effect:Fog", "fog", offsetof(effect_row, name), "effect:edeg",
          "edge"},
+        {"code", OPTION_LANGUAGE, AT(code.language), "HLSL", "hlsl", offsetof(code_language, name), "glsk", "glsl"},
         {"texture", OPTION_PACKING, AT(image.packing), "rgb24", "rgb24", offsetof(packing, name), "rgb42", "rgb24"},
     };
     tally t = {.name = "rows"};
@@ -433,6 +436,7 @@ TEST(test_flags) {
                  {"texture", OPTION_ERROR_MAP, WORD_AT(image.error_map)},
                  {"list", OPTION_QUIET, WORD_AT(out.quiet)},
                  {"list", OPTION_FULL, WORD_AT(out.full)},
+                 {"code", OPTION_UNIFORMS, WORD_AT(code.uniforms)},
                  {"texture", OPTION_RADIAL, WORD_AT(image.radial)},
                  {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];

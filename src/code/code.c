@@ -187,12 +187,13 @@ static void say_depth(output *out, const code_language *l, const dp_setup *setup
 
 static void say_bound(output *out, const code_language *l, const method_row *row, const dp_setup *setup) {
     const double bound = code_bound(l, row, setup), nearest = bound_over(row->bound, setup, &bound_nearest);
-    const double n = setup->spec.znear, least = l->how.flushes ? 0x1p-125 : 0x1p-149;
+    const double n = setup->spec.znear, least = l->how.flushes ? 0x1p-125 : 0x1p-149,
+                 most = l->how.flushes ? 0x1p125 : 0x1p127;
     const bool infinite = isinf(setup->spec.zfar), same = l->how.rounding == 1;
     char rules[CODE_RULES_SIZE];
     char where[NUMBER_SIZE + 32] = "for any d from 0 to 1";
     if (infinite && setup->reversed)
-        snprintf(where, sizeof where, "up to a depth of %s", number_down(fmin(n / least, l->how.flushes ? 0x1p125 : 0x1p127), 3).text);
+        snprintf(where, sizeof where, "up to a depth of %s", number_down(fmin(n / least, most), 3).text);
     else if (infinite)
         snprintf(where, sizeof where, "for any d below 1");
     output_format(out, "%s %s: %s.\n", l->comment, l->rules, code_language_rules(l, rules));

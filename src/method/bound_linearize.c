@@ -55,7 +55,8 @@ const bound_steps bound_double = {
     .steps = {BY("d", "P*i") WHOLE, BY("d", "P*i") WHOLE}, .wide = true};
 const bound_steps bound_phi = {
     .constants = {"N = n; p = n/f", "N = n; p = n/f"},
-    .steps = {SHARE "x = q + p*d : N*i; z = N/x : z", "q = 1 - d : 1 - d; x = d + p*q : N*i; z = N/x : z"}, .wide = true};
+    .wide = true,
+    .steps = {SHARE "x = q + p*d : N*i; z = N/x : z", "q = 1 - d : 1 - d; x = d + p*q : N*i; z = N/x : z"}};
 const bound_steps bound_pair = {.off = 0x1p-41}; /* 70 squares of a unit, see depthprec(7) */
 /* clang-format on */
 
