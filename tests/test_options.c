@@ -356,8 +356,8 @@ TEST(test_rows) {
         TALLY(&t, strstr(line, meant) != NULL, "%s: %s", meant, line);
         parse(&o, rows[i].command, OPTION_QUIET, NULL, line);
         memcpy(&row, (const char *)&o + rows[i].field, sizeof row);
-        TALLY(&t, (row != NULL) == (rows[i].id == OPTION_API || rows[i].id == OPTION_PROGRAM), "--%s: default",
-              option_name(rows[i].id));
+        const bool standard = rows[i].id == OPTION_API || rows[i].id == OPTION_PROGRAM || rows[i].id == OPTION_LANGUAGE;
+        TALLY(&t, (row != NULL) == standard, "--%s: default", option_name(rows[i].id));
     }
     tally_end(&t);
 }
