@@ -4,7 +4,7 @@
 # installed. WGSL, MSL and FPCore are looked at by their structure alone: nothing here compiles them.
 . tests/tap.sh
 
-methods='magic unity complement-unity linear-01 linear-01-near textbook complement fused double phi-double'
+methods='magic unity complement-unity linear-01 linear-01-near textbook complement fused double phi-double floor:unorm16 rint:unorm24 floor-double:unorm24'
 cameras='d3d:0.1:1000 reversed:0.1:1000 gl:3:500 gl-reversed:0.25:64 reversed:0.3:inf d3d:0.3:inf'
 
 code() { "$DEPTHPREC" code "$@"; }
@@ -17,7 +17,7 @@ each() { # each LANGUAGE COMMAND: runs COMMAND FILE for each
         at="-m ${camera%%:*} -n $(echo "$camera" | cut -d: -f2) -f ${camera##*:} --language $language"
         for method in $methods; do
             for uniforms in '' --uniforms; do
-                code "$method" $at $uniforms >"$scratch/code" 2>"$scratch/refused" || {
+                code "${method%:*}" $at $uniforms $(echo "$method" | sed -n 's/.*:/--what encode -F /p') >"$scratch/code" 2>"$scratch/refused" || {
                     [ $? -eq 2 ] && grep -qE "is not in $language: it |--uniforms: conflicts" "$scratch/refused" && continue
                     cat "$scratch/refused"
                     return 1
@@ -30,6 +30,8 @@ each() { # each LANGUAGE COMMAND: runs COMMAND FILE for each
     [ $count -ge "${least:-60}" ] || { echo "only $count" && return 1; }
 }
 
+called() { sed -n 's/.*\(depth_code\|eye_depth\)(.*/\1/p' "$scratch/code"; }
+
 arguments() { # the uniforms' numbers, as the comments have them
     sed -n 's/^[/#]* [A-Za-z] = .* = \(.*\)$/, \1/p' "$scratch/code" | tr -d '\n'
 }
@@ -40,7 +42,7 @@ layout(local_size_x = 1) in;
 layout(std430, binding = 0) buffer Values { float values[]; };'
         cat "$scratch/code"
         code --what projection --language glsl
-        echo "void main() { vec4 clip = projection * vec4(1.0); values[0] = eye_depth(values[1]$(arguments)) + clip.w; }"
+        echo "void main() { vec4 clip = projection * vec4(1.0); values[0] = $(called)(values[1]$(arguments)) + clip.w; }"
     } >"$scratch/code.comp"
     glslangValidator -V -o "$scratch/code.spv" "$scratch/code.comp" && spirv_val
 }
@@ -50,7 +52,7 @@ hlsl() {
         cat "$scratch/code"
         code --what projection --language hlsl
         echo "[numthreads(1, 1, 1)] void main() {
-            values[0] = eye_depth(values[1]$(arguments)) + mul(projection, float4(1, 1, 1, 1)).w; }"
+            values[0] = $(called)(values[1]$(arguments)) + mul(projection, float4(1, 1, 1, 1)).w; }"
     } >"$scratch/code.hlsl"
     glslangValidator -D -V -S comp -e main -o "$scratch/code.spv" "$scratch/code.hlsl" && spirv_val
 }
@@ -76,8 +78,8 @@ structure() {
               if (depth < 0) exit bad = 1
           }
           if (language == "wgsl" && /[0-9]\.[0-9]+[^0-9ef]/) exit bad = 1
-          if (language == "wgsl" && !/^fn eye_depth\(d: f32(, [A-Za-z]: f32)*\) -> f32 \{$|^    (let|const) [A-Za-z] = .*;$|^    return z;$|^}$/) exit bad = 1
-          if (language == "msl" && !/^float eye_depth\(float d(, float [A-Za-z])*\) \{$|^    const float [A-Za-z] = .*;$|^    return z;$|^}$/) exit bad = 1
+          if (language == "wgsl" && !/^fn (eye_depth|depth_code)\(d: f32(, [A-Za-z]: f32)*\) -> [fu]32 \{$|^    (let|const) [A-Za-z] = .*;$|^    return .*;$|^}$/) exit bad = 1
+          if (language == "msl" && !/^(float eye_depth|uint depth_code)\(float d(, float [A-Za-z])*\) \{$|^    const float [A-Za-z] = .*;$|^    return .*;$|^}$/) exit bad = 1
           all = all $0 }
         END { exit bad || depth != 0 || all == "" }' "$scratch/code"
 }
@@ -126,6 +128,24 @@ else
     skip "numpy" "no numpy here"
 fi
 
+# With uniforms it is the same function of the numbers that its comments say.
+main='int main(void) { for (int i = 0; i <= 999; i++) printf("%a\\n", (double)CALL); return 0; }'
+same_uniforms() {
+    for method in $methods; do
+        of=$(echo "$method" | sed -n 's/.*:/--what encode -F /p')
+        for uniforms in '' --uniforms; do
+            code "${method%:*}" -m d3d -n 0.3 -f 77 --language c $uniforms $of >"$scratch/code" || return
+            { printf '#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n'
+                cat "$scratch/code"
+                echo "$main" | sed "s/CALL/$(called)(i \/ 999.0f$(arguments))/"
+            } >"$scratch/c.c"
+            $CC -ffp-contract=off -o "$scratch/c" "$scratch/c.c" -lm && "$scratch/c" >"$scratch/of$uniforms" || return
+        done
+        cmp "$scratch/of" "$scratch/of--uniforms" || return
+    done
+}
+check "uniforms make the same function" same_uniforms
+
 # Matrices by hand: near 1, far 3, 90 degrees, so that all entries are short. A: f/(f - n) = 1.5, n/(f - n) = 0.5.
 matrix() { # matrix OPTIONS ROWS: rows, then what a constructor by columns has
     code --what projection --language "$1" -m "$2" -n 1 -f "$3" --fov 90 --viewport 100x100 >"$scratch/matrix" || return
@@ -173,12 +193,14 @@ refused() { # refused WORDS OPTIONS
 check "what a language lacks is refused with what it has" \
     refused 'fused is not in hlsl: it .*; there are magic, unity,' fused --language hlsl
 check "so is binary64" refused 'double is not in wgsl: it computes in binary64; there are' double --language wgsl
-check "and a table" refused 'table-linear is not in c: it looks' table-linear --language c
+check "and a table" refused 'table-linear is not in c: it is no formula' table-linear --language c
 check "and what needs a far plane" refused 'textbook is not in glsl: it needs a finite far' textbook -f inf
 check "a method that is none" refused "METHOD must be one of magic, .*, got 'foo'" foo
 check "a matrix of a script" refused '--language: must be one with matrices' --what projection --language gappa
 check "uniforms of a matrix" refused '--uniforms: conflicts' --what projection --uniforms
 check "uniforms of a proof" refused '--uniforms: conflicts with gappa' --uniforms --language gappa
+check "codes of floats" refused '--format: must be unormN' --what encode -F fp32
+check "codes by an instruction" refused 'f16c is not in glsl' f16c --what encode -F d16
 check "a mapping without a matrix" refused '--mapping: must be one of' -m log
 check "several cameras" refused 'must be one' -m d3d,reversed
 check "a method of a matrix" refused 'has no METHOD' unity --what projection

@@ -68,6 +68,27 @@ static void compare(tally *t, const method_row *row, const dp_setup *setup, floa
     }
 }
 
+static void compare_codes(tally *t, const method_row *row, const dp_setup *setup, uint32_t (*printed)(float), rng *r) {
+    float d[DEPTHS];
+    uint32_t own[DEPTHS];
+    const method_inputs in = {.count = DEPTHS, .d = d};
+    const method_outputs out = {.code = own};
+    windows(r, d);
+    row->run(&(method_call){row, setup, NULL, &in, &out});
+    for (int i = 0; i < DEPTHS; i++)
+        TALLY(t, printed(d[i]) == own[i], "%s of %s, d %a: %u, own %u", row->name, setup->spec.format.name,
+              (double)d[i], printed(d[i]), own[i]);
+}
+
+static dp_setup stored(const char *format) {
+    dp_setup setup;
+    size_t which = 0;
+    while (strcmp(encode_family.cases[which].format, format) != 0)
+        which++;
+    assert_int_equal(method_setup(&encode_family, which, 0.1, 1000, false, &setup), DP_OK);
+    return setup;
+}
+
 TEST(c_has_the_bits_of_the_library) {
     char source[512], object[512], command[2048], symbol[32];
     const code_language *c = language("c");
@@ -77,6 +98,8 @@ TEST(c_has_the_bits_of_the_library) {
     dp_setup setups[CAMERAS_MAX];
     static output out;
     const int count = (int)test_cases(8, 24, CAMERAS_MAX);
+    const dp_setup formats[] = {stored("unorm16"), stored("unorm24")};
+    const method_row *const codes[] = {&encode_family.methods[2], &encode_family.methods[3], &encode_family.methods[4]};
     snprintf(source, sizeof source, "%s/code-%d.c", folder(), (int)test_effort());
     snprintf(object, sizeof object, "%s/code-%d.so", folder(), (int)test_effort());
     assert_int_equal(output_open(&out, source), EXIT_FINE);
@@ -86,10 +109,16 @@ TEST(c_has_the_bits_of_the_library) {
         for (size_t i = 0; i < *linearize_family.method_count; i++)
             if (code_lacks(c, &linearize_family.methods[i], &setups[k]) == NULL) {
                 output_format(&out, "#define eye_depth body_%d_%zu\n", k, i);
-                code_linearize(&out, c, &linearize_family.methods[i], &setups[k], false);
+                code_function(&out, c, &linearize_family.methods[i], &setups[k], false);
                 output_format(&out, "float code_%d_%zu(float d) { return eye_depth(d); }\n#undef eye_depth\n", k, i);
             }
     }
+    for (int k = 0; k < 6; k++)
+        if (code_lacks(c, codes[k % 3], &formats[k / 3]) == NULL) {
+            output_format(&out, "#define depth_code body_%d\n", k);
+            code_function(&out, c, codes[k % 3], &formats[k / 3], false);
+            output_format(&out, "uint32_t code_%d(float d) { return depth_code(d); }\n#undef depth_code\n", k);
+        }
     assert_int_equal(output_close(&out), EXIT_FINE);
     snprintf(command, sizeof command,
              "%s -std=c99 -Wall -Wextra -Werror -ffp-contract=off -O1 -shared -fPIC -o %s %s -lm",
@@ -106,6 +135,13 @@ TEST(c_has_the_bits_of_the_library) {
             if (printed != NULL)
                 compare(&t, &linearize_family.methods[i], &setups[k], printed, &r);
         }
+    for (int k = 0; k < 6; k++) {
+        uint32_t (*printed)(float);
+        snprintf(symbol, sizeof symbol, "code_%d", k);
+        *(void **)&printed = dlsym(library, symbol);
+        assert_non_null(printed);
+        compare_codes(&t, codes[k % 3], &formats[k / 3], printed, &r);
+    }
     assert_true(t.cases > (uint64_t)count * 6 * DEPTHS);
     dlclose(library);
     tally_end(&t);
@@ -242,6 +278,41 @@ TEST(no_language_is_off_by_more_than_its_bound) {
     tally_end(&t);
 }
 
+/* ---- Codes ------------------------------------------------------------------------------------------------------- */
+
+/* d M rounded as the language lets it, then to a whole number in either way. */
+static void perturb_code(tally *t, rng *r, const dp_setup *s, size_t p, bool even, double *most) {
+    const method_row *row = even ? &encode_family.methods[3] : &encode_family.methods[2];
+    const double bound = code_bound(language(promises[p].name), row, s), m = s->spec.format.code_max;
+    float d[DEPTHS];
+    assert_string_equal(row->name, even ? "rint" : "floor");
+    windows(r, d);
+    for (int i = 0; i < DEPTHS && !isnan(bound); i++) {
+        const device v = {r, promises[p].sums, 0, i % 2 == 0, promises[p].flushes, i / 2 % 3 - 1};
+        const float product = rounded(&v, (long double)d[i] * m, v.sums);
+        const float sum =
+            v.fuses ? rounded(&v, (long double)d[i] * m + 0.5L, v.sums) : rounded(&v, product + 0.5L, v.sums);
+        const long double code = even ? rintl(product) : floorl(sum), off = fabsl(code - (long double)d[i] * m);
+        TALLY(t, off <= bound && code <= m, "%s in %s of %s, d %a: %Lg, bound %g", row->name, promises[p].name,
+              s->spec.format.name, (double)d[i], off, bound);
+        *most = fmax(*most, (double)off);
+    }
+}
+
+TEST(no_code_is_off_by_more_than_its_bound) {
+    rng r = rng_make("codes");
+    tally t = {.name = "codes"};
+    const dp_setup setups[] = {stored("unorm16"), stored("unorm24")};
+    for (size_t p = 0; p < sizeof promises / sizeof promises[0]; p++)
+        for (int k = 0; k < 4; k++) {
+            double most = 0;
+            for (int again = 0; again < 100; again++)
+                perturb_code(&t, &r, &setups[k / 2], p, k % 2 != 0, &most);
+            printf("# %s in %s: up to %.6g\n", k % 2 ? "rint" : "floor", promises[p].name, most);
+        }
+    tally_end(&t);
+}
+
 /* The least bound is what is printed without a name, and no method that a language lacks. */
 TEST(the_best_has_the_least_bound) {
     rng r = rng_make("best");
@@ -250,9 +321,9 @@ TEST(the_best_has_the_least_bound) {
         const dp_setup setup = camera_of(&r, k);
         for (size_t p = 0; code_language_get(p) != NULL; p++) {
             const code_language *l = code_language_get(p);
-            assert_non_null(code_best(l, &setup));
-            const double least = code_bound(l, code_best(l, &setup), &setup);
-            TALLY(&t, code_lacks(l, code_best(l, &setup), &setup) == NULL, "%s", l->name);
+            assert_non_null(code_best(l, &linearize_family, &setup));
+            const double least = code_bound(l, code_best(l, &linearize_family, &setup), &setup);
+            TALLY(&t, code_lacks(l, code_best(l, &linearize_family, &setup), &setup) == NULL, "%s", l->name);
             for (size_t i = 0; i < *linearize_family.method_count; i++) {
                 const method_row *row = &linearize_family.methods[i];
                 TALLY(&t, code_lacks(l, row, &setup) != NULL || code_bound(l, row, &setup) >= least, "%s: %s", l->name,

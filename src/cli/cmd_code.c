@@ -8,11 +8,12 @@
 #include "core/append.h"
 
 /* What --what names, in its order. */
-enum { WHAT_LINEARIZE, WHAT_PROJECTION };
+enum { WHAT_LINEARIZE, WHAT_PROJECTION, WHAT_ENCODE };
 
 typedef struct wanted_code {
     const options *o;
     const code_language *language;
+    const method_family_row *family;
     const method_row *row;
     dp_setup setup;
     texture_camera camera;
@@ -21,9 +22,9 @@ typedef struct wanted_code {
 /* "glsl has no table-linear, which looks numbers up; it has unity, ..." */
 static int refuse_method(const wanted_code *w, const char *given, const char *lacks) {
     char all[NAMES_SIZE] = "";
-    for (size_t i = 0; i < *linearize_family.method_count; i++)
-        if (code_lacks(w->language, &linearize_family.methods[i], &w->setup) == NULL)
-            append(all, sizeof all, "%s%s", all[0] != '\0' ? ", " : "", linearize_family.methods[i].name);
+    for (size_t i = 0; i < *w->family->method_count; i++)
+        if (code_lacks(w->language, &w->family->methods[i], &w->setup) == NULL)
+            append(all, sizeof all, "%s%s", all[0] != '\0' ? ", " : "", w->family->methods[i].name);
     return lacks != NULL
                ? usage_error("code: %s is not in %s: it %s; there are %s", given, w->language->name, lacks, all)
                : usage_error("code: METHOD must be one of %s, got '%s'", all, given);
@@ -31,12 +32,18 @@ static int refuse_method(const wanted_code *w, const char *given, const char *la
 
 static int find_method(wanted_code *w) {
     const options *o = w->o;
+    const dp_format *format = &w->setup.spec.format;
+    w->family = o->code.what == WHAT_ENCODE ? &encode_family : &linearize_family;
+    if (o->code.what == WHAT_ENCODE && (format->kind != DP_FORMAT_UNORM || format->code_max > 0xffffff))
+        return option_error(OPTION_FORMAT, "must be unormN of at most 24 bits with --what encode, got %s",
+                            format->name);
     if (o->operand_count == 0) {
-        w->row = code_best(w->language, &w->setup);
-        return w->row != NULL ? EXIT_FINE : usage_error("code: no method leaves a digit for this camera");
+        w->row = code_best(w->language, w->family, &w->setup);
+        return w->row != NULL ? EXIT_FINE
+                              : usage_error("code: %s has no method of %s", w->language->name, w->family->name);
     }
-    for (size_t i = 0; i < *linearize_family.method_count; i++) {
-        const method_row *row = &linearize_family.methods[i];
+    for (size_t i = 0; i < *w->family->method_count; i++) {
+        const method_row *row = &w->family->methods[i];
         if (strcmp(row->name, o->operands[0]) != 0)
             continue;
         const char *lacks = code_lacks(w->language, row, &w->setup);
@@ -99,6 +106,6 @@ int cmd_code(const options *o) {
     if (projection)
         code_projection(&out, w.language, &w.camera);
     else
-        code_linearize(&out, w.language, w.row, &w.setup, o->code.uniforms);
+        code_function(&out, w.language, w.row, &w.setup, o->code.uniforms);
     return output_close(&out);
 }

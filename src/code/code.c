@@ -2,6 +2,8 @@
 #include "code/code.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -72,6 +74,7 @@ static void put_name(const writer *w, const char *name, bool inner, char *out) {
     append(out, CODE_TEXT_SIZE, "%s%s", name, w->exact && !given ? "_exact" : "");
 }
 
+enum { COMMENT_WIDTH = 74, PIECES_IN_LINE = 8 };
 enum { OF_SUM = 1, OF_PRODUCT, OF_SIGN };
 static const struct {
     const char *sign;
@@ -86,7 +89,6 @@ static void expression(const writer *w, int index, int outer, char *out);
 /* y (2 - x y) is written out. */
 static void call(const writer *w, const steps_node *of, char *out) {
     char arguments[STEPS_ARGUMENTS][CODE_TEXT_SIZE] = {"", "", ""}, two[CODE_TEXT_SIZE] = "";
-    const bool fused = strcmp(of->name, "fma") == 0;
     for (int i = 0; i < STEPS_ARGUMENTS && of->of[i] >= 0; i++)
         expression(w, of->of[i], 0, arguments[i]);
     if (strcmp(of->name, "newton") == 0) {
@@ -98,7 +100,12 @@ static void call(const writer *w, const steps_node *of, char *out) {
     } else if (w->exact) {
         append(out, CODE_TEXT_SIZE, "%s*%s + %s", arguments[0], arguments[1], arguments[2]);
     } else {
-        fill(out, fused ? w->l->fused : w->l->magic, arguments[0], arguments[1], arguments[2]);
+        fill(out,
+             strcmp(of->name, "fma") == 0     ? w->l->fused
+             : strcmp(of->name, "whole") == 0 ? w->l->whole
+             : strcmp(of->name, "even") == 0  ? w->l->even
+                                              : w->l->magic,
+             arguments[0], arguments[1], arguments[2]);
     }
 }
 
@@ -139,9 +146,11 @@ static bool calls(const method_row *row, const dp_setup *setup, const char *name
 
 const char *code_lacks(const code_language *l, const method_row *row, const dp_setup *setup) {
     if (row->bound == NULL)
-        return "looks numbers up or sums a series";
+        return "is no formula of floating-point operations";
     if (row->bound->steps[0] == NULL)
         return "is no short formula";
+    if (calls(row, setup, "whole(") && l->whole == NULL)
+        return "gives a whole number";
     if (isinf(setup->spec.zfar) && (row->domain & METHOD_INFINITE) == 0)
         return "needs a finite far plane";
     if (row->bound->wide && l->literal[1] == NULL)
@@ -153,36 +162,76 @@ const char *code_lacks(const code_language *l, const method_row *row, const dp_s
     return calls(row, setup, "fma(") && l->fused == NULL ? "needs a product and a sum that are rounded once" : NULL;
 }
 
-double code_bound(const code_language *l, const method_row *row, const dp_setup *setup) {
-    return bound_over(row->bound, setup, &l->how);
+/* What is claimed of a format, whose part above half a step is of roundings to nearest: see depthprec-code(1). */
+static double encode_bound(const code_language *l, const method_row *row, const dp_setup *setup) {
+    size_t i = 0;
+    while (i < encode_family.case_count && strcmp(encode_family.cases[i].format, setup->spec.format.name) != 0)
+        i++;
+    return i == encode_family.case_count ? (double)NAN : 0.5 + l->how.rounding * (row->claims[i].worst - 0.5);
 }
 
-const method_row *code_best(const code_language *l, const dp_setup *setup) {
-    const method_row *best = NULL;
+double code_bound(const code_language *l, const method_row *row, const dp_setup *setup) {
+    return row->family == METHOD_ENCODE ? encode_bound(l, row, setup) : bound_over(row->bound, setup, &l->how);
+}
+
+const method_row *code_best(const code_language *l, const method_family_row *family, const dp_setup *setup) {
+    const method_row *best = NULL, *some = NULL;
     double least = (double)INFINITY;
-    for (size_t i = 0; i < *linearize_family.method_count; i++) {
-        const method_row *row = &linearize_family.methods[i];
-        const double bound = code_lacks(l, row, setup) == NULL ? code_bound(l, row, setup) : (double)INFINITY;
+    for (size_t i = 0; i < *family->method_count; i++) {
+        const method_row *row = &family->methods[i];
+        if (code_lacks(l, row, setup) != NULL)
+            continue;
+        const double bound = code_bound(l, row, setup);
+        some = row;
         if (bound < least) {
             best = row;
             least = bound;
         }
     }
-    return best;
+    return best != NULL ? best : some;
 }
 
 /* ---- Comments ---------------------------------------------------------------------------------------------------- */
 
+/* A comment, in lines that a terminal holds. */
+static void say(output *out, const code_language *l, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void say(output *out, const code_language *l, const char *format, ...) {
+    char text[CODE_TEXT_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    for (const char *at = text; *at != '\0';) {
+        size_t length = strlen(at);
+        for (size_t i = length; length > COMMENT_WIDTH && i > 0; i--)
+            if (at[i - 1] == ' ' && i - 1 <= COMMENT_WIDTH) {
+                length = i - 1;
+                break;
+            }
+        output_format(out, "%s %.*s\n", l->comment, (int)length, at);
+        at += length + (at[length] == ' ');
+    }
+}
+
 static void say_camera(output *out, const code_language *l, const dp_setup *setup, const char *what) {
     const dp_spec *s = &setup->spec;
-    output_format(out, "%s %s: %s, near %s, far %s\n", l->comment, what, dp_mapping_get(s->mapping)->name,
-                  number_full(s->znear).text, number_full(s->zfar).text);
+    say(out, l, "%s: %s, near %s, far %s", what, dp_mapping_get(s->mapping)->name, number_full(s->znear).text,
+        number_full(s->zfar).text);
 }
 
 static void say_depth(output *out, const code_language *l, const dp_setup *setup) {
     const bool reversed = setup->reversed != 0;
-    output_format(out, "%s Clear depth to %d; nearer is %s.\n", l->comment, reversed ? 0 : 1,
-                  reversed ? "GREATER" : "LESS");
+    say(out, l, "Clear depth to %d; nearer is %s.", reversed ? 0 : 1, reversed ? "GREATER" : "LESS");
+}
+
+static void say_encode(output *out, const code_language *l, const method_row *row, const dp_setup *setup) {
+    const double bound = code_bound(l, row, setup);
+    char rules[CODE_RULES_SIZE];
+    say(out, l, "%s: %s.", l->rules, code_language_rules(l, rules));
+    if (isnan(bound))
+        say(out, l, "No bound is proven for this format.");
+    else
+        say(out, l, "So the code is off by at most %s of its steps, for any d from 0 to 1.", number_up(bound, 6).text);
 }
 
 static void say_bound(output *out, const code_language *l, const method_row *row, const dp_setup *setup) {
@@ -196,15 +245,14 @@ static void say_bound(output *out, const code_language *l, const method_row *row
         snprintf(where, sizeof where, "up to a depth of %s", number_down(fmin(n / least, most), 3).text);
     else if (infinite)
         snprintf(where, sizeof where, "for any d below 1");
-    output_format(out, "%s %s: %s.\n", l->comment, l->rules, code_language_rules(l, rules));
+    say(out, l, "%s: %s.", l->rules, code_language_rules(l, rules));
     if (isinf(bound))
-        output_format(out, "%s No bound: where its divisor comes to 0 no digit is left.\n", l->comment);
+        say(out, l, "No bound: where its divisor comes to 0 no digit is left.");
+    else if (same || isinf(nearest))
+        say(out, l, "So it is off by at most %s of the depth, %s.", number_up(bound, 3).text, where);
     else
-        output_format(out, "%s So it is off by at most %s of the depth, %s", l->comment, number_up(bound, 3).text,
-                      where);
-    if (isfinite(bound) && !same)
-        output_format(out, "; by %s where all are rounded to nearest", number_up(nearest, 3).text);
-    output_text(out, isinf(bound) ? "" : ".\n");
+        say(out, l, "So it is off by at most %s of the depth, %s; by %s where all are rounded to nearest.",
+            number_up(bound, 3).text, where, number_up(nearest, 3).text);
 }
 
 /* ---- Linearize --------------------------------------------------------------------------------------------------- */
@@ -218,26 +266,29 @@ typedef struct function {
     bool wide, uniforms;
 } function;
 
-static const char name[] = "eye_depth";
+static const char *name_of(const function *f) {
+    return f->row->family == METHOD_ENCODE ? "depth_code" : "eye_depth";
+}
 
 static void constant_of(const function *f, int i, char value[CODE_TEXT_SIZE], char formula[CODE_TEXT_SIZE]) {
     const dp_spec *s = &f->setup->spec;
+    const double first = f->row->family == METHOD_ENCODE ? s->format.code_max : s->znear;
     value[0] = formula[0] = '\0';
-    put_literal(value, f->l, steps_value(&f->constants, f->constants.step[i].is, s->znear, s->zfar), f->wide);
+    put_literal(value, f->l, steps_value(&f->constants, f->constants.step[i].is, first, s->zfar), f->wide);
     expression(&(writer){NULL, &f->constants, f->wide, AS_COMPUTED}, f->constants.step[i].is, 0, formula);
 }
 
 static void put_infix(output *out, const function *f) {
     const code_language *l = f->l;
     char parameters[CODE_TEXT_SIZE] = "", value[CODE_TEXT_SIZE], formula[CODE_TEXT_SIZE];
-    fill(parameters, l->parameter, "d", "", "");
+    fill(parameters, l->parameter[0], "d", "", "");
     for (int i = 0; f->uniforms && i < f->constants.count; i++) {
         append(parameters, CODE_TEXT_SIZE, ", ");
-        fill(parameters, l->parameter, f->constants.step[i].name, "", "");
+        fill(parameters, l->parameter[f->wide], f->constants.step[i].name, "", "");
         constant_of(f, i, value, formula);
-        output_format(out, "%s %s = %s = %s\n", l->comment, f->constants.step[i].name, formula, value);
+        say(out, l, "%s = %s = %s", f->constants.step[i].name, formula, value);
     }
-    put(out, l->function[f->wide], name, parameters);
+    put(out, (f->row->family == METHOD_ENCODE ? l->code : l->function)[f->wide], name_of(f), parameters);
     for (int i = 0; !f->uniforms && i < f->constants.count; i++) {
         constant_of(f, i, value, formula);
         put(out, l->constant[f->wide], f->constants.step[i].name, value);
@@ -247,6 +298,10 @@ static void put_infix(output *out, const function *f) {
     for (int i = 0; i < f->steps.count; i++) {
         char text[CODE_TEXT_SIZE] = "";
         expression(&(writer){l, &f->steps, f->wide, AS_COMPUTED}, f->steps.step[i].is, 0, text);
+        if (f->row->family == METHOD_ENCODE) {
+            put(out, l->result[0], text, "");
+            return;
+        }
         put(out, l->step[f->wide], f->steps.step[i].name, text);
     }
     put(out, l->result[f->wide], f->steps.step[f->steps.count - 1].name, "");
@@ -269,8 +324,8 @@ static void put_prefix(output *out, const function *f) {
     expression(&(writer){f->l, &spec, true, AS_COMPUTED}, spec.step[0].is, 0, text);
     code_number(s->znear, true, n);
     code_number(infinite ? 0 : s->zfar, true, far);
-    output_format(out, "(FPCore %s (d)\n  :precision %s\n  :pre (%s 0 d 1)\n", name, f->wide ? "binary64" : "binary32",
-                  infinite ? "<" : "<=");
+    output_format(out, "(FPCore %s (d)\n  :precision %s\n  :pre (%s 0 d 1)\n", name_of(f),
+                  f->wide ? "binary64" : "binary32", infinite ? "<" : "<=");
     output_format(out, infinite ? "  :spec (let ((n %s)) %s)\n" : "  :spec (let ((n %s) (f %s)) %s)\n", n,
                   infinite ? text : far, text);
     output_text(out, "  (let* (");
@@ -289,10 +344,9 @@ static void put_prefix(output *out, const function *f) {
 /* The octaves of d and those of 1 - d, which Gappa looks at one by one. */
 static void put_pieces(output *out) {
     output_text(out, "$ d in (");
-    for (int k = 24; k > 1; k--)
-        output_format(out, "1b-%d, ", k);
-    for (int k = 1; k < 24; k++)
-        output_format(out, "%ldb-%d, ", (1L << k) - 1, k);
+    for (int k = 0; k < 46; k++)
+        output_format(out, "%ldb-%d,%s", k < 23 ? 1L : (1L << (k - 22)) - 1, k < 23 ? 24 - k : k - 22,
+                      k % PIECES_IN_LINE == PIECES_IN_LINE - 1 ? "\n        " : " ");
     output_text(out, "16777215b-24);\n");
 }
 
@@ -335,19 +389,22 @@ static void put_proof(output *out, const function *f) {
     put_pieces(out);
 }
 
-void code_linearize(output *out, const code_language *l, const method_row *row, const dp_setup *setup, bool uniforms) {
+void code_function(output *out, const code_language *l, const method_row *row, const dp_setup *setup, bool uniforms) {
     const bool reversed = setup->reversed != 0;
     function f = {.l = l, .row = row, .setup = setup, .wide = row->bound->wide, .uniforms = uniforms};
     steps_read(row->bound->constants[reversed], &f.constants);
     steps_read(row->bound->steps[reversed], &f.steps);
     if (l->import != NULL)
         output_text(out, l->import);
-    say_camera(out, l, setup, "Eye depth of a window depth");
-    output_format(out, "%s %s: %s\n", l->comment, row->name, row->note);
-    say_bound(out, l, row, setup);
+    if (row->family == METHOD_ENCODE)
+        say(out, l, "Code of a window depth: %s", setup->spec.format.name);
+    else
+        say_camera(out, l, setup, "Eye depth of a window depth");
+    say(out, l, "%s: %s", row->name, row->note);
+    (row->family == METHOD_ENCODE ? say_encode : say_bound)(out, l, row, setup);
     say_depth(out, l, setup);
     if (l->advice != NULL)
-        output_format(out, "%s %s\n", l->comment, l->advice);
+        say(out, l, "%s", l->advice);
     (l->form == CODE_INFIX ? put_infix : l->form == CODE_PREFIX ? put_prefix : put_proof)(out, &f);
 }
 
@@ -381,13 +438,12 @@ void code_projection(output *out, const code_language *l, const texture_camera *
     if (l->import != NULL)
         output_text(out, l->import);
     say_camera(out, l, &camera->setup, "Projection matrix");
-    output_format(out, "%s The camera looks along -z; of one that looks along z the third column has the other sign.\n",
-                  l->comment);
-    output_format(out, "%s Each entry is rounded once to binary32: off by at most 5.97e-8 of itself.\n", l->comment);
+    say(out, l, "The camera looks along -z; of one that looks along z the third column has the other sign.");
+    say(out, l, "Each entry is rounded once to binary32: off by at most 5.97e-8 of itself.");
     say_depth(out, l, &camera->setup);
-    output_format(out, "%s %s:\n", l->comment, l->by_rows ? "Column by column, as memory has it" : "Row by row");
+    say(out, l, "%s:", l->by_rows ? "Column by column, as memory has it" : "Row by row");
     put_entries(out, l, m, !l->by_rows, true);
-    output_format(out, "%s %s:\n", l->comment, l->by_rows ? "Row by row" : "Column by column");
+    say(out, l, "%s:", l->by_rows ? "Row by row" : "Column by column");
     output_text(out, l->matrix);
     put_entries(out, l, m, l->by_rows, false);
     output_text(out, l->end);

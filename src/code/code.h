@@ -16,14 +16,15 @@ const char *code_number(double value, bool wide, char out[CODE_TEXT_SIZE]);
 /** Why a language has no function for a row at a camera, "needs a finite far plane"; or null. */
 const char *code_lacks(const code_language *l, const method_row *row, const dp_setup *setup);
 
-/** The row of linearize with the least bound in a language; null where it has none. */
-const method_row *code_best(const code_language *l, const dp_setup *setup);
+/** The row of linearize or encode with the least bound in a language; null where it has none. */
+const method_row *code_best(const code_language *l, const method_family_row *family, const dp_setup *setup);
 
-/** The bound of a row of linearize in a language; INFINITY where the divisor may come to 0. */
+/** The bound of a row in a language: of linearize relative, INFINITY where the divisor may come to 0; of encode in
+ * steps of the format, NaN where none is known. */
 double code_bound(const code_language *l, const method_row *row, const dp_setup *setup);
 
-/** Eye depth of a window depth. With `uniforms` the constants are parameters. */
-void code_linearize(output *out, const code_language *l, const method_row *row, const dp_setup *setup, bool uniforms);
+/** Eye depth, or code, of a window depth. With `uniforms` the constants are parameters. */
+void code_function(output *out, const code_language *l, const method_row *row, const dp_setup *setup, bool uniforms);
 
 /** The projection matrix, column vectors, of a camera that looks along -z; what it is cleared to and compared by. */
 void code_projection(output *out, const code_language *l, const texture_camera *camera);

@@ -19,7 +19,8 @@ typedef struct code_language {
     const char *advice;        /**< how it is compiled, or null */
     const char *import;        /**< what stands above all, or null */
     const char *function[2];   /**< name, parameters */
-    const char *parameter;     /**< a name */
+    const char *code[2];       /**< of a function whose result is a whole number */
+    const char *parameter[2];  /**< a name */
     const char *constant[2];   /**< name, value */
     const char *step[2];       /**< the same */
     const char *result[2];     /**< a name */

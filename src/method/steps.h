@@ -4,10 +4,10 @@
  * printed of it (code.h) come from the same row.
  *
  *     steps      name = expression [: what it is in exact arithmetic]; ...     the last is the result
- *     constants  name = expression in n, f, across (1/n - 1/f) and excess (f/n - 1); ...
+ *     constants  name = expression in n, f, across (1/n - 1/f) and excess (f/n - 1); ...; of encode in `most`
  *
  * Expressions have + - * / and parentheses, numbers, names, and calls: fma(a, b, c); estimate(x) and magic(x), which
- * are about 1/x; newton(x, y), which is y (2 - x y).
+ * are about 1/x; newton(x, y), which is y (2 - x y); whole(x), an integer, and even(x), the nearest one as a number.
  */
 #ifndef METHOD_STEPS_H
 #define METHOD_STEPS_H
@@ -46,7 +46,7 @@ typedef struct steps {
 /** The text of a row, which is right. */
 void steps_read(const char *text, steps *out);
 
-/** A constant in double, from binary64 planes. */
+/** A constant in double, from binary64 planes; of encode `most` stands in the place of near. */
 double steps_value(const steps *s, int node, double znear, double zfar);
 
 #endif
