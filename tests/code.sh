@@ -42,7 +42,7 @@ layout(local_size_x = 1) in;
 layout(std430, binding = 0) buffer Values { float values[]; };'
         cat "$scratch/code"
         code --what projection --language glsl
-        echo "void main() { vec4 clip = projection * vec4(1.0); values[0] = $(called)(values[1]$(arguments)) + clip.w; }"
+        echo "void main() { vec4 clip = projection * vec4(1.0); values[0] = $(called | head -n 1)(values[1]$(arguments)) + clip.w; }"
     } >"$scratch/code.comp"
     glslangValidator -V -o "$scratch/code.spv" "$scratch/code.comp" && spirv_val
 }
@@ -52,7 +52,7 @@ hlsl() {
         cat "$scratch/code"
         code --what projection --language hlsl
         echo "[numthreads(1, 1, 1)] void main() {
-            values[0] = $(called)(values[1]$(arguments)) + mul(projection, float4(1, 1, 1, 1)).w; }"
+            values[0] = $(called | head -n 1)(values[1]$(arguments)) + mul(projection, float4(1, 1, 1, 1)).w; }"
     } >"$scratch/code.hlsl"
     glslangValidator -D -V -S comp -e main -o "$scratch/code.spv" "$scratch/code.hlsl" && spirv_val
 }
@@ -177,6 +177,30 @@ END
 }
 check "matrices by hand, in both orders" by_hand glsl hlsl wgsl msl c numpy
 
+# 90 degrees, 200 x 100 pixels: the centre of the last pixel of the first row is at 1.99 and 0.99 of the depth, of a
+# tenth of the picture at 0.2.
+place() {
+    code --what position "$@" --fov 90 --viewport 200x100 --language c >"$scratch/code" || return
+    { printf '#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n'
+        cat "$scratch/code"
+        echo 'static void say(float x, float y) { printf("%.4f %.4f ", (double)x, (double)y); }
+            int main(void) { const float z = eye_depth(0.25f);
+                say(view_x(199.5f, z) / z, view_y(0.5f, z) / z);
+                say(view_x(110, z) / z, view_y(60, z) / z);
+                printf("%.3f", (double)z); return 0; }'
+    } >"$scratch/c.c"
+    $CC -o "$scratch/c" "$scratch/c.c" -lm && [ "$("$scratch/c")" = '1.9900 0.9900 0.2000 -0.2000 4.000' ] || "$scratch/c"
+}
+check "places by hand" empty place -n 1 -f inf
+places() { # places LANGUAGE COMMAND: each language takes both functions
+    language=$1
+    code --what position --language "$1" >"$scratch/code" && sed -i 's/^.*eye_depth(d):.*$//' "$scratch/code" && "$2"
+}
+if command -v glslangValidator >/dev/null; then
+    check "GLSL of places" places glsl glsl
+    check "HLSL of places" places hlsl hlsl
+fi
+
 cleared() { code "$@" | grep -qE "^(//|#) Clear depth to $clear; nearer is $compare\.$"; }
 clear=0 compare=GREATER
 check "reversed depth is cleared to 0 and compared by GREATER" cleared -m reversed
@@ -196,7 +220,7 @@ check "so is binary64" refused 'double is not in wgsl: it computes in binary64; 
 check "and a table" refused 'table-linear is not in c: it is no formula' table-linear --language c
 check "and what needs a far plane" refused 'textbook is not in glsl: it needs a finite far' textbook -f inf
 check "a method that is none" refused "METHOD must be one of magic, .*, got 'foo'" foo
-check "a matrix of a script" refused '--language: must be one with matrices' --what projection --language gappa
+check "a matrix of a script" refused '--language: must be glsl, hlsl' --what projection --language gappa
 check "uniforms of a matrix" refused '--uniforms: conflicts' --what projection --uniforms
 check "uniforms of a proof" refused '--uniforms: conflicts with gappa' --uniforms --language gappa
 check "codes of floats" refused '--format: must be unormN' --what encode -F fp32

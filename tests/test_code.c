@@ -313,6 +313,46 @@ TEST(no_code_is_off_by_more_than_its_bound) {
     tally_end(&t);
 }
 
+/* A pixel's place: the slope of its centre, as the definition has it, times the depth. */
+static void perturb_place(tally *t, rng *r, size_t p, double *most) {
+    const double n = rng_log(r, 1e-6, 1e6), f = n * rng_log(r, 2, 1e6), half = rng_log(r, 1e-3, 100);
+    dp_setup s;
+    assert_int_equal(method_setup(&linearize_family, 0, n, f, false, &s), DP_OK);
+    const double bound = code_place_bound(language(promises[p].name), method("complement"), &s);
+    for (int i = 0; i < DEPTHS; i++) {
+        const uint32_t width = 1 + (uint32_t)rng_below(r, 8192);
+        const float centre = (float)rng_below(r, width) + 0.5f, d = (float)rng_unit(r), w = (float)width;
+        const device v = {r,
+                          promises[p].sums,
+                          promises[p].quotients,
+                          promises[p].fuses && i % 2 == 0,
+                          promises[p].flushes,
+                          i / 2 % 3 - 1};
+        const float z = complement(&v, n, f, false, d), slope = 2 * centre - w;
+        const float across = rounded(&v, (long double)slope * (float)(half / width), v.sums);
+        const float x = rounded(&v, (long double)across * z, v.sums);
+        const long double depth = n * (long double)f / (n + (f - n) * (1 - (long double)d));
+        const long double place = (2 * (long double)centre - width) / width * half * depth;
+        const double error = place == 0 ? (double)fabsf(x) : (double)(fabsl(x - place) / fabsl(place));
+        TALLY(t, error <= bound, "%s, near %.17g, far %.17g, d %a: %g, bound %g", promises[p].name, n, f, (double)d,
+              error, bound);
+        *most = fmax(*most, error / bound);
+    }
+}
+
+TEST(no_place_is_off_by_more_than_its_bound) {
+    rng r = rng_make("places");
+    tally t = {.name = "places"};
+    for (size_t p = 0; p < sizeof promises / sizeof promises[0]; p++) {
+        double most = 0;
+        for (uint64_t k = 0; k < test_cases(20, 100, 3000); k++)
+            perturb_place(&t, &r, p, &most);
+        printf("# places in %s: up to %.3f of the bound\n", promises[p].name, most);
+        TALLY(&t, most > 0.5, "%s: slack, %g", promises[p].name, most);
+    }
+    tally_end(&t);
+}
+
 /* The least bound is what is printed without a name, and no method that a language lacks. */
 TEST(the_best_has_the_least_bound) {
     rng r = rng_make("best");

@@ -8,7 +8,7 @@
 #include "core/append.h"
 
 /* What --what names, in its order. */
-enum { WHAT_LINEARIZE, WHAT_PROJECTION, WHAT_ENCODE };
+enum { WHAT_LINEARIZE, WHAT_PROJECTION, WHAT_ENCODE, WHAT_POSITION };
 
 typedef struct wanted_code {
     const options *o;
@@ -53,23 +53,28 @@ static int find_method(wanted_code *w) {
     return refuse_method(w, o->operands[0], NULL);
 }
 
-static int find_camera(wanted_code *w) {
+/* How wide it sees. */
+static int find_view(wanted_code *w) {
     const options *o = w->o;
     const int width = (int)o->view.spec.width, height = (int)o->view.spec.height;
     camera_spec view = o->view.spec;
-    if (o->operand_count > 0)
-        return usage_error("code: a projection matrix has no METHOD, got '%s'", o->operands[0]);
-    if (o->code.uniforms)
-        return option_error(OPTION_UNIFORMS, "conflicts with --what projection, all of which is constants");
     if (w->language->matrix == NULL)
-        return option_error(OPTION_LANGUAGE, "must be one with matrices, glsl, hlsl, wgsl, msl, c or numpy, got %s",
-                            w->language->name);
+        return option_error(OPTION_LANGUAGE, "must be glsl, hlsl, wgsl, msl, c or numpy with --what %s, got %s",
+                            option_word(OPTION_WHAT, o->code.what), w->language->name);
     if (o->camera.preset_count > 0 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
         view.fov_y = preset_fov_y(o->camera.presets[0], width, height);
     else if (view_vertical(o, width, height, &view.fov_y) != EXIT_FINE)
         return EXIT_USAGE;
     const char *wrong = camera_init(&w->camera, &w->setup, &view);
     return wrong == NULL ? EXIT_FINE : usage_error("code: %s", wrong);
+}
+
+static int find_matrix(wanted_code *w) {
+    if (w->o->operand_count > 0)
+        return usage_error("code: a projection matrix has no METHOD, got '%s'", w->o->operands[0]);
+    if (w->o->code.uniforms)
+        return option_error(OPTION_UNIFORMS, "conflicts with --what projection, all of which is constants");
+    return find_view(w);
 }
 
 /* One camera whose depth a matrix makes. */
@@ -93,10 +98,12 @@ static int find_setup(wanted_code *w) {
 int cmd_code(const options *o) {
     output out;
     wanted_code w = {.o = o, .language = o->code.language};
-    const bool projection = o->code.what == WHAT_PROJECTION;
+    const bool projection = o->code.what == WHAT_PROJECTION, position = o->code.what == WHAT_POSITION;
     int status = find_setup(&w);
     if (status == EXIT_FINE)
-        status = projection ? find_camera(&w) : find_method(&w);
+        status = projection ? find_matrix(&w) : find_method(&w);
+    if (status == EXIT_FINE && position)
+        status = find_view(&w);
     if (status == EXIT_FINE && o->code.uniforms && w.language->form != CODE_INFIX)
         status = option_error(OPTION_UNIFORMS, "conflicts with %s, which is about one camera", w.language->name);
     if (status == EXIT_FINE)
@@ -105,6 +112,8 @@ int cmd_code(const options *o) {
         return status;
     if (projection)
         code_projection(&out, w.language, &w.camera);
+    else if (position)
+        code_places(&out, w.language, w.row, &w.camera, o->code.uniforms);
     else
         code_function(&out, w.language, w.row, &w.setup, o->code.uniforms);
     return output_close(&out);

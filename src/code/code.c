@@ -8,25 +8,26 @@
 #include <string.h>
 
 #include "core/append.h"
+#include "core/bits.h"
 #include "report/number.h"
 #include "shader/position.h"
 
 /* ---- Pieces of text ---------------------------------------------------------------------------------------------- */
 
-/* The template with each '@' in turn replaced. */
+/* The template with each '@' in turn replaced, the third and what is behind it alike. */
 static void fill(char *out, const char *template, const char *a, const char *b, const char *c) {
     const char *with[] = {a, b, c};
     size_t next = 0;
     for (; *template != '\0'; template ++)
         if (*template == '@')
-            append(out, CODE_TEXT_SIZE, "%s", with[next++]);
+            append(out, CODE_TEXT_SIZE, "%s", with[next < 2 ? next++ : 2]);
         else
             append(out, CODE_TEXT_SIZE, "%c", *template);
 }
 
-static void put(output *out, const char *template, const char *a, const char *b) {
+static void put(output *out, const char *template, const char *a, const char *b, const char *c) {
     char text[CODE_TEXT_SIZE] = "";
-    fill(text, template, a, b, "");
+    fill(text, template, a, b, c);
     output_text(out, text);
 }
 
@@ -257,54 +258,52 @@ static void say_bound(output *out, const code_language *l, const method_row *row
 
 /* ---- Linearize --------------------------------------------------------------------------------------------------- */
 
-/* The row at the camera, as it is written. */
+/* A function, as it is written. */
 typedef struct function {
     const code_language *l;
-    const method_row *row;
     const dp_setup *setup;
+    const char *name, *inputs[2]; /* the second may be null */
+    double first, second;         /* what its constants are formed of, see steps.h */
     steps constants, steps;
-    bool wide, uniforms;
+    bool wide, uniforms, whole;
 } function;
 
-static const char *name_of(const function *f) {
-    return f->row->family == METHOD_ENCODE ? "depth_code" : "eye_depth";
-}
-
 static void constant_of(const function *f, int i, char value[CODE_TEXT_SIZE], char formula[CODE_TEXT_SIZE]) {
-    const dp_spec *s = &f->setup->spec;
-    const double first = f->row->family == METHOD_ENCODE ? s->format.code_max : s->znear;
     value[0] = formula[0] = '\0';
-    put_literal(value, f->l, steps_value(&f->constants, f->constants.step[i].is, first, s->zfar), f->wide);
+    put_literal(value, f->l, steps_value(&f->constants, f->constants.step[i].is, f->first, f->second), f->wide);
     expression(&(writer){NULL, &f->constants, f->wide, AS_COMPUTED}, f->constants.step[i].is, 0, formula);
 }
 
 static void put_infix(output *out, const function *f) {
     const code_language *l = f->l;
     char parameters[CODE_TEXT_SIZE] = "", value[CODE_TEXT_SIZE], formula[CODE_TEXT_SIZE];
-    fill(parameters, l->parameter[0], "d", "", "");
+    for (int i = 0; i < 2 && f->inputs[i] != NULL; i++) {
+        append(parameters, CODE_TEXT_SIZE, i > 0 ? ", " : "");
+        fill(parameters, l->parameter[0], f->inputs[i], "", "");
+    }
     for (int i = 0; f->uniforms && i < f->constants.count; i++) {
         append(parameters, CODE_TEXT_SIZE, ", ");
         fill(parameters, l->parameter[f->wide], f->constants.step[i].name, "", "");
         constant_of(f, i, value, formula);
         say(out, l, "%s = %s = %s", f->constants.step[i].name, formula, value);
     }
-    put(out, (f->row->family == METHOD_ENCODE ? l->code : l->function)[f->wide], name_of(f), parameters);
+    put(out, (f->whole ? l->code : l->function)[f->wide], f->name, parameters, f->inputs[0]);
     for (int i = 0; !f->uniforms && i < f->constants.count; i++) {
         constant_of(f, i, value, formula);
-        put(out, l->constant[f->wide], f->constants.step[i].name, value);
+        put(out, l->constant[f->wide], f->constants.step[i].name, value, "");
         output_format(out, "%s%s %s\n", l->form == CODE_INFIX && strcmp(l->comment, "#") == 0 ? "  " : " ", l->comment,
                       formula);
     }
     for (int i = 0; i < f->steps.count; i++) {
         char text[CODE_TEXT_SIZE] = "";
         expression(&(writer){l, &f->steps, f->wide, AS_COMPUTED}, f->steps.step[i].is, 0, text);
-        if (f->row->family == METHOD_ENCODE) {
-            put(out, l->result[0], text, "");
+        if (f->whole) {
+            put(out, l->result[0], text, "", "");
             return;
         }
-        put(out, l->step[f->wide], f->steps.step[i].name, text);
+        put(out, l->step[f->wide], f->steps.step[i].name, text, "");
     }
-    put(out, l->result[f->wide], f->steps.step[f->steps.count - 1].name, "");
+    put(out, l->result[f->wide], f->steps.step[f->steps.count - 1].name, "", "");
 }
 
 /* The eye depth exactly, of the planes as they are. */
@@ -324,7 +323,7 @@ static void put_prefix(output *out, const function *f) {
     expression(&(writer){f->l, &spec, true, AS_COMPUTED}, spec.step[0].is, 0, text);
     code_number(s->znear, true, n);
     code_number(infinite ? 0 : s->zfar, true, far);
-    output_format(out, "(FPCore %s (d)\n  :precision %s\n  :pre (%s 0 d 1)\n", name_of(f),
+    output_format(out, "(FPCore %s (d)\n  :precision %s\n  :pre (%s 0 d 1)\n", f->name,
                   f->wide ? "binary64" : "binary32", infinite ? "<" : "<=");
     output_format(out, infinite ? "  :spec (let ((n %s)) %s)\n" : "  :spec (let ((n %s) (f %s)) %s)\n", n,
                   infinite ? text : far, text);
@@ -372,7 +371,7 @@ static void put_proof(output *out, const function *f) {
         expression(&(writer){f->l, &f->steps, f->wide, AS_COMPUTED}, f->steps.step[i].is, 0, text);
         append(last, sizeof last, f->wide && is_last ? "rnd(dbl(%s))" : "%s", text);
         put(out, strncmp(text, "rnd(", 4) == 0 || (f->wide && is_last) ? "@ = @;\n" : f->l->step[f->wide],
-            f->steps.step[i].name, last);
+            f->steps.step[i].name, last, "");
     }
     output_format(out, "n = dbl(%s);\n", code_number(s->znear, true, value));
     if (!infinite)
@@ -391,7 +390,16 @@ static void put_proof(output *out, const function *f) {
 
 void code_function(output *out, const code_language *l, const method_row *row, const dp_setup *setup, bool uniforms) {
     const bool reversed = setup->reversed != 0;
-    function f = {.l = l, .row = row, .setup = setup, .wide = row->bound->wide, .uniforms = uniforms};
+    const bool whole = row->family == METHOD_ENCODE;
+    function f = {.l = l,
+                  .setup = setup,
+                  .name = whole ? "depth_code" : "eye_depth",
+                  .inputs = {"d", NULL},
+                  .first = whole ? setup->spec.format.code_max : setup->spec.znear,
+                  .second = setup->spec.zfar,
+                  .wide = row->bound->wide,
+                  .uniforms = uniforms,
+                  .whole = whole};
     steps_read(row->bound->constants[reversed], &f.constants);
     steps_read(row->bound->steps[reversed], &f.steps);
     if (l->import != NULL)
@@ -406,6 +414,44 @@ void code_function(output *out, const code_language *l, const method_row *row, c
     if (l->advice != NULL)
         say(out, l, "%s", l->advice);
     (l->form == CODE_INFIX ? put_infix : l->form == CODE_PREFIX ? put_prefix : put_proof)(out, &f);
+}
+
+/* ---- Places ------------------------------------------------------------------------------------------------------ */
+
+/* Twice a pixel's centre less the size is exact; the constant is rounded to nearest, both products as may be. */
+double code_place_bound(const code_language *l, const method_row *row, const dp_setup *setup) {
+    const double each = 1 + l->how.rounding * DP_UNIT;
+    return ((1 + code_bound(l, row, setup)) * (1 + DP_UNIT) * each * each - 1) * (1 + 0x1p-40);
+}
+
+void code_places(output *out, const code_language *l, const method_row *row, const texture_camera *camera,
+                 bool uniforms) {
+    static const struct {
+        const char *name, *input, *constants, *steps;
+    } sides[] = {{"view_x", "column", "W = pixels; X = half/pixels", "a = 2*column - W; b = a*X; x = b*z"},
+                 {"view_y", "row", "H = pixels; Y = half/pixels", "a = H - 2*row; b = a*Y; y = b*z"}};
+    const double size[] = {camera->width, camera->height}, bound = code_place_bound(l, row, &camera->setup);
+    code_function(out, l, row, &camera->setup, uniforms);
+    output_text(out, l->import != NULL ? "\n\n" : "\n");
+    say(out, l,
+        "Place in view space of the pixel whose centre is at (column, row) from the top left, with z = eye_depth(d): "
+        "(view_x(column, z), view_y(row, z), -z), x to the right and y up.");
+    if (isfinite(bound))
+        say(out, l, "So it is off by at most %s of its distance%s.", number_up(bound, 3).text,
+            isinf(camera->setup.spec.zfar) ? ", while it is finite" : "");
+    for (int i = 0; i < 2; i++) {
+        function f = {.l = l,
+                      .setup = &camera->setup,
+                      .name = sides[i].name,
+                      .inputs = {sides[i].input, "z"},
+                      .first = size[i],
+                      .second = camera->half[i],
+                      .uniforms = uniforms};
+        steps_read(sides[i].constants, &f.constants);
+        steps_read(sides[i].steps, &f.steps);
+        output_text(out, i == 0 ? "" : l->import != NULL ? "\n\n" : "\n");
+        put_infix(out, &f);
+    }
 }
 
 /* ---- Projection -------------------------------------------------------------------------------------------------- */

@@ -26,6 +26,12 @@ double code_bound(const code_language *l, const method_row *row, const dp_setup 
 /** Eye depth, or code, of a window depth. With `uniforms` the constants are parameters. */
 void code_function(output *out, const code_language *l, const method_row *row, const dp_setup *setup, bool uniforms);
 
+/** The same, and two functions that take a pixel and its eye depth to its place in view space; a camera whose frustum
+ * is centred. And how far it is off, of its distance. */
+void code_places(output *out, const code_language *l, const method_row *row, const texture_camera *camera,
+                 bool uniforms);
+double code_place_bound(const code_language *l, const method_row *row, const dp_setup *setup);
+
 /** The projection matrix, column vectors, of a camera that looks along -z; what it is cleared to and compared by. */
 void code_projection(output *out, const code_language *l, const texture_camera *camera);
 

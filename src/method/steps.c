@@ -102,6 +102,8 @@ static double named(const char *name, double n, double f) {
     const double excess = (f - n) / n;
     return strcmp(name, "n") == 0        ? n
            : strcmp(name, "most") == 0   ? n
+           : strcmp(name, "pixels") == 0 ? n
+           : strcmp(name, "half") == 0   ? f
            : strcmp(name, "f") == 0      ? f
            : strcmp(name, "excess") == 0 ? excess
            : isinf(f)                    ? 1 / n

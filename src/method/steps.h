@@ -4,7 +4,8 @@
  * printed of it (code.h) come from the same row.
  *
  *     steps      name = expression [: what it is in exact arithmetic]; ...     the last is the result
- *     constants  name = expression in n, f, across (1/n - 1/f) and excess (f/n - 1); ...; of encode in `most`
+ *     constants  name = expression in n, f, across (1/n - 1/f) and excess (f/n - 1); ...;
+ *                of codes in `most`, of places in `pixels` and `half`, which stand in the place of near and far
  *
  * Expressions have + - * / and parentheses, numbers, names, and calls: fma(a, b, c); estimate(x) and magic(x), which
  * are about 1/x; newton(x, y), which is y (2 - x y); whole(x), an integer, and even(x), the nearest one as a number.
@@ -46,7 +47,7 @@ typedef struct steps {
 /** The text of a row, which is right. */
 void steps_read(const char *text, steps *out);
 
-/** A constant in double, from binary64 planes; of encode `most` stands in the place of near. */
+/** A constant in double, from binary64 planes or what stands in their place. */
 double steps_value(const steps *s, int node, double znear, double zfar);
 
 #endif

@@ -40,7 +40,8 @@ static const name_list themes = {.words = (const char *const[]){"light", "dark",
 static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
 static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
 static const name_list languages = {.get = list_language};
-static const name_list code_parts = {.words = (const char *const[]){"linearize", "projection", "encode", NULL}};
+static const name_list code_parts = {.words =
+                                         (const char *const[]){"linearize", "projection", "encode", "position", NULL}};
 static const name_list reports = {.words = (const char *const[]){"text", "json", "junit", NULL}};
 
 /* The field of an option; one of another type than its kind reads does not compile. Whole numbers have several widths.
@@ -278,7 +279,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "the language: @; 'depthprec list languages' has what each promises of its arithmetic",
         ROW(code.language, languages), .standard = "glsl", .group = "The code"},
     [OPTION_WHAT] = {"what", 0, NULL,
-        "a function that linearizes window depths, the projection matrix, or a function that makes codes of --format",
+        "linearize: eye depths of window depths; projection: the matrix; encode: codes of --format; position: places "
+        "of pixels in view space",
         WORD(code.what, code_parts),
         .standard = "linearize"},
     [OPTION_UNIFORMS] = {"uniforms", 0, NULL,

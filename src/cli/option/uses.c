@@ -244,8 +244,8 @@ const option_use probe_uses[] = {
 
 const option_use code_uses[] = {
     OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, HELP(PERSPECTIVE), DEFAULT("reversed")),
-    OWN(FOV, ALSO("of a projection matrix")),
-    OWN(VIEWPORT, HELP("the shape of the view, of a projection matrix"), DEFAULT("1920x1080")),
+    OWN(FOV, ALSO("of a matrix and of places")),
+    OWN(VIEWPORT, HELP("the pixels of the view, of a matrix their shape"), DEFAULT("1920x1080")),
     TAKE(LANGUAGE), TAKE(WHAT), TAKE(UNIFORMS), TAKE(HFOV), TAKE(PLATFORM), GROUP(camera),
     TAKE(OUTPUT), TAKE(QUIET), END};
 
