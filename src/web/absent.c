@@ -11,7 +11,6 @@
 #include "cli/methods.h"
 #include "cli/option/rows.h"
 #include "cli/scene/figure.h"
-#include "code/language.h"
 #include "plot/figure.h"
 #include "requirement/check.h"
 #include "scene/find.h"
@@ -62,7 +61,6 @@ ABSENT_FIGURE(stability_build)
         return NULL;                                                                                                   \
     }
 
-ABSENT_ROWS(code_language, code_language_get)
 ABSENT_ROWS(constant_row, constant_get)
 ABSENT_ROWS(effect_row, effect_get)
 ABSENT_ROWS(finder_filter_row, finder_filter_get)
@@ -79,11 +77,6 @@ ABSENT_ROWS(position_row, position_get)
 ABSENT_ROWS(sensor_row, sensor_get)
 ABSENT_ROWS(synthetic_row, synthetic_get)
 ABSENT_ROWS(trap_row, trap_get)
-
-const char *code_language_rules(const code_language *l, char out[CODE_RULES_SIZE]) {
-    (void)l;
-    return out;
-}
 
 double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z) {
     (void)row;
