@@ -127,7 +127,9 @@ static void expression(const writer *w, int index, int outer, char *out) {
     } else {
         const int own = operators[of->kind].precedence;
         const bool inside = prefix || own < outer;
-        append(out, CODE_TEXT_SIZE, prefix ? "(%s " : inside ? "(" : "", operators[of->kind].sign);
+        append(out, CODE_TEXT_SIZE, "%s", inside ? "(" : "");
+        if (prefix)
+            append(out, CODE_TEXT_SIZE, "%s ", operators[of->kind].sign);
         expression(w, of->of[0], own, out);
         append(out, CODE_TEXT_SIZE,
                prefix                       ? " "
@@ -318,7 +320,7 @@ static void put_prefix(output *out, const function *f) {
     char n[CODE_TEXT_SIZE], far[CODE_TEXT_SIZE], text[CODE_TEXT_SIZE] = "", formula[CODE_TEXT_SIZE];
     const dp_spec *s = &f->setup->spec;
     const bool infinite = isinf(s->zfar);
-    steps spec;
+    steps spec = {.count = 0};
     steps_read(exact(f->setup), &spec);
     expression(&(writer){f->l, &spec, true, AS_COMPUTED}, spec.step[0].is, 0, text);
     code_number(s->znear, true, n);
