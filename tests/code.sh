@@ -92,6 +92,7 @@ check "every FPCore has its structure" each fpcore structure
 # What Gappa proves of the script is what the comment of it says.
 proof() {
     said=$(sed -n 's/.*off by at most \([^ ]*\) of.*/\1/p' "$scratch/code")
+    grep -q z_exact "$scratch/code" || return
     [ -n "$said" ] || return 0
     gappa "$scratch/code" 2>&1 | awk -F'[{,]' -v said="$said" '/z -\/ z_exact in \[/ {
         lo = -$2; for (i = 3; i <= NF; i++) if ($i ~ /^-?[0-9.]+(e-?[0-9]+)?$/) hi = $i
@@ -110,13 +111,14 @@ same_numbers() {
 #include <stdint.h>
 #include <stdio.h>'
         cat
-        echo 'int main(void) { for (int i = 0; i <= 64; i++) printf("%a\n", (double)eye_depth(i / 64.0f)); return 0; }'
+        printf '%s\n' 'int main(void) { for (int i = 0; i <= 64; i++)
+            printf("%.9g\n", (double)eye_depth(i / 64.0f)); return 0; }'
     } >"$scratch/c.c"
     $CC -ffp-contract=off -o "$scratch/c" "$scratch/c.c" -lm && "$scratch/c" >"$scratch/by-c" || return
     { code "$1" -m "$2" --language numpy
-        echo 'for x in eye_depth(np.arange(65, dtype=np.float32) / np.float32(64)): print(float(x).hex())'
-    } >"$scratch/numpy.py"
-    python3 "$scratch/numpy.py" | sed 's/\.\([0-9a-f]*[1-9a-f]\)0*p/.\1p/; s/\.0*p/p/' >"$scratch/by-numpy" &&
+        echo 'for x in eye_depth(np.arange(65, dtype=np.float32) / np.float32(64)): print("%.9g" % x)'
+    } >"$scratch/printed.py"
+    python3 "$scratch/printed.py" >"$scratch/by-numpy" &&
         diff "$scratch/by-c" "$scratch/by-numpy"
 }
 if python3 -c 'import numpy' 2>/dev/null; then
@@ -136,6 +138,7 @@ same_uniforms() {
         of=$(echo "$method" | sed -n 's/.*:/--what encode -F /p')
         for uniforms in '' --uniforms; do
             code "${method%:*}" -m d3d -n 0.3 -f 77 --language c $uniforms $of >"$scratch/code" || return
+            [ -n "$(called)" ] || return
             { printf '#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n'
                 cat "$scratch/code"
                 echo "$main" | sed "s/CALL/$(called)(i \/ 999.0f$(arguments))/"
