@@ -75,7 +75,7 @@ static void put_name(const writer *w, const char *name, bool inner, char *out) {
     append(out, CODE_TEXT_SIZE, "%s%s", name, w->exact && !given ? "_exact" : "");
 }
 
-enum { COMMENT_WIDTH = 74, PIECES_IN_LINE = 8 };
+enum { COMMENT_WIDTH = 74, PIECES_IN_LINE = 5 };
 enum { OF_SUM = 1, OF_PRODUCT, OF_SIGN };
 static const struct {
     const char *sign;
@@ -325,19 +325,20 @@ static void put_prefix(output *out, const function *f) {
     expression(&(writer){f->l, &spec, true, AS_COMPUTED}, spec.step[0].is, 0, text);
     code_number(s->znear, true, n);
     code_number(infinite ? 0 : s->zfar, true, far);
-    output_format(out, "(FPCore %s (d)\n  :precision %s\n  :pre (%s 0 d 1)\n", f->name,
-                  f->wide ? "binary64" : "binary32", infinite ? "<" : "<=");
+    output_format(out, "(FPCore %s (%s)\n  :precision %s\n  :pre (%s 0 d 1)\n", f->name,
+                  f->wide ? "(! :precision binary32 d)" : "d", f->wide ? "binary64" : "binary32",
+                  infinite ? "<" : "<=");
     output_format(out, infinite ? "  :spec (let ((n %s)) %s)\n" : "  :spec (let ((n %s) (f %s)) %s)\n", n,
                   infinite ? text : far, text);
     output_text(out, "  (let* (");
     for (int i = 0; i < f->constants.count; i++) {
         constant_of(f, i, text, formula);
-        output_format(out, "(%s %s) ", f->constants.step[i].name, text);
+        output_format(out, "(%s %s)\n         ", f->constants.step[i].name, text);
     }
     for (int i = 0; i < f->steps.count; i++) {
         text[0] = '\0';
         expression(&(writer){f->l, &f->steps, f->wide, AS_COMPUTED}, f->steps.step[i].is, 0, text);
-        output_format(out, "(%s %s)%s", f->steps.step[i].name, text, i + 1 < f->steps.count ? " " : ")\n");
+        output_format(out, "(%s %s)%s", f->steps.step[i].name, text, i + 1 < f->steps.count ? "\n         " : ")\n");
     }
     output_text(out, f->wide ? "    (! :precision binary32 (cast z))))\n" : "    z))\n");
 }
