@@ -105,7 +105,7 @@ else
     skip "what Gappa proves" "no gappa here"
 fi
 
-# The same numbers as C gives, whose bits test_code has looked at.
+# The same numbers as C gives, whose bits test_languages has looked at.
 same_numbers() {
     code "$1" -m "$2" --language c | { echo '#include <math.h>
 #include <stdint.h>
