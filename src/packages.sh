@@ -41,6 +41,8 @@ check | command g++                                   | g++                   | 
 check | command xmllint                               | libxml2-utils         | libxml2            | libxml2
 check | command jq                                    | jq                    | jq                 | jq
 check | command gappa                                 | gappa                 | gappa              | +
+check | command glslangValidator                      | glslang-tools         | glslang            | glslang
+check | command spirv-val                             | spirv-tools           | spirv-tools        | spirv-tools
 clang | command clang                                 | clang                 | clang              | clang
 clang | header omp.h                                  | libomp-dev            | libomp-devel       | openmp
 lint  | command clang-format                          | clang-format          | clang-tools-extra  | clang
@@ -69,7 +71,6 @@ probe | file lib*/*/libvulkan.so.1                    | libvulkan1            | 
 probe | file share/vulkan/icd.d/lvp_icd*.json         | mesa-vulkan-drivers   | mesa-vulkan-drivers | vulkan-swrast
 probe | file lib*/*/libEGL_mesa.so.0                  | libegl-mesa0          | mesa-libEGL        | mesa
 probe | file lib*/*/libEGL.so.1                       | libegl1               | libglvnd-egl       | libglvnd
-probe | command glslangValidator                      | glslang-tools         | glslang            | glslang
 '
 
 case $job in

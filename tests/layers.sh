@@ -21,12 +21,13 @@ src/shader        | depthprec core image shader
 src/frame         | depthprec core image shader frame
 src/judge         | depthprec core system image shader frame judge
 src/method        | depthprec core shader census method
+src/code          | depthprec core image shader census method system report code
 src/requirement   | depthprec core system api raster world requirement
 src/model         | core system model
 src/scene         | depthprec core system raster world model requirement scene
 src/report        | depthprec core system report
 src/plot          | depthprec core system api world census raster shadow image shader frame method requirement model scene plot
-src/cli           | depthprec core system api world census raster shadow image shader frame method requirement model scene probe judge report plot cli
+src/cli           | depthprec core system api world census raster shadow image shader frame method requirement model scene probe judge code report plot cli
 src/npm           | depthprec cli core frame image plot probe report system npm
 src/web           | depthprec core system raster image shader frame method requirement scene report plot cli web
 '

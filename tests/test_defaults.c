@@ -25,6 +25,7 @@ static const struct {
     {BIT(CMD_SCENE), "scene tests/models/street.obj --separation 0.02"},
     {BIT(CMD_LIST), "list synthetic"},
     {BIT(CMD_JUDGE), "judge --pairs tests/pairs/reversed.csv --csv"},
+    {BIT(CMD_CODE), "code"},
 };
 
 #define ALL (~0U)
@@ -41,6 +42,7 @@ static const struct {
     const char *more;
 } besides[] = {
     {BIT(CMD_PLOT), IDS(OPTION_INTERPOLATION, OPTION_FROM_ORIGIN), "plot budget -F d24 -m d3d --csv", ""},
+    {BIT(CMD_CODE), IDS(OPTION_FOV, OPTION_VIEWPORT), "code --what projection", ""},
     {BIT(CMD_PLOT), IDS(OPTION_COMPOSITION), "plot budget -F d24 -m d3d --csv", "--from-origin 100"},
     {BIT(CMD_PLOT), IDS(OPTION_LOG2), "plot budget -F d24 -m log --csv", ""},
     {BIT(CMD_BUDGET), IDS(OPTION_LOG2), "budget -F d24 -m log", ""},
@@ -149,10 +151,10 @@ static const struct {
     {OPTION_FAR, BIT(CMD_WORLD), "inf"},
     {OPTION_FAR, ALL, "1000"},
     {OPTION_FORMAT, BIT(CMD_BIAS), "fp32,unorm16,unorm24"},
-    {OPTION_FORMAT, BIT(CMD_JUDGE) | BIT(CMD_WORLD) | BIT(CMD_SCENE) | BIT(CMD_SHADOW), "fp32"},
+    {OPTION_FORMAT, BIT(CMD_CODE) | BIT(CMD_JUDGE) | BIT(CMD_WORLD) | BIT(CMD_SCENE) | BIT(CMD_SHADOW), "fp32"},
     {OPTION_FORMAT, ALL, "all"},
     {OPTION_MAPPING, BIT(CMD_SHADOW), "d3d"},
-    {OPTION_MAPPING, BIT(CMD_WORLD) | BIT(CMD_SCENE), "reversed"},
+    {OPTION_MAPPING, BIT(CMD_CODE) | BIT(CMD_WORLD) | BIT(CMD_SCENE), "reversed"},
     {OPTION_MAPPING, ALL, "all"},
     {OPTION_LOG_C, ALL, "1"},
     {OPTION_ROUNDING, ALL, "nearest"},
@@ -191,6 +193,8 @@ static const struct {
     {OPTION_SIZE, BIT(CMD_TEXTURE), "640x360"},
     {OPTION_SIZE, ALL, "2048x2048"},
     {OPTION_SKY, ALL, "0.0001"},
+    {OPTION_LANGUAGE, ALL, "glsl"},
+    {OPTION_WHAT, ALL, "linearize"},
     {OPTION_REPORT, ALL, "text"},
     {OPTION_COLOR, ALL, "auto"},
 };

@@ -4,6 +4,7 @@
  * default. The languages of lists, depths and sizes are tried in cli/errors.txt.
  */
 #include "cli/option/uses.h"
+#include "code/language.h"
 #include "parsed.h"
 #include "scene/find.h"
 #include "support.h"
@@ -254,6 +255,11 @@ TEST(test_words) {
          WORD_AT(scene.transforms),
          "exact or binary32",
          {{"exact", 0}, {"binary32", 1}}},
+        {"code",
+         OPTION_WHAT,
+         WORD_AT(code.what),
+         "linearize, projection, encode or position",
+         {{"linearize", 0}, {"projection", 1}, {"encode", 2}, {"position", 3}}},
         {"prepass",
          OPTION_VERTICES,
          WORD_AT(census.vertices),
@@ -335,6 +341,7 @@ TEST(test_rows) {
          "normal"},
         {"texture", OPTION_PRODUCT, AT(image.effect), "effect:Fog", "fog", offsetof(effect_row, name), "effect:edeg",
          "edge"},
+        {"code", OPTION_LANGUAGE, AT(code.language), "HLSL", "hlsl", offsetof(code_language, name), "glsk", "glsl"},
         {"texture", OPTION_PACKING, AT(image.packing), "rgb24", "rgb24", offsetof(packing, name), "rgb42", "rgb24"},
     };
     tally t = {.name = "rows"};
@@ -353,8 +360,8 @@ TEST(test_rows) {
         TALLY(&t, strstr(line, meant) != NULL, "%s: %s", meant, line);
         parse(&o, rows[i].command, OPTION_QUIET, NULL, line);
         memcpy(&row, (const char *)&o + rows[i].field, sizeof row);
-        TALLY(&t, (row != NULL) == (rows[i].id == OPTION_API || rows[i].id == OPTION_PROGRAM), "--%s: default",
-              option_name(rows[i].id));
+        const bool standard = rows[i].id == OPTION_API || rows[i].id == OPTION_PROGRAM || rows[i].id == OPTION_LANGUAGE;
+        TALLY(&t, (row != NULL) == standard, "--%s: default", option_name(rows[i].id));
     }
     tally_end(&t);
 }
@@ -433,6 +440,7 @@ TEST(test_flags) {
                  {"texture", OPTION_ERROR_MAP, WORD_AT(image.error_map)},
                  {"list", OPTION_QUIET, WORD_AT(out.quiet)},
                  {"list", OPTION_FULL, WORD_AT(out.full)},
+                 {"code", OPTION_UNIFORMS, WORD_AT(code.uniforms)},
                  {"texture", OPTION_RADIAL, WORD_AT(image.radial)},
                  {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];

@@ -64,6 +64,8 @@ static const char *const lines[] = {
     "plot map -o nowhere/map.svg",
     "plot",
     "plot nothing",
+    "list languages",
+    "code foo",
     "judge --pairs tests/pairs/reversed.csv -n 0.1 -f 1000 -m d3d",
     "probe --device 99",
     "table -F unknown",

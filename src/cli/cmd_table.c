@@ -259,6 +259,8 @@ static void say_notes(page *p, void *item) {
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
     if (option_given(t->each.o, OPTION_TOLERANCE))
         say_way(p, &t->interval, t->each.o->wanted.tolerance);
+    if (t->each.all.count == 1)
+        setup_say_code(p, &t->each.setup->spec);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */

@@ -96,6 +96,11 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec plot pareto linearize -o pareto.svg\n"
      "  depthprec plot stability interval -o stability.svg\n",
      .group = "Methods and hardware"},
+    [CMD_CODE] = {"code", CMD_CODE, code_uses, "[METHOD]", 0, 1, NULL,
+     .summary = "a method or a projection matrix as code to take away",
+     .example = "  depthprec code -n 0.1 -f inf -m reversed\n"
+     "  depthprec code complement -n 0.1 -f 1000 -m d3d --language wgsl\n"
+     "  depthprec code --what projection -n 0.3 -f 1000 -m gl --fov 50 --language c\n"},
     [CMD_JUDGE] = {"judge", CMD_JUDGE, judge_uses, "", 0, 0, NULL,
      .summary = "what a function of yours computes, and what it loses",
      .example = "  depthprec judge --pairs-for 64 -o depths.csv\n"

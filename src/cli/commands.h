@@ -27,6 +27,7 @@ typedef enum command_id {
     CMD_TEXTURE,
     CMD_SHADOW,
     CMD_METHODS,
+    CMD_CODE,
     CMD_JUDGE,
     CMD_PROBE,
     CMD_PLOT,
@@ -70,6 +71,7 @@ int cmd_bias(const struct options *o);
 int cmd_shadow(const struct options *o);
 int cmd_scene(const struct options *o);
 int cmd_probe(const struct options *o);
+int cmd_code(const struct options *o);
 int cmd_judge(const struct options *o);
 int cmd_list(const struct options *o);
 bool list_knows(const char *word); /**< whether `list WORD` explains it */

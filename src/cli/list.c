@@ -9,6 +9,7 @@
 #include "api/presets.h"
 #include "api/unit.h"
 #include "api/upscaler.h"
+#include "code/language.h"
 #include "core/append.h"
 #include "frame/sensor.h"
 #include "frame/synthetic.h"
@@ -284,6 +285,16 @@ bool list_synthetic(size_t index, list_item *item) {
     return true;
 }
 
+bool list_language(size_t index, list_item *item) {
+    const code_language *row = code_language_get(index);
+    char rules[CODE_RULES_SIZE];
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    append(item->bound, sizeof item->bound, "%s", code_language_rules(row, rules));
+    return true;
+}
+
 bool list_family(size_t index, list_item *item) {
     const method_family_row *row = method_family_get(index);
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
@@ -348,6 +359,7 @@ static const topic topics[] = {
      .names = "ReconstructViewPos ViewSpacePosAtScreenUV ComputeWorldSpacePosition"},
     {"normals", "normals from depth, for texture --product normal", list_normal, .bound = "bound",
      .names = "ReconstructNormal"},
+    {"languages", "languages of code, and what each promises of its arithmetic", list_language, .bound = "arithmetic"},
     {"methods", "methods by family: what each claims, for which set-up and far/near", list_method, .bound = "bound"},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };

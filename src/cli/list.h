@@ -34,6 +34,7 @@ bool list_format(size_t index, list_item *item);
 bool list_mapping(size_t index, list_item *item);
 bool list_rounding(size_t index, list_item *item); /**< of name alone */
 bool list_command(size_t index, list_item *item);
+bool list_language(size_t index, list_item *item);
 bool list_family(size_t index, list_item *item);
 bool list_model(size_t index, list_item *item);
 bool list_arith(size_t index, list_item *item);

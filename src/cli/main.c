@@ -7,12 +7,25 @@
 #include "system/input.h"
 
 static int (*const commands[CMD_COUNT])(const options *) = {
-    [CMD_TABLE] = cmd_table,     [CMD_PLOT] = cmd_plot,     [CMD_ZFIGHT] = cmd_zfight,
-    [CMD_PREPASS] = cmd_prepass, [CMD_BUDGET] = cmd_budget, [CMD_TEXTURE] = cmd_texture,
-    [CMD_METHODS] = cmd_methods, [CMD_CHECK] = cmd_check,   [CMD_SOLVE] = cmd_solve,
-    [CMD_BIAS] = cmd_bias,       [CMD_SHADOW] = cmd_shadow, [CMD_SCENE] = cmd_scene,
-    [CMD_PROBE] = cmd_probe,     [CMD_JUDGE] = cmd_judge,   [CMD_WORLD] = cmd_world,
-    [CMD_LIST] = cmd_list,       [CMD_HELP] = cmd_help,     [CMD_COMPLETIONS] = cmd_completions,
+    [CMD_TABLE] = cmd_table,
+    [CMD_PLOT] = cmd_plot,
+    [CMD_ZFIGHT] = cmd_zfight,
+    [CMD_PREPASS] = cmd_prepass,
+    [CMD_BUDGET] = cmd_budget,
+    [CMD_TEXTURE] = cmd_texture,
+    [CMD_METHODS] = cmd_methods,
+    [CMD_CHECK] = cmd_check,
+    [CMD_SOLVE] = cmd_solve,
+    [CMD_BIAS] = cmd_bias,
+    [CMD_SHADOW] = cmd_shadow,
+    [CMD_SCENE] = cmd_scene,
+    [CMD_PROBE] = cmd_probe,
+    [CMD_JUDGE] = cmd_judge,
+    [CMD_WORLD] = cmd_world,
+    [CMD_CODE] = cmd_code,
+    [CMD_LIST] = cmd_list,
+    [CMD_HELP] = cmd_help,
+    [CMD_COMPLETIONS] = cmd_completions,
 };
 
 static int run(const options *o) {

@@ -207,6 +207,13 @@ void setup_title(page *p, const dp_setup *setup, const setup_fields *fields) {
                setup_label_as(setup, fields, label), unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
 }
 
+void setup_say_code(page *p, const dp_spec *spec) {
+    const dp_mapping_row *mapping = dp_mapping_get(spec->mapping);
+    if (mapping->curve == DP_CURVE_PERSPECTIVE && !spec->ortho)
+        page_note(p, "code", "depthprec code -n %s -f %s -m %s", number_full(spec->znear).text,
+                  number_full(spec->zfar).text, mapping->name);
+}
+
 void setups_say_rg(page *p, const dp_setup *some, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (dp_format_is_rg(&some[i].spec.format)) {

@@ -83,6 +83,9 @@ const char *setup_label_as(const dp_setup *setup, const setup_fields *fields, ch
 /** What text says above a set-up: its label and the unit, which is that of the page from here on. */
 void setup_title(page *p, const dp_setup *setup, const setup_fields *fields);
 
+/** The line that prints the code of a camera; nothing of one without a projection matrix, or orthographic. */
+void setup_say_code(page *p, const dp_spec *spec);
+
 /** What rg is, where a set-up has it. */
 void setups_say_rg(page *p, const dp_setup *some, size_t count);
 

@@ -65,7 +65,9 @@ double method_claimed(const method_row *row, size_t which, const dp_setup *setup
 
 double method_bound(const method_row *row, const dp_setup *setup) {
     const bool covered = !isinf(setup->spec.zfar) || (row->domain & METHOD_INFINITE) != 0;
-    return row->bound != NULL && covered && !setup->spec.ortho ? bound_over(row->bound, setup) : (double)NAN;
+    return row->family == METHOD_LINEARIZE && row->bound != NULL && covered && !setup->spec.ortho
+               ? bound_over(row->bound, setup, &bound_nearest)
+               : (double)NAN;
 }
 
 /* ---- Times ------------------------------------------------------------------------------------------------------- */

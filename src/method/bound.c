@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "method/bound.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "core/bits.h"
@@ -15,25 +16,28 @@ typedef struct piece {
 } piece;
 
 typedef struct search {
-    const bound_steps *steps;
+    bound_walk walk;
     bool reversed;
     double slope, base; /* 1/z = slope near + base */
     float least, most;  /* window depths */
-    term k[BOUND_CONSTANTS];
     piece heap[PIECES]; /* the worst first */
     int count;
 } search;
 
-static double worst_of(const search *s, float a, float b) {
+static double worst_of(search *s, float a, float b) {
     bound_piece p = {.reversed = s->reversed, .d = term_any(a, b)};
     const range rest = range_outward(1 - (double)b, 1 - (double)a);
+    if (s->walk.how->flushes && a < FLT_MIN) {
+        p.d.off = (range){(double)-FLT_MIN, 0};
+        p.d.share = (range){-1, 0};
+    }
     p.near = s->reversed ? p.d.exact : rest;
     p.inverse = range_outward((s->slope * p.near.lo + s->base) * (1 - 0x1p-49),
                               (s->slope * p.near.hi + s->base) * (1 + 0x1p-49));
     if (!(p.inverse.lo > 0))
         return (double)INFINITY;
     p.eye = range_quotient((range){1, 1}, p.inverse);
-    const term z = s->steps->run(s->k, &p);
+    const term z = bound_run(&s->walk, &p);
     const double worst = fmax(-z.share.lo, z.share.hi);
     return worst <= 1 ? worst : (double)INFINITY; /* NaN, too */
 }
@@ -76,17 +80,17 @@ static void first_pieces(search *s) {
         push_piece(s, 1, 1);
 }
 
-double bound_over(const bound_steps *steps, const dp_setup *setup) {
+double bound_over(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
     const bool infinite = isinf(f), reversed = setup->reversed != 0;
-    search s = {.steps = steps, .reversed = reversed, .least = 0, .most = 1};
+    search s = {.reversed = reversed, .least = 0, .most = 1};
     s.slope = infinite ? 1 / n : (f - n) / n / f;
     s.base = 1 / f;
     if (infinite && reversed)
-        s.least = dp_float_up(fmax(n * 0x1p-127, 0x1p-149));
+        s.least = dp_float_up(how->flushes ? fmax(n, 1) * 0x1p-125 : fmax(n * 0x1p-127, 0x1p-149));
     else if (infinite)
         s.most = 1 - 0x1p-24f;
-    steps->constants(setup, s.k);
+    bound_begin(row, setup, how, &s.walk);
     first_pieces(&s);
     for (int i = 0; i < HALVINGS && s.heap[0].a < s.heap[0].b; i++) {
         const piece worst = pop_worst(&s);

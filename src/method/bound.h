@@ -11,6 +11,7 @@
 
 #include <stdbool.h>
 
+#include "method/steps.h"
 #include "method/term.h"
 
 #include "depthprec/depthprec.h"
@@ -24,19 +25,43 @@ typedef struct bound_piece {
     range eye;     /**< z */
 } bound_piece;
 
-enum { BOUND_CONSTANTS = 4 };
-
-/** A method as its operations: what is the same for all depths, and what each depth goes through. */
+/** A method as its operations: texts of steps.h for standard and for reversed depth. */
 typedef struct bound_steps {
-    void (*constants)(const dp_setup *setup, term k[BOUND_CONSTANTS]);
-    term (*run)(const term k[BOUND_CONSTANTS], const bound_piece *p);
+    const char *constants[2], *steps[2]; /**< null where only `off` is known */
+    bool wide;                           /**< in binary64, the result rounded once */
+    double off;                          /**< the share before the last rounding */
 } bound_steps;
+
+/** What a language says of its operations. */
+typedef struct bound_arithmetic {
+    double rounding; /**< of sums, differences and products: half units, 1 for to nearest, 2 for to either neighbour */
+    double division; /**< the same of quotients: 5 for 2.5 units in the last place */
+    bool contracts;  /**< a product that is added may not be rounded */
+    bool flushes;    /**< numbers below 2^-126 may become 0 */
+} bound_arithmetic;
+extern const bound_arithmetic bound_nearest; /**< IEEE 754 */
+
+typedef struct bound_known {
+    const char *name;
+    term term;
+} bound_known;
+
+/** A row at a camera, at work. */
+typedef struct bound_walk {
+    const bound_steps *row;
+    const bound_arithmetic *how;
+    steps constants, steps;
+    bound_known known[2 * STEPS_MAX + 1]; /**< the constants, d and the steps */
+} bound_walk;
+void bound_begin(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how, bound_walk *w);
+term bound_run(bound_walk *w, const bound_piece *p); /**< the eye depth throughout the piece */
 
 /**
  * Of a perspective set-up with a standard or reversed mapping onto [0, 1]: no binary32 window depth, whose eye depth is
- * at most 2^127, has a greater relative error. INFINITY where the divisor may come to 0.
+ * at most 2^127, has a greater relative error. INFINITY where the divisor may come to 0. Where numbers
+ * may be flushed and far is infinite the depth is at most 2^125, too, and that of window depth 2^-125.
  */
-double bound_over(const bound_steps *steps, const dp_setup *setup);
+double bound_over(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how);
 
 /** Of linearize, by name and in the order of its rows. */
 extern const bound_steps bound_unity, bound_complement_unity, bound_linear_01, bound_linear_01_near, bound_textbook,

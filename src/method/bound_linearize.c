@@ -1,156 +1,68 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The methods of linearize as their operations: see linearize.c, where they run. */
+/*
+ * The methods of linearize as their operations: see linearize.c, where they run. Of d, n and f; in exact arithmetic z
+ * is the eye depth, i its reciprocal, and s the share of the way from the far plane.
+ */
 #include <math.h>
+#include <string.h>
 
 #include "core/bits.h"
 #include "method/bound.h"
 #include "method/estimate.h"
-#include "shader/decode.h"
 
-/* What the reciprocal from the bits of x is off by, at most 0.05051, and its square. */
-static const double magic_off = 0.05052, magic_square = 2.552e-3;
+/* ---- Rows: standard depth, then reversed ------------------------------------------------------------------------- */
 
-static term times(const term *a, const term *b, int bits) {
-    return term_rounded(term_product(a, b), bits);
-}
+#define SHARE        "q = 1 - d : s; "
+#define BY(q, exact) "x = B + S*" q " : " exact "; "
 
-/* base + slope q */
-static term affine(const term *base, const term *slope, const term *q, range exact, int bits) {
-    const term m = times(slope, q, bits);
-    return term_rounded(term_sum(base, &m, exact), bits);
-}
+#define COMPLEMENT "P = n*f; B = n; S = f - n"
+#define WHOLE      "z = P/x : z"
 
-static term over(const term *a, const term *b, range exact, int bits) {
-    return term_rounded(term_quotient(a, b, exact), bits);
-}
+#define NEWTON "y = estimate(x); t = newton(x, y); z = P*t : z"
+#define MAGIC  BY("d", "i") "y = magic(x); z = newton(x, y) : z"
 
-/* 1 - d */
-static term rest_of(const bound_piece *p, int bits) {
-    const term one = term_exact(1), minus = term_exact(-1), negative = term_product(&minus, &p->d);
-    const range exact = p->reversed ? range_outward(1 - p->d.exact.hi, 1 - p->d.exact.lo) : p->near;
-    return term_rounded(term_sum(&one, &negative, exact), bits);
-}
+/* clang-format off */
+const bound_steps bound_unity = {
+    .constants = {"B = 1/n; S = -across", "B = 1/f; S = across"},
+    .steps = {BY("d", "i") "z = 1/x : z", BY("d", "i") "z = 1/x : z"}};
+const bound_steps bound_magic = {
+    .constants = {"B = 1/n; S = -across", "B = 1/f; S = across"},
+    .steps = {MAGIC, MAGIC}};
+const bound_steps bound_complement_unity = {
+    .constants = {"B = 1/f; S = across", "B = 1/f; S = across"},
+    .steps = {SHARE BY("q", "i") "z = 1/x : z", BY("d", "i") "z = 1/x : z"}};
+const bound_steps bound_linear_01 = {
+    .constants = {"F = f; B = f/n; S = -excess", "F = f; B = 1; S = excess"},
+    .steps = {BY("d", "F*i") "t = 1/x : z/F; z = F*t : z", BY("d", "F*i") "t = 1/x : z/F; z = F*t : z"}};
+const bound_steps bound_linear_01_near = {
+    .constants = {"N = n; W = f - n; B = f/n; S = -excess", "N = n; W = f - n; B = 1; S = excess"},
+    .steps = {BY("d", "(N + W)*i") "t = d/x : d/((N + W)*i); z = N + W*t : z",
+     BY("d", "(N + W)*i") "r = 1 - d : 1 - d; t = r/x : (1 - d)/((N + W)*i); z = N + W*t : z"}};
+const bound_steps bound_textbook = {
+    .constants = {"P = n*f; B = f; S = n - f", COMPLEMENT},
+    .steps = {BY("d", "P*i") WHOLE, BY("d", "P*i") WHOLE}};
+const bound_steps bound_fused = {
+    .constants = {"P = n*f; B = f; S = n - f", COMPLEMENT},
+    .steps = {"x = fma(S, d, B) : P*i; " WHOLE, "x = fma(S, d, B) : P*i; " WHOLE}};
+const bound_steps bound_complement = {
+    .constants = {COMPLEMENT, COMPLEMENT},
+    .steps = {SHARE BY("q", "P*i") WHOLE, BY("d", "P*i") WHOLE}};
+const bound_steps bound_newton = {
+    .constants = {COMPLEMENT, COMPLEMENT},
+    .steps = {SHARE BY("q", "P*i") NEWTON, BY("d", "P*i") NEWTON}};
+const bound_steps bound_double = {
+    .constants = {"P = n*f; B = f; S = n - f", COMPLEMENT},
+    .steps = {BY("d", "P*i") WHOLE, BY("d", "P*i") WHOLE}, .wide = true};
+const bound_steps bound_phi = {
+    .constants = {"N = n; p = n/f", "N = n; p = n/f"},
+    .wide = true,
+    .steps = {SHARE "x = q + p*d : N*i; z = N/x : z", "q = 1 - d : 1 - d; x = d + p*q : N*i; z = N/x : z"}};
+const bound_steps bound_pair = {.off = 0x1p-41}; /* 70 squares of a unit, see depthprec(7) */
+/* clang-format on */
 
-static term toward_near(const bound_piece *p, int bits) {
-    return p->reversed ? p->d : rest_of(p, bits);
-}
+const bound_arithmetic bound_nearest = {.rounding = 1, .division = 1};
 
-/* ---- k/(base + slope d), and of the share towards near ----------------------------------------------------------- */
-
-enum { PRODUCT, BASE, SLOPE, SCALE };
-
-static term divisor(const term *k, const term *q, const bound_piece *p) {
-    return affine(&k[BASE], &k[SLOPE], q, range_product(k[PRODUCT].exact, p->inverse), TERM_SINGLE);
-}
-
-static term by_d(const term *k, const bound_piece *p) {
-    const term x = divisor(k, &p->d, p);
-    return over(&k[PRODUCT], &x, p->eye, TERM_SINGLE);
-}
-
-static term by_share(const term *k, const bound_piece *p) {
-    const term q = toward_near(p, TERM_SINGLE), x = divisor(k, &q, p);
-    return over(&k[PRODUCT], &x, p->eye, TERM_SINGLE);
-}
-
-static term fused_run(const term *k, const bound_piece *p) {
-    const term m = term_product(&k[SLOPE], &p->d);
-    const term x = term_rounded(term_sum(&k[BASE], &m, range_product(k[PRODUCT].exact, p->inverse)), TERM_SINGLE);
-    return over(&k[PRODUCT], &x, p->eye, TERM_SINGLE);
-}
-
-static void textbook_constants(const dp_setup *setup, term *k) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
-    k[PRODUCT] = term_constant(n * f, TERM_SINGLE);
-    k[BASE] = term_constant(setup->reversed ? n : f, TERM_SINGLE);
-    k[SLOPE] = term_constant(setup->reversed ? f - n : n - f, TERM_SINGLE);
-}
-
-static void complement_constants(const dp_setup *setup, term *k) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
-    k[PRODUCT] = term_constant(n * f, TERM_SINGLE);
-    k[BASE] = term_constant(n, TERM_SINGLE);
-    k[SLOPE] = term_constant(f - n, TERM_SINGLE);
-}
-
-static double excess(const dp_setup *setup) {
-    return (setup->spec.zfar - setup->spec.znear) / setup->spec.znear;
-}
-
-/* 1/n - 1/f */
-static double across(const dp_setup *setup) {
-    return isinf(setup->spec.zfar) ? 1 / setup->spec.znear : excess(setup) / setup->spec.zfar;
-}
-
-static void unity_constants(const dp_setup *setup, term *k) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
-    k[PRODUCT] = term_exact(1);
-    k[BASE] = term_constant(setup->reversed ? 1 / f : 1 / n, TERM_SINGLE);
-    k[SLOPE] = term_constant(setup->reversed ? across(setup) : -across(setup), TERM_SINGLE);
-}
-
-static void complement_unity_constants(const dp_setup *setup, term *k) {
-    k[PRODUCT] = term_exact(1);
-    k[BASE] = term_constant(1 / setup->spec.zfar, TERM_SINGLE);
-    k[SLOPE] = term_constant(across(setup), TERM_SINGLE);
-}
-
-/* ---- Shares of far ----------------------------------------------------------------------------------------------- */
-
-/* Of z = 1 the formula has f. */
-static void linear_01_constants(const dp_setup *setup, term *k) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
-    k[PRODUCT] = term_constant(f, TERM_SINGLE);
-    k[BASE] = setup->reversed ? term_exact(1) : term_constant(f / n, TERM_SINGLE);
-    k[SLOPE] = term_constant(setup->reversed ? excess(setup) : -excess(setup), TERM_SINGLE);
-    k[SCALE] = term_exact(1);
-}
-
-static term linear_01_run(const term *k, const bound_piece *p) {
-    const term x = divisor(k, &p->d, p);
-    const term share = over(&k[SCALE], &x, range_quotient(p->eye, k[PRODUCT].exact), TERM_SINGLE);
-    return times(&k[PRODUCT], &share, TERM_SINGLE);
-}
-
-enum { NEAR = 0, WIDTH = 3 }; /* where PRODUCT and SCALE are */
-
-static void linear_01_near_constants(const dp_setup *setup, term *k) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
-    linear_01_constants(setup, k);
-    k[NEAR] = term_constant(n, TERM_SINGLE);
-    k[WIDTH] = term_constant(f - n, TERM_SINGLE);
-}
-
-static term linear_01_near_run(const term *k, const bound_piece *p) {
-    const range f = range_sum(k[NEAR].exact, k[WIDTH].exact), x_exact = range_product(f, p->inverse);
-    const term x = affine(&k[BASE], &k[SLOPE], &p->d, x_exact, TERM_SINGLE);
-    const term away = p->reversed ? rest_of(p, TERM_SINGLE) : p->d;
-    const term share = over(&away, &x, range_quotient(away.exact, x_exact), TERM_SINGLE);
-    return affine(&k[NEAR], &k[WIDTH], &share, p->eye, TERM_SINGLE);
-}
-
-/* ---- A Newton step ----------------------------------------------------------------------------------------------- */
-
-/* y (2 - x y) for y = (1 + e)/x is (1 - e^2)/x. Of x y and 2 - x y one is below 1 and one above: 1.5 units. */
-static term newton_step(const term *x, double off, double square) {
-    const term one = term_exact(1);
-    const double rounded = 1.5 * DP_UNIT * (1 + off);
-    const term exact = term_quotient(&one, x, (range){0, (double)INFINITY});
-    return term_rounded(term_scaled(&exact, (range){-square - rounded, rounded}), TERM_SINGLE);
-}
-
-static term newton_run(const term *k, const bound_piece *p) {
-    const term q = toward_near(p, TERM_SINGLE), x = divisor(k, &q, p);
-    const term y = newton_step(&x, ESTIMATE_WORST, ESTIMATE_WORST * ESTIMATE_WORST);
-    return times(&k[PRODUCT], &y, TERM_SINGLE);
-}
-
-static term magic_run(const term *k, const bound_piece *p) {
-    const term x = divisor(k, &p->d, p);
-    return newton_step(&x, magic_off, magic_square);
-}
-
-/* ---- In double --------------------------------------------------------------------------------------------------- */
+/* ---- Constants --------------------------------------------------------------------------------------------------- */
 
 /* What a + b leaves of the exact sum (Knuth). */
 static double left_of_sum(double a, double b) {
@@ -158,53 +70,146 @@ static double left_of_sum(double a, double b) {
     return (a - (s - v)) + (b - v);
 }
 
-static void double_constants(const dp_setup *setup, term *k) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
-    k[PRODUCT] = term_apart(n * f, fma(n, f, -(n * f)));
-    k[BASE] = term_exact(setup->reversed ? n : f);
-    k[SLOPE] = setup->reversed ? term_apart(f - n, left_of_sum(f, -n)) : term_apart(n - f, left_of_sum(n, -f));
+/* Those of binary64 stand for what is known of them: products and sums of the planes. */
+static term constant_of(const steps *s, int index, double n, double f, bool wide) {
+    const steps_node *of = &s->node[index];
+    const double value = steps_value(s, index, n, f);
+    const double a = of->of[0] < 0 ? 0 : steps_value(s, of->of[0], n, f);
+    const double b = of->of[1] < 0 ? 0 : steps_value(s, of->of[1], n, f);
+    if (of->kind == STEPS_NUMBER || (wide && of->kind == STEPS_NAME))
+        return term_exact(value);
+    if (wide && of->kind == STEPS_PRODUCT)
+        return term_apart(value, fma(a, b, -value));
+    if (wide && of->kind == STEPS_DIFFERENCE)
+        return term_apart(value, left_of_sum(a, -b));
+    return term_constant(value, wide ? TERM_DOUBLE : TERM_SINGLE);
 }
 
-static term double_run(const term *k, const bound_piece *p) {
-    const term x = affine(&k[BASE], &k[SLOPE], &p->d, range_product(k[PRODUCT].exact, p->inverse), TERM_DOUBLE);
-    return term_rounded(over(&k[PRODUCT], &x, p->eye, TERM_DOUBLE), TERM_SINGLE);
+void bound_begin(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how, bound_walk *w) {
+    const bool reversed = setup->reversed != 0;
+    const steps *k = &w->constants;
+    w->row = row;
+    w->how = how;
+    w->constants.count = 0;
+    if (row->steps[reversed] == NULL)
+        return;
+    steps_read(row->constants[reversed], &w->constants);
+    steps_read(row->steps[reversed], &w->steps);
+    for (int i = 0; i < k->count; i++)
+        w->known[i] = (bound_known){k->step[i].name,
+                                    constant_of(k, k->step[i].is, setup->spec.znear, setup->spec.zfar, row->wide)};
 }
 
-enum { PHI = SLOPE };
+/* ---- In exact arithmetic ----------------------------------------------------------------------------------------- */
 
-static void phi_constants(const dp_setup *setup, term *k) {
-    k[PRODUCT] = term_exact(setup->spec.znear);
-    k[PHI] = term_constant(setup->spec.znear / setup->spec.zfar, TERM_DOUBLE);
+static const bound_known *find(const bound_walk *w, const char *name) {
+    int i = 0;
+    while (strcmp(w->known[i].name, name) != 0)
+        i++;
+    return &w->known[i];
 }
 
-static term phi_run(const term *k, const bound_piece *p) {
-    const term q = rest_of(p, TERM_DOUBLE);
-    const range exact = range_product(k[PRODUCT].exact, p->inverse);
-    const term x =
-        p->reversed ? affine(&p->d, &k[PHI], &q, exact, TERM_DOUBLE) : affine(&q, &k[PHI], &p->d, exact, TERM_DOUBLE);
-    return term_rounded(over(&k[PRODUCT], &x, p->eye, TERM_DOUBLE), TERM_SINGLE);
+static range exact_of(const bound_walk *w, int index, const bound_piece *p) {
+    const steps_node *of = &w->steps.node[index];
+    if (of->kind == STEPS_NUMBER)
+        return (range){of->value, of->value};
+    if (of->kind == STEPS_NAME)
+        return strcmp(of->name, "z") == 0   ? p->eye
+               : strcmp(of->name, "i") == 0 ? p->inverse
+               : strcmp(of->name, "s") == 0 ? p->near
+                                            : find(w, of->name)->term.exact;
+    const range a = exact_of(w, of->of[0], p), b = exact_of(w, of->of[1], p);
+    return of->kind == STEPS_PRODUCT    ? range_product(a, b)
+           : of->kind == STEPS_QUOTIENT ? range_quotient(a, b)
+           : of->kind == STEPS_SUM      ? range_sum(a, b)
+                                        : range_outward(a.lo - b.hi, a.hi - b.lo);
 }
 
-static void no_constants(const dp_setup *setup, term *k) {
-    (void)setup;
-    (void)k;
+/* ---- As they are computed ---------------------------------------------------------------------------------------- */
+
+static const range any = {-(double)INFINITY, (double)INFINITY};
+
+static term rounded(const bound_walk *w, const term *t, double halves) {
+    return term_rounded(t, w->row->wide ? TERM_DOUBLE : TERM_SINGLE, halves, w->how->flushes);
 }
 
-/* Pairs leave 70 squares of a unit, see depthprec(7), and one rounding. */
-static term pair_run(const term *k, const bound_piece *p) {
-    (void)k;
-    return term_rounded(term_within(p->eye, (range){-0x1p-41, 0x1p-41}), TERM_SINGLE);
+static term computed(const bound_walk *w, int index, const range *exact);
+
+/* A product that is added, which may not be rounded at all: then it keeps its finer grid. */
+static term summand(const bound_walk *w, int index) {
+    const steps_node *of = &w->steps.node[index];
+    term t = computed(w, index, &any);
+    if (of->kind == STEPS_PRODUCT && w->how->contracts) {
+        const term a = computed(w, of->of[0], &any), b = computed(w, of->of[1], &any), whole = term_product(&a, &b);
+        t.grid = whole.grid < t.grid ? whole.grid : t.grid;
+    }
+    return t;
 }
 
-const bound_steps bound_unity = {unity_constants, by_d};
-const bound_steps bound_complement_unity = {complement_unity_constants, by_share};
-const bound_steps bound_linear_01 = {linear_01_constants, linear_01_run};
-const bound_steps bound_linear_01_near = {linear_01_near_constants, linear_01_near_run};
-const bound_steps bound_textbook = {textbook_constants, by_d};
-const bound_steps bound_fused = {textbook_constants, fused_run};
-const bound_steps bound_complement = {complement_constants, by_share};
-const bound_steps bound_newton = {complement_constants, newton_run};
-const bound_steps bound_magic = {unity_constants, magic_run};
-const bound_steps bound_double = {double_constants, double_run};
-const bound_steps bound_phi = {phi_constants, phi_run};
-const bound_steps bound_pair = {no_constants, pair_run};
+/* y (2 - x y) for y = (1 + e)/x is (1 - e^2)/x. Of x y and 2 - x y one is below 1 and one above: 1.5 units. */
+static term newton(const bound_walk *w, const term *x, const char *seed) {
+    const bool magic = strcmp(seed, "magic") == 0;
+    const double off = magic ? 0.05052 : ESTIMATE_WORST, square = magic ? 2.552e-3 : off * off;
+    const term one = term_exact(1);
+    const double each = 1.5 * DP_UNIT * w->how->rounding * (1 + off);
+    const term exact = term_quotient(&one, x, (range){0, (double)INFINITY});
+    const term t = term_scaled(&exact, (range){-square - each, each});
+    return rounded(w, &t, w->how->rounding);
+}
+
+static const char *seed_of(const bound_walk *w, const char *name) {
+    int i = 0;
+    while (strcmp(w->steps.step[i].name, name) != 0)
+        i++;
+    return w->steps.node[w->steps.step[i].is].name;
+}
+
+static term called(const bound_walk *w, const steps_node *of, const range *exact) {
+    const term a = computed(w, of->of[0], &any);
+    if (strcmp(of->name, "newton") == 0)
+        return newton(w, &a, seed_of(w, w->steps.node[of->of[1]].name));
+    if (strcmp(of->name, "fma") != 0) /* an estimate, which newton() knows */
+        return a;
+    const term b = computed(w, of->of[1], &any), c = computed(w, of->of[2], &any), m = term_product(&a, &b);
+    const term t = term_sum(&c, &m, *exact);
+    return rounded(w, &t, w->how->rounding);
+}
+
+static term computed(const bound_walk *w, int index, const range *exact) {
+    const steps_node *of = &w->steps.node[index];
+    if (of->kind == STEPS_NUMBER)
+        return term_exact(of->value);
+    if (of->kind == STEPS_NAME)
+        return find(w, of->name)->term;
+    if (of->kind == STEPS_CALL)
+        return called(w, of, exact);
+    const bool sum = of->kind == STEPS_SUM || of->kind == STEPS_DIFFERENCE;
+    const term a = sum ? summand(w, of->of[0]) : computed(w, of->of[0], &any);
+    term b = sum ? summand(w, of->of[1]) : computed(w, of->of[1], &any), t;
+    if (of->kind == STEPS_DIFFERENCE) {
+        const term minus = term_exact(-1);
+        b = term_product(&minus, &b);
+    }
+    t = sum                         ? term_sum(&a, &b, *exact)
+        : of->kind == STEPS_PRODUCT ? term_product(&a, &b)
+                                    : term_quotient(&a, &b, *exact);
+    return rounded(w, &t, of->kind == STEPS_QUOTIENT ? w->how->division : w->how->rounding);
+}
+
+term bound_run(bound_walk *w, const bound_piece *p) {
+    int count = w->constants.count;
+    if (w->row->steps[p->reversed] == NULL) {
+        const double off = w->how->rounding == 1 && !w->how->contracts ? w->row->off : (double)INFINITY;
+        const term pairs = term_within(p->eye, (range){-off, off});
+        return term_rounded(&pairs, TERM_SINGLE, 1, false);
+    }
+    w->known[count++] = (bound_known){"d", p->d};
+    for (int i = 0; i < w->steps.count; i++) {
+        const int exact = w->steps.step[i].exact;
+        const range is = exact < 0 ? any : exact_of(w, exact, p);
+        const term t = computed(w, w->steps.step[i].is, &is);
+        w->known[count++] = (bound_known){w->steps.step[i].name, t};
+    }
+    const term *z = &w->known[count - 1].term;
+    return w->row->wide ? term_rounded(z, TERM_SINGLE, 1, false) : *z;
+}

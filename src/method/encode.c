@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "core/bits.h"
+#include "method/bound.h"
 #include "method/method.h"
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -103,6 +104,15 @@ static void engine_run(const method_call *c) {
         c->out->code[i] = dp_format_encode(&c->setup->spec.format, c->setup->spec.rounding, (double)c->in->d[i]);
 }
 
+/* As texts, for the code that is printed of them. */
+static const bound_steps floor_steps = {.constants = {"M = most; H = 1/2", "M = most; H = 1/2"},
+                                        .steps = {"k = whole(d*M + H)", "k = whole(d*M + H)"}};
+static const bound_steps rint_steps = {.constants = {"M = most", "M = most"},
+                                       .steps = {"k = whole(even(d*M))", "k = whole(even(d*M))"}};
+static const bound_steps double_steps = {.wide = true,
+                                         .constants = {"M = most; H = 1/2", "M = most; H = 1/2"},
+                                         .steps = {"k = whole(d*M + H)", "k = whole(d*M + H)"}};
+
 #define ANY (METHOD_INFINITE | METHOD_ORTHO)
 static const char clause[] = "D3D 11.3 functional specification 3.2.3.6";
 
@@ -114,11 +124,11 @@ static const method_row methods[] = {
      {NOWHERE, FULL(0.5 + 0x1p-9), UNCLAIMED}, ANY, 0.2, "1", 0, "", .run = magic_run},
     {METHOD_ENCODE, "floor",
      "UNORM: floor(fl(fl(d M) + 0.5)) in binary32; with 24 bits d = 1 becomes 2^24, which is no code",
-     {NOWHERE, FULL(0.5 + 0x1p-9), UNCLAIMED}, ANY, 0.25, "1", 0, clause, .run = floor_run},
+     {NOWHERE, FULL(0.5 + 0x1p-9), UNCLAIMED}, ANY, 0.25, "1", 0, clause, .run = floor_run, .bound = &floor_steps},
     {METHOD_ENCODE, "rint", "UNORM: fl(d M) in binary32, ties to even",
-     {NOWHERE, FULL(0.5 + 0x1p-9), FULL(0.75)}, ANY, 0.4, "1", 0, "", .run = rint_run},
+     {NOWHERE, FULL(0.5 + 0x1p-9), FULL(0.75)}, ANY, 0.4, "1", 0, "", .run = rint_run, .bound = &rint_steps},
     {METHOD_ENCODE, "floor-double", "UNORM: floor(d M + 0.5) in double: d M is exact, ties go up",
-     {NOWHERE, FULL(0.5), FULL(0.5)}, ANY, 0.6, "1", 0, clause, .run = double_run},
+     {NOWHERE, FULL(0.5), FULL(0.5)}, ANY, 0.6, "1", 0, clause, .run = double_run, .bound = &double_steps},
     {METHOD_ENCODE, "bits", "fp16 by integer arithmetic on the bits, ties to even",
      {FULL(0.5)}, ANY, 0.7, "1", 0, "", .run = bits_run},
     {METHOD_ENCODE, "table", "fp16 by a table of bases and shifts, truncated",
@@ -141,17 +151,17 @@ static bool encode_error_at(const method_call *c, size_t i, method_error *error)
         *error = (method_error){(double)INFINITY, (double)INFINITY, (double)INFINITY};
         return true;
     }
-    double steps;
+    double count;
     if (f->kind == DP_FORMAT_UNORM) {
-        steps = fabs(d * f->code_max - code);
+        count = fabs(d * f->code_max - code);
     } else {
         uint32_t below = dp_format_encode(f, DP_ROUND_ZERO, d);
         below -= below == f->code_max;
         double base = dp_format_value(f, below);
-        steps = fabs(d - dp_format_value(f, code)) / (dp_format_value(f, below + 1) - base);
+        count = fabs(d - dp_format_value(f, code)) / (dp_format_value(f, below + 1) - base);
     }
     double off = fabs(dp_format_value(f, code) - d);
-    *error = (method_error){off, d > 0 ? off / d : off > 0 ? (double)INFINITY : 0, steps};
+    *error = (method_error){off, d > 0 ? off / d : off > 0 ? (double)INFINITY : 0, count};
     return true;
 }
 

@@ -125,7 +125,8 @@ struct method_row {
      */
     method_run *timed;
     bool (*available)(void);         /**< null: on every processor */
-    const struct bound_steps *bound; /**< linearize: what is proven for the camera at hand; null: nothing is */
+    const struct bound_steps *bound; /**< its operations: of linearize what is proven for the camera at hand comes from
+                                      them; null: it has no text */
     /** What is measured, where it is a row of the room texture. */
     const decode_row *decode;
     const position_row *position;

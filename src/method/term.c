@@ -3,7 +3,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdbool.h>
 
 #include "core/bits.h"
 
@@ -154,8 +153,12 @@ term term_product(const term *a, const term *b) {
 
 term term_quotient(const term *a, const term *b, range exact) {
     term t = {exact, without_end, either(a->share, b->share), FINEST};
+    const range computed = range_sum(b->exact, b->off);
     if (!has_zero(b->exact))
         t.exact = within(exact, range_quotient(a->exact, b->exact));
+    if (!has_zero(computed) &&
+        has_end(b->share)) /* a.off/(b + b.off), and what the divisor's share makes of the rest */
+        t.off = range_sum(range_quotient(a->off, computed), range_product(t.exact, either((range){0, 0}, b->share)));
     cut(&t);
     return t;
 }
@@ -178,31 +181,35 @@ static double power_of_two(int e) {
 }
 
 /* What rounding moves a number by that is at most x: half a step below the power of two under x; above it half a step
- * there, but not more than the way back. */
-static double half_step(double x, int bits, int least) {
+ * there, but not more than the way back, unless to `either` neighbour. */
+static double half_step(double x, int bits, int least, bool either) {
     const int top = binade(x), step = top - bits > least - 1 ? top - bits : least - 1;
     const double power = power_of_two(top), full = power_of_two(step), below = step > least - 1 ? full / 2 : full;
-    return greater(below, lesser(full, x - power));
+    return either ? full : greater(below, lesser(full, x - power));
 }
 
-term term_rounded(term t, int bits) {
+term term_rounded(const term *a, int bits, double halves, bool flushes) {
     const int least = bits == TERM_SINGLE ? -149 : -1074;
     const double most_finite = bits == TERM_SINGLE ? (double)FLT_MAX : DBL_MAX;
+    term t = *a;
     const range before = range_sum(t.exact, t.off);
     const double most = greater(fabs(before.lo), fabs(before.hi));
     const double fewest = has_zero(before) ? 0 : lesser(fabs(before.lo), fabs(before.hi));
     if (!(most < most_finite))
         return (term){t.exact, without_end, without_end, FINEST};
     const int step = fewest > 0 && binade(fewest) - bits + 1 > least ? binade(fewest) - bits + 1 : least;
-    const bool fits = t.grid >= least && most <= power_of_two(bits + t.grid);
-    if (fits || most == 0) /* nothing is lost */
+    const bool fits = halves <= 2 && t.grid >= least && most <= power_of_two(bits + t.grid);
+    const bool lost = flushes && fewest < (double)FLT_MIN;
+    if (!lost && (fits || most == 0)) /* nothing is lost */
         return t;
-    const double e = half_step(most, bits, least), unit = power_of_two(-bits);
+    const double half = half_step(most, bits, least, halves > 1), unit = halves * power_of_two(-bits);
+    const double e = halves * half + (lost ? (double)FLT_MIN : 0);
     const double by_step = fewest > 0 ? e / fewest * (1 + 0x1p-50) : (double)INFINITY;
-    const double relative = step > least ? lesser(unit / (1 + unit) * (1 + 0x1p-50), by_step) : by_step;
+    const double relative =
+        step > least && !lost ? lesser(unit / (halves > 1 ? 1 : 1 + unit) * (1 + 0x1p-50), by_step) : by_step;
     t.off = range_sum(t.off, (range){-e, e});
     t.share = both(t.share, (range){-relative, relative});
-    t.grid = t.grid > step ? t.grid : step;
+    t.grid = halves > 2 ? FINEST : t.grid > step ? t.grid : step;
     cut(&t);
     return t;
 }

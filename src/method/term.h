@@ -10,6 +10,8 @@
 #ifndef METHOD_TERM_H
 #define METHOD_TERM_H
 
+#include <stdbool.h>
+
 typedef struct range {
     double lo, hi;
 } range;
@@ -41,8 +43,9 @@ term term_product(const term *a, const term *b);
 term term_quotient(const term *a, const term *b, range exact);
 /** Multiplied by 1 + s, for an s in `by`. */
 term term_scaled(const term *a, range by);
-/** Rounded to the nearest number of binary32 or binary64. */
-term term_rounded(term a, int bits);
+/** Rounded to binary32 or binary64: off by at most `halves` half units in the last place, 1 for to nearest. Up to 2
+ * what fits is not rounded. A result below 2^-126 may become 0 where that `flushes`. */
+term term_rounded(const term *a, int bits, double halves, bool flushes);
 
 /** Of ranges of numbers: rounded outward. */
 range range_outward(double lo, double hi);

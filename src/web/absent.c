@@ -27,6 +27,7 @@ static int absent(const options *o) {
     }
 
 ABSENT(cmd_check)
+ABSENT(cmd_code)
 ABSENT(cmd_completions)
 ABSENT(cmd_judge)
 ABSENT(cmd_methods)

@@ -102,6 +102,9 @@ typedef enum option_id {
     OPTION_EMIT_NEED,
     OPTION_DEVICE,
     OPTION_KEEP,
+    OPTION_LANGUAGE,
+    OPTION_WHAT,
+    OPTION_UNIFORMS,
     OPTION_PAIRS,
     OPTION_PAIRS_FOR,
     OPTION_MATRIX,
@@ -278,6 +281,12 @@ typedef struct options_probe {
     const char *keep;   /**< file of raw codes; null when not given */
 } options_probe;
 
+typedef struct options_code {
+    const struct code_language *language;
+    unsigned what; /**< linearize, projection: in the order of the names */
+    bool uniforms;
+} options_code;
+
 typedef struct options_judge {
     const char *pairs; /**< file of pairs; null when not given */
     unsigned depths;   /**< how many are printed to ask for; 0 when not given */
@@ -364,6 +373,7 @@ typedef struct options {
     options_census census;
     options_probe probe;
     options_judge judge;
+    options_code code;
     options_shadow shadow;
     options_image image;
     options_figure figure;

@@ -39,6 +39,9 @@ static const name_list targets = {
 static const name_list themes = {.words = (const char *const[]){"light", "dark", "print", NULL}};
 static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
 static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
+static const name_list languages = {.get = list_language};
+static const name_list code_parts = {.words =
+                                         (const char *const[]){"linearize", "projection", "encode", "position", NULL}};
 static const name_list reports = {.words = (const char *const[]){"text", "json", "junit", NULL}};
 
 /* The field of an option; one of another type than its kind reads does not compile. Whole numbers have several widths.
@@ -272,6 +275,16 @@ const option_row option_rows[OPTION_COUNT] = {
         .without = "the first Vulkan device that is not a CPU", .group = "The GPU"},
     [OPTION_KEEP] = {"keep", 0, "FILE",
         "write a CSV of every stored code beside what was drawn", FILE_WRITTEN(probe.keep)},
+    [OPTION_LANGUAGE] = {"language", 0, NULL,
+        "the language: @; 'depthprec list languages' has what each promises of its arithmetic",
+        ROW(code.language, languages), .standard = "glsl", .group = "The code"},
+    [OPTION_WHAT] = {"what", 0, NULL,
+        "linearize: eye depths of window depths; projection: the matrix; encode: codes of --format; position: places "
+        "of pixels in view space",
+        WORD(code.what, code_parts),
+        .standard = "linearize"},
+    [OPTION_UNIFORMS] = {"uniforms", 0, NULL,
+        "constants of the camera are parameters of the function", FLAG(code.uniforms)},
     [OPTION_PAIRS] = {"pairs", 0, "FILE",
         "what went into the function and what came out, two columns: CSV, or npy", FILE_READ(judge.pairs),
         .group = "Code of your own"},

@@ -242,6 +242,13 @@ const option_use probe_uses[] = {
     OWN(SEED, HELP("seed of the random scene that is predicted"), DEFAULT("0")),
     TAKE(DEVICE), TAKE(KEEP), GROUP(written), END};
 
+const option_use code_uses[] = {
+    OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, HELP(PERSPECTIVE), DEFAULT("reversed")),
+    OWN(FOV, ALSO("of a matrix and of places")),
+    OWN(VIEWPORT, HELP("the pixels of the view, of a matrix their shape"), DEFAULT("1920x1080")),
+    TAKE(LANGUAGE), TAKE(WHAT), TAKE(UNIFORMS), TAKE(HFOV), TAKE(PLATFORM), GROUP(camera),
+    TAKE(OUTPUT), TAKE(QUIET), END};
+
 const option_use judge_uses[] = {
     OWN(NEAR, WITHOUT("with no --far either: the planes that fit; else 0.1")),
     OWN(FAR, WITHOUT("with no --near either: the planes that fit; else 1000")),

@@ -94,7 +94,7 @@ static bool is_slanted(const options *o, const option_use *viewport) {
            option_given(o, OPTION_EYE) || option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
 }
 
-/* Of constants the viewport is the shape of the view alone: nothing slants. */
+/* Of constants and code the viewport is the shape of the view alone: nothing slants. */
 static int take_shape(options *o) {
     o->view.spec.width = (uint32_t)o->camera.triangles.width;
     o->view.spec.height = (uint32_t)o->camera.triangles.height;
@@ -103,7 +103,7 @@ static int take_shape(options *o) {
 }
 
 int slant_complete(options *o) {
-    if (o->wanted.constants)
+    if (o->wanted.constants || o->command->id == CMD_CODE)
         return take_shape(o);
     const option_use *viewport = option_used(o->command, o->parts, OPTION_VIEWPORT);
     if (viewport == NULL || !is_slanted(o, viewport))

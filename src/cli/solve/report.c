@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/setups.h"
 #include "cli/slant.h"
 #include "cli/solve/report.h"
 #include "core/append.h"
@@ -325,4 +326,6 @@ void solve_report_answer(page *p, void *item) {
         page_note(p, "cost", "%s", c->price.effort);
     say_beside(r, c, p);
     slant_say(p, page_line, r->o, &(dp_setup){.spec = c->spec});
+    if (c->possible)
+        setup_say_code(p, &c->spec);
 }

@@ -1,0 +1,235 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Code to take away, as others take it: glslangValidator and spirv-val, python3 with numpy, Gappa, where they are
+# installed. WGSL, MSL and FPCore are looked at by their structure alone: nothing here compiles them.
+. tests/tap.sh
+
+methods='magic unity complement-unity linear-01 linear-01-near textbook complement fused double phi-double floor:unorm16 rint:unorm24 floor-double:unorm24'
+cameras='d3d:0.1:1000 gl-reversed:0.3:inf' least=20
+[ -z "${DEPTHPREC_FULL-}" ] || cameras="$cameras reversed:0.1:1000 gl:3:500 gl-reversed:0.25:64 d3d:0.3:inf" least=60
+
+code() { "$DEPTHPREC" code "$@"; }
+
+# Every function of a language for every camera, and the matrix: in $scratch/all. What a language lacks is refused.
+each() { # each LANGUAGE COMMAND: runs COMMAND FILE for each
+    language=$1 count=0
+    shift
+    for camera in $cameras; do
+        at="-m ${camera%%:*} -n $(echo "$camera" | cut -d: -f2) -f ${camera##*:} --language $language"
+        for method in $methods; do
+            for uniforms in '' --uniforms; do
+                code "${method%:*}" $at $uniforms $(echo "$method" | sed -n 's/.*:/--what encode -F /p') >"$scratch/code" 2>"$scratch/refused" || {
+                    [ $? -eq 2 ] && grep -qE "is not in $language: it |--uniforms: conflicts" "$scratch/refused" && continue
+                    cat "$scratch/refused"
+                    return 1
+                }
+                count=$((count + 1))
+                "$@" || { echo "$at $method $uniforms" && cat "$scratch/code" && return 1; }
+            done
+        done
+    done
+    [ $count -ge $least ] || { echo "only $count" && return 1; }
+}
+
+called() { sed -n 's/.*\(depth_code\|eye_depth\)(.*/\1/p' "$scratch/code"; }
+
+arguments() { # the uniforms' numbers, as the comments have them
+    sed -n 's/^[/#]* [A-Za-z] = .* = \(.*\)$/, \1/p' "$scratch/code" | tr -d '\n'
+}
+
+glsl() {
+    { echo '#version 450
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) buffer Values { float values[]; };'
+        cat "$scratch/code"
+        code --what projection --language glsl
+        echo "void main() { vec4 clip = projection * vec4(1.0); values[0] = $(called | head -n 1)(values[1]$(arguments)) + clip.w; }"
+    } >"$scratch/code.comp"
+    glslangValidator -V -o "$scratch/code.spv" "$scratch/code.comp" && spirv_val
+}
+
+hlsl() {
+    { echo 'RWStructuredBuffer<float> values;'
+        cat "$scratch/code"
+        code --what projection --language hlsl
+        echo "[numthreads(1, 1, 1)] void main() {
+            values[0] = $(called | head -n 1)(values[1]$(arguments)) + mul(projection, float4(1, 1, 1, 1)).w; }"
+    } >"$scratch/code.hlsl"
+    glslangValidator -D -V -S comp -e main -o "$scratch/code.spv" "$scratch/code.hlsl" && spirv_val
+}
+
+spirv_val() { ! command -v spirv-val >/dev/null || spirv-val "$scratch/code.spv"; }
+
+if command -v glslangValidator >/dev/null; then
+    check "glslangValidator takes every GLSL" each glsl glsl
+    check "glslangValidator takes every HLSL" each hlsl hlsl
+    command -v spirv-val >/dev/null || skip "spirv-val" "no spirv-val here"
+else
+    skip "GLSL and HLSL" "no glslangValidator here"
+fi
+
+# Parentheses and braces close, names are bound before they are used, and literals have the language's form.
+structure() {
+    awk -v language="$language" '
+        /^ *(\/\/|;)/ { next }
+        { sub(/ \/\/.*/, "")
+          for (i = 1; i <= length($0); i++) {
+              c = substr($0, i, 1)
+              depth += c ~ /[({]/ ? 1 : c ~ /[)}]/ ? -1 : 0
+              if (depth < 0) exit bad = 1
+          }
+          if (language == "wgsl" && /[0-9]\.[0-9]+[^0-9ef]/) exit bad = 1
+          if (language == "wgsl" && !/^fn (eye_depth|depth_code)\(d: f32(, [A-Za-z]: f32)*\) -> [fu]32 \{$|^    (let|const) [A-Za-z] = .*;$|^    return .*;$|^}$/) exit bad = 1
+          if (language == "msl" && !/^(float eye_depth|uint depth_code)\(float d(, float [A-Za-z])*\) \{$|^    const float [A-Za-z] = .*;$|^    return .*;$|^}$/) exit bad = 1
+          all = all $0 }
+        END { exit bad || depth != 0 || all == "" }' "$scratch/code"
+}
+check "every WGSL has its structure" each wgsl structure
+check "every MSL has its structure" each msl structure
+least=$((least / 2))
+check "every FPCore has its structure" each fpcore structure
+
+# What Gappa proves of the script is what the comment of it says.
+proof() {
+    said=$(sed -n 's/.*off by at most \([^ ]*\) of.*/\1/p' "$scratch/code")
+    grep -q z_exact "$scratch/code" || return
+    [ -n "$said" ] || return 0
+    gappa "$scratch/code" 2>&1 | awk -F'[{,]' -v said="$said" '/z -\/ z_exact in \[/ {
+        lo = -$2; for (i = 3; i <= NF; i++) if ($i ~ /^-?[0-9.]+(e-?[0-9]+)?$/) hi = $i
+        proven = lo > hi ? lo : hi; found = 1 }
+        END { if (!found || !(said <= 1.6 * proven) || !(proven <= 1.5 * said)) { print proven, said; exit 1 } }'
+}
+if command -v gappa >/dev/null; then
+    check "Gappa proves what its scripts say" each gappa proof
+else
+    skip "what Gappa proves" "no gappa here"
+fi
+
+# The same numbers as C gives, whose bits test_languages has looked at.
+same_numbers() {
+    code "$1" -m "$2" --language c | { echo '#include <math.h>
+#include <stdint.h>
+#include <stdio.h>'
+        cat
+        printf '%s\n' 'int main(void) { for (int i = 0; i <= 64; i++)
+            printf("%.9g\n", (double)eye_depth(i / 64.0f)); return 0; }'
+    } >"$scratch/c.c"
+    $CC -ffp-contract=off -o "$scratch/c" "$scratch/c.c" -lm && "$scratch/c" >"$scratch/by-c" || return
+    { code "$1" -m "$2" --language numpy
+        echo 'for x in eye_depth(np.arange(65, dtype=np.float32) / np.float32(64)): print("%.9g" % x)'
+    } >"$scratch/printed.py"
+    python3 "$scratch/printed.py" >"$scratch/by-numpy" &&
+        diff "$scratch/by-c" "$scratch/by-numpy"
+}
+if python3 -c 'import numpy' 2>/dev/null; then
+    for method in magic unity linear-01-near complement double; do
+        for mapping in d3d reversed; do
+            check "numpy has the bits of C: $method, $mapping" same_numbers $method $mapping
+        done
+    done
+else
+    skip "numpy" "no numpy here"
+fi
+
+# With uniforms it is the same function of the numbers that its comments say.
+main='int main(void) { for (int i = 0; i <= 999; i++) printf("%a\\n", (double)CALL); return 0; }'
+same_uniforms() {
+    for method in $methods; do
+        of=$(echo "$method" | sed -n 's/.*:/--what encode -F /p')
+        for uniforms in '' --uniforms; do
+            code "${method%:*}" -m d3d -n 0.3 -f 77 --language c $uniforms $of >"$scratch/code" || return
+            [ -n "$(called)" ] || return
+            { printf '#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n'
+                cat "$scratch/code"
+                echo "$main" | sed "s/CALL/$(called)(i \/ 999.0f$(arguments))/"
+            } >"$scratch/c.c"
+            $CC -ffp-contract=off -o "$scratch/c" "$scratch/c.c" -lm && "$scratch/c" >"$scratch/of$uniforms" || return
+        done
+        cmp "$scratch/of" "$scratch/of--uniforms" || return
+    done
+}
+check "uniforms make the same function" same_uniforms
+
+# Matrices by hand: near 1, far 3, 90 degrees, so that all entries are short. A: f/(f - n) = 1.5, n/(f - n) = 0.5.
+matrix() { # matrix OPTIONS ROWS: rows, then what a constructor by columns has
+    code --what projection --language "$1" -m "$2" -n 1 -f "$3" --fov 90 --viewport 100x100 >"$scratch/matrix" || return
+    awk '/^(\/\/|#)  / { print $2 + 0, $3 + 0, $4 + 0, $5 + 0 }' "$scratch/matrix" | paste -sd, - >"$scratch/comment"
+    awk '/^    / { gsub(/[,f]/, ""); print $1 + 0, $2 + 0, $3 + 0, $4 + 0 }' "$scratch/matrix" | paste -sd, - >"$scratch/built"
+    [ "$4" = "$(cat "$scratch/comment")" ] && [ "$5" = "$(cat "$scratch/built")" ] && return
+    cat "$scratch/matrix"
+    return 1
+}
+rows() { echo "1 0 0 0,0 1 0 0,0 0 $1 $2,0 0 -1 0"; }
+columns() { echo "1 0 0 0,0 1 0 0,0 0 $1 -1,0 0 $2 0"; }
+by_hand() { # by_hand LANGUAGE...: all of them
+    while read -r mapping far a b; do
+        for language; do
+            case $language in
+            hlsl | numpy) matrix $language $mapping $far "$(columns $a $b)" "$(rows $a $b)" || return ;;
+            *) matrix $language $mapping $far "$(rows $a $b)" "$(columns $a $b)" || return ;;
+            esac
+        done
+    done <<END
+d3d 3 -1.5 -1.5
+reversed 3 0.5 1.5
+gl 3 -2 -3
+gl-reversed 3 2 3
+reversed inf 0 1
+d3d inf -1 -1
+gl inf -1 -2
+END
+}
+check "matrices by hand, in both orders" by_hand glsl hlsl wgsl msl c numpy
+
+# 90 degrees, 200 x 100 pixels: the centre of the last pixel of the first row is at 1.99 and 0.99 of the depth, of a
+# tenth of the picture at 0.2.
+place() {
+    code --what position "$@" --fov 90 --viewport 200x100 --language c >"$scratch/code" || return
+    { printf '#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n'
+        cat "$scratch/code"
+        echo 'static void say(float x, float y) { printf("%.4f %.4f ", (double)x, (double)y); }
+            int main(void) { const float z = eye_depth(0.25f);
+                say(view_x(199.5f, z) / z, view_y(0.5f, z) / z);
+                say(view_x(110, z) / z, view_y(60, z) / z);
+                printf("%.3f", (double)z); return 0; }'
+    } >"$scratch/c.c"
+    $CC -o "$scratch/c" "$scratch/c.c" -lm && [ "$("$scratch/c")" = '1.9900 0.9900 0.2000 -0.2000 4.000' ] || "$scratch/c"
+}
+check "places by hand" empty place -n 1 -f inf
+places() { # places LANGUAGE COMMAND: each language takes both functions
+    language=$1
+    code --what position --language "$1" >"$scratch/code" && sed -i 's/^.*eye_depth(d):.*$//' "$scratch/code" && "$2"
+}
+if command -v glslangValidator >/dev/null; then
+    check "GLSL of places" places glsl glsl
+    check "HLSL of places" places hlsl hlsl
+fi
+
+cleared() { code "$@" | grep -qE "^(//|#) Clear depth to $clear; nearer is $compare\.$"; }
+clear=0 compare=GREATER
+check "reversed depth is cleared to 0 and compared by GREATER" cleared -m reversed
+check "so is its matrix" cleared -m gl-reversed --what projection --language numpy
+clear=1 compare=LESS
+check "standard depth is cleared to 1 and compared by LESS" cleared -m d3d
+
+refused() { # refused WORDS OPTIONS
+    words=$1
+    shift
+    code "$@" >"$scratch/out" 2>"$scratch/refused"
+    [ $? -eq 2 ] && [ ! -s "$scratch/out" ] && grep -q -e "$words" "$scratch/refused" || { cat "$scratch/refused" && return 1; }
+}
+check "what a language lacks is refused with what it has" \
+    refused 'fused is not in hlsl: it .*; there are magic, unity,' fused --language hlsl
+check "so is binary64" refused 'double is not in wgsl: it computes in binary64; there are' double --language wgsl
+check "and a table" refused 'table-linear is not in c: it is no formula' table-linear --language c
+check "and what needs a far plane" refused 'textbook is not in glsl: it needs a finite far' textbook -f inf
+check "a method that is none" refused "METHOD must be one of magic, .*, got 'foo'" foo
+check "a matrix of a script" refused '--language: must be glsl, hlsl' --what projection --language gappa
+check "uniforms of a matrix" refused '--uniforms: conflicts' --what projection --uniforms
+check "uniforms of a proof" refused '--uniforms: conflicts with gappa' --uniforms --language gappa
+check "codes of floats" refused '--format: must be unormN' --what encode -F fp32
+check "codes by an instruction" refused 'f16c is not in glsl' f16c --what encode -F d16
+check "a mapping without a matrix" refused '--mapping: must be one of' -m log
+check "several cameras" refused 'must be one' -m d3d,reversed
+check "a method of a matrix" refused 'has no METHOD' unity --what projection
+finish
