@@ -344,7 +344,7 @@ static bool is_put_together(const image *img, const sensor_file *file, const sen
             multiples[q] += between != 0 && fmod(between, q) == 0;
     }
     for (int q = 2; q <= MOST; q++)
-        if (apart >= RUNS_LEAST && multiples[q] >= SENSOR_SHARE * (double)apart)
+        if (apart >= RUNS_LEAST && (double)multiples[q] >= SENSOR_SHARE * (double)apart)
             return true;
     return false;
 }
