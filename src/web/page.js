@@ -275,8 +275,8 @@ function buildSetup(index) {
         own[option] = input;
         return make("span", {}, make("label", { for: input.id }, `${label} `), input);
     };
-    const select = (option, label, list) => {
-        const items = list.map((name) => make("option", { value: name }, name || "scene units"));
+    const select = (option, label, list, none) => {
+        const items = list.map((name) => make("option", { value: name }, name || none));
         const input = make("select", { "data-option": option, id: `${option}-${letter}` }, ...items);
         input.addEventListener("change", () => change(option, input.value || null));
         own[option] = input;
@@ -294,6 +294,19 @@ function buildSetup(index) {
         });
         return make("div", { class: "length" }, text(option, label, STARTS[option]), slider);
     };
+    // A camera of an engine fills the fields with what the program says that it is.
+    const engines = JSON.parse(engine.run(["list", "presets", "--json"]).out).items;
+    const preset = select("preset", "Engine", ["", ...engines.map(({ name }) => name)], "any");
+    own.preset.addEventListener("change", () => {
+        const chosen = engines.find(({ name }) => name === own.preset.value);
+        const said = /near ([^,]+), far ([^,]+), ([^,]+), ([^,]+),.* scene in (\w+)/.exec(chosen?.camera ?? "");
+        if (said === null) return;
+        const [, near, far, mapping, format, scene] = said, setup = state.setups[index];
+        for (const [option, value] of Object.entries({ near, far, mapping, format })) setup.set(option, value);
+        if (choices("unit").includes(scene)) setup.set("unit", scene);
+        else setup.delete("unit");
+        fill();
+    });
     const ortho = make("input", { type: "checkbox", "data-option": "ortho", id: `ortho-${letter}` });
     ortho.addEventListener("change", () => change("ortho", ortho.checked ? "" : null));
     own.ortho = ortho;
@@ -317,10 +330,10 @@ function buildSetup(index) {
         make("div", { class: "row" }, select("model", "Model", choices("model")),
             select("arith", "Arithmetic", names("arithmetic"))),
         make("div", { class: "row" }, text("viewport", "Viewport", "1920x1080"), text("slant", "Slant", "0:90"),
-            text("at", "Depths", "1,10,100"), select("unit", "Unit", ["", ...choices("unit")])),
+            text("at", "Depths", "1,10,100"), select("unit", "Unit", ["", ...choices("unit")], "scene units")),
         make("label", { for: more.id }, "Further options, as the command has them"), more);
     details.open = matchMedia("(min-width: 60rem)").matches;
-    root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`),
+    root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`), make("div", { class: "row" }, preset),
         length("near", "Near"), length("far", "Far"),
         make("div", { class: "row" }, select("format", "Format", names("formats")),
             select("mapping", "Mapping", names("mappings")),
@@ -371,7 +384,8 @@ function fill() {
         }
         showSliders(index);
         own.ortho.checked = setup.has("ortho");
-        rest.delete("ortho");
+        own.preset.value = setup.get("preset") ?? "";
+        for (const name of ["ortho", "preset"]) rest.delete(name);
         own.more.value = join(words(rest));
     });
     const two = state.setups.length > 1;

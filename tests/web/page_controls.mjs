@@ -53,6 +53,8 @@ const CONTROLS = [
     ["[data-option=format]", "unorm16", { "-F": "unorm16" }],
     ["[data-option=mapping]", "gl", { "-m": "gl" }],
     ["[data-option=ortho]", true, { "--ortho": "" }],
+    ["[data-option=preset]", "unity", { "--preset": "unity", "-n": "0.3", "-f": "1000", "-F": "fp32", "-m": "reversed" }],
+    ["[data-option=preset]", "unreal", { "--preset": "unreal", "-n": "10", "-f": "inf", "-F": "fp32", "-m": "reversed", "--unit": "cm" }],
     ["[data-option=model]", "float", { "--model": "float" }],
     ["[data-option=arith]", "fused", { "--model": "float", "--arith": "fused" }, [["[data-option=model]", "float"]]],
     ["[data-option=viewport]", "800x600", { "--viewport": "800x600" }],
