@@ -502,6 +502,7 @@ static bool take_parameter(maker *m, const char *from, const char *to, bool *has
     char value[VALUE_SIZE] = "depthprec_in[depthprec_i]";
     piece type, name;
     bool guessed;
+    from += strspn(from, " \t\r\n");
     read_parameter(from, to, &type, &name);
     const char *word = name.length > 0 && name.length < NAME_SIZE ? word_for(m, name, &guessed) : NULL;
     if (word == NULL && (*has_depth || !is_any(type, scalar)))
