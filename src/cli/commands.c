@@ -96,7 +96,7 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec plot pareto linearize -o pareto.svg\n"
      "  depthprec plot stability interval -o stability.svg\n",
      .group = "Methods and hardware"},
-    [CMD_JUDGE] = {"judge", CMD_JUDGE, judge_uses, "[FILE:FUNCTION]", 0, 1, NULL,
+    [CMD_JUDGE] = {"judge", CMD_JUDGE, judge_uses, "[FILE]", 0, 1, NULL,
      .summary = "what a function of yours computes, and what it loses",
      .example = "  depthprec judge depth.glsl:linearDepth -n 0.1 -f 1000 -F d24\n"
      "  depthprec judge fog.hlsl:EyeDepth --define _Planes=near_far -m reversed\n"

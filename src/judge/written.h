@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file written.h  A function in a shader file of somebody's, made a compute shader over depths: depths stand at binding
- * 0, values at binding 1, what it knows of the camera at binding 2.
+ * @file written.h  A function in a shader file of somebody's, made a compute shader over depths: depths stand at
+ * binding 0, values at binding 1, what it knows of the camera at binding 2.
  *
  * Of the file only what the function needs is left, on its lines; uniforms become variables that are read there.
  */

@@ -248,7 +248,8 @@ const option_use judge_uses[] = {
     OWN(FORMAT, DEFAULT("fp32")),
     OWN(MAPPING, HELP("what is right: @; all means d3d and reversed")),
     TAKE(PAIRS), TAKE(PAIRS_FOR), TAKE(DEFINE),
-    OWN(DEVICE, .argument = "N|NAME", HELP("the GPU that runs FILE: its number among the Vulkan devices, or part of its name")),
+    OWN(DEVICE, .argument = "N|NAME",
+        HELP("the GPU that runs FILE: its number among the Vulkan devices, or part of its name")),
     TAKE(LOG_C), GROUP(projected), GROUP(written), END};
 
 const option_use list_uses[] = {
