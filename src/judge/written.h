@@ -20,7 +20,7 @@ typedef struct written {
     unsigned lines;
     float constants[WRITTEN_CONSTANTS];
     size_t used;
-    bool camera; /**< some are of the camera */
+    bool camera;                     /**< some are of the camera */
     char defines[WRITTEN_TEXT_SIZE]; /**< "near = near (guessed), ..."; "": it knows nothing of a camera */
 } written;
 

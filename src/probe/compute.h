@@ -38,8 +38,8 @@ bool compute_look(compute_run *run, char error[COMPUTE_ERROR_SIZE]);
  * @param values   receives a file whose next numbers are the `count` values, for sandbox_close(); null where it fails
  * @param endless  whether it was ended
  */
-bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values,
-                    bool *endless, char error[COMPUTE_ERROR_SIZE]);
+bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values, bool *endless,
+                    char error[COMPUTE_ERROR_SIZE]);
 
 /** What the child does: values go to `out`. */
 bool shot_compute(const char *wanted, const compute_run *run, shot_machine *machine, FILE *out);

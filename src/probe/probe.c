@@ -130,8 +130,8 @@ static bool work_compute(void *of, FILE *out) {
     return true;
 }
 
-bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values,
-                    bool *endless, char error[COMPUTE_ERROR_SIZE]) {
+bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values, bool *endless,
+                    char error[COMPUTE_ERROR_SIZE]) {
     computing c = {device, run, machine};
     const unsigned seconds = run->count > COMPUTE_FEW ? COMPUTE_ALL_SECONDS : COMPUTE_SECONDS;
     const sandbox_end end = sandbox_run(work_compute, &c, (sandbox_limits){.wall = seconds}, values);
