@@ -102,7 +102,7 @@ void shader_close(shader *s) {
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
 
 static int start(shader *s, FILE **values) {
-    shot_machine machine;
+    shot_machine machine = {0};
     char error[COMPUTE_ERROR_SIZE];
     const bool few = s->device[0] == '\0'; /* the first time */
     if (!compute_values(s->o->probe.device, s->run, &machine, values, &s->too_long, error)) {
