@@ -302,7 +302,7 @@ npm:
 	@sh src/packages.sh npm
 	@$(MAKE) $(PARALLEL) $(B)/dist/depthprec-$(VERSION).tgz
 
-NPM_NOT := $(patsubst %,src/%.c,plot/canvas plot/pixels image/png cli/cmd_methods cli/stop frame/strips probe/opengl probe/vulkan \
+NPM_NOT := $(patsubst %,src/%.c,plot/canvas plot/pixels image/png cli/cmd_methods cli/stop frame/strips probe/opengl probe/vulkan probe/compile \
     report/output_file report/terminal system/dynload system/sandbox)
 NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still) \
     src/npm/config.c src/npm/standin.c)

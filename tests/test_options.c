@@ -722,6 +722,20 @@ TEST(test_pairs) {
     tally_end(&t);
 }
 
+TEST(test_define) {
+    static const char *const wrong[] = {"", "a", "a=", "=near", "a=nearer", "a=1x", "a=nan"};
+    static const char said[] = "NAME=near, far, z_buffer_params, projection or another word of the help, or a number";
+    tally t = {.name = "define"};
+    char line[1024] = "";
+    options o;
+    assert_int_equal(parse(&o, "judge", OPTION_DEFINE, "uNear=near", line), EXIT_FINE);
+    assert_true(o.judge.define_count == 1 && strcmp(o.judge.defines[0], "uNear=near") == 0);
+    assert_int_equal(parse(&o, "judge", OPTION_DEFINE, "u=-1.5e3", line), EXIT_FINE);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        refused(&t, "judge", OPTION_DEFINE, wrong[i], said);
+    tally_end(&t);
+}
+
 TEST(test_behind_colons) {
     static const char *const cameras[] = {"", "d24", "d24:", ":d3d", "all:d3d", "d24:linear", "d24:d3d,gl"};
     static const char *const far[] = {"d24:d3d:x", "d24:d3d:nan", "d24:d3d:1:2"};

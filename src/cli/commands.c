@@ -101,9 +101,11 @@ const command_row command_rows[CMD_COUNT] = {
      .example = "  depthprec code -n 0.1 -f inf -m reversed\n"
      "  depthprec code complement -n 0.1 -f 1000 -m d3d --language wgsl\n"
      "  depthprec code --what projection -n 0.3 -f 1000 -m gl --fov 50 --language c\n"},
-    [CMD_JUDGE] = {"judge", CMD_JUDGE, judge_uses, "", 0, 0, NULL,
+    [CMD_JUDGE] = {"judge", CMD_JUDGE, judge_uses, "[FILE]", 0, 1, NULL,
      .summary = "what a function of yours computes, and what it loses",
-     .example = "  depthprec judge --pairs-for 64 -o depths.csv\n"
+     .example = "  depthprec judge depth.glsl:linearDepth -n 0.1 -f 1000 -F d24\n"
+     "  depthprec judge fog.hlsl:EyeDepth --define _Planes=near_far -m reversed\n"
+     "  depthprec judge --pairs-for 64 -o depths.csv\n"
      "  depthprec judge --pairs pairs.csv -n 0.1 -f 1000 -F d24 -m d3d\n"
      "  my-program | depthprec judge --pairs - --json\n"},
     [CMD_PROBE] = {"probe", CMD_PROBE, probe_uses, "", 0, 0, NULL,

@@ -65,18 +65,21 @@ static void span_of(const judge_candidate *c, const judge_pairs *p, judge_precis
     }
 }
 
+static bool fits_pair(const judge_candidate *c, const judge_pairs *p, judge_precision precision,
+                      const judge_pair *pair) {
+    double lo, hi;
+    if (!goes_in(c, pair->in))
+        return false;
+    span_of(c, p, precision, pair->in, &lo, &hi);
+    return pair->out >= lo && pair->out <= hi;
+}
+
 static bool fits(const judge_candidate *c, const judge_pairs *p, judge_precision precision) {
     if (c->input == judge_input_get(JUDGE_CODES) && p->pairs[p->count - 1].in <= 1)
         return false; /* as good as any depth */
-    for (size_t i = 0; i < p->count; i++) {
-        const judge_pair *pair = &p->pairs[i];
-        double lo, hi;
-        if (!goes_in(c, pair->in))
+    for (size_t i = 0; i < p->count; i++)
+        if (!fits_pair(c, p, precision, &p->pairs[i]))
             return false;
-        span_of(c, p, precision, pair->in, &lo, &hi);
-        if (!(pair->out >= lo && pair->out <= hi))
-            return false;
-    }
     return true;
 }
 
@@ -254,7 +257,6 @@ static const char *nothing(const judge_pairs *p) {
 /* How far the values are off. */
 static void measure(const judge_pairs *p, judgement *out) {
     const judge_candidate *c = &out->found;
-    out->error = 0;
     for (size_t i = 0; i < p->count; i++) {
         const double x = p->pairs[i].in, v = judge_value(c, x), error = fabs(p->pairs[i].out - v);
         const double z = c->input->eye(&c->setup, x), h = 0x1p-20 * fabs(z);
@@ -333,6 +335,7 @@ void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t cou
                        .at = (double)NAN,
                        .intervals = (double)NAN,
                        .z = (double)NAN,
+                       .stray = (double)NAN,
                        .because = cannot(pairs)};
     if (out->because == NULL && planes_open && pairs->distinct < JUDGE_FITTED_LEAST)
         out->because = "too few pairs where near and far are not given: five different ones are the least";
@@ -347,8 +350,58 @@ void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t cou
         excuse(&s);
     if (out->precision == JUDGE_BINARY32 && is_printed(pairs))
         out->precision = JUDGE_PRINTED;
+    out->error = out->named ? 0 : (double)NAN;
     if (out->named)
         measure(pairs, out);
     else if (out->because == NULL)
         out->because = nothing(pairs);
+}
+
+/* Whether a pair does not fit, even after a difference. Numbers that a GPU may take for 0, or that binary32 has not,
+ * are nobody's fault. */
+static bool strays(judgement *j, const judge_pairs *p, const judge_pair *pair) {
+    const judge_candidate *c = &j->found;
+    const double v = judge_value(c, pair->in), x = fabs(pair->in);
+    const judge_precision more = j->precision > JUDGE_DIFFERENCE ? j->precision : JUDGE_DIFFERENCE;
+    if ((x > 0 && x < 0x1p-126) || !(fabs(v) < 0x1p127) || fabs(pair->out - v) <= 0x1p-22 * fabs(v) ||
+        fits_pair(c, p, j->precision, pair))
+        return false;
+    j->precision = more;
+    return !fits_pair(c, p, more, pair);
+}
+
+static void merge(judgement *out, const judgement *of) {
+    if (of->error > out->error || (of->error == out->error && of->at < out->at)) {
+        out->error = of->error;
+        out->at = of->at;
+    }
+    if (of->intervals > out->intervals || isnan(out->intervals) ||
+        (of->intervals == out->intervals && of->z < out->z)) {
+        out->intervals = of->intervals;
+        out->z = of->z;
+    }
+    if (of->strays > 0 && (out->strays == 0 || of->stray < out->stray))
+        out->stray = of->stray;
+    out->strays += of->strays;
+    out->precision = of->precision > out->precision ? of->precision : out->precision;
+}
+
+void judge_more(const judge_pairs *pairs, judgement *out) {
+    enum { PART = 4096 };
+    const size_t parts = (pairs->count + PART - 1) / PART;
+    const judgement before = *out;
+#pragma omp parallel for schedule(dynamic)
+    for (size_t i = 0; i < parts; i++) {
+        judge_pairs part = *pairs;
+        judgement of = before;
+        part.pairs += i * PART;
+        part.count = i + 1 < parts ? PART : pairs->count - i * PART;
+        measure(&part, &of);
+        of.strays = 0;
+        for (size_t k = 0; k < part.count && before.found.trap == NULL; k++)
+            if (strays(&of, &part, &part.pairs[k]) && of.strays++ == 0)
+                of.stray = part.pairs[k].in;
+#pragma omp critical
+        merge(out, &of);
+    }
 }

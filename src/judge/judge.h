@@ -87,6 +87,8 @@ typedef struct judgement {
     double error, at;    /**< the largest relative error of a value, and what went in there */
     double intervals, z; /**< the largest error in z-fighting intervals, and the eye depth there; NaN: it has none */
     const char *because; /**< of UNKNOWN: why, a phrase; else null */
+    size_t strays;       /**< of judge_more(): pairs that do not fit what was found of fewer, */
+    double stray;        /**< the first */
 } judgement;
 
 enum { JUDGE_LEAST = 3, JUDGE_FITTED_LEAST = 5 }; /* different pairs, without and with planes that are to be found */
@@ -96,5 +98,8 @@ enum { JUDGE_LEAST = 3, JUDGE_FITTED_LEAST = 5 }; /* different pairs, without an
  * @param planes_open whether near and far are not known: those that fit are right then
  */
 void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t count, bool planes_open, judgement *out);
+
+/** Looks at more pairs of a function that is named: what it loses is the most of both, and what does not fit counts. */
+void judge_more(const judge_pairs *pairs, judgement *out);
 
 #endif

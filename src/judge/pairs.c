@@ -142,7 +142,7 @@ static int by_input(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static void look(judge_pairs *p) {
+void judge_pairs_look(judge_pairs *p) {
     bool half = true, bytes = true;
     qsort(p->pairs, p->count, sizeof *p->pairs, by_input);
     for (size_t i = 0; i < p->count; i++) {
@@ -169,7 +169,7 @@ int judge_pairs_read(const char *path, judge_pairs *out, char error[PAIRS_ERROR_
         out->in_digits = rounded_by(&r.in, true);
         out->out_digits = rounded_by(&r.value, false);
     }
-    look(out);
+    judge_pairs_look(out);
     return 0;
 }
 

@@ -32,6 +32,9 @@ typedef struct judge_pairs {
  * @return 0, or an errno, or -1 with one sentence in `error`
  */
 int judge_pairs_read(const char *path, judge_pairs *out, char error[PAIRS_ERROR_SIZE]);
+
+/** Sorts pairs that are put together, and sees what their values are. */
+void judge_pairs_look(judge_pairs *pairs);
 void judge_pairs_free(judge_pairs *pairs);
 
 #endif

@@ -26,7 +26,7 @@
 #include "image/kind.h"
 #include "npm/standin.h"
 #include "plot/pixels.h"
-#include "probe/shot.h"
+#include "probe/compute.h"
 #include "report/message.h"
 #include "report/output.h"
 #include "system/dynload.h"
@@ -217,6 +217,10 @@ gsl_error_handler_t *gsl_set_error_handler_off(void) {
 #define GPU "a GPU is"
 MISSING(GPU, bool, shot_vulkan, const char *wanted, shot_plan *plan, shot_machine *machine)
 MISSING(GPU, bool, shot_opengl, shot_plan *plan, shot_machine *machine)
+MISSING(GPU, bool, shot_compute, const char *wanted, const compute_run *run, shot_machine *machine, FILE *out)
+MISSING(GPU, bool, compute_look, compute_run *run, char error[COMPUTE_ERROR_SIZE])
+MISSING(GPU, bool, compute_compile, const char *text, bool hlsl, compute_run *run, unsigned *line,
+        char error[COMPUTE_ERROR_SIZE])
 
 #define TIMED "a way that is timed is"
 MISSING(TIMED, void, gsl_sort, double *data, size_t stride, size_t n)

@@ -4,7 +4,7 @@
  * driver that breaks down or hangs takes nobody with it.
  */
 #define _GNU_SOURCE /* strcasestr() */
-#include "probe/shot.h"
+#include "probe/compute.h"
 
 #if __has_include(<vulkan/vulkan_core.h>)
 
@@ -45,6 +45,11 @@
     X(vkAllocateCommandBuffers)                                                                                        \
     X(vkBeginCommandBuffer)                                                                                            \
     X(vkEndCommandBuffer)                                                                                              \
+    X(vkCreateDescriptorSetLayout)                                                                                     \
+    X(vkCreateDescriptorPool)                                                                                          \
+    X(vkAllocateDescriptorSets)                                                                                        \
+    X(vkUpdateDescriptorSets)                                                                                          \
+    X(vkCreateComputePipelines)                                                                                        \
     X(vkCreateQueryPool)                                                                                               \
     X(vkGetQueryPoolResults)                                                                                           \
     X(vkCreateFence)                                                                                                   \
@@ -60,6 +65,8 @@
     X(vkCmdBindVertexBuffers)                                                                                          \
     X(vkCmdPushConstants)                                                                                              \
     X(vkCmdDraw)                                                                                                       \
+    X(vkCmdBindDescriptorSets)                                                                                         \
+    X(vkCmdDispatch)                                                                                                   \
     X(vkCmdCopyImageToBuffer)                                                                                          \
     X(vkCmdPipelineBarrier)
 DYNLOAD_FUNCTIONS(FUNCTIONS)
@@ -67,6 +74,7 @@ DYNLOAD_FUNCTIONS(FUNCTIONS)
 enum {
     VERTICES_MAX = SHOT_PIXELS,
     BUFFER_BYTES = VERTICES_MAX * 4 * sizeof(float),
+    FLOATS = BUFFER_BYTES / sizeof(float),
     WAIT_SECONDS = 20,
     NUMBERS_SIZE = 40
 };
@@ -90,6 +98,7 @@ typedef struct gpu {
     VkQueue queue;
     VkShaderModule shader;
     VkPipelineLayout layout;
+    VkDescriptorSet set;
     VkCommandBuffer commands;
     VkFence fence;
     VkQueryPool query;
@@ -233,6 +242,7 @@ static bool open_device(gpu *g) {
     g->call.vkGetPhysicalDeviceMemoryProperties(g->physical, &g->memory);
     g->machine->counts = has.occlusionQueryPrecise != VK_FALSE;
     use.occlusionQueryPrecise = has.occlusionQueryPrecise;
+    use.robustBufferAccess = has.robustBufferAccess; /* shaders of others */
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                            .queueFamilyIndex = g->family,
                                            .queueCount = 1,
@@ -270,19 +280,17 @@ static bool make_buffer(gpu *g, VkBufferUsageFlags usage, VkBuffer *out, void **
            good(g, g->call.vkMapMemory(g->device, memory, 0, VK_WHOLE_SIZE, 0, at), "mapped memory");
 }
 
-static bool make_tools(gpu *g) {
+static bool make_shader(gpu *g, const uint32_t *code, size_t size) {
     const VkShaderModuleCreateInfo shader = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = sizeof probe_spirv, .pCode = probe_spirv};
-    const VkPushConstantRange range = {VK_SHADER_STAGE_VERTEX_BIT, 0, 2 * sizeof(float)};
-    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                               .pushConstantRangeCount = 1,
-                                               .pPushConstantRanges = &range};
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = code};
+    return good(g, g->call.vkCreateShaderModule(g->device, &shader, NULL, &g->shader), "the shader");
+}
+
+static bool make_commands(gpu *g) {
     const VkCommandPoolCreateInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                               .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
                                               .queueFamilyIndex = g->family};
     const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    const VkQueryPoolCreateInfo query = {
-        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = VK_QUERY_TYPE_OCCLUSION, .queryCount = 1};
     VkCommandPool pool = VK_NULL_HANDLE;
     if (!good(g, g->call.vkCreateCommandPool(g->device, &commands, NULL, &pool), "a pool of commands"))
         return false;
@@ -291,9 +299,18 @@ static bool make_tools(gpu *g) {
                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                              .commandBufferCount = 1};
     return good(g, g->call.vkAllocateCommandBuffers(g->device, &one, &g->commands), "a buffer of commands") &&
-           good(g, g->call.vkCreateShaderModule(g->device, &shader, NULL, &g->shader), "the shader") &&
+           good(g, g->call.vkCreateFence(g->device, &fence, NULL, &g->fence), "a fence");
+}
+
+static bool make_tools(gpu *g) {
+    const VkPushConstantRange range = {VK_SHADER_STAGE_VERTEX_BIT, 0, 2 * sizeof(float)};
+    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                               .pushConstantRangeCount = 1,
+                                               .pPushConstantRanges = &range};
+    const VkQueryPoolCreateInfo query = {
+        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = VK_QUERY_TYPE_OCCLUSION, .queryCount = 1};
+    return make_commands(g) && make_shader(g, probe_spirv, sizeof probe_spirv) &&
            good(g, g->call.vkCreatePipelineLayout(g->device, &layout, NULL, &g->layout), "the layout") &&
-           good(g, g->call.vkCreateFence(g->device, &fence, NULL, &g->fence), "a fence") &&
            good(g, g->call.vkCreateQueryPool(g->device, &query, NULL, &g->query), "a query") &&
            make_buffer(g, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, &g->vertices, &g->at_vertices) &&
            make_buffer(g, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, &g->seconds, &g->at_seconds) &&
@@ -467,23 +484,31 @@ static void take_codes(const gpu *g, shot *s) {
         s->code[i] = s->format == SHOT_D16 ? narrow[i] : s->format == SHOT_D24 ? wide[i] & 0xFFFFFFU : wide[i];
 }
 
-static bool take_shot(gpu *g, shot *s) {
+static bool begin_commands(gpu *g) {
     const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    return good(g, g->call.vkBeginCommandBuffer(g->commands, &begin), "commands");
+}
+
+static bool do_commands(gpu *g, uint64_t seconds) {
     const VkSubmitInfo submit = {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &g->commands};
+    return good(g, g->call.vkEndCommandBuffer(g->commands), "commands") &&
+           good(g, g->call.vkResetFences(g->device, 1, &g->fence), "a fence") &&
+           good(g, g->call.vkQueueSubmit(g->queue, 1, &submit, g->fence), "commands") &&
+           good(g, g->call.vkWaitForFences(g->device, 1, &g->fence, VK_TRUE, seconds * 1000000000ULL), "to wait");
+}
+
+static bool take_shot(gpu *g, shot *s) {
     VkPipeline pipeline[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
     memcpy(g->at_vertices, s->vertex, s->count * sizeof *s->vertex);
     if (s->again)
         memcpy(g->at_seconds, s->second, s->count * sizeof *s->second);
     if (!make_pipeline(g, s, false, &pipeline[0]) || (s->again && !make_pipeline(g, s, true, &pipeline[1])) ||
-        !good(g, g->call.vkBeginCommandBuffer(g->commands, &begin), "commands"))
+        !begin_commands(g))
         return false;
     draw_pass(g, s, pipeline);
-    if (!good(g, g->call.vkEndCommandBuffer(g->commands), "commands") ||
-        !good(g, g->call.vkResetFences(g->device, 1, &g->fence), "a fence") ||
-        !good(g, g->call.vkQueueSubmit(g->queue, 1, &submit, g->fence), "a draw") ||
-        !good(g, g->call.vkWaitForFences(g->device, 1, &g->fence, VK_TRUE, WAIT_SECONDS * 1000000000ULL), "to wait"))
+    if (!do_commands(g, WAIT_SECONDS))
         return false;
     if (s->again &&
         !good(g,
@@ -496,19 +521,112 @@ static bool take_shot(gpu *g, shot *s) {
     return true;
 }
 
-bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
+/* ---- Computing --------------------------------------------------------------------------------------------------- */
+
+enum { BINDINGS = 3, GROUPS_MOST = 32768 };
+
+/* Buffers at bindings 0 to 2, and a pipeline over them. */
+static bool make_compute(gpu *g, const compute_run *run, void *at[BINDINGS], VkPipeline *pipeline) {
+    VkDescriptorSetLayoutBinding binding[BINDINGS];
+    VkDescriptorBufferInfo buffer[BINDINGS];
+    VkWriteDescriptorSet write[BINDINGS];
+    VkDescriptorSetLayout layout;
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+    for (uint32_t i = 0; i < BINDINGS; i++)
+        binding[i] =
+            (VkDescriptorSetLayoutBinding){i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, BINDINGS};
+    const VkDescriptorSetLayoutCreateInfo bindings = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = BINDINGS, .pBindings = binding};
+    const VkDescriptorPoolCreateInfo sets = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, .maxSets = 1, .poolSizeCount = 1, .pPoolSizes = &size};
+    const VkPipelineLayoutCreateInfo whole = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &layout};
+    if (!good(g, g->call.vkCreateDescriptorSetLayout(g->device, &bindings, NULL, &layout), "bindings") ||
+        !good(g, g->call.vkCreateDescriptorPool(g->device, &sets, NULL, &pool), "a pool of bindings") ||
+        !good(g, g->call.vkCreatePipelineLayout(g->device, &whole, NULL, &g->layout), "the layout"))
+        return false;
+    const VkDescriptorSetAllocateInfo one = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                             .descriptorPool = pool,
+                                             .descriptorSetCount = 1,
+                                             .pSetLayouts = &layout};
+    if (!good(g, g->call.vkAllocateDescriptorSets(g->device, &one, &set), "bindings"))
+        return false;
+    for (uint32_t i = 0; i < BINDINGS; i++) {
+        buffer[i] = (VkDescriptorBufferInfo){VK_NULL_HANDLE, 0, VK_WHOLE_SIZE};
+        if (!make_buffer(g, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &buffer[i].buffer, &at[i]))
+            return false;
+        write[i] = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                          .dstSet = set,
+                                          .dstBinding = i,
+                                          .descriptorCount = 1,
+                                          .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                          .pBufferInfo = &buffer[i]};
+    }
+    memcpy(at[2], run->constants, sizeof run->constants);
+    g->call.vkUpdateDescriptorSets(g->device, BINDINGS, write, 0, NULL);
+    const VkComputePipelineCreateInfo wish = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                              .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                                                        .module = g->shader,
+                                                        .pName = run->entry},
+                                              .layout = g->layout};
+    g->set = set;
+    return good(g, g->call.vkCreateComputePipelines(g->device, VK_NULL_HANDLE, 1, &wish, NULL, pipeline), "a pipeline");
+}
+
+/* In portions that a buffer holds. A value that the shader does not write is NaN. */
+static bool compute(gpu *g, const compute_run *run, void *const at[BINDINGS], VkPipeline pipeline, FILE *out) {
+    const VkMemoryBarrier read = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                  .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
+                                  .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
+    const uint64_t most = (uint64_t)GROUPS_MOST * run->group < FLOATS ? (uint64_t)GROUPS_MOST * run->group : FLOATS;
+    float *in = at[0];
+    memset(at[1], 0xFF, BUFFER_BYTES);
+    for (uint64_t from = 0; from < run->count; from += most) {
+        const uint64_t count = run->count - from < most ? run->count - from : most;
+        for (uint64_t i = 0; i < count; i++)
+            in[i] = run->depth(run->of, from + i);
+        if (!begin_commands(g))
+            return false;
+        g->call.vkCmdBindPipeline(g->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        g->call.vkCmdBindDescriptorSets(g->commands, VK_PIPELINE_BIND_POINT_COMPUTE, g->layout, 0, 1, &g->set, 0, NULL);
+        g->call.vkCmdDispatch(g->commands, (uint32_t)((count + run->group - 1) / run->group), 1, 1);
+        g->call.vkCmdPipelineBarrier(g->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0,
+                                     1, &read, 0, NULL, 0, NULL);
+        if (!do_commands(g, COMPUTE_SECONDS))
+            return false;
+        fwrite(at[1], sizeof(float), count, out);
+    }
+    return true;
+}
+
+/* ---- The back end ------------------------------------------------------------------------------------------------ */
+
+static bool open_all(gpu *g, const char *wanted) {
     static const library loader = {"a GPU", {"libvulkan.so.1", NULL}, "libvulkan1", symbols};
     char unused[DYNLOAD_ERROR_SIZE];
+    if (!dynload_open(&loader, g->call.all, unused))
+        return fail(g, "the Vulkan loader, libvulkan.so.1, is not there: Debian's package libvulkan1 has it, and "
+                       "mesa-vulkan-drivers has drivers");
+    return list(g, wanted) && open_device(g);
+}
+
+bool shot_compute(const char *wanted, const compute_run *run, shot_machine *machine, FILE *out) {
     gpu g = {.machine = machine};
-    if (!dynload_open(&loader, g.call.all, unused))
-        return fail(&g, "the Vulkan loader, libvulkan.so.1, is not there: Debian's package libvulkan1 has it, and "
-                        "mesa-vulkan-drivers has drivers");
-    if (!list(&g, wanted))
+    VkPipeline pipeline;
+    void *at[BINDINGS];
+    return open_all(&g, wanted) && make_commands(&g) && make_shader(&g, run->code, run->size) &&
+           make_compute(&g, run, at, &pipeline) && compute(&g, run, at, pipeline, out);
+}
+
+bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
+    gpu g = {.machine = machine};
+    if (!open_all(&g, wanted) || !make_tools(&g))
         return false;
     const shot_device *device = &machine->device[machine->chosen];
     char name[SHOT_NAME_SIZE];
-    if (!open_device(&g) || !make_tools(&g))
-        return false;
     for (int i = 0; i < SHOT_FORMATS; i++) {
         g.depth[i].format = format_of(&g, g.physical, (shot_format)i, name);
         if (device->has[i] && !make_depth(&g, &g.depth[i]))
@@ -522,11 +640,20 @@ bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
 
 #else
 
+static const char absent[] = "this build has no Vulkan: build it where Debian's package libvulkan-dev is installed";
+
 bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
     (void)wanted;
     (void)plan;
-    snprintf(machine->error, sizeof machine->error,
-             "this build has no Vulkan: build it where Debian's package libvulkan-dev is installed");
+    snprintf(machine->error, sizeof machine->error, absent);
+    return false;
+}
+
+bool shot_compute(const char *wanted, const compute_run *run, shot_machine *machine, FILE *out) {
+    (void)wanted;
+    (void)run;
+    (void)out;
+    snprintf(machine->error, sizeof machine->error, absent);
     return false;
 }
 

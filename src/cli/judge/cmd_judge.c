@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* judge: what a function of somebody's computes, told from pairs of what went in and what came out. */
+/* judge: what a function of somebody's computes, told from pairs of what went in and what came out, or run for them. */
 #include <math.h>
 #include <string.h>
 
+#include "cli/judge/shader.h"
 #include "cli/setups.h"
 #include "judge/judge.h"
 #include "report/number.h"
 
-enum { SHORT = 3, ENOUGH = 6 };
+enum { SHORT = 3, ENOUGH = 6, ASKED = 512 };
 
 /* A candidate, in words. */
 typedef struct named {
@@ -24,6 +25,8 @@ typedef struct report {
     const char *verdict, *precision;
     named is;
     uint64_t count, nan_count;
+    shader code; /* where one is run */
+    const char *function, *device, *defines;
 } report;
 
 static void name(const options *o, const judge_candidate *c, named *out) {
@@ -81,6 +84,14 @@ static void say_all(page *p, void *item) {
         say(r->o, &j->other, text);
         page_note(p, "fits, too", "%s; at %s they part", text, number_full(j->decides).text);
     }
+    if (j->strays > 0)
+        page_note(p, "strays", "%s of %s values, the first at %s", number_full((double)j->strays).text,
+                  number_full((double)r->count).text, number_full(j->stray).text);
+    if (r->device != NULL) {
+        page_note(p, "run on", "%s, with %s depths%s", r->device, number_full((double)r->code.count).text,
+                  r->code.too_long ? ", since more do not come to an end in time" : "");
+        page_note(p, "given", "%s", r->defines[0] != '\0' ? r->defines : "nothing of a camera");
+    }
     if (r->nan_count > 0)
         page_note(p, "left out", "%s of %s values, which are no numbers, the first at %s",
                   number_full((double)r->nan_count).text, number_full((double)(r->count + r->nan_count)).text,
@@ -114,22 +125,70 @@ static const column columns[] = {{FIELD(report, verdict, "verdict", "")},
                                  {FIELD(report, found.decides, "decides", "")},
                                  {FIELD(report, count, "pairs", "")},
                                  {FIELD(report, nan_count, "left_out", "")},
+                                 {FIELD(report, found.strays, "strays", "")},
+                                 {FIELD(report, found.stray, "stray", "")},
+                                 {FIELD(report, function, "function", "")},
+                                 {FIELD(report, device, "device", "")},
+                                 {FIELD(report, defines, "defines", "")},
                                  {LIST("fits", named_columns, found_of)},
                                  {.kind = COLUMN_END}};
 
 /* ---- What to ask ------------------------------------------------------------------------------------------------- */
 
 /* Window depths that part what is known: the ends, powers of two beside either, and even steps. */
+static double asked_depth(unsigned i, unsigned count) {
+    const unsigned ends = count < 48 ? count / 3 : 16, k = i / 2 + 1;
+    const double even = (double)(i - 2 * ends) / (count - 2 * ends - 1);
+    return (double)(float)(i >= 2 * ends ? even : i % 2 == 0 ? ldexp(1, -(int)k) : 1 - ldexp(1, -(int)k - 1));
+}
+
 static void write_depths(output *out, unsigned count) {
-    const unsigned ends = count < 48 ? count / 3 : 16;
     output_text(out, "depth\n");
     for (unsigned i = 0; i < count; i++) {
-        const unsigned k = i / 2 + 1;
-        const double even = (double)(i - 2 * ends) / (count - 2 * ends - 1);
-        const double d = i >= 2 * ends ? even : i % 2 == 0 ? ldexp(1, -(int)k) : 1 - ldexp(1, -(int)k - 1);
-        output_text(out, number_of((double)(float)d, 9).text);
+        output_text(out, number_of(asked_depth(i, count), 9).text);
         output_char(out, '\n');
     }
+}
+
+/* ---- A shader ---------------------------------------------------------------------------------------------------- */
+
+/* What takes no window depths may take eye depths. */
+static int ask(report *r, const setups *all, bool open, bool eye) {
+    const dp_spec *s = &all->items[0].spec;
+    const double far = isinf(s->zfar) ? 1e6 * s->znear : s->zfar;
+    float depth[ASKED];
+    for (unsigned i = 0; i < ASKED; i++) {
+        const double t = asked_depth(i, ASKED);
+        depth[i] = (float)(eye ? fmin(far, s->znear + (far - s->znear) * t * t * t) : t);
+    }
+    judge_pairs_free(&r->pairs);
+    const int status = shader_pairs(&r->code, depth, ASKED, &r->pairs);
+    if (status == EXIT_FINE)
+        judge_function(&r->pairs, all->items, all->count, open, &r->found);
+    return status;
+}
+
+static int judge_shader(report *r, const setups *all, bool open) {
+    judgement *j = &r->found;
+    open = open && !r->code.camera;
+    int status = ask(r, all, open, false);
+    if (status == EXIT_FINE && !j->named && !open)
+        status = ask(r, all, open, true);
+    if (status == EXIT_FINE && !j->named)
+        status = ask(r, all, open, false);
+    r->count = r->pairs.count;
+    if (status == EXIT_FINE && j->named) {
+        status = shader_all(&r->code, &r->pairs, j);
+        r->count = r->code.count - r->pairs.nan_count;
+    }
+    if (j->strays > 0) {
+        j->verdict = JUDGE_UNKNOWN;
+        j->because = "what fits many depths does not fit all";
+    }
+    r->function = r->o->operands[0];
+    r->device = r->code.device;
+    r->defines = r->code.defines;
+    return status;
 }
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
@@ -147,8 +206,17 @@ static int read_pairs(const options *o, judge_pairs *pairs) {
 static int run(report *r, const setups *all, output *out) {
     const options *o = r->o;
     const bool open = !option_given(o, OPTION_NEAR) && !option_given(o, OPTION_FAR) && o->camera.preset_count == 0;
-    judge_function(&r->pairs, all->items, all->count, open, &r->found);
-    r->count = r->pairs.count;
+    int status = EXIT_FINE;
+    if (o->judge.pairs == NULL) {
+        status = judge_shader(r, all, open);
+    } else {
+        judge_function(&r->pairs, all->items, all->count, open, &r->found);
+        r->count = r->pairs.count;
+    }
+    if (status != EXIT_FINE) {
+        output_abandon(out);
+        return status;
+    }
     r->nan_count = r->pairs.nan_count;
     r->verdict = judge_verdict_name(r->found.verdict);
     r->precision = r->found.named ? judge_precision_name(r->found.precision) : NULL;
@@ -162,21 +230,28 @@ int cmd_judge(const options *o) {
     output out;
     setups all = {0};
     report r = {.o = o};
-    if ((o->judge.pairs != NULL) == (o->judge.depths > 0))
-        return usage_error("judge needs --pairs FILE, or --pairs-for N, which prints depths to ask a function for");
-    if (o->judge.depths == 0 && o->camera.format_count > 1)
+    const bool asked = o->judge.depths > 0, shaded = o->operand_count > 0;
+    if ((o->judge.pairs != NULL) + asked + shaded != 1)
+        return usage_error("judge needs FILE:FUNCTION, or --pairs FILE, or --pairs-for N, which prints depths to ask a "
+                           "function for");
+    if (!shaded && o->judge.define_count > 0)
+        return option_error(OPTION_DEFINE, "is for FILE:FUNCTION alone");
+    if (!asked && o->camera.format_count > 1)
         return option_error(OPTION_FORMAT, "must be one format, got %zu", o->camera.format_count);
-    int status = o->judge.depths > 0 ? EXIT_FINE : setups_make(o, &all);
-    if (status == EXIT_FINE && o->judge.depths == 0)
+    int status = asked ? EXIT_FINE : setups_make(o, &all);
+    if (status == EXIT_FINE && o->judge.pairs != NULL)
         status = read_pairs(o, &r.pairs);
+    if (status == EXIT_FINE && shaded)
+        status = shader_open(o, &all.items[0], &r.code);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
-    if (status == EXIT_FINE && o->judge.depths > 0) {
+    if (status == EXIT_FINE && asked) {
         write_depths(&out, o->judge.depths);
         status = output_close(&out);
     } else if (status == EXIT_FINE) {
         status = run(&r, &all, &out);
     }
+    shader_close(&r.code);
     judge_pairs_free(&r.pairs);
     setups_release(&all);
     return status;

@@ -107,6 +107,7 @@ typedef enum option_id {
     OPTION_UNIFORMS,
     OPTION_PAIRS,
     OPTION_PAIRS_FOR,
+    OPTION_DEFINE,
     OPTION_MATRIX,
     OPTION_LAST_EYE,
     OPTION_LAST_LOOK,
@@ -288,8 +289,10 @@ typedef struct options_code {
 } options_code;
 
 typedef struct options_judge {
-    const char *pairs; /**< file of pairs; null when not given */
-    unsigned depths;   /**< how many are printed to ask for; 0 when not given */
+    const char *pairs;                           /**< file of pairs; null when not given */
+    unsigned depths;                             /**< how many are printed to ask for; 0 when not given */
+    const char *defines[OPTIONS_PARAMETERS_MAX]; /**< NAME=VALUE */
+    size_t define_count;
 } options_judge;
 
 typedef struct options_shadow {

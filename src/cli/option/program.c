@@ -6,6 +6,7 @@
 #include "cli/option/names.h"
 #include "cli/option/rows.h"
 #include "core/append.h"
+#include "judge/written.h"
 #include "report/number.h"
 
 int parse_parameter(options *o, const option_row *row, const char *value) {
@@ -23,6 +24,18 @@ int parse_parameter(options *o, const option_row *row, const char *value) {
     if (i == OPTIONS_PARAMETERS_MAX)
         return option_refuse(row, "must not be more than %d, got '%s' too", OPTIONS_PARAMETERS_MAX, value);
     o->image.parameters[o->image.parameter_count++] = given;
+    return EXIT_FINE;
+}
+
+int parse_define(options *o, const option_row *row, const char *value) {
+    if (!written_define_known(value))
+        return option_refuse(row,
+                             "must be NAME=near, far, z_buffer_params, projection or another word of the help, or a "
+                             "number, got '%s'",
+                             value);
+    if (o->judge.define_count == OPTIONS_PARAMETERS_MAX)
+        return option_refuse(row, "must not be more than %d, got '%s' too", OPTIONS_PARAMETERS_MAX, value);
+    o->judge.defines[o->judge.define_count++] = value;
     return EXIT_FINE;
 }
 

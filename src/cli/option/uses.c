@@ -254,7 +254,10 @@ const option_use judge_uses[] = {
     OWN(FAR, WITHOUT("with no --near either: the planes that fit; else 1000")),
     OWN(FORMAT, DEFAULT("fp32")),
     OWN(MAPPING, HELP("what is right: @; all means d3d and reversed")),
-    TAKE(PAIRS), TAKE(PAIRS_FOR), TAKE(LOG_C), GROUP(projected), GROUP(written), END};
+    TAKE(PAIRS), TAKE(PAIRS_FOR), TAKE(DEFINE),
+    OWN(DEVICE, .argument = "N|NAME",
+        HELP("the GPU that runs FILE: its number among the Vulkan devices, or part of its name")),
+    TAKE(LOG_C), GROUP(projected), GROUP(written), END};
 
 const option_use list_uses[] = {
     OWN(TOLERANCE, HELP("list methods: the cases in which each is the cheapest whose bound is at most 0.05, or 5%"),
