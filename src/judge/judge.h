@@ -87,7 +87,7 @@ typedef struct judgement {
     double error, at;    /**< the largest relative error of a value, and what went in there */
     double intervals, z; /**< the largest error in z-fighting intervals, and the eye depth there; NaN: it has none */
     const char *because; /**< of UNKNOWN: why, a phrase; else null */
-    size_t strays;       /**< of judge_more(): pairs that do not fit what was found of fewer, */
+    uint64_t strays;     /**< of judge_more(): pairs that do not fit what was found of fewer, */
     double stray;        /**< the first */
 } judgement;
 
