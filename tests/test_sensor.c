@@ -171,8 +171,10 @@ static int one(tally *t, rng *r, const kind *k) {
     scene(r, m.lo, m.hi, rng_below(r, 2) == 0 ? 0 : rng_log(r, 1e-4, 1e-2), z);
     for (int i = 0; i < N; i++)
         z[i] = level_of(k, &m, z[i]);
-    if (spoiled)
-        spoil(r, rng_uniform(r, 0, 0.5), rng_uniform(r, 0, 0.08), z);
+    if (spoiled) {
+        const double averages = rng_uniform(r, 0, 0.08), holes = rng_uniform(r, 0, 0.5);
+        spoil(r, holes, averages, z);
+    }
     const sensor s = found_in(&m, z);
     const char *what = k->name, *got = s.row->name;
     if (!s.found) {
@@ -220,7 +222,8 @@ TEST(bounds_hold_where_averages_are_on_levels) {
         scene(&r, m.lo, m.hi, rng_below(&r, 2) == 0 ? 0 : rng_log(&r, 1e-4, 1e-2), z);
         for (int p = 0; p < N; p++)
             z[p] = level_of(k, &m, z[p]);
-        spoil(&r, rng_uniform(&r, 0, 0.5), rng_uniform(&r, 0, 0.08), z);
+        const double averages = rng_uniform(&r, 0, 0.08), holes = rng_uniform(&r, 0, 0.5);
+        spoil(&r, holes, averages, z);
         const sensor s = found_in(&m, z);
         assert_int_equal(s.found, draws[i].found);
         if (s.found)
