@@ -401,6 +401,11 @@ static const char *word_for(maker *m, piece name, bool *guessed) {
     return row != NULL ? row->word : NULL;
 }
 
+static void say_define(written *w, piece name, const char *word, bool guessed) {
+    append(w->defines, sizeof w->defines, "%s%.*s = %s%s", w->defines[0] != '\0' ? ", " : "", (int)name.length, name.at,
+           word, guessed ? " (guessed)" : "");
+}
+
 /* The expression of a value, of a type where one is known: "float4(depthprec_v[3], ...)". */
 static bool express(maker *m, piece name, const char *word, bool guessed, piece type, char out[VALUE_SIZE]) {
     static const char *const types[2][3] = {{"vec2", "vec4", "mat4"}, {"float2", "float4", "float4x4"}};
@@ -426,8 +431,7 @@ static bool express(maker *m, piece name, const char *word, bool guessed, piece 
         w->constants[w->used++] = (float)v[at];
     }
     append(out, VALUE_SIZE, ")");
-    append(w->defines, sizeof w->defines, "%s%.*s = %s%s", w->defines[0] != '\0' ? ", " : "", (int)name.length, name.at,
-           word, guessed ? " (guessed)" : "");
+    say_define(w, name, word, guessed);
     return true;
 }
 
@@ -454,8 +458,45 @@ static bool is_declared(const source *s, piece name) {
 
 static bool is_made(const maker *m, piece name) {
     char text[NAME_SIZE + 8];
-    snprintf(text, sizeof text, " %.*s = ", (int)name.length, name.at);
+    snprintf(text, sizeof text, " %.*s ", (int)name.length, name.at);
     return strstr(m->head, text) != NULL;
+}
+
+/* Does the word stand in a line such as #if? */
+static bool in_condition(const source *s, piece word) {
+    static const char *const all[] = {"if", "ifdef", "ifndef", "elif", NULL};
+    const char *from = word.at;
+    int open = 0;
+    piece first;
+    while (from > s->text && from[-1] != '\n')
+        from--;
+    return after(from, word.at) == '#' && next_word(&from, word.at + word.length, &first, &open) && is_any(first, all);
+}
+
+/* Names in conditions that the file does not define. Unity defines UNITY_REVERSED_Z where depth is reversed; of one
+ * that is not known either side may be what is meant. */
+static void define_macros(maker *m) {
+    static const char *const own[] = {"if", "ifdef", "ifndef", "elif", "defined", NULL};
+    const source *s = &m->s;
+    for (size_t k = 0; k < s->count; k++) {
+        const char *at = s->items[k].from;
+        int open = 0;
+        for (piece word; s->items[k].kept && next_word(&at, s->items[k].to, &word, &open);) {
+            const bool unity = is(word, "UNITY_REVERSED_Z");
+            bool guessed;
+            if (!in_condition(s, word) || word.length >= NAME_SIZE || is_any(word, own) ||
+                strncmp(word.at, "GL_", 3) == 0 || is_made(m, word) || is_declared(s, word))
+                continue;
+            const char *given = word_for(m, word, &guessed);
+            const bool defined = guessed ? unity && m->setup->reversed != 0 : strcmp(given, "0") != 0;
+            if (guessed && !unity)
+                snprintf(m->out->open, sizeof m->out->open, "%.*s", (int)word.length, word.at);
+            if (defined)
+                append(m->head, sizeof m->head, "#define %.*s %s\n", (int)word.length, word.at, guessed ? "1" : given);
+            if (defined || !guessed)
+                say_define(m->out, word, guessed ? "1" : given, guessed);
+        }
+    }
 }
 
 /* A variable for each word that what is kept does not know, and somebody does. */
@@ -468,7 +509,7 @@ static bool make_variables(maker *m) {
         for (piece word; i->kept && next_word(&at, i->to, &word, &open);) {
             char value[VALUE_SIZE];
             bool guessed;
-            if (word.length >= NAME_SIZE || *before(i->from, word.at) == '.')
+            if (word.length >= NAME_SIZE || *before(i->from, word.at) == '.' || in_condition(s, word))
                 continue;
             const bool known = declares(i, word, true) || is_made(m, word) || is_declared(s, word);
             const char *text = known ? NULL : word_for(m, word, &guessed);
@@ -583,7 +624,17 @@ static bool find_function(maker *m, const char *function) {
         if (found)
             keep(&m->s, i);
     }
-    return found || (any ? false : fail(m, "is no function of the file"));
+    if (found || any)
+        return found;
+    fail(m, "is no function of the file, which has");
+    for (size_t k = 0; k < m->s.count; k++)
+        if (m->s.items[k].kind == ITEM_FUNCTION)
+            append(m->error, WRITTEN_TEXT_SIZE, "%s %.*s", any ? "," : "", (int)m->s.items[k].name.length,
+                   m->s.items[k].name.at),
+                any = true;
+    if (!any)
+        append(m->error, WRITTEN_TEXT_SIZE, " none");
+    return false;
 }
 
 bool written_make(const char *file, const char *function, bool hlsl, const dp_setup *setup, const char *const *defines,
@@ -602,6 +653,8 @@ bool written_make(const char *file, const char *function, bool hlsl, const dp_se
     for (size_t k = 0; k < m.s.count && good; k++)
         if (m.s.items[k].kept && m.s.items[k].kind == ITEM_DIRECTIVE)
             keep(&m.s, &m.s.items[k]);
+    if (good)
+        define_macros(&m);
     good = good && make_variables(&m);
     for (size_t i = 0; i < define_count && good; i++)
         if (!m.met[i])

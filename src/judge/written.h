@@ -21,6 +21,7 @@ typedef struct written {
     float constants[WRITTEN_CONSTANTS];
     size_t used;
     bool camera;                     /**< some are of the camera */
+    char open[64];                   /**< a macro that a condition asks for and nobody defines; "": there is none */
     char defines[WRITTEN_TEXT_SIZE]; /**< "near = near (guessed), ..."; "": it knows nothing of a camera */
 } written;
 

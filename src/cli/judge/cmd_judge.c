@@ -185,6 +185,10 @@ static int judge_shader(report *r, const setups *all, bool open) {
         j->verdict = JUDGE_UNKNOWN;
         j->because = "what fits many depths does not fit all";
     }
+    if (r->code.open[0] != '\0' && (j->verdict == JUDGE_OTHER || j->verdict == JUDGE_WRONG)) {
+        j->verdict = JUDGE_UNKNOWN;
+        j->because = r->code.open;
+    }
     r->function = r->o->operands[0];
     r->device = r->code.device;
     r->defines = r->code.defines;

@@ -60,6 +60,9 @@ static int compile(shader *s, const dp_setup *setup, const char *path, const cha
                              strstr(error, "undeclared") != NULL ? " (--define gives a uniform its value)" : "");
     memcpy(run->constants, w.constants, sizeof run->constants);
     snprintf(s->defines, sizeof s->defines, "%s", w.defines);
+    if (w.open[0] != '\0')
+        snprintf(s->open, sizeof s->open, "a condition asks for %s: --define %s=1 defines it, %s=0 does not", w.open,
+                 w.open, w.open);
     s->camera = w.camera;
     free(w.text);
     return status;

@@ -14,8 +14,9 @@ typedef struct shader {
     bool camera;                   /**< it is given something of the camera at hand */
     char device[SHADER_TEXT_SIZE]; /**< "": not run yet */
     char defines[SHADER_TEXT_SIZE];
-    uint64_t count; /**< depths that it was run with */
-    bool too_long;  /**< more take too long */
+    char open[SHADER_TEXT_SIZE]; /**< why what it computes may not be what is meant; "": it is */
+    uint64_t count;              /**< depths that it was run with */
+    bool too_long;               /**< more take too long */
 } shader;
 
 /** Reads and compiles the operand. @return EXIT_FINE, or as a command does */
