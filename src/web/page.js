@@ -703,8 +703,9 @@ function listen() {
 // Beside A its second set-up, or what reversed fp32 makes of the same planes.
 function pictured() {
     const [a, b] = state.setups, best = new Map([...a, ["format", "fp32"], ["mapping", "reversed"]]);
-    const lines = [a, b ?? best].map((setup) => commandOf("table", new Map([...setup].filter(([name]) => name !== "at" || setup === a))));
-    return join(lines[0]) === join(lines[1]) || a.has("preset") && b === undefined ? lines.slice(0, 1) : lines;
+    const here = (setup) => commandOf("table", new Map([...setup].filter(([name]) => name !== "at")));
+    const lines = [commandOf("table", a), here(b ?? best)];
+    return join(here(a)) === join(lines[1]) ? lines.slice(0, 1) : lines;
 }
 
 function showPicture() {

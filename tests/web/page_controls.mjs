@@ -132,6 +132,31 @@ async function address() {
     await close(page);
 }
 
+// The second picture is of reversed fp32, or of B, and of the same things; where A is that already, there is none.
+async function pictures() {
+    const page = await open(), names = () => page.evaluate(() =>
+        [...document.querySelectorAll("#picture figure")].filter((one) => one.checkVisibility()).map((one) => one.querySelector(".name").textContent));
+    const expect = async (what, ...wanted) => {
+        const [said] = [await page.waitForFunction((list) => {
+            const all = [...document.querySelectorAll("#picture figure")].filter((one) => one.checkVisibility());
+            return all.length === list.length && all.every((one, i) => one.querySelector(".name").textContent.startsWith(list[i]));
+        }, wanted, { timeout: 5000 }).catch(() => null)];
+        demand(said !== null, `${what}: ${await names()}`);
+    };
+    await expect("first", "unorm24 d3d, things about 10 m away", "fp32 reversed, things about 10 m away");
+    await put(page, "#at-A", "30");
+    await expect("another distance", "unorm24 d3d, things about 30 m away", "fp32 reversed, things about 30 m away");
+    await put(page, "#a [data-option=preset]", "godot-mobile");
+    await expect("an engine", "unorm24 reversed, things about 30 m away", "fp32 reversed, things about 30 m away");
+    await updated(page, () => page.locator("#add-b").click());
+    await put(page, "#b [data-option=format]", "unorm16");
+    await expect("B", "unorm24 reversed, things about 30 m away", "unorm16 reversed, things about 30 m away");
+    await updated(page, () => page.locator("#add-b").click());
+    await put(page, "#a [data-option=format]", "fp32");
+    await expect("the best", "fp32 reversed, things about 30 m away");
+    await close(page);
+}
+
 // A plane that is dragged pushes the other; a field that is refused says so itself.
 async function planes() {
     const page = await open(), values = () => page.evaluate(() => ["near", "far"].map((name) => document.querySelector(`#${name}-A`).value).join(" "));
@@ -172,5 +197,6 @@ export async function controls() {
         return `${QUESTIONS.length} fields`;
     });
     await test("a link holds what differs, Back and Forward step through changes", address);
+    await test("the second picture: reversed fp32, or B, at the same distance", pictures);
     await test("a plane pushes the other, a refused field is marked", planes);
 }
