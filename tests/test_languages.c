@@ -233,6 +233,16 @@ static const struct {
 } promises[] = {{"glsl", 1, 2.5, false, true}, {"hlsl", 1, 1, false, true},  {"wgsl", 1, 2.5, true, true},
                 {"msl", 1, 1, true, true},     {"c", 0.5, 0.5, true, false}, {"numpy", 0.5, 0.5, false, false}};
 
+/* Which fuses and rounds in turn as the language lets it. */
+static device device_of(rng *r, size_t p, int i) {
+    return (device){r,
+                    promises[p].sums,
+                    promises[p].quotients,
+                    promises[p].fuses && i % 2 == 0,
+                    promises[p].flushes,
+                    i / 2 % 3 - 1};
+}
+
 static void perturb(tally *t, rng *r, const dp_setup *s, size_t p, size_t m, double *most) {
     const double n = s->spec.znear, f = s->spec.zfar;
     const bool reversed = s->reversed != 0;
@@ -245,12 +255,7 @@ static void perturb(tally *t, rng *r, const dp_setup *s, size_t p, size_t m, dou
     for (int i = 0; i < DEPTHS; i++) {
         const long double at = d[i], q = reversed ? at : 1 - at,
                           z = isinf(f) ? n / q : n * (long double)f / (n + (f - n) * q);
-        const device v = {r,
-                          promises[p].sums,
-                          promises[p].quotients,
-                          promises[p].fuses && i % 2 == 0,
-                          promises[p].flushes,
-                          i / 2 % 3 - 1};
+        const device v = device_of(r, p, i);
         if (q <= (isinf(f) ? 0x1p-125L : -1) || z > 0x1p125L || isinf(bound))
             continue;
         const double error = (double)(fabsl(formulas[m].of(&v, n, f, reversed, d[i]) - z) / z);
@@ -322,12 +327,7 @@ static void perturb_place(tally *t, rng *r, size_t p, double *most) {
     for (int i = 0; i < DEPTHS; i++) {
         const uint32_t width = 1 + (uint32_t)rng_below(r, 8192);
         const float centre = (float)rng_below(r, width) + 0.5f, d = (float)rng_unit(r), w = (float)width;
-        const device v = {r,
-                          promises[p].sums,
-                          promises[p].quotients,
-                          promises[p].fuses && i % 2 == 0,
-                          promises[p].flushes,
-                          i / 2 % 3 - 1};
+        const device v = device_of(r, p, i);
         const float z = complement(&v, n, f, false, d), slope = 2 * centre - w;
         const float across = rounded(&v, (long double)slope * (float)(half / width), v.sums);
         const float x = rounded(&v, (long double)across * z, v.sums);
