@@ -356,6 +356,25 @@ TEST(nothing_is_found_where_nothing_is) {
     tally_end(&t);
 }
 
+/* Columns by turns of 3 and of 14 steps: so few levels tell that neither's share alone says so. */
+TEST(two_lattices_without_a_common_divisor_are_not_a_finer_one) {
+    static const made m = {.type = IMAGE_U16, .unit = 0.001, .file_cut = true};
+    static double z[N];
+    rng r = rng_make("no common divisor");
+    for (int round = 0; round < 40; round++) {
+        const double step = rng_uniform(&r, 0.0008, 0.00083);
+        const int factors[2] = {3, 14}, shift = (int)rng_below(&r, 14);
+        scene(&r, 1.6, 4.8, 1e-3, z);
+        for (int i = 0; i < N; i++) {
+            const double of = factors[i % 2] * step, at = i % 2 * shift * step;
+            z[i] = 1 / (at + of * rint((1 / z[i] - at) / of));
+        }
+        const sensor s = found_in(&m, z);
+        if (s.found)
+            fail_msg("round %d: found %s of step %.9g", round, s.row->name, s.step);
+    }
+}
+
 /* ---- Where values do not tell all -------------------------------------------------------------------------------- */
 
 /* Two narrow ranges far apart, whose levels can be counted within each, but not from one to the other. */
