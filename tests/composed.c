@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "composed.h"
+#include "nvidia.h"
 
 enum { SAMPLES = 160, BEHIND = 16 };
 
@@ -95,7 +96,7 @@ bool composed_place(const set_up *s, const camera *c, double z, float p[4]) {
 static float window_of(const set_up *s, float clip, float w) {
     if (s->is_signed && s->arith->remap)
         clip = (clip + w) * 0.5F;
-    const float inverse = 1.0F / w;
+    const float inverse = nvidia_inverse(s->arith->reciprocal, w);
     float d = s->arith->reciprocal ? clip * inverse : clip / w;
     if (s->is_signed && !s->arith->remap) {
         const float half = 0.5F * d;
@@ -115,6 +116,8 @@ static double convert(const set_up *s, float d) {
         return fmin(rint((double)product), most);
     case DP_CONVERT_PRODUCT_ZERO:
         return fmin(trunc((double)product), most);
+    case DP_CONVERT_SIXTEENTHS:
+        return nvidia_code(s->setup.spec.format.bits, d);
     default:
         return floor((double)d * most + 0.5);
     }

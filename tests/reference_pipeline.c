@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The binary32 pipeline of depthprec(7), operation by operation, an array pass each. */
 #include "reference_pipeline.h"
+#include "nvidia.h"
 
 #include <assert.h>
 #include <float.h>
@@ -18,18 +19,21 @@
 /* What depthprec-camera(7) says of each row. A row that is not here is taken by its public fields. */
 static const struct {
     const char *name;
-    bool fused, reciprocal, remap;
+    bool fused;
+    dp_reciprocal reciprocal;
+    bool remap;
     dp_conversion conversion;
 } rows[] = {
-    {"ieee", false, false, false, DP_CONVERT_EXACT},
-    {"fused", true, false, false, DP_CONVERT_EXACT},
-    {"reciprocal", false, true, false, DP_CONVERT_EXACT},
-    {"fused-reciprocal", true, true, false, DP_CONVERT_EXACT},
-    {"product", false, false, false, DP_CONVERT_PRODUCT_EVEN},
-    {"mesa", false, true, false, DP_CONVERT_PRODUCT_EVEN},
-    {"softpipe", false, true, false, DP_CONVERT_PRODUCT_ZERO},
-    {"ieee-remap", false, false, true, DP_CONVERT_EXACT},
-    {"mesa-remap", false, true, true, DP_CONVERT_PRODUCT_EVEN},
+    {"ieee", false, DP_RECIPROCAL_NONE, false, DP_CONVERT_EXACT},
+    {"fused", true, DP_RECIPROCAL_NONE, false, DP_CONVERT_EXACT},
+    {"reciprocal", false, DP_RECIPROCAL_ROUNDED, false, DP_CONVERT_EXACT},
+    {"fused-reciprocal", true, DP_RECIPROCAL_ROUNDED, false, DP_CONVERT_EXACT},
+    {"product", false, DP_RECIPROCAL_NONE, false, DP_CONVERT_PRODUCT_EVEN},
+    {"mesa", false, DP_RECIPROCAL_ROUNDED, false, DP_CONVERT_PRODUCT_EVEN},
+    {"softpipe", false, DP_RECIPROCAL_ROUNDED, false, DP_CONVERT_PRODUCT_ZERO},
+    {"nvidia", true, DP_RECIPROCAL_UNIT, false, DP_CONVERT_SIXTEENTHS},
+    {"ieee-remap", false, DP_RECIPROCAL_NONE, true, DP_CONVERT_EXACT},
+    {"mesa-remap", false, DP_RECIPROCAL_ROUNDED, true, DP_CONVERT_PRODUCT_EVEN},
 };
 
 /* The entries of the standard mappings; the reversed ones are 1 - d, so NDC is w - clip (d3d) or -clip (gl). */
@@ -66,7 +70,7 @@ reference_pipe reference_pipe_make(const dp_setup *setup, bool flush) {
                         .ortho = s->ortho != 0,
                         .reversed = s->mapping == DP_MAPPING_REVERSED || s->mapping == DP_MAPPING_GL_REVERSED,
                         .fused = row->fused != 0,
-                        .reciprocal = row->reciprocal != 0,
+                        .reciprocal = row->reciprocal,
                         .remap = row->remap != 0,
                         .flush = flush,
                         .conversion = row->conversion,
@@ -153,7 +157,7 @@ CLONES static void window_of(const reference_pipe *p, uint32_t first, int n, flo
             out[i] = flushed(flushed(out[i] + z[i], flush) * 0.5F, flush);
     if (p->reciprocal)
         for (int i = 0; i < n; i++)
-            out[i] = flushed(out[i] * flushed(1.0F / z[i], flush), flush);
+            out[i] = flushed(out[i] * flushed(nvidia_inverse(p->reciprocal, z[i]), flush), flush);
     else
         for (int i = 0; i < n; i++)
             out[i] = flushed(out[i] / z[i], flush);
@@ -225,6 +229,11 @@ CLONES static void unorm_product(const reference_pipe *p, const float *restrict 
         }
 }
 
+static void unorm_nvidia(const reference_pipe *p, const float *restrict w, int n, uint32_t *restrict keys) {
+    for (int i = 0; i < n; i++)
+        keys[i] = (uint32_t)nvidia_code(p->format.bits, CLAMPED(w[i]));
+}
+
 /* A multiple of the step of d's binade, in the order of its binary32 bits: no binary32 d leaves binary32. */
 CLONES static void float_key(const reference_pipe *p, const float *restrict w, int n, uint32_t *restrict keys) {
     const double least = ldexp(1.0, 1 - p->format.bias);
@@ -256,6 +265,8 @@ void reference_keys(const reference_pipe *p, uint32_t first, size_t count, uint3
             float_key(p, w, take, part);
         else if (p->conversion == DP_CONVERT_EXACT)
             unorm_exact(p, w, take, part);
+        else if (p->conversion == DP_CONVERT_SIXTEENTHS)
+            unorm_nvidia(p, w, take, part);
         else
             unorm_product(p, w, take, part);
         for (int i = 0; i < take; i++)

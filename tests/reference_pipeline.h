@@ -20,7 +20,8 @@ enum { REFERENCE_CHUNK = 1024 };
 typedef struct reference_pipe {
     float a, b; /**< z_clip = A z + B */
     bool ortho, reversed;
-    bool fused, reciprocal;
+    bool fused;
+    dp_reciprocal reciprocal;
     bool remap;    /**< signed NDC is moved to [0, 1] before the divide */
     bool viewport; /**< signed NDC is moved to [0, 1] after it */
     bool flush;    /**< subnormal eye depths and results of operations become 0 */

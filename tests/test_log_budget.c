@@ -8,6 +8,7 @@
 #include <mpfr.h>
 
 #include "depthprec/depthprec.h"
+#include "nvidia.h"
 #include "requirement/judge.h"
 #include "support.h"
 
@@ -138,7 +139,9 @@ static float written(const shader *s, float w, int sign) {
     float clip = product(product_sum(l, 2.0F * s->k, -1.0F, fused), w);
     if (s->arith->remap)
         clip = product(sum(clip, w), 0.5F);
-    const float ndc = s->arith->reciprocal ? product(clip, quotient(1.0F, w)) : quotient(clip, w);
+    const float ndc = s->arith->reciprocal == DP_RECIPROCAL_UNIT ? product(clip, dp_reciprocal_unit(w))
+                      : s->arith->reciprocal                     ? product(clip, quotient(1.0F, w))
+                                                                 : quotient(clip, w);
     return s->arith->remap ? ndc : sum(product(0.5F, ndc), 0.5F);
 }
 
@@ -152,6 +155,8 @@ static double stored(const shader *s, float d) {
         const double step = ldexp(1.0, (own > lowest ? own : lowest) - f->mantissa_bits);
         return rint((double)x / step) * step;
     }
+    if (s->arith->conversion == DP_CONVERT_SIXTEENTHS)
+        return nvidia_code(f->bits, x);
     if (s->arith->conversion == DP_CONVERT_EXACT)
         return floor((double)x * most + 0.5); /* 24 bits by at most 24 */
     const double p = (double)product(x, (float)f->code_max);

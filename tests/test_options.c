@@ -198,7 +198,7 @@ TEST(test_words) {
         struct {
             const char *word;
             unsigned value;
-        } words[9];
+        } words[10];
     } rows[] = {
         {"table",
          OPTION_ROUNDING,
@@ -223,7 +223,7 @@ TEST(test_words) {
         {"table",
          OPTION_ARITH,
          WORD_AT(camera.arith),
-         "ieee, fused, reciprocal, fused-reciprocal, product, mesa, softpipe, ieee-remap or mesa-remap",
+         "ieee, fused, reciprocal, fused-reciprocal, product, mesa, softpipe, nvidia, ieee-remap or mesa-remap",
          {{"ieee", 0},
           {"fused", 1},
           {"reciprocal", 2},
@@ -231,8 +231,9 @@ TEST(test_words) {
           {"product", 4},
           {"mesa", 5},
           {"softpipe", 6},
-          {"ieee-remap", 7},
-          {"mesa-remap", 8}}},
+          {"nvidia", 7},
+          {"ieee-remap", 8},
+          {"mesa-remap", 9}}},
         {"solve",
          OPTION_FOR,
          WORD_AT(wanted.target),
@@ -285,7 +286,7 @@ TEST(test_words) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024] = "";
         options o;
-        for (size_t k = 0; k < 9 && rows[i].words[k].word != NULL; k++) {
+        for (size_t k = 0; k < 10 && rows[i].words[k].word != NULL; k++) {
             const char *word = rows[i].words[k].word;
             const int status = parse(&o, rows[i].command, rows[i].id, word, line);
             TALLY(&t, status == EXIT_FINE && word_at(&o, rows[i].field, rows[i].size) == rows[i].words[k].value,

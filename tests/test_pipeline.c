@@ -4,6 +4,7 @@
 #include <mpfr.h>
 
 #include "depthprec/depthprec.h"
+#include "nvidia.h"
 #include "setups.h"
 #include "support.h"
 #include "transform.h"
@@ -99,6 +100,8 @@ static float oracle_window(exact *e, const dp_pipeline *p, float z) {
     mpfr_set_flt(e->other, p->ortho ? 1.0f : z, MPFR_RNDN);
     if (p->arith->reciprocal) {
         mpfr_ui_div(e->other, 1, e->other, MPFR_RNDN);
+        if (p->arith->reciprocal == DP_RECIPROCAL_UNIT)
+            mpfr_set_flt(e->other, dp_reciprocal_unit(p->ortho ? 1.0f : z), MPFR_RNDN);
         mpfr_mul(e->value, e->value, e->other, MPFR_RNDN);
     } else {
         mpfr_div(e->value, e->value, e->other, MPFR_RNDN);
@@ -114,6 +117,8 @@ static float oracle_window(exact *e, const dp_pipeline *p, float z) {
 /* UNORM only: floats are dp_format_encode()'s own business. */
 static uint32_t oracle_code(exact *e, const dp_pipeline *p, float window) {
     const float d = fminf(fmaxf(window, 0.0f), 1.0f);
+    if (p->arith->conversion == DP_CONVERT_SIXTEENTHS)
+        return (uint32_t)nvidia_code(p->format.bits, d);
     mpfr_set_ui(e->other, p->format.code_max, MPFR_RNDN); /* rounded to 24 bits, as a binary32 factor is */
     mpfr_set_flt(e->value, d, MPFR_RNDN);
     mpfr_mul(e->value, e->value, e->other, MPFR_RNDN);

@@ -82,7 +82,12 @@ static double format_part(const shadow_light *light) {
     if (strcmp(f->name, "fp16") == 0) /* below 1 numbers are 2^-11 apart */
         return eps + (light->setup.spec.rounding == DP_ROUND_ZERO ? 0x1p-11 : 0x1p-12);
     const double codes = ldexp(1, f->bits) - 1;
-    return eps + (zero ? 1 : 0.5) / codes + (c == DP_CONVERT_EXACT ? 1 : 2) * eps;
+    return eps +
+           (zero                         ? 1
+            : c == DP_CONVERT_SIXTEENTHS ? 9.0 / 16
+                                         : 0.5) /
+               codes +
+           (c == DP_CONVERT_EXACT ? 1 : 2) * eps;
 }
 
 static void expected_parts(const shadow_light *light, const lengths *l, shadow_part part[SHADOW_CAUSE_COUNT]) {

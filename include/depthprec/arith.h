@@ -16,15 +16,23 @@ DP_BEGIN
 typedef enum dp_conversion {
     DP_CONVERT_EXACT = 0,    /**< the exact product d (2^N - 1), rounded as the set-up says (nearest: ties up) */
     DP_CONVERT_PRODUCT_EVEN, /**< the binary32 product fl(d (2^N - 1)), to nearest even */
-    DP_CONVERT_PRODUCT_ZERO  /**< that product truncated */
+    DP_CONVERT_PRODUCT_ZERO, /**< that product truncated */
+    DP_CONVERT_SIXTEENTHS    /**< 2^N d less d, both cut to sixteenths, see depthprec(7): known of 16 and 24 bits */
 } dp_conversion;
+
+/** How clip z is divided by w. */
+typedef enum dp_reciprocal {
+    DP_RECIPROCAL_NONE = 0, /**< z / w, rounded once */
+    DP_RECIPROCAL_ROUNDED,  /**< z times the rounded 1/w */
+    DP_RECIPROCAL_UNIT      /**< z times NVIDIA's 1/w, off by up to 0.975 units in the last place */
+} dp_reciprocal;
 
 /** One variant. The index of a row is its dp_arith. */
 typedef struct dp_arith_row {
     const char *name;
-    int fused;      /**< A z + B is one fused operation */
-    int reciprocal; /**< z_clip fl(1/w) instead of z_clip / w */
-    int remap;      /**< NDC of [-1, 1] is moved to [0, 1] before the divide, fl(fl(z_clip + w) 0.5), by the shader */
+    int fused; /**< A z + B is one fused operation */
+    dp_reciprocal reciprocal;
+    int remap; /**< NDC of [-1, 1] is moved to [0, 1] before the divide, fl(fl(z_clip + w) 0.5), by the shader */
     dp_conversion conversion;
     const char *note;
     const char *source;

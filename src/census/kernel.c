@@ -100,7 +100,7 @@ static census_conversion conversion_of(const dp_pipeline *p) {
             return CENSUS_BITS;
         return f->bias > 127 ? CENSUS_PLAIN : p->rounding == DP_ROUND_ZERO ? CENSUS_FLOAT_ZERO : CENSUS_FLOAT_EVEN;
     }
-    if (f->bits > 24)
+    if (f->bits > 24 || p->arith->conversion == DP_CONVERT_SIXTEENTHS)
         return CENSUS_PLAIN;
     static const census_conversion exact[DP_ROUNDING_COUNT] = {
         [DP_ROUND_NEAREST] = CENSUS_UP, [DP_ROUND_EVEN] = CENSUS_EVEN, [DP_ROUND_ZERO] = CENSUS_ZERO};
@@ -146,9 +146,13 @@ KERNEL uint32_t codes(const census_plan *plan, const float *restrict z, size_t c
     const dp_pipeline *p = &plan->pipeline;
     float value[CENSUS_BLOCK] __attribute__((aligned(64)));
     const uint32_t lost = clip(p, z, count, value);
+    const dp_arith_row unit = {.reciprocal = DP_RECIPROCAL_UNIT};
+    const dp_pipeline by_unit = {.arith = &unit};
     /* An orthographic w is 1, whose reciprocal is 1: neither kind of division changes anything. */
-    if (!p->ortho && p->arith->reciprocal)
+    if (!p->ortho && p->arith->reciprocal == DP_RECIPROCAL_ROUNDED)
         EACH value[i] = value[i] * (1.0f / z[i]);
+    else if (!p->ortho && p->arith->reciprocal == DP_RECIPROCAL_UNIT)
+        EACH value[i] = dp_pipeline_divide(&by_unit, value[i], z[i]);
     else if (!p->ortho)
         EACH value[i] = value[i] / z[i];
     if (p->ndc_signed && !p->arith->remap)

@@ -4,6 +4,7 @@
 #include <float.h>
 
 #include "core/extremes.h"
+#include "core/reciprocal.h"
 #include "core/rounding.h"
 
 /* A z + B */
@@ -271,8 +272,10 @@ static void divide(const dp_chain *c, dp_span r, double q1, double q2, double er
     const magnitude q = magnitude_of(q1, q2, error);
     if (c->pipeline.arith->reciprocal) {
         s->inverse = step_of((magnitude){1.0 / r.lo * raised, 1.0 / r.hi * lowered});
-        const double by_w = r.hi * s->inverse.error; /* of w as large as it may be; or relative, of 1/w */
-        s->inverse.error = q.most * (r.hi < 0x1p125 ? smaller(by_w, DP_UNIT) : by_w);
+        const dp_reciprocal_error most = dp_reciprocal_error_of(c->pipeline.arith->reciprocal);
+        /* of w as large as it may be; or relative, of 1/w */
+        const double by_w = r.hi * larger(most.half_ulps * s->inverse.error, r.hi < 0x1p125 ? 0.0 : most.subnormal);
+        s->inverse.error = q.most * (r.hi < 0x1p125 ? smaller(by_w, most.units * DP_UNIT) : by_w);
     }
     /* What comes out above 1 is clamped, and demand.c counts that; the rest has the last place of 1 at most. */
     const magnitude result = {smaller(q.most + s->inverse.error, 1.0 - DP_UNIT_BELOW_ONE),
@@ -344,8 +347,9 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
         clip = 0.5 * clip + DP_UNIT * (q + clip);
     double ndc = 0.0;
     if (!c->pipeline.ortho) {
-        const double subnormal = zfar > 0x1p126 ? (fabs(dividend(c, zfar)) + more * w2) * 0x1p-150 : 0.0;
-        const double inverse = c->pipeline.arith->reciprocal ? DP_UNIT * (q + clip) + subnormal : 0.0;
+        const dp_reciprocal_error most = dp_reciprocal_error_of(c->pipeline.arith->reciprocal);
+        const double subnormal = zfar > 0x1p126 ? (fabs(dividend(c, zfar)) + more * w2) * most.subnormal : 0.0;
+        const double inverse = most.units * DP_UNIT * (q + clip) + subnormal;
         ndc = inverse + dp_half_ulp(smaller(q + clip + inverse, 1.0 - DP_UNIT_BELOW_ONE));
     }
     dp_steps s = {.product = {c->per_ndc * clip, 0.0},

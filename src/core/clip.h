@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "core/reciprocal.h"
 #include "depthprec/pipeline.h"
 
 /* The shader's remap turns [-1, 1] into [0, 1]; everything behind it then is zero-to-one. */
@@ -29,8 +30,8 @@ static inline float dp_clip_remap(const dp_pipeline *p, float clip, float w) {
 
 static inline float dp_clip_window(const dp_pipeline *p, float clip, float w) {
     float ndc;
-    if (p->arith->reciprocal) {
-        const float inverse = 1.0f / w;
+    if (p->arith->reciprocal != DP_RECIPROCAL_NONE) {
+        const float inverse = p->arith->reciprocal == DP_RECIPROCAL_UNIT ? dp_reciprocal_unit(w) : 1.0f / w;
         ndc = clip * inverse;
     } else {
         ndc = clip / w;

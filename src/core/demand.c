@@ -21,7 +21,8 @@ static int codes_are_distinct(const dp_pipeline *p, double low, double high) {
     const float last = (float)high < 1.0F ? nextafterf((float)high, 2.0F) : 1.0F;
     const double step = 2.0 * dp_half_ulp((double)first);
     const double levels = (double)p->format.code_max;
-    const int product_exact = p->arith->conversion == DP_CONVERT_EXACT || p->format.bits > 24;
+    const int sixteenths = p->arith->conversion == DP_CONVERT_SIXTEENTHS;
+    const int product_exact = p->arith->conversion == DP_CONVERT_EXACT || (p->format.bits > 24 && !sixteenths);
     if (step * levels > 1.0)
         return product_exact;
     if (dp_half_ulp((double)first) != dp_half_ulp((double)nextafterf(last, 0.0F)))
@@ -47,6 +48,8 @@ double dp_format_loss(const dp_pipeline *p, double low, double high) {
     if (codes_are_distinct(p, low, high))
         return 0.0;
     const double levels = (double)format->code_max;
+    if (p->arith->conversion == DP_CONVERT_SIXTEENTHS)
+        return (format->bits <= 16 || (low < 1.0 / 16.0 && high >= 1.0 / 16.0) ? 17.0 / 16.0 : 1.0) / levels;
     if (p->arith->conversion == DP_CONVERT_EXACT || format->bits > 24)
         return 1.0 / levels;
     /* The product is rounded to binary32, then to a whole number, which changes nothing where it is one. */
@@ -64,6 +67,8 @@ double dp_stored_error(const dp_pipeline *p, double high) {
     if (format->kind == DP_FORMAT_FLOAT)
         return share * dp_step_num(format, 1 - format->bias); /* of subnormals */
     const double levels = (double)format->code_max;
+    if (p->arith->conversion == DP_CONVERT_SIXTEENTHS)
+        return (0.5 + (format->bits <= 16 ? 1.0 / 16.0 : smaller(top, 1.0 / 16.0))) / levels;
     /* Where half a unit of the product is 1/2 it is whole; above 24 bits the factor is off by 1, which is a level. */
     const double product = p->arith->conversion == DP_CONVERT_EXACT ? 0.0
                            : format->bits > 24                      ? 1.0

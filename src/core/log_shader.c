@@ -5,6 +5,7 @@
 #include "core/elementary.h"
 #include "core/engine.h"
 #include "core/extremes.h"
+#include "core/reciprocal.h"
 #include "core/rounding.h"
 
 /* Outward by more than the rounding of this file's own arithmetic. */
@@ -84,7 +85,8 @@ static void vertex_steps(const dp_log_shader *s, double lo, double hi, dp_log_st
     const double top = larger(hi, 0.0);
     out->scale = dp_half_ulp(top) + (2.0 * lo < 0.5 + beside ? 0.5 * DP_UNIT_BELOW_ONE : 0.0);
     const double product = 0.5 * DP_UNIT * t;
-    const double inverse = arith->reciprocal ? DP_UNIT * (arith->remap ? top : 0.5 * t) : 0.0;
+    const double unit = dp_reciprocal_error_of(arith->reciprocal).units * DP_UNIT;
+    const double inverse = unit * (arith->remap ? top : 0.5 * t);
     const double remap = arith->remap ? DP_UNIT * top : 0.5 * dp_half_ulp(t);
     const double last = dp_half_ulp(smaller(top, 1.0 - DP_UNIT_BELOW_ONE));
     out->ndc = (product + remap + inverse + last) * (1.0 + beside);

@@ -101,10 +101,23 @@ float dp_pipeline_window(const dp_pipeline *p, float z) {
     return dp_pipeline_divide(p, dp_clip_project(p, z), clip_w(p, z));
 }
 
+/*
+ * Of 16 bits: 2^20 d less 16 d, both cut, are sixteenths of the code, 7 of them round it. Of 24 bits 16 d counts from
+ * 1 on; binary32 has no depth there for which its fraction would matter.
+ */
+static uint32_t convert_sixteenths(const dp_format *format, double d) {
+    const double top = ldexp(1.0, format->bits);
+    if (format->bits <= 16)
+        return (uint32_t)floor((floor(16.0 * top * d) - floor(16.0 * d) + 7.0) / 16.0);
+    return (uint32_t)floor((d < 1.0 / 16.0 ? top * d : (top - 1.0) * d) + 0.5);
+}
+
 uint32_t dp_pipeline_convert(const dp_pipeline *p, float window) {
     const float d = window > 0.0f ? (window < 1.0f ? window : 1.0f) : 0.0f; /* NaN becomes 0 */
     if (p->format.kind == DP_FORMAT_FLOAT || p->arith->conversion == DP_CONVERT_EXACT)
         return dp_format_encode(&p->format, p->rounding, (double)d);
+    if (p->arith->conversion == DP_CONVERT_SIXTEENTHS)
+        return convert_sixteenths(&p->format, (double)d);
     /* Above 24 bits the factor itself is rounded, to 2^N, so the product may pass the last code. */
     const float product = d * (float)p->format.code_max;
     const double whole =

@@ -7,6 +7,7 @@
 #include "core/elementary.h"
 #include "depthprec/arith.h"
 #include "depthprec/format.h"
+#include "depthprec/pipeline.h"
 #include "probe/judge.h"
 
 /* ---- The format that is stored ----------------------------------------------------------------------------------- */
@@ -36,12 +37,13 @@ static void judge_stored(probe_result *r, shot_format format) {
 
 /* The conversions that rows of core/arith.c have, then others. The only tie, d = 1/2, goes to 2^(N-1), which is both up
  * and even. */
-enum { EXACT, PRODUCT_EVEN, PRODUCT_ZERO, EXACT_ZERO, PRODUCT_HALF, CONVERSIONS };
+enum { EXACT, PRODUCT_EVEN, PRODUCT_ZERO, SIXTEENTHS, EXACT_ZERO, PRODUCT_HALF, CONVERSIONS };
 
 static const char *const conversion_words[CONVERSIONS] = {
     [EXACT] = "the exact d (2^N - 1), to nearest",
     [PRODUCT_EVEN] = "the binary32 product d (2^N - 1), to nearest even",
     [PRODUCT_ZERO] = "the binary32 product d (2^N - 1), truncated",
+    [SIXTEENTHS] = "2^N d less d, both cut to sixteenths",
     [EXACT_ZERO] = "the exact d (2^N - 1), truncated",
     [PRODUCT_HALF] = "the binary32 product d (2^N - 1) plus 1/2, truncated",
 };
@@ -53,6 +55,10 @@ static uint32_t converted(const dp_format *format, int conversion, float d) {
     switch (conversion) {
     case EXACT:
         return dp_format_encode(format, DP_ROUND_NEAREST, (double)d);
+    case SIXTEENTHS: {
+        const dp_arith_row row = {.conversion = DP_CONVERT_SIXTEENTHS};
+        return dp_pipeline_convert(&(dp_pipeline){.format = *format, .arith = &row}, d);
+    }
     case EXACT_ZERO:
         return dp_format_encode(format, DP_ROUND_ZERO, (double)d);
     default:
@@ -81,15 +87,17 @@ static unsigned judge_rounding(probe_result *r, shot_format format) {
 
 /* ---- Division and projection ------------------------------------------------------------------------------------- */
 
-enum { DIVIDED, RECIPROCAL, DIVISIONS };
+enum { DIVISIONS = DP_RECIPROCAL_UNIT + 1 };
 
 static float window(int division, float z, float w) {
-    return division == DIVIDED ? z / w : z * (1.0F / w);
+    const dp_arith_row row = {.reciprocal = (dp_reciprocal)division};
+    return dp_pipeline_divide(&(dp_pipeline){.arith = &row}, z, w);
 }
 
 static int judge_division(probe_result *r) {
     const shot *s = judge_shot(r, PLAN_DIVISION, SHOT_D32F);
-    guess all[DIVISIONS] = {{"clip z / w, rounded once", 0}, {"clip z times the rounded 1 / w", 0}};
+    guess all[DIVISIONS] = {
+        {"clip z / w, rounded once", 0}, {"clip z times the rounded 1 / w", 0}, {"clip z times NVIDIA's 1 / w", 0}};
     if (s == NULL)
         return JUDGE_NONE;
     for (int d = 0; d < DIVISIONS; d++)
@@ -231,15 +239,17 @@ static void judge_functions(probe_result *r) {
 
 /* Where one conversion alone is right of every format. */
 static const char *row_of(unsigned conversions, int division, int is_fused) {
-    static const dp_conversion known[] = {
-        [EXACT] = DP_CONVERT_EXACT, [PRODUCT_EVEN] = DP_CONVERT_PRODUCT_EVEN, [PRODUCT_ZERO] = DP_CONVERT_PRODUCT_ZERO};
+    static const dp_conversion known[] = {[EXACT] = DP_CONVERT_EXACT,
+                                          [PRODUCT_EVEN] = DP_CONVERT_PRODUCT_EVEN,
+                                          [PRODUCT_ZERO] = DP_CONVERT_PRODUCT_ZERO,
+                                          [SIXTEENTHS] = DP_CONVERT_SIXTEENTHS};
     if (division == JUDGE_NONE || is_fused == JUDGE_NONE)
         return NULL;
     for (dp_arith i = 0; i < dp_arith_count(); i++) {
         const dp_arith_row *row = dp_arith_get(i);
-        for (int c = EXACT; c <= PRODUCT_ZERO; c++)
+        for (int c = EXACT; c <= SIXTEENTHS; c++)
             if (conversions == 1U << c && !row->remap && row->fused == is_fused &&
-                row->reciprocal == (division == RECIPROCAL) && row->conversion == known[c])
+                row->reciprocal == (dp_reciprocal)division && row->conversion == known[c])
                 return row->name;
     }
     return NULL;

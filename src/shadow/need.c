@@ -63,11 +63,12 @@ static ground ground_of(const shadow_light *light) {
 /* The conversion into the format, and of what is read back. */
 static double format_loss(const dp_setup *setup) {
     const dp_format *format = &setup->spec.format;
-    const bool exact = dp_arith_get(setup->spec.arith)->conversion == DP_CONVERT_EXACT;
-    const bool truncated = exact ? setup->spec.rounding == DP_ROUND_ZERO
-                                 : dp_arith_get(setup->spec.arith)->conversion == DP_CONVERT_PRODUCT_ZERO;
+    const dp_conversion conversion = dp_arith_get(setup->spec.arith)->conversion;
+    const bool exact = conversion == DP_CONVERT_EXACT;
+    const bool truncated = exact ? setup->spec.rounding == DP_ROUND_ZERO : conversion == DP_CONVERT_PRODUCT_ZERO;
+    const double rounded = conversion == DP_CONVERT_SIXTEENTHS ? 9.0 / 16.0 : 0.5;
     if (format->kind == DP_FORMAT_UNORM)
-        return (truncated ? 1.0 : 0.5) / (double)format->code_max + (exact ? eps : 2.0 * eps);
+        return (truncated ? 1.0 : rounded) / (double)format->code_max + (exact ? eps : 2.0 * eps);
     if (format->mantissa_bits == 23 && format->exponent_bits == 8)
         return 0.0;
     return ldexp(setup->spec.rounding == DP_ROUND_ZERO ? 1.0 : 0.5, -format->mantissa_bits - 1);
