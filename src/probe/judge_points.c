@@ -11,7 +11,8 @@
 
 /* ---- The format that is stored ----------------------------------------------------------------------------------- */
 
-/* Two depths of one code are equal in the buffer if it holds codes, and differ if it holds more. */
+/* Two depths of one code are equal in the buffer if it holds codes, and differ if it holds more. Where a browser reads
+ * depths as a texture, what was asked for as codes may come back as the binary32 that was drawn: that is what is stored. */
 static void judge_stored(probe_result *r, shot_format format) {
     const shot *s = judge_shot(r, PLAN_STORED, format);
     const bool whole = plan_scale(format) > 0.0;
@@ -20,12 +21,14 @@ static void judge_stored(probe_result *r, shot_format format) {
         return;
     for (uint32_t i = 0; i < s->count; i++)
         same += s->code[i] == dp_bits32(s->vertex[i][2]);
-    const uint64_t hits = !whole ? same : s->passed <= s->count ? s->passed : 0;
-    const bool all = whole ? hits == s->count || (hits > 0 && !r->machine.counts) : same == s->count && s->passed == 0;
-    probe_finding *f = judge_say(r, "stored", probe_format_name(format), all ? PROBE_SURE : PROBE_NO_ROW, "%s: %s",
+    const bool real = same == s->count && s->passed == 0;
+    const uint64_t hits = real || !whole ? same : s->passed <= s->count ? s->passed : 0;
+    const bool all = real || (whole && (hits == s->count || (hits > 0 && !r->machine.counts)));
+    probe_finding *f = judge_say(r, "stored", probe_format_name(real ? SHOT_D32F : format),
+                                 all ? PROBE_SURE : PROBE_NO_ROW, "%s: %s",
                                  r->machine.device[r->machine.chosen].format[format],
-                                 all && whole         ? "codes of that many bits, nothing finer"
-                                 : all                ? "every bit of binary32"
+                                 real                 ? "every bit of binary32"
+                                 : all                ? "codes of that many bits, nothing finer"
                                  : whole && hits == 0 ? "finer than its codes: depths of one code are distinguished"
                                                       : "neither its codes nor finer ones throughout");
     f->cases = s->count;

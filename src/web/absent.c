@@ -11,10 +11,10 @@
 #include "cli/methods.h"
 #include "cli/option/rows.h"
 #include "cli/scene/figure.h"
+#include "judge/pairs.h"
 #include "plot/figure.h"
 #include "requirement/check.h"
 #include "scene/find.h"
-#include "shader/constants.h"
 #include "shader/pack.h"
 
 static int absent(const options *o) {
@@ -29,9 +29,7 @@ static int absent(const options *o) {
 ABSENT(cmd_check)
 ABSENT(cmd_code)
 ABSENT(cmd_completions)
-ABSENT(cmd_judge)
 ABSENT(cmd_methods)
-ABSENT(cmd_probe)
 ABSENT(cmd_scene)
 ABSENT(cmd_shadow)
 ABSENT(cmd_texture)
@@ -61,7 +59,6 @@ ABSENT_FIGURE(stability_build)
         return NULL;                                                                                                   \
     }
 
-ABSENT_ROWS(constant_row, constant_get)
 ABSENT_ROWS(effect_row, effect_get)
 ABSENT_ROWS(finder_filter_row, finder_filter_get)
 ABSENT_ROWS(normal_row, normal_get)
@@ -76,14 +73,6 @@ const pack_row *packing_normals(const packing *p) {
 ABSENT_ROWS(position_row, position_get)
 ABSENT_ROWS(sensor_row, sensor_get)
 ABSENT_ROWS(synthetic_row, synthetic_get)
-ABSENT_ROWS(trap_row, trap_get)
-
-double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z) {
-    (void)row;
-    (void)setup;
-    (void)half;
-    return z;
-}
 
 /* Families of methods but interval, which figures are drawn by. */
 static const size_t none;
@@ -100,6 +89,13 @@ int check_read(const char *path, need_file *file) {
     (void)path;
     (void)file;
     return EXIT_USAGE;
+}
+
+int judge_pairs_read(const char *path, judge_pairs *out, char error[PAIRS_ERROR_SIZE]) {
+    (void)path;
+    (void)out;
+    snprintf(error, PAIRS_ERROR_SIZE, "the page reads no files");
+    return -1;
 }
 
 void need_release(need_file *file) {

@@ -81,6 +81,7 @@ export async function load(from, host = () => ({})) {
             page: {
                 measure: (text, length, size, bold) =>
                     engine.measure(decoder.decode(new Uint8Array(memory().buffer, text, length)), size, bold !== 0),
+                gpu: (request) => engine.gpu(memory().buffer, request),
             },
         });
         instance.exports._initialize();
@@ -98,6 +99,7 @@ export async function load(from, host = () => ({})) {
 
     const engine = {
         module,
+        gpu: () => 1, // there is none; the page has one
 
         // How far text reaches, px; the page has a better one.
         measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),

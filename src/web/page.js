@@ -766,7 +766,7 @@ async function begin() {
     picture = createPicture({ views, engine, slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is") });
     $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));
     showPicture();
-    window.depthprec = { engine, state: () => shown().map(join), set: setLink };
+    window.depthprec = { ask: aside.ask, engine, state: () => shown().map(join), set: setLink };
 }
 
 const NEEDED = "It needs WebAssembly and DecompressionStream, which browsers have since 2023.";

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The browser's GPU in place of probe/vulkan.c: what to draw comes from the probe's plan, what was stored goes to its
+ * judges; and functions of a shader's source. gpu.js is the other side.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/judge/shader.h"
+#include "core/bits.h"
+#include "probe/compute.h"
+#include "probe/judge.h"
+#include "probe/spirv.h"
+#include "system/sandbox.h"
+#include "web/page.h"
+
+enum { TEXT_SIZE = COMPUTE_ERROR_SIZE, MOST = 1 << 20 };
+
+/* The order of its numbers, 4 bytes each, is that of gpu.js. */
+typedef struct request {
+    enum { OPEN, DRAW, COMPILE, VALUES } what;
+    char *text; /* of TEXT_SIZE: why it failed, else what is said of the device, or of the camera */
+    const char *source;
+    float a, b; /* of a program; near and far */
+    uint32_t format, program, other, triangles;
+    float constant, slope;
+    uint32_t count;
+    const void *in, *second;
+    uint32_t *out;
+    uint32_t passed;
+} request;
+
+/** Does what is asked. @return 0; else `text` says why not */
+PAGE_IMPORT("gpu") int page_gpu(request *r);
+
+static bool ask(request *r, char *text) {
+    r->text = text;
+    snprintf(text, TEXT_SIZE, "the page has no GPU here");
+    return page_gpu(r) == 0;
+}
+
+/* ---- The probe --------------------------------------------------------------------------------------------------- */
+
+static bool describe(shot_machine *m, char *text) {
+    shot_device *d = &m->device[0];
+    request r = {.what = OPEN};
+    if (!ask(&r, text))
+        return false;
+    const size_t length = strcspn(text, "\n");
+    *d = (shot_device){.subpixel_bits = (int)r.count, .api = "WebGL 2"};
+    snprintf(d->name, sizeof d->name, "%.*s", (int)length, text);
+    snprintf(d->driver, sizeof d->driver, "%s", text + length + 1);
+    for (int f = 0; f < SHOT_FORMATS; f++)
+        snprintf(d->format[f], sizeof d->format[f], "DEPTH_COMPONENT%s", (const char *[]){"16", "24", "32F"}[f]);
+    m->count = 1;
+    m->counts = true;
+    return true;
+}
+
+static bool draw(shot *s, char *text) {
+    request r = {.what = DRAW,
+                 .source = probe_glsl,
+                 .a = s->a,
+                 .b = s->b,
+                 .format = s->format,
+                 .program = s->program,
+                 .other = s->other,
+                 .triangles = s->triangles,
+                 .constant = s->constant,
+                 .slope = s->slope,
+                 .count = s->count,
+                 .in = s->vertex,
+                 .second = s->second,
+                 .out = s->code};
+    s->drawn = ask(&r, text);
+    s->passed = r.passed;
+    return s->drawn;
+}
+
+/* Whether a buffer that was asked to hold codes gives back what was drawn, bit for bit. */
+static bool is_real(const shot *s) {
+    bool same = s->again && plan_scale(s->format) > 0.0;
+    for (uint32_t i = 0; same && i < s->count; i++)
+        same = s->code[i] == dp_bits32(s->vertex[i][2]);
+    return same;
+}
+
+/* The codes whose numbers a texture gives: the nearest one, other numbers for other codes in 24 bits, too. */
+static void find_codes(shot *s) {
+    const double scale = plan_scale(s->format);
+    for (int i = 0; i < SHOT_PIXELS && scale > 0.0; i++)
+        s->code[i] = (uint32_t)rint((double)dp_float32(s->code[i]) * scale);
+}
+
+bool probe_run(const char *device, uint64_t seed, probe_result *r, char error[SHOT_ERROR_SIZE]) {
+    bool real[SHOT_FORMATS] = {false};
+    char text[TEXT_SIZE] = "there is no memory for it";
+    (void)device;
+    *r = (probe_result){0};
+    bool good = plan_make(&r->plan, seed) && describe(&r->machine, text);
+    for (size_t i = 0; good && i < r->plan.count; i++) {
+        shot *s = &r->plan.shot[i];
+        if (real[s->format]) /* it is drawn as what it is */
+            continue;
+        good = draw(s, text);
+        real[s->format] = is_real(s);
+        if (!real[s->format])
+            find_codes(s);
+    }
+    if (good)
+        probe_judge(r);
+    snprintf(error, SHOT_ERROR_SIZE, "%.*s", SHOT_ERROR_SIZE - 1, text);
+    return good;
+}
+
+void probe_free(probe_result *r) {
+    plan_free(&r->plan);
+}
+
+/* ---- Functions --------------------------------------------------------------------------------------------------- */
+
+/* The operand is the source itself: no file is in the page. */
+int shader_open(const options *o, const dp_setup *setup, shader *out) {
+    char text[TEXT_SIZE];
+    request r = {.what = COMPILE,
+                 .source = o->operands[0],
+                 .a = (float)setup->spec.znear,
+                 .b = (float)setup->spec.zfar};
+    *out = (shader){.o = o, .run = calloc(1, sizeof(compute_run)), .most = MOST};
+    if (out->run == NULL || !ask(&r, text))
+        return usage_error("judge: %s", text);
+    snprintf(out->defines, sizeof out->defines, "%s", text);
+    out->camera = text[0] != '\0';
+    return EXIT_FINE;
+}
+
+void shader_close(shader *s) {
+    free(s->run);
+}
+
+bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values, bool *endless,
+                    char error[COMPUTE_ERROR_SIZE]) {
+    static float *all;
+    (void)device;
+    *endless = false;
+    all = realloc(all, run->count * sizeof *all);
+    for (uint64_t i = 0; all != NULL && i < run->count; i++)
+        all[i] = run->depth(run->of, i);
+    request r = {.what = VALUES, .count = (uint32_t)run->count, .in = all, .out = (uint32_t *)(void *)all};
+    if (all == NULL || !describe(machine, error) || !ask(&r, error))
+        return false;
+    *values = fmemopen(all, run->count * sizeof *all, "r");
+    return *values != NULL;
+}
+
+void sandbox_close(FILE *made) {
+    if (made != NULL)
+        fclose(made);
+}
