@@ -11,6 +11,7 @@
 #include "cli/methods.h"
 #include "cli/option/rows.h"
 #include "cli/scene/figure.h"
+#include "cli/shadow/maps.h"
 #include "judge/pairs.h"
 #include "plot/figure.h"
 #include "requirement/check.h"
@@ -33,6 +34,7 @@ ABSENT(cmd_methods)
 ABSENT(cmd_scene)
 ABSENT(cmd_shadow)
 ABSENT(cmd_texture)
+ABSENT(cmd_world)
 ABSENT(constants_write)
 ABSENT(link_write)
 
@@ -43,12 +45,15 @@ ABSENT(link_write)
         return "plot: this figure is not in the page: the program has it";                                             \
     }
 
+ABSENT_FIGURE(fight_build)
 ABSENT_FIGURE(linear01_build)
 ABSENT_FIGURE(scene_build)
 ABSENT_FIGURE(normals_build)
 ABSENT_FIGURE(pareto_build)
 ABSENT_FIGURE(needs_build)
+ABSENT_FIGURE(shadow_build)
 ABSENT_FIGURE(stability_build)
+ABSENT_FIGURE(world_build)
 
 /* ---- Rows that options of those commands name ---------------------------------------------------------------------
  */
@@ -98,6 +103,13 @@ int judge_pairs_read(const char *path, judge_pairs *out, char error[PAIRS_ERROR_
     return -1;
 }
 
+int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
+    (void)format;
+    (void)mapping;
+    (void)out;
+    return absent(o);
+}
+
 void need_release(need_file *file) {
     (void)file;
 }
@@ -140,13 +152,6 @@ int parse_raster(options *o, const option_row *row, const char *value) {
 }
 
 /* ---- Of commands that are not here ------------------------------------------------------------------------------- */
-
-double shadow_rebuilt(const dp_setup *camera, double lo, double hi, double world) {
-    (void)camera;
-    (void)lo;
-    (void)world;
-    return hi;
-}
 
 #define ABSENT_PARSER(name)                                                                                            \
     int name(options *o, const option_row *row, const char *value) {                                                   \
