@@ -13,30 +13,17 @@
 #include "probe/judge.h"
 #include "probe/spirv.h"
 #include "system/sandbox.h"
+#include "web/gpu.h"
 #include "web/page.h"
 
-enum { TEXT_SIZE = COMPUTE_ERROR_SIZE, MOST = 1 << 20 };
-
-/* The order of its numbers, 4 bytes each, is that of gpu.js. */
-typedef struct request {
-    enum { OPEN, DRAW, COMPILE, VALUES } what;
-    char *text; /* of TEXT_SIZE: why it failed, else what is said of the device, or of the camera */
-    const char *source;
-    float a, b; /* of a program; near and far */
-    uint32_t format, program, other, triangles;
-    float constant, slope;
-    uint32_t count;
-    const void *in, *second;
-    uint32_t *out;
-    uint32_t passed;
-} request;
+enum { MOST = 1 << 20 };
 
 /** Does what is asked. @return 0; else `text` says why not */
-PAGE_IMPORT("gpu") int page_gpu(request *r);
+PAGE_IMPORT("gpu") int page_gpu(gpu_request *r);
 
-static bool ask(request *r, char *text) {
+bool gpu_ask(gpu_request *r, char text[GPU_TEXT_SIZE]) {
     r->text = text;
-    snprintf(text, TEXT_SIZE, "the page has no GPU here");
+    snprintf(text, GPU_TEXT_SIZE, "the page has no GPU here");
     return page_gpu(r) == 0;
 }
 
@@ -44,8 +31,8 @@ static bool ask(request *r, char *text) {
 
 static bool describe(shot_machine *m, char *text) {
     shot_device *d = &m->device[0];
-    request r = {.what = OPEN};
-    if (!ask(&r, text))
+    gpu_request r = {.what = GPU_OPEN};
+    if (!gpu_ask(&r, text))
         return false;
     const size_t length = strcspn(text, "\n");
     *d = (shot_device){.subpixel_bits = (int)r.count, .api = "WebGL 2"};
@@ -59,7 +46,7 @@ static bool describe(shot_machine *m, char *text) {
 }
 
 static bool draw(shot *s, char *text) {
-    request r = {.what = DRAW,
+    gpu_request r = {.what = GPU_DRAW,
                  .source = probe_glsl,
                  .a = s->a,
                  .b = s->b,
@@ -73,7 +60,7 @@ static bool draw(shot *s, char *text) {
                  .in = s->vertex,
                  .second = s->second,
                  .out = s->code};
-    s->drawn = ask(&r, text);
+    s->drawn = gpu_ask(&r, text);
     s->passed = r.passed;
     return s->drawn;
 }
@@ -95,7 +82,7 @@ static void find_codes(shot *s) {
 
 bool probe_run(const char *device, uint64_t seed, probe_result *r, char error[SHOT_ERROR_SIZE]) {
     bool real[SHOT_FORMATS] = {false};
-    char text[TEXT_SIZE] = "there is no memory for it";
+    char text[GPU_TEXT_SIZE] = "there is no memory for it";
     (void)device;
     *r = (probe_result){0};
     bool good = plan_make(&r->plan, seed) && describe(&r->machine, text);
@@ -122,13 +109,13 @@ void probe_free(probe_result *r) {
 
 /* The operand is the source itself: no file is in the page. */
 int shader_open(const options *o, const dp_setup *setup, shader *out) {
-    char text[TEXT_SIZE];
-    request r = {.what = COMPILE,
+    char text[GPU_TEXT_SIZE];
+    gpu_request r = {.what = GPU_COMPILE,
                  .source = o->operands[0],
                  .a = (float)setup->spec.znear,
                  .b = (float)setup->spec.zfar};
     *out = (shader){.o = o, .run = calloc(1, sizeof(compute_run)), .most = MOST};
-    if (out->run == NULL || !ask(&r, text))
+    if (out->run == NULL || !gpu_ask(&r, text))
         return usage_error("judge: %s", text);
     snprintf(out->defines, sizeof out->defines, "%s", text);
     out->camera = text[0] != '\0';
@@ -147,8 +134,8 @@ bool compute_values(const char *device, const compute_run *run, shot_machine *ma
     all = realloc(all, run->count * sizeof *all);
     for (uint64_t i = 0; all != NULL && i < run->count; i++)
         all[i] = run->depth(run->of, i);
-    request r = {.what = VALUES, .count = (uint32_t)run->count, .in = all, .out = (uint32_t *)(void *)all};
-    if (all == NULL || !describe(machine, error) || !ask(&r, error))
+    gpu_request r = {.what = GPU_VALUES, .count = (uint32_t)run->count, .in = all, .out = (uint32_t *)(void *)all};
+    if (all == NULL || !describe(machine, error) || !gpu_ask(&r, error))
         return false;
     *values = fmemopen(all, run->count * sizeof *all, "r");
     return *values != NULL;

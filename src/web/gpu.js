@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The browser's GPU: draws what gpu.c asks for and reads back what was stored. In a worker, so that a driver that takes
-// long, or is lost, takes nothing of the page with it.
-const SIZE = 256, CLEAR = 0.75, WIDTH = 1024, TEXT = 512;
+// The browser's GPU: draws what gpu.c asks for and reads back what was stored. It works in the page's worker, so that a
+// driver that takes long, or is lost, takes nothing of the page with it.
+const SQUARE = [256, 256], STREET = [640, 360], CLEAR = 0.75, WIDTH = 1024, TEXT = 512, BEHIND = 9999;
 const HEAD = "#version 300 es\nprecision highp float;precision highp int;";
 const WHOLE = `${HEAD}void main(){gl_Position=vec4(ivec2(gl_VertexID&1,gl_VertexID>>1)*4-1,0,1);}`;
+const WHO = `${HEAD}uniform uint who;out highp uint value_;void main(){value_=who;}`;
+const LOST = "the browser took the GPU away (its context is lost): the next try asks for it again";
 
 let gl = null, clip, judged;
 
-const fail = (text) => {
+const refuse_ = (text) => {
     throw new Error(text);
 };
 
-function open() {
-    if (gl === null || gl.isContextLost()) {
-        gl = typeof OffscreenCanvas === "undefined" ? null : new OffscreenCanvas(1, 1).getContext("webgl2");
-        if (gl === null) fail("this browser gives a worker no WebGL 2");
-        clip = gl.getExtension("EXT_clip_control");
-        gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    }
+function openContext() {
+    if (gl !== null && !gl.isContextLost()) return;
+    gl = typeof OffscreenCanvas === "undefined" ? null : new OffscreenCanvas(1, 1).getContext("webgl2");
+    if (gl === null) refuse_("this browser has no WebGL 2 for a worker");
+    clip = gl.getExtension("EXT_clip_control");
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
 }
 
 function programOf(vertex, fragment) {
@@ -26,155 +29,176 @@ function programOf(vertex, fragment) {
         const shader = gl.createShader(type);
         gl.shaderSource(shader, text);
         gl.compileShader(shader);
-        if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) fail(gl.getShaderInfoLog(shader) ?? "");
+        if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) refuse_(gl.getShaderInfoLog(shader) ?? LOST);
         gl.attachShader(made, shader);
+        gl.deleteShader(shader);
     }
+    gl.bindAttribLocation(made, 0, "given");
     gl.linkProgram(made);
-    if (!gl.getProgramParameter(made, gl.LINK_STATUS)) fail(gl.getProgramInfoLog(made) ?? "");
+    if (!gl.getProgramParameter(made, gl.LINK_STATUS)) refuse_(gl.getProgramInfoLog(made) ?? LOST);
     gl.useProgram(made);
     return made;
 }
 
-function texture(format, width, height) {
+// The value of a float function named so at each number of a texture.
+const functionOf = (text, name) => programOf(WHOLE, `${HEAD}uniform highp sampler2D depths_;out highp uint value_;
+${text}
+#line ${BEHIND}
+void main(){value_=floatBitsToUint(${name}(texelFetch(depths_,ivec2(gl_FragCoord.xy),0).r));}`);
+
+function texture(format, [width, height]) {
     const made = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, made);
     gl.texStorage2D(gl.TEXTURE_2D, 1, format, width, height);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+    for (const which of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, which, gl.NEAREST);
     return made;
 }
 
-// A frame of whole numbers, and a depth buffer or none; both go when `draw` has drawn and its numbers are read.
-function framed(width, height, depth, draw) {
-    const frame = gl.createFramebuffer(), seen = texture(gl.R32UI, width, height), four = new Uint32Array(4 * width * height);
+// The whole numbers that are drawn, where nothing is 0.
+function drawn(size, depth, draw) {
+    const frame = gl.createFramebuffer(), seen = texture(gl.R32UI, size), four = new Uint32Array(4 * size[0] * size[1]);
     gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, seen, 0);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, depth, 0);
-    gl.viewport(0, 0, width, height);
-    gl.clearBufferuiv(gl.COLOR, 0, four);
+    gl.viewport(0, 0, ...size);
+    gl.clearBufferuiv(gl.COLOR, 0, four.subarray(0, 4));
     draw();
-    gl.readPixels(0, 0, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, four);
+    gl.readPixels(0, 0, ...size, gl.RGBA_INTEGER, gl.UNSIGNED_INT, four);
     gl.deleteFramebuffer(frame);
     gl.deleteTexture(seen);
     return four.filter((_, i) => i % 4 === 0);
 }
 
-// What a function makes of the numbers of a texture.
-function values(program, from, width, height) {
+function valuesOf(program, from, size) {
     gl.disable(gl.DEPTH_TEST);
     gl.useProgram(program);
-    gl.bindTexture(gl.TEXTURE_2D, null);
-    return framed(width, height, null, () => {
+    return drawn(size, null, () => {
         gl.bindTexture(gl.TEXTURE_2D, from);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     });
 }
 
-const function_ = (text, name) => programOf(WHOLE, `${HEAD}uniform highp sampler2D depths_;out highp uint value_;
-${text}
-#line 9999
-void main(){value_=floatBitsToUint(${name}(texelFetch(depths_,ivec2(gl_FragCoord.xy),0).r));}`);
+// Draws by `draw` into a depth buffer from 0 to 1, and calls `then` with it.
+function withDepth(format, size, clear, draw, then) {
+    if (clip === null) refuse_("this browser has no EXT_clip_control: its clip z is not from 0 to w, which is what is judged here");
+    clip.clipControlEXT(clip.LOWER_LEFT_EXT, clip.ZERO_TO_ONE_EXT);
+    const depth = texture([gl.DEPTH_COMPONENT16, gl.DEPTH_COMPONENT24, gl.DEPTH_COMPONENT32F][format], size);
+    const seen = drawn(size, depth, () => {
+        gl.enable(gl.DEPTH_TEST);
+        gl.depthMask(true);
+        gl.clearBufferfv(gl.DEPTH, 0, [clear]);
+        gl.enableVertexAttribArray(0);
+        draw();
+        gl.disableVertexAttribArray(0);
+    });
+    then(seen, depth);
+    gl.deleteTexture(depth);
+}
 
-const ASKS = [
-    function describe() {
+const uniform = (program, name, as, value) => gl[`uniform1${as}`](gl.getUniformLocation(program, name), value);
+
+const GPU_ASKS = [
+    () => {
         const named = gl.getExtension("WEBGL_debug_renderer_info");
         return `${gl.getParameter(named?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)}\n${gl.getParameter(gl.VERSION)}`;
     },
 
-    function draw({ source, a, b, format, program, other, triangles, constant, slope, count, vertices, second, codes, answer }) {
-        if (clip === null) fail("the browser has no EXT_clip_control, without which clip z from 0 to w is not what is drawn");
-        clip.clipControlEXT(clip.LOWER_LEFT_EXT, clip.ZERO_TO_ONE_EXT);
-        const depth = texture([gl.DEPTH_COMPONENT16, gl.DEPTH_COMPONENT24, gl.DEPTH_COMPONENT32F][format], SIZE, SIZE);
-        const drawn = (which, data) => {
-            const made = programOf(`#version 300 es\n#define program ${which}\nin vec4 given;uniform float a,b;${source}`,
-                `${HEAD}out highp uint value_;void main(){value_=1u;}`);
-            gl.uniform1f(gl.getUniformLocation(made, "a"), a);
-            gl.uniform1f(gl.getUniformLocation(made, "b"), b);
-            gl.bufferData(gl.ARRAY_BUFFER, data, gl.STREAM_DRAW);
-            gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
-            gl.enableVertexAttribArray(0);
+    // A shot of the probe: what is stored, and how many pixels of `second` are equal to it.
+    ({ source, a, b, format, program, other, triangles, constant, slope, count, vertices, second, out, pass }) => {
+        const put = (which, at) => {
+            const made = programOf(`#version 300 es\n#define program ${which}\nin vec4 given;uniform float a,b;${source}`, WHO);
+            uniform(made, "a", "f", a);
+            uniform(made, "b", "f", b);
+            uniform(made, "who", "ui", 1);
+            gl.bufferData(gl.ARRAY_BUFFER, at(4 * count), gl.STREAM_DRAW);
             gl.drawArrays(triangles ? gl.TRIANGLES : gl.POINTS, 0, count);
-            gl.disableVertexAttribArray(0);
             gl.deleteProgram(made);
         };
-        const passed = framed(SIZE, SIZE, depth, () => {
-            gl.depthMask(true);
-            gl.clearBufferfv(gl.DEPTH, 0, [CLEAR]);
-            gl.enable(gl.DEPTH_TEST);
+        withDepth(format, SQUARE, CLEAR, () => {
             gl.depthFunc(gl.ALWAYS);
-            gl.colorMask(false, false, false, false);
-            gl.enable(gl.POLYGON_OFFSET_FILL);
             gl.polygonOffset(slope, constant);
-            drawn(program, vertices);
+            gl.colorMask(false, false, false, false);
+            put(program, vertices);
             gl.colorMask(true, true, true, true);
             gl.depthMask(false);
             gl.depthFunc(gl.EQUAL);
-            if (second !== null) drawn(other, second);
+            if (second !== null) put(other, second);
+        }, (passed, depth) => {
+            pass(passed.reduce((sum, one) => sum + one));
+            const same = functionOf("float same(float d){return d;}", "same");
+            out(SQUARE[0] * SQUARE[1]).set(valuesOf(same, depth, SQUARE));
+            gl.deleteProgram(same);
         });
-        codes.set(values(function_("float same(float d){return d;}", "same"), depth, SIZE, SIZE));
-        gl.deleteTexture(depth);
-        answer(passed.reduce((sum, one) => sum + one));
-        return "";
     },
 
-    // What is given of the camera, where its uniforms ask for it.
-    function compile({ source, a: near, b: far }) {
+    // A function of somebody's, and what it is given of the camera.
+    ({ source, a: near, b: far }) => {
         const name = [...source.matchAll(/float\s+(\w+)\s*\(\s*(in\s+)?((high|medium|low)p\s+)?float\b/g)].at(-1)?.[1];
-        if (name === undefined) fail("it needs a function of a depth: float f(float depth) { ... }");
-        const own = /\buniform\b/.test(source) ? "" : "uniform float near,far;";
+        if (name === undefined) refuse_("it has no function of a depth: float f(float depth) { ... }");
         try {
-            judged = function_(`${own}\n#line 1\n${source}`, name);
+            judged = functionOf(`${/\buniform\b/.test(source) ? "" : "uniform float near,far;"}\n#line 1\n${source}`, name);
         } catch (error) {
-            if (gl.isContextLost()) throw error;
-            const [, line, text] = /ERROR: \d+:(\d+): ([^\n\0]*)/.exec(error.message) ?? [null, 0, error.message];
-            fail(line < 9999 && line > 0 ? `line ${line}: ${text}` : text);
+            const [, line, text] = /ERROR: \d+:(\d+): ([^\n\0]*)/.exec(error.message) ?? [null, BEHIND, error.message];
+            refuse_(line < BEHIND ? `line ${line}: ${text}` : text);
         }
         const given = [];
-        for (let i = 0; i < gl.getProgramParameter(judged, gl.ACTIVE_UNIFORMS); i++) {
-            const { name: called, type } = gl.getActiveUniform(judged, i), what = /near|far/i.exec(called)?.[0].toLowerCase();
+        for (let i = gl.getProgramParameter(judged, gl.ACTIVE_UNIFORMS); i-- > 0;) {
+            const { name: called, type } = gl.getActiveUniform(judged, i), plane = /near|far/i.exec(called)?.[0].toLowerCase();
             if (called === "depths_") continue;
-            if (type !== gl.FLOAT || what === undefined) fail(`uniform ${called}: near and far alone are given, as float`);
-            gl.uniform1f(gl.getUniformLocation(judged, called), what === "near" ? near : far);
-            given.push(`${called} = ${what}`);
+            if (type !== gl.FLOAT || plane === undefined) refuse_(`uniform ${called}: only near and far are given, as float`);
+            uniform(judged, called, "f", plane === "near" ? near : far);
+            given.unshift(`${called} = ${plane}`);
         }
         return given.join(", ");
     },
 
-    function values_({ count, vertices, codes }) {
-        const height = Math.ceil(count / WIDTH), all = new Float32Array(WIDTH * height), from = texture(gl.R32F, WIDTH, height);
-        all.set(vertices.subarray(0, count));
-        gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, WIDTH, height, gl.RED, gl.FLOAT, all);
-        codes.set(values(judged, from, WIDTH, height).subarray(0, count));
+    ({ count, reals, out }) => {
+        const size = [WIDTH, Math.ceil(count / WIDTH)], all = new Float32Array(WIDTH * size[1]), from = texture(gl.R32F, size);
+        all.set(reals(count));
+        gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, ...size, gl.RED, gl.FLOAT, all);
+        out(count).set(valuesOf(judged, from, size).subarray(0, count));
         gl.deleteTexture(from);
-        return "";
     },
+
+    // Who is seen of triangles that are somebody's each: the nearest, of equal depths the first.
+    ({ format, other: reversed, count, vertices, second, out }) =>
+        withDepth(format, STREET, reversed ? 0 : 1, () => {
+            const made = programOf(`${HEAD}in vec4 given;void main(){gl_Position=given;}`, WHO);
+            gl.depthFunc(reversed ? gl.GREATER : gl.LESS);
+            gl.polygonOffset(0, 0);
+            gl.bufferData(gl.ARRAY_BUFFER, vertices(12 * count), gl.STREAM_DRAW);
+            second(count).forEach((who, i) => {
+                uniform(made, "who", "ui", who);
+                gl.drawArrays(gl.TRIANGLES, 3 * i, 3);
+            });
+            gl.deleteProgram(made);
+        }, (seen) => out(STREET[0] * STREET[1]).set(seen)),
 ];
 
-// A request of gpu.c, in its order, at `at` of the module's memory.
+// Does a request of gpu.h that stands at `at` in the module's memory: 0 where it is done, else its text says why not.
 export function gpu(buffer, at) {
-    const words = new Uint32Array(buffer, at, 17), reals = new Float32Array(buffer, at, 17), bytes = new Uint8Array(buffer);
-    const [what, text, source, , , format, program, other, triangles, , , count, vertices, second, codes] = words;
-    const told = (from) => new TextDecoder().decode(bytes.subarray(from, bytes.indexOf(0, from)));
-    const floats = (from, size) => (from === 0 ? null : new Float32Array(buffer, from, size));
+    const words = new Uint32Array(buffer, at, 16), [, , , a, b] = new Float32Array(buffer, at, 16), bytes = new Uint8Array(buffer);
+    const [what, text, source, , , format, program, other, triangles, , , count, vertices, second, out] = words;
+    const [constant, slope] = new Float32Array(buffer, at + 36, 2);
+    const numbers = (from) => (from === 0 ? null : (size) => new Uint32Array(buffer, from, size));
     const say = (said) => {
         const { written } = new TextEncoder().encodeInto(said, bytes.subarray(text, text + TEXT - 1));
         bytes[text + written] = 0;
     };
     try {
-        open();
-        const said = ASKS[what]({
-            source: told(source), a: reals[3], b: reals[4], format, program, other, triangles, constant: reals[9],
-            slope: reals[10], count, vertices: floats(vertices, what === 1 ? 4 * count : count), second: floats(second, 4 * count),
-            codes: new Uint32Array(buffer, codes, what === 1 ? SIZE * SIZE : count), answer: (passed) => (words[15] = passed),
+        openContext();
+        const said = GPU_ASKS[what]({
+            source: new TextDecoder().decode(bytes.subarray(source, bytes.indexOf(0, source))), a, b, format, program, other,
+            triangles, constant, slope, count, vertices: numbers(vertices), second: numbers(second), out: numbers(out),
+            reals: (size) => new Float32Array(buffer, vertices, size), pass: (passed) => (words[15] = passed),
         });
-        if (what === 0) words[11] = gl.getParameter(gl.SUBPIXEL_BITS);
-        if (gl.isContextLost()) fail("the browser took the GPU away; another try gets it back");
         const wrong = gl.getError();
-        if (wrong !== gl.NO_ERROR) fail(`the GPU refuses a draw, error ${wrong}`);
-        say(said);
+        if (wrong !== gl.NO_ERROR) refuse_(`the GPU refuses it, error ${wrong}`);
+        if (what === 0) words[11] = gl.getParameter(gl.SUBPIXEL_BITS);
+        say(said ?? "");
         return 0;
     } catch (error) {
-        say(gl?.isContextLost() ? "the browser took the GPU away (context lost): another try gets it back" : error.message);
+        say(gl?.isContextLost() ? LOST : error.message);
         return 1;
     }
 }
