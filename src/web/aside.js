@@ -112,6 +112,9 @@ export function createAside(module, { here, onSaid, onRun }) {
             next();
         }),
 
+        // What a line said counts no more.
+        forget: (line) => last.delete(keyOf(line)),
+
         // Nobody wants to know that line any more: it is refused at once, and ends unless it is wanted.
         leave(line) {
             const key = keyOf(line);

@@ -117,5 +117,6 @@ export function createPicture({ views, engine, slider, play, gapIs }) {
             slide();
         },
         marks: (on) => ((painted = on), soon()),
+        frame: () => frame,
     };
 }
