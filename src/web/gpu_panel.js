@@ -62,7 +62,7 @@ export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame,
         aside.forget(line);
         draws = false;
         canvas.hidden = said.status !== 0;
-        $("figcaption", figure).textContent = fault(said) || said.err;
+        $("span", figure).textContent = fault(said) || said.err;
         if (said.status === 0) {
             const image = new ImageData(canvas.width, canvas.height);
             for (let i = 0; i < image.data.length; i++) image.data[i] = said.out.charCodeAt(i);
