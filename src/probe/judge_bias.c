@@ -55,7 +55,7 @@ static double depth_of(const shot *s, int tile, int step, double pixel) {
     const int a = steps[step].anchor;
     double z[3];
     for (int i = 0; i < 3; i++)
-        z[i] = (double)s->vertex[3 * tile + i][2];
+        z[i] = (double)judge_clip(s, s->vertex[3 * tile + i]);
     if (of == DIFFERENCES)
         return fmax(z[a], fmax(fabs(z[(a + 1) % 3] - z[a]), fabs(z[(a + 2) % 3] - z[a])));
     return of == LARGEST ? fmax(z[0], fmax(z[1], z[2])) : pixel;

@@ -78,10 +78,9 @@ function valuesOf(program, from, size) {
     });
 }
 
-// Draws by `draw` into a depth buffer from 0 to 1, and calls `then` with it.
+// Draws by `draw` into a depth buffer, and calls `then` with it. Clip z is from 0 to w, else as C is told.
 function withDepth(format, size, clear, draw, then) {
-    if (clip === null) refuse_("this browser has no EXT_clip_control: its clip z is not from 0 to w, which is what is judged here");
-    clip.clipControlEXT(clip.LOWER_LEFT_EXT, clip.ZERO_TO_ONE_EXT);
+    clip?.clipControlEXT(clip.LOWER_LEFT_EXT, clip.ZERO_TO_ONE_EXT);
     const depth = texture([gl.DEPTH_COMPONENT16, gl.DEPTH_COMPONENT24, gl.DEPTH_COMPONENT32F][format], size);
     const seen = drawn(size, depth, () => {
         gl.enable(gl.DEPTH_TEST);
@@ -194,7 +193,7 @@ export function gpu(buffer, at) {
         });
         const wrong = gl.getError();
         if (wrong !== gl.NO_ERROR) refuse_(`the GPU refuses it, error ${wrong}`);
-        if (what === 0) words[11] = gl.getParameter(gl.SUBPIXEL_BITS);
+        if (what === 0) [words[11], words[15]] = [gl.getParameter(gl.SUBPIXEL_BITS), clip === null];
         say(said ?? "");
         return 0;
     } catch (error) {
