@@ -313,6 +313,38 @@ TEST(test_other_states) {
     probe_free(&r);
 }
 
+/* Clip z from -w to w, moved to [0, 1] before the division, as translators do, or after it; and 24 bits that hold
+ * binary32 instead of codes. */
+TEST(test_signed) {
+    static probe_result r;
+    const device is = {1, .reciprocal = true, .float_step = 1, .code_step = 1};
+    for (int after = 0; after < 2; after++) {
+        make(&r, &is);
+        for (size_t i = 0; i < r.plan.count; i++) {
+            shot *s = &r.plan.shot[i];
+            const bool stored = strcmp(s->name, "stored") == 0, projects = s->program == SHOT_PROJECT;
+            s->ndc_signed = true;
+            s->drawn = stored || (strcmp(s->name, "rounding") == 0 && s->format == SHOT_D16) ||
+                       strcmp(s->name, "division") == 0 || strcmp(s->name, "projection") == 0;
+            for (int k = 0; k < SHOT_PIXELS && s->drawn; k++) {
+                const float *v = s->vertex[k], w = v[3];
+                const float z = projects ? rounded('+', rounded('*', s->a, v[2], 0.0F), s->b, 0.0F) : v[2];
+                const float half = divided(&is, rounded('*', rounded('+', z, w, 0.0F), 0.5F, 0.0F), w);
+                const float d = after ? rounded('+', divided(&is, z, w) * 0.5F, 0.5F, 0.0F) : half;
+                s->code[k] = code_of(&is, s->format == SHOT_D24 ? SHOT_D32F : s->format, d);
+            }
+        }
+        probe_judge(&r);
+        says(&r, "stored", "d16", "codes");
+        for (size_t i = 0; i < r.count; i++)
+            assert_true(r.finding[i].format == NULL || strcmp(r.finding[i].format, "d24") != 0);
+        says(&r, "division", NULL, after ? "1 / w, then times 1/2" : "(clip z + w)/2 times the rounded 1 / w");
+        says(&r, "projection", NULL, "each rounded");
+        assert_string_equal(r.arith, after ? "mesa" : "mesa-remap");
+        probe_free(&r);
+    }
+}
+
 /* Functions as the test stores them: exact but for one, whose error is what is said. */
 TEST(test_functions) {
     static probe_result r;

@@ -79,8 +79,8 @@ static void judge_float(probe_result *r) {
             const int tile = i / AROUND, pixel = pixel_of(tile, i % AROUND);
             const double before = (double)dp_float32(without->code[pixel]);
             const double after = (double)dp_float32(with->code[pixel]);
-            all[g].hits += stepped(before, after, depth_of(with, tile, g, before),
-                                   factors[steps[g].factor], is_flat(tile));
+            all[g].hits +=
+                stepped(before, after, depth_of(with, tile, g, before), factors[steps[g].factor], is_flat(tile));
         }
     }
     judge_guesses(r, "bias", "d32f", all, STEPS, (uint64_t)PLAN_TILES * AROUND);

@@ -12,7 +12,8 @@
 /* ---- The format that is stored ----------------------------------------------------------------------------------- */
 
 /* Two depths of one code are equal in the buffer if it holds codes, and differ if it holds more. Where a browser reads
- * depths as a texture, what was asked for as codes may come back as the binary32 that was drawn: that is what is stored. */
+ * depths as a texture, what was asked for as codes may come back as the binary32 that was drawn: that is what is
+ * stored. */
 static void judge_stored(probe_result *r, shot_format format) {
     const shot *s = judge_shot(r, PLAN_STORED, format);
     const bool whole = plan_scale(format) > 0.0;
@@ -24,13 +25,13 @@ static void judge_stored(probe_result *r, shot_format format) {
     const bool real = same == s->count && (whole || s->passed == 0);
     const uint64_t hits = real || !whole ? same : s->passed <= s->count ? s->passed : 0;
     const bool all = real || (whole && (hits == s->count || (hits > 0 && !r->machine.counts)));
-    probe_finding *f = judge_say(r, "stored", probe_format_name(real ? SHOT_D32F : format),
-                                 all ? PROBE_SURE : PROBE_NO_ROW, "%s: %s",
-                                 r->machine.device[r->machine.chosen].format[format],
-                                 real                 ? "every bit of binary32"
-                                 : all                ? "codes of that many bits, nothing finer"
-                                 : whole && hits == 0 ? "finer than its codes: depths of one code are distinguished"
-                                                      : "neither its codes nor finer ones throughout");
+    probe_finding *f =
+        judge_say(r, "stored", probe_format_name(real ? SHOT_D32F : format), all ? PROBE_SURE : PROBE_NO_ROW, "%s: %s",
+                  r->machine.device[r->machine.chosen].format[format],
+                  real                 ? "every bit of binary32"
+                  : all                ? "codes of that many bits, nothing finer"
+                  : whole && hits == 0 ? "finer than its codes: depths of one code are distinguished"
+                                       : "neither its codes nor finer ones throughout");
     f->cases = s->count;
     f->hits = hits;
 }
@@ -96,11 +97,11 @@ static float window(const shot *s, int division, float z, float w) {
 
 static int judge_division(probe_result *r) {
     const shot *s = judge_shot(r, PLAN_DIVISION, SHOT_D32F);
-    static const char *const words[2][DIVISIONS] = {
-        {"clip z / w, rounded once", "clip z times the rounded 1 / w"},
-        {"(clip z + w)/2 / w, each rounded", "(clip z + w)/2 times the rounded 1 / w",
-         "clip z / w, rounded once, then times 1/2, plus 1/2",
-         "clip z times the rounded 1 / w, then times 1/2, plus 1/2"}};
+    static const char *const words[2][DIVISIONS] = {{"clip z / w, rounded once", "clip z times the rounded 1 / w"},
+                                                    {"(clip z + w)/2 / w, each rounded",
+                                                     "(clip z + w)/2 times the rounded 1 / w",
+                                                     "clip z / w, rounded once, then times 1/2, plus 1/2",
+                                                     "clip z times the rounded 1 / w, then times 1/2, plus 1/2"}};
     guess all[DIVISIONS];
     if (s == NULL)
         return JUDGE_NONE;
@@ -253,8 +254,8 @@ static const char *row_of(unsigned conversions, int division, int is_fused, bool
     for (dp_arith i = 0; i < dp_arith_count(); i++) {
         const dp_arith_row *row = dp_arith_get(i);
         for (int c = EXACT; c <= PRODUCT_ZERO; c++)
-            if (conversions == 1U << c && row->remap == (remap && (division & AFTER) == 0) &&
-                row->fused == is_fused && row->reciprocal == (division & RECIPROCAL) && row->conversion == known[c])
+            if (conversions == 1U << c && row->remap == (remap && (division & AFTER) == 0) && row->fused == is_fused &&
+                row->reciprocal == (division & RECIPROCAL) && row->conversion == known[c])
                 return row->name;
     }
     return NULL;

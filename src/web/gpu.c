@@ -50,19 +50,19 @@ static bool describe(shot_machine *m, char *text) {
 
 static bool draw(shot *s, char *text) {
     gpu_request r = {.what = GPU_DRAW,
-                 .source = probe_glsl,
-                 .a = s->a,
-                 .b = s->b,
-                 .format = s->format,
-                 .program = s->program,
-                 .other = s->other,
-                 .triangles = s->triangles,
-                 .constant = s->constant,
-                 .slope = s->slope,
-                 .count = s->count,
-                 .in = s->vertex,
-                 .second = s->second,
-                 .out = s->code};
+                     .source = probe_glsl,
+                     .a = s->a,
+                     .b = s->b,
+                     .format = s->format,
+                     .program = s->program,
+                     .other = s->other,
+                     .triangles = s->triangles,
+                     .constant = s->constant,
+                     .slope = s->slope,
+                     .count = s->count,
+                     .in = s->vertex,
+                     .second = s->second,
+                     .out = s->code};
     s->drawn = gpu_ask(&r, text);
     s->passed = r.passed;
     return s->drawn;
@@ -133,10 +133,8 @@ void probe_free(probe_result *r) {
 /* The operand is the source itself: no file is in the page. */
 int shader_open(const options *o, const dp_setup *setup, shader *out) {
     char text[GPU_TEXT_SIZE];
-    gpu_request r = {.what = GPU_COMPILE,
-                 .source = o->operands[0],
-                 .a = (float)setup->spec.znear,
-                 .b = (float)setup->spec.zfar};
+    gpu_request r = {
+        .what = GPU_COMPILE, .source = o->operands[0], .a = (float)setup->spec.znear, .b = (float)setup->spec.zfar};
     *out = (shader){.o = o, .run = calloc(1, sizeof(compute_run)), .most = MOST};
     if (out->run == NULL || !gpu_ask(&r, text))
         return usage_error("judge: %s", text);

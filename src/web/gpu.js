@@ -9,14 +9,14 @@ const LOST = "the browser took the GPU away (its context is lost): the next try 
 
 let gl = null, clip, judged;
 
-const refuse_ = (text) => {
+const giveUp = (text) => {
     throw new Error(text);
 };
 
 function openContext() {
     if (gl !== null && !gl.isContextLost()) return;
     gl = typeof OffscreenCanvas === "undefined" ? null : new OffscreenCanvas(1, 1).getContext("webgl2");
-    if (gl === null) refuse_("this browser has no WebGL 2 for a worker");
+    if (gl === null) giveUp("this browser has no WebGL 2 for a worker");
     clip = gl.getExtension("EXT_clip_control");
     gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
     gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
@@ -29,13 +29,13 @@ function programOf(vertex, fragment) {
         const shader = gl.createShader(type);
         gl.shaderSource(shader, text);
         gl.compileShader(shader);
-        if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) refuse_(gl.getShaderInfoLog(shader) ?? LOST);
+        if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) giveUp(gl.getShaderInfoLog(shader) ?? LOST);
         gl.attachShader(made, shader);
         gl.deleteShader(shader);
     }
     gl.bindAttribLocation(made, 0, "given");
     gl.linkProgram(made);
-    if (!gl.getProgramParameter(made, gl.LINK_STATUS)) refuse_(gl.getProgramInfoLog(made) ?? LOST);
+    if (!gl.getProgramParameter(made, gl.LINK_STATUS)) giveUp(gl.getProgramInfoLog(made) ?? LOST);
     gl.useProgram(made);
     return made;
 }
@@ -133,18 +133,18 @@ const GPU_ASKS = [
     // A function of somebody's, and what it is given of the camera.
     ({ source, a: near, b: far }) => {
         const name = [...source.matchAll(/float\s+(\w+)\s*\(\s*(in\s+)?((high|medium|low)p\s+)?float\b/g)].at(-1)?.[1];
-        if (name === undefined) refuse_("it has no function of a depth: float f(float depth) { ... }");
+        if (name === undefined) giveUp("it has no function of a depth: float f(float depth) { ... }");
         try {
             judged = functionOf(`${/\buniform\b/.test(source) ? "" : "uniform float near,far;"}\n#line 1\n${source}`, name);
         } catch (error) {
             const [, line, text] = /ERROR: \d+:(\d+): ([^\n\0]*)/.exec(error.message) ?? [null, BEHIND, error.message];
-            refuse_(line < BEHIND ? `line ${line}: ${text}` : text);
+            giveUp(line < BEHIND ? `line ${line}: ${text}` : text);
         }
         const given = [];
         for (let i = gl.getProgramParameter(judged, gl.ACTIVE_UNIFORMS); i-- > 0;) {
             const { name: called, type } = gl.getActiveUniform(judged, i), plane = /near|far/i.exec(called)?.[0].toLowerCase();
             if (called === "depths_") continue;
-            if (type !== gl.FLOAT || plane === undefined) refuse_(`uniform ${called}: only near and far are given, as float`);
+            if (type !== gl.FLOAT || plane === undefined) giveUp(`uniform ${called}: only near and far are given, as float`);
             uniform(judged, called, "f", plane === "near" ? near : far);
             given.unshift(`${called} = ${plane}`);
         }
@@ -192,7 +192,7 @@ export function gpu(buffer, at) {
             reals: (size) => new Float32Array(buffer, vertices, size), pass: (passed) => (words[15] = passed),
         });
         const wrong = gl.getError();
-        if (wrong !== gl.NO_ERROR) refuse_(`the GPU refuses it, error ${wrong}`);
+        if (wrong !== gl.NO_ERROR) giveUp(`the GPU refuses it, error ${wrong}`);
         if (what === 0) [words[11], words[15]] = [gl.getParameter(gl.SUBPIXEL_BITS), clip === null];
         say(said ?? "");
         return 0;

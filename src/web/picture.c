@@ -148,7 +148,7 @@ static void take_corners(void *context, const double place[3][3], unsigned who) 
     c->who[c->count++] = who;
 }
 
-/* Who is seen takes the model's place in the buffer. Characters of the output are the bytes of pixels. */
+/* Who is seen takes the place of the model's in the buffer. Characters of the output are the bytes of pixels. */
 static int draw_by_gpu(double gap, unsigned frame) {
     static const char *const formats[] = {"unorm16", "unorm24", "fp32"};
     static corners all;
@@ -177,7 +177,8 @@ static int draw_by_gpu(double gap, unsigned frame) {
             putchar(0xC0 | byte >> 6);
         putchar(byte >= 0x80 ? 0x80 | (byte & 0x3F) : byte);
     }
-    fprintf(stderr, "This GPU, gap %s: %zu of %d pixels differ from the model of %s; %zu are wrong, of the model %zu.\n",
+    fprintf(stderr,
+            "This GPU, gap %s: %zu of %d pixels differ from the model of %s; %zu are wrong, of the model %zu.\n",
             number_in(gap_text(gap), unit).text, differ, PIXELS, picture.camera.target.row->name, count.wrong, wrong);
     return EXIT_FINE;
 }

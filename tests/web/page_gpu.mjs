@@ -13,9 +13,9 @@ const { fround } = Math;
 const POINTS = 4096, FORMATS = ["DEPTH_COMPONENT16", "DEPTH_COMPONENT24", "DEPTH_COMPONENT32F"];
 
 // What the GPU stores of points (z, w), a pixel each, and of a triangle of that depth with a bias of 64 units and without.
-const stored = (page, points, depths) => page.evaluate(([all, flat, formats]) => {
+const stored = (page, signed, points, depths) => page.evaluate(([all, flat, formats, ndc]) => {
     const gl = document.createElement("canvas").getContext("webgl2"), clip = gl.getExtension("EXT_clip_control");
-    clip.clipControlEXT(clip.LOWER_LEFT_EXT, clip.ZERO_TO_ONE_EXT);
+    if (!ndc) clip.clipControlEXT(clip.LOWER_LEFT_EXT, clip.ZERO_TO_ONE_EXT);
     const side = Math.sqrt(all.length), out = {};
     const program = (vertex, fragment) => {
         const made = gl.createProgram();
@@ -77,7 +77,7 @@ const stored = (page, points, depths) => page.evaluate(([all, flat, formats]) =>
         }
     }
     return out;
-}, [points, depths, FORMATS]);
+}, [points, depths, FORMATS, signed]);
 
 const even = (x) => (Math.abs(x - Math.trunc(x)) === 0.5 ? 2 * Math.round(x / 2) : Math.round(x));
 const DIVISIONS = { "": (z, w) => fround(z / w), reciprocal: (z, w) => fround(z * fround(1 / w)) };
@@ -92,30 +92,36 @@ async function measure(page) {
     return page.evaluate(() => window.copied);
 }
 
-async function profile(page) {
+// Clip z from -w to w is moved to [0, 1] after the division, or before it by a row with the remap.
+const WINDOWS = {
+    "": (divide, z, w, signed) => (signed ? fround(fround(divide(z, w) * 0.5) + 0.5) : divide(z, w)),
+    "-remap": (divide, z, w, signed) => divide(signed ? fround(fround(z + w) * 0.5) : NaN, w),
+};
+
+async function profile(page, signed) {
     const r = random(seed()), draws = Array.from({ length: POINTS }, () => fround(r.spread(2 ** -10, 2 ** 20))).map((w) => [fround(w * r.spread(1e-3, 0.999)), w]);
-    const flat = [2000, 19660, 40000, 65000].map((k) => fround((k + 0.25) / 65535)), own = await stored(page, draws, flat);
+    const flat = [2000, 19660, 40000, 65000].map((k) => fround((k + 0.25) / 65535)), own = await stored(page, signed, draws, flat);
     const text = await measure(page), found = JSON.parse(text), finding = (key, format) => found.findings.filter((one) => one.key === key && (!format || one.format === format));
-    const says = (row, [division, code]) => draws.every(([z, w], i) => {
-        const d = DIVISIONS[division](z, w);
+    const says = ([division, code], moved) => draws.every(([z, w], i) => {
+        const d = WINDOWS[moved](DIVISIONS[division], z, w, signed);
         return own.DEPTH_COMPONENT32F.points[i] === d && Math.round(own.DEPTH_COMPONENT16.points[i] * 65535) === CODES[code](d);
     });
-    const rows = Object.entries(ROWS).filter(([name, row]) => says(name, row)).map(([name]) => name);
+    const rows = Object.entries(ROWS).flatMap(([name, row]) => Object.keys(WINDOWS).filter((moved) => says(row, moved)).map((moved) => name + moved));
     demand(rows.length === 1 && found.arith === rows[0], `the arithmetic is ${found.arith}, and here ${rows}`);
     FORMATS.forEach((format, i) => {
         const real = own[format].points.every((d, k) => d === own.DEPTH_COMPONENT32F.points[k]);
         const [said] = finding("stored").filter(({ found: words }) => words.startsWith(`${format}: `));
         demand(said.sure === "sure" && said.format === (real ? "d32f" : ["d16", "d24"][i]), `${format}: ${JSON.stringify(said)}, and here ${real}`);
     });
-    flat.forEach((z, i) => {
+    if (!signed) flat.forEach((z, i) => {
         const step = (format) => own[format][64][i] - own[format][0][i];
         demand(step("DEPTH_COMPONENT32F") === 64 * 2 ** (Math.floor(Math.log2(z)) - 23), `fp32's step at ${z}`);
         demand(Math.abs(step("DEPTH_COMPONENT16") * 65535 - 64) < 1.01, `d16's step at ${z}: ${step("DEPTH_COMPONENT16") * 65535}`);
     });
-    demand(finding("bias", "d16")[0].found === "r = one code" && /^r = 2\^\(n-23\)/.test(finding("bias", "d32f")[0].found), "bias");
+    demand(finding("bias", "d16")[0].found === "r = one code" && (signed || /^r = 2\^\(n-23\)/.test(finding("bias", "d32f")[0].found)), "bias");
     demand(found.command === "probe" && found.device.api === "WebGL 2", text.slice(0, 300));
     const shown = await page.locator("#measured").textContent();
-    demand(shown.includes(`--arith ${found.arith}`) && shown.includes(found.raster), shown);
+    demand(shown.includes(`--arith ${found.arith}`) && (signed || shown.includes(found.raster)), shown);
     return { text, found };
 }
 
@@ -215,10 +221,20 @@ async function picture(page) {
 export async function gpu() {
     const page = await open();
     let measured;
-    await test("the profile of this GPU: what was drawn here, predicted here", async () => (measured = await profile(page), measured.found.device.name));
+    await test("the profile of this GPU: what was drawn here, predicted here", async () => (measured = await profile(page, false), measured.found.device.name));
     await test("the command line reads the profile", () => read(measured));
     await test("a function in GLSL: the verdicts of judge, errors at the person's own line", () => functions(page));
     await test("a lost context is said, and the next try has another", () => lost(page));
+    await test("a browser that has clip z from -w to w alone", async () => {
+        const other = await open();
+        await other.workers()[0].evaluate(() => {
+            const { getExtension } = WebGL2RenderingContext.prototype;
+            WebGL2RenderingContext.prototype.getExtension = function (name) {
+                return name === "EXT_clip_control" ? null : getExtension.call(this, name);
+            };
+        });
+        return profile(other, true).then(({ found }) => (close(other), found.arith));
+    });
     await test("the picture by this GPU: pixels that differ are counted, none from the model that was measured", () => picture(page));
     await test("axe finds nothing in what is shown then", async () => {
         await page.evaluate(readFileSync(axe, "utf8"));
