@@ -326,11 +326,12 @@ TEST(test_signed) {
             s->ndc_signed = true;
             s->drawn = stored || (strcmp(s->name, "rounding") == 0 && s->format == SHOT_D16) ||
                        strcmp(s->name, "division") == 0 || strcmp(s->name, "projection") == 0;
-            for (int k = 0; k < SHOT_PIXELS && s->drawn; k++) {
-                const float *v = s->vertex[k], w = v[3];
-                const float z = projects ? rounded('+', rounded('*', s->a, v[2], 0.0F), s->b, 0.0F) : v[2];
-                const float half = divided(&is, rounded('*', rounded('+', z, w, 0.0F), 0.5F, 0.0F), w);
-                const float d = after ? rounded('+', divided(&is, z, w) * 0.5F, 0.5F, 0.0F) : half;
+            for (int k = 0; k < SHOT_PIXELS && s->drawn; k++) { /* double rounds twice as once: 53 >= 2 x 24 + 2 */
+                const double a = (double)s->a, b = (double)s->b, w = (double)s->vertex[k][3];
+                const double given = (double)s->vertex[k][2],
+                             z = projects ? (double)(float)((double)(float)(a * given) + b) : given;
+                const double per_w = (double)(float)(1.0 / w), sum = (double)(float)(z + w);
+                const float d = after ? (float)(0.5 * (double)(float)(z * per_w) + 0.5) : (float)(0.5 * sum * per_w);
                 s->code[k] = code_of(&is, s->format == SHOT_D24 ? SHOT_D32F : s->format, d);
             }
         }

@@ -105,7 +105,7 @@ const GPU_ASKS = [
     // A shot of the probe: what is stored, and how many pixels of `second` are equal to it.
     ({ source, a, b, format, program, other, triangles, constant, slope, count, vertices, second, out, pass }) => {
         const put = (which, at) => {
-            const made = programOf(`#version 300 es\n#define program ${which}\nin vec4 given;uniform float a,b;${source}`, WHO);
+            const made = programOf(`#version 300 es\n#define program ${which}\n in vec4 given;uniform float a,b;${source}`, WHO);
             uniform(made, "a", "f", a);
             uniform(made, "b", "f", b);
             uniform(made, "who", "ui", 1);
