@@ -49,9 +49,9 @@ void *malloc(size_t size) {
 }
 
 void free(void *of) {
-    piece *p = (piece *)of - 1;
     if (of == NULL)
         return;
+    piece *p = (piece *)of - 1;
     p->next = freed[p->order];
     freed[p->order] = p;
 }

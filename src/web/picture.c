@@ -177,8 +177,7 @@ static int draw_by_gpu(double gap, unsigned frame) {
             putchar(0xC0 | byte >> 6);
         putchar(byte >= 0x80 ? 0x80 | (byte & 0x3F) : byte);
     }
-    fprintf(stderr,
-            "This GPU, gap %s: %zu of %d pixels differ from the model of %s; %zu are wrong, of the model %zu.\n",
+    fprintf(stderr, "This GPU, gap %s: %zu of %d pixels differ from the model of %s; %zu are wrong here, %zu there.\n",
             number_in(gap_text(gap), unit).text, differ, PIXELS, picture.camera.target.row->name, count.wrong, wrong);
     return EXIT_FINE;
 }
