@@ -152,7 +152,8 @@ bool compute_values(const char *device, const compute_run *run, shot_machine *ma
     static float *all;
     (void)device;
     *endless = false;
-    all = realloc(all, run->count * sizeof *all);
+    free(all);
+    all = malloc(run->count * sizeof *all);
     for (uint64_t i = 0; all != NULL && i < run->count; i++)
         all[i] = run->depth(run->of, i);
     gpu_request r = {.what = GPU_VALUES, .count = (uint32_t)run->count, .in = all, .out = (uint32_t *)(void *)all};
