@@ -252,6 +252,7 @@ WEB_NOT := report/output_file report/terminal requirement/camera requirement/rea
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
+# Instructions that browsers and node have since 2020; there is one thread, and what belongs to it is the program's.
 WEB_FLAGS := $(WARN_clang) -Wno-shorten-64-to-32 $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections \
     -mbulk-memory -msign-ext -mnontrapping-fptoint -D_Thread_local=
 # The stack below all else: what overflows it ends, and overwrites nothing.
@@ -262,8 +263,8 @@ WEB_O := $(call web_objects,$(WEB_SOURCES))
 WEB_DRAW_O := $(call web_objects,$(filter-out %/fight.c %/mesh.c %/vertex_compare.c %/vertex_program.c,$(wildcard src/raster/*.c)))
 SAMPLES_O := $(foreach p,samples frames,$(B)/web/obj/tests/web/$p.o $(B)/obj/tests/web/$p.o)
 # Fast where numbers are made, small elsewhere.
-$(call web_objects,$(patsubst %,src/core/%.c,batch_baseline boundary depth elementary expansion pipeline separation windows) \
-    $(patsubst %,src/raster/%.c,draw mesa picture pixels raster)): WEB_OPTIMIZE := -O2
+$(call web_objects,$(patsubst %,src/core/%.c,batch batch_baseline boundary depth elementary expansion pipeline reading separation \
+    separation_over windows) $(patsubst %,src/raster/%.c,clip draw mesa picture pixels raster snapped swiftshader)): WEB_OPTIMIZE := -O2
 $(B)/web/obj/%.o: WEB_OPTIMIZE ?= -Oz
 $(B)/web/obj/%.o: %.c Makefile
 	@mkdir -p $(@D)
