@@ -55,7 +55,8 @@ export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame,
     let draws = false, drawn = "";
     async function draw() {
         const line = ["seen", String(frame()), String(place()), ...pictured()];
-        if (figure.hidden || draws || line.join("\0") === drawn) return;
+        if (figure.hidden || draws) return;
+        if (line.join("\0") === drawn) return void ($("#play").getAttribute("aria-pressed") === "true" && requestAnimationFrame(draw));
         draws = true;
         drawn = line.join("\0");
         const said = await ask(line);

@@ -216,6 +216,9 @@ async function picture(page) {
     const link = await page.locator("#link").textContent(), second = await pictures(page);
     demand(/-F fp32 .*--model float .*--arith mesa/.test(link) && link.includes("--raster swiftshader"), link);
     demand(second.distinct >= 6 && second.differ === 0 && caption(second) === 0, JSON.stringify(second));
+    await page.locator("#play").click(); // it follows the camera
+    await page.waitForFunction((text) => document.querySelector("#by-gpu span").textContent !== text, second.text);
+    await page.locator("#play").click();
 }
 
 export async function gpu() {
