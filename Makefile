@@ -242,17 +242,19 @@ web:
 	@sh src/packages.sh web
 	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
-WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster api world census shadow report requirement plot cli cli/option cli/shadow cli/solve))
-WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/shader/decode.c src/code/language.c
+WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster api world census report requirement plot probe judge cli cli/option cli/solve cli/judge))
+WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/shader/decode.c src/shader/constants.c src/code/language.c
 WEB_NOT := report/output_file report/terminal requirement/camera requirement/reader requirement/requirement requirement/view requirement/check \
-    plot/canvas plot/linear01 plot/scene plot/normals plot/pareto plot/stability plot/needs plot/pixels \
-    cli/cmd_methods cli/cmd_check cli/check_report cli/cmd_code cli/shadow/cmd_shadow \
-    cli/shadow/rows cli/cmd_probe cli/constants cli/link cli/completions cli/stop cli/junit cli/option/profile cli/option/program \
-    api/profile_file shadow/rebuilt web/plain
+    plot/canvas plot/fight plot/linear01 plot/scene plot/shadow plot/world plot/normals plot/pareto plot/stability plot/needs plot/pixels \
+    cli/cmd_methods cli/cmd_check cli/check_report cli/cmd_code cli/cmd_world \
+    cli/constants cli/link cli/completions cli/stop cli/junit cli/option/profile cli/option/program \
+    api/profile_file web/plain probe/opengl probe/vulkan probe/compile probe/probe judge/read_pairs judge/written cli/judge/shader
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
-WEB_FLAGS := $(WARN_clang) -Wno-shorten-64-to-32 $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections
+# Instructions that browsers and node have since 2020; there is one thread, and what belongs to it is the program's.
+WEB_FLAGS := $(WARN_clang) -Wno-shorten-64-to-32 $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections \
+    -mbulk-memory -msign-ext -mnontrapping-fptoint -D_Thread_local=
 # The stack below all else: what overflows it ends, and overwrites nothing.
 WEB_LINK = $(WEB_CC) -mexec-model=reactor -Wl,--gc-sections,--stack-first,-z,stack-size=1048576 -s
 web_objects = $(patsubst %.c,$(B)/web/obj/%.o,$(1))
@@ -261,8 +263,8 @@ WEB_O := $(call web_objects,$(WEB_SOURCES))
 WEB_DRAW_O := $(call web_objects,$(filter-out %/fight.c %/mesh.c %/vertex_compare.c %/vertex_program.c,$(wildcard src/raster/*.c)))
 SAMPLES_O := $(foreach p,samples frames,$(B)/web/obj/tests/web/$p.o $(B)/obj/tests/web/$p.o)
 # Fast where numbers are made, small elsewhere.
-$(B)/web/obj/src/core/%.o $(B)/web/obj/src/raster/%.o: WEB_OPTIMIZE := -O2
-$(B)/web/obj/src/raster/vertex_%.o: WEB_OPTIMIZE := -Oz
+$(call web_objects,$(patsubst %,src/core/%.c,batch batch_baseline boundary depth elementary expansion pipeline reading separation \
+    separation_over windows) $(patsubst %,src/raster/%.c,clip draw mesa picture pixels raster snapped swiftshader)): WEB_OPTIMIZE := -O2
 $(B)/web/obj/%.o: WEB_OPTIMIZE ?= -Oz
 $(B)/web/obj/%.o: %.c Makefile
 	@mkdir -p $(@D)

@@ -29,7 +29,7 @@ src/report        | depthprec core system report
 src/plot          | depthprec core system api world census raster shadow image shader frame method requirement model scene plot
 src/cli           | depthprec core system api world census raster shadow image shader frame method requirement model scene probe judge code report plot cli
 src/npm           | depthprec cli core frame image plot probe report system npm
-src/web           | depthprec core system raster image shader frame method requirement scene report plot cli web
+src/web           | depthprec core system raster probe image shader frame method requirement scene judge report plot cli web
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none

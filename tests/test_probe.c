@@ -7,6 +7,7 @@
 
 #include "core/bits.h"
 #include "depthprec/arith.h"
+#include "nvidia.h"
 #include "probe/judge.h"
 #include "support.h"
 
@@ -14,8 +15,8 @@ enum { ACROSS = SHOT_SIZE / PLAN_TILE };
 
 /* What a made-up device does. */
 typedef struct device {
-    int conversion; /* 0 exact, ties up; 1 product to even; 2 product truncated; 3 exact truncated */
-    bool reciprocal, fused, finer, flushes;
+    int conversion; /* 0 exact, ties up; 1 product to even; 2 product truncated; 3 exact truncated; 4 NVIDIA's */
+    bool reciprocal, unit, fused, finer, flushes;
     int plane_bits, coverage_bits; /* 0: not snapped */
     double float_step, code_step;  /* of a bias, in units of 2^(n - 23) and codes */
     bool of_pixel;                 /* the exponent of a bias */
@@ -43,6 +44,8 @@ static float rounded(int op, float x, float y, float z) {
 }
 
 static float divided(const device *d, float z, float w) {
+    if (d->unit)
+        return rounded('*', z, dp_reciprocal_unit(w), 0.0F);
     return d->reciprocal ? rounded('*', z, rounded('/', 1.0F, w, 0.0F), 0.0F) : rounded('/', z, w, 0.0F);
 }
 
@@ -52,6 +55,8 @@ static uint32_t code_of(const device *d, shot_format format, float depth) {
     const double product = (double)rounded('*', depth, (float)scale, 0.0F);
     if (format == SHOT_D32F)
         return dp_bits32(depth);
+    if (d->conversion == 4)
+        return (uint32_t)nvidia_code(format == SHOT_D16 ? 16 : 24, depth);
     return (uint32_t)(d->conversion == 0   ? floor(exact + 0.5)
                       : d->conversion == 1 ? rint(product)
                       : d->conversion == 2 ? floor(product)
@@ -196,6 +201,19 @@ static const struct {
      NULL,
      "|dz/dx| + |dz/dy|",
      "softpipe"},
+    {{4, .unit = true, .fused = true, .flushes = true, .plane_bits = 8, .coverage_bits = 8, .float_step = 1,
+      .code_step = 2},
+     "cut to sixteenths",
+     "NVIDIA's 1 / w",
+     "fused",
+     "flushed",
+     "1/256 pixel",
+     "1/256 pixel",
+     "r = 2^(n-23), 2^n the power of two at or below the largest",
+     "two codes",
+     "count",
+     "max(",
+     "nvidia"},
     {{0, .fused = true, .plane_bits = 6, .coverage_bits = 9, .float_step = 1, .code_step = 1, .of_pixel = true,
       .cuts = true},
      "exact d (2^N - 1), to nearest",
@@ -231,7 +249,7 @@ TEST(test_found) {
         says(&r, "stored", "d24", "codes");
         says(&r, "stored", "d32f", "every bit");
         says(&r, "rounding", "d16", devices[i].rounding);
-        if (devices[i].is.conversion < 2)
+        if (devices[i].is.conversion < 2 || devices[i].is.conversion == 4)
             says(&r, "rounding", "d24", devices[i].rounding);
         else /* two ways of one function */
             assert_int_equal(find(&r, "rounding", "d24")->sure, PROBE_OPEN);
@@ -311,6 +329,39 @@ TEST(test_other_states) {
     assert_non_null(strstr(find(&r, "stored", "d24")->words, "finer"));
     assert_int_equal(find(&r, "invariance", NULL)->sure, PROBE_NO_ROW);
     probe_free(&r);
+}
+
+/* Clip z from -w to w, moved to [0, 1] before the division, as translators do, or after it; and 24 bits that hold
+ * binary32 instead of codes. */
+TEST(test_signed) {
+    static probe_result r;
+    const device is = {1, .reciprocal = true, .float_step = 1, .code_step = 1};
+    for (int after = 0; after < 2; after++) {
+        make(&r, &is);
+        for (size_t i = 0; i < r.plan.count; i++) {
+            shot *s = &r.plan.shot[i];
+            const bool stored = strcmp(s->name, "stored") == 0, projects = s->program == SHOT_PROJECT;
+            s->ndc_signed = true;
+            s->drawn = stored || (strcmp(s->name, "rounding") == 0 && s->format == SHOT_D16) ||
+                       strcmp(s->name, "division") == 0 || strcmp(s->name, "projection") == 0;
+            for (int k = 0; k < SHOT_PIXELS && s->drawn; k++) { /* double rounds twice as once: 53 >= 2 x 24 + 2 */
+                const double a = (double)s->a, b = (double)s->b, w = (double)s->vertex[k][3];
+                const double given = (double)s->vertex[k][2],
+                             z = projects ? (double)(float)((double)(float)(a * given) + b) : given;
+                const double per_w = (double)(float)(1.0 / w), sum = (double)(float)(z + w);
+                const float d = after ? (float)(0.5 * (double)(float)(z * per_w) + 0.5) : (float)(0.5 * sum * per_w);
+                s->code[k] = code_of(&is, s->format == SHOT_D24 ? SHOT_D32F : s->format, d);
+            }
+        }
+        probe_judge(&r);
+        says(&r, "stored", "d16", "codes");
+        for (size_t i = 0; i < r.count; i++)
+            assert_true(r.finding[i].format == NULL || strcmp(r.finding[i].format, "d24") != 0);
+        says(&r, "division", NULL, after ? "1 / w, then times 1/2" : "(clip z + w)/2 times the rounded 1 / w");
+        says(&r, "projection", NULL, "each rounded");
+        assert_string_equal(r.arith, after ? "mesa" : "mesa-remap");
+        probe_free(&r);
+    }
 }
 
 /* Functions as the test stores them: exact but for one, whose error is what is said. */

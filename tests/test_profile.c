@@ -201,7 +201,7 @@ static const struct {
 } found_of[] = {
     {N_OF("23", LARGEST), "r = one code", "sure", "Vulkan 1.3", 1, 1, 1},
     {N_OF("22", LARGEST), "r = two codes", "sure", "Vulkan 1.3", 2, 2, 2},
-    {N_OF("24", LARGEST), "r = half a code", "sure", "OpenGL 4.5", 0.5, 0.5, 0.5},
+    {N_OF("24", LARGEST), "r = half a code", "sure", "WebGL 2", 0.5, 0.5, 0.5},
     {N_OF("23", PIXEL), "r = one code", "sure", "OpenGL 4.5", 1, 1, 1},
     {N_OF("22", PIXEL), "r = two codes", "sure", "Vulkan 1.3", 2, 2, 2},
     {N_OF("24", PIXEL), "r = one code", "sure", "Vulkan 1.3", 0.5, 0.5, 1},
@@ -252,8 +252,8 @@ TEST(test_bias_measured) {
     for (size_t i = 0; i < sizeof found_of / sizeof found_of[0]; i++)
         for (int api = 0; api < 3; api++) {
             const char *const name = (const char *const[]){"vulkan", "gl", "d3d11"}[api];
-            const char *const drawn = (const char *const[]){"Vulkan", "OpenGL", "none"}[api];
-            const bool known = found_of[i].codes > 0 && strncmp(found_of[i].device, drawn, strlen(drawn)) == 0;
+            const char *const drawn = (const char *const[]){"Vulkan", "GL", "none"}[api];
+            const bool known = found_of[i].codes > 0 && strstr(found_of[i].device, drawn) != NULL;
             write_bias("bias.json", i, "");
             for (int is_float = 0; is_float < 2; is_float++) {
                 const char *const format = is_float ? "-F fp32 --separation 0.01" : "-F unorm16 --separation 0.01";

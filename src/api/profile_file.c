@@ -112,10 +112,10 @@ static void add_formats(profile *to, const json_t *root) {
 /* By which API it was drawn: another one's rules may be others on the same GPU. */
 static void add_api(profile *to, const json_t *root) {
     const char *name = word(json_object_get(root, "device"), "api");
-    const char *api = name == NULL                      ? NULL
-                      : strncmp(name, "Vulkan", 6) == 0 ? "vulkan"
-                      : strncmp(name, "OpenGL", 6) == 0 ? "gl"
-                                                        : NULL;
+    const char *api = name == NULL                                                        ? NULL
+                      : strncmp(name, "Vulkan", 6) == 0                                   ? "vulkan"
+                      : strncmp(name, "OpenGL", 6) == 0 || strncmp(name, "WebGL", 5) == 0 ? "gl"
+                                                                                          : NULL;
     if (to->measured[0] == '\0')
         to->api = api;
     else if (api == NULL || to->api == NULL || strcmp(api, to->api) != 0)

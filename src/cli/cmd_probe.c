@@ -151,8 +151,10 @@ static void say_probe(page *p, void *item) {
         say_finding(p, f, strcmp(before, f->key) != 0 ? f->key : "", formats, count);
         before = f->key;
     }
-    page_text(p, "Each finding predicts every pixel that was compared, where nothing else that is known does, unless "
-                 "it says otherwise. Not measured: clip z from -w, several samples a pixel, the clamp of a bias.");
+    page_text(p,
+              "Each finding predicts every pixel that was compared, where nothing else that is known does, unless "
+              "it says otherwise. Not measured: clip z from %s, several samples a pixel, the clamp of a bias.",
+              r->plan.shot[0].ndc_signed ? "0" : "-w");
 }
 
 static const column no_columns[] = {{.kind = COLUMN_END}};

@@ -16,6 +16,10 @@ const char *probe_format_name(shot_format format) {
     return names[format];
 }
 
+float judge_clip(const shot *s, const float vertex[4]) {
+    return s->ndc_signed ? (vertex[2] + vertex[3]) * 0.5F : vertex[2];
+}
+
 const shot *judge_shot(const probe_result *r, plan_shot kind, shot_format format) {
     const shot *s = plan_find(&r->plan, kind, format);
     return s != NULL && s->drawn ? s : NULL;

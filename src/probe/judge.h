@@ -20,6 +20,10 @@ int judge_guesses(probe_result *r, const char *key, const char *format, const gu
 probe_finding *judge_say(probe_result *r, const char *key, const char *format, probe_certainty sure, const char *words,
                          ...) __attribute__((format(printf, 5, 6)));
 
+/* Clip z from 0 to w of a vertex: of one from -w to w what translators to other APIs make of it in the vertex shader.
+ */
+float judge_clip(const shot *s, const float vertex[4]);
+
 /* The shot, where it was drawn; else null. */
 const shot *judge_shot(const probe_result *r, plan_shot kind, shot_format format);
 

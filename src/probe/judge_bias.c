@@ -26,31 +26,38 @@ static bool is_flat(int tile) {
 /* ---- fp32 -------------------------------------------------------------------------------------------------------- */
 
 /* Whose depth has the exponent n. DIFFERENCES is what SwiftShader 5 takes for the largest depth: that of the vertex
- * where it anchors the plane, of the tiles the second, and the differences of the other two from it. */
+ * where it anchors the plane, and the differences of the other two from it. Of the tiles that is the second vertex, and
+ * another one where a browser that draws by it turns triangles for the sake of OpenGL's last vertex. */
 typedef enum source { LARGEST, PIXEL, DIFFERENCES } source;
 
 #define N_OF(what) ", 2^n the power of two at or below " what
+#define DIFFERENT  "r = 2^(n-23)" N_OF("the anchor's depth and the others' differences from it")
 static const struct {
     const char *words;
     source source;
     int factor; /* index of factors */
+    int anchor; /* of DIFFERENCES: a vertex */
 } steps[] = {
-    {"r = 2^(n-23)" N_OF("the largest depth of the triangle"), LARGEST, 0},
-    {"r = 2^(n-22)" N_OF("the largest depth of the triangle"), LARGEST, 1},
-    {"r = 2^(n-24)" N_OF("the largest depth of the triangle"), LARGEST, 2},
-    {"r = 2^(n-23)" N_OF("the depth of the pixel"), PIXEL, 0},
-    {"r = 2^(n-22)" N_OF("the depth of the pixel"), PIXEL, 1},
-    {"r = 2^(n-24)" N_OF("the depth of the pixel"), PIXEL, 2},
-    {"r = 2^(n-23)" N_OF("the anchor's depth and the others' differences from it"), DIFFERENCES, 0},
+    {"r = 2^(n-23)" N_OF("the largest depth of the triangle"), LARGEST, 0, 0},
+    {"r = 2^(n-22)" N_OF("the largest depth of the triangle"), LARGEST, 1, 0},
+    {"r = 2^(n-24)" N_OF("the largest depth of the triangle"), LARGEST, 2, 0},
+    {"r = 2^(n-23)" N_OF("the depth of the pixel"), PIXEL, 0, 0},
+    {"r = 2^(n-22)" N_OF("the depth of the pixel"), PIXEL, 1, 0},
+    {"r = 2^(n-24)" N_OF("the depth of the pixel"), PIXEL, 2, 0},
+    {DIFFERENT, DIFFERENCES, 0, 1},
+    {DIFFERENT, DIFFERENCES, 0, 0},
+    {DIFFERENT, DIFFERENCES, 0, 2},
 };
 enum { STEPS = sizeof steps / sizeof steps[0] };
 
-static double depth_of(const shot *s, int tile, source of, double pixel) {
+static double depth_of(const shot *s, int tile, int step, double pixel) {
+    const source of = steps[step].source;
+    const int a = steps[step].anchor;
     double z[3];
     for (int i = 0; i < 3; i++)
-        z[i] = (double)s->vertex[3 * tile + i][2];
+        z[i] = (double)judge_clip(s, s->vertex[3 * tile + i]);
     if (of == DIFFERENCES)
-        return fmax(z[1], fmax(fabs(z[0] - z[1]), fabs(z[2] - z[1])));
+        return fmax(z[a], fmax(fabs(z[(a + 1) % 3] - z[a]), fabs(z[(a + 2) % 3] - z[a])));
     return of == LARGEST ? fmax(z[0], fmax(z[1], z[2])) : pixel;
 }
 
@@ -72,8 +79,8 @@ static void judge_float(probe_result *r) {
             const int tile = i / AROUND, pixel = pixel_of(tile, i % AROUND);
             const double before = (double)dp_float32(without->code[pixel]);
             const double after = (double)dp_float32(with->code[pixel]);
-            all[g].hits += stepped(before, after, depth_of(with, tile, steps[g].source, before),
-                                   factors[steps[g].factor], is_flat(tile));
+            all[g].hits +=
+                stepped(before, after, depth_of(with, tile, g, before), factors[steps[g].factor], is_flat(tile));
         }
     }
     judge_guesses(r, "bias", "d32f", all, STEPS, (uint64_t)PLAN_TILES * AROUND);

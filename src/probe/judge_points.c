@@ -12,7 +12,9 @@
 
 /* ---- The format that is stored ----------------------------------------------------------------------------------- */
 
-/* Two depths of one code are equal in the buffer if it holds codes, and differ if it holds more. */
+/* Two depths of one code are equal in the buffer if it holds codes, and differ if it holds more. Where a browser reads
+ * depths as a texture, what was asked for as codes may come back as the binary32 that was drawn: that is what is
+ * stored. */
 static void judge_stored(probe_result *r, shot_format format) {
     const shot *s = judge_shot(r, PLAN_STORED, format);
     const bool whole = plan_scale(format) > 0.0;
@@ -20,15 +22,17 @@ static void judge_stored(probe_result *r, shot_format format) {
     if (s == NULL)
         return;
     for (uint32_t i = 0; i < s->count; i++)
-        same += s->code[i] == dp_bits32(s->vertex[i][2]);
-    const uint64_t hits = !whole ? same : s->passed <= s->count ? s->passed : 0;
-    const bool all = whole ? hits == s->count || (hits > 0 && !r->machine.counts) : same == s->count && s->passed == 0;
-    probe_finding *f = judge_say(r, "stored", probe_format_name(format), all ? PROBE_SURE : PROBE_NO_ROW, "%s: %s",
-                                 r->machine.device[r->machine.chosen].format[format],
-                                 all && whole         ? "codes of that many bits, nothing finer"
-                                 : all                ? "every bit of binary32"
-                                 : whole && hits == 0 ? "finer than its codes: depths of one code are distinguished"
-                                                      : "neither its codes nor finer ones throughout");
+        same += s->code[i] == dp_bits32(judge_clip(s, s->vertex[i]));
+    const bool real = same == s->count && (whole || s->passed == 0);
+    const uint64_t hits = real || !whole ? same : s->passed <= s->count ? s->passed : 0;
+    const bool all = real || (whole && (hits == s->count || (hits > 0 && !r->machine.counts)));
+    probe_finding *f =
+        judge_say(r, "stored", probe_format_name(real ? SHOT_D32F : format), all ? PROBE_SURE : PROBE_NO_ROW, "%s: %s",
+                  r->machine.device[r->machine.chosen].format[format],
+                  real                 ? "every bit of binary32"
+                  : all                ? "codes of that many bits, nothing finer"
+                  : whole && hits == 0 ? "finer than its codes: depths of one code are distinguished"
+                                       : "neither its codes nor finer ones throughout");
     f->cases = s->count;
     f->hits = hits;
 }
@@ -78,7 +82,7 @@ static unsigned judge_rounding(probe_result *r, shot_format format) {
     for (int c = 0; c < CONVERSIONS; c++) {
         all[c] = (guess){conversion_words[c], 0};
         for (uint32_t i = 0; i < s->count; i++)
-            all[c].hits += converted(&f[0], c, s->vertex[i][2]) == s->code[i];
+            all[c].hits += converted(&f[0], c, judge_clip(s, s->vertex[i])) == s->code[i];
         perfect |= all[c].hits == s->count ? 1U << c : 0U;
     }
     judge_guesses(r, "rounding", probe_format_name(format), all, CONVERSIONS, s->count);
@@ -87,23 +91,35 @@ static unsigned judge_rounding(probe_result *r, shot_format format) {
 
 /* ---- Division and projection ------------------------------------------------------------------------------------- */
 
-enum { DIVISIONS = DP_RECIPROCAL_UNIT + 1 };
+/* The kinds of dp_reciprocal; and again, where clip z from -w to w is moved to [0, 1] after it, not before. */
+enum { KINDS = DP_RECIPROCAL_UNIT + 1, DIVISIONS = 2 * KINDS };
 
-static float window(int division, float z, float w) {
-    const dp_arith_row row = {.reciprocal = (dp_reciprocal)division};
-    return dp_pipeline_divide(&(dp_pipeline){.arith = &row}, z, w);
+static float window(const shot *s, int division, float z, float w) {
+    const bool after = division >= KINDS;
+    const dp_arith_row row = {.reciprocal = (dp_reciprocal)(division % KINDS)};
+    const float clip = after ? z : judge_clip(s, (const float[]){0.0F, 0.0F, z, w});
+    const float d = dp_pipeline_divide(&(dp_pipeline){.arith = &row}, clip, w);
+    return after ? d * 0.5F + 0.5F : d;
 }
 
 static int judge_division(probe_result *r) {
     const shot *s = judge_shot(r, PLAN_DIVISION, SHOT_D32F);
-    guess all[DIVISIONS] = {
-        {"clip z / w, rounded once", 0}, {"clip z times the rounded 1 / w", 0}, {"clip z times NVIDIA's 1 / w", 0}};
+    static const char *const words[2][DIVISIONS] = {
+        {"clip z / w, rounded once", "clip z times the rounded 1 / w", "clip z times NVIDIA's 1 / w"},
+        {"(clip z + w)/2 / w, each rounded", "(clip z + w)/2 times the rounded 1 / w",
+         "(clip z + w)/2 times NVIDIA's 1 / w", "clip z / w, rounded once, then times 1/2, plus 1/2",
+         "clip z times the rounded 1 / w, then times 1/2, plus 1/2",
+         "clip z times NVIDIA's 1 / w, then times 1/2, plus 1/2"}};
+    guess all[DIVISIONS];
     if (s == NULL)
         return JUDGE_NONE;
-    for (int d = 0; d < DIVISIONS; d++)
+    const int count = s->ndc_signed ? DIVISIONS : KINDS;
+    for (int d = 0; d < count; d++) {
+        all[d] = (guess){words[s->ndc_signed][d], 0};
         for (uint32_t i = 0; i < s->count; i++)
-            all[d].hits += dp_bits32(window(d, s->vertex[i][2], s->vertex[i][3])) == s->code[i];
-    return judge_guesses(r, "division", NULL, all, DIVISIONS, s->count);
+            all[d].hits += dp_bits32(window(s, d, s->vertex[i][2], s->vertex[i][3])) == s->code[i];
+    }
+    return judge_guesses(r, "division", NULL, all, (size_t)count, s->count);
 }
 
 static int judge_projection(probe_result *r, int division) {
@@ -113,8 +129,8 @@ static int judge_projection(probe_result *r, int division) {
         return JUDGE_NONE;
     for (uint32_t i = 0; i < s->count; i++) {
         const float z = s->vertex[i][2], w = s->vertex[i][3], product = s->a * z;
-        all[0].hits += dp_bits32(window(division, product + s->b, w)) == s->code[i];
-        all[1].hits += dp_bits32(window(division, fmaf(s->a, z, s->b), w)) == s->code[i];
+        all[0].hits += dp_bits32(window(s, division, product + s->b, w)) == s->code[i];
+        all[1].hits += dp_bits32(window(s, division, fmaf(s->a, z, s->b), w)) == s->code[i];
     }
     return judge_guesses(r, "projection", NULL, all, 2, s->count);
 }
@@ -238,7 +254,7 @@ static void judge_functions(probe_result *r) {
 /* ---- The row ----------------------------------------------------------------------------------------------------- */
 
 /* Where one conversion alone is right of every format. */
-static const char *row_of(unsigned conversions, int division, int is_fused) {
+static const char *row_of(unsigned conversions, int division, int is_fused, bool remap) {
     static const dp_conversion known[] = {[EXACT] = DP_CONVERT_EXACT,
                                           [PRODUCT_EVEN] = DP_CONVERT_PRODUCT_EVEN,
                                           [PRODUCT_ZERO] = DP_CONVERT_PRODUCT_ZERO,
@@ -248,8 +264,8 @@ static const char *row_of(unsigned conversions, int division, int is_fused) {
     for (dp_arith i = 0; i < dp_arith_count(); i++) {
         const dp_arith_row *row = dp_arith_get(i);
         for (int c = EXACT; c <= SIXTEENTHS; c++)
-            if (conversions == 1U << c && !row->remap && row->fused == is_fused &&
-                row->reciprocal == (dp_reciprocal)division && row->conversion == known[c])
+            if (conversions == 1U << c && row->remap == (remap && division < KINDS) && row->fused == is_fused &&
+                row->reciprocal == (dp_reciprocal)(division % KINDS) && row->conversion == known[c])
                 return row->name;
     }
     return NULL;
@@ -261,7 +277,7 @@ void judge_points(probe_result *r) {
     const unsigned d16 = judge_rounding(r, SHOT_D16), d24 = judge_rounding(r, SHOT_D24);
     const int division = judge_division(r);
     const int is_fused = judge_projection(r, division);
-    r->arith = row_of(d16 & d24, division, is_fused);
+    r->arith = row_of(d16 & d24, division, is_fused, r->plan.shot[0].ndc_signed);
     judge_planes(r);
     judge_invariance(r);
     judge_functions(r);

@@ -90,6 +90,8 @@ static bool predict(size_t row, const shot *s, uint32_t *code) {
         raster_vertex v[3];
         raster_triangle drawn;
         memcpy(v, s->vertex[i], sizeof v);
+        for (int k = 0; k < 3; k++)
+            v[k].z = judge_clip(s, s->vertex[i + (uint32_t)k]);
         if (raster_set_up(&target, v, &drawn) != RASTER_OK)
             continue;
         for (int p = 0; p < drawn.count; p++)

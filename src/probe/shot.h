@@ -41,6 +41,7 @@ typedef struct shot {
     shot_program program;
     float a, b;            /**< of the program */
     bool triangles;        /**< else points */
+    bool ndc_signed;       /**< clip z is drawn from -w to w, as OpenGL has it */
     float constant, slope; /**< of a depth bias; 0: none */
     uint32_t count;        /**< vertices */
     float (*vertex)[4];    /**< x and y are clip coordinates, those of a point at the centre of its pixel */

@@ -40,8 +40,7 @@ double draw_facing(const draw_camera *camera, const draw_plane *plane, const dou
     return plane->normal[0] * ray[0] + plane->normal[1] * ray[1] + plane->normal[2] * ray[2];
 }
 
-/* The vertex shader. */
-static raster_vertex transformed(const draw_camera *camera, const double place[3]) {
+raster_vertex draw_clip(const draw_camera *camera, const double place[3]) {
     const float x = (float)place[0], y = (float)place[1], z = (float)place[2];
     return (raster_vertex){camera->p00 * x, camera->p11 * y, dp_pipeline_clip(&camera->pipeline, z), z};
 }
@@ -132,7 +131,7 @@ bool draw_keys(const draw_camera *camera, const draw_area *area, const double pl
     raster_triangle drawn;
     raster_vertex clip[3];
     for (int i = 0; i < 3; i++)
-        clip[i] = transformed(camera, place[i]);
+        clip[i] = draw_clip(camera, place[i]);
     if (raster_set_up(&camera->target, clip, &drawn) != RASTER_OK)
         return false;
     for (int i = 0; i < drawn.count; i++) {

@@ -63,6 +63,9 @@ typedef struct draw_buffer {
  */
 raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup);
 
+/** What the vertex shader makes of a place in eye space: clip coordinates, z from 0 to w. */
+raster_vertex draw_clip(const draw_camera *camera, const double place[3]);
+
 /** The ray through a place of the window: its eye coordinates at depth 1. */
 void draw_ray(const draw_camera *camera, const double window[2], double ray[3]);
 

@@ -245,10 +245,8 @@ static draw_picture_count row_of(const draw_buffer *b, int row, bool marks, uint
     return out;
 }
 
-draw_picture_count draw_picture_frame(draw_picture *p, double gap, unsigned frame, bool marks, uint32_t *pixel) {
+draw_picture_count draw_picture_show(const draw_picture *p, bool marks, uint32_t *pixel) {
     draw_picture_count all = {0};
-    draw_buffer_clear(&p->buffer, (draw_area){0, 0, DRAW_PICTURE_WIDTH, DRAW_PICTURE_HEIGHT});
-    draw_picture_triangles(p, gap, frame, draw_one, p);
     for (int row = 0; row < DRAW_PICTURE_HEIGHT; row++) {
         uint32_t *out = pixel == NULL ? NULL : pixel + (size_t)(DRAW_PICTURE_HEIGHT - 1 - row) * DRAW_PICTURE_WIDTH;
         const draw_picture_count one = row_of(&p->buffer, row, marks, out);
@@ -256,4 +254,10 @@ draw_picture_count draw_picture_frame(draw_picture *p, double gap, unsigned fram
         all.wrong += one.wrong;
     }
     return all;
+}
+
+draw_picture_count draw_picture_frame(draw_picture *p, double gap, unsigned frame, bool marks, uint32_t *pixel) {
+    draw_buffer_clear(&p->buffer, (draw_area){0, 0, DRAW_PICTURE_WIDTH, DRAW_PICTURE_HEIGHT});
+    draw_picture_triangles(p, gap, frame, draw_one, p);
+    return draw_picture_show(p, marks, pixel);
 }

@@ -74,6 +74,9 @@ bool draw_picture_marked(const draw_picture *p);
  */
 draw_picture_count draw_picture_frame(draw_picture *p, double gap, unsigned frame, bool marks, uint32_t *pixel);
 
+/** The same of what is in `buffer`: of a frame whose winners were found elsewhere. */
+draw_picture_count draw_picture_show(const draw_picture *p, bool marks, uint32_t *pixel);
+
 /** Told of each triangle of a frame in the order of drawing, in eye space, and who draws it. */
 typedef void draw_picture_take(void *context, const double place[3][3], unsigned who);
 void draw_picture_triangles(const draw_picture *p, double gap, unsigned frame, draw_picture_take *take, void *context);

@@ -11,10 +11,11 @@
 #include "cli/methods.h"
 #include "cli/option/rows.h"
 #include "cli/scene/figure.h"
+#include "cli/shadow/maps.h"
+#include "judge/pairs.h"
 #include "plot/figure.h"
 #include "requirement/check.h"
 #include "scene/find.h"
-#include "shader/constants.h"
 #include "shader/pack.h"
 
 static int absent(const options *o) {
@@ -29,12 +30,11 @@ static int absent(const options *o) {
 ABSENT(cmd_check)
 ABSENT(cmd_code)
 ABSENT(cmd_completions)
-ABSENT(cmd_judge)
 ABSENT(cmd_methods)
-ABSENT(cmd_probe)
 ABSENT(cmd_scene)
 ABSENT(cmd_shadow)
 ABSENT(cmd_texture)
+ABSENT(cmd_world)
 ABSENT(constants_write)
 ABSENT(link_write)
 
@@ -45,12 +45,15 @@ ABSENT(link_write)
         return "plot: this figure is not in the page: the program has it";                                             \
     }
 
+ABSENT_FIGURE(fight_build)
 ABSENT_FIGURE(linear01_build)
 ABSENT_FIGURE(scene_build)
 ABSENT_FIGURE(normals_build)
 ABSENT_FIGURE(pareto_build)
 ABSENT_FIGURE(needs_build)
+ABSENT_FIGURE(shadow_build)
 ABSENT_FIGURE(stability_build)
+ABSENT_FIGURE(world_build)
 
 /* ---- Rows that options of those commands name ---------------------------------------------------------------------
  */
@@ -61,7 +64,6 @@ ABSENT_FIGURE(stability_build)
         return NULL;                                                                                                   \
     }
 
-ABSENT_ROWS(constant_row, constant_get)
 ABSENT_ROWS(effect_row, effect_get)
 ABSENT_ROWS(finder_filter_row, finder_filter_get)
 ABSENT_ROWS(normal_row, normal_get)
@@ -76,14 +78,6 @@ const pack_row *packing_normals(const packing *p) {
 ABSENT_ROWS(position_row, position_get)
 ABSENT_ROWS(sensor_row, sensor_get)
 ABSENT_ROWS(synthetic_row, synthetic_get)
-ABSENT_ROWS(trap_row, trap_get)
-
-double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z) {
-    (void)row;
-    (void)setup;
-    (void)half;
-    return z;
-}
 
 /* Families of methods but interval, which figures are drawn by. */
 static const size_t none;
@@ -100,6 +94,20 @@ int check_read(const char *path, need_file *file) {
     (void)path;
     (void)file;
     return EXIT_USAGE;
+}
+
+int judge_pairs_read(const char *path, judge_pairs *out, char error[PAIRS_ERROR_SIZE]) {
+    (void)path;
+    (void)out;
+    snprintf(error, PAIRS_ERROR_SIZE, "the page reads no files");
+    return -1;
+}
+
+int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
+    (void)format;
+    (void)mapping;
+    (void)out;
+    return absent(o);
 }
 
 void need_release(need_file *file) {
@@ -144,13 +152,6 @@ int parse_raster(options *o, const option_row *row, const char *value) {
 }
 
 /* ---- Of commands that are not here ------------------------------------------------------------------------------- */
-
-double shadow_rebuilt(const dp_setup *camera, double lo, double hi, double world) {
-    (void)camera;
-    (void)lo;
-    (void)world;
-    return hi;
-}
 
 #define ABSENT_PARSER(name)                                                                                            \
     int name(options *o, const option_row *row, const char *value) {                                                   \

@@ -2,6 +2,7 @@
 // Commands run beside the page, in a worker that has the same script and the same compiled module, one at a time and each
 // once. A page from file:// may load no other file, so that the worker's is a blob of the page's own.
 import { load } from "./engine.js";
+import { gpu } from "./gpu.js";
 
 export const inWorker = typeof document === "undefined";
 
@@ -11,6 +12,7 @@ export function serve(measure) {
     onmessage = async ({ data: { module, line, most } }) => {
         engine ??= await load(module);
         engine.measure = measure;
+        engine.gpu = gpu;
         postMessage(engine.run(line, most));
     };
 }
@@ -109,6 +111,9 @@ export function createAside(module, { here, onSaid, onRun }) {
             asked.push({ key, line, most, resolve });
             next();
         }),
+
+        // What a line said counts no more.
+        forget: (line) => last.delete(keyOf(line)),
 
         // Nobody wants to know that line any more: it is refused at once, and ends unless it is wanted.
         leave(line) {

@@ -81,6 +81,7 @@ export async function load(from, host = () => ({})) {
             page: {
                 measure: (text, length, size, bold) =>
                     engine.measure(decoder.decode(new Uint8Array(memory().buffer, text, length)), size, bold !== 0),
+                gpu: (request) => engine.gpu(memory().buffer, request),
             },
         });
         instance.exports._initialize();
@@ -98,12 +99,14 @@ export async function load(from, host = () => ({})) {
 
     const engine = {
         module,
+        gpu: () => 1, // there is none; the page has one
 
         // How far text reaches, px; the page has a better one.
         measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),
 
-        // The command's exit status and what it wrote, up to so many bytes; `left` are the others.
-        run: (words, most) => call("run", words, most),
+        // The command's exit status and what it wrote, up to so many bytes; `left` are the others. What begins with "seen" is
+        // a frame of a picture by the GPU: see picture.c.
+        run: ([first, ...others], most) => (first === "seen" ? call(first, others, most) : call("run", [first, ...others], most)),
 
         // What the program makes of the words: { status, err, verb, operands, options: [{ name, value }] }.
         parse(words) {

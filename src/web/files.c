@@ -16,6 +16,11 @@ int output_open(output *out, const char *path) {
     return EXIT_IO;
 }
 
+int output_check(const char *path) {
+    output out;
+    return output_open(&out, path);
+}
+
 int output_close(output *out) {
     output_flush(out);
     return out->error == 0 ? EXIT_FINE : EXIT_IO;

@@ -4,6 +4,8 @@
 import { createAside, inWorker, serve } from "./aside.js";
 import { load } from "./engine.js";
 import { commands, fromFragment, join, LONGEST, split, toFragment, written } from "./command.js";
+import { gpu } from "./gpu.js";
+import { createGpuPanel, profileText } from "./gpu_panel.js";
 import { createPicture } from "./picture.js";
 
 const $ = (selector, root = document) => root.querySelector(selector);
@@ -40,7 +42,7 @@ const UNUSED = {
 const STANDARD = "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m";
 const SECOND = "table -n 0.1 -f 1000 -F fp32 -m reversed --unit m";
 
-let engine, aside, picture;
+let engine, aside, picture, gpuPanel;
 const takes = {}; // options of each command
 // What a page shows at first: a link says only what differs from it.
 const start = () => ({
@@ -661,6 +663,7 @@ function listen() {
     $("#share").hidden = !navigator.share;
     $("#share").addEventListener("click", () => navigator.share({ title: document.title, url: address() }).catch(() => {}));
     $("#gap").addEventListener("change", later);
+    copies("#copy-profile", profileText);
     copies("#copy-commands", () => $("#link").textContent);
     for (const input of document.querySelectorAll("[data-shows]"))
         input.addEventListener("change", () => {
@@ -712,6 +715,7 @@ function showPicture() {
     const lines = pictured(), [, second] = document.querySelectorAll("#picture figure");
     second.hidden = lines.length === 1;
     picture?.set(lines);
+    gpuPanel?.draw();
 }
 
 // Each picture says what it is of; the guarantee's mark is at three quarters of the slider.
@@ -739,6 +743,7 @@ async function begin() {
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
     engine = await load(new Uint8Array(await new Response(stream).arrayBuffer()));
     engine.measure = measurer();
+    engine.gpu = gpu;
     aside = createAside(engine.module, {
         here: (line, most) => engine.run(line, most),
         onSaid: (line, ms) => {
@@ -748,7 +753,7 @@ async function begin() {
         onRun: showRun,
     });
     $("#cancel").addEventListener("click", () => aside.cancel());
-    for (const verb of VERBS) takes[verb] = engine.takes(verb);
+    for (const verb of [...VERBS, "judge"]) takes[verb] = engine.takes(verb);
     $("#version").textContent = engine.run(["--version"]).out.split("\n")[0].replace(/^depthprec /, "");
     for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
     buildSetup(0);
@@ -765,6 +770,16 @@ async function begin() {
     const views = [...document.querySelectorAll("#picture figure")].map(viewOf);
     picture = createPicture({ views, engine, slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is") });
     $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));
+    gpuPanel = createGpuPanel({
+        $, aside, frame: picture.frame, place: () => $("#gap").value / $("#gap").max, setup: () => state.setups[0],
+        pictured: () => pictured()[0],
+        judged: (text) => ["judge", ...commandOf("judge", state.setups[0]).slice(1), "--", text],
+        take(options) {
+            for (const [option, value] of Object.entries(options)) state.setups[0].set(option, value);
+            fill();
+            later();
+        },
+    });
     showPicture();
     window.depthprec = { engine, state: () => shown().map(join), set: setLink };
 }

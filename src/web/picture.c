@@ -8,9 +8,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/setups.h"
 #include "report/number.h"
+#include "web/gpu.h"
 #include "web/page.h"
 
 enum { DIGITS = 3 };
@@ -48,11 +50,8 @@ static int make(const options *all) {
     return wrong == NULL ? EXIT_FINE : usage_error("%s: %s", row->name, wrong);
 }
 
-/** Makes the picture of the command of `n` words. @return its exit status; EXIT_FINE: there is one */
-PAGE_EXPORT("picture_set") int picture_set(int n) {
+static int picture_of(int argc, char **words) {
     static options o;
-    char **words;
-    const int argc = page_words(n, &words);
     let_go();
     pixels = pixels != NULL ? pixels : malloc(PIXELS * sizeof *pixels);
     int status = argc > 0 ? options_parse(&o, argc, words) : usage_error("too many words");
@@ -62,6 +61,13 @@ PAGE_EXPORT("picture_set") int picture_set(int n) {
         options_release(&o);
     fflush(NULL);
     return status;
+}
+
+/** Makes the picture of the command of `n` words. @return its exit status; EXIT_FINE: there is one */
+PAGE_EXPORT("picture_set") int picture_set(int n) {
+    char **words;
+    const int argc = page_words(n, &words);
+    return picture_of(argc, words);
 }
 
 /** The gap at a place of the slider, scene units; 0 without a picture. */
@@ -122,4 +128,71 @@ PAGE_EXPORT("picture_say") void picture_say(double gap, int quiet) {
     printf("%s, things about %s away, drawn by the model of %s\n", setup_label(&picture.setup, false, label),
            number_in(number_brief(number_of(picture.z, DIGITS)), unit).text, picture.camera.target.row->name);
     fflush(NULL);
+}
+
+/* ---- The same by the browser's GPU ------------------------------------------------------------------------------- */
+
+enum { TRIANGLES = 64 };
+
+typedef struct corners {
+    uint32_t count, who[TRIANGLES];
+    raster_vertex at[TRIANGLES][3];
+} corners;
+
+static void take_corners(void *context, const double place[3][3], unsigned who) {
+    corners *c = context;
+    if (c->count == TRIANGLES)
+        return;
+    for (int i = 0; i < 3; i++)
+        c->at[c->count][i] = draw_clip(&picture.camera, place[i]);
+    c->who[c->count++] = who;
+}
+
+/* Who is seen takes the place of the model's in the buffer. Characters of the output are the bytes of pixels. */
+static int draw_by_gpu(double gap, unsigned frame) {
+    static const char *const formats[] = {"unorm16", "unorm24", "fp32"};
+    static corners all;
+    char text[GPU_TEXT_SIZE];
+    gpu_request r = {.what = GPU_PICTURE, .other = picture.camera.pipeline.reversed != 0, .out = pixels};
+    size_t differ = 0;
+    while (r.format < 3 && strcmp(formats[r.format], picture.setup.spec.format.name) != 0)
+        r.format++;
+    if (r.format == 3)
+        return usage_error("WebGL has no %s", picture.setup.spec.format.name);
+    const size_t wrong = draw_picture_frame(&picture, gap, frame, false, NULL).wrong;
+    draw_picture_triangles(&picture, gap, frame, take_corners, &all);
+    r.count = all.count;
+    r.in = all.at;
+    r.second = all.who;
+    if (!gpu_ask(&r, text))
+        return usage_error("%s", text);
+    for (size_t i = 0; i < PIXELS; i++) {
+        differ += picture.buffer.winner[i] != pixels[i];
+        picture.buffer.winner[i] = (uint8_t)pixels[i];
+    }
+    count = draw_picture_show(&picture, false, pixels);
+    for (size_t i = 0; i < sizeof *pixels * PIXELS; i++) {
+        const unsigned char byte = ((const unsigned char *)pixels)[i];
+        if (byte >= 0x80)
+            putchar(0xC0 | byte >> 6);
+        putchar(byte >= 0x80 ? 0x80 | (byte & 0x3F) : byte);
+    }
+    fprintf(stderr, "This GPU, gap %s: %zu of %d pixels differ from the model of %s; %zu are wrong here, %zu there.\n",
+            number_in(gap_text(gap), unit).text, differ, PIXELS, picture.camera.target.row->name, count.wrong, wrong);
+    return EXIT_FINE;
+}
+
+/** A frame by the GPU: the first words are its number and the gap, as a place of the slider; then comes a command.
+ * @return exit status; what is said of it is on stderr */
+PAGE_EXPORT("seen") int seen_words(int n) {
+    char **words;
+    if (page_words(n, &words) < 3)
+        return EXIT_USAGE;
+    const unsigned frame = (unsigned)atoi(words[1]);
+    const double place = strtod(words[2], NULL);
+    int status = picture_of(n - 1, &words[2]);
+    if (status == EXIT_FINE)
+        status = draw_by_gpu(draw_picture_gap(&picture, place), frame);
+    fflush(NULL);
+    return status;
 }

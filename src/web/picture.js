@@ -29,7 +29,8 @@ function createView({ canvas, onStatus }, engine) {
             if (made === line.join("\0")) return;
             made = line.join("\0");
             const bytes = new TextEncoder().encode(line.map((word) => word.replaceAll("\0", "\ufffd") + "\0").join(""));
-            new Uint8Array(memory.buffer, exports.words(bytes.length), bytes.length).set(bytes);
+            const room = exports.words(bytes.length); // may move the memory
+            new Uint8Array(memory.buffer, room, bytes.length).set(bytes);
             error = exports.picture_set(line.length) === 0 ? "" : told(2).replace(/^depthprec: /, "").trim();
             said = "";
             if (error !== "") context.clearRect(0, 0, canvas.width, canvas.height);
@@ -116,5 +117,6 @@ export function createPicture({ views, engine, slider, play, gapIs }) {
             slide();
         },
         marks: (on) => ((painted = on), soon()),
+        frame: () => frame,
     };
 }

@@ -15,6 +15,7 @@ typedef struct shader {
     char device[SHADER_TEXT_SIZE]; /**< "": not run yet */
     char defines[SHADER_TEXT_SIZE];
     char open[SHADER_TEXT_SIZE]; /**< why what it computes may not be what is meant; "": it is */
+    uint64_t most;               /**< depths that it is run with, of a format that has more */
     uint64_t count;              /**< depths that it was run with */
     bool too_long;               /**< more take too long */
 } shader;
