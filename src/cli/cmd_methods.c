@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "cli/methods.h"
+#include "cli/mine.h"
 #include "cli/setups.h"
 #include "method/choose.h"
 #include "method/estimate.h"
@@ -26,6 +27,8 @@ typedef struct line {
     double claim_to;              /* NaN where nothing is claimed */
     double breaks;                /* NaN: never */
     double ratio, wrong, claimed; /* a step; the last is NaN beyond the claim's span */
+    mine_row on_device;
+    const char *computes, *given; /* of a function of the user's */
 } line;
 
 typedef struct measuring {
@@ -43,6 +46,9 @@ typedef struct measuring {
     double limit;     /* ns */
     char machine[192];
     line line;
+    mine *mine; /* null: there are none */
+    const char *device;
+    double loop;
 } measuring;
 
 static void *next_method(void *of, size_t i) {
@@ -66,6 +72,14 @@ static void *next_method(void *of, size_t i) {
                 .setup = r->setup > 0 ? r->setup : (double)NAN,
                 .front = r->front,
                 .chosen = r->row == b->choice};
+    if (b->mine != NULL)
+        l->on_device = mine_of(b->mine, r->row);
+    if (l->on_device.operand != NULL) {
+        const judgement *j = l->on_device.judged;
+        l->verdict = judge_verdict_name(j->verdict);
+        l->computes = j->named ? j->found.output->name : NULL;
+        l->given = l->on_device.code->defines;
+    }
     snprintf(l->label, sizeof l->label, "%c%c%s", r->front ? '*' : ' ', l->chosen ? '>' : ' ', l->name);
     return l;
 }
@@ -90,13 +104,38 @@ static void say_inputs(page *p, void *item) {
 }
 
 /* Families count in steps of a code or in units in the last place, and of some methods bounds are proven. */
-enum { IN_STEPS = 1, IN_ULP = 2, BOUNDED = 4 };
+enum { IN_STEPS = 1, IN_ULP = 2, BOUNDED = 4, ON_DEVICE = 8 };
 
 static unsigned conditions(const measuring *b) {
-    unsigned when = b->asked.family->steps ? IN_STEPS : IN_ULP;
+    unsigned when = (b->asked.family->steps ? IN_STEPS : IN_ULP) | (b->mine != NULL ? ON_DEVICE : 0);
     for (size_t i = 0; i < b->count; i++)
         when |= isnan(b->results[i].bound) ? 0 : BOUNDED;
     return when;
+}
+
+/* What each of the user's functions is judged to be. */
+static void say_mine(page *p, const measuring *b) {
+    page_line(p,
+              "device: ns a call on %s, %.2g of it the loop round the calls; what depends on the camera alone is "
+              "computed once",
+              b->device, b->loop);
+    for (size_t i = 0; i < b->count; i++) {
+        const method_row *row = b->results[i].row;
+        const mine_row of = mine_of(b->mine, row);
+        char text[SETUP_LABEL_SIZE] = "";
+        if (of.operand == NULL)
+            continue;
+        if (of.judged->named)
+            shader_say(b->o, &of.judged->found, text);
+        page_line(p, "%s: %s: %s%s%s; %s", of.operand, judge_verdict_name(of.judged->verdict),
+                  of.judged->because != NULL ? of.judged->because : text, *of.code->defines != '\0' ? "; given " : "",
+                  of.code->defines,
+                  isnan(b->results[i].measured.worst.relative) ? "gives no eye depth of a window depth: not measured"
+                  : !of.code->camera                           ? "knows one camera alone, and is not run for others"
+                                                               : "no bound is known");
+    }
+    page_line(p, "fails from, of yours: the far/near from which its error exceeds %s",
+              number_of(b->results[b->count - 1].row->asked, 3).text);
 }
 
 static void say_marks(page *p, void *item) {
@@ -112,6 +151,8 @@ static void say_marks(page *p, void *item) {
                       "%s: timed with this processor's estimate; its errors are those of a model, and every processor "
                       "stays within the guarantee of %.3g and the method within its claim",
                       b->results[i].row->name, ESTIMATE_WORST);
+    if (b->mine != NULL)
+        say_mine(p, b);
     if (b->shown < b->count)
         page_line(p, "--full: %zu more, each beaten by another in both speed and accuracy", b->count - b->shown);
     if (b->choice != NULL)
@@ -179,6 +220,12 @@ static const column line_columns[] = {
     {TEXT_FIELD(line, of.measured.worst.ulp, "ulp", 10, 3), .when = IN_ULP, .spare = 5},
     {TEXT_FIELD(line, of.at_relative, "worst at", 14, 9), .when = IN_ULP, .spare = 3},
     {FIELD(line, of.at_ulp, "ulp_at", "")},
+    {FIELD(line, on_device.ns, "device_ns", ""), .only = AS_JSON, .when = ON_DEVICE},
+    {FIELD(line, on_device.spread, "device_spread", ""), .only = AS_JSON, .when = ON_DEVICE},
+    {FIELD(line, on_device.operand, "function", ""), .only = AS_JSON, .when = ON_DEVICE},
+    {FIELD(line, computes, "computes", ""), .only = AS_JSON, .when = ON_DEVICE},
+    {FIELD(line, given, "defines", ""), .only = AS_JSON, .when = ON_DEVICE},
+    {TEXT_FIELD(line, on_device.ns, "device", 8, 3), .when = ON_DEVICE},
     {TEXT_FIELD(line, of.bound, "bound", 10, 3), .when = BOUNDED},
     {FIELD(line, of.claim, "claim", ""), SHOWN("claim", 10, 3)},
     {FIELD(line, of.bound, "bound", ""), .only = AS_JSON},
@@ -188,6 +235,9 @@ static const column line_columns[] = {
     {FIELD(line, of.limit, "limit", "ns"), .only = AS_CSV},
     {FIELD(line, of.bound, "bound", ""), .only = AS_CSV},
     {GROUP("stability", walked_columns)},
+    {FIELD(line, on_device.ns, "device", "ns"), .only = AS_CSV, .when = ON_DEVICE},
+    {FIELD(line, on_device.operand, "function", ""), .only = AS_CSV, .when = ON_DEVICE},
+    {FIELD(line, computes, "computes", ""), .only = AS_CSV, .when = ON_DEVICE},
     {.kind = COLUMN_END}};
 
 static const column columns[] = {{FIELD(measuring, family, "family", "")},
@@ -197,6 +247,8 @@ static const column columns[] = {{FIELD(measuring, family, "family", "")},
                                  {FIELD(measuring, tolerance, "tolerance", ""), .only = AS_JSON},
                                  {FIELD(measuring, choice_name, "choice", ""), .only = AS_JSON},
                                  {FIELD(measuring, limit, "limit_ns", ""), .only = AS_JSON},
+                                 {FIELD(measuring, device, "device", ""), .only = AS_JSON, .when = ON_DEVICE},
+                                 {FIELD(measuring, loop, "loop_ns", ""), .only = AS_JSON, .when = ON_DEVICE},
                                  {LIST("methods", line_columns, next_method)},
                                  {.kind = COLUMN_END}};
 
@@ -241,7 +293,8 @@ static int list_families(const options *o, output *out) {
 
 /* What a camera says is asked of a family. */
 static int check_family(const options *o) {
-    static const option_id of_family[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING, OPTION_TOLERANCE};
+    static const option_id of_family[] = {OPTION_NEAR,    OPTION_FAR,       OPTION_FORMAT,
+                                          OPTION_MAPPING, OPTION_TOLERANCE, OPTION_MINE};
     char text[NAMES_SIZE];
     for (size_t i = 0; i < sizeof of_family / sizeof of_family[0] && o->operand_row == NULL; i++)
         if (option_given(o, of_family[i]))
@@ -252,9 +305,15 @@ static int check_family(const options *o) {
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 /* The times first, while nothing else runs. */
-static bool measure(measuring *b) {
+static int measure(measuring *b) {
     b->count = bench_run(b->asked.family, b->asked.which, &b->asked.setup, BENCH_REPETITIONS, b->results);
-    return b->count > 0 && stability_run(b->asked.family, 1U << b->asked.which, b->walked) == b->count;
+    if (b->count == 0 || stability_run(b->asked.family, 1U << b->asked.which, b->walked) != b->count)
+        return usage_error("no memory for the methods");
+    if (b->mine == NULL)
+        return EXIT_FINE;
+    const int status = mine_end(b->mine, b->results, b->walked, b->count);
+    b->device = mine_device(b->mine, &b->loop);
+    return status;
 }
 
 static void describe(measuring *b) {
@@ -293,13 +352,19 @@ int cmd_methods(const options *o) {
         return status;
     if (o->operand_row == NULL)
         return list_families(o, &out);
-    if (!measure(&b)) {
+    if (o->judge.mine_count > 0)
+        status = mine_open(o, &b.asked, false, &b.mine);
+    if (status == EXIT_FINE)
+        status = measure(&b);
+    if (status == EXIT_FINE) {
+        describe(&b);
+        report_write(
+            &(report_spec){"methods", columns, &b, .when = conditions(&b), .head = say_inputs, .notes = say_marks},
+            &out, o->out.form);
+        status = output_close(&out);
+    } else {
         output_abandon(&out);
-        return usage_error("no memory for the methods");
     }
-    describe(&b);
-    report_write(&(report_spec){"methods", columns, &b, .when = conditions(&b), .head = say_inputs, .notes = say_marks},
-                 &out, o->out.form);
-    status = output_close(&out);
+    mine_close(b.mine);
     return status == EXIT_FINE && !all_hold(&b) ? EXIT_FAILED : status;
 }

@@ -2,6 +2,7 @@
 /* plot: a figure, drawn (SVG, PDF, PNG by the ending of -o) or as its numbers (--csv, --json). */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/check_report.h"
@@ -10,6 +11,7 @@
 #include "cli/figure_file.h"
 #include "cli/list.h"
 #include "cli/methods.h"
+#include "cli/mine.h"
 #include "cli/raster_setups.h"
 #include "cli/scene/figure.h"
 #include "cli/shadow/maps.h"
@@ -32,7 +34,9 @@ typedef struct plotting {
     const char *names[CHART_SETUPS];
     char text[CHART_SETUPS][SETUP_LABEL_SIZE];
     methods_asked asked;
-    char where[256]; /* of what is timed */
+    char where[2 * SHADER_TEXT_SIZE]; /* of what is timed */
+    mine *mine;                       /* null: none is given */
+    bench_result *timed;
     need_file file;
     shadow_maps maps;
     scene model;
@@ -155,7 +159,9 @@ static void subtitle_of(const options *o, const figure_request *request, bool bu
 static int resolve_methods(plotting *p) {
     const options *o = p->o;
     char machine[192];
-    const char *family = o->operand_count > 1 ? o->operands[1] : p->row->family;
+    const char *family = o->operand_count > 1      ? o->operands[1]
+                         : o->judge.mine_count > 0 ? linearize_family.name
+                                                   : p->row->family;
     const name_list families = {.get = list_family};
     list_item item;
     int status = check_operand(o->command, "FAMILY", &families, family, &item);
@@ -302,6 +308,27 @@ static void say_evaluations(const figure_row *row, const chart *c) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
+/* Of times, which are those on the device; figures that show none measure the user's functions themselves. */
+static int measure_mine(plotting *p) {
+    const bool timed = p->row->build == pareto_build;
+    double loop;
+    int status = mine_open(p->o, &p->asked, timed, &p->mine);
+    p->request.family = p->asked.family;
+    if (status != EXIT_FINE)
+        return status;
+    snprintf(p->where, sizeof p->where, "near %s, far %s; %s",
+             number_in(number_full(p->o->camera.znear), options_unit(p->o)).text,
+             number_in(number_full(p->o->camera.zfar), options_unit(p->o)).text, mine_device(p->mine, &loop));
+    if (!timed)
+        return EXIT_FINE;
+    p->timed = calloc(BENCH_METHODS_MAX, sizeof *p->timed);
+    p->request.timed_count =
+        p->timed != NULL ? bench_run(p->asked.family, p->asked.which, &p->asked.setup, 0, p->timed) : 0;
+    p->request.timed = p->timed;
+    return p->request.timed_count > 0 ? mine_end(p->mine, p->timed, NULL, p->request.timed_count)
+                                      : usage_error("plot: no memory");
+}
+
 /* Reads and searches the model, which may take long. */
 static int look_at_model(plotting *p, output *out) {
     const int status = scene_look(&p->model, out);
@@ -348,14 +375,16 @@ static int write_figure(plotting *p) {
         return status;
     if ((p->row->takes & FIGURE_MODEL) != 0)
         status = look_at_model(p, &out);
+    if (p->o->judge.mine_count > 0)
+        status = measure_mine(p);
     if (status != EXIT_FINE) {
         output_abandon(&out);
         return status;
     }
     const char *wrong = p->row->build(&p->request, c);
-    if (wrong != NULL) {
+    if (wrong != NULL || (p->mine != NULL && mine_status(p->mine) != EXIT_FINE)) {
         output_abandon(&out);
-        return usage_error("%s", wrong);
+        return wrong != NULL ? usage_error("%s", wrong) : mine_status(p->mine);
     }
     if (c->title[0] == '\0')
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
@@ -420,5 +449,7 @@ int cmd_plot(const options *o) {
     scene_end(&p.model);
     setups_release(&p.all);
     need_release(&p.file);
+    mine_close(p.mine);
+    free(p.timed);
     return status;
 }

@@ -40,7 +40,9 @@ typedef struct figure_request {
     const method_family_row *family;   /**< for the figures that show methods, else null */
     size_t which;                      /**< its case, where times are measured, */
     const char *where;                 /**< and in words at which planes, on which machine */
-    int columns, rows;                 /**< how finely to compute: pixels of the figure; see refine.h */
+    const bench_result *timed;         /**< what was measured before, timed_count of them; null: nothing was */
+    size_t timed_count;
+    int columns, rows; /**< how finely to compute: pixels of the figure; see refine.h */
 } figure_request;
 
 /** What a figure can make something of. */
@@ -58,6 +60,7 @@ enum {
     FIGURE_SETUPS = 1 << 11,     /**< set-ups, as the options of a camera say them */
     FIGURE_SHADOW = 1 << 7,      /**< shadow maps, whose cameras are not that of the view */
     FIGURE_GUARANTEED = 1 << 13, /**< what is guaranteed, unless --model is given */
+    FIGURE_MINE = 1 << 15,       /**< functions of somebody's among the methods of linearize */
     FIGURE_FARS = 1 << 14,       /**< several far planes, and no formats */
     FIGURE_STAGED = 1 << 12,     /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
 };

@@ -10,7 +10,7 @@
 static const double exact = 1e-17;
 
 /* What a method is. Those judged by the pipeline answer a question of their own. */
-enum { FRONT = 1, PIPELINE = 2 };
+enum { FRONT = 1, PIPELINE = 2, MINE = 4 };
 
 /* A method that has a time and a finite error. */
 typedef struct timed {
@@ -30,7 +30,8 @@ static field gather(const method_family_row *family, const bench_result *results
     for (size_t i = 0; i < count; i++) {
         const bench_result *r = &results[i];
         const double error = measured_error(family, &r->measured);
-        const int is = (r->front ? FRONT : 0) | ((r->row->domain & METHOD_PIPELINE) != 0 ? PIPELINE : 0);
+        const int is = (r->front ? FRONT : 0) | (r->row->asked > 0 ? MINE : 0) |
+                       ((r->row->domain & METHOD_PIPELINE) != 0 ? PIPELINE : 0);
         if (!isfinite(error) || !isfinite(r->ns) || !(r->ns > 0))
             continue;
         f.methods[f.count++] = (timed){r, error, is};
@@ -94,16 +95,19 @@ static void add_bars(const field *f, chart *out, chart_panel *panel) {
     }
 }
 
-static void add_points(const field *f, chart *out, chart_panel *panel, int front) {
-    chart_series *s = add_methods(f, out, panel, CHART_POINTS, FRONT, front);
+/* Of ours those on the front or not, or all that are somebody's. */
+static void add_points(const field *f, chart *out, chart_panel *panel, int bits, int set) {
+    chart_series *s = add_methods(f, out, panel, CHART_POINTS, bits, set);
     if (s == NULL)
         return;
-    s->style = front ? (chart_style){0, 0, 0, false} : (chart_style){1, 1, 1, false};
-    snprintf(s->name, sizeof s->name, "%s", front ? "on the Pareto front" : "dominated");
+    s->style = set == MINE    ? (chart_style){3, 2, 2, true}
+               : set == FRONT ? (chart_style){0, 0, 0, false}
+                              : (chart_style){1, 1, 1, false};
+    snprintf(s->name, sizeof s->name, "%s", set == MINE ? "yours" : set == FRONT ? "on the Pareto front" : "dominated");
     s->labels = chart_memory(out, s->count, sizeof *s->labels);
     for (size_t i = 0, k = 0; i < f->count && s->labels != NULL; i++) {
         const timed *t = &f->methods[i];
-        if ((t->is & FRONT) == front)
+        if ((t->is & bits) == set)
             snprintf(s->labels[k++], sizeof *s->labels, "%s%s", t->of->row->name,
                      t->is & PIPELINE ? " (pipeline)" : "");
     }
@@ -125,8 +129,9 @@ const char *pareto_draw(const method_family_row *family, const bench_result *res
     add_front(&f, out, panel, 0);
     add_front(&f, out, panel, PIPELINE);
     add_bars(&f, out, panel);
-    add_points(&f, out, panel, 0);
-    add_points(&f, out, panel, FRONT);
+    add_points(&f, out, panel, FRONT | MINE, 0);
+    add_points(&f, out, panel, FRONT | MINE, FRONT);
+    add_points(&f, out, panel, MINE, MINE);
     fit(&panel->x, f.time);
     fit(&panel->y, f.error);
     return NULL;
@@ -143,6 +148,8 @@ const char *pareto_build(const figure_request *request, chart *out) {
     snprintf(subtitle, sizeof subtitle, "%s: %s; %s, %s", family->name, family->summary,
              family->cases[request->which].name, request->where);
     notes_clean(out->subtitle, sizeof out->subtitle, subtitle);
+    if (request->timed != NULL)
+        return pareto_draw(family, request->timed, request->timed_count, out);
     const size_t count = bench_run(family, request->which, &setup, BENCH_REPETITIONS, results);
     return count > 0 ? pareto_draw(family, results, count, out) : "no memory for the methods";
 }

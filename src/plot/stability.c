@@ -51,7 +51,11 @@ static double claimed(const stability_result *r) {
 }
 
 static double broken(const stability_result *r) {
-    return r->breaks;
+    return r->row->asked > 0 ? (double)NAN : r->breaks;
+}
+
+static double lost(const stability_result *r) {
+    return r->row->asked > 0 ? r->breaks : (double)NAN;
 }
 
 /* One mark a method, at half its row, where far/near is finite. */
@@ -98,6 +102,7 @@ static void add_panel(const table *t, size_t which, const stability_result *firs
     }
     add_marks(t, which, out, claimed, "claimed up to here", (chart_style){-1, 0, 0, true});
     add_marks(t, which, out, broken, "the claim breaks here", (chart_style){0, 1, 1, true});
+    add_marks(t, which, out, lost, "yours is off by more than a half from here on", (chart_style){3, 2, 2, true});
 }
 
 const char *stability_draw(const method_family_row *family, const stability_result *results, size_t count, chart *out) {

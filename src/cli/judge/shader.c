@@ -9,10 +9,11 @@
 #include "core/elementary.h"
 #include "judge/written.h"
 #include "probe/compute.h"
+#include "report/number.h"
 #include "system/input.h"
 #include "system/sandbox.h"
 
-enum { FILE_MOST = 1 << 24, ALL_MOST = 1 << 26, PORTION = 1 << 20 };
+enum { FILE_MOST = 1 << 24, ALL_MOST = 1 << 26, PORTION = 1 << 20, TURNS = 8, ASKED = 512, FACTOR_DIGITS = 6 };
 
 /* ---- The file ---------------------------------------------------------------------------------------------------- */
 
@@ -44,16 +45,21 @@ static bool is_hlsl(const char *path) {
     return false;
 }
 
-static int compile(shader *s, const dp_setup *setup, const char *path, const char *function, const char *text) {
-    compute_run *run = s->run;
+/* Once for its values, and where it is timed once more. */
+static int compile(shader *s, const dp_setup *setup, const char *path, unsigned turns) {
+    compute_run *run = turns > 0 ? s->timed : s->run;
+    const char *function = s->function;
     written w = {0};
     char error[COMPUTE_ERROR_SIZE];
     unsigned line = 0;
     int status = EXIT_FINE;
     const options_judge *j = &s->o->judge;
-    if (!written_make(text, function, is_hlsl(path), setup, j->defines, j->define_count, &w, error))
+    const size_t defines = s->given ? j->define_count : 0;
+    s->hlsl = is_hlsl(path);
+    run->turns = turns * WRITTEN_CALLS;
+    if (!written_make(s->text, function, s->hlsl, setup, j->defines, defines, turns, &w, error))
         status = usage_error("%s: %s %s", path, function, error);
-    else if (!compute_compile(w.text, is_hlsl(path), run, &line, error) && (line == 0 || line > w.lines + 1))
+    else if (!compute_compile(w.text, s->hlsl, run, &line, error) && (line == 0 || line > w.lines + 1))
         status = usage_error("%s: %s: %s", path, function, error);
     else if (run->code == NULL)
         status = usage_error("%s:%u: %s%s", path, line, error,
@@ -68,15 +74,28 @@ static int compile(shader *s, const dp_setup *setup, const char *path, const cha
     return status;
 }
 
-int shader_open(const options *o, const dp_setup *setup, shader *out) {
-    const char *operand = o->operands[0], *colon = strrchr(operand, ':');
+int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, bool timed,
+                 shader *out) {
+    *out = (shader){.o = o,
+                    .run = calloc(1, sizeof(compute_run)),
+                    .timed = calloc(1, sizeof(compute_run)),
+                    .text = strdup(text),
+                    .function = function};
+    if (out->run == NULL || out->timed == NULL || out->text == NULL)
+        return EXIT_IO;
+    const int status = compile(out, setup, function, 0);
+    return status == EXIT_FINE && timed ? compile(out, setup, function, TURNS) : status;
+}
+
+int shader_open(const options *o, const dp_setup *setup, const char *operand, bool timed, shader *out) {
+    const char *colon = strrchr(operand, ':');
     const bool spirv = ends_with(operand, ".spv");
     char *text = NULL, *path = strdup(operand), error[COMPUTE_ERROR_SIZE];
     compute_run *run = calloc(1, sizeof *run);
-    *out = (shader){.o = o, .run = run};
-    int status = run != NULL && path != NULL ? EXIT_FINE : EXIT_IO;
+    *out = (shader){.o = o, .run = run, .timed = calloc(1, sizeof *run), .given = true};
+    int status = run != NULL && out->timed != NULL && path != NULL ? EXIT_FINE : EXIT_IO;
     if (status == EXIT_FINE && !spirv && (colon == NULL || colon == operand || colon[1] == '\0'))
-        status = usage_error("judge: must be FILE:FUNCTION, or FILE.spv, got '%s'", operand);
+        status = usage_error("%s: must be FILE:FUNCTION, or FILE.spv, got '%s'", o->command->name, operand);
     if (status == EXIT_FINE && spirv && o->judge.define_count > 0)
         status = option_error(OPTION_DEFINE, "is not for SPIR-V, which has its constants in it");
     if (status == EXIT_FINE && !spirv)
@@ -84,7 +103,12 @@ int shader_open(const options *o, const dp_setup *setup, shader *out) {
     if (status == EXIT_FINE)
         status = read_file(path, &text, &run->size);
     if (status == EXIT_FINE && !spirv) {
-        status = compile(out, setup, path, colon + 1, text);
+        out->text = text;
+        out->function = colon + 1;
+        status = compile(out, setup, path, 0);
+        if (status == EXIT_FINE && timed)
+            status = compile(out, setup, path, TURNS);
+        text = NULL;
     } else if (status == EXIT_FINE) {
         run->code = (uint32_t *)(void *)text;
         text = NULL;
@@ -96,10 +120,13 @@ int shader_open(const options *o, const dp_setup *setup, shader *out) {
 }
 
 void shader_close(shader *s) {
-    compute_run *run = s->run;
-    if (run != NULL)
-        free(run->code);
-    free(run);
+    compute_run *both[] = {s->run, s->timed};
+    for (int i = 0; i < 2; i++) {
+        if (both[i] != NULL)
+            free(both[i]->code);
+        free(both[i]);
+    }
+    free(s->text);
 }
 
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
@@ -111,12 +138,17 @@ static int start(shader *s, FILE **values) {
     if (!compute_values(s->o->probe.device, s->run, &machine, values, &s->too_long, error)) {
         if (s->too_long && !few)
             return EXIT_FINE;
-        usage_error("judge: %s", error);
+        usage_error("%s: %s", s->o->command->name, error);
         return EXIT_IO;
     }
     const shot_device *d = &machine.device[machine.chosen];
     snprintf(s->device, sizeof s->device, "%s; %s", d->name, d->driver);
     return EXIT_FINE;
+}
+
+static int damaged(const shader *s) {
+    usage_error("%s: what the driver made is damaged", s->o->command->name);
+    return EXIT_IO;
 }
 
 /* The next pairs of a run: false where the file ends before. */
@@ -142,11 +174,10 @@ static float listed(const void *of, uint64_t i) {
 static int run_pairs(shader *s, uint64_t from, size_t count, FILE *values, judge_pairs *out) {
     if (take(s->run, from, count, values, out))
         return EXIT_FINE;
-    usage_error("judge: what the driver made is damaged");
-    return EXIT_IO;
+    return damaged(s);
 }
 
-int shader_pairs(shader *s, const float *in, size_t count, judge_pairs *out) {
+static int shader_pairs(shader *s, const float *in, size_t count, judge_pairs *out) {
     compute_run *run = s->run;
     FILE *values = NULL;
     *out = (judge_pairs){.nan_at = (double)NAN, .pairs = malloc(count * sizeof *out->pairs)};
@@ -158,6 +189,122 @@ int shader_pairs(shader *s, const float *in, size_t count, judge_pairs *out) {
         status = run_pairs(s, 0, count, values, out);
     sandbox_close(values);
     judge_pairs_look(out);
+    return status;
+}
+
+double shader_asked(unsigned i, unsigned count) {
+    const unsigned ends = count < 48 ? count / 3 : 16, k = i / 2 + 1;
+    const double even = (double)(i - 2 * ends) / (count - 2 * ends - 1);
+    return (double)(float)(i >= 2 * ends ? even : i % 2 == 0 ? ldexp(1, -(int)k) : 1 - ldexp(1, -(int)k - 1));
+}
+
+/* What takes no window depths may take eye depths. */
+static int ask(shader *s, const dp_setup *asked, size_t count, bool open, bool eye, judge_pairs *pairs,
+               judgement *out) {
+    const dp_spec *spec = &asked[0].spec;
+    const double far = isinf(spec->zfar) ? 1e6 * spec->znear : spec->zfar;
+    float depth[ASKED];
+    for (unsigned i = 0; i < ASKED; i++) {
+        const double t = shader_asked(i, ASKED);
+        depth[i] = (float)(eye ? fmin(far, spec->znear + (far - spec->znear) * t * t * t) : t);
+    }
+    judge_pairs_free(pairs);
+    const int status = shader_pairs(s, depth, ASKED, pairs);
+    if (status == EXIT_FINE)
+        judge_function(pairs, asked, count, open, out);
+    return status;
+}
+
+int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *pairs, judgement *out) {
+    open = open && !s->camera;
+    int status = ask(s, asked, count, open, false, pairs, out);
+    if (status == EXIT_FINE && !out->named && !open)
+        status = ask(s, asked, count, open, true, pairs, out);
+    if (status == EXIT_FINE && !out->named)
+        status = ask(s, asked, count, open, false, pairs, out);
+    return status;
+}
+
+void shader_excuse(const shader *s, judgement *out) {
+    if (s->open[0] != '\0' && (out->verdict == JUDGE_OTHER || out->verdict == JUDGE_WRONG)) {
+        out->verdict = JUDGE_UNKNOWN;
+        out->because = s->open;
+    }
+}
+
+void shader_say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
+    const dp_spec *s = &c->setup.spec;
+    const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL;
+    int used = snprintf(out, SETUP_LABEL_SIZE, "%s%s%s", c->trap != NULL ? c->trap->name : "",
+                        c->trap != NULL ? ", as " : "", c->output->name);
+    if (c->factor != 1)
+        used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, " times %s,",
+                         number_of(c->factor, FACTOR_DIGITS).text);
+    used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, " from %s", c->input->name);
+    used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ": %s%s", dp_mapping_get(s->mapping)->name,
+                     s->ortho ? ", orthographic" : "");
+    if (planes)
+        snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ", near %s, far %s",
+                 number_in(number_full(s->znear), options_unit(o)).text,
+                 number_in(number_full(s->zfar), options_unit(o)).text);
+}
+
+/* ---- In the chart ------------------------------------------------------------------------------------------------ */
+
+int shader_values(shader *s, const dp_setup *cameras, size_t count, const float *in, size_t each, float *out) {
+    compute_run *run = s->run;
+    float(*constants)[COMPUTE_CONSTANTS] = calloc(count, sizeof *constants);
+    char error[COMPUTE_ERROR_SIZE];
+    FILE *values = NULL;
+    int status = constants != NULL ? EXIT_FINE : EXIT_IO;
+    for (size_t i = 0; i < count && status == EXIT_FINE; i++) {
+        const options_judge *j = &s->o->judge;
+        written w = {0};
+        if (s->camera &&
+            written_make(s->text, s->function, s->hlsl, &cameras[i], j->defines, j->define_count, 0, &w, error))
+            memcpy(constants[i], w.constants, sizeof w.constants);
+        else
+            memcpy(constants[i], run->constants, sizeof run->constants);
+        free(w.text);
+    }
+    run->count = count * each;
+    run->each = each;
+    run->cameras = (const float(*)[COMPUTE_CONSTANTS])constants;
+    run->depth = listed;
+    run->of = in;
+    if (status == EXIT_FINE)
+        status = start(s, &values);
+    if (status == EXIT_FINE && (values == NULL || fread(out, sizeof *out, run->count, values) != run->count))
+        status = damaged(s); /* or did not come to an end, with some camera */
+    sandbox_close(values);
+    free(constants);
+    run->each = 0;
+    run->cameras = NULL;
+    return status;
+}
+
+int shader_times(shader *const *all, size_t count, bench_times *out) {
+    compute_run runs[COMPUTE_TIMED_MOST];
+    double ns[COMPUTE_TIMED_MOST][COMPUTE_TIMES], row[COMPUTE_TIMED_MOST];
+    shot_machine machine = {0};
+    char error[COMPUTE_ERROR_SIZE];
+    FILE *times = NULL;
+    int status = EXIT_FINE;
+    for (size_t i = 0; i < count; i++)
+        runs[i] = *(const compute_run *)all[i]->timed;
+    if (!compute_times(all[0]->o->probe.device, runs, count, &machine, &times, error)) {
+        usage_error("%s: %s", all[0]->o->command->name, error);
+        return EXIT_IO;
+    }
+    for (int k = 0; k < COMPUTE_TIMES && status == EXIT_FINE; k++) {
+        if (fread(row, sizeof *row, count, times) != count)
+            status = damaged(all[0]);
+        for (size_t i = 0; i < count; i++)
+            ns[i][k] = row[i];
+    }
+    for (size_t i = 0; i < count && status == EXIT_FINE; i++)
+        out[i] = bench_statistics(ns[i], COMPUTE_TIMES);
+    sandbox_close(times);
     return status;
 }
 
