@@ -27,8 +27,8 @@ typedef struct line {
     double claim_to;              /* NaN where nothing is claimed */
     double breaks;                /* NaN: never */
     double ratio, wrong, claimed; /* a step; the last is NaN beyond the claim's span */
-    mine_row on_device;
-    const char *computes, *given; /* of a function of the user's */
+    bench_times device;
+    const char *function, *computes, *given; /* of a function of the user's */
 } line;
 
 typedef struct measuring {
@@ -48,8 +48,24 @@ typedef struct measuring {
     line line;
     mine *mine; /* null: there are none */
     const char *device;
-    double loop;
+    double loop; /* ns */
 } measuring;
+
+static const mine_row *mine_of(const measuring *b, const method_row *row) {
+    return &b->mine->more[row - b->mine->rows];
+}
+
+static void take_mine(const measuring *b, const method_row *row, line *l) {
+    const mine_row *m = b->mine != NULL ? mine_of(b, row) : NULL;
+    if (m != NULL)
+        l->device = m->time;
+    if (m == NULL || m->operand == NULL)
+        return;
+    l->verdict = judge_verdict_name(m->judged.verdict);
+    l->function = m->operand;
+    l->computes = m->judged.named ? m->judged.found.output->name : NULL;
+    l->given = m->code.defines;
+}
 
 static void *next_method(void *of, size_t i) {
     measuring *b = of;
@@ -72,14 +88,7 @@ static void *next_method(void *of, size_t i) {
                 .setup = r->setup > 0 ? r->setup : (double)NAN,
                 .front = r->front,
                 .chosen = r->row == b->choice};
-    if (b->mine != NULL)
-        l->on_device = mine_of(b->mine, r->row);
-    if (l->on_device.operand != NULL) {
-        const judgement *j = l->on_device.judged;
-        l->verdict = judge_verdict_name(j->verdict);
-        l->computes = j->named ? j->found.output->name : NULL;
-        l->given = l->on_device.code->defines;
-    }
+    take_mine(b, r->row, l);
     snprintf(l->label, sizeof l->label, "%c%c%s", r->front ? '*' : ' ', l->chosen ? '>' : ' ', l->name);
     return l;
 }
@@ -116,22 +125,22 @@ static unsigned conditions(const measuring *b) {
 /* What each of the user's functions is judged to be. */
 static void say_mine(page *p, const measuring *b) {
     page_line(p,
-              "device: ns a call on %s, %.2g of it the loop round the calls; what depends on the camera alone is "
+              "device: ns a call on %s, the fastest of some; the loop round the calls takes %.2g of it; what depends "
+              "on the camera alone is "
               "computed once",
               b->device, b->loop);
     for (size_t i = 0; i < b->count; i++) {
-        const method_row *row = b->results[i].row;
-        const mine_row of = mine_of(b->mine, row);
+        const mine_row *m = mine_of(b, b->results[i].row);
+        const judgement *j = &m->judged;
         char text[SETUP_LABEL_SIZE] = "";
-        if (of.operand == NULL)
+        if (m->operand == NULL)
             continue;
-        if (of.judged->named)
-            shader_say(b->o, &of.judged->found, text);
-        page_line(p, "%s: %s: %s%s%s; %s", of.operand, judge_verdict_name(of.judged->verdict),
-                  of.judged->because != NULL ? of.judged->because : text, *of.code->defines != '\0' ? "; given " : "",
-                  of.code->defines,
+        if (j->named)
+            shader_say(b->o, &j->found, text);
+        page_line(p, "%s: %s: %s%s%s; %s", m->operand, judge_verdict_name(j->verdict),
+                  j->because != NULL ? j->because : text, *m->code.defines != '\0' ? "; given " : "", m->code.defines,
                   isnan(b->results[i].measured.worst.relative) ? "gives no eye depth of a window depth: not measured"
-                  : !of.code->camera                           ? "knows one camera alone, and is not run for others"
+                  : !m->code.camera                            ? "knows one camera alone, and is not run for others"
                                                                : "no bound is known");
     }
     page_line(p, "fails from, of yours: the far/near from which its error exceeds %s",
@@ -220,14 +229,9 @@ static const column line_columns[] = {
     {TEXT_FIELD(line, of.measured.worst.ulp, "ulp", 10, 3), .when = IN_ULP, .spare = 5},
     {TEXT_FIELD(line, of.at_relative, "worst at", 14, 9), .when = IN_ULP, .spare = 3},
     {FIELD(line, of.at_ulp, "ulp_at", "")},
-    {FIELD(line, on_device.ns, "device_ns", ""), .only = AS_JSON, .when = ON_DEVICE},
-    {FIELD(line, on_device.spread, "device_spread", ""), .only = AS_JSON, .when = ON_DEVICE},
-    {FIELD(line, on_device.operand, "function", ""), .only = AS_JSON, .when = ON_DEVICE},
-    {FIELD(line, computes, "computes", ""), .only = AS_JSON, .when = ON_DEVICE},
-    {FIELD(line, given, "defines", ""), .only = AS_JSON, .when = ON_DEVICE},
-    {TEXT_FIELD(line, on_device.ns, "device", 8, 3), .when = ON_DEVICE},
+    {TEXT_FIELD(line, device.median, "device", 8, 3), .when = ON_DEVICE},
     {TEXT_FIELD(line, of.bound, "bound", 10, 3), .when = BOUNDED},
-    {FIELD(line, of.claim, "claim", ""), SHOWN("claim", 10, 3)},
+    {FIELD(line, of.claim, "claim", ""), SHOWN("claim", 10, 3), .spare = 1},
     {FIELD(line, of.bound, "bound", ""), .only = AS_JSON},
     {FIELD(line, of.front, "pareto", ""), .only = AS_JSON},
     {FIELD(line, front, "pareto", ""), .only = AS_CSV},
@@ -235,9 +239,11 @@ static const column line_columns[] = {
     {FIELD(line, of.limit, "limit", "ns"), .only = AS_CSV},
     {FIELD(line, of.bound, "bound", ""), .only = AS_CSV},
     {GROUP("stability", walked_columns)},
-    {FIELD(line, on_device.ns, "device", "ns"), .only = AS_CSV, .when = ON_DEVICE},
-    {FIELD(line, on_device.operand, "function", ""), .only = AS_CSV, .when = ON_DEVICE},
-    {FIELD(line, computes, "computes", ""), .only = AS_CSV, .when = ON_DEVICE},
+    {FIELD(line, device.median, "device_ns", ""), .when = ON_DEVICE},
+    {FIELD(line, device.spread, "device_spread", ""), .when = ON_DEVICE},
+    {FIELD(line, function, "function", ""), .when = ON_DEVICE},
+    {FIELD(line, computes, "computes", ""), .when = ON_DEVICE},
+    {FIELD(line, given, "defines", ""), .when = ON_DEVICE},
     {.kind = COLUMN_END}};
 
 static const column columns[] = {{FIELD(measuring, family, "family", "")},
@@ -309,11 +315,7 @@ static int measure(measuring *b) {
     b->count = bench_run(b->asked.family, b->asked.which, &b->asked.setup, BENCH_REPETITIONS, b->results);
     if (b->count == 0 || stability_run(b->asked.family, 1U << b->asked.which, b->walked) != b->count)
         return usage_error("no memory for the methods");
-    if (b->mine == NULL)
-        return EXIT_FINE;
-    const int status = mine_end(b->mine, b->results, b->walked, b->count);
-    b->device = mine_device(b->mine, &b->loop);
-    return status;
+    return b->mine != NULL ? b->mine->status : EXIT_FINE;
 }
 
 static void describe(measuring *b) {
@@ -325,6 +327,10 @@ static void describe(measuring *b) {
         b->choice = method_choose(b->asked.family, b->asked.which, &wish);
     methods_machine(b->machine, sizeof b->machine);
     b->choice_name = b->choice != NULL ? b->choice->name : NULL;
+    if (b->mine != NULL) {
+        b->device = mine_device(b->mine);
+        b->loop = b->mine->more[b->mine->count].time.median;
+    }
     b->family = b->asked.family->name;
     b->measure = b->asked.family->measure;
     b->fields = setup_fields_of(&b->asked.setup, options_unit(o));

@@ -2,7 +2,6 @@
 /* plot: a figure, drawn (SVG, PDF, PNG by the ending of -o) or as its numbers (--csv, --json). */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/check_report.h"
@@ -36,7 +35,6 @@ typedef struct plotting {
     methods_asked asked;
     char where[2 * SHADER_TEXT_SIZE]; /* of what is timed */
     mine *mine;                       /* null: none is given */
-    bench_result *timed;
     need_file file;
     shadow_maps maps;
     scene model;
@@ -167,9 +165,14 @@ static int resolve_methods(plotting *p) {
     int status = check_operand(o->command, "FAMILY", &families, family, &item);
     if (status == EXIT_FINE)
         status = methods_resolve(o, item.row, &p->asked);
+    if (status == EXIT_FINE && o->judge.mine_count > 0)
+        status = mine_open(o, &p->asked, p->row->build == pareto_build, &p->mine);
+    if (status != EXIT_FINE)
+        return status;
     snprintf(p->where, sizeof p->where, "near %s, far %s; %s",
              number_in(number_full(o->camera.znear), options_unit(o)).text,
-             number_in(number_full(o->camera.zfar), options_unit(o)).text, methods_machine(machine, sizeof machine));
+             number_in(number_full(o->camera.zfar), options_unit(o)).text,
+             p->mine != NULL ? mine_device(p->mine) : methods_machine(machine, sizeof machine));
     p->request.setups = &p->asked.setup;
     p->request.count = 1;
     p->request.family = p->asked.family;
@@ -308,27 +311,6 @@ static void say_evaluations(const figure_row *row, const chart *c) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-/* Of times, which are those on the device; figures that show none measure the user's functions themselves. */
-static int measure_mine(plotting *p) {
-    const bool timed = p->row->build == pareto_build;
-    double loop;
-    int status = mine_open(p->o, &p->asked, timed, &p->mine);
-    p->request.family = p->asked.family;
-    if (status != EXIT_FINE)
-        return status;
-    snprintf(p->where, sizeof p->where, "near %s, far %s; %s",
-             number_in(number_full(p->o->camera.znear), options_unit(p->o)).text,
-             number_in(number_full(p->o->camera.zfar), options_unit(p->o)).text, mine_device(p->mine, &loop));
-    if (!timed)
-        return EXIT_FINE;
-    p->timed = calloc(BENCH_METHODS_MAX, sizeof *p->timed);
-    p->request.timed_count =
-        p->timed != NULL ? bench_run(p->asked.family, p->asked.which, &p->asked.setup, 0, p->timed) : 0;
-    p->request.timed = p->timed;
-    return p->request.timed_count > 0 ? mine_end(p->mine, p->timed, NULL, p->request.timed_count)
-                                      : usage_error("plot: no memory");
-}
-
 /* Reads and searches the model, which may take long. */
 static int look_at_model(plotting *p, output *out) {
     const int status = scene_look(&p->model, out);
@@ -375,17 +357,18 @@ static int write_figure(plotting *p) {
         return status;
     if ((p->row->takes & FIGURE_MODEL) != 0)
         status = look_at_model(p, &out);
-    if (p->o->judge.mine_count > 0)
-        status = measure_mine(p);
     if (status != EXIT_FINE) {
         output_abandon(&out);
         return status;
     }
     const char *wrong = p->row->build(&p->request, c);
-    if (wrong != NULL || (p->mine != NULL && mine_status(p->mine) != EXIT_FINE)) {
+    status = wrong != NULL ? usage_error("%s", wrong) : p->mine != NULL ? p->mine->status : EXIT_FINE;
+    if (status != EXIT_FINE) {
         output_abandon(&out);
-        return wrong != NULL ? usage_error("%s", wrong) : mine_status(p->mine);
+        return status;
     }
+    if (p->mine != NULL && p->row->build == stability_build)
+        append(c->subtitle, sizeof c->subtitle, "; yours on %s", mine_device(p->mine));
     if (c->title[0] == '\0')
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);
@@ -450,6 +433,5 @@ int cmd_plot(const options *o) {
     setups_release(&p.all);
     need_release(&p.file);
     mine_close(p.mine);
-    free(p.timed);
     return status;
 }

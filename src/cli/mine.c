@@ -7,8 +7,6 @@
 
 #include "code/code.h"
 
-enum { SEEN_MOST = 4 * STABILITY_STEPS_MAX + 32 };
-
 /* What a function gave for the windows of a camera. */
 typedef struct seen {
     double znear, zfar;
@@ -17,49 +15,26 @@ typedef struct seen {
     float *block; /* of several, to be freed */
 } seen;
 
-typedef struct function {
-    mine *of;
-    const char *operand;
-    shader code;
-    judgement found;
-    bench_times time;
-    seen seen[SEEN_MOST];
-    size_t count;
-} function;
-
-/* The last function is the loop alone. */
-struct mine {
-    const options *o;
-    dp_setup setup;
-    bool on_device;
-    int status;
-    method_family_row family;
-    method_row rows[BENCH_METHODS_MAX];
-    function functions[BENCH_METHODS_MAX + 1];
-    size_t count;
-};
+enum { SEEN_MOST = 4 * STABILITY_STEPS_MAX + 32 };
 
 /* ---- Values ------------------------------------------------------------------------------------------------------ */
 
-static const seen *find(const function *f, const dp_setup *setup, size_t inputs) {
-    for (size_t i = 0; i < f->count; i++)
-        if (f->seen[i].znear == setup->spec.znear && f->seen[i].zfar == setup->spec.zfar && f->seen[i].inputs == inputs)
-            return &f->seen[i];
+static const seen *find(const mine_row *f, const dp_setup *setup, size_t inputs) {
+    for (const seen *s = f->seen; s < f->seen + f->seen_count; s++)
+        if (s->znear == setup->spec.znear && s->zfar == setup->spec.zfar && s->inputs == inputs)
+            return s;
     return NULL;
 }
 
 /* What is given nothing of a camera is not asked about others. */
-static bool is_asked(const function *f, const dp_setup *setup) {
-    const dp_spec *own = &f->of->setup.spec;
-    return f->code.camera || (setup->spec.znear == own->znear && setup->spec.zfar == own->zfar);
-}
-
 static void expect(const method_row *row, const dp_setup *cameras, size_t count, size_t inputs) {
-    function *f = row->own;
+    mine_row *f = row->own;
+    const dp_spec *own = &f->of->setup.spec;
     dp_setup fresh[SEEN_MOST];
     size_t n = 0;
-    for (size_t i = 0; i < count && f->count + n < SEEN_MOST; i++)
-        if (is_asked(f, &cameras[i]) && find(f, &cameras[i], inputs) == NULL)
+    for (size_t i = 0; i < count && f->seen_count + n < SEEN_MOST; i++)
+        if ((f->code.camera || (cameras[i].spec.znear == own->znear && cameras[i].spec.zfar == own->zfar)) &&
+            find(f, &cameras[i], inputs) == NULL)
             fresh[n++] = cameras[i];
     if (n == 0 || f->of->status != EXIT_FINE)
         return;
@@ -69,81 +44,99 @@ static void expect(const method_row *row, const dp_setup *cameras, size_t count,
     f->of->status =
         in != NULL && values != NULL ? shader_values(&f->code, fresh, n, in, inputs, values) : usage_error("no memory");
     for (size_t i = 0; i < n; i++)
-        f->seen[f->count++] =
+        f->seen[f->seen_count++] =
             (seen){fresh[i].spec.znear, fresh[i].spec.zfar, inputs, values + i * inputs, i == 0 ? values : NULL};
     free(in);
 }
 
-/* What it is judged to give; as eye depth where that is not known. */
-static const judge_output *gives(const function *f) {
-    const judgement *j = &f->found;
-    return j->named && j->found.trap == NULL ? j->found.output : judge_output_get(0);
-}
-
-static bool is_measured(const function *f) {
-    const judgement *j = &f->found;
-    return gives(f)->eye != NULL && !(j->named && j->found.input == judge_input_get(JUDGE_EYE));
-}
-
+/* As the eye depth that it stands for in what it is judged to give, else as one. What gives none is not measured. */
 static void run(const method_call *c) {
-    function *f = c->row->own;
+    const mine_row *f = c->row->own;
+    const judgement *j = &f->judged;
+    const bool known = j->named && j->found.trap == NULL;
+    const judge_output *gives = known ? j->found.output : judge_output_get(0);
     expect(c->row, c->setup, 1, c->in->count);
     const seen *s = find(f, c->setup, c->in->count);
-    for (size_t i = 0; i < c->in->count; i++)
-        c->out->value[i] = s != NULL && f->of->status == EXIT_FINE && is_measured(f)
-                               ? gives(f)->eye(c->setup, (double)s->values[i])
-                               : (double)NAN;
+    const bool good = s != NULL && f->of->status == EXIT_FINE && gives->eye != NULL &&
+                      !(known && j->found.input == judge_input_get(JUDGE_EYE));
+    for (size_t i = 0; i < c->in->count; i++) {
+        c->out->eye[i] = good ? 0 : (float)NAN;
+        c->out->value[i] = good ? gives->eye(c->setup, (double)s->values[i]) : 0;
+    }
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-static const char *name_of(const mine *m, const char *operand) {
-    const char *colon = strrchr(operand, ':'), *slash = strrchr(operand, '/');
-    const char *name = colon != NULL ? colon + 1 : slash != NULL ? slash + 1 : operand;
+/* The function's, or all that was typed where another has that name. In figures, which have no room for more, with what
+ * it is judged to be. */
+static void name_it(mine *m, mine_row *f, method_row *row) {
+    const char *colon = strrchr(f->operand, ':'), *slash = strrchr(f->operand, '/');
+    const char *name = colon != NULL ? colon + 1 : slash != NULL ? slash + 1 : f->operand;
+    const bool told = m->o->command->id == CMD_PLOT && f->judged.verdict != JUDGE_RIGHT;
     for (size_t i = 0; i < m->count; i++)
         if (strcmp(m->rows[i].name, name) == 0)
-            return operand;
-    return name;
+            name = f->operand;
+    snprintf(f->name, sizeof f->name, told ? "%s (%s)" : "%s", name, judge_verdict_name(f->judged.verdict));
+    row->name = f->name;
 }
 
-static int open_ours(mine *m, const method_row *row) {
+static int open_ours(mine *m, const method_row *row, bool on_device) {
     static output text; /* short: it never leaves its buffer */
     const code_language *glsl = code_language_get(0);
-    function *f = &m->functions[m->count];
-    const bool lacks = code_lacks(glsl, row, &m->setup) != NULL;
-    if (lacks && m->on_device)
+    mine_row *f = &m->more[m->count];
+    const bool has = code_lacks(glsl, row, &m->setup) == NULL;
+    if (has || !on_device)
+        m->rows[m->count++] = *row;
+    if (!has)
         return EXIT_FINE;
-    m->rows[m->count++] = *row;
-    if (lacks)
-        return EXIT_FINE;
+    if (on_device) {
+        method_row *here = &m->rows[m->count - 1];
+        here->own = f;
+        here->run = run;
+        here->known = code_bound(glsl, row, &m->setup);
+    }
     text.used = 0;
     code_function(&text, glsl, row, &m->setup, false);
     text.buffer[text.used] = '\0';
-    if (m->on_device) {
-        m->rows[m->count - 1].own = f;
-        m->rows[m->count - 1].run = run;
-    }
-    return shader_write(m->o, &m->setup, text.buffer, "eye_depth", true, &f->code);
+    return shader_write(m->o, &m->setup, text.buffer, "eye_depth", &f->code);
 }
 
 static int open_mine(mine *m, const char *operand, size_t which) {
-    function *f = &m->functions[m->count];
+    mine_row *f = &m->more[m->count];
+    method_row *row = &m->rows[m->count];
     judge_pairs pairs = {0};
     f->operand = operand;
-    method_row row = {METHOD_LINEARIZE,
-                      name_of(m, operand),
-                      "",
-                      .own = f,
-                      .run = run,
-                      .expect = expect,
-                      .asked = option_given(m->o, OPTION_TOLERANCE) ? m->o->wanted.tolerance : 0.5};
-    row.claims[which] = (method_claim)UNCLAIMED;
-    m->rows[m->count++] = row;
     int status = shader_open(m->o, &m->setup, operand, true, &f->code);
     if (status == EXIT_FINE)
-        status = shader_judge(&f->code, &m->setup, 1, false, &pairs, &f->found);
-    shader_excuse(&f->code, &f->found);
+        status = shader_judge(&f->code, &m->setup, 1, false, &pairs, &f->judged);
     judge_pairs_free(&pairs);
+    *row = (method_row){.family = METHOD_LINEARIZE,
+                        .own = f,
+                        .run = run,
+                        .expect = expect,
+                        .known = (double)NAN,
+                        .asked = option_given(m->o, OPTION_TOLERANCE) ? m->o->wanted.tolerance : 0.5};
+    row->claims[which] = (method_claim)UNCLAIMED;
+    name_it(m, f, row);
+    m->count++;
+    return status;
+}
+
+/* All that have a text in turns. What is shown of a row is the time of its own machine. */
+static int time_all(mine *m, bool on_device) {
+    shader *all[BENCH_METHODS_MAX + 1];
+    bench_times times[BENCH_METHODS_MAX + 1];
+    size_t n = 0;
+    for (size_t i = 0; i <= m->count; i++)
+        if (m->more[i].code.text != NULL)
+            all[n++] = &m->more[i].code;
+    const int status = shader_times(all, n, times);
+    for (size_t i = m->count + 1; i-- > 0 && status == EXIT_FINE;) {
+        const bool timed = m->more[i].code.text != NULL;
+        m->more[i].time = timed ? times[--n] : (bench_times){(double)NAN, (double)NAN};
+        if (i < m->count && m->rows[i].own != NULL)
+            m->rows[i].cost = on_device ? m->more[i].time.median : (double)NAN;
+    }
     return status;
 }
 
@@ -154,16 +147,19 @@ int mine_open(const options *o, methods_asked *asked, bool on_device, mine **out
         return status;
     m->o = o;
     m->setup = asked->setup;
-    m->on_device = on_device;
-    for (size_t i = 0; i <= BENCH_METHODS_MAX; i++)
-        m->functions[i].of = m;
+    for (size_t i = 0; i <= BENCH_METHODS_MAX && status == EXIT_FINE; i++) {
+        m->more[i].of = m;
+        m->more[i].seen = calloc(SEEN_MOST, sizeof(seen));
+        status = m->more[i].seen != NULL ? EXIT_FINE : usage_error("no memory");
+    }
     for (size_t i = 0; i < *linearize_family.method_count && status == EXIT_FINE; i++)
-        status = open_ours(m, &linearize_family.methods[i]);
+        status = open_ours(m, &linearize_family.methods[i], on_device);
     for (size_t i = 0; i < o->judge.mine_count && status == EXIT_FINE; i++)
         status = open_mine(m, o->judge.mine[i], asked->which);
     if (status == EXIT_FINE)
-        status =
-            shader_write(o, &m->setup, "float loop(float d) { return d; }", "loop", true, &m->functions[m->count].code);
+        status = shader_write(o, &m->setup, "float loop(float d) { return d; }", "loop", &m->more[m->count].code);
+    if (status == EXIT_FINE)
+        status = time_all(m, on_device);
     m->family = linearize_family;
     m->family.methods = m->rows;
     m->family.method_count = &m->count;
@@ -171,79 +167,15 @@ int mine_open(const options *o, methods_asked *asked, bool on_device, mine **out
     return status;
 }
 
-/* ---- Times ------------------------------------------------------------------------------------------------------- */
-
-static bool is_timed(const function *f) {
-    return f->code.text != NULL;
-}
-
-static int time_all(mine *m) {
-    shader *all[BENCH_METHODS_MAX + 1];
-    bench_times times[BENCH_METHODS_MAX + 1];
-    size_t n = 0;
-    for (size_t i = 0; i <= m->count; i++)
-        if (is_timed(&m->functions[i]))
-            all[n++] = &m->functions[i].code;
-    m->status = shader_times(all, n, times);
-    for (size_t i = m->count + 1; i-- > 0;) {
-        const bool timed = is_timed(&m->functions[i]) && m->status == EXIT_FINE;
-        m->functions[i].time = timed ? times[--n] : (bench_times){(double)NAN, (double)NAN};
-    }
-    return m->status;
-}
-
-/* Nothing is said of what it is at another camera. */
-static void forget_walk(stability_result *w) {
-    for (int k = 0; k < w->steps; k++)
-        w->error[k] = (double)NAN;
-    w->inside = w->infinite = (double)NAN;
-    w->breaks = (double)INFINITY;
-}
-
-int mine_end(mine *m, bench_result *results, stability_result *walked, size_t count) {
-    if (m->status == EXIT_FINE)
-        time_all(m);
-    for (size_t i = 0; i < count; i++) {
-        bench_result *r = &results[i];
-        const function *f = r->row->own;
-        if (m->on_device) {
-            r->ns = mine_of(m, r->row).ns;
-            r->spread = mine_of(m, r->row).spread;
-            r->bound = r->row->bound != NULL ? code_bound(code_language_get(0), r->row, &m->setup) : (double)NAN;
-        }
-        if (f == NULL || f->operand == NULL)
-            continue;
-        if (walked != NULL && (!f->code.camera || !is_measured(f)))
-            forget_walk(&walked[i]);
-        if (walked != NULL)
-            walked[i].claim = (double)NAN;
-        if (!is_measured(f))
-            r->measured.worst = (method_error){(double)NAN, (double)NAN, (double)NAN};
-    }
-    if (m->on_device)
-        bench_mark_front(&m->family, results, count);
-    return m->status;
-}
-
-int mine_status(const mine *m) {
-    return m->status;
-}
-
-mine_row mine_of(const mine *m, const method_row *row) {
-    const function *f = &m->functions[row - m->rows];
-    return (mine_row){f->operand, f->operand != NULL ? &f->found : NULL, &f->code, f->time.median, f->time.spread};
-}
-
-const char *mine_device(const mine *m, double *loop) {
-    *loop = m->functions[m->count].time.median;
-    return m->functions[m->count - 1].code.device;
+const char *mine_device(const mine *m) {
+    return m->more[m->count - 1].code.device;
 }
 
 void mine_close(mine *m) {
-    for (size_t i = 0; m != NULL && i <= BENCH_METHODS_MAX; i++) {
-        function *f = &m->functions[i];
-        for (size_t k = 0; k < f->count; k++)
+    for (mine_row *f = m != NULL ? m->more : NULL; f != NULL && f <= &m->more[BENCH_METHODS_MAX]; f++) {
+        for (size_t k = 0; k < f->seen_count; k++)
             free(f->seen[k].block);
+        free(f->seen);
         shader_close(&f->code);
     }
     free(m);

@@ -9,33 +9,38 @@
 #include "cli/judge/shader.h"
 #include "cli/methods.h"
 
-typedef struct mine mine;
-
-/** What is said of a row. */
+/** A row of ours or theirs. */
 typedef struct mine_row {
-    const char *operand; /**< null: a row of ours */
-    const judgement *judged;
-    const shader *code;
-    double ns, spread; /**< of a call; NaN: not timed */
+    struct mine *of;
+    shader code; /**< no text: it is not timed */
+    bench_times time;
+    const char *operand; /**< null: of ours */
+    judgement judged;    /**< of theirs */
+    char name[96];
+    struct seen *seen; /**< what it gave for which camera */
+    size_t seen_count;
 } mine_row;
 
+/** What they are among. */
+typedef struct mine {
+    const options *o;
+    dp_setup setup;
+    int status; /**< of what was run */
+    method_family_row family;
+    method_row rows[BENCH_METHODS_MAX];
+    mine_row more[BENCH_METHODS_MAX + 1]; /**< of each row; behind them the loop in which they are timed */
+    size_t count;
+} mine;
+
 /**
- * Compiles and judges them; *asked is then of their family.
+ * Compiles, judges and times them; *asked is then of their family.
  * @param on_device  ours are those that GLSL has, and run there, too
- * @return EXIT_FINE, or as a command does
+ * @return EXIT_FINE, or as a command does; *out is for mine_close() in any case
  */
 int mine_open(const options *o, methods_asked *asked, bool on_device, mine **out);
 
-/** Times all; what was measured is of no account where a function is not of eye depths, or knows one camera alone. */
-int mine_end(mine *m, bench_result *results, stability_result *walked, size_t count);
-
-/** EXIT_FINE, or what went wrong since. */
-int mine_status(const mine *m);
-
-mine_row mine_of(const mine *m, const method_row *row);
-
-/** Where it ran, and how much of each time is that of the loop. */
-const char *mine_device(const mine *m, double *loop);
+/** "llvmpipe (LLVM 15.0.6, 256 bits); llvmpipe, Mesa 22.3.6" */
+const char *mine_device(const mine *m);
 
 /** Null is allowed. */
 void mine_close(mine *m);

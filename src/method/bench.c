@@ -64,6 +64,8 @@ double method_claimed(const method_row *row, size_t which, const dp_setup *setup
 }
 
 double method_bound(const method_row *row, const dp_setup *setup) {
+    if (row->own != NULL)
+        return row->known;
     const bool covered = !isinf(setup->spec.zfar) || (row->domain & METHOD_INFINITE) != 0;
     return row->family == METHOD_LINEARIZE && row->bound != NULL && covered && !setup->spec.ortho
                ? bound_over(row->bound, setup, &bound_nearest)
@@ -123,6 +125,8 @@ static void time_methods(contestant *all, bench_result *results, size_t count, i
     const bench_times limit = bench_statistics(all[count].times, (size_t)repetitions);
     for (size_t i = 0; i < count; i++) {
         results[i].limit = limit.median;
+        results[i].ns = all[i].call.row->cost; /* of what is not timed here */
+        results[i].spread = 0;
         if (all[i].run == NULL)
             continue;
         const bench_times times = bench_statistics(all[i].times, (size_t)repetitions);
@@ -131,7 +135,7 @@ static void time_methods(contestant *all, bench_result *results, size_t count, i
     }
 }
 
-void bench_mark_front(const method_family_row *family, bench_result *results, size_t count) {
+static void mark_front(const method_family_row *family, bench_result *results, size_t count) {
     for (size_t i = 0; i < count; i++) {
         double error = measured_error(family, &results[i].measured);
         results[i].front = !isnan(error) && !isnan(results[i].ns);
@@ -194,7 +198,7 @@ size_t bench_run(const method_family_row *family, size_t which, const dp_setup *
             all[count] =
                 (contestant){.run = family->limit, .in = in, .call = {NULL, setup, NULL, &all[count].in, &out}};
             time_methods(all, results, count, repetitions < REPETITIONS_MAX ? repetitions : REPETITIONS_MAX);
-            bench_mark_front(family, results, count);
+            mark_front(family, results, count);
         }
         for (size_t i = 0; i < count; i++)
             if (all[i].state != NULL)

@@ -61,7 +61,4 @@ double method_bound(const method_row *row, const dp_setup *setup);
 size_t bench_run(const method_family_row *family, size_t which, const dp_setup *setup, int repetitions,
                  bench_result results[BENCH_METHODS_MAX]);
 
-/** Marks those on the front of others' times; those without a time are on none. */
-void bench_mark_front(const method_family_row *family, bench_result *results, size_t count);
-
 #endif

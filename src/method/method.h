@@ -131,10 +131,12 @@ struct method_row {
     const decode_row *decode;
     const position_row *position;
     const normal_row *normal;
-    /** Of a function of somebody's on a device, else null: what run needs. It gives out->value. */
+    /** Of what runs on a device, else null: what run needs. It gives out->value, and out->eye is NaN where there is
+     * nothing to measure; its time is `cost`, and what is proven of it `known`, NaN where they are not known. */
     void *own;
-    double asked; /**< of such a function: the error from which on it is said to fail */
-    /** Of such a function: which set-ups run is called for next, with so many inputs; many at once take less time. */
+    double known;
+    double asked; /**< of a function of somebody's: the error from which on it fails; else 0 */
+    /** Null, or told which set-ups run is called for next, with so many inputs: many at once take less time. */
     void (*expect)(const method_row *row, const dp_setup *setups, size_t count, size_t inputs);
     bool behind; /**< others are faster and more exact for every far/near: text shows it only where all are asked for */
 };

@@ -111,7 +111,7 @@ static void judge_claim(stability_result *r) {
     for (int k = 0; k < r->steps; k++)
         worst = fmax(worst, r->error[k]);
     if (isnan(c->worst))
-        r->verdict = worst > 0.5 || r->row->own != NULL ? STABILITY_UNCLAIMED : STABILITY_MODEST;
+        r->verdict = worst > 0.5 || r->row->asked > 0 ? STABILITY_UNCLAIMED : STABILITY_MODEST;
     else if (!(r->inside <= r->claim) ||
              (infinite && c->ratio_hi >= METHOD_RATIO_HI && !isnan(r->infinite) &&
               !(r->infinite <= method_claim_at(c, (double)INFINITY))) ||
@@ -143,13 +143,13 @@ static void walk_ratios(walk *w) {
         const double share = isinf(claim) ? 0 : r->error[k] / (isnan(claim) ? 1 : claim);
         if (r->ratio[k] >= c->ratio_lo * (1 - 1e-9) && r->ratio[k] <= c->ratio_hi * (1 + 1e-9) && !(share <= most)) {
             most = share;
-            r->claim = claim;
+            r->claim = isnan(c->worst) ? (double)NAN : claim;
             r->inside = r->error[k];
             r->inside_near = where.znear;
             r->inside_far = where.zfar;
             r->inside_at = where.at;
         }
-        if (isinf(r->breaks) && asked && !(r->error[k] <= claim))
+        if (isinf(r->breaks) && asked && r->error[k] > claim)
             r->breaks = k > 0 ? bisect(w, r->ratio[k - 1], r->ratio[k], k) : r->ratio[0];
     }
 }

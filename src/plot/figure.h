@@ -40,9 +40,7 @@ typedef struct figure_request {
     const method_family_row *family;   /**< for the figures that show methods, else null */
     size_t which;                      /**< its case, where times are measured, */
     const char *where;                 /**< and in words at which planes, on which machine */
-    const bench_result *timed;         /**< what was measured before, timed_count of them; null: nothing was */
-    size_t timed_count;
-    int columns, rows; /**< how finely to compute: pixels of the figure; see refine.h */
+    int columns, rows;                 /**< how finely to compute: pixels of the figure; see refine.h */
 } figure_request;
 
 /** What a figure can make something of. */

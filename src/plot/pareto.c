@@ -148,8 +148,6 @@ const char *pareto_build(const figure_request *request, chart *out) {
     snprintf(subtitle, sizeof subtitle, "%s: %s; %s, %s", family->name, family->summary,
              family->cases[request->which].name, request->where);
     notes_clean(out->subtitle, sizeof out->subtitle, subtitle);
-    if (request->timed != NULL)
-        return pareto_draw(family, request->timed, request->timed_count, out);
     const size_t count = bench_run(family, request->which, &setup, BENCH_REPETITIONS, results);
     return count > 0 ? pareto_draw(family, results, count, out) : "no memory for the methods";
 }

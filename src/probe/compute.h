@@ -40,15 +40,13 @@ bool compute_look(compute_run *run, char error[COMPUTE_ERROR_SIZE]);
 /**
  * Runs it in a process of its own, which is ended if the shader is not.
  * @param device   as of probe_run()
+ * @param runs     0; or so many are timed in turns, and COMPUTE_TIMES times, ns a call of each, stand for values, as
+ *                 double
  * @param values   receives a file whose next numbers are the `count` values, for sandbox_close(); null where it fails
  * @param endless  whether it was ended
  */
-bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values, bool *endless,
-                    char error[COMPUTE_ERROR_SIZE]);
-
-/** The same of `runs` shaders that are timed in turns: COMPUTE_TIMES ns a call of each, one by one, as double. */
-bool compute_times(const char *device, const compute_run *run, size_t runs, shot_machine *machine, FILE **times,
-                   char error[COMPUTE_ERROR_SIZE]);
+bool compute_values(const char *device, const compute_run *run, size_t runs, shot_machine *machine, FILE **values,
+                    bool *endless, char error[COMPUTE_ERROR_SIZE]);
 
 /** What the child does: values, or where `runs` is not 0 times, go to `out`. */
 bool shot_compute(const char *wanted, const compute_run *run, size_t runs, shot_machine *machine, FILE *out);

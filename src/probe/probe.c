@@ -131,25 +131,15 @@ static bool work_compute(void *of, FILE *out) {
     return true;
 }
 
-static bool run_computing(computing *c, unsigned seconds, FILE **made, bool *endless, char error[COMPUTE_ERROR_SIZE]) {
-    const sandbox_end end = sandbox_run(work_compute, c, (sandbox_limits){.wall = seconds}, made);
-    *endless = end == SANDBOX_ENDLESS;
-    if (ended(end, "function", (int)seconds, c->machine, *made, error, COMPUTE_ERROR_SIZE))
-        return true;
-    sandbox_close(*made);
-    *made = NULL;
-    return false;
-}
-
-bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values, bool *endless,
-                    char error[COMPUTE_ERROR_SIZE]) {
-    computing c = {device, run, 0, machine};
-    return run_computing(&c, run->count > COMPUTE_FEW ? COMPUTE_ALL_SECONDS : COMPUTE_SECONDS, values, endless, error);
-}
-
-bool compute_times(const char *device, const compute_run *run, size_t runs, shot_machine *machine, FILE **times,
-                   char error[COMPUTE_ERROR_SIZE]) {
+bool compute_values(const char *device, const compute_run *run, size_t runs, shot_machine *machine, FILE **values,
+                    bool *endless, char error[COMPUTE_ERROR_SIZE]) {
     computing c = {device, run, runs, machine};
-    bool endless;
-    return run_computing(&c, COMPUTE_ALL_SECONDS, times, &endless, error);
+    const unsigned seconds = runs > 0 || run->count > COMPUTE_FEW ? COMPUTE_ALL_SECONDS : COMPUTE_SECONDS;
+    const sandbox_end end = sandbox_run(work_compute, &c, (sandbox_limits){.wall = seconds}, values);
+    *endless = end == SANDBOX_ENDLESS;
+    if (ended(end, "function", (int)seconds, machine, *values, error, COMPUTE_ERROR_SIZE))
+        return true;
+    sandbox_close(*values);
+    *values = NULL;
+    return false;
 }

@@ -140,7 +140,6 @@ static int judge_shader(report *r, const setups *all, bool open) {
         j->verdict = JUDGE_UNKNOWN;
         j->because = "what fits many depths does not fit all";
     }
-    shader_excuse(&r->code, j);
     r->function = r->o->operands[0];
     r->device = r->code.device;
     r->defines = r->code.defines;

@@ -74,8 +74,7 @@ static int compile(shader *s, const dp_setup *setup, const char *path, unsigned 
     return status;
 }
 
-int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, bool timed,
-                 shader *out) {
+int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, shader *out) {
     *out = (shader){.o = o,
                     .run = calloc(1, sizeof(compute_run)),
                     .timed = calloc(1, sizeof(compute_run)),
@@ -84,7 +83,7 @@ int shader_write(const options *o, const dp_setup *setup, const char *text, cons
     if (out->run == NULL || out->timed == NULL || out->text == NULL)
         return EXIT_IO;
     const int status = compile(out, setup, function, 0);
-    return status == EXIT_FINE && timed ? compile(out, setup, function, TURNS) : status;
+    return status == EXIT_FINE ? compile(out, setup, function, TURNS) : status;
 }
 
 int shader_open(const options *o, const dp_setup *setup, const char *operand, bool timed, shader *out) {
@@ -131,24 +130,24 @@ void shader_close(shader *s) {
 
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
 
+static int fail_io(const shader *s, const char *error) {
+    usage_error("%s: %s", s->o->command->name, error);
+    return EXIT_IO;
+}
+
+static int damaged(const shader *s) {
+    return fail_io(s, "what the driver made is damaged");
+}
+
 static int start(shader *s, FILE **values) {
     shot_machine machine = {0};
     char error[COMPUTE_ERROR_SIZE];
     const bool few = s->device[0] == '\0'; /* the first time */
-    if (!compute_values(s->o->probe.device, s->run, &machine, values, &s->too_long, error)) {
-        if (s->too_long && !few)
-            return EXIT_FINE;
-        usage_error("%s: %s", s->o->command->name, error);
-        return EXIT_IO;
-    }
+    if (!compute_values(s->o->probe.device, s->run, 0, &machine, values, &s->too_long, error))
+        return s->too_long && !few ? EXIT_FINE : fail_io(s, error);
     const shot_device *d = &machine.device[machine.chosen];
     snprintf(s->device, sizeof s->device, "%s; %s", d->name, d->driver);
     return EXIT_FINE;
-}
-
-static int damaged(const shader *s) {
-    usage_error("%s: what the driver made is damaged", s->o->command->name);
-    return EXIT_IO;
 }
 
 /* The next pairs of a run: false where the file ends before. */
@@ -215,6 +214,14 @@ static int ask(shader *s, const dp_setup *asked, size_t count, bool open, bool e
     return status;
 }
 
+/* Nothing is told of what hangs on a macro that nobody defines. */
+static void excuse(const shader *s, judgement *out) {
+    if (s->open[0] != '\0' && (out->verdict == JUDGE_OTHER || out->verdict == JUDGE_WRONG)) {
+        out->verdict = JUDGE_UNKNOWN;
+        out->because = s->open;
+    }
+}
+
 int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *pairs, judgement *out) {
     open = open && !s->camera;
     int status = ask(s, asked, count, open, false, pairs, out);
@@ -222,14 +229,8 @@ int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judg
         status = ask(s, asked, count, open, true, pairs, out);
     if (status == EXIT_FINE && !out->named)
         status = ask(s, asked, count, open, false, pairs, out);
+    excuse(s, out);
     return status;
-}
-
-void shader_excuse(const shader *s, judgement *out) {
-    if (s->open[0] != '\0' && (out->verdict == JUDGE_OTHER || out->verdict == JUDGE_WRONG)) {
-        out->verdict = JUDGE_UNKNOWN;
-        out->because = s->open;
-    }
 }
 
 void shader_say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
@@ -284,28 +285,25 @@ int shader_values(shader *s, const dp_setup *cameras, size_t count, const float 
 }
 
 int shader_times(shader *const *all, size_t count, bench_times *out) {
-    compute_run runs[COMPUTE_TIMED_MOST];
-    double ns[COMPUTE_TIMED_MOST][COMPUTE_TIMES], row[COMPUTE_TIMED_MOST];
+    const options *o = all[0]->o;
+    compute_run runs[COMPUTE_TIMED_MOST] = {{0}};
+    double ns[COMPUTE_TIMED_MOST][COMPUTE_TIMES];
     shot_machine machine = {0};
     char error[COMPUTE_ERROR_SIZE];
     FILE *times = NULL;
-    int status = EXIT_FINE;
+    bool endless, good = true;
     for (size_t i = 0; i < count; i++)
         runs[i] = *(const compute_run *)all[i]->timed;
-    if (!compute_times(all[0]->o->probe.device, runs, count, &machine, &times, error)) {
-        usage_error("%s: %s", all[0]->o->command->name, error);
-        return EXIT_IO;
-    }
-    for (int k = 0; k < COMPUTE_TIMES && status == EXIT_FINE; k++) {
-        if (fread(row, sizeof *row, count, times) != count)
-            status = damaged(all[0]);
-        for (size_t i = 0; i < count; i++)
-            ns[i][k] = row[i];
-    }
-    for (size_t i = 0; i < count && status == EXIT_FINE; i++)
+    if (!compute_values(o->probe.device, runs, count, &machine, &times, &endless, error))
+        return fail_io(all[0], error);
+    for (size_t k = 0; k < COMPUTE_TIMES * count && good; k++)
+        good = fread(&ns[k % count][k / count], sizeof **ns, 1, times) == 1;
+    for (size_t i = 0; i < count && good; i++) {
         out[i] = bench_statistics(ns[i], COMPUTE_TIMES);
+        out[i].median = ns[i][0]; /* a driver that shares its processor with others is disturbed one way alone */
+    }
     sandbox_close(times);
-    return status;
+    return good ? EXIT_FINE : damaged(all[0]);
 }
 
 /* ---- All depths -------------------------------------------------------------------------------------------------- */

@@ -27,8 +27,7 @@ typedef struct shader {
 int shader_open(const options *o, const dp_setup *setup, const char *operand, bool timed, shader *out);
 
 /** The same of GLSL of ours. */
-int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, bool timed,
-                 shader *out);
+int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, shader *out);
 
 /** Number i of `count` window depths that part what is known: the ends, powers of two beside either, even steps. */
 double shader_asked(unsigned i, unsigned count);
@@ -36,16 +35,13 @@ double shader_asked(unsigned i, unsigned count);
 /** Asks it for such depths, and judges what it gives, NaN left out. @param open as of judge_function() */
 int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *pairs, judgement *out);
 
-/** Nothing is told of what hangs on a macro that nobody defines. */
-void shader_excuse(const shader *s, judgement *out);
-
 /** "minus eye depth from window depth: d3d, near 0.1, far 1000" */
 void shader_say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]);
 
 /** Values for `each` depths with what it is given of one camera after another. */
 int shader_values(shader *s, const dp_setup *cameras, size_t count, const float *in, size_t each, float *out);
 
-/** Nanoseconds of a call, of those that are timed, in turns on the device. */
+/** Nanoseconds of a call, of those that are timed, in turns on the device: the fastest for the median. */
 int shader_times(shader *const *all, size_t count, bench_times *out);
 
 /** All codes of the format, or many of them, as what is named takes them. */
