@@ -368,7 +368,7 @@ static int write_figure(plotting *p) {
         return status;
     }
     if (p->mine != NULL && p->row->build == stability_build)
-        append(c->subtitle, sizeof c->subtitle, "; yours on %s", mine_device(p->mine));
+        append(c->subtitle, sizeof c->subtitle, "; yours ran on %s, hatched where not", mine_device(p->mine));
     if (c->title[0] == '\0')
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);

@@ -26,15 +26,13 @@ static const seen *find(const mine_row *f, const dp_setup *setup, size_t inputs)
     return NULL;
 }
 
-/* What is given nothing of a camera is not asked about others. */
+/* What is given nothing of a camera is asked about that of the chart alone. */
 static void expect(const method_row *row, const dp_setup *cameras, size_t count, size_t inputs) {
     mine_row *f = row->own;
-    const dp_spec *own = &f->of->setup.spec;
     dp_setup fresh[SEEN_MOST];
     size_t n = 0;
     for (size_t i = 0; i < count && f->seen_count + n < SEEN_MOST; i++)
-        if ((f->code.camera || (cameras[i].spec.znear == own->znear && cameras[i].spec.zfar == own->zfar)) &&
-            find(f, &cameras[i], inputs) == NULL)
+        if ((f->code.camera || inputs == linearize_family.inputs) && find(f, &cameras[i], inputs) == NULL)
             fresh[n++] = cameras[i];
     if (n == 0 || f->of->status != EXIT_FINE)
         return;

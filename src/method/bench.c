@@ -137,8 +137,8 @@ static void time_methods(contestant *all, bench_result *results, size_t count, i
 
 static void mark_front(const method_family_row *family, bench_result *results, size_t count) {
     for (size_t i = 0; i < count; i++) {
-        double error = measured_error(family, &results[i].measured);
-        results[i].front = !isnan(error) && !isnan(results[i].ns);
+        const double error = measured_error(family, &results[i].measured), asked = results[i].row->asked;
+        results[i].front = !isnan(error) && !isnan(results[i].ns) && !(asked > 0 && error > asked);
         for (size_t k = 0; k < count && results[i].front; k++) {
             if ((results[k].row->domain & METHOD_PIPELINE) != (results[i].row->domain & METHOD_PIPELINE))
                 continue;

@@ -113,10 +113,15 @@ static void add_points(const field *f, chart *out, chart_panel *panel, int bits,
     }
 }
 
-/* Whole decades round the data, with room for the names. */
+/* Whole decades round the data, 1, 2 or 5 of one where they span less, with room for the names. */
 static void fit(chart_axis *axis, chart_extent e) {
-    axis->lo = dp_pow(10, floor(dp_log10(e.lo) - 0.1));
-    axis->hi = dp_pow(10, ceil(dp_log10(fmax(e.lo, e.hi)) + 0.1));
+    const double lo = dp_pow(10, floor(dp_log10(e.lo) - 0.1)), hi = dp_pow(10, ceil(dp_log10(fmax(e.lo, e.hi)) + 0.1));
+    axis->lo = lo;
+    axis->hi = hi;
+    for (int part = 2; part <= 5 && e.hi < 10 * e.lo; part += 3) {
+        axis->lo = 1.25 * part * lo <= e.lo ? part * lo : axis->lo;
+        axis->hi = hi / part >= 1.25 * e.hi ? hi / part : axis->hi;
+    }
 }
 
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out) {

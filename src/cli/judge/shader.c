@@ -94,7 +94,8 @@ int shader_open(const options *o, const dp_setup *setup, const char *operand, bo
     *out = (shader){.o = o, .run = run, .timed = calloc(1, sizeof *run), .given = true};
     int status = run != NULL && out->timed != NULL && path != NULL ? EXIT_FINE : EXIT_IO;
     if (status == EXIT_FINE && !spirv && (colon == NULL || colon == operand || colon[1] == '\0'))
-        status = usage_error("%s: must be FILE:FUNCTION, or FILE.spv, got '%s'", o->command->name, operand);
+        status = usage_error("%s: must be FILE:FUNCTION, or FILE.spv, got '%s'",
+                             o->judge.mine_count > 0 ? "--mine" : "judge", operand);
     if (status == EXIT_FINE && spirv && o->judge.define_count > 0)
         status = option_error(OPTION_DEFINE, "is not for SPIR-V, which has its constants in it");
     if (status == EXIT_FINE && !spirv)
