@@ -24,10 +24,10 @@ typedef struct line {
     int front, chosen; /* 0 or 1 */
     stability_result walked;
     const char *of_case, *verdict;
-    double claim_to;              /* NaN where nothing is claimed */
-    double breaks;                /* NaN: never */
-    double ratio, wrong, claimed; /* a step; the last is NaN beyond the claim's span */
-    bench_times device;
+    double claim_to;                         /* NaN where nothing is claimed */
+    double breaks;                           /* NaN: never */
+    double ratio, wrong, claimed;            /* a step; the last is NaN beyond the claim's span */
+    double device;                           /* ns there */
     const char *function, *computes, *given; /* of a function of the user's */
 } line;
 
@@ -58,7 +58,7 @@ static const mine_row *mine_of(const measuring *b, const method_row *row) {
 static void take_mine(const measuring *b, const method_row *row, line *l) {
     const mine_row *m = b->mine != NULL ? mine_of(b, row) : NULL;
     if (m != NULL)
-        l->device = m->time;
+        l->device = m->ns;
     if (m == NULL || m->operand == NULL)
         return;
     l->verdict = judge_verdict_name(m->judged.verdict);
@@ -229,7 +229,7 @@ static const column line_columns[] = {
     {TEXT_FIELD(line, of.measured.worst.ulp, "ulp", 10, 3), .when = IN_ULP, .spare = 5},
     {TEXT_FIELD(line, of.at_relative, "worst at", 14, 9), .when = IN_ULP, .spare = 3},
     {FIELD(line, of.at_ulp, "ulp_at", "")},
-    {TEXT_FIELD(line, device.median, "device", 8, 3), .when = ON_DEVICE},
+    {TEXT_FIELD(line, device, "device", 8, 3), .when = ON_DEVICE},
     {TEXT_FIELD(line, of.bound, "bound", 10, 3), .when = BOUNDED},
     {FIELD(line, of.claim, "claim", ""), SHOWN("claim", 10, 3), .spare = 1},
     {FIELD(line, of.bound, "bound", ""), .only = AS_JSON},
@@ -239,8 +239,7 @@ static const column line_columns[] = {
     {FIELD(line, of.limit, "limit", "ns"), .only = AS_CSV},
     {FIELD(line, of.bound, "bound", ""), .only = AS_CSV},
     {GROUP("stability", walked_columns)},
-    {FIELD(line, device.median, "device_ns", ""), .when = ON_DEVICE},
-    {FIELD(line, device.spread, "device_spread", ""), .when = ON_DEVICE},
+    {FIELD(line, device, "device_ns", ""), .when = ON_DEVICE},
     {FIELD(line, function, "function", ""), .when = ON_DEVICE},
     {FIELD(line, computes, "computes", ""), .when = ON_DEVICE},
     {FIELD(line, given, "defines", ""), .when = ON_DEVICE},
@@ -329,7 +328,7 @@ static void describe(measuring *b) {
     b->choice_name = b->choice != NULL ? b->choice->name : NULL;
     if (b->mine != NULL) {
         b->device = mine_device(b->mine);
-        b->loop = b->mine->more[b->mine->count].time.median;
+        b->loop = b->mine->more[b->mine->count].ns;
     }
     b->family = b->asked.family->name;
     b->measure = b->asked.family->measure;

@@ -96,7 +96,7 @@ static int open_ours(mine *m, const method_row *row, bool on_device) {
     text.used = 0;
     code_function(&text, glsl, row, &m->setup, false);
     text.buffer[text.used] = '\0';
-    return shader_write(m->o, &m->setup, text.buffer, "eye_depth", &f->code);
+    return shader_write(m->o, &m->setup, text.buffer, "eye_depth", on_device, &f->code);
 }
 
 static int open_mine(mine *m, const char *operand, size_t which) {
@@ -120,20 +120,19 @@ static int open_mine(mine *m, const char *operand, size_t which) {
     return status;
 }
 
-/* All that have a text in turns. What is shown of a row is the time of its own machine. */
+/* What is shown of a row is the time of its own machine. */
 static int time_all(mine *m, bool on_device) {
     shader *all[BENCH_METHODS_MAX + 1];
-    bench_times times[BENCH_METHODS_MAX + 1];
+    double ns[BENCH_METHODS_MAX + 1];
     size_t n = 0;
     for (size_t i = 0; i <= m->count; i++)
         if (m->more[i].code.text != NULL)
             all[n++] = &m->more[i].code;
-    const int status = shader_times(all, n, times);
+    const int status = shader_times(all, n, ns);
     for (size_t i = m->count + 1; i-- > 0 && status == EXIT_FINE;) {
-        const bool timed = m->more[i].code.text != NULL;
-        m->more[i].time = timed ? times[--n] : (bench_times){(double)NAN, (double)NAN};
+        m->more[i].ns = m->more[i].code.text != NULL ? ns[--n] : (double)NAN;
         if (i < m->count && m->rows[i].own != NULL)
-            m->rows[i].cost = on_device ? m->more[i].time.median : (double)NAN;
+            m->rows[i].cost = on_device ? m->more[i].ns : (double)NAN;
     }
     return status;
 }
@@ -155,7 +154,8 @@ int mine_open(const options *o, methods_asked *asked, bool on_device, mine **out
     for (size_t i = 0; i < o->judge.mine_count && status == EXIT_FINE; i++)
         status = open_mine(m, o->judge.mine[i], asked->which);
     if (status == EXIT_FINE)
-        status = shader_write(o, &m->setup, "float loop(float d) { return d; }", "loop", &m->more[m->count].code);
+        status =
+            shader_write(o, &m->setup, "float loop(float d) { return d; }", "loop", false, &m->more[m->count].code);
     if (status == EXIT_FINE)
         status = time_all(m, on_device);
     m->family = linearize_family;

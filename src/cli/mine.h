@@ -12,8 +12,8 @@
 /** A row of ours or theirs. */
 typedef struct mine_row {
     struct mine *of;
-    shader code; /**< no text: it is not timed */
-    bench_times time;
+    shader code;         /**< no text: it is not timed */
+    double ns;           /**< of a call there; NaN: not timed */
     const char *operand; /**< null: of ours */
     judgement judged;    /**< of theirs */
     char name[96];

@@ -125,10 +125,10 @@ static void time_methods(contestant *all, bench_result *results, size_t count, i
     const bench_times limit = bench_statistics(all[count].times, (size_t)repetitions);
     for (size_t i = 0; i < count; i++) {
         results[i].limit = limit.median;
-        results[i].ns = all[i].call.row->cost; /* of what is not timed here */
-        results[i].spread = 0;
-        if (all[i].run == NULL)
+        if (all[i].run == NULL) {
+            results[i].ns = all[i].call.row->cost;
             continue;
+        }
         const bench_times times = bench_statistics(all[i].times, (size_t)repetitions);
         results[i].ns = times.median;
         results[i].spread = times.spread;

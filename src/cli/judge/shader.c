@@ -74,7 +74,8 @@ static int compile(shader *s, const dp_setup *setup, const char *path, unsigned 
     return status;
 }
 
-int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, shader *out) {
+int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, bool asked,
+                 shader *out) {
     *out = (shader){.o = o,
                     .run = calloc(1, sizeof(compute_run)),
                     .timed = calloc(1, sizeof(compute_run)),
@@ -82,7 +83,7 @@ int shader_write(const options *o, const dp_setup *setup, const char *text, cons
                     .function = function};
     if (out->run == NULL || out->timed == NULL || out->text == NULL)
         return EXIT_IO;
-    const int status = compile(out, setup, function, 0);
+    const int status = asked ? compile(out, setup, function, 0) : EXIT_FINE;
     return status == EXIT_FINE ? compile(out, setup, function, TURNS) : status;
 }
 
@@ -285,23 +286,23 @@ int shader_values(shader *s, const dp_setup *cameras, size_t count, const float 
     return status;
 }
 
-int shader_times(shader *const *all, size_t count, bench_times *out) {
+int shader_times(shader *const *all, size_t count, double *out) {
     const options *o = all[0]->o;
     compute_run runs[COMPUTE_TIMED_MOST] = {{0}};
-    double ns[COMPUTE_TIMED_MOST][COMPUTE_TIMES];
     shot_machine machine = {0};
     char error[COMPUTE_ERROR_SIZE];
     FILE *times = NULL;
+    double ns = 0;
     bool endless, good = true;
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         runs[i] = *(const compute_run *)all[i]->timed;
+        out[i] = (double)INFINITY;
+    }
     if (!compute_values(o->probe.device, runs, count, &machine, &times, &endless, error))
         return fail_io(all[0], error);
-    for (size_t k = 0; k < COMPUTE_TIMES * count && good; k++)
-        good = fread(&ns[k % count][k / count], sizeof **ns, 1, times) == 1;
-    for (size_t i = 0; i < count && good; i++) {
-        out[i] = bench_statistics(ns[i], COMPUTE_TIMES);
-        out[i].median = ns[i][0]; /* a driver that shares its processor with others is disturbed one way alone */
+    for (size_t k = 0; k < COMPUTE_TIMES * count && good; k++) {
+        good = fread(&ns, sizeof ns, 1, times) == 1;
+        out[k % count] = fmin(out[k % count], ns);
     }
     sandbox_close(times);
     return good ? EXIT_FINE : damaged(all[0]);

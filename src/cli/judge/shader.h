@@ -5,7 +5,6 @@
 
 #include "cli/setups.h"
 #include "judge/judge.h"
-#include "method/bench.h"
 
 enum { SHADER_TEXT_SIZE = 1024 };
 
@@ -26,8 +25,9 @@ typedef struct shader {
 /** Reads and compiles FILE:FUNCTION or FILE.spv, which must last. @return EXIT_FINE, or as a command does */
 int shader_open(const options *o, const dp_setup *setup, const char *operand, bool timed, shader *out);
 
-/** The same of GLSL of ours. */
-int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, shader *out);
+/** The same of GLSL of ours, to be timed. @param asked  for values, too */
+int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, bool asked,
+                 shader *out);
 
 /** Number i of `count` window depths that part what is known: the ends, powers of two beside either, even steps. */
 double shader_asked(unsigned i, unsigned count);
@@ -41,8 +41,9 @@ void shader_say(const options *o, const judge_candidate *c, char out[SETUP_LABEL
 /** Values for `each` depths with what it is given of one camera after another. */
 int shader_values(shader *s, const dp_setup *cameras, size_t count, const float *in, size_t each, float *out);
 
-/** Nanoseconds of a call, of those that are timed, in turns on the device: the fastest for the median. */
-int shader_times(shader *const *all, size_t count, bench_times *out);
+/** Nanoseconds of a call, of those that are timed in turns on the device: the least, because what disturbs a driver
+ * that shares its processor with others makes it slower alone. */
+int shader_times(shader *const *all, size_t count, double *out);
 
 /** All codes of the format, or many of them, as what is named takes them. */
 int shader_all(shader *s, judge_pairs *pairs, judgement *out);
