@@ -113,10 +113,10 @@ static void say_inputs(page *p, void *item) {
 }
 
 /* Families count in steps of a code or in units in the last place, and of some methods bounds are proven. */
-enum { IN_STEPS = 1, IN_ULP = 2, BOUNDED = 4, ON_DEVICE = 8 };
+enum { IN_STEPS = 1, IN_ULP = 2, BOUNDED = 4, ON_DEVICE = 8, OURS_ALONE = 16 };
 
 static unsigned conditions(const measuring *b) {
-    unsigned when = (b->asked.family->steps ? IN_STEPS : IN_ULP) | (b->mine != NULL ? ON_DEVICE : 0);
+    unsigned when = (b->asked.family->steps ? IN_STEPS : IN_ULP) | (b->mine != NULL ? ON_DEVICE : OURS_ALONE);
     for (size_t i = 0; i < b->count; i++)
         when |= isnan(b->results[i].bound) ? 0 : BOUNDED;
     return when;
@@ -231,7 +231,9 @@ static const column line_columns[] = {
     {FIELD(line, of.at_ulp, "ulp_at", "")},
     {TEXT_FIELD(line, device, "device", 8, 3), .when = ON_DEVICE},
     {TEXT_FIELD(line, of.bound, "bound", 10, 3), .when = BOUNDED},
-    {FIELD(line, of.claim, "claim", ""), SHOWN("claim", 10, 3), .spare = 1},
+    {FIELD(line, of.claim, "claim", "")},
+    {TEXT_FIELD(line, of.claim, "claim", 10, 3), .when = OURS_ALONE},
+    {TEXT_FIELD(line, of.claim, "claim", 10, 3), .when = ON_DEVICE, .spare = 1},
     {FIELD(line, of.bound, "bound", ""), .only = AS_JSON},
     {FIELD(line, of.front, "pareto", ""), .only = AS_JSON},
     {FIELD(line, front, "pareto", ""), .only = AS_CSV},
