@@ -201,8 +201,9 @@ static void check_functions(int from, int to, const char *options, double asked)
         TALLY(&t, form < FORMS, "%s: off by %g, want %g", w->name, relative, worst_of(w, 0, 0.1, 1000, INPUTS));
         TALLY(&t, strcmp(text_at(row, "stability.verdict"), w->verdict) == 0, "%s: verdict", w->name);
         TALLY(&t, strcmp(computes != NULL ? computes : "-", w->computes) == 0, "%s: %s", w->name, computes);
-        TALLY(&t, json_is_null(json_object_get(row, "bound")) && json_is_null(json_object_get(row, "claim")) &&
-                      json_is_null(node_at(row, "stability.claim")),
+        TALLY(&t,
+              json_is_null(json_object_get(row, "bound")) && json_is_null(json_object_get(row, "claim")) &&
+                  json_is_null(node_at(row, "stability.claim")),
               "%s: nothing is proven of it", w->name);
         if (w->walks)
             check_walk(&t, w, form % FORMS, row, asked);
