@@ -11,6 +11,7 @@
 #include "cli/setups.h"
 #include "method/choose.h"
 #include "method/estimate.h"
+#include "probe/compute.h"
 #include "report/number.h"
 #include "report/report.h"
 
@@ -125,10 +126,9 @@ static unsigned conditions(const measuring *b) {
 /* What each of the user's functions is judged to be. */
 static void say_mine(page *p, const measuring *b) {
     page_line(p,
-              "device: ns a call on %s, the fastest of some; the loop round the calls takes %.2g of it; what depends "
-              "on the camera alone is "
-              "computed once",
-              b->device, b->loop);
+              "device: ns a call on %s, the least of %d; the loop round the calls takes %.2g of it; what depends on "
+              "the camera alone is computed once",
+              b->device, COMPUTE_TIMES, b->loop);
     for (size_t i = 0; i < b->count; i++) {
         const mine_row *m = mine_of(b, b->results[i].row);
         const judgement *j = &m->judged;
