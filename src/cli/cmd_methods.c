@@ -7,9 +7,11 @@
 #include <stdio.h>
 
 #include "cli/methods.h"
+#include "cli/mine.h"
 #include "cli/setups.h"
 #include "method/choose.h"
 #include "method/estimate.h"
+#include "probe/compute.h"
 #include "report/number.h"
 #include "report/report.h"
 
@@ -23,9 +25,11 @@ typedef struct line {
     int front, chosen; /* 0 or 1 */
     stability_result walked;
     const char *of_case, *verdict;
-    double claim_to;              /* NaN where nothing is claimed */
-    double breaks;                /* NaN: never */
-    double ratio, wrong, claimed; /* a step; the last is NaN beyond the claim's span */
+    double claim_to;                         /* NaN where nothing is claimed */
+    double breaks;                           /* NaN: never */
+    double ratio, wrong, claimed;            /* a step; the last is NaN beyond the claim's span */
+    double device;                           /* ns there */
+    const char *function, *computes, *given; /* of a function of the user's */
 } line;
 
 typedef struct measuring {
@@ -43,7 +47,26 @@ typedef struct measuring {
     double limit;     /* ns */
     char machine[192];
     line line;
+    mine *mine; /* null: there are none */
+    const char *device;
+    double loop; /* ns */
 } measuring;
+
+static const mine_row *mine_of(const measuring *b, const method_row *row) {
+    return &b->mine->more[row - b->mine->rows];
+}
+
+static void take_mine(const measuring *b, const method_row *row, line *l) {
+    const mine_row *m = b->mine != NULL ? mine_of(b, row) : NULL;
+    if (m != NULL)
+        l->device = m->ns;
+    if (m == NULL || m->operand == NULL)
+        return;
+    l->verdict = judge_verdict_name(m->judged.verdict);
+    l->function = m->operand;
+    l->computes = m->judged.named ? m->judged.found.output->name : NULL;
+    l->given = m->code.defines;
+}
 
 static void *next_method(void *of, size_t i) {
     measuring *b = of;
@@ -66,6 +89,7 @@ static void *next_method(void *of, size_t i) {
                 .setup = r->setup > 0 ? r->setup : (double)NAN,
                 .front = r->front,
                 .chosen = r->row == b->choice};
+    take_mine(b, r->row, l);
     snprintf(l->label, sizeof l->label, "%c%c%s", r->front ? '*' : ' ', l->chosen ? '>' : ' ', l->name);
     return l;
 }
@@ -90,13 +114,37 @@ static void say_inputs(page *p, void *item) {
 }
 
 /* Families count in steps of a code or in units in the last place, and of some methods bounds are proven. */
-enum { IN_STEPS = 1, IN_ULP = 2, BOUNDED = 4 };
+enum { IN_STEPS = 1, IN_ULP = 2, BOUNDED = 4, ON_DEVICE = 8, OURS_ALONE = 16 };
 
 static unsigned conditions(const measuring *b) {
-    unsigned when = b->asked.family->steps ? IN_STEPS : IN_ULP;
+    unsigned when = (b->asked.family->steps ? IN_STEPS : IN_ULP) | (b->mine != NULL ? ON_DEVICE : OURS_ALONE);
     for (size_t i = 0; i < b->count; i++)
         when |= isnan(b->results[i].bound) ? 0 : BOUNDED;
     return when;
+}
+
+/* What each of the user's functions is judged to be. */
+static void say_mine(page *p, const measuring *b) {
+    page_line(p,
+              "device: ns a call on %s, the least of %d; the loop round the calls takes %.2g of it; what depends on "
+              "the camera alone is computed once",
+              b->device, COMPUTE_TIMES, b->loop);
+    for (size_t i = 0; i < b->count; i++) {
+        const mine_row *m = mine_of(b, b->results[i].row);
+        const judgement *j = &m->judged;
+        char text[SETUP_LABEL_SIZE] = "";
+        if (m->operand == NULL)
+            continue;
+        if (j->named)
+            shader_say(b->o, &j->found, text);
+        page_line(p, "%s: %s: %s%s%s; %s", m->operand, judge_verdict_name(j->verdict),
+                  j->because != NULL ? j->because : text, *m->code.defines != '\0' ? "; given " : "", m->code.defines,
+                  isnan(b->results[i].measured.worst.relative) ? "gives no eye depth of a window depth: not measured"
+                  : !m->code.camera                            ? "knows one camera alone, and is not run for others"
+                                                               : "no bound is known");
+    }
+    page_line(p, "fails from, of yours: the far/near from which its error exceeds %s",
+              number_of(b->results[b->count - 1].row->asked, 3).text);
 }
 
 static void say_marks(page *p, void *item) {
@@ -112,6 +160,8 @@ static void say_marks(page *p, void *item) {
                       "%s: timed with this processor's estimate; its errors are those of a model, and every processor "
                       "stays within the guarantee of %.3g and the method within its claim",
                       b->results[i].row->name, ESTIMATE_WORST);
+    if (b->mine != NULL)
+        say_mine(p, b);
     if (b->shown < b->count)
         page_line(p, "--full: %zu more, each beaten by another in both speed and accuracy", b->count - b->shown);
     if (b->choice != NULL)
@@ -179,8 +229,11 @@ static const column line_columns[] = {
     {TEXT_FIELD(line, of.measured.worst.ulp, "ulp", 10, 3), .when = IN_ULP, .spare = 5},
     {TEXT_FIELD(line, of.at_relative, "worst at", 14, 9), .when = IN_ULP, .spare = 3},
     {FIELD(line, of.at_ulp, "ulp_at", "")},
+    {TEXT_FIELD(line, device, "device", 8, 3), .when = ON_DEVICE},
     {TEXT_FIELD(line, of.bound, "bound", 10, 3), .when = BOUNDED},
-    {FIELD(line, of.claim, "claim", ""), SHOWN("claim", 10, 3)},
+    {FIELD(line, of.claim, "claim", "")},
+    {TEXT_FIELD(line, of.claim, "claim", 10, 3), .when = OURS_ALONE},
+    {TEXT_FIELD(line, of.claim, "claim", 10, 3), .when = ON_DEVICE, .spare = 1},
     {FIELD(line, of.bound, "bound", ""), .only = AS_JSON},
     {FIELD(line, of.front, "pareto", ""), .only = AS_JSON},
     {FIELD(line, front, "pareto", ""), .only = AS_CSV},
@@ -188,6 +241,10 @@ static const column line_columns[] = {
     {FIELD(line, of.limit, "limit", "ns"), .only = AS_CSV},
     {FIELD(line, of.bound, "bound", ""), .only = AS_CSV},
     {GROUP("stability", walked_columns)},
+    {FIELD(line, device, "device_ns", ""), .when = ON_DEVICE},
+    {FIELD(line, function, "function", ""), .when = ON_DEVICE},
+    {FIELD(line, computes, "computes", ""), .when = ON_DEVICE},
+    {FIELD(line, given, "defines", ""), .when = ON_DEVICE},
     {.kind = COLUMN_END}};
 
 static const column columns[] = {{FIELD(measuring, family, "family", "")},
@@ -197,6 +254,8 @@ static const column columns[] = {{FIELD(measuring, family, "family", "")},
                                  {FIELD(measuring, tolerance, "tolerance", ""), .only = AS_JSON},
                                  {FIELD(measuring, choice_name, "choice", ""), .only = AS_JSON},
                                  {FIELD(measuring, limit, "limit_ns", ""), .only = AS_JSON},
+                                 {FIELD(measuring, device, "device", ""), .only = AS_JSON, .when = ON_DEVICE},
+                                 {FIELD(measuring, loop, "loop_ns", ""), .only = AS_JSON, .when = ON_DEVICE},
                                  {LIST("methods", line_columns, next_method)},
                                  {.kind = COLUMN_END}};
 
@@ -241,7 +300,8 @@ static int list_families(const options *o, output *out) {
 
 /* What a camera says is asked of a family. */
 static int check_family(const options *o) {
-    static const option_id of_family[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING, OPTION_TOLERANCE};
+    static const option_id of_family[] = {OPTION_NEAR,    OPTION_FAR,       OPTION_FORMAT,
+                                          OPTION_MAPPING, OPTION_TOLERANCE, OPTION_MINE};
     char text[NAMES_SIZE];
     for (size_t i = 0; i < sizeof of_family / sizeof of_family[0] && o->operand_row == NULL; i++)
         if (option_given(o, of_family[i]))
@@ -252,9 +312,11 @@ static int check_family(const options *o) {
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 /* The times first, while nothing else runs. */
-static bool measure(measuring *b) {
+static int measure(measuring *b) {
     b->count = bench_run(b->asked.family, b->asked.which, &b->asked.setup, BENCH_REPETITIONS, b->results);
-    return b->count > 0 && stability_run(b->asked.family, 1U << b->asked.which, b->walked) == b->count;
+    if (b->count == 0 || stability_run(b->asked.family, 1U << b->asked.which, b->walked) != b->count)
+        return usage_error("no memory for the methods");
+    return b->mine != NULL ? b->mine->status : EXIT_FINE;
 }
 
 static void describe(measuring *b) {
@@ -266,6 +328,10 @@ static void describe(measuring *b) {
         b->choice = method_choose(b->asked.family, b->asked.which, &wish);
     methods_machine(b->machine, sizeof b->machine);
     b->choice_name = b->choice != NULL ? b->choice->name : NULL;
+    if (b->mine != NULL) {
+        b->device = mine_device(b->mine);
+        b->loop = b->mine->more[b->mine->count].ns;
+    }
     b->family = b->asked.family->name;
     b->measure = b->asked.family->measure;
     b->fields = setup_fields_of(&b->asked.setup, options_unit(o));
@@ -293,13 +359,19 @@ int cmd_methods(const options *o) {
         return status;
     if (o->operand_row == NULL)
         return list_families(o, &out);
-    if (!measure(&b)) {
+    if (o->judge.mine_count > 0)
+        status = mine_open(o, &b.asked, false, &b.mine);
+    if (status == EXIT_FINE)
+        status = measure(&b);
+    if (status == EXIT_FINE) {
+        describe(&b);
+        report_write(
+            &(report_spec){"methods", columns, &b, .when = conditions(&b), .head = say_inputs, .notes = say_marks},
+            &out, o->out.form);
+        status = output_close(&out);
+    } else {
         output_abandon(&out);
-        return usage_error("no memory for the methods");
     }
-    describe(&b);
-    report_write(&(report_spec){"methods", columns, &b, .when = conditions(&b), .head = say_inputs, .notes = say_marks},
-                 &out, o->out.form);
-    status = output_close(&out);
+    mine_close(b.mine);
     return status == EXIT_FINE && !all_hold(&b) ? EXIT_FAILED : status;
 }

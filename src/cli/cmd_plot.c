@@ -10,6 +10,7 @@
 #include "cli/figure_file.h"
 #include "cli/list.h"
 #include "cli/methods.h"
+#include "cli/mine.h"
 #include "cli/raster_setups.h"
 #include "cli/scene/figure.h"
 #include "cli/shadow/maps.h"
@@ -32,7 +33,8 @@ typedef struct plotting {
     const char *names[CHART_SETUPS];
     char text[CHART_SETUPS][SETUP_LABEL_SIZE];
     methods_asked asked;
-    char where[256]; /* of what is timed */
+    char where[2 * SHADER_TEXT_SIZE]; /* of what is timed */
+    mine *mine;                       /* null: none is given */
     need_file file;
     shadow_maps maps;
     scene model;
@@ -155,15 +157,22 @@ static void subtitle_of(const options *o, const figure_request *request, bool bu
 static int resolve_methods(plotting *p) {
     const options *o = p->o;
     char machine[192];
-    const char *family = o->operand_count > 1 ? o->operands[1] : p->row->family;
+    const char *family = o->operand_count > 1      ? o->operands[1]
+                         : o->judge.mine_count > 0 ? linearize_family.name
+                                                   : p->row->family;
     const name_list families = {.get = list_family};
     list_item item;
     int status = check_operand(o->command, "FAMILY", &families, family, &item);
     if (status == EXIT_FINE)
         status = methods_resolve(o, item.row, &p->asked);
+    if (status == EXIT_FINE && o->judge.mine_count > 0)
+        status = mine_open(o, &p->asked, p->row->build == pareto_build, &p->mine);
+    if (status != EXIT_FINE)
+        return status;
     snprintf(p->where, sizeof p->where, "near %s, far %s; %s",
              number_in(number_full(o->camera.znear), options_unit(o)).text,
-             number_in(number_full(o->camera.zfar), options_unit(o)).text, methods_machine(machine, sizeof machine));
+             number_in(number_full(o->camera.zfar), options_unit(o)).text,
+             p->mine != NULL ? mine_device(p->mine) : methods_machine(machine, sizeof machine));
     p->request.setups = &p->asked.setup;
     p->request.count = 1;
     p->request.family = p->asked.family;
@@ -353,10 +362,13 @@ static int write_figure(plotting *p) {
         return status;
     }
     const char *wrong = p->row->build(&p->request, c);
-    if (wrong != NULL) {
+    status = wrong != NULL ? usage_error("%s", wrong) : p->mine != NULL ? p->mine->status : EXIT_FINE;
+    if (status != EXIT_FINE) {
         output_abandon(&out);
-        return usage_error("%s", wrong);
+        return status;
     }
+    if (p->mine != NULL && p->row->build == stability_build)
+        append(c->subtitle, sizeof c->subtitle, "; yours ran on %s, hatched where not", mine_device(p->mine));
     if (c->title[0] == '\0')
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);
@@ -420,5 +432,6 @@ int cmd_plot(const options *o) {
     scene_end(&p.model);
     setups_release(&p.all);
     need_release(&p.file);
+    mine_close(p.mine);
     return status;
 }

@@ -37,6 +37,12 @@ static bool wanted(const options *o, const method_case *c) {
 }
 
 int methods_resolve(const options *o, const method_family_row *family, methods_asked *out) {
+    static const option_id of_mine[] = {OPTION_DEFINE, OPTION_DEVICE};
+    for (size_t i = 0; i < 2; i++)
+        if (option_given(o, of_mine[i]) && o->judge.mine_count == 0)
+            return option_error(of_mine[i], "needs --mine, a function of yours");
+    if (o->judge.mine_count > 0 && family != &linearize_family)
+        return option_error(OPTION_MINE, "is for the family linearize, got %s", family->name);
     out->family = family;
     char all[NAMES_SIZE] = "";
     for (size_t i = 0; i < out->family->case_count; i++) {

@@ -69,6 +69,14 @@ static double from_near(const dp_setup *s, double z) {
     return isinf(s->spec.zfar) ? (double)NAN : (z - s->spec.znear) / (s->spec.zfar - s->spec.znear);
 }
 
+static double eye_over_far(const dp_setup *s, double v) {
+    return v * s->spec.zfar;
+}
+
+static double eye_from_near(const dp_setup *s, double v) {
+    return s->spec.znear + v * (s->spec.zfar - s->spec.znear);
+}
+
 static double reciprocal(const dp_setup *s, double z) {
     (void)s;
     return 1 / z;
@@ -107,17 +115,17 @@ static double from_near_line(double v, double share, bool ortho) {
 /* clang-format off */
 static const judge_output outputs[] = {
     {.name = "eye depth", .formula = "z", .called = "LinearEyeDepth of Unity, ConvertFromDeviceZ of Unreal",
-     .of = eye, .planes = JUDGE_PLANES_BOTH, .line = eye_line},
+     .of = eye, .eye = eye, .planes = JUDGE_PLANES_BOTH, .line = eye_line},
     {.name = "minus eye depth", .formula = "-z",
      .called = "perspectiveDepthToViewZ of three.js: view z of a camera that looks along -z",
-     .of = behind, .planes = JUDGE_PLANES_BOTH, .line = behind_line},
+     .of = behind, .eye = behind, .planes = JUDGE_PLANES_BOTH, .line = behind_line},
     {.name = "eye depth over far", .formula = "z/far", .called = "Linear01Depth of Unity",
-     .of = over_far, .planes = JUDGE_PLANES_RATIO, .line = eye_line},
+     .of = over_far, .eye = eye_over_far, .planes = JUDGE_PLANES_RATIO, .line = eye_line},
     {.name = "the way from near to far", .formula = "(z - near)/(far - near)",
      .called = "Linear01DepthFromNear of Unity, viewZToOrthographicDepth of three.js",
-     .of = from_near, .planes = JUDGE_PLANES_RATIO, .line = from_near_line},
+     .of = from_near, .eye = eye_from_near, .planes = JUDGE_PLANES_RATIO, .line = from_near_line},
     {.name = "reciprocal of eye depth", .formula = "1/z", .called = "inverse depth, disparity",
-     .of = reciprocal, .planes = JUDGE_PLANES_BOTH, .line = reciprocal_line},
+     .of = reciprocal, .eye = reciprocal, .planes = JUDGE_PLANES_BOTH, .line = reciprocal_line},
     {.name = "window depth", .formula = "d",
      .called = "gl_FragCoord.z, SV_Position.z, viewZToPerspectiveDepth of three.js", .of = window, .window = itself},
     {.name = "1 minus window depth", .formula = "1 - d", .called = "depth of the other direction", .of = complement,

@@ -30,8 +30,9 @@ typedef struct judge_output {
     const char *name, *formula;
     const char *called; /**< what people call it, and where */
     double (*of)(const dp_setup *setup, double z);
-    double (*window)(double v); /**< the window depth that a value is; null: it is none */
-    bool of_windows;            /**< made of window depths alone: of others it is the one of the other direction */
+    double (*window)(double v);                     /**< the window depth that a value is; null: it is none */
+    double (*eye)(const dp_setup *setup, double v); /**< the eye depth that a value stands for; null: it is none */
+    bool of_windows; /**< made of window depths alone: of others it is the one of the other direction */
     judge_planes planes;
     /** Of a value at the share of the way of 1/z, orthographic of z, from near to far what is affine in that share:
      * that of near and far themselves, or far/near at 0 and 1 at 1, orthographic near/far. NaN: none */

@@ -12,7 +12,7 @@
 #include "depthprec/depth.h"
 #include "shader/constants.h"
 
-enum { NAME_SIZE = 64, VALUE_SIZE = 512, FLOATS_MOST = 16 };
+enum { NAME_SIZE = 64, VALUE_SIZE = 512, FLOATS_MOST = 16, BODY_SIZE = 2048 };
 
 /* ---- What a shader may be given ---------------------------------------------------------------------------------- */
 
@@ -414,8 +414,8 @@ static bool express(maker *m, piece name, const char *word, bool guessed, piece 
     double v[FLOATS_MOST] = {0};
     written *w = m->out;
     char text[NAME_SIZE];
-    if (w->used + floats > WRITTEN_CONSTANTS)
-        return fail(m, "has more than %d numbers of a camera", WRITTEN_CONSTANTS);
+    if (w->used + floats >= WRITTEN_CONSTANTS)
+        return fail(m, "has more than %d numbers of a camera", WRITTEN_CONSTANTS - 1);
     w->camera = w->camera || row != NULL;
     if (row != NULL)
         row->fill(m->setup, v);
@@ -540,7 +540,7 @@ static void read_parameter(const char *from, const char *to, piece *type, piece 
 
 static bool take_parameter(maker *m, const char *from, const char *to, bool *has_depth) {
     static const char *const scalar[] = {"float", "half", NULL};
-    char value[VALUE_SIZE] = "depthprec_in[depthprec_i]";
+    char value[VALUE_SIZE] = "depthprec_d";
     piece type, name;
     bool guessed;
     from += strspn(from, " \t\r\n");
@@ -576,7 +576,28 @@ static bool take_function(maker *m, const item *i) {
     return has_depth || fail(m, "takes no float that is a depth");
 }
 
-static bool write_text(maker *m, const char *function) {
+/* What main does. How often it turns stands in the last constant, so that no compiler writes all turns out; many calls
+ * a turn, in four sums, so that the loop is little beside them. */
+static void write_body(written *out, unsigned turns, char body[BODY_SIZE]) {
+    static const char start[] =
+        "    float depthprec_d = depthprec_in[depthprec_i];\n"
+        "    float depthprec_s0 = 0.0, depthprec_s1 = 0.0, depthprec_s2 = 0.0, depthprec_s3 = 0.0;\n"
+        "    for (float depthprec_k = 0.0; depthprec_k < depthprec_v[%d]; depthprec_k += 1.0) {\n";
+    body[0] = '\0';
+    if (turns == 0) {
+        append(body, BODY_SIZE, "    depthprec_out[depthprec_i] = depthprec_call(depthprec_in[depthprec_i]);\n}\n");
+        return;
+    }
+    out->constants[WRITTEN_CONSTANTS - 1] = (float)turns;
+    append(body, BODY_SIZE, start, WRITTEN_CONSTANTS - 1);
+    for (int k = 0; k < WRITTEN_CALLS; k++)
+        append(body, BODY_SIZE, "        depthprec_s%d += depthprec_call(%g * depthprec_d);\n", k % 4, 1 - k / 32.0);
+    append(body, BODY_SIZE,
+           "        depthprec_d *= 0.999;\n    }\n"
+           "    depthprec_out[depthprec_i] = depthprec_s0 + depthprec_s1 + depthprec_s2 + depthprec_s3;\n}\n");
+}
+
+static bool write_text(maker *m, const char *function, unsigned turns) {
     static const char glsl[] =
         "#version 460\n"
         "layout(std430, set = 0, binding = 2) readonly buffer depthprec_2 { float depthprec_v[]; };\n"
@@ -584,17 +605,20 @@ static bool write_text(maker *m, const char *function) {
         "layout(local_size_x = 64) in;\n"
         "layout(std430, set = 0, binding = 0) readonly buffer depthprec_0 { float depthprec_in[]; };\n"
         "layout(std430, set = 0, binding = 1) writeonly buffer depthprec_1 { float depthprec_out[]; };\n"
+        "float depthprec_call(float depthprec_d) { return %s(%s); }\n"
         "void main() {\n"
-        "    uint depthprec_i = gl_GlobalInvocationID.x;\n"
-        "    depthprec_out[depthprec_i] = %s(%s);\n}\n";
+        "    uint depthprec_i = gl_GlobalInvocationID.x;\n%s";
     static const char hlsl[] = "[[vk::binding(2, 0)]] RWStructuredBuffer<float> depthprec_v;\n"
                                "%s#line 1\n%s\n"
                                "[[vk::binding(0, 0)]] RWStructuredBuffer<float> depthprec_in;\n"
                                "[[vk::binding(1, 0)]] RWStructuredBuffer<float> depthprec_out;\n"
+                               "float depthprec_call(float depthprec_d) { return %s(%s); }\n"
                                "[numthreads(64, 1, 1)] void main(uint3 depthprec_id : SV_DispatchThreadID) {\n"
-                               "    uint depthprec_i = depthprec_id.x;\n"
-                               "    depthprec_out[depthprec_i] = %s(%s);\n}\n";
-    const size_t size = strlen(m->s.text) + sizeof m->head + sizeof m->call + sizeof glsl + sizeof hlsl + NAME_SIZE;
+                               "    uint depthprec_i = depthprec_id.x;\n%s";
+    char body[BODY_SIZE];
+    write_body(m->out, turns, body);
+    const size_t size =
+        strlen(m->s.text) + sizeof m->head + sizeof m->call + NAME_SIZE + sizeof body + sizeof glsl + sizeof hlsl;
     for (const char *c = m->s.text; *c != '\0'; c++)
         m->out->lines += *c == '\n';
     for (size_t k = 0; k < m->s.count; k++)
@@ -604,9 +628,9 @@ static bool write_text(maker *m, const char *function) {
     if (m->out->text == NULL)
         return fail(m, "does not fit into memory");
     if (m->s.hlsl)
-        snprintf(m->out->text, size, hlsl, m->head, m->s.text, function, m->call);
+        snprintf(m->out->text, size, hlsl, m->head, m->s.text, function, m->call, body);
     else
-        snprintf(m->out->text, size, glsl, m->head, m->s.text, function, m->call);
+        snprintf(m->out->text, size, glsl, m->head, m->s.text, function, m->call, body);
     return true;
 }
 
@@ -638,7 +662,7 @@ static bool find_function(maker *m, const char *function) {
 }
 
 bool written_make(const char *file, const char *function, bool hlsl, const dp_setup *setup, const char *const *defines,
-                  size_t define_count, written *out, char error[WRITTEN_TEXT_SIZE]) {
+                  size_t define_count, unsigned turns, written *out, char error[WRITTEN_TEXT_SIZE]) {
     maker m = {.s = {.text = strdup(file), .hlsl = hlsl},
                .setup = setup,
                .defines = defines,
@@ -659,7 +683,7 @@ bool written_make(const char *file, const char *function, bool hlsl, const dp_se
     for (size_t i = 0; i < define_count && good; i++)
         if (!m.met[i])
             good = fail(&m, "knows nothing by the name of --define %s", defines[i]);
-    good = good && write_text(&m, function);
+    good = good && write_text(&m, function, turns);
     free(m.s.items);
     free(m.s.text);
     return good;

@@ -13,7 +13,7 @@
 
 #include "depthprec/setup.h"
 
-enum { WRITTEN_CONSTANTS = 256, WRITTEN_TEXT_SIZE = 512 };
+enum { WRITTEN_CONSTANTS = 256, WRITTEN_TEXT_SIZE = 512, WRITTEN_CALLS = 16 };
 
 typedef struct written {
     char *text; /**< malloc'ed */
@@ -31,9 +31,10 @@ bool written_define_known(const char *define);
 /**
  * @param file     the text of the file
  * @param defines  NAME=VALUE
+ * @param turns    0; or to be timed: it is called WRITTEN_CALLS times as often for each depth and parts of it
  * @return false with a sentence in `error`: what is not understood, and what to do
  */
 bool written_make(const char *file, const char *function, bool hlsl, const dp_setup *setup, const char *const *defines,
-                  size_t define_count, written *out, char error[WRITTEN_TEXT_SIZE]);
+                  size_t define_count, unsigned turns, written *out, char error[WRITTEN_TEXT_SIZE]);
 
 #endif

@@ -64,6 +64,8 @@ double method_claimed(const method_row *row, size_t which, const dp_setup *setup
 }
 
 double method_bound(const method_row *row, const dp_setup *setup) {
+    if (row->own != NULL)
+        return row->known;
     const bool covered = !isinf(setup->spec.zfar) || (row->domain & METHOD_INFINITE) != 0;
     return row->family == METHOD_LINEARIZE && row->bound != NULL && covered && !setup->spec.ortho
                ? bound_over(row->bound, setup, &bound_nearest)
@@ -94,7 +96,7 @@ bench_times bench_statistics(double *times, size_t count) {
 }
 
 typedef struct contestant {
-    method_run *run;
+    method_run *run; /* null: not timed here */
     void *state;
     size_t rounds;
     method_inputs in;
@@ -105,6 +107,8 @@ typedef struct contestant {
 /* Takes turns, so that what disturbs the machine disturbs all alike. */
 static void time_all(contestant *all, size_t count, int repetitions) {
     for (size_t i = 0; i < count; i++) { /* warm-up, and how long one round lasts */
+        if (all[i].run == NULL)
+            continue;
         double ns = once(all[i].run, &all[i].call, 1) * (double)all[i].in.count;
         if (ns > 10 * slice) /* a few inputs say as much */
             all[i].in.count = (size_t)fmax(1, (double)all[i].in.count * 10 * slice / ns);
@@ -112,7 +116,7 @@ static void time_all(contestant *all, size_t count, int repetitions) {
     }
     for (int r = 0; r < repetitions; r++)
         for (size_t i = 0; i < count; i++)
-            all[i].times[r] = once(all[i].run, &all[i].call, all[i].rounds);
+            all[i].times[r] = all[i].run != NULL ? once(all[i].run, &all[i].call, all[i].rounds) : (double)NAN;
 }
 
 /* The limit takes its turn behind the methods. */
@@ -120,17 +124,21 @@ static void time_methods(contestant *all, bench_result *results, size_t count, i
     time_all(all, count + 1, repetitions);
     const bench_times limit = bench_statistics(all[count].times, (size_t)repetitions);
     for (size_t i = 0; i < count; i++) {
+        results[i].limit = limit.median;
+        if (all[i].run == NULL) {
+            results[i].ns = all[i].call.row->cost;
+            continue;
+        }
         const bench_times times = bench_statistics(all[i].times, (size_t)repetitions);
         results[i].ns = times.median;
         results[i].spread = times.spread;
-        results[i].limit = limit.median;
     }
 }
 
 static void mark_front(const method_family_row *family, bench_result *results, size_t count) {
     for (size_t i = 0; i < count; i++) {
-        double error = measured_error(family, &results[i].measured);
-        results[i].front = !isnan(error);
+        const double error = measured_error(family, &results[i].measured), asked = results[i].row->asked;
+        results[i].front = !isnan(error) && !isnan(results[i].ns) && !(asked > 0 && error > asked);
         for (size_t k = 0; k < count && results[i].front; k++) {
             if ((results[k].row->domain & METHOD_PIPELINE) != (results[i].row->domain & METHOD_PIPELINE))
                 continue;
@@ -149,7 +157,7 @@ static double input_at(const method_family_row *family, const method_inputs *in,
 static bool prepare(const method_family_row *family, size_t which, const dp_setup *setup, const method_inputs *in,
                     const method_outputs *out, bench_result *result, contestant *c) {
     const method_row *row = result->row;
-    *c = (contestant){.run = row->timed != NULL ? row->timed : row->run, .in = *in};
+    *c = (contestant){.run = row->own != NULL ? NULL : row->timed != NULL ? row->timed : row->run, .in = *in};
     if (row->limit > 0 && row->limit < in->count)
         c->in.count = row->limit;
     double start = now();

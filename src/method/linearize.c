@@ -388,8 +388,8 @@ static const size_t method_count = sizeof methods / sizeof methods[0];
 /* Beyond binary32 an exact depth lies next to an infinite far plane only. */
 static bool linearize_error_at(const method_call *c, size_t i, method_error *error) {
     const double d = (double)c->in->d[i], want = dp_eye(c->setup, d, 1 - d);
-    *error = truth_off((double)c->out->eye[i], want, truth_step(want));
-    return !(want > (double)FLT_MAX) || isinf(want);
+    *error = truth_off(c->row->own != NULL ? c->out->value[i] : (double)c->out->eye[i], want, truth_step(want));
+    return (!(want > (double)FLT_MAX) || isinf(want)) && !(c->row->own != NULL && isnan(c->out->eye[i]));
 }
 
 const method_family_row linearize_family = {

@@ -86,7 +86,7 @@ typedef struct method_inputs {
 
 /** What they give back. */
 typedef struct method_outputs {
-    double *value;   /**< interval, worst: scene units */
+    double *value;   /**< interval, worst, and linearize of a row that has `own`: scene units */
     float *eye;      /**< linearize: scene units */
     uint32_t *code;  /**< encode */
     float *place[3]; /**< position: world coordinates; normal: unit vectors */
@@ -131,6 +131,13 @@ struct method_row {
     const decode_row *decode;
     const position_row *position;
     const normal_row *normal;
+    /** Of what runs on a device, else null: what run needs. It gives out->value, and out->eye is NaN where there is
+     * nothing to measure; its time is `cost`, and what is proven of it `known`, NaN where they are not known. */
+    void *own;
+    double known;
+    double asked; /**< of a function of somebody's: the error from which on it fails; else 0 */
+    /** Null, or told which set-ups run is called for next, with so many inputs: many at once take less time. */
+    void (*expect)(const method_row *row, const dp_setup *setups, size_t count, size_t inputs);
     bool behind; /**< others are faster and more exact for every far/near: text shows it only where all are asked for */
 };
 

@@ -41,36 +41,58 @@ typedef struct place {
     double znear, zfar, at;
 } place;
 
+static size_t setups_at(const walk *w, double ratio, int step, bool ortho, dp_setup out[UNITS]) {
+    size_t count = 0;
+    for (int u = 0; u < UNITS; u++)
+        if ((w->family->per_decade > 1 || u == step % UNITS) &&
+            method_setup(w->family, w->result->which, units[u], units[u] * ratio, ortho, &out[count]) == DP_OK)
+            count++;
+    return count;
+}
+
 static double error_at(walk *w, double ratio, int step, bool ortho, place *where) {
+    dp_setup setups[UNITS];
+    const size_t count = setups_at(w, ratio, step, ortho, setups);
     double worst = (double)NAN;
-    for (int u = 0; u < UNITS; u++) {
-        dp_setup setup;
+    if (w->result->row->expect != NULL)
+        w->result->row->expect(w->result->row, setups, count, w->in.count);
+    for (size_t u = 0; u < count; u++) {
         double at = (double)NAN;
-        if (w->family->per_decade == 1 && u != step % UNITS)
-            continue;
-        if (method_setup(w->family, w->result->which, units[u], units[u] * ratio, ortho, &setup) != DP_OK)
-            continue;
-        double error = error_of(w, &setup, &at);
+        double error = error_of(w, &setups[u], &at);
         if (isnan(worst) || error > worst) {
             worst = error;
-            *where = (place){units[u], setup.spec.zfar, at};
+            *where = (place){setups[u].spec.znear, setups[u].spec.zfar, at};
         }
     }
     return worst;
 }
 
-/* A claim; beyond its span the last of it, which is what breaks there. */
-static double claim_beyond(const method_claim *c, double ratio) {
-    return method_claim_at(c, fmin(ratio, c->ratio_hi));
+static double ratio_of(const walk *w, int step) {
+    return fmin(METHOD_RATIO_LO * dp_pow(10, (double)step / w->family->per_decade), METHOD_RATIO_HI);
+}
+
+/* All set-ups of the walk, and those without a far plane. */
+static void expect_all(const walk *w) {
+    dp_setup all[(STABILITY_STEPS_MAX + 1) * UNITS];
+    size_t count = setups_at(w, (double)INFINITY, 1, false, all);
+    for (int k = 0; k < w->result->steps; k++)
+        count += setups_at(w, ratio_of(w, k), k, false, all + count);
+    w->result->row->expect(w->result->row, all, count, w->in.count);
+}
+
+/* A claim; beyond its span the last of it, which is what breaks there. What claims nothing may be asked for something.
+ */
+static double claim_beyond(const stability_result *r, double ratio) {
+    const method_claim *c = &r->row->claims[r->which];
+    return r->row->asked > 0 ? r->row->asked : method_claim_at(c, fmin(ratio, c->ratio_hi));
 }
 
 /* Between a far/near where the claim holds and one where it does not: the geometric middle decides. */
 static double bisect(walk *w, double holds, double breaks, int step) {
-    const method_claim *c = &w->result->row->claims[w->result->which];
     for (int i = 0; i < BISECTIONS; i++) {
         place where;
         double middle = sqrt(holds) * sqrt(breaks);
-        if (error_at(w, middle, step, false, &where) <= claim_beyond(c, middle))
+        if (error_at(w, middle, step, false, &where) <= claim_beyond(w->result, middle))
             holds = middle;
         else
             breaks = middle;
@@ -89,7 +111,7 @@ static void judge_claim(stability_result *r) {
     for (int k = 0; k < r->steps; k++)
         worst = fmax(worst, r->error[k]);
     if (isnan(c->worst))
-        r->verdict = worst > 0.5 ? STABILITY_UNCLAIMED : STABILITY_MODEST;
+        r->verdict = worst > 0.5 || r->row->asked > 0 ? STABILITY_UNCLAIMED : STABILITY_MODEST;
     else if (!(r->inside <= r->claim) ||
              (infinite && c->ratio_hi >= METHOD_RATIO_HI && !isnan(r->infinite) &&
               !(r->infinite <= method_claim_at(c, (double)INFINITY))) ||
@@ -107,24 +129,27 @@ static void walk_ratios(walk *w) {
     const method_claim *c = &r->row->claims[r->which];
     const int per_decade = w->family->per_decade;
     const double decades = dp_log10(METHOD_RATIO_HI / METHOD_RATIO_LO);
+    const bool asked = !isnan(c->worst) || r->row->asked > 0;
     place where;
     double most = -1; /* of the share of a claim that an error takes */
     r->breaks = (double)INFINITY;
     r->steps = (int)(decades * per_decade + 0.5) + 1;
+    if (r->row->expect != NULL)
+        expect_all(w);
     for (int k = 0; k < r->steps; k++) {
-        r->ratio[k] = fmin(METHOD_RATIO_LO * dp_pow(10, (double)k / per_decade), METHOD_RATIO_HI);
+        r->ratio[k] = ratio_of(w, k);
         r->error[k] = error_at(w, r->ratio[k], k, false, &where);
-        const double claim = claim_beyond(c, r->ratio[k]);
+        const double claim = claim_beyond(r, r->ratio[k]);
         const double share = isinf(claim) ? 0 : r->error[k] / (isnan(claim) ? 1 : claim);
         if (r->ratio[k] >= c->ratio_lo * (1 - 1e-9) && r->ratio[k] <= c->ratio_hi * (1 + 1e-9) && !(share <= most)) {
             most = share;
-            r->claim = claim;
+            r->claim = isnan(c->worst) ? (double)NAN : claim;
             r->inside = r->error[k];
             r->inside_near = where.znear;
             r->inside_far = where.zfar;
             r->inside_at = where.at;
         }
-        if (isinf(r->breaks) && !isnan(c->worst) && !(r->error[k] <= claim))
+        if (isinf(r->breaks) && asked && r->error[k] > claim)
             r->breaks = k > 0 ? bisect(w, r->ratio[k - 1], r->ratio[k], k) : r->ratio[0];
     }
 }
@@ -156,6 +181,10 @@ size_t stability_run(const method_family_row *family, unsigned cases, stability_
                 results[count++] = (stability_result){.row = &family->methods[i], .which = k};
 #pragma omp parallel for schedule(dynamic) reduction(|| : failed)
     for (size_t i = 0; i < count; i++)
-        walk_one(family, &results[i], &failed);
+        if (results[i].row->own == NULL)
+            walk_one(family, &results[i], &failed);
+    for (size_t i = 0; i < count; i++) /* each of these starts processes */
+        if (results[i].row->own != NULL)
+            walk_one(family, &results[i], &failed);
     return failed ? 0 : count;
 }

@@ -217,7 +217,8 @@ gsl_error_handler_t *gsl_set_error_handler_off(void) {
 #define GPU "a GPU is"
 MISSING(GPU, bool, shot_vulkan, const char *wanted, shot_plan *plan, shot_machine *machine)
 MISSING(GPU, bool, shot_opengl, shot_plan *plan, shot_machine *machine)
-MISSING(GPU, bool, shot_compute, const char *wanted, const compute_run *run, shot_machine *machine, FILE *out)
+MISSING(GPU, bool, shot_compute, const char *wanted, const compute_run *run, size_t runs, shot_machine *machine,
+        FILE *out)
 MISSING(GPU, bool, compute_look, compute_run *run, char error[COMPUTE_ERROR_SIZE])
 MISSING(GPU, bool, compute_compile, const char *text, bool hlsl, compute_run *run, unsigned *line,
         char error[COMPUTE_ERROR_SIZE])

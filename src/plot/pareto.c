@@ -10,7 +10,7 @@
 static const double exact = 1e-17;
 
 /* What a method is. Those judged by the pipeline answer a question of their own. */
-enum { FRONT = 1, PIPELINE = 2 };
+enum { FRONT = 1, PIPELINE = 2, MINE = 4 };
 
 /* A method that has a time and a finite error. */
 typedef struct timed {
@@ -30,7 +30,8 @@ static field gather(const method_family_row *family, const bench_result *results
     for (size_t i = 0; i < count; i++) {
         const bench_result *r = &results[i];
         const double error = measured_error(family, &r->measured);
-        const int is = (r->front ? FRONT : 0) | ((r->row->domain & METHOD_PIPELINE) != 0 ? PIPELINE : 0);
+        const int is = (r->front ? FRONT : 0) | (r->row->asked > 0 ? MINE : 0) |
+                       ((r->row->domain & METHOD_PIPELINE) != 0 ? PIPELINE : 0);
         if (!isfinite(error) || !isfinite(r->ns) || !(r->ns > 0))
             continue;
         f.methods[f.count++] = (timed){r, error, is};
@@ -94,25 +95,33 @@ static void add_bars(const field *f, chart *out, chart_panel *panel) {
     }
 }
 
-static void add_points(const field *f, chart *out, chart_panel *panel, int front) {
-    chart_series *s = add_methods(f, out, panel, CHART_POINTS, FRONT, front);
+/* Of ours those on the front or not, or all that are somebody's. */
+static void add_points(const field *f, chart *out, chart_panel *panel, int bits, int set) {
+    chart_series *s = add_methods(f, out, panel, CHART_POINTS, bits, set);
     if (s == NULL)
         return;
-    s->style = front ? (chart_style){0, 0, 0, false} : (chart_style){1, 1, 1, false};
-    snprintf(s->name, sizeof s->name, "%s", front ? "on the Pareto front" : "dominated");
+    s->style = set == MINE    ? (chart_style){3, 2, 2, true}
+               : set == FRONT ? (chart_style){0, 0, 0, false}
+                              : (chart_style){1, 1, 1, false};
+    snprintf(s->name, sizeof s->name, "%s", set == MINE ? "yours" : set == FRONT ? "on the Pareto front" : "dominated");
     s->labels = chart_memory(out, s->count, sizeof *s->labels);
     for (size_t i = 0, k = 0; i < f->count && s->labels != NULL; i++) {
         const timed *t = &f->methods[i];
-        if ((t->is & FRONT) == front)
+        if ((t->is & bits) == set)
             snprintf(s->labels[k++], sizeof *s->labels, "%s%s", t->of->row->name,
                      t->is & PIPELINE ? " (pipeline)" : "");
     }
 }
 
-/* Whole decades round the data, with room for the names. */
+/* Whole decades round the data, 1, 2 or 5 of one where they span less, with room for the names. */
 static void fit(chart_axis *axis, chart_extent e) {
-    axis->lo = dp_pow(10, floor(dp_log10(e.lo) - 0.1));
-    axis->hi = dp_pow(10, ceil(dp_log10(fmax(e.lo, e.hi)) + 0.1));
+    const double lo = dp_pow(10, floor(dp_log10(e.lo) - 0.1)), hi = dp_pow(10, ceil(dp_log10(fmax(e.lo, e.hi)) + 0.1));
+    axis->lo = lo;
+    axis->hi = hi;
+    for (int part = 2; part <= 5 && e.hi < 10 * e.lo; part += 3) {
+        axis->lo = 1.25 * part * lo <= e.lo ? part * lo : axis->lo;
+        axis->hi = hi / part >= 1.25 * e.hi ? hi / part : axis->hi;
+    }
 }
 
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out) {
@@ -125,8 +134,9 @@ const char *pareto_draw(const method_family_row *family, const bench_result *res
     add_front(&f, out, panel, 0);
     add_front(&f, out, panel, PIPELINE);
     add_bars(&f, out, panel);
-    add_points(&f, out, panel, 0);
-    add_points(&f, out, panel, FRONT);
+    add_points(&f, out, panel, FRONT | MINE, 0);
+    add_points(&f, out, panel, FRONT | MINE, FRONT);
+    add_points(&f, out, panel, MINE, MINE);
     fit(&panel->x, f.time);
     fit(&panel->y, f.error);
     return NULL;

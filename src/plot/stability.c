@@ -40,9 +40,12 @@ static double digits_of_format(const method_family_row *family, size_t which) {
     return dp_log10(2) * (format[0].kind == DP_FORMAT_FLOAT ? format[0].mantissa_bits + 1 : format[0].bits);
 }
 
-/* Decimal digits that an error leaves: 0 where it is as large as the answer. */
+/* Decimal digits that an error leaves: 0 where it is as large as the answer, NaN where there is none. */
 static double digits(double error, double of_format) {
-    return error > 0 ? fmin(fmax(of_format - dp_log10(error), 0), most_digits) : error == 0 ? most_digits : 0;
+    return isnan(error) ? error
+           : error > 0  ? fmin(fmax(of_format - dp_log10(error), 0), most_digits)
+           : error == 0 ? most_digits
+                        : 0;
 }
 
 static double claimed(const stability_result *r) {
@@ -51,7 +54,11 @@ static double claimed(const stability_result *r) {
 }
 
 static double broken(const stability_result *r) {
-    return r->breaks;
+    return r->row->asked > 0 ? (double)NAN : r->breaks;
+}
+
+static double lost(const stability_result *r) {
+    return r->row->asked > 0 ? r->breaks : (double)NAN;
 }
 
 /* One mark a method, at half its row, where far/near is finite. */
@@ -98,6 +105,7 @@ static void add_panel(const table *t, size_t which, const stability_result *firs
     }
     add_marks(t, which, out, claimed, "claimed up to here", (chart_style){-1, 0, 0, true});
     add_marks(t, which, out, broken, "the claim breaks here", (chart_style){0, 1, 1, true});
+    add_marks(t, which, out, lost, "yours is off by more than a half from here on", (chart_style){3, 2, 2, true});
 }
 
 const char *stability_draw(const method_family_row *family, const stability_result *results, size_t count, chart *out) {

@@ -8,6 +8,8 @@
 enum {
     COMPUTE_CONSTANTS = 256,
     COMPUTE_FEW = 65536,
+    COMPUTE_TIMED_MOST = 32,
+    COMPUTE_TIMES = 15,
     COMPUTE_SECONDS = 10, /**< for few depths, and for a portion of more */
     COMPUTE_ALL_SECONDS = 30,
     COMPUTE_ERROR_SIZE = 512,
@@ -21,7 +23,10 @@ typedef struct compute_run {
     char entry[COMPUTE_NAME_SIZE];
     uint32_t group; /**< depths that a workgroup takes */
     float constants[COMPUTE_CONSTANTS];
+    const float (*cameras)[COMPUTE_CONSTANTS]; /**< in their place those of one camera after another, */
+    uint64_t each;                             /**< each for so many depths; 0: no such */
     uint64_t count;
+    unsigned turns; /**< how often it calls the function for each depth, where it is timed; else 0 */
     float (*depth)(const void *of, uint64_t i); /**< asked for in the child, and where its values are read */
     const void *of;
 } compute_run;
@@ -35,13 +40,15 @@ bool compute_look(compute_run *run, char error[COMPUTE_ERROR_SIZE]);
 /**
  * Runs it in a process of its own, which is ended if the shader is not.
  * @param device   as of probe_run()
+ * @param runs     0; or so many are timed in turns, and COMPUTE_TIMES times, ns a call of each, stand for values, as
+ *                 double
  * @param values   receives a file whose next numbers are the `count` values, for sandbox_close(); null where it fails
  * @param endless  whether it was ended
  */
-bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values, bool *endless,
-                    char error[COMPUTE_ERROR_SIZE]);
+bool compute_values(const char *device, const compute_run *run, size_t runs, shot_machine *machine, FILE **values,
+                    bool *endless, char error[COMPUTE_ERROR_SIZE]);
 
-/** What the child does: values go to `out`. */
-bool shot_compute(const char *wanted, const compute_run *run, shot_machine *machine, FILE *out);
+/** What the child does: values, or where `runs` is not 0 times, go to `out`. */
+bool shot_compute(const char *wanted, const compute_run *run, size_t runs, shot_machine *machine, FILE *out);
 
 #endif

@@ -116,6 +116,7 @@ void probe_free(probe_result *r) {
 typedef struct computing {
     const char *device;
     const compute_run *run;
+    size_t runs;
     shot_machine *machine;
 } computing;
 
@@ -124,16 +125,16 @@ static bool work_compute(void *of, FILE *out) {
     const computing *c = of;
     *c->machine = (shot_machine){0};
     fwrite(c->machine, sizeof *c->machine, 1, out);
-    shot_compute(c->device, c->run, c->machine, out);
+    shot_compute(c->device, c->run, c->runs, c->machine, out);
     rewind(out);
     fwrite(c->machine, sizeof *c->machine, 1, out);
     return true;
 }
 
-bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values, bool *endless,
-                    char error[COMPUTE_ERROR_SIZE]) {
-    computing c = {device, run, machine};
-    const unsigned seconds = run->count > COMPUTE_FEW ? COMPUTE_ALL_SECONDS : COMPUTE_SECONDS;
+bool compute_values(const char *device, const compute_run *run, size_t runs, shot_machine *machine, FILE **values,
+                    bool *endless, char error[COMPUTE_ERROR_SIZE]) {
+    computing c = {device, run, runs, machine};
+    const unsigned seconds = runs > 0 || run->count > COMPUTE_FEW ? COMPUTE_ALL_SECONDS : COMPUTE_SECONDS;
     const sandbox_end end = sandbox_run(work_compute, &c, (sandbox_limits){.wall = seconds}, values);
     *endless = end == SANDBOX_ENDLESS;
     if (ended(end, "function", (int)seconds, machine, *values, error, COMPUTE_ERROR_SIZE))

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <time.h>
 #include <vulkan/vulkan_core.h>
 
 #include "probe/spirv.h"
@@ -576,28 +577,83 @@ static bool make_compute(gpu *g, const compute_run *run, void *at[BINDINGS], VkP
     return good(g, g->call.vkCreateComputePipelines(g->device, VK_NULL_HANDLE, 1, &wish, NULL, pipeline), "a pipeline");
 }
 
-/* In portions that a buffer holds. A value that the shader does not write is NaN. */
-static bool compute(gpu *g, const compute_run *run, void *const at[BINDINGS], VkPipeline pipeline, FILE *out) {
+/* `times` dispatches of as many workgroups. */
+static bool dispatch(gpu *g, VkPipeline pipeline, uint32_t groups, uint32_t times) {
     const VkMemoryBarrier read = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                   .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
                                   .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
-    const uint64_t most = (uint64_t)GROUPS_MOST * run->group < FLOATS ? (uint64_t)GROUPS_MOST * run->group : FLOATS;
+    if (!begin_commands(g))
+        return false;
+    g->call.vkCmdBindPipeline(g->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    g->call.vkCmdBindDescriptorSets(g->commands, VK_PIPELINE_BIND_POINT_COMPUTE, g->layout, 0, 1, &g->set, 0, NULL);
+    for (uint32_t i = 0; i < times; i++)
+        g->call.vkCmdDispatch(g->commands, groups, 1, 1);
+    g->call.vkCmdPipelineBarrier(g->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                                 &read, 0, NULL, 0, NULL);
+    return do_commands(g, COMPUTE_SECONDS);
+}
+
+/* In portions that a buffer holds. A value that the shader does not write is NaN. */
+static bool compute(gpu *g, const compute_run *run, void *const at[BINDINGS], VkPipeline pipeline, FILE *out) {
+    const uint64_t room = (uint64_t)GROUPS_MOST * run->group < FLOATS ? (uint64_t)GROUPS_MOST * run->group : FLOATS;
+    const uint64_t most = run->each > 0 && run->each < room ? run->each : room;
     float *in = at[0];
     memset(at[1], 0xFF, BUFFER_BYTES);
     for (uint64_t from = 0; from < run->count; from += most) {
         const uint64_t count = run->count - from < most ? run->count - from : most;
         for (uint64_t i = 0; i < count; i++)
             in[i] = run->depth(run->of, from + i);
-        if (!begin_commands(g))
-            return false;
-        g->call.vkCmdBindPipeline(g->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-        g->call.vkCmdBindDescriptorSets(g->commands, VK_PIPELINE_BIND_POINT_COMPUTE, g->layout, 0, 1, &g->set, 0, NULL);
-        g->call.vkCmdDispatch(g->commands, (uint32_t)((count + run->group - 1) / run->group), 1, 1);
-        g->call.vkCmdPipelineBarrier(g->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0,
-                                     1, &read, 0, NULL, 0, NULL);
-        if (!do_commands(g, COMPUTE_SECONDS))
+        if (run->each > 0)
+            memcpy(at[2], run->cameras[from / run->each], sizeof *run->cameras);
+        if (!dispatch(g, pipeline, (uint32_t)((count + run->group - 1) / run->group), 1))
             return false;
         fwrite(at[1], sizeof(float), count, out);
+    }
+    return true;
+}
+
+/* Nanoseconds of a call: the depths in a buffer, again and again. */
+static bool time_once(gpu *g, const compute_run *run, VkPipeline pipeline, uint32_t rounds, double *ns) {
+    const uint32_t all = FLOATS / run->group, groups = rounds < all ? rounds : all, times = rounds / groups;
+    struct timespec from, to;
+    clock_gettime(CLOCK_MONOTONIC, &from);
+    if (!dispatch(g, pipeline, groups, times))
+        return false;
+    clock_gettime(CLOCK_MONOTONIC, &to);
+    const double took = 1e9 * (double)(to.tv_sec - from.tv_sec) + (double)(to.tv_nsec - from.tv_nsec);
+    *ns = took / ((double)groups * run->group * times * run->turns);
+    return true;
+}
+
+/* Each as long as starting it is nothing beside; then in turns, so that what disturbs the machine disturbs all alike.
+ */
+static bool time_all(const gpu *g, const compute_run *run, size_t runs, FILE *out) {
+    enum { ROUNDS_LEAST = 64, ROUNDS_MOST = 1 << 26, LEAST_NS = 2000000 };
+    gpu each[COMPUTE_TIMED_MOST];
+    VkPipeline pipeline[COMPUTE_TIMED_MOST];
+    uint32_t rounds[COMPUTE_TIMED_MOST];
+    double ns;
+    for (size_t i = 0; i < runs; i++) {
+        void *at[BINDINGS];
+        each[i] = *g;
+        if (!make_shader(&each[i], run[i].code, run[i].size) || !make_compute(&each[i], &run[i], at, &pipeline[i]))
+            return false;
+        for (size_t k = 0; k < FLOATS; k++)
+            ((float *)at[0])[k] = ((float)k + 0.5F) / FLOATS;
+        rounds[i] = ROUNDS_LEAST;
+        for (int good = -1;
+             good < 2 && rounds[i] < ROUNDS_MOST;) { /* the first time it is made ready; twice: no chance */
+            if (!time_once(&each[i], &run[i], pipeline[i], rounds[i], &ns))
+                return false;
+            const bool enough = ns * rounds[i] * run[i].group * run[i].turns >= LEAST_NS;
+            good += good < 0 || enough;
+            rounds[i] *= enough || good == 0 ? 1 : 2;
+        }
+    }
+    for (size_t k = 0; k < COMPUTE_TIMES * runs; k++) {
+        if (!time_once(&each[k % runs], &run[k % runs], pipeline[k % runs], rounds[k % runs], &ns))
+            return false;
+        fwrite(&ns, sizeof ns, 1, out);
     }
     return true;
 }
@@ -613,12 +669,15 @@ static bool open_all(gpu *g, const char *wanted) {
     return list(g, wanted) && open_device(g);
 }
 
-bool shot_compute(const char *wanted, const compute_run *run, shot_machine *machine, FILE *out) {
+bool shot_compute(const char *wanted, const compute_run *run, size_t runs, shot_machine *machine, FILE *out) {
     gpu g = {.machine = machine};
     VkPipeline pipeline;
     void *at[BINDINGS];
-    return open_all(&g, wanted) && make_commands(&g) && make_shader(&g, run->code, run->size) &&
-           make_compute(&g, run, at, &pipeline) && compute(&g, run, at, pipeline, out);
+    if (!open_all(&g, wanted) || !make_commands(&g))
+        return false;
+    return runs > 0 ? time_all(&g, run, runs, out)
+                    : make_shader(&g, run->code, run->size) && make_compute(&g, run, at, &pipeline) &&
+                          compute(&g, run, at, pipeline, out);
 }
 
 bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
@@ -649,9 +708,10 @@ bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
     return false;
 }
 
-bool shot_compute(const char *wanted, const compute_run *run, shot_machine *machine, FILE *out) {
+bool shot_compute(const char *wanted, const compute_run *run, size_t runs, shot_machine *machine, FILE *out) {
     (void)wanted;
     (void)run;
+    (void)runs;
     (void)out;
     snprintf(machine->error, sizeof machine->error, absent);
     return false;

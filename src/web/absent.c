@@ -8,7 +8,7 @@
 #include "cli/check_report.h"
 #include "cli/constants.h"
 #include "cli/link.h"
-#include "cli/methods.h"
+#include "cli/mine.h"
 #include "cli/option/rows.h"
 #include "cli/scene/figure.h"
 #include "cli/shadow/maps.h"
@@ -86,6 +86,22 @@ const method_family_row linearize_family = {.method_count = &none}, encode_famil
                         normal_family = {.method_count = &none};
 
 void method_start(void) {}
+
+int mine_open(const options *o, methods_asked *asked, bool on_device, mine **out) {
+    (void)asked;
+    (void)on_device;
+    (void)out;
+    return absent(o);
+}
+
+const char *mine_device(const mine *m) {
+    (void)m;
+    return "";
+}
+
+void mine_close(mine *m) {
+    (void)m;
+}
 
 /* ---- What the figures of those commands call ----------------------------------------------------------------------
  */
@@ -165,4 +181,5 @@ ABSENT_PARSER(parse_error_map)
 ABSENT_PARSER(parse_hi_z)
 ABSENT_PARSER(parse_parameter)
 ABSENT_PARSER(parse_define)
+ABSENT_PARSER(parse_mine)
 ABSENT_PARSER(parse_product)

@@ -131,10 +131,11 @@ void probe_free(probe_result *r) {
 /* ---- Functions --------------------------------------------------------------------------------------------------- */
 
 /* The operand is the source itself: no file is in the page. */
-int shader_open(const options *o, const dp_setup *setup, shader *out) {
+int shader_open(const options *o, const dp_setup *setup, const char *operand, bool timed, shader *out) {
     char text[GPU_TEXT_SIZE];
     gpu_request r = {
-        .what = GPU_COMPILE, .source = o->operands[0], .a = (float)setup->spec.znear, .b = (float)setup->spec.zfar};
+        .what = GPU_COMPILE, .source = operand, .a = (float)setup->spec.znear, .b = (float)setup->spec.zfar};
+    (void)timed;
     *out = (shader){.o = o, .run = calloc(1, sizeof(compute_run)), .most = MOST};
     if (out->run == NULL || !gpu_ask(&r, text))
         return usage_error("judge: %s", text);
@@ -147,10 +148,10 @@ void shader_close(shader *s) {
     free(s->run);
 }
 
-bool compute_values(const char *device, const compute_run *run, shot_machine *machine, FILE **values, bool *endless,
-                    char error[COMPUTE_ERROR_SIZE]) {
+bool compute_values(const char *device, const compute_run *run, size_t runs, shot_machine *machine, FILE **values,
+                    bool *endless, char error[COMPUTE_ERROR_SIZE]) {
     static float *all;
-    (void)device;
+    (void)device, (void)runs;
     *endless = false;
     free(all);
     all = malloc(run->count * sizeof *all);

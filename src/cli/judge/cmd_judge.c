@@ -8,7 +8,7 @@
 #include "judge/judge.h"
 #include "report/number.h"
 
-enum { SHORT = 3, ENOUGH = 6, ASKED = 512 };
+enum { SHORT = 3, ENOUGH = 6 };
 
 /* A candidate, in words. */
 typedef struct named {
@@ -43,29 +43,12 @@ static void name(const options *o, const judge_candidate *c, named *out) {
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
-/* "minus eye depth from window depth: d3d, near 0.1, far 1000" */
-static void say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
-    const dp_spec *s = &c->setup.spec;
-    const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL;
-    int used = snprintf(out, SETUP_LABEL_SIZE, "%s%s%s", c->trap != NULL ? c->trap->name : "",
-                        c->trap != NULL ? ", as " : "", c->output->name);
-    if (c->factor != 1)
-        used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, " times %s,", number_of(c->factor, ENOUGH).text);
-    used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, " from %s", c->input->name);
-    used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ": %s%s", dp_mapping_get(s->mapping)->name,
-                     s->ortho ? ", orthographic" : "");
-    if (planes)
-        snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ", near %s, far %s",
-                 number_in(number_full(s->znear), options_unit(o)).text,
-                 number_in(number_full(s->zfar), options_unit(o)).text);
-}
-
 static void say_all(page *p, void *item) {
     const report *r = item;
     const judgement *j = &r->found;
     char text[SETUP_LABEL_SIZE];
     if (j->named)
-        say(r->o, &j->found, text);
+        shader_say(r->o, &j->found, text);
     page_title(p, "%s%s%s", r->verdict, j->because != NULL || j->named ? ": " : "",
                j->because != NULL ? j->because : text);
     if (j->because != NULL && j->named)
@@ -81,7 +64,7 @@ static void say_all(page *p, void *item) {
                       options_length(r->o, j->z, ENOUGH).text);
     }
     if (j->also) {
-        say(r->o, &j->other, text);
+        shader_say(r->o, &j->other, text);
         page_note(p, "fits, too", "%s; at %s they part", text, number_full(j->decides).text);
     }
     if (j->strays > 0)
@@ -135,47 +118,19 @@ static const column columns[] = {{FIELD(report, verdict, "verdict", "")},
 
 /* ---- What to ask ------------------------------------------------------------------------------------------------- */
 
-/* Window depths that part what is known: the ends, powers of two beside either, and even steps. */
-static double asked_depth(unsigned i, unsigned count) {
-    const unsigned ends = count < 48 ? count / 3 : 16, k = i / 2 + 1;
-    const double even = (double)(i - 2 * ends) / (count - 2 * ends - 1);
-    return (double)(float)(i >= 2 * ends ? even : i % 2 == 0 ? ldexp(1, -(int)k) : 1 - ldexp(1, -(int)k - 1));
-}
-
 static void write_depths(output *out, unsigned count) {
     output_text(out, "depth\n");
     for (unsigned i = 0; i < count; i++) {
-        output_text(out, number_of(asked_depth(i, count), 9).text);
+        output_text(out, number_of(shader_asked(i, count), 9).text);
         output_char(out, '\n');
     }
 }
 
 /* ---- A shader ---------------------------------------------------------------------------------------------------- */
 
-/* What takes no window depths may take eye depths. */
-static int ask(report *r, const setups *all, bool open, bool eye) {
-    const dp_spec *s = &all->items[0].spec;
-    const double far = isinf(s->zfar) ? 1e6 * s->znear : s->zfar;
-    float depth[ASKED];
-    for (unsigned i = 0; i < ASKED; i++) {
-        const double t = asked_depth(i, ASKED);
-        depth[i] = (float)(eye ? fmin(far, s->znear + (far - s->znear) * t * t * t) : t);
-    }
-    judge_pairs_free(&r->pairs);
-    const int status = shader_pairs(&r->code, depth, ASKED, &r->pairs);
-    if (status == EXIT_FINE)
-        judge_function(&r->pairs, all->items, all->count, open, &r->found);
-    return status;
-}
-
 static int judge_shader(report *r, const setups *all, bool open) {
     judgement *j = &r->found;
-    open = open && !r->code.camera;
-    int status = ask(r, all, open, false);
-    if (status == EXIT_FINE && !j->named && !open)
-        status = ask(r, all, open, true);
-    if (status == EXIT_FINE && !j->named)
-        status = ask(r, all, open, false);
+    int status = shader_judge(&r->code, all->items, all->count, open, &r->pairs, j);
     r->count = r->pairs.count;
     if (status == EXIT_FINE && j->named) {
         status = shader_all(&r->code, &r->pairs, j);
@@ -184,10 +139,6 @@ static int judge_shader(report *r, const setups *all, bool open) {
     if (j->strays > 0) {
         j->verdict = JUDGE_UNKNOWN;
         j->because = "what fits many depths does not fit all";
-    }
-    if (r->code.open[0] != '\0' && (j->verdict == JUDGE_OTHER || j->verdict == JUDGE_WRONG)) {
-        j->verdict = JUDGE_UNKNOWN;
-        j->because = r->code.open;
     }
     r->function = r->o->operands[0];
     r->device = r->code.device;
@@ -246,7 +197,7 @@ int cmd_judge(const options *o) {
     if (status == EXIT_FINE && o->judge.pairs != NULL)
         status = read_pairs(o, &r.pairs);
     if (status == EXIT_FINE && shaded)
-        status = shader_open(o, &all.items[0], &r.code);
+        status = shader_open(o, &all.items[0], o->operands[0], false, &r.code);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
     if (status == EXIT_FINE && asked) {

@@ -7,9 +7,10 @@
 
 #include "judge/written.h"
 #include "probe/compute.h"
+#include "report/number.h"
 #include "system/input.h"
 
-enum { FILE_MOST = 1 << 24, ALL_MOST = 1 << 26 };
+enum { FILE_MOST = 1 << 24, ALL_MOST = 1 << 26, TURNS = 8 };
 
 /* ---- The file ---------------------------------------------------------------------------------------------------- */
 
@@ -41,16 +42,21 @@ static bool is_hlsl(const char *path) {
     return false;
 }
 
-static int compile(shader *s, const dp_setup *setup, const char *path, const char *function, const char *text) {
-    compute_run *run = s->run;
+/* Once for its values, and where it is timed once more. */
+static int compile(shader *s, const dp_setup *setup, const char *path, unsigned turns) {
+    compute_run *run = turns > 0 ? s->timed : s->run;
+    const char *function = s->function;
     written w = {0};
     char error[COMPUTE_ERROR_SIZE];
     unsigned line = 0;
     int status = EXIT_FINE;
     const options_judge *j = &s->o->judge;
-    if (!written_make(text, function, is_hlsl(path), setup, j->defines, j->define_count, &w, error))
+    const size_t defines = s->given ? j->define_count : 0;
+    s->hlsl = is_hlsl(path);
+    run->turns = turns * WRITTEN_CALLS;
+    if (!written_make(s->text, function, s->hlsl, setup, j->defines, defines, turns, &w, error))
         status = usage_error("%s: %s %s", path, function, error);
-    else if (!compute_compile(w.text, is_hlsl(path), run, &line, error) && (line == 0 || line > w.lines + 1))
+    else if (!compute_compile(w.text, s->hlsl, run, &line, error) && (line == 0 || line > w.lines + 1))
         status = usage_error("%s: %s: %s", path, function, error);
     else if (run->code == NULL)
         status = usage_error("%s:%u: %s%s", path, line, error,
@@ -65,15 +71,29 @@ static int compile(shader *s, const dp_setup *setup, const char *path, const cha
     return status;
 }
 
-int shader_open(const options *o, const dp_setup *setup, shader *out) {
-    const char *operand = o->operands[0], *colon = strrchr(operand, ':');
+int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, bool asked,
+                 shader *out) {
+    *out = (shader){.o = o,
+                    .run = calloc(1, sizeof(compute_run)),
+                    .timed = calloc(1, sizeof(compute_run)),
+                    .text = strdup(text),
+                    .function = function};
+    if (out->run == NULL || out->timed == NULL || out->text == NULL)
+        return EXIT_IO;
+    const int status = asked ? compile(out, setup, function, 0) : EXIT_FINE;
+    return status == EXIT_FINE ? compile(out, setup, function, TURNS) : status;
+}
+
+int shader_open(const options *o, const dp_setup *setup, const char *operand, bool timed, shader *out) {
+    const char *colon = strrchr(operand, ':');
     const bool spirv = ends_with(operand, ".spv");
     char *text = NULL, *path = strdup(operand), error[COMPUTE_ERROR_SIZE];
     compute_run *run = calloc(1, sizeof *run);
-    *out = (shader){.o = o, .run = run, .most = ALL_MOST};
-    int status = run != NULL && path != NULL ? EXIT_FINE : EXIT_IO;
+    *out = (shader){.o = o, .run = run, .timed = calloc(1, sizeof *run), .given = true, .most = ALL_MOST};
+    int status = run != NULL && out->timed != NULL && path != NULL ? EXIT_FINE : EXIT_IO;
     if (status == EXIT_FINE && !spirv && (colon == NULL || colon == operand || colon[1] == '\0'))
-        status = usage_error("judge: must be FILE:FUNCTION, or FILE.spv, got '%s'", operand);
+        status = usage_error("%s: must be FILE:FUNCTION, or FILE.spv, got '%s'",
+                             o->judge.mine_count > 0 ? "--mine" : "judge", operand);
     if (status == EXIT_FINE && spirv && o->judge.define_count > 0)
         status = option_error(OPTION_DEFINE, "is not for SPIR-V, which has its constants in it");
     if (status == EXIT_FINE && !spirv)
@@ -81,7 +101,12 @@ int shader_open(const options *o, const dp_setup *setup, shader *out) {
     if (status == EXIT_FINE)
         status = read_file(path, &text, &run->size);
     if (status == EXIT_FINE && !spirv) {
-        status = compile(out, setup, path, colon + 1, text);
+        out->text = text;
+        out->function = colon + 1;
+        status = compile(out, setup, path, 0);
+        if (status == EXIT_FINE && timed)
+            status = compile(out, setup, path, TURNS);
+        text = NULL;
     } else if (status == EXIT_FINE) {
         run->code = (uint32_t *)(void *)text;
         text = NULL;
@@ -93,8 +118,11 @@ int shader_open(const options *o, const dp_setup *setup, shader *out) {
 }
 
 void shader_close(shader *s) {
-    compute_run *run = s->run;
-    if (run != NULL)
-        free(run->code);
-    free(run);
+    compute_run *both[] = {s->run, s->timed};
+    for (int i = 0; i < 2; i++) {
+        if (both[i] != NULL)
+            free(both[i]->code);
+        free(both[i]);
+    }
+    free(s->text);
 }

@@ -2,26 +2,34 @@
 /* What a function gives for depths, few and all. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/judge/shader.h"
 #include "core/elementary.h"
+#include "judge/written.h"
 #include "probe/compute.h"
+#include "report/number.h"
 #include "system/sandbox.h"
 
-enum { PORTION = 1 << 20 };
+enum { PORTION = 1 << 20, ASKED = 512, FACTOR_DIGITS = 6 };
 
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
+
+static int fail_io(const shader *s, const char *error) {
+    usage_error("%s: %s", s->o->command->name, error);
+    return EXIT_IO;
+}
+
+static int damaged(const shader *s) {
+    return fail_io(s, "what the driver made is damaged");
+}
 
 static int start(shader *s, FILE **values) {
     shot_machine machine = {0};
     char error[COMPUTE_ERROR_SIZE];
     const bool few = s->device[0] == '\0'; /* the first time */
-    if (!compute_values(s->o->probe.device, s->run, &machine, values, &s->too_long, error)) {
-        if (s->too_long && !few)
-            return EXIT_FINE;
-        usage_error("judge: %s", error);
-        return EXIT_IO;
-    }
+    if (!compute_values(s->o->probe.device, s->run, 0, &machine, values, &s->too_long, error))
+        return s->too_long && !few ? EXIT_FINE : fail_io(s, error);
     const shot_device *d = &machine.device[machine.chosen];
     snprintf(s->device, sizeof s->device, "%s; %s", d->name, d->driver);
     return EXIT_FINE;
@@ -50,11 +58,10 @@ static float listed(const void *of, uint64_t i) {
 static int run_pairs(shader *s, uint64_t from, size_t count, FILE *values, judge_pairs *out) {
     if (take(s->run, from, count, values, out))
         return EXIT_FINE;
-    usage_error("judge: what the driver made is damaged");
-    return EXIT_IO;
+    return damaged(s);
 }
 
-int shader_pairs(shader *s, const float *in, size_t count, judge_pairs *out) {
+static int shader_pairs(shader *s, const float *in, size_t count, judge_pairs *out) {
     compute_run *run = s->run;
     FILE *values = NULL;
     *out = (judge_pairs){.nan_at = (double)NAN, .pairs = malloc(count * sizeof *out->pairs)};
@@ -67,6 +74,121 @@ int shader_pairs(shader *s, const float *in, size_t count, judge_pairs *out) {
     sandbox_close(values);
     judge_pairs_look(out);
     return status;
+}
+
+double shader_asked(unsigned i, unsigned count) {
+    const unsigned ends = count < 48 ? count / 3 : 16, k = i / 2 + 1;
+    const double even = (double)(i - 2 * ends) / (count - 2 * ends - 1);
+    return (double)(float)(i >= 2 * ends ? even : i % 2 == 0 ? ldexp(1, -(int)k) : 1 - ldexp(1, -(int)k - 1));
+}
+
+/* What takes no window depths may take eye depths. */
+static int ask(shader *s, const dp_setup *asked, size_t count, bool open, bool eye, judge_pairs *pairs,
+               judgement *out) {
+    const dp_spec *spec = &asked[0].spec;
+    const double far = isinf(spec->zfar) ? 1e6 * spec->znear : spec->zfar;
+    float depth[ASKED];
+    for (unsigned i = 0; i < ASKED; i++) {
+        const double t = shader_asked(i, ASKED);
+        depth[i] = (float)(eye ? fmin(far, spec->znear + (far - spec->znear) * t * t * t) : t);
+    }
+    judge_pairs_free(pairs);
+    const int status = shader_pairs(s, depth, ASKED, pairs);
+    if (status == EXIT_FINE)
+        judge_function(pairs, asked, count, open, out);
+    return status;
+}
+
+/* Nothing is told of what hangs on a macro that nobody defines. */
+static void excuse(const shader *s, judgement *out) {
+    if (s->open[0] != '\0' && (out->verdict == JUDGE_OTHER || out->verdict == JUDGE_WRONG)) {
+        out->verdict = JUDGE_UNKNOWN;
+        out->because = s->open;
+    }
+}
+
+int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *pairs, judgement *out) {
+    open = open && !s->camera;
+    int status = ask(s, asked, count, open, false, pairs, out);
+    if (status == EXIT_FINE && !out->named && !open)
+        status = ask(s, asked, count, open, true, pairs, out);
+    if (status == EXIT_FINE && !out->named)
+        status = ask(s, asked, count, open, false, pairs, out);
+    excuse(s, out);
+    return status;
+}
+
+void shader_say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
+    const dp_spec *s = &c->setup.spec;
+    const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL;
+    int used = snprintf(out, SETUP_LABEL_SIZE, "%s%s%s", c->trap != NULL ? c->trap->name : "",
+                        c->trap != NULL ? ", as " : "", c->output->name);
+    if (c->factor != 1)
+        used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, " times %s,",
+                         number_of(c->factor, FACTOR_DIGITS).text);
+    used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, " from %s", c->input->name);
+    used += snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ": %s%s", dp_mapping_get(s->mapping)->name,
+                     s->ortho ? ", orthographic" : "");
+    if (planes)
+        snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ", near %s, far %s",
+                 number_in(number_full(s->znear), options_unit(o)).text,
+                 number_in(number_full(s->zfar), options_unit(o)).text);
+}
+
+/* ---- In the chart ------------------------------------------------------------------------------------------------ */
+
+int shader_values(shader *s, const dp_setup *cameras, size_t count, const float *in, size_t each, float *out) {
+    compute_run *run = s->run;
+    float(*constants)[COMPUTE_CONSTANTS] = calloc(count, sizeof *constants);
+    char error[COMPUTE_ERROR_SIZE];
+    FILE *values = NULL;
+    int status = constants != NULL ? EXIT_FINE : EXIT_IO;
+    for (size_t i = 0; i < count && status == EXIT_FINE; i++) {
+        const options_judge *j = &s->o->judge;
+        written w = {0};
+        if (s->camera &&
+            written_make(s->text, s->function, s->hlsl, &cameras[i], j->defines, j->define_count, 0, &w, error))
+            memcpy(constants[i], w.constants, sizeof w.constants);
+        else
+            memcpy(constants[i], run->constants, sizeof run->constants);
+        free(w.text);
+    }
+    run->count = count * each;
+    run->each = each;
+    run->cameras = (const float(*)[COMPUTE_CONSTANTS])constants;
+    run->depth = listed;
+    run->of = in;
+    if (status == EXIT_FINE)
+        status = start(s, &values);
+    if (status == EXIT_FINE && (values == NULL || fread(out, sizeof *out, run->count, values) != run->count))
+        status = damaged(s); /* or did not come to an end, with some camera */
+    sandbox_close(values);
+    free(constants);
+    run->each = 0;
+    run->cameras = NULL;
+    return status;
+}
+
+int shader_times(shader *const *all, size_t count, double *out) {
+    const options *o = all[0]->o;
+    compute_run runs[COMPUTE_TIMED_MOST] = {{0}};
+    shot_machine machine = {0};
+    char error[COMPUTE_ERROR_SIZE];
+    FILE *times = NULL;
+    double ns = 0;
+    bool endless, good = true;
+    for (size_t i = 0; i < count; i++) {
+        runs[i] = *(const compute_run *)all[i]->timed;
+        out[i] = (double)INFINITY;
+    }
+    if (!compute_values(o->probe.device, runs, count, &machine, &times, &endless, error))
+        return fail_io(all[0], error);
+    for (size_t k = 0; k < COMPUTE_TIMES * count && good; k++) {
+        good = fread(&ns, sizeof ns, 1, times) == 1;
+        out[k % count] = fmin(out[k % count], ns);
+    }
+    sandbox_close(times);
+    return good ? EXIT_FINE : damaged(all[0]);
 }
 
 /* ---- All depths -------------------------------------------------------------------------------------------------- */

@@ -108,6 +108,7 @@ typedef enum option_id {
     OPTION_PAIRS,
     OPTION_PAIRS_FOR,
     OPTION_DEFINE,
+    OPTION_MINE,
     OPTION_MATRIX,
     OPTION_LAST_EYE,
     OPTION_LAST_LOOK,
@@ -169,6 +170,7 @@ enum {
     OPTIONS_FORMATS_MAX = 64,
     OPTIONS_FARS_MAX = 4,
     OPTIONS_PARAMETERS_MAX = 16,
+    OPTIONS_MINE_MAX = 8,
     OPTIONS_PRESETS_MAX = 16,
     OPTIONS_SCHEMES_MAX = 16
 };
@@ -293,6 +295,8 @@ typedef struct options_judge {
     unsigned depths;                             /**< how many are printed to ask for; 0 when not given */
     const char *defines[OPTIONS_PARAMETERS_MAX]; /**< NAME=VALUE */
     size_t define_count;
+    const char *mine[OPTIONS_MINE_MAX]; /**< FILE:FUNCTION */
+    size_t mine_count;
 } options_judge;
 
 typedef struct options_shadow {

@@ -39,6 +39,13 @@ int parse_define(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
+int parse_mine(options *o, const option_row *row, const char *value) {
+    if (o->judge.mine_count == OPTIONS_MINE_MAX)
+        return option_refuse(row, "must not be more than %d, got '%s' too", OPTIONS_MINE_MAX, value);
+    o->judge.mine[o->judge.mine_count++] = value;
+    return EXIT_FINE;
+}
+
 /* The method of normals that a product compares or holds, behind a second colon. */
 static int read_normals(options *o, const option_row *row, const char *value) {
     static const name_list normals = {.get = list_normal};

@@ -95,7 +95,7 @@ option_parser parse_unit, parse_preset, parse_presets, parse_near, parse_far, pa
     parse_tolerance, parse_at, parse_schemes, parse_range, parse_origin, parse_distances, parse_error_map,
     parse_size_or_n, parse_figure_size, parse_separation_or_0, parse_intrinsics, parse_metric, parse_sky, parse_tint;
 option_parser parse_product, parse_apis, parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_also,
-    parse_define;
+    parse_define, parse_mine;
 option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
 option_parser parse_viewport, parse_slant, parse_slant_or_plane, parse_triangle, parse_light_box, parse_ortho,
     parse_cascades, parse_curvature, parse_camera_depth, parse_hi_z;

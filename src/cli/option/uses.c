@@ -229,7 +229,11 @@ const option_use shadow_uses[] = {
     TAKE(RASTER), TAKE(SUBPIXEL), TAKE(TRIANGLE_CLASS), TAKE(CURVATURE), TAKE(API),
     GROUP(written), END};
 
+static const option_use of_mine[] = {TAKE(MINE), TAKE(DEFINE),
+    OWN(DEVICE, .argument = "N|NAME",
+        HELP("the GPU that runs it: its number among the Vulkan devices, or part of its name")), END};
 const option_use methods_uses[] = {
+    GROUP(of_mine),
     OWN(FORMAT, WITHOUT("that of the family's first case")),
     OWN(MAPPING, WITHOUT("that of the family's first case")),
     OWN(UNIT, HELP("the length of a scene unit; any length can have a unit: 10cm"),
@@ -299,7 +303,7 @@ static const option_use of_slants[] = {OWN(SLANT,
         "and 90 up")), END};
 const option_use plot_uses[] = {
     FOR(FIGURE_MODEL, of_scene), FOR(FIGURE_SHADOW, of_shadow), FOR(FIGURE_DRAWN, of_fight),
-    FOR(FIGURE_TERMS, budget_terms),
+    FOR(FIGURE_TERMS, budget_terms), FOR(FIGURE_MINE, of_mine),
     FOR(FIGURE_SETUPS, of_setups), FOR(FIGURE_SETUPS | FIGURE_MODEL, of_setups_and_models),
     FOR(FIGURE_SETUPS | FIGURE_MODEL | FIGURE_SHADOW, of_cameras),
     FOR(FIGURE_FARS, of_fars), FOR(FIGURE_AT, of_one_depth),
