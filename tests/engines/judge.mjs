@@ -6,8 +6,8 @@
 // It lies beside node_modules. Of each row of CASES (its columns are explained there) the truth is computed here, in doubles: the
 // text of the function, translated word for word, or an expression of CASES, at depths that the engine's own matrix gives. A row
 // that says another thing ends this. OUT gets a shader file for each row: the text that the package ships, the engine's own
-// #define lines and includes in front; no body is changed. On stdout is a line for each row: verdict, computes, from, its name,
-// and the arguments of `depthprec judge`.
+// #define lines and includes in front; no body is changed. OUT/list has a line for each row: what judge should say: verdict, computes, from; what
+// is true; the row's name; the arguments of `depthprec judge`.
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { NullEngine } from "@babylonjs/core/Engines/nullEngine.js";
@@ -19,7 +19,6 @@ import * as playcanvas from "playcanvas";
 import * as THREE from "three";
 
 const [cases, out] = process.argv.slice(2), near = 0.25, far = 200;
-console.log = console.info = console.warn = () => {}; // engines say hello
 
 // ---- Cameras, by each engine's own code: projection matrix by columns, its NDC depths from lo to 1, toward: view z of eye depth 1 --------
 
@@ -72,7 +71,7 @@ function cameraOf(engine, words) {
     const unproject = (d) => of(c.inverse, [0, 0, d, 1]);
     return { ...c, ortho: kind.ortho, quantity: {
         "eye depth": (z) => z, "minus eye depth": (z) => -z, "window depth": window, "NDC depth": (z) => c.lo < 0 ? 2 * window(z) - 1 : NaN,
-        "the way from near to far": (z) => (z - near) / (far - near), "1 minus window depth": (z) => 1 - window(z), "depth as the matrix has it": drawn,
+        "the way from near to far": (z) => (z - near) / (far - near), "1 minus window depth": (z) => 1 - window(z), "window depth without the logarithm": drawn,
     }, names: { ...c.names, ndc, lo: c.lo, unproject, near, far } };
 }
 
@@ -89,8 +88,8 @@ async function textOf(engine, file, name) {
     return text.replace(/^[ \t]*#include <(\w+)>/gm, (line, chunk) => THREE.ShaderChunk[chunk] ?? line);
 }
 
-// Cesium puts its own functions and uniforms in front.
-const combined = (text, defines) => new Cesium.ShaderSource({ defines, sources: [text] }).createCombinedFragmentShader({ webgl2: true });
+// Cesium puts what it defines, its own functions and uniforms in front.
+const combined = (text, defines) => new Cesium.ShaderSource({ defines: defines.map((word) => word.replace("=", " ")), sources: [text] }).createCombinedFragmentShader({ webgl2: true });
 
 // ---- What it computes, in doubles ------------------------------------------------------------------------------------------
 
@@ -137,13 +136,15 @@ for (const line of readFileSync(cases, "utf8").split("\n")) {
     const name = call.split(" ")[0], caller = call.slice(name.length).trim(), what = `${engine} ${file} ${call} ${words}`;
     const camera = cameraOf(engine, words), defines = defined.split(" ").filter((word) => word !== "" && !word.startsWith("-"));
     let text = await textOf(engine, file, name);
-    if (engine === "@cesium/engine") text = combined(`${text}\nvoid main() {}`, defines);
+    if (engine === "@cesium/engine") text = combined(file.includes("Builtin") ? `void main() { ${name}; ${caller}; czm_${file.match(/\w+(?=\.)/)[0]}; }` : text, defines);
     else text = `${defines.map((word) => `#define ${word.replace("=", " ")}\n`).join("")}${text}`;
     const asked = caller === "" ? name : "asked", path = `${out}/${row++}.glsl`;
-    writeFileSync(path, caller === "" ? text : `float depth_read;\n${text}\nfloat asked(float d) { depth_read = d; return ${caller}; }\n`);
+    const samplers = defined.includes("(depth_read)") ? text.match(/\bsampler2D \w+(?=[;,)])/g) ?? [] : []; // are read by macros
+    const prelude = `${samplers.length > 0 ? "#define sampler2D int\n" : ""}${[...new Set(samplers)].map((sampler) => `int ${sampler.slice(10)};\n`).join("")}`;
+    writeFileSync(path, caller === "" ? text : `float depth_read;\n${prelude}${text}\nfloat asked(float d) { depth_read = d; return ${caller}; }\n`);
     const f = evaluated(text, name, by, camera.names), off = distance(f, camera, from, computes);
     if (verdict === "right" ? !(off < 2e-3) : verdict !== "unknown" && !(off > 2e-2)) throw new Error(`${what}: off by ${off}, which is not ${verdict}`);
-    said.push([verdict, computes, from, judged || verdict, what, `${path}:${asked} -n ${near} -f ${far} -F d16 -m ${camera.mapping}${camera.ortho ? " --ortho" : ""} ${defined.split(" ").filter((word) => word.startsWith("-")).join(" ")}`].join("\t"));
+    said.push([judged || verdict, computes, from, verdict, what, `${path}:${asked} -n ${near} -f ${far} -F d16 -m ${camera.mapping}${camera.ortho ? " --ortho" : ""} ${defined.split(" ").filter((word) => word.startsWith("-")).join(" ")}`].join("\t"));
 }
-process.stdout.write(`${said.join("\n")}\n`);
+writeFileSync(`${out}/list`, `${said.join("\n")}\n`);
 process.exit(0);

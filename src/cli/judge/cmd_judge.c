@@ -46,7 +46,7 @@ static void name(const options *o, const judge_candidate *c, named *out) {
 /* "minus eye depth from window depth: d3d, near 0.1, far 1000" */
 static void say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
     const dp_spec *s = &c->setup.spec;
-    const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL;
+    const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL || c->output->window == NULL;
     int used = snprintf(out, SETUP_LABEL_SIZE, "%s%s%s", c->trap != NULL ? c->trap->name : "",
                         c->trap != NULL ? ", as " : "", c->output->name);
     if (c->factor != 1)
@@ -152,30 +152,44 @@ static void write_depths(output *out, unsigned count) {
 
 /* ---- A shader ---------------------------------------------------------------------------------------------------- */
 
-/* What takes no window depths may take eye depths. */
-static int ask(report *r, const setups *all, bool open, bool eye) {
+/* Pairs of what may go in: window depths, eye depths or view z. */
+static int ask(report *r, const setups *all, bool open, const judge_input *input) {
     const dp_spec *s = &all->items[0].spec;
     const double far = isinf(s->zfar) ? 1e6 * s->znear : s->zfar;
     float depth[ASKED];
     for (unsigned i = 0; i < ASKED; i++) {
-        const double t = asked_depth(i, ASKED);
-        depth[i] = (float)(eye ? fmin(far, s->znear + (far - s->znear) * t * t * t) : t);
+        const double t = asked_depth(i, ASKED), z = fmin(far, s->znear + (far - s->znear) * t * t * t);
+        depth[i] = (float)(input->metric != 0 ? input->metric * z : t);
     }
-    judge_pairs_free(&r->pairs);
     const int status = shader_pairs(&r->code, depth, ASKED, &r->pairs);
     if (status == EXIT_FINE)
         judge_function(&r->pairs, all->items, all->count, open, &r->found);
     return status;
 }
 
+/* Nobody is accused by what they do not take: all is asked until something is right, then the first counts that has a
+ * name. */
+static int ask_all(report *r, const setups *all, bool open) {
+    static const size_t kinds[] = {JUDGE_WINDOW, JUDGE_EYE, JUDGE_VIEW};
+    judge_pairs pairs = {0};
+    judgement found = {.verdict = JUDGE_UNKNOWN};
+    int status = EXIT_FINE;
+    for (int i = 0; i < (open ? 1 : 3) && status == EXIT_FINE && found.verdict != JUDGE_RIGHT; i++) {
+        status = ask(r, all, open, judge_input_get(kinds[i]));
+        const bool better = i == 0 || r->found.verdict == JUDGE_RIGHT || (r->found.named && !found.named);
+        judge_pairs_free(better ? &pairs : &r->pairs);
+        pairs = better ? r->pairs : pairs;
+        found = better ? r->found : found;
+    }
+    r->pairs = pairs;
+    r->found = found;
+    return status;
+}
+
 static int judge_shader(report *r, const setups *all, bool open) {
     judgement *j = &r->found;
     open = open && !r->code.camera;
-    int status = ask(r, all, open, false);
-    if (status == EXIT_FINE && !j->named && !open)
-        status = ask(r, all, open, true);
-    if (status == EXIT_FINE && !j->named)
-        status = ask(r, all, open, false);
+    int status = ask_all(r, all, open);
     r->count = r->pairs.count;
     if (status == EXIT_FINE && j->named) {
         status = shader_all(&r->code, &r->pairs, j);

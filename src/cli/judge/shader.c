@@ -173,10 +173,10 @@ static float one_of_all(const void *of, uint64_t i) {
     const all_depths *a = of;
     const dp_spec *spec = &a->c->setup.spec;
     const dp_format *f = &spec->format;
-    if (a->c->input == judge_input_get(JUDGE_EYE)) {
+    if (a->c->input->metric != 0) {
         const double n = spec->znear, z = isinf(spec->zfar) ? 1e6 * n : spec->zfar;
         const double t = (double)i / (double)(a->count - 1);
-        return (float)(spec->ortho ? n + (z - n) * t : n * dp_pow(z / n, t));
+        return (float)(a->c->input->metric * (spec->ortho ? n + (z - n) * t : n * dp_pow(z / n, t)));
     }
     const uint32_t code = (uint32_t)(i * f->code_max / (a->count - 1));
     if (a->c->input == judge_input_get(JUDGE_CODES))
