@@ -152,44 +152,41 @@ static void write_depths(output *out, unsigned count) {
 
 /* ---- A shader ---------------------------------------------------------------------------------------------------- */
 
-/* Pairs of what may go in: window depths, eye depths or view z. */
-static int ask(report *r, const setups *all, bool open, const judge_input *input) {
+/* Window depths, eye depths and view z go in. Nobody is accused by what they do not take: the first that is right
+ * counts, else the first that has a name. */
+static int ask(report *r, const setups *all, bool open) {
+    static const size_t kinds[] = {JUDGE_WINDOW, JUDGE_EYE, JUDGE_VIEW};
+    enum { KINDS = sizeof kinds / sizeof kinds[0] };
     const dp_spec *s = &all->items[0].spec;
     const double far = isinf(s->zfar) ? 1e6 * s->znear : s->zfar;
-    float depth[ASKED];
-    for (unsigned i = 0; i < ASKED; i++) {
-        const double t = asked_depth(i, ASKED), z = fmin(far, s->znear + (far - s->znear) * t * t * t);
-        depth[i] = (float)(input->metric != 0 ? input->metric * z : t);
+    judge_pairs pairs[KINDS] = {{0}};
+    float depth[KINDS * ASKED];
+    size_t best = 0;
+    for (unsigned i = 0; i < KINDS * ASKED; i++) {
+        const double metric = judge_input_get(kinds[i / ASKED])->metric, t = asked_depth(i % ASKED, ASKED);
+        depth[i] = (float)(metric != 0 ? metric * fmin(far, s->znear + (far - s->znear) * t * t * t) : t);
     }
-    const int status = shader_pairs(&r->code, depth, ASKED, &r->pairs);
-    if (status == EXIT_FINE)
-        judge_function(&r->pairs, all->items, all->count, open, &r->found);
-    return status;
-}
-
-/* Nobody is accused by what they do not take: all is asked until something is right, then the first counts that has a
- * name. */
-static int ask_all(report *r, const setups *all, bool open) {
-    static const size_t kinds[] = {JUDGE_WINDOW, JUDGE_EYE, JUDGE_VIEW};
-    judge_pairs pairs = {0};
-    judgement found = {.verdict = JUDGE_UNKNOWN};
-    int status = EXIT_FINE;
-    for (int i = 0; i < (open ? 1 : 3) && status == EXIT_FINE && found.verdict != JUDGE_RIGHT; i++) {
-        status = ask(r, all, open, judge_input_get(kinds[i]));
-        const bool better = i == 0 || r->found.verdict == JUDGE_RIGHT || (r->found.named && !found.named);
-        judge_pairs_free(better ? &pairs : &r->pairs);
-        pairs = better ? r->pairs : pairs;
-        found = better ? r->found : found;
+    const int status = shader_pairs(&r->code, depth, ASKED, open ? 1 : KINDS, pairs);
+    for (size_t k = 0; k < (open ? 1 : KINDS) && status == EXIT_FINE; k++) {
+        judgement found;
+        judge_function(&pairs[k], all->items, all->count, open, &found);
+        if (k == 0 || (found.named && !r->found.named) ||
+            (found.verdict == JUDGE_RIGHT && r->found.verdict != JUDGE_RIGHT)) {
+            r->found = found;
+            best = k;
+        }
     }
-    r->pairs = pairs;
-    r->found = found;
+    for (size_t k = 0; k < KINDS; k++)
+        if (k != best)
+            judge_pairs_free(&pairs[k]);
+    r->pairs = pairs[best];
     return status;
 }
 
 static int judge_shader(report *r, const setups *all, bool open) {
     judgement *j = &r->found;
     open = open && !r->code.camera;
-    int status = ask_all(r, all, open);
+    int status = ask(r, all, open);
     r->count = r->pairs.count;
     if (status == EXIT_FINE && j->named) {
         status = shader_all(&r->code, &r->pairs, j);

@@ -146,18 +146,20 @@ static int run_pairs(shader *s, uint64_t from, size_t count, FILE *values, judge
     return EXIT_IO;
 }
 
-int shader_pairs(shader *s, const float *in, size_t count, judge_pairs *out) {
+int shader_pairs(shader *s, const float *in, size_t count, size_t kinds, judge_pairs out[]) {
     compute_run *run = s->run;
     FILE *values = NULL;
-    *out = (judge_pairs){.nan_at = (double)NAN, .pairs = malloc(count * sizeof *out->pairs)};
-    run->count = s->count = count;
+    s->count = count;
+    run->count = kinds * count;
     run->depth = listed;
     run->of = in;
-    int status = out->pairs != NULL ? start(s, &values) : EXIT_IO;
-    if (values != NULL)
-        status = run_pairs(s, 0, count, values, out);
+    int status = start(s, &values);
+    for (size_t k = 0; k < kinds && status == EXIT_FINE; k++) {
+        out[k] = (judge_pairs){.nan_at = (double)NAN, .pairs = malloc(count * sizeof *out->pairs)};
+        status = out[k].pairs != NULL ? run_pairs(s, k * count, count, values, &out[k]) : EXIT_IO;
+        judge_pairs_look(&out[k]);
+    }
     sandbox_close(values);
-    judge_pairs_look(out);
     return status;
 }
 

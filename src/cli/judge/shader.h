@@ -22,8 +22,8 @@ typedef struct shader {
 /** Reads and compiles the operand. @return EXIT_FINE, or as a command does */
 int shader_open(const options *o, const dp_setup *setup, shader *out);
 
-/** Depths in: NaN are left out. */
-int shader_pairs(shader *s, const float *in, size_t count, judge_pairs *out);
+/** Depths in, so many of each kind: pairs of each kind, without NaN. */
+int shader_pairs(shader *s, const float *in, size_t count, size_t kinds, judge_pairs out[]);
 
 /** All codes of the format, or many of them, as what is named takes them. */
 int shader_all(shader *s, judge_pairs *pairs, judgement *out);
