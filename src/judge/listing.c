@@ -161,6 +161,8 @@ static item_kind kind_of(const listing *s, const item *i) {
     piece word;
     if (i->kind == ITEM_FUNCTION)
         return ITEM_FUNCTION;
+    if (strncmp(i->from, "struct", 6) == 0 && !in_word(i->from[6]))
+        return ITEM_STRUCTURE;
     for (int k = 0; listing_word(&at, i->to, &word, &open) && (open == 0 || k == 0); k++)
         if (piece_is_any(word, i->kind == ITEM_DIRECTIVE ? left : apart))
             return ITEM_NONE;
@@ -255,7 +257,7 @@ piece listing_type(const listing *s, piece name, bool member) {
         const item *i = &s->items[k];
         const char *at = i->from;
         int open = 0;
-        if (i->kind == ITEM_NONE || (member && i->kind == ITEM_CODE))
+        if (i->kind == ITEM_NONE || (member && i->kind == ITEM_STRUCTURE))
             for (piece word; listing_word(&at, i->to, &word, &open);)
                 if (word.length == name.length && memcmp(word.at, name.at, name.length) == 0)
                     return listing_word_before(i->from, word.at);
@@ -279,17 +281,6 @@ bool listing_in_condition(const listing *s, piece word) {
     return piece_is_any(first, ifs) || piece_is(first, "elif");
 }
 
-static bool is_used(const listing *s, piece name) {
-    for (size_t k = 0; k < s->count; k++) {
-        const char *at = s->items[k].from;
-        int open = 0;
-        for (piece word; s->items[k].kept && listing_word(&at, s->items[k].to, &word, &open);)
-            if (word.at != name.at && word.length == name.length && memcmp(word.at, name.at, name.length) == 0)
-                return true;
-    }
-    return false;
-}
-
 bool listing_matters(const listing *s, const item *condition) {
     const char *end = condition->to;
     for (int depth = 1; *end != '\0' && depth > 0;) {
@@ -298,29 +289,18 @@ bool listing_matters(const listing *s, const item *condition) {
         depth += piece_is_any(word, ifs) - piece_is(word, "endif");
         end = directive_end(line);
     }
-    for (const item *i = condition + 1; i < s->items + s->count && i->from < end; i++) {
-        const piece word = i->kind == ITEM_DIRECTIVE ? directive_word(i->from) : (piece){"", 0};
-        const char *at = word.at + word.length;
-        int open = 0;
-        piece name;
-        if ((i->kept && i->kind != ITEM_DIRECTIVE) ||
-            (piece_is(word, "define") && listing_word(&at, i->to, &name, &open) && is_used(s, name)))
+    for (const item *i = condition + 1; i < s->items + s->count && i->from < end; i++)
+        if (i->kept && (i->kind != ITEM_DIRECTIVE || !piece_is_any(directive_word(i->from), conditions)))
             return true;
-    }
     return condition->kind != ITEM_DIRECTIVE;
 }
 
 /* ---- Structures -------------------------------------------------------------------------------------------------- */
 
 const item *listing_structure(const listing *s, piece name) {
-    for (size_t k = 0; k < s->count; k++) {
-        const char *at = s->items[k].from;
-        int open = 0;
-        piece first;
-        if (s->items[k].kind == ITEM_CODE && listing_word(&at, s->items[k].to, &first, &open) &&
-            piece_is(first, "struct") && listing_item_declares(&s->items[k], name, false))
+    for (size_t k = 0; k < s->count; k++)
+        if (s->items[k].kind == ITEM_STRUCTURE && listing_item_declares(&s->items[k], name, false))
             return &s->items[k];
-    }
     return NULL;
 }
 
@@ -363,7 +343,7 @@ const item *listing_release(listing *s, piece name) {
         blank(text + (i->from - text), outer.at);
         memcpy(text + (outer.at - text), block ? "struct " : s->hlsl ? "static " : "       ", 7);
         blank(text + (at - text), i->to - 1);
-        i->kind = ITEM_CODE;
+        i->kind = block ? ITEM_STRUCTURE : ITEM_CODE;
         listing_keep(s, i);
         return structure;
     }

@@ -18,6 +18,7 @@ bool piece_is_any(piece p, const char *const list[]);
 typedef enum item_kind {
     ITEM_CODE,
     ITEM_FUNCTION,
+    ITEM_STRUCTURE,
     ITEM_DIRECTIVE,
     ITEM_NONE /**< uniforms, and what goes in and out */
 } item_kind;

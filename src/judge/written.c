@@ -20,17 +20,29 @@ enum { NAME_SIZE = 64, VALUE_SIZE = 512, FLOATS_MOST = 16 };
 
 typedef double matrix[4][4]; /* by rows, for column vectors */
 
-static void fill_near(const dp_setup *s, double out[FLOATS_MOST]) {
-    out[0] = s->spec.znear;
-}
-
-static void fill_far(const dp_setup *s, double out[FLOATS_MOST]) {
-    out[0] = s->spec.zfar;
-}
-
-static void fill_near_far(const dp_setup *s, double out[FLOATS_MOST]) {
-    out[0] = s->spec.znear;
-    out[1] = s->spec.zfar;
+/* Near, far, its inverse, orthographic; what CesiumJS has of logarithms (UniformState.js); a half; a digit. */
+static double number(const dp_setup *s, char what) {
+    const double n = s->spec.znear, f = s->spec.zfar;
+    switch (what) {
+    case 'n':
+        return n;
+    case 'f':
+        return f;
+    case 'i':
+        return 1 / f;
+    case 'o':
+        return s->spec.ortho;
+    case 'p':
+        return f - n + 1;
+    case 'l':
+        return dp_log2(f - n + 1);
+    case 'r':
+        return 1 / dp_log2(f - n + 1);
+    case 'h':
+        return 0.5;
+    default:
+        return what - '0';
+    }
 }
 
 static void fill_zbuffer(const dp_setup *s, double out[FLOATS_MOST]) {
@@ -38,11 +50,6 @@ static void fill_zbuffer(const dp_setup *s, double out[FLOATS_MOST]) {
     const float all[4] = {p.x, p.y, p.z, p.w};
     for (int i = 0; i < 4; i++)
         out[i] = (double)all[i];
-}
-
-static void fill_projection_params(const dp_setup *s, double out[FLOATS_MOST]) {
-    const double all[4] = {1, s->spec.znear, s->spec.zfar, 1 / s->spec.zfar};
-    memcpy(out, all, sizeof all);
 }
 
 /* Unreal's: z = x d + y + 1/(z d - w). */
@@ -89,80 +96,44 @@ static void fill_inverse_lh(const dp_setup *s, double out[FLOATS_MOST]) {
     projection(s, 1, true, out);
 }
 
-/* PlayCanvas. */
-static void fill_camera_params(const dp_setup *s, double out[FLOATS_MOST]) {
-    const double all[4] = {1 / s->spec.zfar, s->spec.zfar, s->spec.znear, s->spec.ortho};
-    memcpy(out, all, sizeof all);
-}
-
-/* CesiumJS: UniformState.js, of a viewport of 1 by 1. */
-static void fill_far_from_near(const dp_setup *s, double out[FLOATS_MOST]) {
-    out[0] = s->spec.zfar - s->spec.znear + 1;
-}
-
-static void fill_log2_far(const dp_setup *s, double out[FLOATS_MOST]) {
-    out[0] = dp_log2(s->spec.zfar - s->spec.znear + 1);
-}
-
-static void fill_one_over_log2_far(const dp_setup *s, double out[FLOATS_MOST]) {
-    out[0] = 1 / dp_log2(s->spec.zfar - s->spec.znear + 1);
-}
-
-/* Top, bottom, left and right of the near plane, as the matrices here have them. */
-static void fill_frustum_planes(const dp_setup *s, double out[FLOATS_MOST]) {
-    const double n = s->spec.ortho ? 1 : s->spec.znear, all[4] = {n, -n, -n, n};
-    memcpy(out, all, sizeof all);
-}
-
-static void fill_viewport(const dp_setup *s, double out[FLOATS_MOST]) {
-    (void)s;
-    out[2] = out[3] = 1;
-}
-
-static void fill_viewport_matrix(const dp_setup *s, double out[FLOATS_MOST]) {
-    const matrix m = {{0.5, 0, 0, 0.5}, {0, 0.5, 0, 0.5}, {0, 0, 0.5, 0.5}, {0, 0, 0, 1}};
-    (void)s;
-    memcpy(out, m, sizeof m);
-}
-
-/* By a word; and the names by which it is guessed, without underscores and in small letters. A row
- * without names is what the one above it is in HLSL, where cameras look along +z. */
+/* By a word; and the names by which it is guessed, without underscores and in small letters. A row without names is what
+ * the one above it is in HLSL, where cameras look along +z. */
 typedef struct value_row {
     const char *word;
     unsigned floats;
+    const char *numbers; /* a letter each, see number() */
     void (*fill)(const dp_setup *s, double out[FLOATS_MOST]);
     const char *names;
 } value_row;
 
 static const value_row rows[] = {
-    {"near", 1, fill_near,
+    {"near", 1, "n", NULL,
      " near znear nearz cameranear unear nearplane nearclip nearclipplane ucameranear uznear unearplane nearplanez n "
      "zn camnear virtualcameranear cameranearclip "},
-    {"far", 1, fill_far,
+    {"far", 1, "f", NULL,
      " far zfar farz camerafar ufar farplane farclip farclipplane ucamerafar uzfar ufarplane farplanez f zf camfar "
      "virtualcamerafar camerafarclip "},
-    {"near_far", 2, fill_near_far,
+    {"near_far", 2, "nf", NULL,
      " nearfar znearfar cameranearfar unearfar unearfarplanes nearfarplanes cameraplanes clipplanes "
      "czmcurrentfrustum "},
-    {"z_buffer_params", 4, fill_zbuffer, " zbufferparams zbufferparam "},
-    {"projection_params", 4, fill_projection_params, " projectionparams "},
-    {"camera_params", 4, fill_camera_params, " cameraparams "},
-    {"inv_device_z", 4, fill_device_z, " invdeviceztoworldztransform viewinvdeviceztoworldztransform "},
-    {"projection", 16, fill_projection,
+    {"z_buffer_params", 4, NULL, fill_zbuffer, " zbufferparams zbufferparam "},
+    {"projection_params", 4, "1nfi", NULL, " projectionparams "},
+    {"camera_params", 4, "ifno", NULL, " cameraparams "},
+    {"inv_device_z", 4, NULL, fill_device_z, " invdeviceztoworldztransform viewinvdeviceztoworldztransform "},
+    {"projection", 16, NULL, fill_projection,
      " projection projectionmatrix uprojection uprojectionmatrix proj projmatrix projmat cameraprojection "
      "cameraprojectionmatrix matrixprojection unitymatrixp glstatematrixprojection czmprojection "},
-    {"projection_lh", 16, fill_projection_lh, ""},
-    {"inverse_projection", 16, fill_inverse,
+    {"projection_lh", 16, NULL, fill_projection_lh, ""},
+    {"inverse_projection", 16, NULL, fill_inverse,
      " inverseprojection inverseprojectionmatrix projectioninverse projectionmatrixinverse invprojection invproj "
      "invprojectionmatrix cameraprojectionmatrixinverse camerainverseprojectionmatrix unitycamerainvprojection "
      "czminverseprojection "},
-    {"inverse_projection_lh", 16, fill_inverse_lh, ""},
-    {"far_from_near", 1, fill_far_from_near, " czmfardepthfromnearplusone "},
-    {"log2_far_from_near", 1, fill_log2_far, " czmlog2fardepthfromnearplusone "},
-    {"one_over_log2_far_from_near", 1, fill_one_over_log2_far, " czmoneoverlog2fardepthfromnearplusone "},
-    {"frustum_planes", 4, fill_frustum_planes, " czmfrustumplanes "},
-    {"viewport", 4, fill_viewport, " czmviewport "},
-    {"viewport_matrix", 16, fill_viewport_matrix, " czmviewporttransformation "},
+    {"inverse_projection_lh", 16, NULL, fill_inverse_lh, ""},
+    {"log2_far_from_near", 1, "l", NULL, " czmlog2fardepthfromnearplusone "},
+    {"far_from_near", 1, "p", NULL, " czmfardepthfromnearplusone "},
+    {"one_over_log2_far_from_near", 1, "r", NULL, " czmoneoverlog2fardepthfromnearplusone "},
+    {"viewport", 4, "0011", NULL, " czmviewport "},
+    {"viewport_matrix", 16, "h00h0h0h00hh0001", NULL, " czmviewporttransformation "},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -259,10 +230,12 @@ static bool express(maker *m, piece name, const char *word, bool guessed, piece 
     if (w->used + floats > WRITTEN_CONSTANTS)
         return fail(m, "has more than %d numbers of a camera", WRITTEN_CONSTANTS);
     w->camera = w->camera || row != NULL;
-    if (row != NULL)
+    if (row != NULL && row->fill != NULL)
         row->fill(m->setup, v);
-    else
+    else if (row == NULL)
         number_of_text(word, &v[0]);
+    for (unsigned i = 0; row != NULL && row->numbers != NULL && i < floats; i++)
+        v[i] = number(m->setup, row->numbers[i]);
     snprintf(text, sizeof text, "%.*s", (int)type.length, type.at);
     if (floats > 1)
         snprintf(text, sizeof text, "%s", types[m->s.hlsl][floats == 2 ? 0 : floats == 4 ? 1 : 2]);
@@ -366,7 +339,7 @@ static bool make_variables(maker *m) {
         const item *i = &s->items[k];
         const char *at = i->from;
         int open = 0;
-        for (piece word; i->kept && listing_word(&at, i->to, &word, &open);) {
+        for (piece word; i->kept && i->kind != ITEM_STRUCTURE && listing_word(&at, i->to, &word, &open);) {
             char value[VALUE_SIZE];
             bool guessed;
             if (word.length >= NAME_SIZE || *listing_before(i->from, word.at) == '.' || listing_in_condition(s, word))
