@@ -96,8 +96,8 @@ static void fill_inverse_lh(const dp_setup *s, double out[FLOATS_MOST]) {
     projection(s, 1, true, out);
 }
 
-/* By a word; and the names by which it is guessed, without underscores and in small letters. A row without names is what
- * the one above it is in HLSL, where cameras look along +z. */
+/* By a word; and the names by which it is guessed, without underscores and in small letters. A row without names is
+ * what the one above it is in HLSL, where cameras look along +z. */
 typedef struct value_row {
     const char *word;
     unsigned floats;
