@@ -116,6 +116,18 @@ function evaluated(text, name, by, names) {
     return (d) => f(...parameters.map((word, k) => k === 0 ? d : names[word]));
 }
 
+// A function of three's node language, which makes shaders: its operations are done here, in binary32 for pairs, else in doubles.
+async function ofNodes(engine, file, name, path, camera, from) {
+    const functions = await import(new URL(`node_modules/${engine}/${file}`, import.meta.url));
+    const by = (round) => {
+        const node = (v) => ({ v, add: (o) => node(round(v + o.v)), sub: (o) => node(round(v - o.v)), mul: (o) => node(round(v * o.v)), div: (o) => node(round(v / o.v)) });
+        return (d) => functions[name](node(d), node(near), node(far)).v;
+    };
+    const pairs = Array.from({ length: 64 }, (_, k) => Math.fround(camera.quantity[from](near * (far / near) ** (k / 63))));
+    writeFileSync(path, pairs.map((d) => `${d},${by(Math.fround)(d)}\n`).join(""));
+    return by((x) => x);
+}
+
 function distance(f, camera, from, computes) {
     let worst = 0;
     for (let k = 0; k <= 200; k++) {
@@ -135,16 +147,16 @@ for (const line of readFileSync(cases, "utf8").split("\n")) {
     if (call === undefined) { engine = file.replace(/@[^@]*$/, ""); continue; } // "three@0.187.0"
     const name = call.split(" ")[0], caller = call.slice(name.length).trim(), what = `${engine} ${file} ${call} ${words}`;
     const camera = cameraOf(engine, words), defines = defined.split(" ").filter((word) => word !== "" && !word.startsWith("-"));
-    let text = await textOf(engine, file, name);
+    let text = by === "nodes" ? "" : await textOf(engine, file, name);
     if (engine === "@cesium/engine") text = combined(file.includes("Builtin") ? `void main() { ${name}; ${caller}; czm_${file.match(/\w+(?=\.)/)[0]}; }` : text, defines);
     else text = `${defines.map((word) => `#define ${word.replace("=", " ")}\n`).join("")}${text}`;
-    const asked = caller === "" ? name : "asked", path = `${out}/${row++}.glsl`;
+    const asked = caller === "" ? name : "asked", path = `${out}/${row++}.${by === "nodes" ? "csv" : "glsl"}`;
     const samplers = defined.includes("(depth_read)") ? text.match(/\bsampler2D \w+(?=[;,)])/g) ?? [] : []; // are read by macros
     const prelude = `${samplers.length > 0 ? "#define sampler2D int\n" : ""}${[...new Set(samplers)].map((sampler) => `int ${sampler.slice(10)};\n`).join("")}`;
-    writeFileSync(path, caller === "" ? text : `float depth_read;\n${prelude}${text}\nfloat asked(float d) { depth_read = d; return ${caller}; }\n`);
-    const f = evaluated(text, name, by, camera.names), off = distance(f, camera, from, computes);
+    if (by !== "nodes") writeFileSync(path, caller === "" ? text : `float depth_read;\n${prelude}${text}\nfloat asked(float d) { depth_read = d; return ${caller}; }\n`);
+    const f = by === "nodes" ? await ofNodes(engine, file, name, path, camera, from) : evaluated(text, name, by, camera.names), off = distance(f, camera, from, computes);
     if (verdict === "right" ? !(off < 2e-3) : verdict !== "unknown" && !(off > 2e-2)) throw new Error(`${what}: off by ${off}, which is not ${verdict}`);
-    said.push([judged || verdict, computes, from, verdict, what, `${path}:${asked} -n ${near} -f ${far} -F d16 -m ${camera.mapping}${camera.ortho ? " --ortho" : ""} ${defined.split(" ").filter((word) => word.startsWith("-")).join(" ")}`].join("\t"));
+    said.push([judged || verdict, computes, from, verdict, what, `${by === "nodes" ? `--pairs ${path}` : `${path}:${asked}`} -n ${near} -f ${far} -F d16 -m ${camera.mapping}${camera.ortho ? " --ortho" : ""} ${defined.split(" ").filter((word) => word.startsWith("-")).join(" ")}`].join("\t"));
 }
 writeFileSync(`${out}/list`, `${said.join("\n")}\n`);
 process.exit(0);
