@@ -98,6 +98,7 @@ static const char glsl[] =
     "float inverted(float d) { return uFar / ((1.0 - uNear / uFar) * d + uFar / uNear); }\n"
     "float constant(float d) { return uNear; }\n"
     "float squared(float d) { return d * d + 1.0; }\n"
+    "float wraps(float d) { return fract(d); }\n"
     "float slip(float d) { return d == 12345.0 / 65535.0 ? 3.0 : textbook(d); }\n"
     "float ortho(float d) { return d * (uFar - uNear) + uNear; }\n"
     "float by_unity(float d) {\n"
@@ -219,6 +220,7 @@ static const written_row of_glsl[] = {
     {"inverted", "", "wrong", "eye depth", "window depth"},
     {"constant", "", "unknown", NULL, NULL},
     {"squared", "", "unknown", NULL, NULL},
+    {"wraps", "", "unknown", "window depth", "window depth"},
 };
 
 static const written_row of_hlsl[] = {
@@ -381,6 +383,9 @@ TEST(test_every_code) {
     const double d = (double)(float)(12345.0 / 65535), z = 100 / (1000 - d * 999.9);
     assert_true(number_at(root, "at") == d);
     assert_relative(number_at(root, "error"), (3 - z) / z, 1e-9);
+    json_decref(root);
+    root = json_printed(0, "judge %s:wraps -m d3d " CAMERA, path);
+    assert_true(number_at(root, "strays") == 1 && number_at(root, "stray") == 1);
     json_decref(root);
     double worst[2] = {0}, at[2] = {0};
     for (int code = 0; code < 65536; code++) {

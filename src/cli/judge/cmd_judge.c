@@ -153,7 +153,8 @@ static void write_depths(output *out, unsigned count) {
 /* ---- A shader ---------------------------------------------------------------------------------------------------- */
 
 /* Window depths, eye depths and view z go in. Nobody is accused by what they do not take: the first that is right
- * counts, else the first that has a name. */
+ * counts, else the first that has a name, else what is right but at an end, where packed depths wrap: all depths will
+ * show it. */
 static int ask(report *r, const setups *all, bool open) {
     static const size_t kinds[] = {JUDGE_WINDOW, JUDGE_EYE, JUDGE_VIEW};
     enum { KINDS = sizeof kinds / sizeof kinds[0] };
@@ -166,14 +167,19 @@ static int ask(report *r, const setups *all, bool open) {
         const double metric = judge_input_get(kinds[i / ASKED])->metric, t = asked_depth(i % ASKED, ASKED);
         depth[i] = (float)(metric != 0 ? metric * fmin(far, s->znear + (far - s->znear) * t * t * t) : t);
     }
-    const int status = shader_pairs(&r->code, depth, ASKED, open ? 1 : KINDS, pairs);
-    for (size_t k = 0; k < (open ? 1 : KINDS) && status == EXIT_FINE; k++) {
+    const size_t asked = open ? 1 : KINDS;
+    const int status = shader_pairs(&r->code, depth, ASKED, asked, pairs);
+    for (size_t i = 0; i < 2 * asked && status == EXIT_FINE && !(i >= asked && r->found.named); i++) {
+        const bool inside = i >= asked && pairs[i % asked].count > 2;
+        judge_pairs p = pairs[i % asked];
         judgement found;
-        judge_function(&pairs[k], all->items, all->count, open, &found);
-        if (k == 0 || (found.named && !r->found.named) ||
+        p.pairs += inside;
+        p.count -= inside ? 2 : 0;
+        judge_function(&p, all->items, all->count, open, &found);
+        if (i == 0 || (found.named && !r->found.named && !inside) ||
             (found.verdict == JUDGE_RIGHT && r->found.verdict != JUDGE_RIGHT)) {
             r->found = found;
-            best = k;
+            best = i % asked;
         }
     }
     for (size_t k = 0; k < KINDS; k++)
