@@ -19,6 +19,10 @@ bool piece_is(piece p, const char *text) {
     return p.length == strlen(text) && memcmp(p.at, text, p.length) == 0;
 }
 
+bool piece_same(piece a, piece b) {
+    return a.length == b.length && memcmp(a.at, b.at, a.length) == 0;
+}
+
 bool piece_is_any(piece p, const char *const list[]) {
     for (; *list != NULL; list++)
         if (piece_is(p, *list))
@@ -227,9 +231,9 @@ bool listing_item_declares(const item *i, piece name, bool inside) {
     const char *at = i->from;
     int open = 0;
     if (i->kind == ITEM_FUNCTION && !inside)
-        return i->name.length == name.length && memcmp(i->name.at, name.at, name.length) == 0;
+        return piece_same(i->name, name);
     for (piece word; listing_word(&at, i->to, &word, &open);) {
-        if (word.length != name.length || memcmp(word.at, name.at, name.length) != 0)
+        if (!piece_same(word, name))
             continue;
         const piece prior = listing_word_before(i->from, word.at);
         const char last = *listing_before(i->from, word.at);
@@ -259,7 +263,7 @@ piece listing_type(const listing *s, piece name, bool member) {
         int open = 0;
         if (i->kind == ITEM_NONE || (member && i->kind == ITEM_STRUCTURE))
             for (piece word; listing_word(&at, i->to, &word, &open);)
-                if (word.length == name.length && memcmp(word.at, name.at, name.length) == 0)
+                if (piece_same(word, name))
                     return listing_word_before(i->from, word.at);
     }
     return (piece){"", 0};
@@ -324,8 +328,7 @@ const item *listing_release(listing *s, piece name) {
         char *text = s->text;
         if (i->kind != ITEM_NONE)
             continue;
-        while (listing_word(&at, i->to, &word, &open) &&
-               !(open == 0 && word.length == name.length && memcmp(word.at, name.at, name.length) == 0)) {
+        while (listing_word(&at, i->to, &word, &open) && !(open == 0 && piece_same(word, name))) {
             if (piece_is(word, "uniform") || piece_is(word, "ConstantBuffer"))
                 outer = word;
             else if (open == 0)

@@ -12,6 +12,7 @@ typedef struct piece {
 } piece;
 
 bool piece_is(piece p, const char *text);
+bool piece_same(piece a, piece b);
 /** One of a list that ends with null. */
 bool piece_is_any(piece p, const char *const list[]);
 

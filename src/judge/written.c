@@ -321,8 +321,7 @@ static bool make_structure(maker *m, piece name, const item *structure) {
         if (!i->kept || listing_item_declares(i, name, true) || listing_item_declares(i, name, false))
             continue;
         for (piece word, member; listing_word(&at, i->to, &word, &open);) {
-            if (word.length != name.length || memcmp(word.at, name.at, name.length) != 0 ||
-                *listing_before(i->from, word.at) == '.')
+            if (!piece_same(word, name) || *listing_before(i->from, word.at) == '.')
                 continue;
             const bool part = listing_after(at, i->to) == '.' && listing_word(&at, i->to, &member, &open);
             if (part ? !make_member(m, name, member) : !make_members(m, name, structure))
