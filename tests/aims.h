@@ -10,6 +10,7 @@ typedef enum aim_id {
     AIM_TABLE,
     AIM_TABLE_SLANTED,
     AIM_MAP,
+    AIM_JUDGE,
     AIM_CERTIFIED,
     AIM_PIPELINE_CODE,
     AIM_CENSUS,

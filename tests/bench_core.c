@@ -313,28 +313,46 @@ static void bench_table(char *program, char *empty, char *viewport) {
           viewport == NULL ? AIM_TABLE : AIM_TABLE_SLANTED, "");
 }
 
-static void bench_map(char *program) {
-    enum { RUNS = 5 };
-    char folder[] = "/tmp/depthprec-bench-XXXXXX";
+/* In a folder of its own the program runs with a file that it reads, or writes. */
+static void bench_file(char *program, const char *what, aim_id aim, const char *text, char *const words[]) {
+    enum { RUNS = 5, WORDS = 16 };
+    char folder[] = "/tmp/depthprec-bench-XXXXXX", file[64], operand[80];
+    char *command[WORDS] = {program};
     if (mkdtemp(folder) == NULL)
         return;
-    char file[64];
-    snprintf(file, sizeof file, "%s/map.png", folder);
-    /* 400 x 300 set-ups, of the kind that costs most */
-    char *const map[] = {program, "plot", "map", "-F", "fp32", "-m", "reversed", "-o", file, NULL};
+    snprintf(file, sizeof file, "%s/%s", folder, text != NULL ? "depth.glsl" : "map.png");
+    snprintf(operand, sizeof operand, "%s%s", file, text != NULL ? ":depth" : "");
+    for (int i = 0; words[i] != NULL; i++)
+        command[i + 1] = strcmp(words[i], "FILE") == 0 ? operand : words[i];
+    FILE *out = text != NULL ? fopen(file, "w") : NULL;
+    if (out != NULL && (fputs(text, out) < 0 || fclose(out) != 0))
+        return;
     timing t = {0};
-    double seconds = run(map);
+    double seconds = run(command);
     for (int i = 0; i < RUNS && !isnan(seconds); i++) {
-        seconds = run(map);
+        seconds = run(command);
         timing_add(&t, seconds);
     }
     unlink(file);
     rmdir(folder);
     if (isnan(seconds))
-        printf("whole process, the figure map: not measured: %s has no such figure\n", program);
+        printf("whole process, %s: not measured: it fails\n", what);
     else
         seconds = timing_least(&t);
-    aimed("whole process, the figure map, 400 x 300 set-ups", seconds, "s", timing_spread(&t), AIM_MAP, "");
+    char label[80];
+    snprintf(label, sizeof label, "whole process, %s", what);
+    aimed(label, seconds, "s", timing_spread(&t), aim, "");
+}
+
+static void bench_files(char *program) {
+    /* 400 x 300 set-ups, of the kind that costs most */
+    static char *const map[] = {"plot", "map", "-F", "fp32", "-m", "reversed", "-o", "FILE", NULL};
+    static char *const judge[] = {"judge", "FILE", "-F", "d24", "-m", "d3d", "-n", "0.1", "-f", "1000", NULL};
+    bench_file(program, "the figure map, 400 x 300 set-ups", AIM_MAP, NULL, map);
+    bench_file(program, "a shader judged by 2^24 codes", AIM_JUDGE,
+               "uniform float near, far;\n"
+               "float depth(float d) { return near * far / (far - d * (far - near)); }\n",
+               judge);
 }
 
 int main(int argc, char **argv) {
@@ -350,7 +368,7 @@ int main(int argc, char **argv) {
     printf("%-48s %9s %-8s %6s   %s\n", "least of runs in turn", "", "", "spread", "aim");
     bench_table(program, empty, NULL);
     bench_table(program, empty, (char[]){"--viewport=1920x1080"});
-    bench_map(program);
+    bench_files(program);
     bench_worst();
     bench_depth();
     bench_pipeline_code();

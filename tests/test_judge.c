@@ -60,6 +60,12 @@ static float stored(float z, float n, float f) {
 static float stored_reversed(float z, float n, float f) {
     return n / (f - n) * (f / z - 1.0f);
 }
+static float stored_view(float z, float n, float f) {
+    return (n + z) * f / ((f - n) * z);
+}
+static float stored_view_reversed(float z, float n, float f) {
+    return n * (z + f) / (z * (n - f));
+}
 static float unchanged(float d, float n, float f) {
     (void)n;
     (void)f;
@@ -87,10 +93,12 @@ static const written functions[] = {
     {"eye depth", "window depth", true, true, reversed_endless},
     {"window depth", "eye depth", false, false, stored},
     {"window depth", "eye depth", true, false, stored_reversed},
+    {"window depth", "minus eye depth", false, false, stored_view},
+    {"window depth", "minus eye depth", true, false, stored_view_reversed},
     {"window depth", "window depth", false, false, unchanged},
     {"1 minus window depth", "window depth", false, false, inverted},
 };
-enum { FUNCTIONS = sizeof functions / sizeof functions[0], ENDLESS = 12, NO_PLANES = 15 };
+enum { FUNCTIONS = sizeof functions / sizeof functions[0], ENDLESS = 12, NO_PLANES = 17 };
 
 static judge_pair pair_room[PAIRS];
 
@@ -111,8 +119,9 @@ static judge_pairs asked(rng *r, const written *w, double n, double f) {
     for (int i = 0; i < PAIRS; i++) {
         const double t = (i + rng_unit(r)) / PAIRS, z = n * pow(last / n, t);
         const double d = isinf(f) ? n / z : (w->reversed ? n * (f - z) : f * (z - n)) / (z * (f - n));
-        const double x = strcmp(w->from, "eye depth") == 0 ? z : strcmp(w->from, "NDC depth") == 0 ? 2 * d - 1 : d;
-        const int at = w->reversed && strcmp(w->from, "eye depth") != 0 ? PAIRS - 1 - i : i;
+        const bool eye = strcmp(w->from, "eye depth") == 0, behind = strcmp(w->from, "minus eye depth") == 0;
+        const double x = eye ? z : behind ? -z : strcmp(w->from, "NDC depth") == 0 ? 2 * d - 1 : d;
+        const int at = behind || (w->reversed && !eye) ? PAIRS - 1 - i : i;
         p.pairs[at] = (judge_pair){(double)(float)x, (double)w->of((float)x, (float)n, (float)f)};
     }
     return p;
@@ -156,7 +165,7 @@ TEST(test_right) {
         judge_function(&p, &setup, 1, false, &j);
         TALLY(&other, j.verdict == JUDGE_OTHER || j.verdict == JUDGE_UNKNOWN, "%s from %s, near %g, far %g: %s",
               w->computes, w->from, n, f, judge_verdict_name(j.verdict));
-        if (strcmp(w->computes, "eye depth") != 0)
+        if (strcmp(w->computes, "eye depth") != 0 && strcmp(w->from, "minus eye depth") != 0)
             continue;
         judge_function(&p, &setup, 1, true, &j);
         TALLY(&found,

@@ -18,6 +18,56 @@ static const char glsl[] =
     "uniform sampler2D tDepth;\n"
     "in vec2 vUv; out vec4 color;\n"
     "#include <packing>\n"
+    "#line 100\n"
+    "#ifdef OF_NOTHING\n"
+    "in vec3 vPlace;\n"
+    "#endif\n"
+    "#ifdef OF_TWO\n"
+    "float cut(float d, float e) {\n"
+    "#else\n"
+    "float cut(float d) {\n"
+    "#endif\n"
+    "    return d;\n"
+    "}\n"
+    "layout(std140) uniform View { float near; highp float far; vec4 tint; } view;\n"
+    "struct Planes { float zNear, zFar; };\n"
+    "uniform Planes planes;\n"
+    "uniform vec4 camera_params, czm_viewport; uniform vec2 czm_currentFrustum;\n"
+    "uniform mat4 czm_inverseProjection, czm_viewportTransformation;\n"
+    "float of_instance(float d) { return view.near * view.far / (view.far - d * (view.far - view.near)); }\n"
+    "float of_planes(float d, Planes p) { return p.zNear * p.zFar / (p.zFar - d * (p.zFar - p.zNear)); }\n"
+    "float of_member_alone(float d) { return planes.zNear / d; }\n"
+    "float of_whole(float d) { return of_planes(d, planes); }\n"
+    "float tinted(float d) { return d * view.tint.x; }\n"
+    "float viewZToPerspectiveDepth( const in float viewZ, const in float near, const in float far ) {\n"
+    "    return ( ( near + viewZ ) * far ) / ( ( far - near ) * viewZ );\n"
+    "}\n"
+    "float viewZToReversedDepth(float viewZ, float near, float far) {\n"
+    "    return near * (viewZ + far) / (viewZ * (near - far));\n"
+    "}\n"
+    "float viewZToOrthographicDepth( const in float viewZ, const in float near, const in float far ) {\n"
+    "    return ( viewZ + near ) / ( near - far );\n"
+    "}\n"
+    "float of_params(float d) {\n"
+    "    vec4 c = camera_params;\n"
+    "    return (c.w == 0.0 ? c.z * c.y / (c.y + d * (c.z - c.y)) : c.z + d * (c.y - c.z)) * (c.x * c.y);\n"
+    "}\n"
+    "float reverse_log(float log_z) {\n"
+    "    float near = czm_currentFrustum.x, far = czm_currentFrustum.y;\n"
+    "    float from_near = exp2(log_z * czm_log2FarDepthFromNearPlusOne) - 1.0;\n"
+    "    return far * (1.0 - near / (from_near + near)) / (far - near);\n"
+    "}\n"
+    "float write_log(float z) {\n"
+    "    return log2(z - czm_currentFrustum.x + 1.0) * czm_oneOverLog2FarDepthFromNearPlusOne;\n"
+    "}\n"
+    "float divided_log(float z) {\n"
+    "    return log2(z - czm_currentFrustum.x + 1.0) / log2(czm_farDepthFromNearPlusOne);\n"
+    "}\n"
+    "float from_screen(float d) {\n"
+    "    float ndc = (d - czm_viewportTransformation[3][2]) / czm_viewportTransformation[2][2];\n"
+    "    vec4 p = czm_inverseProjection * vec4(0.0, 0.0, ndc, 1.0);\n"
+    "    return p.z / p.w * czm_viewport.z;\n"
+    "}\n"
     "#define NDC(d) ((d) * TWO - 1.0)\n"
     "const float TWO = 2.0;\n"
     "float textbook(float d) { return uNear * uFar / (uFar - d * (uFar - uNear)); }\n"
@@ -48,6 +98,7 @@ static const char glsl[] =
     "float inverted(float d) { return uFar / ((1.0 - uNear / uFar) * d + uFar / uNear); }\n"
     "float constant(float d) { return uNear; }\n"
     "float squared(float d) { return d * d + 1.0; }\n"
+    "float wraps(float d) { return fract(d); }\n"
     "float slip(float d) { return d == 12345.0 / 65535.0 ? 3.0 : textbook(d); }\n"
     "float ortho(float d) { return d * (uFar - uNear) + uNear; }\n"
     "float by_unity(float d) {\n"
@@ -89,6 +140,9 @@ static const char hlsl[] =
     "cbuffer View : register(b0) { float4 InvDeviceZToWorldZTransform; float4x4 UNITY_MATRIX_P; };\n"
     "Texture2D _Depth : register(t0);\n"
     "static const float one = 1.0;\n"
+    "struct Planes { float Near; float Far; };\n"
+    "ConstantBuffer<Planes> planes : register(b1);\n"
+    "float OfBuffer(float d) { return planes.Near * planes.Far / (planes.Far - d * (planes.Far - planes.Near)); }\n"
     "inline float LinearEyeDepth(float z) { return one / (_ZBufferParams.z * z + _ZBufferParams.w); }\n"
     "float ConvertFromDeviceZ(float DeviceZ) {\n"
     "    return DeviceZ * InvDeviceZToWorldZTransform[0] + InvDeviceZToWorldZTransform[1] +\n"
@@ -128,6 +182,27 @@ static const written_row of_glsl[] = {
     {"by_matrix", "-m reversed -f inf", "right", "eye depth", "window depth"},
     {"stored", "", "right", "window depth", "eye depth"},
     {"ortho", "--ortho", "right", "eye depth", "window depth"},
+    /* Structures and named blocks, read in part and handed on as a whole. */
+    {"of_instance", "", "right", "eye depth", "window depth"},
+    {"of_planes", "", "right", "eye depth", "window depth"},
+    {"of_member_alone", "-m reversed -f inf", "right", "eye depth", "window depth"},
+    {"of_member_alone", "-m reversed -f inf --define planes.zNear=2", "another set-up", "eye depth", "window depth"},
+    {"of_whole", "", "right", "eye depth", "window depth"},
+    {"tinted", "--define view.tint=1", "right", "window depth", "window depth"},
+    /* As PlayCanvas and CesiumJS have them; CesiumJS draws log2(1 + z - n)/log2(1 + f - n). */
+    {"of_params", "", "right", "eye depth", "window depth"},
+    {"of_params", "--ortho", "right", "eye depth", "window depth"},
+    {"reverse_log", "-m cesium", "right", "window depth without the logarithm", "window depth"},
+    {"reverse_log", "-m gl", "another set-up", "window depth without the logarithm", "window depth"},
+    {"write_log", "-m cesium", "right", "window depth", "eye depth"},
+    {"divided_log", "-m cesium", "right", "window depth", "eye depth"},
+    {"from_screen", "-m gl", "right", "minus eye depth", "window depth"},
+    /* View z, which is negative, goes in. Of window depths the last would be -z for other planes. */
+    {"viewZToPerspectiveDepth", "-m gl", "right", "window depth", "minus eye depth"},
+    {"viewZToPerspectiveDepth", "-m reversed", "another set-up", "window depth", "minus eye depth"},
+    {"viewZToReversedDepth", "-m reversed", "right", "window depth", "minus eye depth"},
+    {"viewZToOrthographicDepth", "-m gl", "right", "the way from near to far", "minus eye depth"},
+    {"viewZToOrthographicDepth", "-m gl --ortho", "right", "the way from near to far", "minus eye depth"},
     /* What is right where its macro is defined as its engine defines it is not accused where nobody does. */
     {"by_unity", "", "right", "eye depth", "window depth"},
     {"by_unity", "-m reversed", "right", "eye depth", "window depth"},
@@ -145,12 +220,14 @@ static const written_row of_glsl[] = {
     {"inverted", "", "wrong", "eye depth", "window depth"},
     {"constant", "", "unknown", NULL, NULL},
     {"squared", "", "unknown", NULL, NULL},
+    {"wraps", "", "unknown", "window depth", "window depth"},
 };
 
 static const written_row of_hlsl[] = {
     {"LinearEyeDepth", "-m reversed", "right", "eye depth", "window depth"},
     {"ConvertFromDeviceZ", "-m reversed -f inf", "right", "eye depth", "window depth"},
     {"ConvertFromDeviceZ", "-m reversed --ortho", "right", "eye depth", "window depth"},
+    {"OfBuffer", "", "right", "eye depth", "window depth"},
     {"OfMatrix", "", "right", "eye depth", "window depth"}, /* d = (P22 z + P23)/z: the camera looks along +z */
 };
 
@@ -237,14 +314,15 @@ TEST(test_refused) {
     snprintf(line, sizeof line, ":%u: 'mystery' : undeclared identifier (--define", at);
     check_says(2, line, "judge %s:unknown", path);
     check_says(0, "", "judge %s:unknown --define mystery=2 -F d16", path);
-    check_says(2, ":12: 'mystery' : unknown variable", "judge %s:Unknown", scratch_text("depth.hlsl", "%s", hlsl));
+    check_says(2, ":15: 'mystery' : unknown variable", "judge %s:Unknown", scratch_text("depth.hlsl", "%s", hlsl));
     const struct {
         const char *words, *said;
     } rows[] = {
         {":sampled", "sampled takes vec2 uv, which nothing is known of: --define uv="},
         {":coloured", "coloured gives vec3: what is judged gives one float"},
         {":fog", "takes float scale"},
-        {":absent", "absent is no function of the file, which has textbook, of_block, by_ndc,"},
+        {":tinted", "reads view.tint, which nothing is known of: --define view.tint=near"},
+        {":absent", "absent is no function of the file, which has cut, of_instance, of_planes,"},
         {":vUv", "vUv is no function of the file"},
         {":textbook --define uMid=near", "knows nothing by the name of --define uMid=near"},
         {":textbook --define uFar=further", "--define: must be NAME=near"},
@@ -305,6 +383,9 @@ TEST(test_every_code) {
     const double d = (double)(float)(12345.0 / 65535), z = 100 / (1000 - d * 999.9);
     assert_true(number_at(root, "at") == d);
     assert_relative(number_at(root, "error"), (3 - z) / z, 1e-9);
+    json_decref(root);
+    root = json_printed(0, "judge %s:wraps -m d3d " CAMERA, path);
+    assert_true(number_at(root, "strays") == 1 && number_at(root, "stray") == 1);
     json_decref(root);
     double worst[2] = {0}, at[2] = {0};
     for (int code = 0; code < 65536; code++) {

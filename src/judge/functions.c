@@ -38,11 +38,17 @@ static double eye_of_eye(const dp_setup *s, double x) {
     return x;
 }
 
+static double eye_of_view(const dp_setup *s, double x) {
+    (void)s;
+    return -x;
+}
+
 static const judge_input inputs[] = {
-    {"window depth", eye_of_window, itself},
-    {"NDC depth", eye_of_ndc, of_ndc},
-    {"codes", eye_of_code, NULL},
-    {"eye depth", eye_of_eye, NULL},
+    [JUDGE_WINDOW] = {"window depth", eye_of_window, itself, 0},
+    [JUDGE_NDC] = {"NDC depth", eye_of_ndc, of_ndc, 0},
+    [JUDGE_CODES] = {"codes", eye_of_code, NULL, 0},
+    [JUDGE_EYE] = {"eye depth", eye_of_eye, NULL, 1},
+    [JUDGE_VIEW] = {"minus eye depth", eye_of_view, NULL, -1},
 };
 
 const judge_input *judge_input_get(size_t index) {
@@ -95,6 +101,12 @@ static double ndc(const dp_setup *s, double z) {
     return dp_mapping_get(s->spec.mapping)->ndc_signed ? 2 * window(s, z) - 1 : (double)NAN;
 }
 
+/* What the matrix of a logarithmic depth gives. */
+static double of_matrix(const dp_setup *s, double z) {
+    const double n = s->spec.znear, f = s->spec.zfar;
+    return s->curve != DP_CURVE_LOG ? (double)NAN : isinf(f) ? 1 - n / z : f * (z - n) / ((f - n) * z);
+}
+
 static double eye_line(double v, double share, bool ortho) {
     (void)share;
     return ortho ? v : 1 / v;
@@ -130,6 +142,8 @@ static const judge_output outputs[] = {
      .called = "gl_FragCoord.z, SV_Position.z, viewZToPerspectiveDepth of three.js", .of = window, .window = itself},
     {.name = "1 minus window depth", .formula = "1 - d", .called = "depth of the other direction", .of = complement,
      .of_windows = true},
+    {.name = "window depth without the logarithm", .formula = "far (z - near)/((far - near) z)",
+     .called = "czm_reverseLogDepth of CesiumJS", .of = of_matrix},
     {.name = "NDC depth", .formula = "2 d - 1", .called = "clip z over clip w", .of = ndc, .window = of_ndc},
 };
 /* clang-format on */

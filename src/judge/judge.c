@@ -41,7 +41,8 @@ static bool goes_in(const judge_candidate *c, double x) {
         return d >= -spare && d <= 1 + spare;
     if (c->input->window != NULL) /* depths before the near plane have window depths, too */
         return c->input->eye(&c->setup, x) >= s->znear - spare * fabs(s->znear);
-    return x >= s->znear - spare * fabs(s->znear) && x <= s->zfar + spare * fabs(s->zfar);
+    const double z = c->input->metric * x;
+    return z >= s->znear - spare * fabs(s->znear) && z <= s->zfar + spare * fabs(s->zfar);
 }
 
 /* All that a value may be where x went in. What is computed here is not exact either, where a logarithm or an NDC depth
@@ -93,7 +94,7 @@ static double probe(const judge_candidate *c, int i) {
     if (c->input == judge_input_get(JUDGE_CODES))
         return floor(t * s->format.code_max);
     const double far = fmin(s->zfar, 1e6 * fabs(s->znear));
-    return s->znear + (far - s->znear) * t * t * t;
+    return c->input->metric * (s->znear + (far - s->znear) * t * t * t);
 }
 
 /* What to put in so that two candidates part; NaN where they never do. */

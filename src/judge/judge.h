@@ -19,7 +19,8 @@ typedef struct judge_input {
     const char *name;
     /** The eye depth that it stands for, INFINITY beyond the far end of 1/z; NaN for what is none. */
     double (*eye)(const dp_setup *setup, double x);
-    double (*window)(double x); /**< the window depth that it is; null: an eye depth */
+    double (*window)(double x); /**< the window depth that it is; null: none */
+    double metric;              /**< 1 of an eye depth, -1 of a view z that is negative; else 0 */
 } judge_input;
 
 /** What planes can be told from a value: see line. */
@@ -40,7 +41,7 @@ typedef struct judge_output {
 } judge_output;
 
 /** Null beyond the last. */
-enum { JUDGE_WINDOW, JUDGE_NDC, JUDGE_CODES, JUDGE_EYE };
+enum { JUDGE_WINDOW, JUDGE_NDC, JUDGE_CODES, JUDGE_EYE, JUDGE_VIEW };
 const judge_input *judge_input_get(size_t index);
 const judge_output *judge_output_get(size_t index);
 

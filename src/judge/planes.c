@@ -28,7 +28,7 @@ static void gather(const judge_pairs *p, const dp_setup *setup, const judge_inpu
     for (size_t i = 0; i < p->count && out->count < POINTS; i += step) {
         const judge_pair *pair = &p->pairs[i];
         const double share = input->window != NULL ? standard(setup, input->window(pair->in)) : 0;
-        const double u = input->window != NULL ? share : ortho ? pair->in : 1 / pair->in;
+        const double z = input->metric * pair->in, u = input->window != NULL ? share : ortho ? z : 1 / z;
         const double y =
             input->window != NULL ? output->line(pair->out, share, ortho) : standard(setup, output->window(pair->out));
         if (!isfinite(u) || !isfinite(y))
@@ -70,7 +70,7 @@ bool judge_planes_of(const judge_pairs *pairs, const dp_setup *setup, const judg
     static _Thread_local points p;
     const bool ortho = setup->spec.ortho, ratio = output->planes == JUDGE_PLANES_RATIO;
     const bool decodes = input->window != NULL && output->planes != JUDGE_PLANES_NONE;
-    const bool encodes = input == judge_input_get(JUDGE_EYE) && output->window != NULL;
+    const bool encodes = input->metric != 0 && output->window != NULL;
     double c0, c1;
     if (setup->curve == DP_CURVE_LOG || (!ortho && setup->curve != DP_CURVE_PERSPECTIVE) || !(decodes || encodes))
         return false;

@@ -9,7 +9,9 @@
 #include <string.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 #include "depthprec/depth.h"
+#include "judge/listing.h"
 #include "shader/constants.h"
 
 enum { NAME_SIZE = 64, VALUE_SIZE = 512, FLOATS_MOST = 16, BODY_SIZE = 2048 };
@@ -18,17 +20,29 @@ enum { NAME_SIZE = 64, VALUE_SIZE = 512, FLOATS_MOST = 16, BODY_SIZE = 2048 };
 
 typedef double matrix[4][4]; /* by rows, for column vectors */
 
-static void fill_near(const dp_setup *s, double out[FLOATS_MOST]) {
-    out[0] = s->spec.znear;
-}
-
-static void fill_far(const dp_setup *s, double out[FLOATS_MOST]) {
-    out[0] = s->spec.zfar;
-}
-
-static void fill_near_far(const dp_setup *s, double out[FLOATS_MOST]) {
-    out[0] = s->spec.znear;
-    out[1] = s->spec.zfar;
+/* Near, far, its inverse, orthographic; what CesiumJS has of logarithms (UniformState.js); a half; a digit. */
+static double number(const dp_setup *s, char what) {
+    const double n = s->spec.znear, f = s->spec.zfar;
+    switch (what) {
+    case 'n':
+        return n;
+    case 'f':
+        return f;
+    case 'i':
+        return 1 / f;
+    case 'o':
+        return s->spec.ortho;
+    case 'p':
+        return f - n + 1;
+    case 'l':
+        return dp_log2(f - n + 1);
+    case 'r':
+        return 1 / dp_log2(f - n + 1);
+    case 'h':
+        return 0.5;
+    default:
+        return what - '0';
+    }
 }
 
 static void fill_zbuffer(const dp_setup *s, double out[FLOATS_MOST]) {
@@ -36,11 +50,6 @@ static void fill_zbuffer(const dp_setup *s, double out[FLOATS_MOST]) {
     const float all[4] = {p.x, p.y, p.z, p.w};
     for (int i = 0; i < 4; i++)
         out[i] = (double)all[i];
-}
-
-static void fill_projection_params(const dp_setup *s, double out[FLOATS_MOST]) {
-    const double all[4] = {1, s->spec.znear, s->spec.zfar, 1 / s->spec.zfar};
-    memcpy(out, all, sizeof all);
 }
 
 /* Unreal's: z = x d + y + 1/(z d - w). */
@@ -87,33 +96,44 @@ static void fill_inverse_lh(const dp_setup *s, double out[FLOATS_MOST]) {
     projection(s, 1, true, out);
 }
 
-/* By a word; and the names by which it is guessed, without underscores and in small letters. Of matrices the row below
- * is for HLSL, where cameras look along +z. */
+/* By a word; and the names by which it is guessed, without underscores and in small letters. A row without names is
+ * what the one above it is in HLSL, where cameras look along +z. */
 typedef struct value_row {
     const char *word;
     unsigned floats;
+    const char *numbers; /* a letter each, see number() */
     void (*fill)(const dp_setup *s, double out[FLOATS_MOST]);
     const char *names;
 } value_row;
 
 static const value_row rows[] = {
-    {"near", 1, fill_near,
+    {"near", 1, "n", NULL,
      " near znear nearz cameranear unear nearplane nearclip nearclipplane ucameranear uznear unearplane nearplanez n "
-     "zn "},
-    {"far", 1, fill_far,
-     " far zfar farz camerafar ufar farplane farclip farclipplane ucamerafar uzfar ufarplane farplanez f zf "},
-    {"near_far", 2, fill_near_far, " nearfar znearfar cameranearfar unearfar cameraplanes clipplanes "},
-    {"z_buffer_params", 4, fill_zbuffer, " zbufferparams zbufferparam "},
-    {"projection_params", 4, fill_projection_params, " projectionparams "},
-    {"inv_device_z", 4, fill_device_z, " invdeviceztoworldztransform viewinvdeviceztoworldztransform "},
-    {"projection", 16, fill_projection,
+     "zn camnear virtualcameranear cameranearclip "},
+    {"far", 1, "f", NULL,
+     " far zfar farz camerafar ufar farplane farclip farclipplane ucamerafar uzfar ufarplane farplanez f zf camfar "
+     "virtualcamerafar camerafarclip "},
+    {"near_far", 2, "nf", NULL,
+     " nearfar znearfar cameranearfar unearfar unearfarplanes nearfarplanes cameraplanes clipplanes "
+     "czmcurrentfrustum "},
+    {"z_buffer_params", 4, NULL, fill_zbuffer, " zbufferparams zbufferparam "},
+    {"projection_params", 4, "1nfi", NULL, " projectionparams "},
+    {"camera_params", 4, "ifno", NULL, " cameraparams "},
+    {"inv_device_z", 4, NULL, fill_device_z, " invdeviceztoworldztransform viewinvdeviceztoworldztransform "},
+    {"projection", 16, NULL, fill_projection,
      " projection projectionmatrix uprojection uprojectionmatrix proj projmatrix projmat cameraprojection "
-     "unitymatrixp glstatematrixprojection "},
-    {"projection_lh", 16, fill_projection_lh, ""},
-    {"inverse_projection", 16, fill_inverse,
+     "cameraprojectionmatrix matrixprojection unitymatrixp glstatematrixprojection czmprojection "},
+    {"projection_lh", 16, NULL, fill_projection_lh, ""},
+    {"inverse_projection", 16, NULL, fill_inverse,
      " inverseprojection inverseprojectionmatrix projectioninverse projectionmatrixinverse invprojection invproj "
-     "invprojectionmatrix cameraprojectionmatrixinverse unitycamerainvprojection "},
-    {"inverse_projection_lh", 16, fill_inverse_lh, ""},
+     "invprojectionmatrix cameraprojectionmatrixinverse camerainverseprojectionmatrix unitycamerainvprojection "
+     "czminverseprojection "},
+    {"inverse_projection_lh", 16, NULL, fill_inverse_lh, ""},
+    {"log2_far_from_near", 1, "l", NULL, " czmlog2fardepthfromnearplusone "},
+    {"far_from_near", 1, "p", NULL, " czmfardepthfromnearplusone "},
+    {"one_over_log2_far_from_near", 1, "r", NULL, " czmoneoverlog2fardepthfromnearplusone "},
+    {"viewport", 4, "0011", NULL, " czmviewport "},
+    {"viewport_matrix", 16, "h00h0h0h00hh0001", NULL, " czmviewporttransformation "},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -137,10 +157,12 @@ bool written_define_known(const char *define) {
            (row_of(value + 1) != NULL || number_of_text(value + 1, &unused));
 }
 
+/* Of "camera.near" by its last word. */
 static const value_row *guess(const char *name, bool hlsl) {
+    const char *member = strrchr(name, '.');
     char key[NAME_SIZE + 2] = " ";
     size_t used = 1;
-    for (const char *c = name; *c != '\0' && used < NAME_SIZE; c++)
+    for (const char *c = member != NULL ? member + 1 : name; *c != '\0' && used < NAME_SIZE; c++)
         if (*c != '_')
             key[used++] = (char)tolower((unsigned char)*c);
     key[used++] = ' ';
@@ -148,233 +170,21 @@ static const value_row *guess(const char *name, bool hlsl) {
     const bool unity = strncmp(key, " unity", 6) == 0 || strncmp(key, " gl", 3) == 0;
     for (size_t i = 0; i < ROWS; i++)
         if (strstr(rows[i].names, key) != NULL)
-            return &rows[i + (rows[i].floats == 16 && hlsl && !unity)];
+            return &rows[i + (i + 1 < ROWS && rows[i + 1].names[0] == '\0' && hlsl && !unity)];
     return NULL;
-}
-
-/* ---- Words of a text --------------------------------------------------------------------------------------------- */
-
-typedef struct piece {
-    const char *at;
-    size_t length;
-} piece;
-
-static bool in_word(char c) {
-    return isalnum((unsigned char)c) || c == '_';
-}
-
-static bool is(piece p, const char *text) {
-    return p.length == strlen(text) && memcmp(p.at, text, p.length) == 0;
-}
-
-static bool is_any(piece p, const char *const list[]) {
-    for (; *list != NULL; list++)
-        if (is(p, *list))
-            return true;
-    return false;
-}
-
-/* The next word from *at on, and how many brackets more are open there; numbers are none. */
-static bool next_word(const char **at, const char *end, piece *out, int *open) {
-    const char *c = *at;
-    for (; c < end; c++) {
-        *open += (*c == '(' || *c == '{' || *c == '[') - (*c == ')' || *c == '}' || *c == ']');
-        if (!in_word(*c))
-            continue;
-        const char *from = c;
-        while (c < end && (in_word(*c) || (isdigit((unsigned char)*from) && *c == '.')))
-            c++;
-        if (isdigit((unsigned char)*from)) {
-            c--;
-            continue;
-        }
-        *out = (piece){from, (size_t)(c - from)};
-        *at = c;
-        return true;
-    }
-    *at = end;
-    return false;
-}
-
-/* What stands before, blanks apart: its last character. */
-static const char *before(const char *from, const char *at) {
-    static const char nothing[] = "";
-    do
-        at--;
-    while (at >= from && isspace((unsigned char)*at));
-    return at >= from ? at : nothing;
-}
-
-static char after(const char *at, const char *end) {
-    while (at < end && isspace((unsigned char)*at))
-        at++;
-    return at < end ? *at : '\0';
-}
-
-static piece word_before(const char *from, const char *at) {
-    const char *last = before(from, at), *first = last;
-    if (!in_word(*last))
-        return (piece){"", 0};
-    while (first > from && in_word(first[-1]))
-        first--;
-    return (piece){first, (size_t)(last + 1 - first)};
-}
-
-/* ---- What stands in a file --------------------------------------------------------------------------------------- */
-
-typedef enum item_kind {
-    ITEM_CODE,
-    ITEM_FUNCTION,
-    ITEM_DIRECTIVE,
-    ITEM_NONE /* uniforms, and what goes in and out */
-} item_kind;
-
-typedef struct item {
-    const char *from, *to;
-    item_kind kind;
-    piece name; /* of a function */
-    bool kept;
-} item;
-
-typedef struct source {
-    char *text; /* the file without remarks */
-    bool hlsl;
-    item *items;
-    size_t count;
-} source;
-
-static void blank(char *from, const char *to) {
-    for (; from < to; from++)
-        if (*from != '\n' && *from != '\r')
-            *from = ' ';
-}
-
-static void blank_remarks(char *text) {
-    for (char *c = text; *c != '\0'; c++) {
-        const bool line = c[0] == '/' && c[1] == '/', block = c[0] == '/' && c[1] == '*';
-        const char *end = line ? strchr(c, '\n') : block ? strstr(c + 2, "*/") : NULL;
-        if (!line && !block)
-            continue;
-        end = end == NULL ? c + strlen(c) : end + (block ? 2 : 0);
-        blank(c, end);
-    }
-}
-
-static const char *directive_end(const char *c) {
-    while (*c != '\0' && *c != '\n') {
-        const bool goes_on = c[0] == '\\' && (c[1] == '\n' || (c[1] == '\r' && c[2] == '\n'));
-        c += goes_on ? (c[1] == '\r' ? 3 : 2) : 1;
-    }
-    return c;
-}
-
-/* Where a declaration or function ends that begins at c. */
-static const char *item_end(const char *c, item *out) {
-    static const char *const with_end[] = {"struct", "uniform", "layout", "buffer", NULL};
-    int open = 0;
-    bool value = false;
-    piece first = {c, 0};
-    while (in_word(c[first.length]))
-        first.length++;
-    const bool ends = is_any(first, with_end);
-    for (; *c != '\0'; c++) {
-        open += (*c == '(' || *c == '{' || *c == '[') - (*c == ')' || *c == '}' || *c == ']');
-        value = value || (open == 0 && *c == '=');
-        if (open == 1 && *c == '(' && out->name.length == 0 && !value && !ends)
-            out->name = word_before(out->from, c);
-        if (open == 1 && *c == '{' && out->name.length > 0 && !value)
-            out->kind = ITEM_FUNCTION;
-        if (open == 0 && (*c == ';' || (*c == '}' && !ends && !value)))
-            return c + 1;
-    }
-    return c;
-}
-
-/* HLSL's variables without a value are uniforms, too. */
-static item_kind kind_of(const source *s, const item *i) {
-    static const char *const apart[] = {"uniform", "cbuffer", "tbuffer", "ConstantBuffer", "varying",   "attribute",
-                                        "in",      "out",     "buffer",  "layout",         "precision", NULL};
-    static const char *const left[] = {"version", "include", "pragma", NULL};
-    const char *at = i->from;
-    int open = 0;
-    piece word;
-    if (i->kind == ITEM_FUNCTION)
-        return ITEM_FUNCTION;
-    for (int k = 0; next_word(&at, i->to, &word, &open) && (open == 0 || k == 0); k++)
-        if (is_any(word, i->kind == ITEM_DIRECTIVE ? left : apart))
-            return ITEM_NONE;
-    const bool plain = memchr(i->from, '=', (size_t)(i->to - i->from)) == NULL &&
-                       memchr(i->from, '{', (size_t)(i->to - i->from)) == NULL && i->name.length == 0;
-    return i->kind == ITEM_CODE && s->hlsl && plain ? ITEM_NONE : i->kind;
-}
-
-static bool take_apart(source *s) {
-    size_t room = 0;
-    for (const char *c = s->text; *c != '\0';) {
-        if (isspace((unsigned char)*c)) {
-            c++;
-            continue;
-        }
-        if (s->count == room) {
-            room = 2 * room + 64;
-            item *more = realloc(s->items, room * sizeof *more);
-            if (more == NULL)
-                return false;
-            s->items = more;
-        }
-        item *i = &s->items[s->count++];
-        *i = (item){.from = c, .kind = *c == '#' ? ITEM_DIRECTIVE : ITEM_CODE};
-        i->to = *c == '#' ? directive_end(c) : item_end(c, i);
-        i->kind = kind_of(s, i);
-        i->kept = i->kind == ITEM_DIRECTIVE;
-        c = i->to;
-    }
-    return true;
-}
-
-/* Is it declared there, to be known to others? Inside: to be known there alone, as a parameter is. */
-static bool declares(const item *i, piece name, bool inside) {
-    static const char *const none[] = {"return", "else", "do", "case", NULL};
-    const char *at = i->from;
-    int open = 0;
-    if (i->kind == ITEM_FUNCTION && !inside)
-        return i->name.length == name.length && memcmp(i->name.at, name.at, name.length) == 0;
-    for (piece word; next_word(&at, i->to, &word, &open);) {
-        if (word.length != name.length || memcmp(word.at, name.at, name.length) != 0)
-            continue;
-        const piece prior = word_before(i->from, word.at);
-        const char last = *before(i->from, word.at);
-        if (i->kind == ITEM_DIRECTIVE   ? is(prior, "define")
-            : in_word(after(at, i->to)) ? false
-            : inside                    ? prior.length > 0 && !is_any(prior, none)
-                                        : open == 0 && (prior.length > 0 || last == ',' || last == ']' || last == '}'))
-            return true;
-    }
-    return false;
-}
-
-/* With whatever it needs, and what that needs. */
-static void keep(source *s, item *i) {
-    const char *at = i->from;
-    int open = 0;
-    i->kept = true;
-    for (piece word; next_word(&at, i->to, &word, &open);)
-        for (size_t k = 0; k < s->count; k++)
-            if (!s->items[k].kept && s->items[k].kind != ITEM_NONE && declares(&s->items[k], word, false))
-                keep(s, &s->items[k]);
 }
 
 /* ---- Its values -------------------------------------------------------------------------------------------------- */
 
 typedef struct maker {
-    source s;
+    listing s;
     const dp_setup *setup;
     const char *const *defines;
     size_t define_count;
     bool met[32]; /* of the defines */
     written *out;
     char *error;
-    char head[8192], call[2048]; /* the variables, and the function's arguments */
+    char head[8192], body[4096], call[2048]; /* the variables, what fills structures, the function's arguments */
 } maker;
 
 static bool fail(maker *m, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -402,8 +212,11 @@ static const char *word_for(maker *m, piece name, bool *guessed) {
 }
 
 static void say_define(written *w, piece name, const char *word, bool guessed) {
-    append(w->defines, sizeof w->defines, "%s%.*s = %s%s", w->defines[0] != '\0' ? ", " : "", (int)name.length, name.at,
-           word, guessed ? " (guessed)" : "");
+    char one[WRITTEN_TEXT_SIZE];
+    snprintf(one, sizeof one, "%.*s = %s%s", (int)name.length, name.at, word, guessed ? " (guessed)" : "");
+    const char *said = strstr(w->defines, one);
+    if (said == NULL || (said > w->defines && said[-1] != ' '))
+        append(w->defines, sizeof w->defines, "%s%s", w->defines[0] != '\0' ? ", " : "", one);
 }
 
 /* The expression of a value, of a type where one is known: "float4(depthprec_v[3], ...)". */
@@ -417,10 +230,12 @@ static bool express(maker *m, piece name, const char *word, bool guessed, piece 
     if (w->used + floats >= WRITTEN_CONSTANTS)
         return fail(m, "has more than %d numbers of a camera", WRITTEN_CONSTANTS - 1);
     w->camera = w->camera || row != NULL;
-    if (row != NULL)
+    if (row != NULL && row->fill != NULL)
         row->fill(m->setup, v);
-    else
+    else if (row == NULL)
         number_of_text(word, &v[0]);
+    for (unsigned i = 0; row != NULL && row->numbers != NULL && i < floats; i++)
+        v[i] = number(m->setup, row->numbers[i]);
     snprintf(text, sizeof text, "%.*s", (int)type.length, type.at);
     if (floats > 1)
         snprintf(text, sizeof text, "%s", types[m->s.hlsl][floats == 2 ? 0 : floats == 4 ? 1 : 2]);
@@ -435,57 +250,26 @@ static bool express(maker *m, piece name, const char *word, bool guessed, piece 
     return true;
 }
 
-/* The type with which a uniform is declared. */
-static piece type_of(const source *s, piece name) {
-    for (size_t k = 0; k < s->count; k++) {
-        const item *i = &s->items[k];
-        const char *at = i->from;
-        int open = 0;
-        if (i->kind == ITEM_NONE)
-            for (piece word; next_word(&at, i->to, &word, &open);)
-                if (word.length == name.length && memcmp(word.at, name.at, name.length) == 0)
-                    return word_before(i->from, word.at);
-    }
-    return (piece){"", 0};
-}
-
-static bool is_declared(const source *s, piece name) {
-    for (size_t k = 0; k < s->count; k++)
-        if (s->items[k].kind != ITEM_NONE && declares(&s->items[k], name, false))
-            return true;
-    return false;
-}
-
 static bool is_made(const maker *m, piece name) {
     char text[NAME_SIZE + 8];
     snprintf(text, sizeof text, " %.*s ", (int)name.length, name.at);
     return strstr(m->head, text) != NULL;
 }
 
-/* Does the word stand in a line such as #if? */
-static bool in_condition(const source *s, piece word) {
-    static const char *const all[] = {"if", "ifdef", "ifndef", "elif", NULL};
-    const char *from = word.at;
-    int open = 0;
-    piece first;
-    while (from > s->text && from[-1] != '\n')
-        from--;
-    return after(from, word.at) == '#' && next_word(&from, word.at + word.length, &first, &open) && is_any(first, all);
-}
-
 /* Names in conditions that the file does not define. Unity defines UNITY_REVERSED_Z where depth is reversed; of one
  * that is not known either side may be what is meant. */
 static void define_macros(maker *m) {
     static const char *const own[] = {"if", "ifdef", "ifndef", "elif", "defined", NULL};
-    const source *s = &m->s;
+    const listing *s = &m->s;
     for (size_t k = 0; k < s->count; k++) {
         const char *at = s->items[k].from;
         int open = 0;
-        for (piece word; s->items[k].kept && next_word(&at, s->items[k].to, &word, &open);) {
-            const bool unity = is(word, "UNITY_REVERSED_Z");
+        for (piece word; s->items[k].kept && listing_word(&at, s->items[k].to, &word, &open);) {
+            const bool unity = piece_is(word, "UNITY_REVERSED_Z");
             bool guessed;
-            if (!in_condition(s, word) || word.length >= NAME_SIZE || is_any(word, own) ||
-                strncmp(word.at, "GL_", 3) == 0 || is_made(m, word) || is_declared(s, word))
+            if (!listing_in_condition(s, word) || !listing_matters(s, &s->items[k]) || word.length >= NAME_SIZE ||
+                piece_is_any(word, own) || strncmp(word.at, "GL_", 3) == 0 || is_made(m, word) ||
+                listing_declares(s, word))
                 continue;
             const char *given = word_for(m, word, &guessed);
             const bool defined = guessed ? unity && m->setup->reversed != 0 : strcmp(given, "0") != 0;
@@ -499,23 +283,74 @@ static void define_macros(maker *m) {
     }
 }
 
-/* A variable for each word that what is kept does not know, and somebody does. */
-static bool make_variables(maker *m) {
-    const source *s = &m->s;
+/* A member of a structure that the camera is in. */
+static bool make_member(maker *m, piece of, piece member) {
+    char whole[2 * NAME_SIZE], made[2 * NAME_SIZE + 8], value[VALUE_SIZE];
+    bool guessed;
+    snprintf(whole, sizeof whole, "%.*s.%.*s", (int)of.length, of.at, (int)member.length, member.at);
+    snprintf(made, sizeof made, " %s = ", whole);
+    const piece name = {whole, strlen(whole)};
+    if (strstr(m->body, made) != NULL)
+        return true;
+    const char *word = name.length < NAME_SIZE ? word_for(m, name, &guessed) : NULL;
+    if (word == NULL)
+        return fail(m, "reads %s, which nothing is known of: --define %s=near|far|z_buffer_params|projection|NUMBER",
+                    whole, whole);
+    if (!express(m, name, word, guessed, listing_type(&m->s, member, true), value))
+        return false;
+    append(m->body, sizeof m->body, "   %s%s;\n", made, value);
+    return true;
+}
+
+static bool make_members(maker *m, piece of, const item *structure) {
+    const char *at = structure->from;
+    int open = 0;
+    for (piece member; listing_member(structure, &at, &open, &member);)
+        if (!make_member(m, of, member))
+            return false;
+    return true;
+}
+
+/* Of a uniform that is a structure what is read of it; all where it is handed on as a whole. */
+static bool make_structure(maker *m, piece name, const item *structure) {
+    const listing *s = &m->s;
     for (size_t k = 0; k < s->count; k++) {
         const item *i = &s->items[k];
         const char *at = i->from;
         int open = 0;
-        for (piece word; i->kept && next_word(&at, i->to, &word, &open);) {
+        if (!i->kept || listing_item_declares(i, name, true) || listing_item_declares(i, name, false))
+            continue;
+        for (piece word, member; listing_word(&at, i->to, &word, &open);) {
+            if (!piece_same(word, name) || *listing_before(i->from, word.at) == '.')
+                continue;
+            const bool part = listing_after(at, i->to) == '.' && listing_word(&at, i->to, &member, &open);
+            if (part ? !make_member(m, name, member) : !make_members(m, name, structure))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* A variable for each word that what is kept does not know, and somebody does. */
+static bool make_variables(maker *m) {
+    const listing *s = &m->s;
+    for (size_t k = 0; k < s->count; k++) {
+        const item *i = &s->items[k];
+        const char *at = i->from;
+        int open = 0;
+        for (piece word; i->kept && i->kind != ITEM_STRUCTURE && listing_word(&at, i->to, &word, &open);) {
             char value[VALUE_SIZE];
             bool guessed;
-            if (word.length >= NAME_SIZE || *before(i->from, word.at) == '.' || in_condition(s, word))
+            if (word.length >= NAME_SIZE || *listing_before(i->from, word.at) == '.' || listing_in_condition(s, word))
                 continue;
-            const bool known = declares(i, word, true) || is_made(m, word) || is_declared(s, word);
+            const bool known = listing_item_declares(i, word, true) || is_made(m, word) || listing_declares(s, word);
             const char *text = known ? NULL : word_for(m, word, &guessed);
+            const item *structure = known || text != NULL ? NULL : listing_release(&m->s, word);
+            if (structure != NULL && !make_structure(m, word, structure))
+                return false;
             if (text == NULL)
                 continue;
-            const piece type = type_of(s, word);
+            const piece type = listing_type(s, word, false);
             if (!express(m, word, text, guessed, type, value))
                 return false;
             append(m->head, sizeof m->head, "%s%.*s %.*s = %s;\n", s->hlsl ? "static " : "", (int)strcspn(value, "("),
@@ -531,7 +366,7 @@ static bool make_variables(maker *m) {
 static void read_parameter(const char *from, const char *to, piece *type, piece *name) {
     int open = 0;
     *type = *name = (piece){"", 0};
-    for (piece word; *from != ':' && *from != '=' && next_word(&from, to, &word, &open);) {
+    for (piece word; *from != ':' && *from != '=' && listing_word(&from, to, &word, &open);) {
         *type = *name;
         *name = word;
         from += from < to && isspace((unsigned char)*from) ? strspn(from, " \t\r\n") : 0;
@@ -546,14 +381,21 @@ static bool take_parameter(maker *m, const char *from, const char *to, bool *has
     from += strspn(from, " \t\r\n");
     read_parameter(from, to, &type, &name);
     const char *word = name.length > 0 && name.length < NAME_SIZE ? word_for(m, name, &guessed) : NULL;
-    if (word == NULL && (*has_depth || !is_any(type, scalar)))
+    const item *structure = word == NULL ? listing_structure(&m->s, type) : NULL;
+    if (structure != NULL) {
+        append(m->body, sizeof m->body, "    %.*s %.*s;\n", (int)type.length, type.at, (int)name.length, name.at);
+        snprintf(value, sizeof value, "%.*s", (int)name.length, name.at);
+        if (!make_members(m, name, structure))
+            return false;
+    } else if (word == NULL && (*has_depth || !piece_is_any(type, scalar))) {
         return fail(m,
                     "takes %.*s, which nothing is known of: --define %.*s=near|far|z_buffer_params|projection|NUMBER, "
                     "or write a function of one float, a depth",
                     (int)(to - from), from, (int)name.length, name.at);
-    if (word == NULL)
+    }
+    if (word == NULL && structure == NULL)
         *has_depth = true;
-    else if (!express(m, name, word, guessed, type, value))
+    else if (word != NULL && !express(m, name, word, guessed, type, value))
         return false;
     append(m->call, sizeof m->call, "%s%s", m->call[0] != '\0' ? ", " : "", value);
     return true;
@@ -562,12 +404,12 @@ static bool take_parameter(maker *m, const char *from, const char *to, bool *has
 static bool take_function(maker *m, const item *i) {
     static const char *const scalar[] = {"float", "half", NULL};
     const char *at = i->name.at + i->name.length;
-    const piece type = word_before(i->from, i->name.at);
+    const piece type = listing_word_before(i->from, i->name.at);
     bool has_depth = false;
-    if (!is_any(type, scalar))
+    if (!piece_is_any(type, scalar))
         return fail(m, "gives %.*s: what is judged gives one float", (int)type.length, type.at);
     at = strchr(at, '(') + 1;
-    for (const char *c = at; after(at, i->to) != ')'; c++)
+    for (const char *c = at; listing_after(at, i->to) != ')'; c++)
         if (*c == ',' || *c == ')') {
             if (!take_parameter(m, at, c, &has_depth))
                 return false;
@@ -578,21 +420,21 @@ static bool take_function(maker *m, const item *i) {
 
 /* What main does. How often it turns stands in the last constant, so that no compiler writes all turns out; many calls
  * a turn, in four sums, so that the loop is little beside them. */
-static void write_body(written *out, unsigned turns, char body[BODY_SIZE]) {
+static void write_run(written *out, unsigned turns, char run[BODY_SIZE]) {
     static const char start[] =
         "    float depthprec_d = depthprec_in[depthprec_i];\n"
         "    float depthprec_s0 = 0.0, depthprec_s1 = 0.0, depthprec_s2 = 0.0, depthprec_s3 = 0.0;\n"
         "    for (float depthprec_k = 0.0; depthprec_k < depthprec_v[%d]; depthprec_k += 1.0) {\n";
-    body[0] = '\0';
+    run[0] = '\0';
     if (turns == 0) {
-        append(body, BODY_SIZE, "    depthprec_out[depthprec_i] = depthprec_call(depthprec_in[depthprec_i]);\n}\n");
+        append(run, BODY_SIZE, "    depthprec_out[depthprec_i] = depthprec_call(depthprec_in[depthprec_i]);\n}\n");
         return;
     }
     out->constants[WRITTEN_CONSTANTS - 1] = (float)turns;
-    append(body, BODY_SIZE, start, WRITTEN_CONSTANTS - 1);
+    append(run, BODY_SIZE, start, WRITTEN_CONSTANTS - 1);
     for (int k = 0; k < WRITTEN_CALLS; k++)
-        append(body, BODY_SIZE, "        depthprec_s%d += depthprec_call(%g * depthprec_d);\n", k % 4, 1 - k / 32.0);
-    append(body, BODY_SIZE,
+        append(run, BODY_SIZE, "        depthprec_s%d += depthprec_call(%g * depthprec_d);\n", k % 4, 1 - k / 32.0);
+    append(run, BODY_SIZE,
            "        depthprec_d *= 0.999;\n    }\n"
            "    depthprec_out[depthprec_i] = depthprec_s0 + depthprec_s1 + depthprec_s2 + depthprec_s3;\n}\n");
 }
@@ -605,32 +447,30 @@ static bool write_text(maker *m, const char *function, unsigned turns) {
         "layout(local_size_x = 64) in;\n"
         "layout(std430, set = 0, binding = 0) readonly buffer depthprec_0 { float depthprec_in[]; };\n"
         "layout(std430, set = 0, binding = 1) writeonly buffer depthprec_1 { float depthprec_out[]; };\n"
-        "float depthprec_call(float depthprec_d) { return %s(%s); }\n"
+        "float depthprec_call(float depthprec_d) {\n%s    return %s(%s);\n}\n"
         "void main() {\n"
         "    uint depthprec_i = gl_GlobalInvocationID.x;\n%s";
     static const char hlsl[] = "[[vk::binding(2, 0)]] RWStructuredBuffer<float> depthprec_v;\n"
                                "%s#line 1\n%s\n"
                                "[[vk::binding(0, 0)]] RWStructuredBuffer<float> depthprec_in;\n"
                                "[[vk::binding(1, 0)]] RWStructuredBuffer<float> depthprec_out;\n"
-                               "float depthprec_call(float depthprec_d) { return %s(%s); }\n"
+                               "float depthprec_call(float depthprec_d) {\n%s    return %s(%s);\n}\n"
                                "[numthreads(64, 1, 1)] void main(uint3 depthprec_id : SV_DispatchThreadID) {\n"
                                "    uint depthprec_i = depthprec_id.x;\n%s";
-    char body[BODY_SIZE];
-    write_body(m->out, turns, body);
-    const size_t size =
-        strlen(m->s.text) + sizeof m->head + sizeof m->call + NAME_SIZE + sizeof body + sizeof glsl + sizeof hlsl;
+    char run[BODY_SIZE];
+    write_run(m->out, turns, run);
+    const size_t size = strlen(m->s.text) + sizeof m->head + sizeof m->body + sizeof m->call + NAME_SIZE + sizeof run +
+                        sizeof glsl + sizeof hlsl;
     for (const char *c = m->s.text; *c != '\0'; c++)
         m->out->lines += *c == '\n';
-    for (size_t k = 0; k < m->s.count; k++)
-        if (!m->s.items[k].kept)
-            blank(m->s.text + (m->s.items[k].from - m->s.text), m->s.items[k].to);
+    listing_blank_rest(&m->s);
     m->out->text = malloc(size);
     if (m->out->text == NULL)
         return fail(m, "does not fit into memory");
     if (m->s.hlsl)
-        snprintf(m->out->text, size, hlsl, m->head, m->s.text, function, m->call, body);
+        snprintf(m->out->text, size, hlsl, m->head, m->s.text, m->body, function, m->call, run);
     else
-        snprintf(m->out->text, size, glsl, m->head, m->s.text, function, m->call, body);
+        snprintf(m->out->text, size, glsl, m->head, m->s.text, m->body, function, m->call, run);
     return true;
 }
 
@@ -639,14 +479,14 @@ static bool find_function(maker *m, const char *function) {
     bool found = false, any = false;
     for (size_t k = 0; k < m->s.count && !found; k++) {
         item *i = &m->s.items[k];
-        if (i->kind != ITEM_FUNCTION || !is(i->name, function))
+        if (i->kind != ITEM_FUNCTION || !piece_is(i->name, function))
             continue;
         any = true;
         m->out->used = 0;
-        m->out->defines[0] = m->call[0] = '\0';
+        m->out->defines[0] = m->call[0] = m->body[0] = '\0';
         found = take_function(m, i);
         if (found)
-            keep(&m->s, i);
+            listing_keep(&m->s, i);
     }
     if (found || any)
         return found;
@@ -663,20 +503,12 @@ static bool find_function(maker *m, const char *function) {
 
 bool written_make(const char *file, const char *function, bool hlsl, const dp_setup *setup, const char *const *defines,
                   size_t define_count, unsigned turns, written *out, char error[WRITTEN_TEXT_SIZE]) {
-    maker m = {.s = {.text = strdup(file), .hlsl = hlsl},
-               .setup = setup,
-               .defines = defines,
-               .define_count = define_count,
-               .out = out,
-               .error = error};
+    maker m = {.setup = setup, .defines = defines, .define_count = define_count, .out = out, .error = error};
     *out = (written){0};
-    if (m.s.text != NULL)
-        blank_remarks(m.s.text);
-    bool good =
-        m.s.text != NULL && take_apart(&m.s) ? find_function(&m, function) : fail(&m, "does not fit into memory");
+    bool good = listing_read(file, hlsl, &m.s) ? find_function(&m, function) : fail(&m, "does not fit into memory");
     for (size_t k = 0; k < m.s.count && good; k++)
         if (m.s.items[k].kept && m.s.items[k].kind == ITEM_DIRECTIVE)
-            keep(&m.s, &m.s.items[k]);
+            listing_keep(&m.s, &m.s.items[k]);
     if (good)
         define_macros(&m);
     good = good && make_variables(&m);
@@ -684,7 +516,6 @@ bool written_make(const char *file, const char *function, bool hlsl, const dp_se
         if (!m.met[i])
             good = fail(&m, "knows nothing by the name of --define %s", defines[i]);
     good = good && write_text(&m, function, turns);
-    free(m.s.items);
-    free(m.s.text);
+    listing_free(&m.s);
     return good;
 }

@@ -61,18 +61,21 @@ static int run_pairs(shader *s, uint64_t from, size_t count, FILE *values, judge
     return damaged(s);
 }
 
-static int shader_pairs(shader *s, const float *in, size_t count, judge_pairs *out) {
+/* Depths in, so many of each kind: pairs of each kind, without NaN. */
+static int shader_pairs(shader *s, const float *in, size_t count, size_t kinds, judge_pairs out[]) {
     compute_run *run = s->run;
     FILE *values = NULL;
-    *out = (judge_pairs){.nan_at = (double)NAN, .pairs = malloc(count * sizeof *out->pairs)};
-    run->count = s->count = count;
+    s->count = count;
+    run->count = kinds * count;
     run->depth = listed;
     run->of = in;
-    int status = out->pairs != NULL ? start(s, &values) : EXIT_IO;
-    if (values != NULL)
-        status = run_pairs(s, 0, count, values, out);
+    int status = start(s, &values);
+    for (size_t k = 0; k < kinds && status == EXIT_FINE; k++) {
+        out[k] = (judge_pairs){.nan_at = (double)NAN, .pairs = malloc(count * sizeof *out->pairs)};
+        status = out[k].pairs != NULL ? run_pairs(s, k * count, count, values, &out[k]) : EXIT_IO;
+        judge_pairs_look(&out[k]);
+    }
     sandbox_close(values);
-    judge_pairs_look(out);
     return status;
 }
 
@@ -82,20 +85,40 @@ double shader_asked(unsigned i, unsigned count) {
     return (double)(float)(i >= 2 * ends ? even : i % 2 == 0 ? ldexp(1, -(int)k) : 1 - ldexp(1, -(int)k - 1));
 }
 
-/* What takes no window depths may take eye depths. */
-static int ask(shader *s, const dp_setup *asked, size_t count, bool open, bool eye, judge_pairs *pairs,
-               judgement *out) {
+/* Window depths, eye depths and view z go in. Nobody is accused by what they do not take: the first that is right
+ * counts, else the first that has a name, else what is right but at an end, where packed depths wrap: all depths will
+ * show it. */
+static int ask(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *out, judgement *best) {
+    static const size_t kinds[] = {JUDGE_WINDOW, JUDGE_EYE, JUDGE_VIEW};
+    enum { KINDS = sizeof kinds / sizeof kinds[0] };
     const dp_spec *spec = &asked[0].spec;
     const double far = isinf(spec->zfar) ? 1e6 * spec->znear : spec->zfar;
-    float depth[ASKED];
-    for (unsigned i = 0; i < ASKED; i++) {
-        const double t = shader_asked(i, ASKED);
-        depth[i] = (float)(eye ? fmin(far, spec->znear + (far - spec->znear) * t * t * t) : t);
+    judge_pairs pairs[KINDS] = {{0}};
+    float depth[KINDS * ASKED];
+    size_t of = 0;
+    for (unsigned i = 0; i < KINDS * ASKED; i++) {
+        const double metric = judge_input_get(kinds[i / ASKED])->metric, t = shader_asked(i % ASKED, ASKED);
+        depth[i] = (float)(metric != 0 ? metric * fmin(far, spec->znear + (far - spec->znear) * t * t * t) : t);
     }
-    judge_pairs_free(pairs);
-    const int status = shader_pairs(s, depth, ASKED, pairs);
-    if (status == EXIT_FINE)
-        judge_function(pairs, asked, count, open, out);
+    const size_t tried = open ? 1 : KINDS;
+    const int status = shader_pairs(s, depth, ASKED, tried, pairs);
+    for (size_t i = 0; i < 2 * tried && status == EXIT_FINE && !(i >= tried && best->named); i++) {
+        const bool inside = i >= tried && pairs[i % tried].count > 2;
+        judge_pairs p = pairs[i % tried];
+        judgement found;
+        p.pairs += inside;
+        p.count -= inside ? 2 : 0;
+        judge_function(&p, asked, count, open, &found);
+        if (i == 0 || (found.named && !best->named && !inside) ||
+            (found.verdict == JUDGE_RIGHT && best->verdict != JUDGE_RIGHT)) {
+            *best = found;
+            of = i % tried;
+        }
+    }
+    for (size_t k = 0; k < KINDS; k++)
+        if (k != of)
+            judge_pairs_free(&pairs[k]);
+    *out = pairs[of];
     return status;
 }
 
@@ -108,19 +131,15 @@ static void excuse(const shader *s, judgement *out) {
 }
 
 int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *pairs, judgement *out) {
-    open = open && !s->camera;
-    int status = ask(s, asked, count, open, false, pairs, out);
-    if (status == EXIT_FINE && !out->named && !open)
-        status = ask(s, asked, count, open, true, pairs, out);
-    if (status == EXIT_FINE && !out->named)
-        status = ask(s, asked, count, open, false, pairs, out);
-    excuse(s, out);
+    const int status = ask(s, asked, count, open && !s->camera, pairs, out);
+    if (status == EXIT_FINE)
+        excuse(s, out);
     return status;
 }
 
 void shader_say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
     const dp_spec *s = &c->setup.spec;
-    const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL;
+    const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL || c->output->window == NULL;
     int used = snprintf(out, SETUP_LABEL_SIZE, "%s%s%s", c->trap != NULL ? c->trap->name : "",
                         c->trap != NULL ? ", as " : "", c->output->name);
     if (c->factor != 1)
@@ -203,10 +222,10 @@ static float one_of_all(const void *of, uint64_t i) {
     const all_depths *a = of;
     const dp_spec *spec = &a->c->setup.spec;
     const dp_format *f = &spec->format;
-    if (a->c->input == judge_input_get(JUDGE_EYE)) {
+    if (a->c->input->metric != 0) {
         const double n = spec->znear, z = isinf(spec->zfar) ? 1e6 * n : spec->zfar;
         const double t = (double)i / (double)(a->count - 1);
-        return (float)(spec->ortho ? n + (z - n) * t : n * dp_pow(z / n, t));
+        return (float)(a->c->input->metric * (spec->ortho ? n + (z - n) * t : n * dp_pow(z / n, t)));
     }
     const uint32_t code = (uint32_t)(i * f->code_max / (a->count - 1));
     if (a->c->input == judge_input_get(JUDGE_CODES))

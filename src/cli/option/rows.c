@@ -292,8 +292,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "print N window depths to put into the function", WHOLE(judge.depths, 8, 1e6, NULL)},
     [OPTION_DEFINE] = {"define", 0, "NAME=VALUE",
         "what a uniform or parameter of the function is: near, far, near_far, z_buffer_params, projection_params, "
-        "inv_device_z, projection, inverse_projection, either with _lh for a camera that looks along +z, or a number; "
-        "of a macro 1 or 0; may be repeated", .parse = parse_define, .without = "guessed by common names"},
+        "camera_params, inv_device_z, projection, inverse_projection, either with _lh for a camera that looks along "
+        "+z, or a number; of a member of a structure with its name, camera.near=near; of a macro 1 or 0; may be "
+        "repeated", .parse = parse_define, .without = "guessed by common names"},
     [OPTION_MINE] = {"mine", 0, "FILE:FUNCTION",
         "a function of yours from a window depth to its eye depth, in GLSL, HLSL or FILE.spv, stands beside the "
         "methods of linearize, timed on this machine's GPU as ours are; may be repeated", .parse = parse_mine},
