@@ -3,15 +3,10 @@
 #ifndef CODE_CODE_H
 #define CODE_CODE_H
 
-#include "code/language.h"
+#include "code/write.h"
 #include "method/method.h"
 #include "report/output.h"
 #include "shader/camera.h"
-
-enum { CODE_TEXT_SIZE = 1024 };
-
-/** Digits that read back as the same binary32 or binary64 number, with a point or an exponent. @return out */
-const char *code_number(double value, bool wide, char out[CODE_TEXT_SIZE]);
 
 /** Why a language has no function for a row at a camera, "needs a finite far plane"; or null. */
 const char *code_lacks(const code_language *l, const method_row *row, const dp_setup *setup);
