@@ -2,6 +2,7 @@
 #include "code/code.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "core/append.h"
@@ -34,15 +35,15 @@ const char *code_lacks(const code_language *l, const method_row *row, const dp_s
 }
 
 /* What is claimed of a format, whose part above half a step is of roundings to nearest: see depthprec-code(1). */
-static double encode_bound(const code_language *l, const method_row *row, const dp_setup *setup) {
+static double encode_bound(const bound_arithmetic *how, const method_row *row, const dp_setup *setup) {
     size_t i = 0;
     while (i < encode_family.case_count && strcmp(encode_family.cases[i].format, setup->spec.format.name) != 0)
         i++;
-    return i == encode_family.case_count ? (double)NAN : 0.5 + l->how.rounding * (row->claims[i].worst - 0.5);
+    return i == encode_family.case_count ? (double)NAN : 0.5 + how->rounding * (row->claims[i].worst - 0.5);
 }
 
 double code_bound(const code_language *l, const method_row *row, const dp_setup *setup) {
-    return row->family == METHOD_ENCODE ? encode_bound(l, row, setup) : bound_over(row->bound, setup, &l->how);
+    return row->family == METHOD_ENCODE ? encode_bound(&l->how, row, setup) : bound_over(row->bound, setup, &l->how);
 }
 
 const method_row *code_best(const code_language *l, const method_family_row *family, const dp_setup *setup) {
@@ -64,21 +65,22 @@ const method_row *code_best(const code_language *l, const method_family_row *fam
 
 /* ---- Comments ---------------------------------------------------------------------------------------------------- */
 
-static void say_camera(output *out, const code_language *l, const dp_setup *setup, const char *what) {
+void code_say_camera(output *out, const code_language *l, const dp_setup *setup, const char *what) {
     const dp_spec *s = &setup->spec;
-    code_say(out, l, "%s: %s, near %s, far %s", what, dp_mapping_get(s->mapping)->name, number_full(s->znear).text,
-             number_full(s->zfar).text);
+    const bool scaled = setup->curve == DP_CURVE_LOG && !dp_mapping_get(s->mapping)->log_over_near;
+    code_say(out, l, "%s: %s%s, near %s, far %s%s%s", what, dp_mapping_get(s->mapping)->name,
+             s->ortho ? ", orthographic" : "", number_full(s->znear).text, number_full(s->zfar).text,
+             scaled ? ", C " : "", scaled ? number_full(s->log_c).text : "");
 }
 
-static void say_depth(output *out, const code_language *l, const dp_setup *setup) {
+void code_say_depth(output *out, const code_language *l, const dp_setup *setup) {
     const bool reversed = setup->reversed != 0;
     code_say(out, l, "Clear depth to %d; nearer is %s.", reversed ? 0 : 1, reversed ? "GREATER" : "LESS");
 }
 
 static void say_encode(output *out, const code_language *l, const method_row *row, const dp_setup *setup) {
     const double bound = code_bound(l, row, setup);
-    char rules[CODE_RULES_SIZE];
-    code_say(out, l, "%s: %s.", l->rules, code_language_rules(l, rules));
+    code_say_rules(out, l, false);
     if (isnan(bound))
         code_say(out, l, "No bound is proven for this format.");
     else
@@ -91,13 +93,12 @@ static void say_bound(output *out, const code_language *l, const method_row *row
     const double n = setup->spec.znear, least = l->how.flushes ? 0x1p-125 : 0x1p-149,
                  most = l->how.flushes ? 0x1p125 : 0x1p127;
     const bool infinite = isinf(setup->spec.zfar), same = l->how.rounding == 1;
-    char rules[CODE_RULES_SIZE];
     char where[NUMBER_SIZE + 32] = "for any d from 0 to 1";
     if (infinite && setup->reversed)
         snprintf(where, sizeof where, "up to a depth of %s", number_down(fmin(n / least, most), 3).text);
     else if (infinite)
         snprintf(where, sizeof where, "for any d below 1");
-    code_say(out, l, "%s: %s.", l->rules, code_language_rules(l, rules));
+    code_say_rules(out, l, false);
     if (isinf(bound))
         code_say(out, l, "No bound: where its divisor comes to 0 no digit is left.");
     else if (same || isinf(nearest))
@@ -107,7 +108,8 @@ static void say_bound(output *out, const code_language *l, const method_row *row
                  number_up(bound, 3).text, where, number_up(nearest, 3).text);
 }
 
-void code_function(output *out, const code_language *l, const method_row *row, const dp_setup *setup, bool uniforms) {
+code_said code_function(output *out, const code_language *l, const method_row *row, const dp_setup *setup,
+                        bool uniforms) {
     const bool reversed = setup->reversed != 0;
     const bool whole = row->family == METHOD_ENCODE;
     code_body f = {.l = l,
@@ -119,58 +121,81 @@ void code_function(output *out, const code_language *l, const method_row *row, c
                    .uniforms = uniforms};
     steps_read(row->bound->constants[reversed], &f.constants);
     steps_read(row->bound->steps[reversed], &f.steps);
-    if (l->import != NULL)
-        output_text(out, l->import);
+    code_import(out, l);
     if (row->family == METHOD_ENCODE)
         code_say(out, l, "Code of a window depth: %s", setup->spec.format.name);
     else
-        say_camera(out, l, setup, "Eye depth of a window depth");
+        code_say_camera(out, l, setup, "Eye depth of a window depth");
     code_say(out, l, "%s: %s", row->name, row->note);
     (row->family == METHOD_ENCODE ? say_encode : say_bound)(out, l, row, setup);
-    say_depth(out, l, setup);
-    if (l->advice != NULL)
-        code_say(out, l, "%s", l->advice);
-    if (l->form == CODE_INFIX)
-        code_infix(out, &f);
-    else
-        code_script(out, &f, setup);
+    code_say_depth(out, l, setup);
+    code_function_of(out, &f, setup);
+    return (code_said){
+        .count = 1,
+        .claims = {{f.name, code_bound(l, row, setup),
+                    whole ? encode_bound(&bound_nearest, row, setup) : bound_over(row->bound, setup, &bound_nearest),
+                    whole ? "steps" : "depth"}}};
 }
 
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
 
-/* Twice a pixel's centre less the size is exact; the constant is rounded to nearest, both products as may be. */
-double code_place_bound(const code_language *l, const method_row *row, const dp_setup *setup) {
-    const double each = 1 + l->how.rounding * DP_UNIT;
-    return ((1 + code_bound(l, row, setup)) * (1 + DP_UNIT) * each * each - 1) * (1 + 0x1p-40);
+/* Twice a pixel's centre less the size is exact; the constant is rounded to nearest, `products` as may be. */
+static double place_bound(double depth, const bound_arithmetic *how, int products) {
+    return ((1 + depth) * (1 + DP_UNIT) * pow(1 + how->rounding * DP_UNIT, products) - 1) * (1 + 0x1p-40);
 }
 
-void code_places(output *out, const code_language *l, const method_row *row, const texture_camera *camera,
-                 bool uniforms) {
-    static const struct {
-        const char *name, *input, *constants, *steps;
-    } sides[] = {{"view_x", "column", "W = pixels; X = half/pixels", "a = 2*column - W; b = a*X; x = b*z"},
-                 {"view_y", "row", "H = pixels; Y = half/pixels", "a = H - 2*row; b = a*Y; y = b*z"}};
-    const double size[] = {camera->width, camera->height}, bound = code_place_bound(l, row, &camera->setup);
-    code_function(out, l, row, &camera->setup, uniforms);
-    output_text(out, l->import != NULL ? "\n\n" : "\n");
+double code_place_bound(const code_language *l, const method_row *row, const dp_setup *setup) {
+    return place_bound(code_bound(l, row, setup), &l->how, 2);
+}
+
+static void put_side(output *out, const code_language *l, const texture_camera *camera, bool across, bool uniforms) {
+    const char size = across ? 'W' : 'H', scale = across ? 'X' : 'Y', name = across ? 'x' : 'y';
+    char constants[64] = "", text[64] = "";
+    code_body f = {.l = l,
+                   .name = across ? "view_x" : "view_y",
+                   .inputs = {across ? "column" : "row", camera->ortho ? NULL : "z"},
+                   .given = {.n = across ? camera->width : camera->height, .f = camera->half[!across]},
+                   .uniforms = uniforms};
+    append(constants, sizeof constants, "%c = pixels; %c = half/pixels", size, scale);
+    append(text, sizeof text, across ? "a = 2*column - W; " : "a = H - 2*row; ");
+    if (camera->ortho)
+        append(text, sizeof text, "%c = a*%c", name, scale);
+    else
+        append(text, sizeof text, "b = a*%c; %c = b*z", scale, name);
+    steps_read(constants, &f.constants);
+    steps_read(text, &f.steps);
+    code_infix(out, &f);
+}
+
+code_said code_places(output *out, const code_language *l, const method_row *row, const texture_camera *camera,
+                      bool uniforms) {
+    const dp_setup *setup = &camera->setup;
+    const bool relative = row != NULL;
+    code_said said =
+        row != NULL ? code_function(out, l, row, setup, uniforms) : code_curve(out, l, setup, false, uniforms);
+    const double depth = relative ? said.claims[0].bound : 0, nearest = relative ? said.claims[0].nearest : 0;
+    const int products = camera->ortho ? 1 : 2;
+    const double bound = place_bound(depth, &l->how, products);
+    said.claims[said.count++] = (code_claim){"view_x, view_y", bound, place_bound(nearest, &bound_nearest, products),
+                                             relative ? "distance" : "place"};
+    code_part(out, l);
     code_say(
         out, l,
         "Place in view space of the pixel whose centre is at (column, row) from the top left, with z = eye_depth(d): "
-        "(view_x(column, z), view_y(row, z), -z), x to the right and y up.");
+        "(view_x(column%s), view_y(row%s), -z), x to the right and y up.",
+        camera->ortho ? "" : ", z", camera->ortho ? "" : ", z");
     if (isfinite(bound))
-        code_say(out, l, "So it is off by at most %s of its distance%s.", number_up(bound, 3).text,
-                 isinf(camera->setup.spec.zfar) ? ", while it is finite" : "");
-    for (int i = 0; i < 2; i++) {
-        code_body f = {.l = l,
-                       .name = sides[i].name,
-                       .inputs = {sides[i].input, "z"},
-                       .given = {.n = size[i], .f = camera->half[i]},
-                       .uniforms = uniforms};
-        steps_read(sides[i].constants, &f.constants);
-        steps_read(sides[i].steps, &f.steps);
-        output_text(out, i == 0 ? "" : l->import != NULL ? "\n\n" : "\n");
-        code_infix(out, &f);
-    }
+        code_say(out, l,
+                 relative ? "So it is off by at most %s of its distance%s."
+                          : "So x and y are off by at most %s of themselves%s.",
+                 number_up(bound, 3).text,
+                 isinf(setup->spec.zfar)       ? ", while it is finite"
+                 : !relative && !camera->ortho ? ", for the z that they are given"
+                                               : "");
+    put_side(out, l, camera, true, uniforms);
+    code_part(out, l);
+    put_side(out, l, camera, false, uniforms);
+    return said;
 }
 
 /* ---- Projection -------------------------------------------------------------------------------------------------- */
@@ -193,23 +218,23 @@ static void put_entries(output *out, const code_language *l, const double m[16],
     }
 }
 
-void code_projection(output *out, const code_language *l, const texture_camera *camera) {
+code_said code_projection(output *out, const code_language *l, const texture_camera *camera) {
     double m[16];
     position_matrix(camera, m);
     for (int i = 0; i < 16; i += 4)
         m[i + 2] = -m[i + 2]; /* the camera looks along -z, and has the world's axes */
     for (int i = 0; i < 16; i++)
         m[i] += 0.0; /* no -0 */
-    if (l->import != NULL)
-        output_text(out, l->import);
-    say_camera(out, l, &camera->setup, "Projection matrix");
+    code_import(out, l);
+    code_say_camera(out, l, &camera->setup, "Projection matrix");
     code_say(out, l, "The camera looks along -z; of one that looks along z the third column has the other sign.");
     code_say(out, l, "Each entry is rounded once to binary32: off by at most 5.97e-8 of itself.");
-    say_depth(out, l, &camera->setup);
+    code_say_depth(out, l, &camera->setup);
     code_say(out, l, "%s:", l->by_rows ? "Column by column, as memory has it" : "Row by row");
     put_entries(out, l, m, !l->by_rows, true);
     code_say(out, l, "%s:", l->by_rows ? "Row by row" : "Column by column");
     output_text(out, l->matrix);
     put_entries(out, l, m, l->by_rows, false);
     output_text(out, l->end);
+    return (code_said){.count = 1, .claims = {{"projection", DP_UNIT, DP_UNIT, "entry"}}};
 }

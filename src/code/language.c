@@ -5,10 +5,15 @@
 
 /* In half units. Vulkan, WGSL and Metal leave the direction of rounding open, and Direct3D lets hardware truncate. The
  * divisors of all rows lie between 2^-126 and 2^126, where quotients are good to what is said here. */
-#define GPU(quotient, fuses)                                                                                           \
-    { .rounding = 2, .division = (quotient), .contracts = (fuses), .flushes = true }
+#define GPU(quotient, fuses, ...)                                                                                      \
+    { .rounding = 2, .division = (quotient), .contracts = (fuses), .flushes = true, __VA_ARGS__ }
 #define IEEE(fuses)                                                                                                    \
     { .rounding = 1, .division = 1, .contracts = (fuses), .flushes = false }
+
+#define POWERS       .exp2 = {3 * 0x1p-23, 2 * 0x1p-23}, .log2 = {0x1p-21, 3 * 0x1p-23}
+#define POWERS_WORDS "exp2(x) within 3 + 2|x| ulp; log2 within 2^-21 from 0.5 to 2, else 3 ulp"
+#define POWERS_D3D   .exp2 = {0x1p-21}, .log2 = {0x1p-21, 0x1p-21}
+#define POWERS_METAL .exp2 = {4 * 0x1p-23}, .log2 = {4 * 0x1p-23, 4 * 0x1p-23}
 
 /* clang-format off */
 static const code_language rows[] = {
@@ -20,7 +25,8 @@ static const code_language rows[] = {
      .literal = {"@"},
      .sign = "@ * (2.0 * step(0.0, @) - 1.0)", .before = "", .behind = "",
      .whole = "uint(@)", .even = "roundEven(@)", .magic = "uintBitsToFloat(0x7ef311c7u - floatBitsToUint(@))",
-     .matrix = "const mat4 projection = mat4(\n", .end = ");\n", .how = GPU(5, false),
+     .matrix = "const mat4 projection = mat4(\n", .end = ");\n", .how = GPU(5, false, POWERS),
+     .powers = POWERS_WORDS,
      .rules = "Vulkan", .source = "Vulkan, Precision and Operation of SPIR-V Instructions"},
     {.name = "hlsl", .note = "HLSL of Direct3D",
      .comment = "//",
@@ -30,7 +36,8 @@ static const code_language rows[] = {
      .literal = {"@f"},
      .sign = "@ * (2.0f * step(0.0f, @) - 1.0f)", .before = "", .behind = "",
      .whole = "uint(@)", .even = "round(@)", .magic = "asfloat(0x7ef311c7u - asuint(@))",
-     .matrix = "static const float4x4 projection = float4x4(\n", .end = ");\n", .by_rows = true, .how = GPU(2, false),
+     .matrix = "static const float4x4 projection = float4x4(\n", .end = ");\n", .by_rows = true, .how = GPU(2, false, POWERS_D3D),
+     .powers = "exp2 and log2 within 2^-21 of themselves, log2 from 0.5 to 2 within 2^-21",
      .rules = "Direct3D", .source = "Direct3D 11.3 functional specification 3.1"},
     {.name = "wgsl", .note = "WGSL of WebGPU",
      .comment = "//",
@@ -40,7 +47,8 @@ static const code_language rows[] = {
      .literal = {"@f"},
      .sign = "@ * (2.0f * step(0.0f, @) - 1.0f)", .before = "", .behind = "",
      .whole = "u32(@)", .even = "round(@)", .magic = "bitcast<f32>(0x7ef311c7u - bitcast<u32>(@))",
-     .matrix = "const projection = mat4x4<f32>(\n", .end = ");\n", .how = GPU(5, true),
+     .matrix = "const projection = mat4x4<f32>(\n", .end = ");\n", .how = GPU(5, true, POWERS),
+     .powers = POWERS_WORDS,
      .rules = "WGSL", .source = "WGSL, Floating Point Accuracy"},
     {.name = "msl", .note = "Metal Shading Language, math mode safe",
      .comment = "//", .advice = "Compile with math mode safe (-fno-fast-math): with fast math nothing is proven.",
@@ -51,7 +59,8 @@ static const code_language rows[] = {
      .sign = "@ * (2.0f * step(0.0f, @) - 1.0f)", .before = "", .behind = "",
      .whole = "uint(@)", .even = "rint(@)",
      .fused = "fma(@, @, @)", .magic = "as_type<float>(0x7ef311c7u - as_type<uint>(@))",
-     .matrix = "constant float4x4 projection = float4x4(\n", .end = ");\n", .how = GPU(2, true),
+     .matrix = "constant float4x4 projection = float4x4(\n", .end = ");\n", .how = GPU(2, true, POWERS_METAL),
+     .powers = "exp2 and log2 within 4 ulp",
      .rules = "Metal, math mode safe", .source = "Metal Shading Language Specification, Numerical Compliance"},
     {.name = "c", .note = "C99 with IEEE 754, contracted or not",
      .comment = "//",

@@ -39,6 +39,7 @@ typedef struct code_language {
     const char *matrix, *end;     /**< what stands before and behind 16 numbers */
     bool by_rows;                 /**< the order of those */
     bound_arithmetic how;
+    const char *powers;         /**< what it promises of exp2 and log2, or null */
     const char *rules, *source; /**< who says so, and where */
 } code_language;
 

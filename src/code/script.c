@@ -11,9 +11,11 @@ enum { PIECES_IN_LINE = 5 };
 /* The eye depth exactly, of the planes as they are. */
 static const char *exact(const dp_setup *setup) {
     const bool reversed = setup->reversed != 0;
-    return isinf(setup->spec.zfar) ? reversed ? "z = n/d" : "z = n/(1 - d)"
-           : reversed              ? "z = n*f/(n + (f - n)*d)"
-                                   : "z = n*f/(n + (f - n)*(1 - d))";
+    return setup->spec.ortho                 ? reversed ? "z = f - (f - n)*d" : "z = n + (f - n)*d"
+           : setup->curve == DP_CURVE_LINEAR ? "z = f*d"
+           : isinf(setup->spec.zfar)         ? reversed ? "z = n/d" : "z = n/(1 - d)"
+           : reversed                        ? "z = n*f/(n + (f - n)*d)"
+                                             : "z = n*f/(n + (f - n)*(1 - d))";
 }
 
 static void put_prefix(output *out, const code_body *f, const dp_setup *setup) {
@@ -83,10 +85,11 @@ static void put_proof(output *out, const code_body *f, const dp_setup *setup) {
         put_exact(out, &f->constants, i, infinite, steps_value(&f->constants, f->constants.step[i].is, &f->given) == 0);
     for (int i = 0; i < f->steps.count; i++)
         put_exact(out, &f->steps, i, infinite, false);
-    output_format(out, "{ d in %s -> z -/ z_exact in ? }\n",
+    output_format(out, "{ d in %s -> z %s z_exact in ? }\n",
                   !infinite  ? "[0, 1]"
                   : reversed ? "[1b-24, 1]"
-                             : "[0, 16777215b-24]");
+                             : "[0, 16777215b-24]",
+                  setup->curve == DP_CURVE_LINEAR ? "-" : "-/");
     put_pieces(out);
 }
 

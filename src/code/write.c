@@ -50,7 +50,7 @@ void code_literal(char *out, const code_language *l, double value, bool wide) {
 static void put_name(const code_writer *w, const char *name, bool inner, char *out) {
     const char *const words[][3] = {{"n", "near", "near"},
                                     {"f", "far", "far"},
-                                    {"scale", "C", "C"},
+                                    {"scale", "C of the mapping", "C"},
                                     {"span", w->span, w->span},
                                     {"across", "1/near - 1/far", "(1/near - 1/far)"},
                                     {"excess", "far/near - 1", "(far/near - 1)"}};
@@ -161,6 +161,17 @@ void code_say(output *out, const code_language *l, const char *format, ...) {
     }
 }
 
+void code_import(output *out, const code_language *l) {
+    if (l->import != NULL)
+        output_text(out, l->import);
+}
+
+void code_say_rules(output *out, const code_language *l, bool powers) {
+    char rules[CODE_RULES_SIZE];
+    code_say(out, l, "%s: %s%s%s.", l->rules, code_language_rules(l, rules), powers ? "; " : "",
+             powers ? l->powers : "");
+}
+
 /* ---- Functions --------------------------------------------------------------------------------------------------- */
 
 const char *code_type_name(const code_language *l, code_type type, int members, char out[CODE_TEXT_SIZE]) {
@@ -220,4 +231,17 @@ void code_infix(output *out, const code_body *f) {
         append(members, sizeof members, "%s", f->steps.step[f->steps.count - 1].name);
     code_put(out, f->type == CODE_VECTOR ? l->members : l->result[f->type == CODE_REAL && f->wide], members, "",
              code_type_name(l, f->type, f->results, type));
+}
+
+void code_part(output *out, const code_language *l) {
+    output_text(out, l->import != NULL ? "\n\n" : "\n");
+}
+
+void code_function_of(output *out, const code_body *f, const dp_setup *setup) {
+    if (f->l->advice != NULL)
+        code_say(out, f->l, "%s", f->l->advice);
+    if (f->l->form == CODE_INFIX)
+        code_infix(out, f);
+    else
+        code_script(out, f, setup);
 }

@@ -49,8 +49,15 @@ typedef struct code_body {
 /** "float", "vec3" @return out */
 const char *code_type_name(const code_language *l, code_type type, int members, char out[CODE_TEXT_SIZE]);
 
+/** What stands before all of a file and, in comments, what the language promises of its operations. */
+void code_import(output *out, const code_language *l);
+void code_say_rules(output *out, const code_language *l, bool powers);
+
 void code_constant(const code_body *f, int i, char value[CODE_TEXT_SIZE], char formula[CODE_TEXT_SIZE]);
 void code_infix(output *out, const code_body *f);
+/** The same after how it is compiled; in front of another function. */
+void code_function_of(output *out, const code_body *f, const dp_setup *setup);
+void code_part(output *out, const code_language *l);
 /** The same as FPCore or as a script of Gappa: of an eye depth between these planes. */
 void code_script(output *out, const code_body *f, const dp_setup *setup);
 
