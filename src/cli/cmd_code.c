@@ -17,6 +17,7 @@ typedef struct wanted_code {
     const method_row *row;
     const packing *packing;
     const pack_row *encoding;
+    const char *method, *source; /* of either; null: there is one way */
     dp_setup setup;
     texture_camera camera;
 } wanted_code;
@@ -37,29 +38,26 @@ static int refuse_method(const wanted_code *w, const char *given, const char *la
                : usage_error("code: METHOD must be one of %s, got '%s'", all, given);
 }
 
-static int find_infix(const wanted_code *w) {
-    return w->language->form == CODE_INFIX
-               ? EXIT_FINE
-               : option_error(OPTION_LANGUAGE, "must be glsl, hlsl, wgsl, msl, c or numpy with --what %s, got %s",
-                              option_word(OPTION_WHAT, w->o->code.what), w->language->name);
+/* Scripts hold one function of one camera, without logarithms. */
+static int check_language(const wanted_code *w) {
+    const unsigned what = w->o->code.what;
+    const char *word = option_word(OPTION_WHAT, what), *mapping = dp_mapping_get(w->setup.spec.mapping)->name;
+    const bool script = w->language->form != CODE_INFIX, uniforms = w->o->code.uniforms;
+    if (script &&
+        (what == WHAT_ENCODE ? is_written(&w->setup) : what != WHAT_LINEARIZE || w->setup.curve == DP_CURVE_LOG))
+        return option_error(OPTION_LANGUAGE,
+                            "must be glsl, hlsl, wgsl, msl, c or numpy with --what %s --mapping %s, got %s", word,
+                            mapping, w->language->name);
+    if (uniforms && script)
+        return option_error(OPTION_UNIFORMS, "conflicts with %s, which is about one camera", w->language->name);
+    if (uniforms && (what == WHAT_PROJECTION || what == WHAT_PACK || what == WHAT_NORMAL))
+        return option_error(OPTION_UNIFORMS, "conflicts with --what %s, all of which is constants", word);
+    return EXIT_FINE;
 }
 
-static int find_constants(const wanted_code *w) {
-    const int status = find_infix(w);
-    return status == EXIT_FINE && w->o->code.uniforms
-               ? option_error(OPTION_UNIFORMS, "conflicts with --what %s, all of which is constants",
-                              option_word(OPTION_WHAT, w->o->code.what))
-               : status;
-}
-
-/* Linear and logarithmic depth, for which there is one way. */
-static int find_curve(const wanted_code *w) {
-    if (w->o->operand_count > 0)
-        return usage_error("code: --mapping %s%s has no METHOD, got '%s'", dp_mapping_get(w->setup.spec.mapping)->name,
-                           w->setup.spec.ortho ? " with --ortho" : "", w->o->operands[0]);
-    if (w->setup.curve == DP_CURVE_LOG && w->language->form != CODE_INFIX)
-        return option_error(OPTION_LANGUAGE, "must be glsl, hlsl, wgsl, msl, c or numpy with --mapping %s, got %s",
-                            dp_mapping_get(w->setup.spec.mapping)->name, w->language->name);
+static int take_names(wanted_code *w) {
+    w->method = w->row->name;
+    w->source = w->row->source;
     return EXIT_FINE;
 }
 
@@ -68,14 +66,17 @@ static int find_method(wanted_code *w) {
     const dp_format *format = &w->setup.spec.format;
     const bool encode = o->code.what == WHAT_ENCODE;
     if (encode ? is_written(&w->setup) : w->setup.curve != DP_CURVE_PERSPECTIVE)
-        return encode && find_infix(w) != EXIT_FINE ? EXIT_USAGE : find_curve(w);
+        return o->operand_count == 0 ? EXIT_FINE
+                                     : usage_error("code: there is one way for --mapping %s%s, and no METHOD, got '%s'",
+                                                   dp_mapping_get(w->setup.spec.mapping)->name,
+                                                   w->setup.spec.ortho ? " with --ortho" : "", o->operands[0]);
     w->family = encode ? &encode_family : &linearize_family;
     if (encode && (format->kind != DP_FORMAT_UNORM || format->code_max > 0xffffff))
         return option_error(OPTION_FORMAT, "must be unormN of at most 24 bits with --what encode, got %s",
                             format->name);
     if (o->operand_count == 0) {
         w->row = code_best(w->language, w->family, &w->setup);
-        return w->row != NULL ? EXIT_FINE
+        return w->row != NULL ? take_names(w)
                               : usage_error("code: %s has no method of %s", w->language->name, w->family->name);
     }
     for (size_t i = 0; i < *w->family->method_count; i++) {
@@ -84,15 +85,15 @@ static int find_method(wanted_code *w) {
             continue;
         const char *lacks = code_lacks(w->language, row, &w->setup);
         w->row = row;
-        return lacks == NULL ? EXIT_FINE : refuse_method(w, row->name, lacks);
+        return lacks == NULL ? take_names(w) : refuse_method(w, row->name, lacks);
     }
     return refuse_method(w, o->operands[0], NULL);
 }
 
 /* Without a name the one with the least error. */
 static int find_packed(wanted_code *w) {
-    const options *o = w->o;
-    const bool depth = o->code.what == WHAT_PACK;
+    const bool depth = w->o->code.what == WHAT_PACK, given = w->o->operand_count > 0;
+    const bound_arithmetic *how = &w->language->how;
     double least = (double)INFINITY;
     char all[NAMES_SIZE] = "";
     for (size_t i = 0; depth ? packing_get(i) != NULL : pack_get(i) != NULL; i++) {
@@ -101,18 +102,18 @@ static int find_packed(wanted_code *w) {
         const char *name = depth ? p->name : row->name;
         if (depth ? p->steps == 0 : row->kind != PACK_NORMAL)
             continue;
-        const double error = o->operand_count > 0 ? strcmp(name, o->operands[0]) == 0 ? 0 : (double)INFINITY
-                             : depth              ? code_pack_bound(p, &w->language->how) / p->steps
-                                                  : code_normal_bound(row, &w->language->how);
+        const double error = depth ? code_pack_bound(p, how) / p->steps : code_normal_bound(row, how);
         append(all, sizeof all, "%s%s", all[0] != '\0' ? ", " : "", name);
-        if (error < least) {
-            w->packing = p;
-            w->encoding = row;
-            least = error;
-        }
+        if (given ? strcmp(name, w->o->operands[0]) != 0 : error >= least)
+            continue;
+        w->packing = p;
+        w->encoding = row;
+        w->method = name;
+        w->source = depth ? p->source : row->source;
+        least = error;
     }
-    return isfinite(least) ? find_constants(w)
-                           : usage_error("code: METHOD must be one of %s, got '%s'", all, o->operands[0]);
+    return w->method != NULL ? EXIT_FINE
+                             : usage_error("code: METHOD must be one of %s, got '%s'", all, w->o->operands[0]);
 }
 
 /* How wide it sees. */
@@ -135,15 +136,7 @@ static int find_matrix(wanted_code *w) {
                             dp_mapping_get(w->setup.spec.mapping)->name);
     if (w->o->operand_count > 0)
         return usage_error("code: a projection matrix has no METHOD, got '%s'", w->o->operands[0]);
-    const int status = find_constants(w);
-    return status == EXIT_FINE ? find_view(w) : status;
-}
-
-static int find_places(wanted_code *w) {
-    int status = find_infix(w);
-    if (status == EXIT_FINE)
-        status = find_method(w);
-    return status == EXIT_FINE ? find_view(w) : status;
+    return EXIT_FINE;
 }
 
 /* One camera. */
@@ -163,36 +156,22 @@ static int find_setup(wanted_code *w) {
 
 /* ---- What is printed --------------------------------------------------------------------------------------------- */
 
-static code_said write_function(const wanted_code *w, output *out) {
-    const bool there = w->o->code.what == WHAT_ENCODE, uniforms = w->o->code.uniforms;
-    return w->row != NULL ? code_function(out, w->language, w->row, &w->setup, uniforms)
-                          : code_curve(out, w->language, &w->setup, there, uniforms);
+static code_said write_code(const wanted_code *w, output *out) {
+    const bool uniforms = w->o->code.uniforms;
+    const unsigned what = w->o->code.what;
+    return what == WHAT_PROJECTION ? code_projection(out, w->language, &w->camera)
+           : what == WHAT_POSITION ? code_places(out, w->language, w->row, &w->camera, uniforms)
+           : w->packing != NULL    ? code_packing(out, w->language, w->packing)
+           : w->encoding != NULL   ? code_normal(out, w->language, w->encoding)
+           : w->row != NULL        ? code_function(out, w->language, w->row, &w->setup, uniforms)
+                                   : code_curve(out, w->language, &w->setup, what == WHAT_ENCODE, uniforms);
 }
-
-static code_said write_places(const wanted_code *w, output *out) {
-    return code_places(out, w->language, w->row, &w->camera, w->o->code.uniforms);
-}
-
-static code_said write_matrix(const wanted_code *w, output *out) {
-    return code_projection(out, w->language, &w->camera);
-}
-
-static code_said write_packed(const wanted_code *w, output *out) {
-    return w->packing != NULL ? code_packing(out, w->language, w->packing) : code_normal(out, w->language, w->encoding);
-}
-
-static const struct {
-    int (*find)(wanted_code *w);
-    code_said (*write)(const wanted_code *w, output *out);
-} whats[] = {[WHAT_LINEARIZE] = {find_method, write_function}, [WHAT_PROJECTION] = {find_matrix, write_matrix},
-             [WHAT_ENCODE] = {find_method, write_function},    [WHAT_POSITION] = {find_places, write_places},
-             [WHAT_PACK] = {find_packed, write_packed},        [WHAT_NORMAL] = {find_packed, write_packed}};
 
 /* The same for programs. */
 typedef struct printed {
-    const char *language, *what, *method, *method_source, *rules, *source, *comparison, *code;
+    const char *language, *what, *method, *method_source, *source, *comparison, *code;
     int clear;
-    char arithmetic[CODE_RULES_SIZE];
+    char rules[CODE_RULES_SIZE + 64];
     code_said said;
 } printed;
 
@@ -201,59 +180,55 @@ static void *next_claim(void *of, size_t i) {
     return i < said->count ? &said->claims[i] : NULL;
 }
 
-static const column claim_columns[] = {{FIELD(code_claim, function, "function", "")},
-                                       {FIELD(code_claim, bound, "bound", "")},
-                                       {FIELD(code_claim, nearest, "nearest", "")},
-                                       {FIELD(code_claim, of, "of", "")},
-                                       {.kind = COLUMN_END}};
+/* clang-format off */
+static const column claim_columns[] = {
+    {FIELD(code_claim, function, "function", "")}, {FIELD(code_claim, bound, "bound", "")},
+    {FIELD(code_claim, nearest, "nearest", "")}, {FIELD(code_claim, of, "of", "")}, {.kind = COLUMN_END}};
 static const column printed_columns[] = {
-    {FIELD(printed, language, "language", "")},  {FIELD(printed, what, "what", "")},
-    {FIELD(printed, method, "method", "")},      {FIELD(printed, method_source, "method_source", "")},
-    {FIELD(printed, clear, "clear", "")},        {FIELD(printed, comparison, "comparison", "")},
-    {FIELD(printed, rules, "rules", "")},        {FIELD(printed, arithmetic, "arithmetic", "")},
-    {FIELD(printed, source, "source", "")},      {FIELD(printed, code, "code", "")},
+    {FIELD(printed, language, "language", "")}, {FIELD(printed, what, "what", "")},
+    {FIELD(printed, method, "method", "")}, {FIELD(printed, method_source, "method_source", "")},
+    {FIELD(printed, clear, "clear", "")}, {FIELD(printed, comparison, "comparison", "")},
+    {FIELD(printed, rules, "rules", "")}, {FIELD(printed, source, "source", "")}, {FIELD(printed, code, "code", "")},
     {LIST("bounds", claim_columns, next_claim)}, {.kind = COLUMN_END}};
+/* clang-format on */
 
-static printed printed_of(const wanted_code *w, const code_said *said, const char *code) {
-    const code_language *l = w->language;
+static void write_json(const wanted_code *w, const code_said *said, const char *code, output *out) {
     const bool reversed = w->setup.reversed != 0;
-    printed p = {.language = l->name,
+    char rules[CODE_RULES_SIZE];
+    printed p = {.language = w->language->name,
                  .what = option_word(OPTION_WHAT, w->o->code.what),
+                 .method = w->method,
+                 .method_source = w->source,
                  .clear = reversed ? 0 : 1,
                  .comparison = reversed ? "greater" : "less",
-                 .rules = l->rules,
-                 .source = l->source,
+                 .source = w->language->source,
                  .code = code,
                  .said = *said};
-    p.method = w->row != NULL        ? w->row->name
-               : w->packing != NULL  ? w->packing->name
-               : w->encoding != NULL ? w->encoding->name
-                                     : NULL;
-    p.method_source = w->row != NULL        ? w->row->source
-                      : w->packing != NULL  ? w->packing->source
-                      : w->encoding != NULL ? w->encoding->source
-                                            : NULL;
-    code_language_rules(l, p.arithmetic);
-    return p;
+    append(p.rules, sizeof p.rules, "%s: %s", w->language->rules, code_language_rules(w->language, rules));
+    report_write(&(report_spec){"code", printed_columns, &p, .when = 0}, out, FORM_JSON);
 }
 
 int cmd_code(const options *o) {
     static output out, text = {.fd = -1}; /* the code is shorter than the buffer */
+    const unsigned what = o->code.what;
     wanted_code w = {.o = o, .language = o->code.language};
     int status = find_setup(&w);
     if (status == EXIT_FINE)
-        status = whats[o->code.what].find(&w);
-    if (status == EXIT_FINE && o->code.uniforms && w.language->form != CODE_INFIX)
-        status = option_error(OPTION_UNIFORMS, "conflicts with %s, which is about one camera", w.language->name);
+        status = check_language(&w);
+    if (status == EXIT_FINE)
+        status = (what == WHAT_PROJECTION                    ? find_matrix
+                  : what == WHAT_PACK || what == WHAT_NORMAL ? find_packed
+                                                             : find_method)(&w);
+    if (status == EXIT_FINE && (what == WHAT_PROJECTION || what == WHAT_POSITION))
+        status = find_view(&w);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
-    const code_said said = whats[o->code.what].write(&w, &text);
+    const code_said said = write_code(&w, &text);
     output_char(&text, '\0');
-    printed p = printed_of(&w, &said, text.buffer);
     if (o->out.form == FORM_JSON)
-        report_write(&(report_spec){"code", printed_columns, &p, .when = 0}, &out, FORM_JSON);
+        write_json(&w, &said, text.buffer, &out);
     else
         output_text(&out, text.buffer);
     return output_close(&out);

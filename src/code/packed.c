@@ -24,16 +24,13 @@ typedef struct digits {
 
 static digits digits_of(const packing *p) {
     digits d = {.count = 0};
+    const bool upwards = p->weight[0] == 1;
     for (uint32_t k = 0; k < p->channels; k++) {
-        int at = d.count;
-        if (p->weight[k] == 0)
+        const uint32_t at = upwards ? p->channels - 1 - k : k;
+        if (p->weight[at] == 0)
             continue;
-        for (d.count++; at > 0 && d.weight[at - 1] < p->weight[k]; at--) {
-            d.weight[at] = d.weight[at - 1];
-            d.channel[at] = d.channel[at - 1];
-        }
-        d.weight[at] = p->weight[k];
-        d.channel[at] = (int)k;
+        d.channel[d.count] = (int)at;
+        d.weight[d.count++] = p->weight[at];
     }
     d.rest = p->steps > 0x1p24 ? d.weight[d.count - 2] : 0;
     d.most = p->steps / fmax(d.rest, 1);
@@ -111,43 +108,39 @@ double code_unpack_bound(const packing *p, const bound_arithmetic *how) {
     return (d.rest > 0 ? fmax(part, part / 2 + how->rounding) : how->division) * DP_UNIT * (1 + 0x1p-20);
 }
 
-static void write(output *out, const code_language *l, const char *name, const char *inputs, int results,
-                  const char *text) {
-    char own[CODE_INPUTS][2] = {"", "", "", ""};
-    code_body f = {
-        .l = l, .name = name, .type = results > 1 ? CODE_VECTOR : CODE_REAL, .results = results > 1 ? results : 0};
-    for (int i = 0; inputs[i] != '\0'; i++) {
-        own[i][0] = inputs[i];
-        f.inputs[i] = own[i];
-    }
-    steps_read(text, &f.steps);
-    code_infix(out, &f);
-}
-
 /* Two functions, there and back, of those inputs. */
 static void write_both(output *out, const code_language *l, const char *const names[2], const char *const inputs[2],
-                       char text[2][CODE_TEXT_SIZE]) {
-    char type[CODE_TEXT_SIZE], count[2] = "";
+                       const char *const text[2]) {
+    char type[CODE_TEXT_SIZE], count[2] = "", own[CODE_INPUTS][2] = {"", "", "", ""};
+    if (l->advice != NULL)
+        code_say(out, l, "%s", l->advice);
     for (int i = 0; i < 2; i++) {
         const int results = (int)strlen(inputs[1 - i]);
+        code_body f = {.l = l, .name = names[i], .type = results > 1 ? CODE_VECTOR : CODE_REAL};
         count[0] = (char)('0' + results);
+        f.results = results > 1 ? results : 0;
+        for (int k = 0; inputs[i][k] != '\0'; k++) {
+            own[k][0] = inputs[i][k];
+            f.inputs[k] = own[k];
+        }
         if (i > 0)
             code_part(out, l);
         if (l->define != NULL && results > 1 && (i == 0 || strlen(inputs[0]) != strlen(inputs[1])))
             code_put(out, l->define, count, "", code_type_name(l, CODE_VECTOR, results, type));
-        write(out, l, names[i], inputs[i], results, text[i]);
+        steps_read(text[i], &f.steps);
+        code_infix(out, &f);
     }
 }
 
 code_said code_packing(output *out, const code_language *l, const packing *p) {
     const digits d = digits_of(p);
-    const double off = code_pack_bound(p, &l->how), back = code_unpack_bound(p, &l->how);
-    char text[2][CODE_TEXT_SIZE] = {"", ""}, used[IMAGE_CHANNELS_MAX + 1] = "";
+    const double off = code_pack_bound(p, &l->how), more = code_unpack_bound(p, &l->how);
+    char there[CODE_TEXT_SIZE] = "", back[CODE_TEXT_SIZE] = "", used[IMAGE_CHANNELS_MAX + 1] = "";
     for (uint32_t k = 0; k < p->channels; k++)
         if (p->weight[k] > 0)
             append(used, sizeof used, "%c", letters[k]);
-    pack_text(p, &d, text[0]);
-    unpack_text(p, &d, text[1]);
+    pack_text(p, &d, there);
+    unpack_text(p, &d, back);
     code_import(out, l);
     code_say(out, l, "%s in the channels %s of 8 bits: %s", p->linear ? "Eye depth over far" : "Window depth", used,
              p->name);
@@ -156,13 +149,12 @@ code_said code_packing(output *out, const code_language *l, const packing *p) {
     code_say(out, l,
              "So a texel is off by at most %s of its steps of %s for any d from 0 to 1, where channels are stored to "
              "nearest, and unpack_depth by at most %s of what the texel says, where they are read within 1 ulp.",
-             number_up(off, 6).text, number_of(1 / p->steps, 6).text, number_up(back, 3).text);
-    if (l->advice != NULL)
-        code_say(out, l, "%s", l->advice);
-    write_both(out, l, (const char *const[]){"pack_depth", "unpack_depth"}, (const char *const[]){"d", used}, text);
+             number_up(off, 6).text, number_of(1 / p->steps, 6).text, number_up(more, 3).text);
+    write_both(out, l, (const char *const[]){"pack_depth", "unpack_depth"}, (const char *const[]){"d", used},
+               (const char *const[]){there, back});
     return (code_said){.count = 2,
                        .claims = {{"pack_depth", off, code_pack_bound(p, &bound_nearest), "steps"},
-                                  {"unpack_depth", back, code_unpack_bound(p, &bound_nearest), "depth"}}};
+                                  {"unpack_depth", more, code_unpack_bound(p, &bound_nearest), "depth"}}};
 }
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
@@ -208,9 +200,6 @@ double code_normal_bound(const pack_row *row, const bound_arithmetic *how) {
 code_said code_normal(output *out, const code_language *l, const pack_row *row) {
     const double bound = code_normal_bound(row, &l->how);
     const bool either = row->layout == PACK_OCT || row->layout == PACK_XYZ;
-    char text[2][CODE_TEXT_SIZE] = {"", ""};
-    append(text[0], CODE_TEXT_SIZE, "%s", normals[row->layout].there);
-    append(text[1], CODE_TEXT_SIZE, "%s", normals[row->layout].back);
     code_import(out, l);
     code_say(out, l, "Normal in %s channels of %d bits: %s", either ? "SNORM" : "UNORM", row->bits, row->name);
     code_say(out, l, "%s: %s", row->name, row->note);
@@ -219,10 +208,9 @@ code_said code_normal(output *out, const code_language *l, const pack_row *row) 
              "So a vector of length 1%s comes back within %s degrees, where channels are stored to nearest and read "
              "within 1 ulp.",
              row->sphere ? "" : " with z from 0 to 1", number_up(bound, 4).text);
-    if (l->advice != NULL)
-        code_say(out, l, "%s", l->advice);
     write_both(out, l, (const char *const[]){"pack_normal", "unpack_normal"},
-               (const char *const[]){"xyz", normals[row->layout].channels}, text);
+               (const char *const[]){"xyz", normals[row->layout].channels},
+               (const char *const[]){normals[row->layout].there, normals[row->layout].back});
     return (code_said){.count = 1,
                        .claims = {{"unpack_normal", bound, code_normal_bound(row, &bound_nearest), "degrees"}}};
 }
