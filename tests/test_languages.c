@@ -701,6 +701,153 @@ TEST(no_curve_is_off_by_more_than_its_bound) {
     tally_end(&t);
 }
 
+/* ---- On a device ------------------------------------------------------------------------------------------------- */
+
+static output functions; /* what is printed, and never written */
+static float depths[DEPTHS], got[DEPTHS];
+
+static float given_depth(const void *of, uint64_t i) {
+    return ((const float *)of)[i];
+}
+
+/* What an expression of d gives for each depth, behind `functions`. */
+static void run_glsl(const char *expression) {
+    static char shader[OUTPUT_BUFFER_SIZE + 1024];
+    compute_run run = {.count = DEPTHS, .depth = given_depth, .of = depths};
+    shot_machine machine = {0};
+    char error[COMPUTE_ERROR_SIZE];
+    unsigned line;
+    bool endless;
+    FILE *values = NULL;
+    snprintf(shader, sizeof shader,
+             "#version 450\nlayout(local_size_x = 64) in;\n"
+             "layout(std430, set = 0, binding = 0) readonly buffer In { float given[]; };\n"
+             "layout(std430, set = 0, binding = 1) writeonly buffer Out { float made[]; };\n%.*s\n"
+             "void main() { float d = given[gl_GlobalInvocationID.x]; made[gl_GlobalInvocationID.x] = %s; }\n",
+             (int)functions.used, functions.buffer, expression);
+    if (!compute_compile(shader, false, &run, &line, error) ||
+        !compute_values(NULL, &run, &machine, &values, &endless, error)) {
+        printf("# %s\n", error);
+        assert_true(strstr(error, "Debian's package") != NULL || strstr(error, "device") != NULL);
+        skip();
+    }
+    assert_int_equal(fread(got, sizeof *got, DEPTHS, values), DEPTHS);
+    sandbox_close(values);
+    free(run.code);
+    functions.used = 0;
+}
+
+static void run_method(tally *t, const method_row *row, const dp_setup *s) {
+    float own[DEPTHS];
+    const double n = s->spec.znear, f = s->spec.zfar, bound = code_bound(language("glsl"), row, s);
+    const method_inputs in = {.count = DEPTHS, .d = depths};
+    const method_outputs out = {.eye = own};
+    int equal = 0;
+    code_function(&functions, language("glsl"), row, s, false);
+    run_glsl("eye_depth(d)");
+    row->run(&(method_call){row, s, NULL, &in, &out});
+    for (int i = 0; i < DEPTHS; i++) {
+        const long double q = s->reversed ? depths[i] : 1 - (long double)depths[i],
+                          z = isinf(f) ? n / q : n * (long double)f / (n + (f - n) * q);
+        const bool same = bits(got[i]) == bits(own[i]); /* of what has no quotient */
+        equal += same;
+        TALLY(t, z > 0x1p125L || (fabsl(got[i] - z) <= bound * z && (same || strcmp(row->name, "magic") != 0)),
+              "%s, d %a: %a, own %a", row->name, (double)depths[i], (double)got[i], (double)own[i]);
+    }
+    printf("# %s of %s: %d of %d bits\n", row->name, dp_mapping_get(s->spec.mapping)->name, equal, DEPTHS);
+}
+
+static void run_codes(tally *t, const method_row *row, const dp_setup *s) {
+    uint32_t own[DEPTHS];
+    const method_inputs in = {.count = DEPTHS, .d = depths};
+    const method_outputs out = {.code = own};
+    code_function(&functions, language("glsl"), row, s, false);
+    run_glsl("float(depth_code(d))");
+    row->run(&(method_call){row, s, NULL, &in, &out});
+    for (int i = 0; i < DEPTHS; i++)
+        TALLY(t, got[i] == (float)own[i], "%s, d %a: %g", row->name, (double)depths[i], (double)got[i]);
+}
+
+static void run_packing(tally *t, const packing *p) {
+    const bound_arithmetic *how = &language("glsl")->how;
+    const double bound = code_pack_bound(p, how) / p->steps + code_unpack_bound(p, how);
+    int channel[4];
+    const int count = channels_of(p, channel);
+    code_packing(&functions, language("glsl"), p);
+    output_format(&functions, "float again(vec4 v) { return unpack_depth(v.r%s); }\n",
+                  count == 4   ? ", v.g, v.b, v.a"
+                  : count == 3 ? ", v.g, v.b"
+                  : count == 2 ? ", v.g"
+                               : "");
+    run_glsl(count == 4   ? "again(pack_depth(d))"
+             : count == 3 ? "again(vec4(pack_depth(d), 0))"
+             : count == 2 ? "again(vec4(pack_depth(d), 0, 0))"
+                          : "again(vec4(pack_depth(d)))");
+    for (int i = 0; i < DEPTHS; i++)
+        TALLY(t, fabs((double)got[i] - (double)depths[i]) <= bound, "%s, d %a: %a", p->name, (double)depths[i],
+              (double)got[i]);
+}
+
+/* Some directions, in channels of 8 bits. */
+static void run_normal(tally *t, const pack_row *row) {
+    static const char *const members[] = {"again(d).x", "again(d).y", "again(d).z"};
+    static float n[DEPTHS][3];
+    for (int k = 0; k < 3; k++) {
+        code_normal(&functions, language("glsl"), row);
+        output_format(&functions, "vec3 again(float d) { vec2 v = pack_normal(d - 0.5, 0.25, d - 0.75); "
+                             "v = roundEven(v * 127.0) / 127.0; return unpack_normal(v.x, v.y); }\n");
+        run_glsl(members[k]);
+        for (int i = 0; i < DEPTHS; i++)
+            n[i][k] = got[i];
+    }
+    for (int i = 0; i < DEPTHS; i++) {
+        const double off = degrees_between(n[i], (const float[]){depths[i] - 0.5f, 0.25f, depths[i] - 0.75f});
+        TALLY(t, off <= code_normal_bound(row, &language("glsl")->how), "%s, d %a: %g degrees", row->name,
+              (double)depths[i], off);
+    }
+}
+
+static void run_logarithm(tally *t, dp_mapping mapping) {
+    dp_spec spec = dp_spec_default();
+    dp_setup s;
+    spec.mapping = mapping;
+    assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+    const bound_arithmetic *how = &language("glsl")->how;
+    code_curve(&functions, language("glsl"), &s, false, false);
+    code_curve(&functions, language("glsl"), &s, true, false);
+    run_glsl("window_depth(eye_depth(d))");
+    for (int i = 0; i < DEPTHS; i++) { /* z + 1 is off by a share: its logarithm by so many parts of that of far + 1 */
+        const double bound = code_curve_there(&s, how) + code_curve_back(&s, how) / log(spec.zfar + 1) * 1.001;
+        TALLY(t, fabs((double)got[i] - (double)depths[i]) <= bound, "%s, d %a: %a", dp_mapping_get(mapping)->name,
+              (double)depths[i], (double)got[i]);
+    }
+}
+
+TEST(a_device_has_what_is_said_of_glsl) {
+    rng r = rng_make("device");
+    tally t = {.name = "device"};
+    const dp_setup formats[] = {stored("unorm16"), stored("unorm24")};
+    functions = (output){.fd = -1};
+    windows(&r, depths);
+    for (uint64_t k = 1; k < 4; k++) {
+        const dp_setup s = camera_of(&r, k);
+        for (size_t i = 0; i < *linearize_family.method_count; i++)
+            if (code_lacks(language("glsl"), &linearize_family.methods[i], &s) == NULL)
+                run_method(&t, &linearize_family.methods[i], &s);
+    }
+    for (int k = 0; k < 4; k++)
+        run_codes(&t, &encode_family.methods[2 + k % 2], &formats[k / 2]);
+    for (size_t i = 0; packing_get(i) != NULL; i++)
+        if (packing_get(i)->steps > 0)
+            run_packing(&t, packing_get(i));
+    for (size_t i = 0; pack_get(i) != NULL; i++)
+        if (strcmp(pack_get(i)->name, "oct-8") == 0)
+            run_normal(&t, pack_get(i));
+    run_logarithm(&t, DP_MAPPING_LOG);
+    run_logarithm(&t, DP_MAPPING_OSGEARTH);
+    tally_end(&t);
+}
+
 /* The least bound is what is printed without a name, and no method that a language lacks. */
 TEST(the_best_has_the_least_bound) {
     rng r = rng_make("best");

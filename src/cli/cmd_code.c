@@ -171,7 +171,7 @@ static code_said write_code(const wanted_code *w, output *out) {
 typedef struct printed {
     const char *language, *what, *method, *method_source, *source, *comparison, *code;
     int clear;
-    char rules[CODE_RULES_SIZE + 64];
+    char rules[2 * CODE_RULES_SIZE];
     code_said said;
 } printed;
 
@@ -194,6 +194,7 @@ static const column printed_columns[] = {
 
 static void write_json(const wanted_code *w, const code_said *said, const char *code, output *out) {
     const bool reversed = w->setup.reversed != 0;
+    const bool powers = w->setup.curve == DP_CURVE_LOG && w->language->powers != NULL;
     char rules[CODE_RULES_SIZE];
     printed p = {.language = w->language->name,
                  .what = option_word(OPTION_WHAT, w->o->code.what),
@@ -204,7 +205,8 @@ static void write_json(const wanted_code *w, const code_said *said, const char *
                  .source = w->language->source,
                  .code = code,
                  .said = *said};
-    append(p.rules, sizeof p.rules, "%s: %s", w->language->rules, code_language_rules(w->language, rules));
+    append(p.rules, sizeof p.rules, "%s: %s%s%s", w->language->rules, code_language_rules(w->language, rules),
+           powers ? "; " : "", powers ? w->language->powers : "");
     report_write(&(report_spec){"code", printed_columns, &p, .when = 0}, out, FORM_JSON);
 }
 
