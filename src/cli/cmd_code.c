@@ -43,11 +43,10 @@ static int check_language(const wanted_code *w) {
     const unsigned what = w->o->code.what;
     const char *word = option_word(OPTION_WHAT, what), *mapping = dp_mapping_get(w->setup.spec.mapping)->name;
     const bool script = w->language->form != CODE_INFIX, uniforms = w->o->code.uniforms;
-    if (script &&
-        (what == WHAT_ENCODE ? is_written(&w->setup) : what != WHAT_LINEARIZE || w->setup.curve == DP_CURVE_LOG))
-        return option_error(OPTION_LANGUAGE,
-                            "must be glsl, hlsl, wgsl, msl, c or numpy with --what %s --mapping %s, got %s", word,
-                            mapping, w->language->name);
+    const bool whole = what == WHAT_LINEARIZE || what == WHAT_ENCODE; /* but not of each mapping */
+    if (script && (!whole || (what == WHAT_ENCODE ? is_written(&w->setup) : w->setup.curve == DP_CURVE_LOG)))
+        return option_error(OPTION_LANGUAGE, "must be glsl, hlsl, wgsl, msl, c or numpy with --%s %s, got %s",
+                            whole ? "mapping" : "what", whole ? mapping : word, w->language->name);
     if (uniforms && script)
         return option_error(OPTION_UNIFORMS, "conflicts with %s, which is about one camera", w->language->name);
     if (uniforms && (what == WHAT_PROJECTION || what == WHAT_PACK || what == WHAT_NORMAL))
