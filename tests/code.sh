@@ -13,12 +13,10 @@ code() { "$DEPTHPREC" code "$@"; }
 
 # Lines of options: channels, and cameras whose depth is linear or logarithmic.
 more() {
-    for packing in depth-normals rg rgba rgba-r166 rgb24 rgb24-le carla linear01; do echo "$packing --what pack"; done
+    for packing in rg rgba rgba-r166 rgb24 linear01; do echo "$packing --what pack"; done
     for normals in stereo-8 oct-8 oct-888 xyz-8; do echo "$normals --what normal"; done
-    for what in linearize encode; do
-        for mapping in log cesium three-webgpu linear; do printf -- "-m $mapping --what $what%s\n" '' ' --uniforms'; done
-    done
-    printf -- '--ortho -m %s\n' d3d 'reversed --uniforms' 'gl-reversed -n -3'
+    for mapping in log cesium three-webgpu linear; do printf -- "-m $mapping%s\n" '' ' --what encode --uniforms'; done
+    printf -- '--ortho -m %s\n' d3d 'reversed --uniforms'
 }
 
 # Every function of a language for every camera, and the matrix: in $scratch/all. What a language lacks is refused.

@@ -795,7 +795,7 @@ static void run_normal(tally *t, const pack_row *row) {
     for (int k = 0; k < 3; k++) {
         code_normal(&functions, language("glsl"), row);
         output_format(&functions, "vec3 again(float d) { vec2 v = pack_normal(d - 0.5, 0.25, d - 0.75); "
-                             "v = roundEven(v * 127.0) / 127.0; return unpack_normal(v.x, v.y); }\n");
+                                  "v = roundEven(v * 127.0) / 127.0; return unpack_normal(v.x, v.y); }\n");
         run_glsl(members[k]);
         for (int i = 0; i < DEPTHS; i++)
             n[i][k] = got[i];

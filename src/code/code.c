@@ -65,19 +65,6 @@ const method_row *code_best(const code_language *l, const method_family_row *fam
 
 /* ---- Comments ---------------------------------------------------------------------------------------------------- */
 
-void code_say_camera(output *out, const code_language *l, const dp_setup *setup, const char *what) {
-    const dp_spec *s = &setup->spec;
-    const bool scaled = setup->curve == DP_CURVE_LOG && !dp_mapping_get(s->mapping)->log_over_near;
-    code_say(out, l, "%s: %s%s, near %s, far %s%s%s", what, dp_mapping_get(s->mapping)->name,
-             s->ortho ? ", orthographic" : "", number_full(s->znear).text, number_full(s->zfar).text,
-             scaled ? ", C " : "", scaled ? number_full(s->log_c).text : "");
-}
-
-void code_say_depth(output *out, const code_language *l, const dp_setup *setup) {
-    const bool reversed = setup->reversed != 0;
-    code_say(out, l, "Clear depth to %d; nearer is %s.", reversed ? 0 : 1, reversed ? "GREATER" : "LESS");
-}
-
 static void say_encode(output *out, const code_language *l, const method_row *row, const dp_setup *setup) {
     const double bound = code_bound(l, row, setup);
     code_say_rules(out, l, false);
@@ -141,7 +128,8 @@ code_said code_function(output *out, const code_language *l, const method_row *r
 
 /* Twice a pixel's centre less the size is exact; the constant is rounded to nearest, `products` as may be. */
 static double place_bound(double depth, const bound_arithmetic *how, int products) {
-    return ((1 + depth) * (1 + DP_UNIT) * pow(1 + how->rounding * DP_UNIT, products) - 1) * (1 + 0x1p-40);
+    const double each = 1 + how->rounding * DP_UNIT;
+    return ((1 + depth) * (1 + DP_UNIT) * (products > 1 ? each * each : each) - 1) * (1 + 0x1p-40);
 }
 
 double code_place_bound(const code_language *l, const method_row *row, const dp_setup *setup) {

@@ -22,10 +22,6 @@ typedef struct code_said {
     size_t count;
 } code_said;
 
-/** In comments: the camera, behind what it is of; what its depth is cleared to and compared by. */
-void code_say_camera(output *out, const code_language *l, const dp_setup *setup, const char *what);
-void code_say_depth(output *out, const code_language *l, const dp_setup *setup);
-
 /** Why a language has no function for a row at a camera, "needs a finite far plane"; or null. */
 const char *code_lacks(const code_language *l, const method_row *row, const dp_setup *setup);
 

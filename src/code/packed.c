@@ -9,6 +9,7 @@
 #include "code/code.h"
 #include "core/append.h"
 #include "core/bits.h"
+#include "core/elementary.h"
 #include "report/number.h"
 
 enum { BYTE = 255 };
@@ -83,13 +84,15 @@ static void pack_text(const packing *p, const digits *d, char *out) {
 static void unpack_text(const packing *p, const digits *d, char *out) {
     const int whole = d->count - (d->rest > 0);
     double most = 0;
+    for (int i = 0; i < d->count; i++)
+        append(out, CODE_TEXT_SIZE, "%c = even(%c*255); ", digit_names[d->channel[i]], letters[d->channel[i]]);
     for (int i = 0; i < whole; i++) {
-        append(out, CODE_TEXT_SIZE, i > 0 ? " + even(%c*255)" : "k = even(%c*255)", letters[d->channel[i]]);
+        append(out, CODE_TEXT_SIZE, i > 0 ? " + %c" : "k = %c", digit_names[d->channel[i]]);
         weighted(out, d->weight[i]);
         most += d->weight[i] * BYTE;
     }
     if (d->rest > 0)
-        append(out, CODE_TEXT_SIZE, "; l = even(%c*255)%c%.17g; d = (k + l)*%.17g", letters[d->channel[whole]],
+        append(out, CODE_TEXT_SIZE, "; l = %c%c%.17g; d = (k + l)*%.17g", digit_names[d->channel[whole]],
                d->rest > BYTE ? '*' : '/', d->rest > BYTE ? 1 / d->rest : d->rest, 1 / d->most);
     else
         append(out, CODE_TEXT_SIZE, most > p->steps ? "; d = min(k/%.17g, 1)" : "; d = k/%.17g", p->steps);
@@ -175,8 +178,8 @@ static const struct {
         PLACE "u = a + signed(t, a); v = c + signed(t, c); i = floor((u*0.5 + 0.5)*4095.5); "
         "j = floor((v*0.5 + 0.5)*4095.5); p = floor(i*0.00390625); q = floor(j*0.00390625); "
         "r = (i - p*256)/255; g = (j - q*256)/255; b = (p + q*16)/255",
-        "h = even(b*255); q = floor(h*0.0625); p = h - q*16; i = (even(r*255) + p*256)/4095*2 - 1; "
-        "j = (even(g*255) + q*256)/4095*2 - 1; " FOLD("i", "j") UNIT("u", "v", "c")},
+        "h = even(b*255); q = floor(h*0.0625); p = h - q*16; k = even(r*255) + p*256; i = k/4095*2 - 1; "
+        "l = even(g*255) + q*256; j = l/4095*2 - 1; " FOLD("i", "j") UNIT("u", "v", "c")},
     [PACK_XYZ] = {"rgb", "r = x; g = y; b = z", UNIT("r", "g", "b")},
 };
 /* clang-format on */
@@ -193,7 +196,7 @@ static double turned(pack_layout layout, const bound_arithmetic *how) {
 /* Vectors of binary32 have no length of exactly 1: of xyz all places of the cube of a code. */
 double code_normal_bound(const pack_row *row, const bound_arithmetic *how) {
     const double half = sqrt(3) / 2 / (double)((1 << (row->bits - 1)) - 1), degree = M_PI / 180;
-    const double exact = row->layout == PACK_XYZ ? asin(half) : row->normal.max * degree;
+    const double exact = row->layout == PACK_XYZ ? dp_atan2(half, sqrt(1 - half * half)) : row->normal.max * degree;
     return (exact * (1 + 0x1p-20) + turned(row->layout, how) * DP_UNIT * (1 + 0x1p-10)) / degree;
 }
 

@@ -93,6 +93,13 @@ static void put_proof(output *out, const code_body *f, const dp_setup *setup) {
     put_pieces(out);
 }
 
-void code_script(output *out, const code_body *f, const dp_setup *setup) {
-    (f->l->form == CODE_PREFIX ? put_prefix : put_proof)(out, f, setup);
+static void put_infix(output *out, const code_body *f, const dp_setup *setup) {
+    (void)setup;
+    code_infix(out, f);
+}
+
+void code_function_of(output *out, const code_body *f, const dp_setup *setup) {
+    if (f->l->advice != NULL)
+        code_say(out, f->l, "%s", f->l->advice);
+    (f->l->form == CODE_PREFIX ? put_prefix : f->l->form == CODE_PROOF ? put_proof : put_infix)(out, f, setup);
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/append.h"
+#include "report/number.h"
 
 /* ---- Pieces of text ---------------------------------------------------------------------------------------------- */
 
@@ -172,6 +173,19 @@ void code_say_rules(output *out, const code_language *l, bool powers) {
              powers ? l->powers : "");
 }
 
+void code_say_camera(output *out, const code_language *l, const dp_setup *setup, const char *what) {
+    const dp_spec *s = &setup->spec;
+    const bool scaled = setup->curve == DP_CURVE_LOG && !dp_mapping_get(s->mapping)->log_over_near;
+    code_say(out, l, "%s: %s%s, near %s, far %s%s%s", what, dp_mapping_get(s->mapping)->name,
+             s->ortho ? ", orthographic" : "", number_full(s->znear).text, number_full(s->zfar).text,
+             scaled ? ", C " : "", scaled ? number_full(s->log_c).text : "");
+}
+
+void code_say_depth(output *out, const code_language *l, const dp_setup *setup) {
+    const bool reversed = setup->reversed != 0;
+    code_say(out, l, "Clear depth to %d; nearer is %s.", reversed ? 0 : 1, reversed ? "GREATER" : "LESS");
+}
+
 /* ---- Functions --------------------------------------------------------------------------------------------------- */
 
 const char *code_type_name(const code_language *l, code_type type, int members, char out[CODE_TEXT_SIZE]) {
@@ -213,35 +227,24 @@ static void put_head(output *out, const code_body *f) {
     }
 }
 
-/* Steps, but for the members of a vector and a whole number, which are returned as they are computed. */
+/* A whole number is returned as it is computed. */
 void code_infix(output *out, const code_body *f) {
     const code_language *l = f->l;
-    char type[CODE_TEXT_SIZE], members[CODE_TEXT_SIZE] = "";
-    const int named = f->steps.count - (f->type == CODE_COUNT ? 1 : f->results);
+    char type[CODE_TEXT_SIZE], given[CODE_TEXT_SIZE] = "";
     put_head(out, f);
     for (int i = 0; i < f->steps.count; i++) {
+        const char *name = f->steps.step[i].name;
         char text[CODE_TEXT_SIZE] = "";
         code_expression(&(code_writer){.l = l, .steps = &f->steps, .wide = f->wide}, f->steps.step[i].is, 0, text);
-        if (i < named)
-            code_put(out, l->step[f->wide], f->steps.step[i].name, text, "");
-        else
-            append(members, sizeof members, "%s%s", i > named ? ", " : "", text);
+        if (f->type != CODE_COUNT)
+            code_put(out, l->step[f->wide], name, text, "");
+        if (i + (f->results > 0 ? f->results : 1) >= f->steps.count)
+            append(given, sizeof given, "%s%s", given[0] != '\0' ? ", " : "", f->type == CODE_COUNT ? text : name);
     }
-    if (f->type == CODE_REAL)
-        append(members, sizeof members, "%s", f->steps.step[f->steps.count - 1].name);
-    code_put(out, f->type == CODE_VECTOR ? l->members : l->result[f->type == CODE_REAL && f->wide], members, "",
+    code_put(out, f->type == CODE_VECTOR ? l->members : l->result[f->type == CODE_REAL && f->wide], given, "",
              code_type_name(l, f->type, f->results, type));
 }
 
 void code_part(output *out, const code_language *l) {
     output_text(out, l->import != NULL ? "\n\n" : "\n");
-}
-
-void code_function_of(output *out, const code_body *f, const dp_setup *setup) {
-    if (f->l->advice != NULL)
-        code_say(out, f->l, "%s", f->l->advice);
-    if (f->l->form == CODE_INFIX)
-        code_infix(out, f);
-    else
-        code_script(out, f, setup);
 }

@@ -49,16 +49,19 @@ typedef struct code_body {
 /** "float", "vec3" @return out */
 const char *code_type_name(const code_language *l, code_type type, int members, char out[CODE_TEXT_SIZE]);
 
+/** In comments: the camera, behind what it is of; what its depth is cleared to and compared by. */
+void code_say_camera(output *out, const code_language *l, const dp_setup *setup, const char *what);
+void code_say_depth(output *out, const code_language *l, const dp_setup *setup);
+
 /** What stands before all of a file and, in comments, what the language promises of its operations. */
 void code_import(output *out, const code_language *l);
 void code_say_rules(output *out, const code_language *l, bool powers);
 
 void code_constant(const code_body *f, int i, char value[CODE_TEXT_SIZE], char formula[CODE_TEXT_SIZE]);
 void code_infix(output *out, const code_body *f);
-/** The same after how it is compiled; in front of another function. */
+/** The same behind how it is compiled; as a script of an eye depth between these planes. */
 void code_function_of(output *out, const code_body *f, const dp_setup *setup);
+/** What stands between two functions. */
 void code_part(output *out, const code_language *l);
-/** The same as FPCore or as a script of Gappa: of an eye depth between these planes. */
-void code_script(output *out, const code_body *f, const dp_setup *setup);
 
 #endif
