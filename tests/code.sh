@@ -276,6 +276,24 @@ if command -v glslangValidator >/dev/null; then
     check "HLSL of places" places hlsl hlsl
 fi
 
+# Where exp2 and log2 have whole numbers: log2(C (far - near) + 1) or log2(far/near) is 2, and d a half.
+curve() { # curve D Z OPTIONS: an eye depth, and of a mapping that a shader writes the way back
+    d=$1 z=$2
+    shift 2
+    code "$@" --language c >"$scratch/code" && { [ "$1" = --ortho ] || code "$@" --what encode --language c >>"$scratch/code"; } &&
+        { printf '#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n'
+            cat "$scratch/code"
+            [ "$1" != --ortho ] || echo "#define window_depth(z) ((float)($d))"
+            echo "int main(void) { printf(\"%g %g\", (double)eye_depth($d), (double)window_depth($z)); return 0; }"
+        } >"$scratch/c.c" && $CC -o "$scratch/c" "$scratch/c.c" -lm && [ "$("$scratch/c")" = "$z $d" ] || "$scratch/c"
+}
+check "log by hand" empty curve 0.5 2 -m log --log-c 0.5 -f 6
+check "cesium by hand" empty curve 0.5 4 -m cesium --log-c 0.5 -n 2 -f 8
+check "three-webgpu by hand" empty curve 0.5 6 -m three-webgpu -n 3 -f 12
+check "linear by hand" empty curve 0.25 2 -m linear -f 8
+check "orthographic by hand" empty curve 0.25 1.75 --ortho -m d3d -n 1 -f 4
+check "that of reversed depth by hand" empty curve 0.25 2 --ortho -m reversed -n -1 -f 3
+
 cleared() { code "$@" | grep -qE "^(//|#) Clear depth to $clear; nearer is $compare\.$"; }
 clear=0 compare=GREATER
 check "reversed depth is cleared to 0 and compared by GREATER" cleared -m reversed
