@@ -228,7 +228,8 @@ static void check_packing(tally *t, const packing *p, packer *there, packer *bac
         there(&d[i], at);
         for (int k = 0; k < count; k++) {
             const float code = rintf(255 * at[k]);
-            TALLY(t, fabsf(at[k] - code / 255) < 1e-6f, "%s, d %a: %a", p->name, (double)d[i], (double)at[k]);
+            TALLY(t, code >= 0 && code <= 255 && fabsf(at[k] - code / 255) < 1e-6f, "%s, d %a: %a", p->name,
+                  (double)d[i], (double)at[k]);
             number += (long double)p->weight[channel[k]] * code;
             at[k] = nextafterf(code / 255, i % 2 ? 2 : -1);
         }
