@@ -276,6 +276,10 @@ if command -v glslangValidator >/dev/null; then
     check "HLSL of places" places hlsl hlsl
 fi
 
+best() { code --what "$1" | grep -q "^// $2: "; }
+check "the best packing has the finest steps" best pack rgba
+check "the best normals have the least angle" best normal xyz-12
+
 # Where exp2 and log2 have whole numbers: log2(C (far - near) + 1) or log2(far/near) is 2, and d a half.
 curve() { # curve D Z OPTIONS: an eye depth, and of a mapping that a shader writes the way back
     d=$1 z=$2
