@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Code to take away, as others take it: glslangValidator and spirv-val, python3 with numpy, Gappa, where they are
-# installed. WGSL, MSL and FPCore are looked at by their structure alone: nothing here compiles them.
+# installed; naga, which make check-full fetches. MSL and FPCore are looked at by their structure alone: nothing here
+# compiles them.
 . tests/tap.sh
 
 methods='magic unity complement-unity linear-01 linear-01-near textbook complement fused double phi-double floor:unorm16 rint:unorm24 floor-double:unorm24'
@@ -10,10 +11,27 @@ cameras='d3d:0.1:1000 gl-reversed:0.3:inf' least=20
 
 code() { "$DEPTHPREC" code "$@"; }
 
+# Lines of options: channels, and cameras whose depth is linear or logarithmic.
+more() {
+    for packing in rg rgba rgba-r166 rgb24 linear01; do echo "$packing --what pack"; done
+    for normals in stereo-8 oct-8 oct-888 xyz-8; do echo "$normals --what normal"; done
+    for mapping in log cesium three-webgpu linear; do printf -- "-m $mapping%s\n" '' ' --what encode --uniforms'; done
+    printf -- '--ortho -m %s\n' d3d 'reversed --uniforms'
+}
+
 # Every function of a language for every camera, and the matrix: in $scratch/all. What a language lacks is refused.
 each() { # each LANGUAGE COMMAND: runs COMMAND FILE for each
     language=$1 count=0
     shift
+    more >"$scratch/more"
+    while read -r line; do
+        code $line --language $language >"$scratch/code" 2>"$scratch/refused" || {
+            grep -qE "^depthprec: --(language|uniforms): " "$scratch/refused" && continue
+            cat "$scratch/refused" && return 1
+        }
+        count=$((count + 1))
+        "$@" || { echo "$line" && cat "$scratch/code" && return 1; }
+    done <"$scratch/more"
     for camera in $cameras; do
         at="-m ${camera%%:*} -n $(echo "$camera" | cut -d: -f2) -f ${camera##*:} --language $language"
         for method in $methods; do
@@ -31,7 +49,7 @@ each() { # each LANGUAGE COMMAND: runs COMMAND FILE for each
     [ $count -ge $least ] || { echo "only $count" && return 1; }
 }
 
-called() { sed -n 's/.*\(depth_code\|eye_depth\)(.*/\1/p' "$scratch/code"; }
+called() { { sed -n 's/.*\(depth_code\|eye_depth\|window_depth\)(.*/\1/p' "$scratch/code" && echo float; } | head -n 1; }
 
 arguments() { # the uniforms' numbers, as the comments have them
     sed -n 's/^[/#]* [A-Za-z] = .* = \(.*\)$/, \1/p' "$scratch/code" | tr -d '\n'
@@ -43,7 +61,7 @@ layout(local_size_x = 1) in;
 layout(std430, binding = 0) buffer Values { float values[]; };'
         cat "$scratch/code"
         code --what projection --language glsl
-        echo "void main() { vec4 clip = projection * vec4(1.0); values[0] = $(called | head -n 1)(values[1]$(arguments)) + clip.w; }"
+        echo "void main() { vec4 clip = projection * vec4(1.0); values[0] = $(called)(values[1]$(arguments)) + clip.w; }"
     } >"$scratch/code.comp"
     glslangValidator -V -o "$scratch/code.spv" "$scratch/code.comp" && spirv_val
 }
@@ -53,7 +71,7 @@ hlsl() {
         cat "$scratch/code"
         code --what projection --language hlsl
         echo "[numthreads(1, 1, 1)] void main() {
-            values[0] = $(called | head -n 1)(values[1]$(arguments)) + mul(projection, float4(1, 1, 1, 1)).w; }"
+            values[0] = $(called)(values[1]$(arguments)) + mul(projection, float4(1, 1, 1, 1)).w; }"
     } >"$scratch/code.hlsl"
     glslangValidator -D -V -S comp -e main -o "$scratch/code.spv" "$scratch/code.hlsl" && spirv_val
 }
@@ -79,8 +97,8 @@ structure() {
               if (depth < 0) exit bad = 1
           }
           if (language == "wgsl" && /[0-9]\.[0-9]+[^0-9ef]/) exit bad = 1
-          if (language == "wgsl" && !/^fn (eye_depth|depth_code)\(d: f32(, [A-Za-z]: f32)*\) -> [fu]32 \{$|^    (let|const) [A-Za-z] = .*;$|^    return .*;$|^}$/) exit bad = 1
-          if (language == "msl" && !/^(float eye_depth|uint depth_code)\(float d(, float [A-Za-z])*\) \{$|^    const float [A-Za-z] = .*;$|^    return .*;$|^}$/) exit bad = 1
+          if (language == "wgsl" && !/^$|^fn [a-z_]+\([a-z]: f32(, [A-Za-z]: f32)*\) -> ([fu]32|vec[234]<f32>) \{$|^    (let|const) [A-Za-z] = .*;$|^    return .*;$|^}$/) exit bad = 1
+          if (language == "msl" && !/^$|^(float[234]?|uint) [a-z_]+\(float [a-z](, float [A-Za-z])*\) \{$|^    const float [A-Za-z] = .*;$|^    return .*;$|^}$/) exit bad = 1
           all = all $0 }
         END { exit bad || depth != 0 || all == "" }' "$scratch/code"
 }
@@ -89,12 +107,33 @@ check "every MSL has its structure" each msl structure
 least=$((least / 2))
 check "every FPCore has its structure" each fpcore structure
 
+gather() { mkdir -p "$scratch/$language" && cp "$scratch/code" "$scratch/$language/$count.$language"; }
+naga() {
+    each wgsl gather && code --what projection --language wgsl >"$scratch/wgsl/matrix.wgsl" &&
+        code --what position --language wgsl >"$scratch/wgsl/places.wgsl" &&
+        echo 'fn f(d: f32) -> f32 { return e; }' >"$scratch/wgsl/wrong.wgsl" && cat >"$scratch/naga.mjs" <<'END'
+import { parseWgsl, validate } from "naga-wasm";
+import { readFileSync, readdirSync } from "node:fs";
+const wrong = readdirSync("wgsl").filter((name) => {
+    const text = readFileSync("wgsl/" + name, "utf8");
+    try { validate(parseWgsl(text)); } catch (error) { console.log(name, String(error), text); return true; }
+});
+process.exitCode = wrong.join() === "wrong.wgsl" ? 0 : 1;
+END
+    (cd "$scratch" && node naga.mjs)
+}
+if [ -n "${DEPTHPREC_FULL-}" ] && (cd "$scratch" && npm install --no-audit --no-fund --ignore-scripts naga-wasm@30.1.0) >"$scratch/log" 2>&1; then
+    check "naga takes every WGSL" naga
+else
+    skip "naga" "make check-full fetches it by npm, where there is a network"
+fi
+
 # What Gappa proves of the script is what the comment of it says.
 proof() {
     said=$(sed -n 's/.*off by at most \([^ ]*\) of.*/\1/p' "$scratch/code")
     grep -q z_exact "$scratch/code" || return
     [ -n "$said" ] || return 0
-    gappa "$scratch/code" 2>&1 | awk -F'[{,]' -v said="$said" '/z -\/ z_exact in \[/ {
+    gappa "$scratch/code" 2>&1 | awk -F'[{,]' -v said="$said" '/z -\/? z_exact in \[/ {
         lo = -$2; for (i = 3; i <= NF; i++) if ($i ~ /^-?[0-9.]+(e-?[0-9]+)?$/) hi = $i
         proven = lo > hi ? lo : hi; found = 1 }
         END { if (!found || !(said <= 1.6 * proven) || !(proven <= 1.5 * said)) { print proven, said; exit 1 } }'
@@ -121,7 +160,31 @@ same_numbers() {
     python3 "$scratch/printed.py" >"$scratch/by-numpy" &&
         diff "$scratch/by-c" "$scratch/by-numpy"
 }
+# Every function runs on arrays, and what is packed comes back.
+numpy() {
+    each numpy gather && python3 - "$scratch/numpy" <<'END'
+import glob, inspect, sys
+import numpy as np
+d = np.linspace(0, 1, 65, dtype=np.float32)
+n = np.array([[3, -4, 12], [-2, 1, 2], [0, 0, 1], [6, 2, 3]], np.float32)
+n = (n / np.linalg.norm(n, axis=1, keepdims=True)).T
+for name in glob.glob(sys.argv[1] + "/*"):
+    made = {}
+    exec(open(name).read(), made)
+    if "pack_depth" in made:
+        channels = made["pack_depth"](d).T
+        back = made["unpack_depth"](*channels) if channels.ndim > 1 else made["unpack_depth"](channels)
+        assert abs(back - d).max() < 0.002, name
+    elif "pack_normal" in made:
+        back = made["unpack_normal"](*made["pack_normal"](*n).T).T
+        assert (np.sum(back * n, 0) > 1 - 1e-5).all(), name
+    else:
+        f = made[next(k for k in made if k in ("eye_depth", "window_depth", "depth_code"))]
+        assert len(f(d, *[np.float32(1)] * (len(inspect.signature(f).parameters) - 1))) == 65, name
+END
+}
 if python3 -c 'import numpy' 2>/dev/null; then
+    check "numpy runs every function" numpy
     for method in magic unity linear-01-near complement double; do
         for mapping in d3d reversed; do
             check "numpy has the bits of C: $method, $mapping" same_numbers $method $mapping
@@ -181,6 +244,14 @@ END
 }
 check "matrices by hand, in both orders" by_hand glsl hlsl wgsl msl c numpy
 
+# Orthographic, 2 wide and high to both sides, z from 1 to 3: near - z maps to (z - 1)/2, or (3 - z)/2.
+orthographic() {
+    code --what projection --language c --ortho=2 -m "$1" -n 1 -f 3 --viewport 100x100 | sed -n 's/^\/\/  //p' >"$scratch/comment"
+    printf '%s\n' '0.5 0.0 0.0 0.0' '0.0 0.5 0.0 0.0' "$2" '0.0 0.0 0.0 1.0' | diff - "$scratch/comment"
+}
+check "an orthographic matrix by hand" orthographic d3d '0.0 0.0 -0.5 -0.5'
+check "that of reversed depth" orthographic reversed '0.0 0.0 0.5 1.5'
+
 # 90 degrees, 200 x 100 pixels: the centre of the last pixel of the first row is at 1.99 and 0.99 of the depth, of a
 # tenth of the picture at 0.2.
 place() {
@@ -205,12 +276,54 @@ if command -v glslangValidator >/dev/null; then
     check "HLSL of places" places hlsl hlsl
 fi
 
+best() { code --what "$1" | grep -q "^// $2: "; }
+check "the best packing has the finest steps" best pack rgba
+check "the best normals have the least angle" best normal xyz-12
+
+# Where exp2 and log2 have whole numbers: log2(C (far - near) + 1) or log2(far/near) is 2, and d a half.
+curve() { # curve D Z OPTIONS: an eye depth, and of a mapping that a shader writes the way back
+    d=$1 z=$2
+    shift 2
+    code "$@" --language c >"$scratch/code" && { [ "$1" = --ortho ] || code "$@" --what encode --language c >>"$scratch/code"; } &&
+        { printf '#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n'
+            cat "$scratch/code"
+            [ "$1" != --ortho ] || echo "#define window_depth(z) ((float)($d))"
+            echo "int main(void) { printf(\"%g %g\", (double)eye_depth($d), (double)window_depth($z)); return 0; }"
+        } >"$scratch/c.c" && $CC -o "$scratch/c" "$scratch/c.c" -lm && [ "$("$scratch/c")" = "$z $d" ] || "$scratch/c"
+}
+check "log by hand" empty curve 0.5 2 -m log --log-c 0.5 -f 6
+check "cesium by hand" empty curve 0.5 4 -m cesium --log-c 0.5 -n 2 -f 8
+check "three-webgpu by hand" empty curve 0.5 6 -m three-webgpu -n 3 -f 12
+check "linear by hand" empty curve 0.25 2 -m linear -f 8
+check "orthographic by hand" empty curve 0.25 1.75 --ortho -m d3d -n 1 -f 4
+check "that of reversed depth by hand" empty curve 0.25 2 --ortho -m reversed -n -1 -f 3
+
 cleared() { code "$@" | grep -qE "^(//|#) Clear depth to $clear; nearer is $compare\.$"; }
 clear=0 compare=GREATER
 check "reversed depth is cleared to 0 and compared by GREATER" cleared -m reversed
 check "so is its matrix" cleared -m gl-reversed --what projection --language numpy
 clear=1 compare=LESS
 check "standard depth is cleared to 1 and compared by LESS" cleared -m d3d
+
+# One object: its code is what is printed without, and its bounds what that says.
+json() {
+    code "$@" >"$scratch/plain" && code "$@" --json >"$scratch/json" && python3 - "$scratch/plain" "$scratch/json" <<'END'
+import json, sys
+plain, said = open(sys.argv[1]).read(), json.load(open(sys.argv[2]))
+print(said)
+assert said["code"] == plain and f'Clear depth to {said["clear"]};' in plain.replace("\n// ", " ") or said["what"] in ("pack", "normal")
+assert said["rules"] + "." in plain.replace("\n// ", " ") or said["what"] == "projection"
+assert said["comparison"] == ("greater" if said["clear"] == 0 else "less") and said["source"]
+for claim in said["bounds"]:
+    assert claim["function"].split(",")[0] in plain and (claim["nearest"] or 0) <= claim["bound"] and claim["of"]
+assert (said["method"] is None) == (said["method_source"] is None)
+END
+}
+check "JSON of a method" json -m d3d --language hlsl
+check "JSON of places" json -m d3d --what position
+check "JSON of a matrix" json --what projection
+check "JSON of channels" json rg --what pack --language wgsl
+check "JSON of a logarithm" json -m log --what encode
 
 refused() { # refused WORDS OPTIONS
     words=$1
@@ -229,7 +342,13 @@ check "uniforms of a matrix" refused '--uniforms: conflicts' --what projection -
 check "uniforms of a proof" refused '--uniforms: conflicts with gappa' --uniforms --language gappa
 check "codes of floats" refused '--format: must be unormN' --what encode -F fp32
 check "codes by an instruction" refused 'f16c is not in glsl' f16c --what encode -F d16
-check "a mapping without a matrix" refused '--mapping: must be one of' -m log
+check "a mapping without a matrix" refused '--mapping: must be one of' -m log --what projection
+check "a method of a logarithm" refused 'one way for --mapping log, and no METHOD' -m log unity
+check "a logarithm in a script" refused '--language: must be glsl, hlsl' -m log --language fpcore
+check "channels in a script" refused '--language: must be glsl, hlsl' --what pack --language gappa
+check "uniforms of channels" refused '--uniforms: conflicts with --what normal' --what normal --uniforms
+check "channels that are none" refused "METHOD must be one of depth-normals, .*, got 'camera-normals'" camera-normals --what pack
+check "normals that are none" refused "METHOD must be one of stereo-8, .*, got 'rg-depth'" rg-depth --what normal
 check "several cameras" refused 'must be one' -m d3d,reversed
 check "a method of a matrix" refused 'has no METHOD' unity --what projection
 finish

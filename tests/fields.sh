@@ -40,6 +40,8 @@ all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --rasterize --sample 10
 all_named prepass --against fma --sample 100
 "$DEPTHPREC" judge --pairs-for 20 | awk 'NR > 1 { print $1 "," 1 / (20 - 10 * $1) }' >"$scratch/pairs.csv"
 all_named judge --pairs "$scratch/pairs.csv" -n 0.05 -f 0.1
+all_named code
+all_named code -m log --what position
 all_named scene tests/models/street.obj --separation 0.02 --eye 0,2,10 --look 0,0,0
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --viewport 640x480
 all_named scene tests/models/street.obj --separation 0.02 --viewport 640x480

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Code to take away: C that is printed, compiled by cc and loaded, has the bits of the library's own methods; and no
- * evaluation that a language allows is off by more than is said of it. The truth is the definition in long double.
+ * evaluation that a language allows is off by more than is said of it. The truth is the definition in long double. So
+ * it is with GLSL that runs on a device.
  */
 #include <dlfcn.h>
 
 #include "code/code.h"
 #include "method/bench.h"
+#include "probe/compute.h"
 #include "support.h"
+#include "system/sandbox.h"
 
 enum { CAMERAS_MAX = 64, METHODS = 16, DEPTHS = 512 };
 
@@ -89,10 +92,32 @@ static dp_setup stored(const char *format) {
     return setup;
 }
 
-TEST(c_has_the_bits_of_the_library) {
-    char source[512], object[512], command[2048], symbol[32];
-    const code_language *c = language("c");
+/* C is written into a file and loaded. */
+static void begin_c(output *out, const char *name, char path[512]) {
+    snprintf(path, 512, "%s/%s-%d", folder(), name, (int)test_effort());
+    char source[600];
+    snprintf(source, sizeof source, "%s.c", path);
+    assert_int_equal(output_open(out, source), EXIT_FINE);
+    output_text(out, "#include <math.h>\n#include <stdint.h>\n#include <string.h>\n");
+}
+
+static void *load_c(output *out, const char *path) {
     const char *cc = getenv("CC");
+    char command[2048];
+    assert_int_equal(output_close(out), EXIT_FINE);
+    snprintf(command, sizeof command,
+             "%s -std=c99 -Wall -Wextra -Werror -ffp-contract=off -O1 -shared -fPIC -o %s.so %s.c -lm",
+             cc != NULL ? cc : "cc", path, path);
+    assert_int_equal(system(command), 0);
+    snprintf(command, sizeof command, "%s%s.so", *path == '/' ? "" : "./", path);
+    void *library = dlopen(command, RTLD_NOW);
+    assert_non_null(library);
+    return library;
+}
+
+TEST(c_has_the_bits_of_the_library) {
+    char path[512], symbol[32];
+    const code_language *c = language("c");
     rng r = rng_make("code");
     tally t = {.name = "bits"};
     dp_setup setups[CAMERAS_MAX];
@@ -100,10 +125,7 @@ TEST(c_has_the_bits_of_the_library) {
     const int count = (int)test_cases(8, 24, CAMERAS_MAX);
     const dp_setup formats[] = {stored("unorm16"), stored("unorm24")};
     const method_row *const codes[] = {&encode_family.methods[2], &encode_family.methods[3], &encode_family.methods[4]};
-    snprintf(source, sizeof source, "%s/languages-%d.c", folder(), (int)test_effort());
-    snprintf(object, sizeof object, "%s/languages-%d.so", folder(), (int)test_effort());
-    assert_int_equal(output_open(&out, source), EXIT_FINE);
-    output_text(&out, "#include <math.h>\n#include <stdint.h>\n");
+    begin_c(&out, "languages", path);
     for (int k = 0; k < count; k++) {
         setups[k] = camera_of(&r, (uint64_t)k);
         for (size_t i = 0; i < *linearize_family.method_count; i++)
@@ -119,14 +141,7 @@ TEST(c_has_the_bits_of_the_library) {
             code_function(&out, c, codes[k % 3], &formats[k / 3], false);
             output_format(&out, "uint32_t code_%d(float d) { return depth_code(d); }\n#undef depth_code\n", k);
         }
-    assert_int_equal(output_close(&out), EXIT_FINE);
-    snprintf(command, sizeof command,
-             "%s -std=c99 -Wall -Wextra -Werror -ffp-contract=off -O1 -shared -fPIC -o %s %s -lm",
-             cc != NULL ? cc : "cc", object, source);
-    assert_int_equal(system(command), 0);
-    snprintf(command, sizeof command, "%s%s", *object == '/' ? "" : "./", object);
-    void *library = dlopen(command, RTLD_NOW);
-    assert_non_null(library);
+    void *library = load_c(&out, path);
     for (int k = 0; k < count; k++)
         for (size_t i = 0; i < *linearize_family.method_count; i++) {
             float (*printed)(float);
@@ -143,6 +158,151 @@ TEST(c_has_the_bits_of_the_library) {
         compare_codes(&t, codes[k % 3], &formats[k / 3], printed, &r);
     }
     assert_true(t.cases > (uint64_t)count * 6 * DEPTHS);
+    dlclose(library);
+    tally_end(&t);
+}
+
+/* ---- Channels ---------------------------------------------------------------------------------------------------- */
+
+static double degrees_between(const float a[3], const float b[3]) {
+    double cross = 0, dot = 0;
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const double side = (double)a[i] * (double)b[j] - (double)a[j] * (double)b[i];
+        cross += side * side;
+        dot += (double)a[k] * (double)b[k];
+    }
+    return atan2(sqrt(cross), dot) * (180 / M_PI);
+}
+
+static int channels_of(const packing *p, int channel[4]) {
+    int count = 0;
+    for (uint32_t k = 0; k < p->channels; k++)
+        if (p->weight[k] > 0)
+            channel[count++] = (int)k;
+    return count;
+}
+
+/* Both functions of a packing, or of normals, from array to array. */
+static void print_packed(output *out, int id, const packing *p, const pack_row *row) {
+    static const char *const of[] = {"", "at[0]", "at[0], at[1]", "at[0], at[1], at[2]", "at[0], at[1], at[2], at[3]"};
+    int channel[4];
+    const char *name = p != NULL ? "depth" : "normal";
+    const int count[] = {p != NULL ? 1 : 3, p != NULL ? channels_of(p, channel) : row->channels};
+    output_format(out, "#define pack_%s there_of_%d\n#define unpack_%s back_of_%d\n", name, id, name, id);
+    for (int i = 2; i <= 4; i++)
+        output_format(out, "#undef vector%d\n#define vector%d vector%d_%d\n", i, i, i, id);
+    if (p != NULL)
+        code_packing(out, language("c"), p);
+    else
+        code_normal(out, language("c"), row);
+    for (int back = 0; back < 2; back++)
+        output_format(out,
+                      "void %s_%d(const float *at, float *to) { __typeof__(%spack_%s(%s)) v = %spack_%s(%s); "
+                      "memcpy(to, &v, sizeof v); }\n",
+                      back ? "back" : "there", id, back ? "un" : "", name, of[count[back]], back ? "un" : "", name,
+                      of[count[back]]);
+    output_format(out, "#undef pack_%s\n#undef unpack_%s\n", name, name);
+}
+
+typedef void packer(const float *at, float *to);
+static packer *symbol_of(void *library, const char *way, int id) {
+    char symbol[64];
+    packer *found;
+    snprintf(symbol, sizeof symbol, "%s_%d", way, id);
+    *(void **)&found = dlsym(library, symbol);
+    assert_non_null(found);
+    return found;
+}
+
+/* A texel is a number of steps. Any may be read, each channel one unit in the last place off. */
+static void check_packing(tally *t, const packing *p, packer *there, packer *back, rng *r) {
+    const double half = code_pack_bound(p, &bound_nearest), more = code_unpack_bound(p, &bound_nearest);
+    int channel[4];
+    const int count = channels_of(p, channel);
+    double most = 0;
+    float d[DEPTHS], at[4], again;
+    windows(r, d);
+    for (int i = 0; i < DEPTHS; i++) {
+        long double made = 0, read = 0;
+        there(&d[i], at);
+        for (int k = 0; k < count; k++) {
+            const float code = rintf(255 * at[k]), other = i % 4 == 0 ? 255 : (float)rng_below(r, 256);
+            TALLY(t, code >= 0 && code <= 255 && fabsf(at[k] - code / 255) < 1e-6f, "%s, d %a: %a", p->name,
+                  (double)d[i], (double)at[k]);
+            made += (long double)p->weight[channel[k]] * code;
+            read += (long double)p->weight[channel[k]] * other;
+            at[k] = nextafterf(other / 255, i % 2 ? 2 : -1);
+        }
+        back(at, &again);
+        const long double is = fminl(read / p->steps, 1), off = fabsl(made - d[i] * (long double)p->steps);
+        TALLY(t, off <= half, "%s, d %a: off by %Lg steps", p->name, (double)d[i], off);
+        TALLY(t, fabsl(again - is) <= is * more, "%s, %Lg: %a", p->name, read, (double)again);
+        most = fmax(most, (double)off);
+    }
+    TALLY(t, most > 0.49, "%s: up to %g of a step", p->name, most);
+}
+
+static void direction(rng *r, const pack_row *row, float n[3]) {
+    double in[3], length = 0;
+    for (int k = 0; k < 3; k++) {
+        in[k] = rng_uniform(r, -1, 1);
+        length += in[k] * in[k];
+    }
+    for (int k = 0; k < 3; k++)
+        n[k] = (float)(in[k] / sqrt(length));
+    n[2] = row->sphere ? n[2] : fabsf(n[2]);
+}
+
+static void check_normals(tally *t, const pack_row *row, packer *there, packer *back, rng *r) {
+    const bool either = row->layout == PACK_OCT || row->layout == PACK_XYZ;
+    const int whole = (1 << row->bits) - 1, top = either ? whole / 2 : whole;
+    double most = 0;
+    for (int i = 0; i < 40 * DEPTHS; i++) {
+        double exact[3];
+        float n[3], at[4], to[3];
+        uint32_t codes[4];
+        direction(r, row, n);
+        there(n, at);
+        for (int k = 0; k < row->channels; k++) {
+            const float code = rintf(at[k] * (float)top);
+            codes[k] = (uint32_t)(int)code & (uint32_t)whole;
+            at[k] = nextafterf(code / (float)top, i % 2 ? 2 : -2);
+        }
+        back(at, to);
+        row->decode(row, codes, exact);
+        const float held[] = {(float)exact[0], (float)exact[1], (float)exact[2]};
+        const double off = degrees_between(n, to);
+        TALLY(t, off <= code_normal_bound(row, &bound_nearest) && degrees_between(to, held) < 1e-4,
+              "%s, %a %a %a: off by %g", row->name, (double)n[0], (double)n[1], (double)n[2], off);
+        most = fmax(most, off);
+    }
+    TALLY(t, most > 0.7 * row->normal.max, "%s: up to %g degrees", row->name, most);
+}
+
+TEST(c_packs_what_the_rows_say) {
+    enum { NORMALS = 100 };
+    rng r = rng_make("packed");
+    tally t = {.name = "packed"};
+    static output out;
+    char path[512];
+    void *library = NULL;
+    begin_c(&out, "packed", path);
+    for (int check = 0; check < 2; check++) {
+        library = check ? load_c(&out, path) : NULL;
+        for (int i = 0; packing_get((size_t)i) != NULL; i++)
+            if (packing_get((size_t)i)->steps > 0 && check)
+                check_packing(&t, packing_get((size_t)i), symbol_of(library, "there", i), symbol_of(library, "back", i),
+                              &r);
+            else if (packing_get((size_t)i)->steps > 0)
+                print_packed(&out, i, packing_get((size_t)i), NULL);
+        for (int i = 0; pack_get((size_t)i) != NULL; i++)
+            if (pack_get((size_t)i)->kind == PACK_NORMAL && check)
+                check_normals(&t, pack_get((size_t)i), symbol_of(library, "there", NORMALS + i),
+                              symbol_of(library, "back", NORMALS + i), &r);
+            else if (pack_get((size_t)i)->kind == PACK_NORMAL)
+                print_packed(&out, NORMALS + i, NULL, pack_get((size_t)i));
+    }
     dlclose(library);
     tally_end(&t);
 }
@@ -350,6 +510,343 @@ TEST(no_place_is_off_by_more_than_its_bound) {
         printf("# places in %s: up to %.3f of the bound\n", promises[p].name, most);
         TALLY(&t, most > 0.5, "%s: slack, %g", promises[p].name, most);
     }
+    tally_end(&t);
+}
+
+/* ---- Channels, as a language lets it ----------------------------------------------------------------------------- */
+
+/* Whole numbers of 24 bits are exact; `parts` of one may stand in a channel more. */
+static void perturb_packing(tally *t, rng *r, const packing *p, size_t which, double *most) {
+    const bound_arithmetic *how = &language(promises[which].name)->how;
+    const long double parts = p->steps > 0x1p24 ? p->steps / 0x1p24 : 1, whole = p->steps / parts;
+    const double bound = code_unpack_bound(p, how);
+    float d[DEPTHS];
+    windows(r, d);
+    for (int i = 0; i < DEPTHS; i++) {
+        const device v = device_of(r, which, i);
+        const float product = rounded(&v, d[i] * whole, v.sums);
+        const float first = parts > 1 ? fminf(floorf(product), 0x1p24f - 1) : rintf(product);
+        const float last = parts > 1 ? fminf(rintf(rounded(&v, (product - first) * parts, v.sums)), 255) : 0;
+        const long double off = fabsl(first * parts + last - d[i] * (long double)p->steps);
+        const float k = floorf((float)(rng_log(r, 1, (double)whole))), l = (float)rng_below(r, 256);
+        const float rest = parts == 256 ? l / 256 : divide(&v, l, 255);
+        const float sum = rounded(&v, (long double)k + rest, v.sums);
+        const float again = parts > 1 ? sum * 0x1p-24f : divide(&v, k, (float)p->steps);
+        const long double is = parts > 1 ? (k * parts + l) / p->steps : k / whole;
+        TALLY(t, off <= code_pack_bound(p, how), "%s in %s, d %a: %Lg steps", p->name, promises[which].name,
+              (double)d[i], off);
+        TALLY(t, fabsl(again - is) <= bound * is, "%s in %s, %Lg: %a", p->name, promises[which].name, is,
+              (double)again);
+        *most = fmax(*most, (double)(fabsl(again - is) / is) / bound);
+    }
+}
+
+#define R(x) rounded(v, (x), v->sums)
+#define Q(x) rounded(v, (x), v->quotients)
+
+/* There and back without channels between, but as they are read. */
+static void oct_again(const device *v, const float n[3], float to[3]) {
+    const float s = R((long double)R((long double)fabsf(n[0]) + fabsf(n[1])) + fabsf(n[2]));
+    const float a = Q((long double)n[0] / s), b = Q((long double)n[1] / s), t = fmaxf(-Q((long double)n[2] / s), 0);
+    const float x = nextafterf(R((long double)a + copysignf(t, a)), (float)v->bias),
+                y = nextafterf(R((long double)b + copysignf(t, b)), (float)-v->bias);
+    const float c = R((long double)R(1.0L - fabsf(x)) - fabsf(y)), fold = fmaxf(-c, 0);
+    const float of[] = {R((long double)x - copysignf(fold, x)), R((long double)y - copysignf(fold, y)), c};
+    for (int k = 0; k < 3; k++)
+        to[k] = Q(of[k] / 1.7L);
+}
+
+static void stereo_again(const device *v, const float n[3], float to[3]) {
+    const float c = (float)(0.5 / 1.7777), w = R(n[2] + 1.0L);
+    float at[2];
+    for (int k = 0; k < 2; k++) {
+        const float channel = R((long double)R((long double)Q((long double)n[k] / w) * c) + 0.5L);
+        at[k] = R((long double)R((long double)nextafterf(channel, (float)v->bias) * 3.5554f) - 1.7777f);
+    }
+    const float sum =
+        R((long double)R((long double)R((long double)at[0] * at[0]) + R((long double)at[1] * at[1])) + 1.0L);
+    const float g = Q(2.0L / sum);
+    to[0] = R((long double)g * at[0]);
+    to[1] = R((long double)g * at[1]);
+    to[2] = R(g - 1.0L);
+}
+
+static void perturb_normal(tally *t, rng *r, bool stereo, size_t which, double *most) {
+    pack_row row = *pack_stereo();
+    row.layout = stereo ? PACK_STEREO : PACK_OCT;
+    row.sphere = !stereo;
+    row.normal.max = 0; /* what is left are the roundings */
+    const double bound = code_normal_bound(&row, &language(promises[which].name)->how);
+    for (int i = 0; i < DEPTHS; i++) {
+        const device v = device_of(r, which, i);
+        float n[3], to[3];
+        direction(r, &row, n);
+        (stereo ? stereo_again : oct_again)(&v, n, to);
+        TALLY(t, degrees_between(n, to) <= bound, "normal in %s: %g degrees, %g", promises[which].name,
+              degrees_between(n, to), bound);
+        *most = fmax(*most, degrees_between(n, to) / bound);
+    }
+}
+
+TEST(no_channel_is_off_by_more_than_its_bound) {
+    rng r = rng_make("channels");
+    tally t = {.name = "channels"};
+    for (size_t which = 0; which < sizeof promises / sizeof promises[0]; which++) {
+        double most[2] = {0, 0};
+        for (size_t i = 0; packing_get(i) != NULL; i++) {
+            double slack = 0;
+            for (uint64_t k = 0; k < test_cases(20, 100, 1000) && packing_get(i)->steps > 0; k++)
+                perturb_packing(&t, &r, packing_get(i), which, &slack);
+            TALLY(&t, packing_get(i)->steps == 0 || slack > 0.49, "%s in %s: slack, %g", packing_get(i)->name,
+                  promises[which].name, slack);
+        }
+        for (uint64_t k = 0; k < test_cases(80, 400, 4000); k++)
+            perturb_normal(&t, &r, k % 2 != 0, which, &most[k % 2]);
+        printf("# normals in %s: up to %.3f, %.3f of the bound\n", promises[which].name, most[0], most[1]);
+        TALLY(&t, most[0] > 0.15 && most[1] > 0.15, "%s: slack", promises[which].name);
+    }
+    tally_end(&t);
+}
+
+/* ---- Linear and logarithmic depth -------------------------------------------------------------------------------- */
+
+/* What a language says of exp2 and log2, once more: relative, that for each unit of |x|, and absolute from 0.5 to 2. */
+static const struct {
+    double exp2, each, log2, inside;
+} powers[] = {{3 * 0x1p-23, 0x1p-22, 3 * 0x1p-23, 0x1p-21},
+              {0x1p-21, 0, 0x1p-21, 0x1p-21},
+              {3 * 0x1p-23, 0x1p-22, 3 * 0x1p-23, 0x1p-21},
+              {0x1p-21, 0, 0x1p-21, 0}};
+
+static float within(const device *v, long double x, long double most) {
+    float y = (float)(x + (v->bias != 0 ? v->bias : rng_uniform(v->r, -1, 1)) * most);
+    while (fabsl(y - x) > most && y != (float)x)
+        y = nextafterf(y, (float)x);
+    return flushed(v, y);
+}
+
+/* As the mappings are defined: 0 log, 1 cesium, 2 three-webgpu, 3 orthographic, 4 that reversed. */
+typedef struct curve {
+    int kind;
+    double n, f, c;
+    long double span;
+} curve;
+
+static float eye_depth(const device *v, const curve *s, size_t p, float d) {
+    if (s->kind >= 3)
+        return multiply_add(v, (float)(s->kind > 3 ? s->f : s->n), (float)(s->kind > 3 ? s->n - s->f : s->f - s->n), d);
+    const float x = R((long double)d * (float)s->span);
+    const long double exact = exp2l(x);
+    const float e = within(v, exact, exact * (powers[p].exp2 + powers[p].each * (double)fabsf(x)));
+    const float base = (float)(s->kind == 2 ? s->n : 1 / s->c),
+                z = R((long double)base * (s->kind == 2 ? e : R(e - 1.0L)));
+    return s->kind == 1 ? R((long double)(float)s->n + z) : z;
+}
+
+static float window_depth(const device *v, const curve *s, size_t p, float z) {
+    const float way = s->kind == 1 ? R((long double)z - (float)s->n) : z;
+    const float y = s->kind == 2 ? R((long double)z * (float)(1 / s->n)) : multiply_add(v, 1, (float)s->c, way);
+    const long double exact = log2l(y);
+    const bool inside = y >= 0.5f && y <= 2 && powers[p].inside > 0;
+    const float log2 = within(v, exact, inside ? powers[p].inside : fabsl(exact) * powers[p].log2);
+    return R((long double)log2 * (float)(1 / s->span));
+}
+
+static void perturb_curve(tally *t, rng *r, dp_mapping mapping, int kind, size_t p, double most[2]) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    float d[DEPTHS];
+    spec.mapping = mapping;
+    spec.ortho = kind >= 3;
+    spec.znear = rng_log(r, 1e-3, 1e2) * (kind >= 3 && rng_below(r, 2) == 0 ? -1 : 1);
+    spec.zfar = fabs(spec.znear) * rng_log(r, 10, 1e8);
+    spec.log_c = rng_log(r, 1e-3, 1e3);
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const bound_arithmetic *how = &language(promises[p].name)->how;
+    const long double n = kind == 0 ? 0 : spec.znear, f = spec.zfar, c = kind == 2 ? 1 / n : spec.log_c;
+    const curve s = {kind, spec.znear, spec.zfar, (double)c, kind < 3 ? log2l(c * (f - n) + 1) : 0};
+    const double back = code_curve_back(&setup, how), there = kind < 3 ? code_curve_there(&setup, how) : 1;
+    windows(r, d);
+    for (int i = 0; i < DEPTHS; i++) {
+        const device v = device_of(r, p, i);
+        const long double z = kind == 3   ? n + (f - n) * d[i]
+                              : kind == 4 ? f - (f - n) * d[i]
+                                          : n + (exp2l(d[i] * s.span) - 1) / c;
+        const long double share = kind >= 3 ? 1 : kind == 2 ? z : z + 1 / c;
+        const float at = fmaxf((float)z, nextafterf((float)spec.znear, INFINITY));
+        const double off = (double)(fabsl(eye_depth(&v, &s, p, d[i]) - z) / share);
+        const double apart =
+            kind < 3 ? (double)fabsl(window_depth(&v, &s, p, at) - log2l(c * (at - n) + 1) / s.span) : 0;
+        TALLY(t, off <= back && apart <= there, "%s in %s, near %g, far %g, C %g, d %a: %g of %g, %g of %g",
+              dp_mapping_get(mapping)->name, promises[p].name, spec.znear, spec.zfar, spec.log_c, (double)d[i], off,
+              back, apart, there);
+        most[0] = fmax(most[0], off / back);
+        most[1] = fmax(most[1], apart / there);
+    }
+}
+
+TEST(no_curve_is_off_by_more_than_its_bound) {
+    static const dp_mapping mappings[] = {DP_MAPPING_LOG, DP_MAPPING_CESIUM, DP_MAPPING_THREE_WEBGPU, DP_MAPPING_D3D,
+                                          DP_MAPPING_REVERSED};
+    rng r = rng_make("curves");
+    tally t = {.name = "curves"};
+    for (size_t p = 0; p < sizeof powers / sizeof powers[0]; p++)
+        for (int m = 0; m < 5; m++) {
+            double most[2] = {0, 0};
+            for (uint64_t k = 0; k < test_cases(20, 100, 2000); k++)
+                perturb_curve(&t, &r, mappings[m], m, p, most);
+            printf("# %s in %s: up to %.3f, %.3f of the bound\n", dp_mapping_get(mappings[m])->name, promises[p].name,
+                   most[0], most[1]);
+            TALLY(&t, most[0] > 0.5 && (m >= 3 || most[1] > 0.4), "%s in %s: slack", dp_mapping_get(mappings[m])->name,
+                  promises[p].name);
+        }
+    tally_end(&t);
+}
+
+/* ---- On a device ------------------------------------------------------------------------------------------------- */
+
+static output functions; /* what is printed, and never written */
+static float depths[DEPTHS], got[DEPTHS];
+
+static float given_depth(const void *of, uint64_t i) {
+    return ((const float *)of)[i];
+}
+
+/* What an expression of d gives for each depth, behind `functions`. */
+static void run_glsl(const char *expression) {
+    static char shader[OUTPUT_BUFFER_SIZE + 1024];
+    compute_run run = {.count = DEPTHS, .depth = given_depth, .of = depths};
+    shot_machine machine = {0};
+    char error[COMPUTE_ERROR_SIZE];
+    unsigned line;
+    bool endless;
+    FILE *values = NULL;
+    snprintf(shader, sizeof shader,
+             "#version 450\nlayout(local_size_x = 64) in;\n"
+             "layout(std430, set = 0, binding = 0) readonly buffer In { float given[]; };\n"
+             "layout(std430, set = 0, binding = 1) writeonly buffer Out { float made[]; };\n%.*s\n"
+             "void main() { float d = given[gl_GlobalInvocationID.x]; made[gl_GlobalInvocationID.x] = %s; }\n",
+             (int)functions.used, functions.buffer, expression);
+    if (!compute_compile(shader, false, &run, &line, error) ||
+        !compute_values(NULL, &run, &machine, &values, &endless, error)) {
+        printf("# %s\n", error);
+        assert_true(strstr(error, "Debian's package") != NULL || strstr(error, "device") != NULL);
+        skip();
+    }
+    assert_int_equal(fread(got, sizeof *got, DEPTHS, values), DEPTHS);
+    sandbox_close(values);
+    free(run.code);
+    functions.used = 0;
+}
+
+static void run_method(tally *t, const method_row *row, const dp_setup *s) {
+    float own[DEPTHS];
+    const double n = s->spec.znear, f = s->spec.zfar, bound = code_bound(language("glsl"), row, s);
+    const method_inputs in = {.count = DEPTHS, .d = depths};
+    const method_outputs out = {.eye = own};
+    int equal = 0;
+    code_function(&functions, language("glsl"), row, s, false);
+    run_glsl("eye_depth(d)");
+    row->run(&(method_call){row, s, NULL, &in, &out});
+    for (int i = 0; i < DEPTHS; i++) {
+        const long double q = s->reversed ? depths[i] : 1 - (long double)depths[i],
+                          z = isinf(f) ? n / q : n * (long double)f / (n + (f - n) * q);
+        const bool same = bits(got[i]) == bits(own[i]); /* of what has no quotient */
+        equal += same;
+        TALLY(t, z > 0x1p125L || (fabsl(got[i] - z) <= bound * z && (same || strcmp(row->name, "magic") != 0)),
+              "%s, d %a: %a, own %a", row->name, (double)depths[i], (double)got[i], (double)own[i]);
+    }
+    printf("# %s of %s: %d of %d bits\n", row->name, dp_mapping_get(s->spec.mapping)->name, equal, DEPTHS);
+}
+
+static void run_codes(tally *t, const method_row *row, const dp_setup *s) {
+    uint32_t own[DEPTHS];
+    const method_inputs in = {.count = DEPTHS, .d = depths};
+    const method_outputs out = {.code = own};
+    code_function(&functions, language("glsl"), row, s, false);
+    run_glsl("float(depth_code(d))");
+    row->run(&(method_call){row, s, NULL, &in, &out});
+    for (int i = 0; i < DEPTHS; i++)
+        TALLY(t, got[i] == (float)own[i], "%s, d %a: %g", row->name, (double)depths[i], (double)got[i]);
+}
+
+static void run_packing(tally *t, const packing *p) {
+    const bound_arithmetic *how = &language("glsl")->how;
+    const double bound = code_pack_bound(p, how) / p->steps + code_unpack_bound(p, how);
+    int channel[4];
+    const int count = channels_of(p, channel);
+    code_packing(&functions, language("glsl"), p);
+    output_format(&functions, "float again(vec4 v) { return unpack_depth(v.r%s); }\n",
+                  count == 4   ? ", v.g, v.b, v.a"
+                  : count == 3 ? ", v.g, v.b"
+                  : count == 2 ? ", v.g"
+                               : "");
+    run_glsl(count == 4   ? "again(pack_depth(d))"
+             : count == 3 ? "again(vec4(pack_depth(d), 0))"
+             : count == 2 ? "again(vec4(pack_depth(d), 0, 0))"
+                          : "again(vec4(pack_depth(d)))");
+    for (int i = 0; i < DEPTHS; i++)
+        TALLY(t, fabs((double)got[i] - (double)depths[i]) <= bound, "%s, d %a: %a", p->name, (double)depths[i],
+              (double)got[i]);
+}
+
+/* Some directions, in channels of 8 bits. */
+static void run_normal(tally *t, const pack_row *row) {
+    static const char *const members[] = {"again(d).x", "again(d).y", "again(d).z"};
+    static float n[DEPTHS][3];
+    for (int k = 0; k < 3; k++) {
+        code_normal(&functions, language("glsl"), row);
+        output_format(&functions, "vec3 again(float d) { vec2 v = pack_normal(d - 0.5, 0.25, d - 0.75); "
+                                  "v = roundEven(v * 127.0) / 127.0; return unpack_normal(v.x, v.y); }\n");
+        run_glsl(members[k]);
+        for (int i = 0; i < DEPTHS; i++)
+            n[i][k] = got[i];
+    }
+    for (int i = 0; i < DEPTHS; i++) {
+        const double off = degrees_between(n[i], (const float[]){depths[i] - 0.5f, 0.25f, depths[i] - 0.75f});
+        TALLY(t, off <= code_normal_bound(row, &language("glsl")->how), "%s, d %a: %g degrees", row->name,
+              (double)depths[i], off);
+    }
+}
+
+static void run_logarithm(tally *t, dp_mapping mapping) {
+    dp_spec spec = dp_spec_default();
+    dp_setup s;
+    spec.mapping = mapping;
+    assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+    const bound_arithmetic *how = &language("glsl")->how;
+    code_curve(&functions, language("glsl"), &s, false, false);
+    code_curve(&functions, language("glsl"), &s, true, false);
+    run_glsl("window_depth(eye_depth(d))");
+    for (int i = 0; i < DEPTHS; i++) { /* z + 1 is off by a share: its logarithm by so many parts of that of far + 1 */
+        const double bound = code_curve_there(&s, how) + code_curve_back(&s, how) / log(spec.zfar + 1) * 1.001;
+        TALLY(t, fabs((double)got[i] - (double)depths[i]) <= bound, "%s, d %a: %a", dp_mapping_get(mapping)->name,
+              (double)depths[i], (double)got[i]);
+    }
+}
+
+TEST(a_device_has_what_is_said_of_glsl) {
+    rng r = rng_make("device");
+    tally t = {.name = "device"};
+    const dp_setup formats[] = {stored("unorm16"), stored("unorm24")};
+    functions = (output){.fd = -1};
+    windows(&r, depths);
+    for (uint64_t k = 1; k < 4; k++) {
+        const dp_setup s = camera_of(&r, k);
+        for (size_t i = 0; i < *linearize_family.method_count; i++)
+            if (code_lacks(language("glsl"), &linearize_family.methods[i], &s) == NULL)
+                run_method(&t, &linearize_family.methods[i], &s);
+    }
+    for (int k = 0; k < 4; k++)
+        run_codes(&t, &encode_family.methods[2 + k % 2], &formats[k / 2]);
+    for (size_t i = 0; packing_get(i) != NULL; i++)
+        if (packing_get(i)->steps > 0)
+            run_packing(&t, packing_get(i));
+    for (size_t i = 0; pack_get(i) != NULL; i++)
+        if (strcmp(pack_get(i)->name, "oct-8") == 0)
+            run_normal(&t, pack_get(i));
+    run_logarithm(&t, DP_MAPPING_LOG);
+    run_logarithm(&t, DP_MAPPING_OSGEARTH);
     tally_end(&t);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* code: a method or a projection matrix for the camera at hand, in a language, to take away. */
+/* code: a method, a projection matrix, or a packing, for the camera at hand, in a language, to take away. */
 #include <string.h>
 
 #include "cli/option/rows.h"
@@ -8,16 +8,24 @@
 #include "core/append.h"
 
 /* What --what names, in its order. */
-enum { WHAT_LINEARIZE, WHAT_PROJECTION, WHAT_ENCODE, WHAT_POSITION };
+enum { WHAT_LINEARIZE, WHAT_PROJECTION, WHAT_ENCODE, WHAT_POSITION, WHAT_PACK, WHAT_NORMAL };
 
 typedef struct wanted_code {
     const options *o;
     const code_language *language;
     const method_family_row *family;
     const method_row *row;
+    const packing *packing;
+    const pack_row *encoding;
+    const char *method, *source; /* of either; null: there is one way */
     dp_setup setup;
     texture_camera camera;
 } wanted_code;
+
+/* No matrix makes the depth: a shader writes it. */
+static bool is_written(const dp_setup *setup) {
+    return setup->curve != DP_CURVE_PERSPECTIVE && !setup->spec.ortho;
+}
 
 /* "glsl has no table-linear, which looks numbers up; it has unity, ..." */
 static int refuse_method(const wanted_code *w, const char *given, const char *lacks) {
@@ -30,16 +38,44 @@ static int refuse_method(const wanted_code *w, const char *given, const char *la
                : usage_error("code: METHOD must be one of %s, got '%s'", all, given);
 }
 
+/* Scripts hold one function of one camera, without logarithms. */
+static int check_language(const wanted_code *w) {
+    const unsigned what = w->o->code.what;
+    const char *word = option_word(OPTION_WHAT, what), *mapping = dp_mapping_get(w->setup.spec.mapping)->name;
+    const bool script = w->language->form != CODE_INFIX, uniforms = w->o->code.uniforms;
+    const bool whole = what == WHAT_LINEARIZE || what == WHAT_ENCODE; /* but not of each mapping */
+    if (script && (!whole || (what == WHAT_ENCODE ? is_written(&w->setup) : w->setup.curve == DP_CURVE_LOG)))
+        return option_error(OPTION_LANGUAGE, "must be glsl, hlsl, wgsl, msl, c or numpy with --%s %s, got %s",
+                            whole ? "mapping" : "what", whole ? mapping : word, w->language->name);
+    if (uniforms && script)
+        return option_error(OPTION_UNIFORMS, "conflicts with %s, which is about one camera", w->language->name);
+    if (uniforms && (what == WHAT_PROJECTION || what == WHAT_PACK || what == WHAT_NORMAL))
+        return option_error(OPTION_UNIFORMS, "conflicts with --what %s, all of which is constants", word);
+    return EXIT_FINE;
+}
+
+static int take_names(wanted_code *w) {
+    w->method = w->row->name;
+    w->source = w->row->source;
+    return EXIT_FINE;
+}
+
 static int find_method(wanted_code *w) {
     const options *o = w->o;
     const dp_format *format = &w->setup.spec.format;
-    w->family = o->code.what == WHAT_ENCODE ? &encode_family : &linearize_family;
-    if (o->code.what == WHAT_ENCODE && (format->kind != DP_FORMAT_UNORM || format->code_max > 0xffffff))
+    const bool encode = o->code.what == WHAT_ENCODE;
+    if (encode ? is_written(&w->setup) : w->setup.curve != DP_CURVE_PERSPECTIVE)
+        return o->operand_count == 0 ? EXIT_FINE
+                                     : usage_error("code: there is one way for --mapping %s%s, and no METHOD, got '%s'",
+                                                   dp_mapping_get(w->setup.spec.mapping)->name,
+                                                   w->setup.spec.ortho ? " with --ortho" : "", o->operands[0]);
+    w->family = encode ? &encode_family : &linearize_family;
+    if (encode && (format->kind != DP_FORMAT_UNORM || format->code_max > 0xffffff))
         return option_error(OPTION_FORMAT, "must be unormN of at most 24 bits with --what encode, got %s",
                             format->name);
     if (o->operand_count == 0) {
         w->row = code_best(w->language, w->family, &w->setup);
-        return w->row != NULL ? EXIT_FINE
+        return w->row != NULL ? take_names(w)
                               : usage_error("code: %s has no method of %s", w->language->name, w->family->name);
     }
     for (size_t i = 0; i < *w->family->method_count; i++) {
@@ -48,9 +84,35 @@ static int find_method(wanted_code *w) {
             continue;
         const char *lacks = code_lacks(w->language, row, &w->setup);
         w->row = row;
-        return lacks == NULL ? EXIT_FINE : refuse_method(w, row->name, lacks);
+        return lacks == NULL ? take_names(w) : refuse_method(w, row->name, lacks);
     }
     return refuse_method(w, o->operands[0], NULL);
+}
+
+/* Without a name the one with the least error. */
+static int find_packed(wanted_code *w) {
+    const bool depth = w->o->code.what == WHAT_PACK, given = w->o->operand_count > 0;
+    const bound_arithmetic *how = &w->language->how;
+    double least = (double)INFINITY;
+    char all[NAMES_SIZE] = "";
+    for (size_t i = 0; depth ? packing_get(i) != NULL : pack_get(i) != NULL; i++) {
+        const packing *p = depth ? packing_get(i) : NULL;
+        const pack_row *row = depth ? NULL : pack_get(i);
+        const char *name = depth ? p->name : row->name;
+        if (depth ? p->steps == 0 : row->kind != PACK_NORMAL)
+            continue;
+        const double error = depth ? code_pack_bound(p, how) / p->steps : code_normal_bound(row, how);
+        append(all, sizeof all, "%s%s", all[0] != '\0' ? ", " : "", name);
+        if (given ? strcmp(name, w->o->operands[0]) != 0 : error >= least)
+            continue;
+        w->packing = p;
+        w->encoding = row;
+        w->method = name;
+        w->source = depth ? p->source : row->source;
+        least = error;
+    }
+    return w->method != NULL ? EXIT_FINE
+                             : usage_error("code: METHOD must be one of %s, got '%s'", all, w->o->operands[0]);
 }
 
 /* How wide it sees. */
@@ -58,9 +120,6 @@ static int find_view(wanted_code *w) {
     const options *o = w->o;
     const int width = (int)o->view.spec.width, height = (int)o->view.spec.height;
     camera_spec view = o->view.spec;
-    if (w->language->matrix == NULL)
-        return option_error(OPTION_LANGUAGE, "must be glsl, hlsl, wgsl, msl, c or numpy with --what %s, got %s",
-                            option_word(OPTION_WHAT, o->code.what), w->language->name);
     if (o->camera.preset_count > 0 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
         view.fov_y = preset_fov_y(o->camera.presets[0], width, height);
     else if (view_vertical(o, width, height, &view.fov_y) != EXIT_FINE)
@@ -70,14 +129,16 @@ static int find_view(wanted_code *w) {
 }
 
 static int find_matrix(wanted_code *w) {
+    if (is_written(&w->setup))
+        return option_error(OPTION_MAPPING,
+                            "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with --what projection, got %s",
+                            dp_mapping_get(w->setup.spec.mapping)->name);
     if (w->o->operand_count > 0)
         return usage_error("code: a projection matrix has no METHOD, got '%s'", w->o->operands[0]);
-    if (w->o->code.uniforms)
-        return option_error(OPTION_UNIFORMS, "conflicts with --what projection, all of which is constants");
-    return find_view(w);
+    return EXIT_FINE;
 }
 
-/* One camera whose depth a matrix makes. */
+/* One camera. */
 static int find_setup(wanted_code *w) {
     setups all = {0};
     const int status = setups_make(w->o, &all);
@@ -89,32 +150,87 @@ static int find_setup(wanted_code *w) {
         return status;
     if (count > 1)
         return option_error(OPTION_MAPPING, "and --format must be one each, got %zu set-ups", count);
-    if (w->setup.curve != DP_CURVE_PERSPECTIVE)
-        return option_error(OPTION_MAPPING, "must be one of " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
-                            dp_mapping_get(w->setup.spec.mapping)->name);
     return EXIT_FINE;
 }
 
+/* ---- What is printed --------------------------------------------------------------------------------------------- */
+
+static code_said write_code(const wanted_code *w, output *out) {
+    const bool uniforms = w->o->code.uniforms;
+    const unsigned what = w->o->code.what;
+    return what == WHAT_PROJECTION ? code_projection(out, w->language, &w->camera)
+           : what == WHAT_POSITION ? code_places(out, w->language, w->row, &w->camera, uniforms)
+           : w->packing != NULL    ? code_packing(out, w->language, w->packing)
+           : w->encoding != NULL   ? code_normal(out, w->language, w->encoding)
+           : w->row != NULL        ? code_function(out, w->language, w->row, &w->setup, uniforms)
+                                   : code_curve(out, w->language, &w->setup, what == WHAT_ENCODE, uniforms);
+}
+
+/* The same for programs. */
+typedef struct printed {
+    const char *language, *what, *method, *method_source, *source, *comparison, *code;
+    int clear;
+    char rules[2 * CODE_RULES_SIZE];
+    code_said said;
+} printed;
+
+static void *next_claim(void *of, size_t i) {
+    code_said *said = &((printed *)of)->said;
+    return i < said->count ? &said->claims[i] : NULL;
+}
+
+/* clang-format off */
+static const column claim_columns[] = {
+    {FIELD(code_claim, function, "function", "")}, {FIELD(code_claim, bound, "bound", "")},
+    {FIELD(code_claim, nearest, "nearest", "")}, {FIELD(code_claim, of, "of", "")}, {.kind = COLUMN_END}};
+static const column printed_columns[] = {
+    {FIELD(printed, language, "language", "")}, {FIELD(printed, what, "what", "")},
+    {FIELD(printed, method, "method", "")}, {FIELD(printed, method_source, "method_source", "")},
+    {FIELD(printed, clear, "clear", "")}, {FIELD(printed, comparison, "comparison", "")},
+    {FIELD(printed, rules, "rules", "")}, {FIELD(printed, source, "source", "")}, {FIELD(printed, code, "code", "")},
+    {LIST("bounds", claim_columns, next_claim)}, {.kind = COLUMN_END}};
+/* clang-format on */
+
+static void write_json(const wanted_code *w, const code_said *said, const char *code, output *out) {
+    const bool reversed = w->setup.reversed != 0;
+    const bool powers = w->setup.curve == DP_CURVE_LOG && w->language->powers != NULL;
+    char rules[CODE_RULES_SIZE];
+    printed p = {.language = w->language->name,
+                 .what = option_word(OPTION_WHAT, w->o->code.what),
+                 .method = w->method,
+                 .method_source = w->source,
+                 .clear = reversed ? 0 : 1,
+                 .comparison = reversed ? "greater" : "less",
+                 .source = w->language->source,
+                 .code = code,
+                 .said = *said};
+    append(p.rules, sizeof p.rules, "%s: %s%s%s", w->language->rules, code_language_rules(w->language, rules),
+           powers ? "; " : "", powers ? w->language->powers : "");
+    report_write(&(report_spec){"code", printed_columns, &p, .when = 0}, out, FORM_JSON);
+}
+
 int cmd_code(const options *o) {
-    output out;
+    static output out, text = {.fd = -1}; /* the code is shorter than the buffer */
+    const unsigned what = o->code.what;
     wanted_code w = {.o = o, .language = o->code.language};
-    const bool projection = o->code.what == WHAT_PROJECTION, position = o->code.what == WHAT_POSITION;
     int status = find_setup(&w);
     if (status == EXIT_FINE)
-        status = projection ? find_matrix(&w) : find_method(&w);
-    if (status == EXIT_FINE && position)
+        status = check_language(&w);
+    if (status == EXIT_FINE)
+        status = (what == WHAT_PROJECTION                    ? find_matrix
+                  : what == WHAT_PACK || what == WHAT_NORMAL ? find_packed
+                                                             : find_method)(&w);
+    if (status == EXIT_FINE && (what == WHAT_PROJECTION || what == WHAT_POSITION))
         status = find_view(&w);
-    if (status == EXIT_FINE && o->code.uniforms && w.language->form != CODE_INFIX)
-        status = option_error(OPTION_UNIFORMS, "conflicts with %s, which is about one camera", w.language->name);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
-    if (projection)
-        code_projection(&out, w.language, &w.camera);
-    else if (position)
-        code_places(&out, w.language, w.row, &w.camera, o->code.uniforms);
+    const code_said said = write_code(&w, &text);
+    output_char(&text, '\0');
+    if (o->out.form == FORM_JSON)
+        write_json(&w, &said, text.buffer, &out);
     else
-        code_function(&out, w.language, w.row, &w.setup, o->code.uniforms);
+        output_text(&out, text.buffer);
     return output_close(&out);
 }

@@ -100,7 +100,8 @@ const command_row command_rows[CMD_COUNT] = {
      .summary = "a method or a projection matrix as code to take away",
      .example = "  depthprec code -n 0.1 -f inf -m reversed\n"
      "  depthprec code complement -n 0.1 -f 1000 -m d3d --language wgsl\n"
-     "  depthprec code --what projection -n 0.3 -f 1000 -m gl --fov 50 --language c\n"},
+     "  depthprec code --what projection -n 0.3 -f 1000 -m gl --fov 50 --language c\n"
+     "  depthprec code rgba --what pack --language hlsl\n"},
     [CMD_JUDGE] = {"judge", CMD_JUDGE, judge_uses, "[FILE]", 0, 1, NULL,
      .summary = "what a function of yours computes, and what it loses",
      .example = "  depthprec judge depth.glsl:linearDepth -n 0.1 -f 1000 -F d24\n"

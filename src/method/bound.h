@@ -38,6 +38,8 @@ typedef struct bound_arithmetic {
     double division; /**< the same of quotients: 5 for 2.5 units in the last place */
     bool contracts;  /**< a product that is added may not be rounded */
     bool flushes;    /**< numbers below 2^-126 may become 0 */
+    double exp2[2];  /**< of exp2(x) the relative error is at most the first and |x| times the second; 0: no promise */
+    double log2[2];  /**< of log2(x) the absolute error from 0.5 to 2, and the relative one elsewhere; 0: no promise */
 } bound_arithmetic;
 extern const bound_arithmetic bound_nearest; /**< IEEE 754 */
 

@@ -71,11 +71,11 @@ static double left_of_sum(double a, double b) {
 }
 
 /* Those of binary64 stand for what is known of them: products and sums of the planes. */
-static term constant_of(const steps *s, int index, double n, double f, bool wide) {
+static term constant_of(const steps *s, int index, const steps_given *given, bool wide) {
     const steps_node *of = &s->node[index];
-    const double value = steps_value(s, index, n, f);
-    const double a = of->of[0] < 0 ? 0 : steps_value(s, of->of[0], n, f);
-    const double b = of->of[1] < 0 ? 0 : steps_value(s, of->of[1], n, f);
+    const double value = steps_value(s, index, given);
+    const double a = of->of[0] < 0 ? 0 : steps_value(s, of->of[0], given);
+    const double b = of->of[1] < 0 ? 0 : steps_value(s, of->of[1], given);
     if (of->kind == STEPS_NUMBER || (wide && of->kind == STEPS_NAME))
         return term_exact(value);
     if (wide && of->kind == STEPS_PRODUCT)
@@ -87,6 +87,7 @@ static term constant_of(const steps *s, int index, double n, double f, bool wide
 
 void bound_begin(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how, bound_walk *w) {
     const bool reversed = setup->reversed != 0;
+    const steps_given given = {.n = setup->spec.znear, .f = setup->spec.zfar};
     const steps *k = &w->constants;
     w->row = row;
     w->how = how;
@@ -96,8 +97,7 @@ void bound_begin(const bound_steps *row, const dp_setup *setup, const bound_arit
     steps_read(row->constants[reversed], &w->constants);
     steps_read(row->steps[reversed], &w->steps);
     for (int i = 0; i < k->count; i++)
-        w->known[i] = (bound_known){k->step[i].name,
-                                    constant_of(k, k->step[i].is, setup->spec.znear, setup->spec.zfar, row->wide)};
+        w->known[i] = (bound_known){k->step[i].name, constant_of(k, k->step[i].is, &given, row->wide)};
 }
 
 /* ---- In exact arithmetic ----------------------------------------------------------------------------------------- */

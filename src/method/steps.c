@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- Reading: by descent, a function for each precedence ----------------------------------------------------------
@@ -47,8 +48,9 @@ static int read_factor(reader *r) {
     const int leaf = node(r, STEPS_NUMBER, -1, -1);
     steps_node *const of = &r->out->node[leaf];
     if (isdigit((unsigned char)*r->at)) {
-        while (isdigit((unsigned char)*r->at))
-            of->value = 10 * of->value + (*r->at++ - '0');
+        char *end;
+        of->value = strtod(r->at, &end);
+        r->at = end;
         return leaf;
     }
     of->kind = STEPS_NAME;
@@ -98,25 +100,26 @@ void steps_read(const char *text, steps *out) {
 /* ---- Values ------------------------------------------------------------------------------------------------------ */
 
 /* f/n - 1, without the cancellation of it, and 1/n - 1/f. */
-static double named(const char *name, double n, double f) {
-    const double excess = (f - n) / n;
-    return strcmp(name, "n") == 0        ? n
-           : strcmp(name, "most") == 0   ? n
-           : strcmp(name, "pixels") == 0 ? n
-           : strcmp(name, "half") == 0   ? f
-           : strcmp(name, "f") == 0      ? f
-           : strcmp(name, "excess") == 0 ? excess
-           : isinf(f)                    ? 1 / n
-                                         : excess / f;
+static double named(const char *name, const steps_given *g) {
+    const double excess = (g->f - g->n) / g->n;
+    const struct {
+        const char *name;
+        double value;
+    } names[] = {{"n", g->n},    {"most", g->n},      {"pixels", g->n},  {"f", g->f},
+                 {"half", g->f}, {"scale", g->scale}, {"span", g->span}, {"excess", excess}};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcmp(name, names[i].name) == 0)
+            return names[i].value;
+    return isinf(g->f) ? 1 / g->n : excess / g->f;
 }
 
-double steps_value(const steps *s, int index, double n, double f) {
+double steps_value(const steps *s, int index, const steps_given *given) {
     const steps_node *of = &s->node[index];
     if (of->kind == STEPS_NUMBER)
         return of->value;
     if (of->kind == STEPS_NAME)
-        return named(of->name, n, f);
-    const double a = steps_value(s, of->of[0], n, f), b = of->of[1] < 0 ? 0 : steps_value(s, of->of[1], n, f);
+        return named(of->name, given);
+    const double a = steps_value(s, of->of[0], given), b = of->of[1] < 0 ? 0 : steps_value(s, of->of[1], given);
     return of->kind == STEPS_SUM          ? a + b
            : of->kind == STEPS_DIFFERENCE ? a - b
            : of->kind == STEPS_PRODUCT    ? a * b

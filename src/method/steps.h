@@ -5,10 +5,12 @@
  *
  *     steps      name = expression [: what it is in exact arithmetic]; ...     the last is the result
  *     constants  name = expression in n, f, across (1/n - 1/f) and excess (f/n - 1); ...;
- *                of codes in `most`, of places in `pixels` and `half`, which stand in the place of near and far
+ *                of codes in `most`, of places in `pixels` and `half`, which stand in the place of near and far;
+ *                of a logarithmic mapping in `scale` and `span`, too
  *
  * Expressions have + - * / and parentheses, numbers, names, and calls: fma(a, b, c); estimate(x) and magic(x), which
- * are about 1/x; newton(x, y), which is y (2 - x y); whole(x), an integer, and even(x), the nearest one as a number.
+ * are about 1/x; newton(x, y), which is y (2 - x y); whole(x), an integer, and even(x), the nearest one as a number;
+ * signed(t, x), which is t with the sign of x; abs, floor, sqrt, min, max, exp2 and log2.
  */
 #ifndef METHOD_STEPS_H
 #define METHOD_STEPS_H
@@ -26,7 +28,7 @@ typedef enum steps_kind {
     STEPS_CALL
 } steps_kind;
 
-enum { STEPS_NODES = 64, STEPS_MAX = 8, STEPS_NAME_SIZE = 12, STEPS_ARGUMENTS = 3 };
+enum { STEPS_NODES = 128, STEPS_MAX = 16, STEPS_NAME_SIZE = 12, STEPS_ARGUMENTS = 3 };
 
 typedef struct steps_node {
     steps_kind kind;
@@ -47,7 +49,13 @@ typedef struct steps {
 /** The text of a row, which is right. */
 void steps_read(const char *text, steps *out);
 
-/** A constant in double, from binary64 planes or what stands in their place. */
-double steps_value(const steps *s, int node, double znear, double zfar);
+/** What constants are formed of: binary64 planes or what stands in their place, and of a logarithmic mapping C and
+ * log2(C far + 1). */
+typedef struct steps_given {
+    double n, f, scale, span;
+} steps_given;
+
+/** A constant in double. */
+double steps_value(const steps *s, int node, const steps_given *given);
 
 #endif

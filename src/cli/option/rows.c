@@ -40,8 +40,8 @@ static const name_list themes = {.words = (const char *const[]){"light", "dark",
 static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
 static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
 static const name_list languages = {.get = list_language};
-static const name_list code_parts = {.words =
-                                         (const char *const[]){"linearize", "projection", "encode", "position", NULL}};
+static const name_list code_parts = {
+    .words = (const char *const[]){"linearize", "projection", "encode", "position", "pack", "normal", NULL}};
 static const name_list reports = {.words = (const char *const[]){"text", "json", "junit", NULL}};
 
 /* The field of an option; one of another type than its kind reads does not compile. Whole numbers have several widths.
@@ -279,8 +279,10 @@ const option_row option_rows[OPTION_COUNT] = {
         "the language: @; 'depthprec list languages' has what each promises of its arithmetic",
         ROW(code.language, languages), .standard = "glsl", .group = "The code"},
     [OPTION_WHAT] = {"what", 0, NULL,
-        "linearize: eye depths of window depths; projection: the matrix; encode: codes of --format; position: places "
-        "of pixels in view space",
+        "linearize: eye depths of window depths; projection: the matrix; encode: codes of --format, of a linear or "
+        "logarithmic mapping the window depth that a shader writes; position: places of pixels in view space; pack: "
+        "depths in channels of a texture, METHOD as 'depthprec list packings'; normal: normals, METHOD as 'depthprec "
+        "list encodings'",
         WORD(code.what, code_parts),
         .standard = "linearize"},
     [OPTION_UNIFORMS] = {"uniforms", 0, NULL,

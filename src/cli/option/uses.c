@@ -247,11 +247,13 @@ const option_use probe_uses[] = {
     TAKE(DEVICE), TAKE(KEEP), GROUP(written), END};
 
 const option_use code_uses[] = {
-    OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, HELP(PERSPECTIVE), DEFAULT("reversed")),
+    OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, HELP("mappings: @"), DEFAULT("reversed")),
     OWN(FOV, ALSO("of a matrix and of places")),
     OWN(VIEWPORT, HELP("the pixels of the view, of a matrix their shape"), DEFAULT("1920x1080")),
-    TAKE(LANGUAGE), TAKE(WHAT), TAKE(UNIFORMS), TAKE(HFOV), TAKE(PLATFORM), GROUP(camera),
-    TAKE(OUTPUT), TAKE(QUIET), END};
+    OWN(ORTHO, .optional = "H", HELP("orthographic projection, H half the height of the view; not with linear and log"),
+        WITHOUT("perspective; H 5")),
+    TAKE(LANGUAGE), TAKE(WHAT), TAKE(UNIFORMS), TAKE(LOG_C), TAKE(HFOV), GROUP(projected),
+    TAKE(JSON), TAKE(OUTPUT), TAKE(QUIET), END};
 
 const option_use judge_uses[] = {
     OWN(NEAR, WITHOUT("with no --far either: the planes that fit; else 0.1")),
