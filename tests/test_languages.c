@@ -728,7 +728,7 @@ static void run_glsl(const char *expression) {
              "void main() { float d = given[gl_GlobalInvocationID.x]; made[gl_GlobalInvocationID.x] = %s; }\n",
              (int)functions.used, functions.buffer, expression);
     if (!compute_compile(shader, false, &run, &line, error) ||
-        !compute_values(NULL, &run, &machine, &values, &endless, error)) {
+        !compute_values(NULL, &run, 0, &machine, &values, &endless, error)) {
         printf("# %s\n", error);
         assert_true(strstr(error, "Debian's package") != NULL || strstr(error, "device") != NULL);
         skip();
