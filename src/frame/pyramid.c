@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/curve.h"
 #include "core/engine.h"
 #include "frame/image_depths.h"
 
