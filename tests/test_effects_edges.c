@@ -274,6 +274,8 @@ TEST(test_refraction_unsure) {
             const double ray = sqrt(slope[0] * slope[0] + slope[1] * slope[1] + 1);
             if (beside(k, 3, 0) == k)
                 continue;
+            if (fabs(eye_of(beside_it) - surface) < 1e-5) /* five units of binary32: its roundings say what is seen */
+                continue;
             for (int n = 0; n <= 40 && !known; n++) {
                 want = fmax(want, worst_through(own, beside_it, eye_of(beside_it - 0.5 + n / 40.0), ray));
                 want = fmax(want, worst_through(own, beside_it, eye_of(own - 0.5 + n / 40.0), ray));

@@ -146,6 +146,24 @@ TEST(the_closed_form_has_each_cell) {
     assert_true(exact[1] > 100000 && exact[0] * 20 > exact[1] * 17);
 }
 
+/* Bits shifted up may have been k/256 as well as k/255: half a step before the one to half a step behind the other. */
+TEST(shifted_up) {
+    const grain g = {.kind = GRAIN_STEPS, .steps = 65535 / 256.0, .whole = 255, .rounding = GRAIN_NEAREST};
+    dp_spec spec = dp_spec_default();
+    dp_format format[2];
+    dp_setup setup;
+    assert_true(dp_format_parse("unorm16", format) >= 1);
+    spec.format = format[0];
+    spec.mapping = DP_MAPPING_LINEAR; /* z = 1000 d */
+    spec.zfar = 1000;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    for (unsigned k = 1; k <= 128; k++) {
+        const grain_range range = grain_range_of(&setup, &g, 256 * k);
+        assert_relative(range.lo, 1000 * (k - 0.5) / 256, 1e-12);
+        assert_relative(range.hi, 1000 * (k + 0.5) / 255, 1e-12);
+    }
+}
+
 TEST(many_codes_say_what_each_says) {
     rng r = rng_make("grain");
     uint32_t codes[COUNT];

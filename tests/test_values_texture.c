@@ -468,22 +468,25 @@ TEST(nothing_but_sky) {
         0, line, SAID("!inf", "!0,0", "\n  eye depth                       -         -         -  - (scene units)\n"));
 }
 
-/* 8 bits times 256: shares of 65535/256, or of 255. */
+/* 8 bits times 256: shares of 65535/256, or of 255; also where all are below 128, which k/256 become, too. */
 TEST(shifted_up) {
+    static const unsigned all[] = {256, 100};
     uint16_t samples[64];
     const char *path = scratch_file("up.npy");
-    for (unsigned i = 0; i < 64; i++)
-        samples[i] = (uint16_t)((7 * i % 256) << 8);
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    image_writer *w = image_writer_open(file, IMAGE_NPY, IMAGE_U16, 8, 8, 1, NULL);
-    assert_non_null(w);
-    image_writer_rows(w, samples, 8);
-    assert_true(image_writer_close(w) && fclose(file) == 0);
-    json_t *root = json_printed(0, "texture %s -n 0.1 -f 100 -F d24 -m d3d", path);
-    assert_relative(number_at(root, "samples.steps"), 65535.0 / 256.0, 1e-15);
-    assert_true(number_at(root, "samples.steps_or") == 255);
-    json_decref(root);
+    for (unsigned k = 0; k < 2; k++) {
+        for (unsigned i = 0; i < 64; i++)
+            samples[i] = (uint16_t)((7 * i % all[k]) << 8);
+        FILE *file = fopen(path, "wb");
+        assert_non_null(file);
+        image_writer *w = image_writer_open(file, IMAGE_NPY, IMAGE_U16, 8, 8, 1, NULL);
+        assert_non_null(w);
+        image_writer_rows(w, samples, 8);
+        assert_true(image_writer_close(w) && fclose(file) == 0);
+        json_t *root = json_printed(0, "texture %s -n 0.1 -f 100 -F d24 -m d3d", path);
+        assert_relative(number_at(root, "samples.steps"), 65535.0 / 256.0, 1e-15);
+        assert_true(number_at(root, "samples.steps_or") == 255);
+        json_decref(root);
+    }
 }
 
 LIST_TEST(check_apart)

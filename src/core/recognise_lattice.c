@@ -182,11 +182,12 @@ dp_grid dp_grid_find(const dp_distinct *set, const dp_grid_source *s) {
         return (dp_grid){ldexp(1, BITS_LEAST) - 1, 0};
     for (int n = BITS_LEAST; n <= BITS_MOST; n++) {
         const double power = ldexp(1, n);
+        /* Where k/2^N and k/(2^N - 1) are the same integers as bits shifted up, these stand for all three. */
+        if (s->top > power && better(&best, set, s, s->top / dp_exp2(ceil(dp_log2(s->top + 1)) - n), true))
+            break;
         if (better(&best, set, s, power - 1, false))
             break;
         if ((!s->dyadic || n == BITS_LEAST) && better(&best, set, s, power, false))
-            break;
-        if (s->top > power && better(&best, set, s, s->top / dp_exp2(ceil(dp_log2(s->top + 1)) - n), true))
             break;
     }
     return best;

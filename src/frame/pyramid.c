@@ -90,12 +90,13 @@ static void round_to(const frame *f, const level *top, bool up, pyramid *p) {
             continue;
         const uint32_t before = dp_format_encode(own, DP_ROUND_NEAREST, d);
         const uint32_t after = dp_format_encode(own, DP_ROUND_NEAREST, value);
-        const double z = dp_eye(setup, d, 1 - d), off = fabs(dp_eye(setup, value, 1 - value) - z);
+        const dp_point from = dp_point_make(d, 1), to = dp_point_make(value, 1);
+        const double off = p->nearest ? dp_curve_span(setup, to, from) : dp_curve_span(setup, from, to);
         const uint64_t steps = before < after ? after - before : before - after;
         p->codes_off = steps > p->codes_off ? steps : p->codes_off;
         if (off > p->off) {
             p->off = off;
-            p->off_z = z;
+            p->off_z = dp_curve_eye(setup, from);
         }
     }
 }

@@ -41,9 +41,11 @@ static span steps_span(const grain *g, double v) {
     span all = {s.lo / s.den, s.hi / s.den, 1};
     if (g->own == 0 && g->whole == 0)
         return s;
-    if (g->own > 0) {
-        const span own = steps_span_of(g, g->own, v);
-        all = (span){fmin(all.lo, own.lo / own.den), fmax(all.hi, own.hi / own.den), 1};
+    const double others[] = {g->own, g->whole > 0 ? g->whole + 1 : 0};
+    for (int i = 0; i < 2; i++) {
+        const span other = steps_span_of(g, others[i], v);
+        if (others[i] > 0)
+            all = (span){fmin(all.lo, other.lo / other.den), fmax(all.hi, other.hi / other.den), 1};
     }
     if (g->whole > 0)
         all = (span){fmin(all.lo, s.lo / g->whole), fmax(all.hi, s.hi / g->whole), 1};
