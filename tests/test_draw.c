@@ -189,31 +189,39 @@ static double area_of(const double v[3][2]) {
     return 0.5 * fabs((v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
 }
 
-/* Whether the triangle belongs to the class, and what is next to its ends: then it may be either. */
+/*
+ * Whether the triangle belongs to the class, and whether it may be either: next to its ends, or where it belongs or not
+ * as its vertices move by a sixteenth of a pixel, as they do to the grid. On a steep plane that moves a depth far.
+ */
 static bool belongs(const scene *s, const draw_plane *plane, const double v[3][2], const dp_triangles *class,
                     bool *either) {
-    double longest = 0.0, widest = 0.0, lo = INFINITY, hi = 0.0;
+    double longest = 0.0, widest = 0.0, facing[2] = {INFINITY, -INFINITY}, moved[2] = {INFINITY, -INFINITY};
+    *either = false;
     for (int i = 0; i < 3; i++) {
-        const double *next = v[(i + 1) % 3];
-        const double z = plane->distance / draw_facing(&s->camera, plane, v[i]);
+        const double *next = v[(i + 1) % 3], at = draw_facing(&s->camera, plane, v[i]);
         longest = fmax(longest, hypot(next[0] - v[i][0], next[1] - v[i][1]));
         widest = fmax(widest, fmax(fabs(next[0] - v[i][0]), fabs(next[1] - v[i][1])));
-        if (!(z > 0.0) || v[i][0] < 0.0 || v[i][0] > WIDTH || v[i][1] < 0.0 || v[i][1] > HEIGHT) {
-            *either = z > 0.0 && (fabs(v[i][0] - WIDTH / 2.0) < WIDTH / 2.0 + 0.1);
+        if (!(at > 0.0) || v[i][0] < 0.0 || v[i][0] > WIDTH || v[i][1] < 0.0 || v[i][1] > HEIGHT)
             return false;
+        facing[0] = fmin(facing[0], at);
+        facing[1] = fmax(facing[1], at);
+        for (int k = 0; k < 4; k++) {
+            const double beside[2] = {v[i][0] + (k & 1 ? 0.0625 : -0.0625), v[i][1] + (k & 2 ? 0.0625 : -0.0625)};
+            moved[0] = fmin(moved[0], draw_facing(&s->camera, plane, beside));
+            moved[1] = fmax(moved[1], draw_facing(&s->camera, plane, beside));
         }
-        lo = fmin(lo, z);
-        hi = fmax(hi, z);
     }
-    const double slim = longest * longest / (2.0 * area_of(v));
+    const double slim = longest * longest / (2.0 * area_of(v)), depth = facing[1] / facing[0];
+    const double lo = plane->distance / facing[1], hi = plane->distance / facing[0];
+    const bool in = widest <= class->pixels && slim <= class->slim && depth <= class->depth &&
+                    lo >= s->setup.spec.znear && hi <= s->setup.spec.zfar;
     *either = fabs(widest / class->pixels - 1.0) < 0.1 || fabs(slim / class->slim - 1.0) < 0.3 ||
-              fabs(hi / lo / class->depth - 1.0) < 0.02 || lo < s->setup.spec.znear * 1.001 ||
-              hi > s->setup.spec.zfar * 0.999;
+              (depth <= class->depth && !(moved[0] * class->depth * (1.0 - 1e-4) > moved[1])) ||
+              lo < s->setup.spec.znear * 1.001 || hi > s->setup.spec.zfar * 0.999;
     for (int i = 0; i < 3; i++)
         *either |= fabs(fabs(v[i][0] - WIDTH / 2.0) - WIDTH / 2.0) < 0.1 ||
                    fabs(fabs(v[i][1] - HEIGHT / 2.0) - HEIGHT / 2.0) < 0.1;
-    return widest <= class->pixels && slim <= class->slim && hi / lo <= class->depth && lo >= s->setup.spec.znear &&
-           hi <= s->setup.spec.zfar;
+    return in;
 }
 
 /* Without a class every triangle of the view is drawn, with one those that belong to it. */

@@ -202,6 +202,30 @@ TEST(the_worst_inside) {
     assert_true(result.all.longest > 0.0 && result.all.longest + 0x1p-17 <= w.bound);
 }
 
+/* So near 0 that d is 1 in double and below it in truth: steps of the binade below 1 alone, whatever the depth. */
+TEST(a_binade_end_at_zero) {
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    dp_setup s;
+    dp_separation_worst w;
+    dp_format_parse("float4.6", found);
+    spec.format = found[0];
+    spec.znear = 0.0;
+    spec.zfar = 1.0;
+    spec.ortho = 1;
+    spec.model = DP_MODEL_FLOAT;
+    spec.mapping = DP_MAPPING_REVERSED;
+    assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+    assert_int_equal(dp_separation_over(&s, 0x1p-140, 0x1p-100, 0.0, &w), DP_OK);
+    assert_true(w.bound >= 0x1p-7 && w.bound <= 0x1p-7 * (1.0 + 0x1p-9));
+    spec.mapping = DP_MAPPING_D3D; /* likewise one step before 1, where the next one is twice as long */
+    spec.znear = -127.0;
+    spec.zfar = 1.0;
+    assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+    assert_int_equal(dp_separation_over(&s, -0.5, -0x1p-100, 0.0, &w), DP_OK);
+    assert_true(w.bound >= 1.0 && w.bound <= 1.0 + 0x1p-9);
+}
+
 TEST(known_answers) {
     dp_spec spec = dp_spec_default();
     dp_format found[2];

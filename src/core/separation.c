@@ -77,11 +77,15 @@ static void window_range(const dp_setup *one, const dp_setup *other, double near
     *high *= 1.0 + 2.0 * DP_WINDOW_ERROR;
 }
 
-/* Every term of staged_step() at the end of the range where it is largest. */
+/*
+ * Every term of staged_step() at the end of the range where it is largest: of one camera by exact_step(), which knows
+ * the side of a binade's end on which a depth lies even where the computed d does not.
+ */
 double dp_separation_step(const dp_setup *setup, const dp_setup *other, double nearest, double farthest, int half) {
     double low, high;
     window_range(setup, other, nearest, farthest, &low, &high);
-    const double code = largest_code_step(setup, high);
+    const double code = other == setup ? exact_step(setup, setup->reversed ? nearest : farthest) / setup->den
+                                       : largest_code_step(setup, high);
     if (setup->spec.model == DP_MODEL_EXACT || dp_staged_is_exact(setup))
         return code;
     const double first = code + dp_staged_window_step(setup, high) +
