@@ -87,8 +87,9 @@ export async function load(from, host = () => ({})) {
         return { exports: instance.exports, memory: instance.exports.memory, streams };
     }
 
-    function call(name, words, most) {
+    function call(name, words, most, cells = false) {
         const { exports, memory, streams } = begin(most);
+        if (cells) exports.cells(1);
         const bytes = encoder.encode(words.map((word) => word.replaceAll("\0", "\ufffd") + "\0").join(""));
         const room = exports.words(bytes.length);
         new Uint8Array(memory.buffer, room, bytes.length).set(bytes);
@@ -102,8 +103,9 @@ export async function load(from, host = () => ({})) {
         // How far text reaches, px; the page has a better one.
         measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),
 
-        // The command's exit status and what it wrote, up to so many bytes; `left` are the others.
-        run: (words, most) => call("run", words, most),
+        // The command's exit status and what it wrote, up to so many bytes; `left` are the others. Where asked for, the cells
+        // of tables are parted, see sheet.js.
+        run: (words, most, cells) => call("run", words, most, cells),
 
         // What the program makes of the words: { status, err, verb, operands, options: [{ name, value }] }.
         parse(words) {
