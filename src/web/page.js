@@ -517,9 +517,9 @@ function lineOf(verb, setup, one, colours = theme()) {
 
 // ---- What lies over a figure --------------------------------------------------------------------------------------
 
-// While something is dragged the axes stand still, as they were; the curves of what was shown before it lie under those
-// of now.
-let steady = null, before = null, held = "", crossing = "100";
+// While something is dragged, until the hand is lifted, the axes stand still, as they were; the curves of what was shown
+// before it lie under those of now.
+let pressed = false, steady = null, before = null, held = "", crossing = "100";
 const axesOf = ({ x, y }) => `${x.text},${y.text}`;
 const figures = () => [...document.querySelectorAll("[data-panel=plot]:not([hidden]) .figure:not([hidden])")];
 const axesNow = () => figures()[0]?.axes ?? null;
@@ -528,6 +528,12 @@ function hold() {
     const axes = axesNow();
     before = steady;
     held = axes !== null && SHARED.includes(state.figure) && steady?.figure === state.figure ? axesOf(axes) : "";
+}
+
+function release() {
+    held = "";
+    count();
+    showKnown();
 }
 
 function ghostOf(one, colours) {
@@ -728,8 +734,7 @@ function update(dragged = false) {
     clearTimeout(resting);
     resting = !dragged ? null : setTimeout(() => {
         resting = null;
-        held = "";
-        showKnown();
+        if (!pressed) release();
         want();
     }, REST_MS);
     count();
@@ -769,7 +774,7 @@ function later() {
     supersede();
     linked = false;
     if (waiting) return;
-    if (resting === null) hold();
+    if (resting === null && held === "") hold();
     waiting = true;
     requestAnimationFrame(() => {
         waiting = false;
@@ -847,6 +852,14 @@ function listen() {
         $("#figures").append(make("span", {}, input, make("label", { for: input.id }, ` ${name}`)));
     }
     $("#cross").addEventListener("input", () => crossTo(numberOfStep(axesNow().x, Number($("#cross").value))));
+    addEventListener("pointerdown", () => (pressed = true), true);
+    for (const end of ["pointerup", "pointercancel"])
+        addEventListener(end, () => {
+            pressed = false;
+            if (held === "" || resting !== null) return;
+            release();
+            want();
+        }, true);
     addEventListener("hashchange", () => setLink(location.hash.slice(1)));
     addEventListener("resize", later);
     for (const [when, is] of [["beforeprint", true], ["afterprint", false]])
