@@ -606,8 +606,8 @@ function require(at, separation) {
 function reaches() {
     const all = [], unit = METRES[unitOf(state.setups[0])] ?? 1;
     state.setups.forEach((setup, i) => {
-        const said = aside.known(reachLine(setup));
-        if (said === undefined || said.status === REFUSED) return;
+        const said = aside.known(reachLine(setup)), table = aside.known(commandOf("table", setup));
+        if (!said || said.status === REFUSED || !/\x1f *guaranteed/.test(table?.out)) return; // or it is of several formats
         const { possible, answer } = JSON.parse(said.out), own = METRES[unitOf(setup)] ?? unit;
         if (answer) all.push({ letter: state.setups.length > 1 ? "AB"[i] : "", distance: possible ? (answer.distance * own) / unit : null });
     });
@@ -635,7 +635,7 @@ function showCrossed(axes) {
         const name = state.setups.length > 1 ? `${"AB"[i]} ` : "";
         if (said.status === REFUSED) return [make("p", {}, `${name}${errorOf(said)}`)];
         const tables = sheet(said.out, true).filter(({ tagName }) => tagName === "TABLE");
-        if (name !== "") for (const table of tables) table.createCaption().textContent = `Set-up ${name}`;
+        if (name !== "") for (const table of tables) table.createCaption().textContent = `Set-up ${name}${unitOf(state.setups[i]) && `(${unitOf(state.setups[i])})`}`;
         return tables;
     }));
 }

@@ -5,7 +5,7 @@
 const CELL = "\x1f", MOST_ROWS = 200; // of longer tables the rest stays text
 const NUMERIC = /^\s*([-+<~.\d]|inf|none|blind)/;
 // What a reader wants to know first, where there is no room for all.
-const KEYS = ["guaranteed", "interval", "error"];
+const KEYS = ["slanted", "guaranteed", "interval", "error"];
 
 export const withoutCells = (text) => text.replaceAll(CELL, "");
 
