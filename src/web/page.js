@@ -916,8 +916,10 @@ async function begin() {
     aside = createAside(engine.module, {
         here: (line, most) => engine.run(line, most),
         onSaid: (line, ms) => {
+            const axes = axesNow();
             cost[costOf(line)] = ms;
             showKnown();
+            if (axesNow() !== axes) want(); // what lies over the figure follows it
         },
         onRun: showRun,
     });
