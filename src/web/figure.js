@@ -3,8 +3,6 @@
 // before. Where things lie the figure says itself: its metadata hold its axes, its first clip the frame.
 const SVG_NS = "http://www.w3.org/2000/svg", GRID = 1000;
 
-const toDigits = (number, count) => Number(number.toPrecision(count));
-
 // { frame: { x, y, w, h }, size: [w, h], x, y }: of each axis { key, log, lo, hi, text }; null where a figure has none.
 export function readFigure(svg) {
     const axes = /\naxes: (\S+) (\S+) (\S+) (\S+), (\S+) (\S+) (\S+) (\S+)\n/.exec(svg)?.slice(1);
@@ -23,8 +21,8 @@ const valueAt = ({ log, lo, hi }, t) => (log ? lo * (hi / lo) ** t : lo + t * (h
 const within = (t) => Math.min(Math.max(t, 0), 1);
 
 // A number of few digits as near to a share of an axis as they allow, on it.
-export function numberAt(axis, t, count = 3) {
-    const value = toDigits(valueAt(axis, within(t)), count);
+export function numberAt(axis, t) {
+    const value = Number(valueAt(axis, within(t)).toPrecision(3));
     return String(value < axis.lo ? axis.lo : value > axis.hi ? axis.hi : value);
 }
 
@@ -55,7 +53,11 @@ export function createOver(stage, { onCross, onAsk }) {
         const box = stage.getBoundingClientRect(), scale = is.size[0] / box.width;
         return [((clientX - box.left) * scale - is.frame.x) / is.frame.w, 1 - ((clientY - box.top) * scale - is.frame.y) / is.frame.h];
     };
-    const ask = (x, y) => onAsk(numberAt(is.x, x), numberAt(is.y, y, 2));
+    const ask = (x, y) => {
+        const [depth, separation] = [numberAt(is.x, x), numberAt(is.y, y)];
+        asked = { ...asked, at: Number(depth), separation: Number(separation) }; // the next key may come before it is shown
+        onAsk(depth, separation);
+    };
     stage.addEventListener("pointermove", (event) => {
         if (is === null) return;
         if (handle.hasPointerCapture(event.pointerId)) ask(...at(event));
