@@ -89,7 +89,7 @@ TEST(beside) {
     assert_px(drawn_px(&p->x, 2000), p->frame.x1, 0.6);
     assert_px(drawn_px(&p->y, 1e-6), p->frame.y1, 0.6);
     assert_px(drawn_px(&p->y, 4), p->frame.y0, 0.6);
-    assert_non_null(strstr(d->svg->metadata, "\naxes: z log 1 2000, interval log 9.9999999999999995e-07 4\n"));
+    assert_non_null(strstr(d->svg->metadata, "\naxes: z log 1 2000, interval log 1e-06 4\n"));
     drawn_close(d);
 }
 

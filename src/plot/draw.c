@@ -270,7 +270,7 @@ static void tell_axes(const chart *c, char *out, size_t size) {
     const chart_axis *both[] = {&c->panels[0].x, &c->panels[0].y};
     out[0] = '\0';
     for (size_t i = 0; i < 2 && c->panel_count == 1 && c->panels[0].map.columns == 0; i++)
-        append(out, size, "%s %s %.17g %.17g%s", both[i]->key, both[i]->scale == CHART_LOG ? "log" : "linear",
+        append(out, size, "%s %s %.9g %.9g%s", both[i]->key, both[i]->scale == CHART_LOG ? "log" : "linear",
                both[i]->lo, both[i]->hi, i == 0 ? ", " : "\n");
 }
 
