@@ -45,6 +45,54 @@ TEST(metadata) {
     }
 }
 
+/* The points of a series as JSON has them, up to those of the next. */
+static char *points_of(const char *line, const char *name) {
+    char *json = drawn_output("plot interval %s --json", line), key[64];
+    snprintf(key, sizeof key, "{\"name\":\"%s\"", name);
+    const char *at = strstr(strstr(json, key), "\"points\":");
+    char *points = strndup(at, strcspn(at, "]"));
+    free(json);
+    return points;
+}
+
+static double number_after(const char *points, const char *key) {
+    return strtod(strstr(points, key) + strlen(key), NULL);
+}
+
+/* Curves are those that each has alone, in units of the first; the axes are those that are given, and the metadata tell
+ * them. */
+TEST(beside) {
+    static const char a[] = "-n 0.1 -f 1000 -F unorm24 -m d3d --unit m",
+                      b[] = "-n 5 -f 1e6 -F fp32 -m reversed --unit ";
+    static const char *const keys[] = {"\"z\":", "\"interval\":"}, *const units[] = {"m", "cm"};
+    char both[256], alone[128];
+    for (int i = 0; i < 2; i++) {
+        snprintf(alone, sizeof alone, "%s%s", b, units[i]);
+        snprintf(both, sizeof both, "%s --beside '%s'", a, alone);
+        char *own = points_of(alone, "fp32 reversed"), *joined = points_of(both, "B fp32 reversed");
+        assert_int_equal(strcmp(own, joined) == 0, i == 0);
+        for (int k = 0; k < 2; k++)
+            assert_true(fabs(number_after(joined, keys[k]) / number_after(own, keys[k]) - (i == 0 ? 1 : 0.01)) < 1e-12);
+        free(own);
+        free(joined);
+    }
+    drawn *d = drawn_run(&drawn_light, "plot interval %s", both);
+    const drawn_panel *p = &d->panels[0];
+    drawn_legend_is(d, 2, (const char *const[]){"A unorm24 d3d", "B fp32 reversed"});
+    drawn_style_is(d, drawn_legend(d, "B"), 1, 1, DRAWN_SQUARE, false);
+    assert_px(drawn_px(&p->x, 0.05), p->frame.x0, 0.6);
+    assert_px(drawn_px(&p->x, 1e4), p->frame.x1, 0.6);
+    drawn_close(d);
+    d = drawn_run(&drawn_light, "plot interval %s --axes 1:2000,1e-6:4", both);
+    p = &d->panels[0];
+    assert_px(drawn_px(&p->x, 1), p->frame.x0, 0.6);
+    assert_px(drawn_px(&p->x, 2000), p->frame.x1, 0.6);
+    assert_px(drawn_px(&p->y, 1e-6), p->frame.y1, 0.6);
+    assert_px(drawn_px(&p->y, 4), p->frame.y0, 0.6);
+    assert_non_null(strstr(d->svg->metadata, "\naxes: z log 1 2000, interval log 1e-06 4\n"));
+    drawn_close(d);
+}
+
 /* ---- Sizes ------------------------------------------------------------------------------------------------------- */
 
 TEST(sizes) {

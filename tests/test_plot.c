@@ -390,7 +390,7 @@ static double distance(const double p[2], const double a[2], const double b[2]) 
 TEST(test_trace) {
     enum { POINTS = 20000, CORNERS = 5000 };
     static double points[POINTS][2], corners[CORNERS][2];
-    const notes none = {"", "", "", ""};
+    const notes none = {"", "", "", "", ""};
     rng r = rng_make("trace");
     for (int shape = 0; shape < 3; shape++) {
         canvas *c = canvas_new(CANVAS_SVG, 500, 500, &none);
@@ -429,7 +429,7 @@ TEST(test_trace) {
 }
 
 TEST(test_words) {
-    const notes none = {"", "", "", ""};
+    const notes none = {"", "", "", "", ""};
     canvas *c = canvas_new(CANVAS_PNG, 100, 100, &none);
     pencil p = pencil_make(c, theme_get(0), 1);
     rng r = rng_make("words");

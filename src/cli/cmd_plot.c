@@ -2,8 +2,10 @@
 /* plot: a figure, drawn (SVG, PDF, PNG by the ending of -o) or as its numbers (--csv, --json). */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "api/unit.h"
 #include "cli/check_report.h"
 #include "cli/choice.h"
 #include "cli/figure_data.h"
@@ -40,7 +42,23 @@ typedef struct plotting {
     scene model;
     fights_asked fights;
     chart *chart;
+    struct plotting *beside; /* another camera's curves in the same figure; else null */
 } plotting;
+
+static plotting plotting_of(const options *o) {
+    const figure_request request = {.lo = NAN,
+                                    .hi = NAN,
+                                    .at = NAN,
+                                    .terms = o->world.terms,
+                                    .tolerance = option_given(o, OPTION_TOLERANCE) ? o->wanted.tolerance : (double)NAN,
+                                    .every = o->out.form == FORM_CSV && !figure_file_wanted(o),
+                                    .census = census_depths,
+                                    .columns = o->figure.width > 0 ? o->figure.width : WIDTH,
+                                    .rows = o->figure.height > 0 ? o->figure.height : HEIGHT,
+                                    .far_count = o->camera.far_count,
+                                    .fars = o->camera.fars};
+    return (plotting){.o = o, .row = o->operand_row, .request = request, .chart = chart_new()};
+}
 
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
 static int resolve_depths(plotting *p) {
@@ -253,6 +271,34 @@ static int resolve_setups(plotting *p) {
     return status == EXIT_FINE && p->row->family != NULL ? resolve_methods(p) : status;
 }
 
+/* The camera of --beside, whose options are words of one word; it has no figure of its own. */
+static int parse_beside(const plotting *p, char *text, options *out) {
+    enum { WORDS = 64 };
+    char *words[WORDS + 1] = {p->o->argv[0], "plot", (char *)p->row->name};
+    int count = 3;
+    for (char *word = strtok(text, " "); word != NULL && count < WORDS; word = strtok(NULL, " "))
+        words[count++] = word;
+    int status = options_parse(out, count, words);
+    for (int id = OPTION_TYPE; id < OPTION_COUNT && status == EXIT_FINE; id++)
+        if (option_given(out, (option_id)id))
+            status = option_error(OPTION_BESIDE, "must be options of a camera, got '%s'", p->o->figure.beside);
+    if (status == EXIT_FINE && out->operand_count != 1)
+        status = usage_error("plot %s: --beside takes options, got '%s'", p->row->name, out->operands[1]);
+    return status;
+}
+
+static int resolve_beside(plotting *p, char *text, options *o, plotting *q) {
+    const int status = parse_beside(p, text, o);
+    if (status != EXIT_FINE)
+        return status;
+    *q = plotting_of(o);
+    q->request.columns = p->request.columns;
+    q->request.rows = p->request.rows;
+    q->request.names = q->names;
+    p->beside = q;
+    return q->chart == NULL ? usage_error("plot: no memory") : resolve_setups(q);
+}
+
 static int resolve_file(plotting *p) {
     const int status = resolve_depths(p);
     p->request.file = &p->file;
@@ -325,26 +371,58 @@ static int height_of(const plotting *p) {
     return own ? scene_figure_height(p->chart, p->request.columns) : p->request.rows;
 }
 
+/* The figure, with the curves of the other camera where there is one: they stay in `room`. */
+static const char *build(const plotting *p, bool every, chart *out, chart *room) {
+    const unit_row *own = p->o->camera.unit, *other = p->beside != NULL ? p->beside->o->camera.unit : NULL;
+    figure_request request = p->request;
+    request.every = request.every || every;
+    const char *wrong = p->row->build(&request, out);
+    if (p->beside == NULL || wrong != NULL)
+        return wrong;
+    figure_request second = p->beside->request;
+    second.every = request.every;
+    wrong = p->row->build(&second, room);
+    if (chart_failed(room))
+        chart_fail(out);
+    if (wrong != NULL || chart_failed(out))
+        return wrong;
+    return chart_join(out, room, (int)request.count, own != NULL && other != NULL ? unit_convert(1, other, own) : 1)
+               ? NULL
+               : "--beside: must be a camera of which the figure shows the same";
+}
+
 /* To stdout, where the file is that of the figure. As CSV curves share their places, of which a picture needs few. */
 static int write_numbers(const plotting *p) {
     options beside = *p->o;
-    figure_request request = p->request;
     output out;
     beside.out.file = NULL;
     int status = options_open(&beside, &out);
     if (status != EXIT_FINE)
         return status;
-    chart *every = beside.out.form == FORM_CSV && p->chart->curves > 0 ? chart_new() : NULL;
-    request.every = true;
-    if (every != NULL && (p->row->build(&request, every) != NULL || chart_failed(every)))
+    const bool again = beside.out.form == FORM_CSV && p->chart->curves > 0;
+    chart *every = again ? chart_new() : NULL, *room = again ? chart_new() : NULL;
+    if (every != NULL && (build(p, true, every, room) != NULL || chart_failed(every)))
         status = EXIT_IO;
     else
         figure_data_write(&out, beside.out.form, "plot", p->row->name, every != NULL ? every : p->chart);
     chart_free(every);
+    chart_free(room);
     if (status == EXIT_FINE)
         return output_close(&out);
     output_abandon(&out);
     return usage_error("plot: no memory");
+}
+
+static const char *set_axes(const double ends[4], chart *c) {
+    for (size_t i = 0; i < 2 * c->panel_count; i++) {
+        chart_panel *panel = &c->panels[i / 2];
+        chart_axis *axis = i % 2 == 0 ? &panel->x : &panel->y;
+        axis->lo = ends[i % 2 * 2];
+        axis->hi = ends[i % 2 * 2 + 1];
+        if (axis->scale == CHART_LOG && !(axis->lo > 0))
+            return "--axes: LO must be greater than 0 on a logarithmic axis";
+    }
+    return NULL;
 }
 
 static int write_figure(plotting *p) {
@@ -361,7 +439,9 @@ static int write_figure(plotting *p) {
         output_abandon(&out);
         return status;
     }
-    const char *wrong = p->row->build(&p->request, c);
+    const char *wrong = build(p, false, c, p->beside != NULL ? p->beside->chart : NULL);
+    if (wrong == NULL && option_given(o, OPTION_AXES))
+        wrong = set_axes(o->figure.axes, c);
     status = wrong != NULL ? usage_error("%s", wrong) : p->mine != NULL ? p->mine->status : EXIT_FINE;
     if (status != EXIT_FINE) {
         output_abandon(&out);
@@ -397,35 +477,27 @@ static int check_output(const options *o) {
 }
 
 int cmd_plot(const options *o) {
-    plotting p = {.o = o, .row = o->operand_row};
-    p.request = (figure_request){.names = p.names,
-                                 .lo = NAN,
-                                 .hi = NAN,
-                                 .at = NAN,
-                                 .terms = o->world.terms,
-                                 .tolerance = option_given(o, OPTION_TOLERANCE) ? o->wanted.tolerance : (double)NAN,
-                                 .every = o->out.form == FORM_CSV && !figure_file_wanted(o),
-                                 .census = census_depths,
-                                 .columns = o->figure.width > 0 ? o->figure.width : WIDTH,
-                                 .rows = o->figure.height > 0 ? o->figure.height : HEIGHT};
-    p.request.far_count = o->camera.far_count;
-    p.request.fars = o->camera.fars;
+    plotting p = plotting_of(o), q = {.chart = NULL};
+    options other = {.each = NULL};
+    p.request.names = p.names;
+    char *text = strdup(o->figure.beside != NULL ? o->figure.beside : "");
     int status = check_output(o);
     if (status == EXIT_FINE && p.request.far_count > 1 && (p.row->takes & FIGURE_FARS) == 0)
         status = option_error(OPTION_FAR, "must be one far plane in the figure %s, got '%s'", p.row->name,
                               o->given[OPTION_FAR]);
     if (status == EXIT_FINE)
         status = check_file_given(o, p.row);
-    if (status != EXIT_FINE)
-        return status;
-    p.chart = chart_new();
-    if (p.chart == NULL)
-        return usage_error("plot: no memory");
-    notes_clean(p.chart->title, sizeof p.chart->title, o->figure.title != NULL ? o->figure.title : "");
-    status = (p.row->takes & FIGURE_FILE) != 0     ? resolve_file(&p)
-             : (p.row->takes & FIGURE_MODEL) != 0  ? scene_figure_begin(&p.model, o)
-             : (p.row->takes & FIGURE_SHADOW) != 0 ? resolve_shadow(&p)
-                                                   : resolve_setups(&p);
+    if (status == EXIT_FINE && (p.chart == NULL || text == NULL))
+        status = usage_error("plot: no memory");
+    if (status == EXIT_FINE) {
+        notes_clean(p.chart->title, sizeof p.chart->title, o->figure.title != NULL ? o->figure.title : "");
+        status = (p.row->takes & FIGURE_FILE) != 0     ? resolve_file(&p)
+                 : (p.row->takes & FIGURE_MODEL) != 0  ? scene_figure_begin(&p.model, o)
+                 : (p.row->takes & FIGURE_SHADOW) != 0 ? resolve_shadow(&p)
+                                                       : resolve_setups(&p);
+    }
+    if (status == EXIT_FINE && o->figure.beside != NULL)
+        status = resolve_beside(&p, text, &other, &q);
     if (status == EXIT_FINE)
         status = write_figure(&p);
     chart_free(p.chart);
@@ -433,5 +505,9 @@ int cmd_plot(const options *o) {
     setups_release(&p.all);
     need_release(&p.file);
     mine_close(p.mine);
+    chart_free(q.chart);
+    setups_release(&q.all);
+    options_release(&other);
+    free(text);
     return status;
 }

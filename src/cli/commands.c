@@ -124,7 +124,7 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec plot needs engine.need -o needs.svg\n"
      "  depthprec plot scene house.glb -F d24 -m d3d -o house.svg\n",
      .files_from = 2, .group = "Figures, lists and help", .part = plot_asked,
-     .shown = FIGURE_SETUPS | FIGURE_AT | FIGURE_SLANTED},
+     .shown = FIGURE_SETUPS | FIGURE_AT | FIGURE_SLANTED | FIGURE_BESIDE},
     [CMD_LIST] = {"list", CMD_LIST, list_uses, "WHAT", 0, 1, &topics,
      .summary = "formats, mappings, presets, methods, or what a word means",
      .example = "  depthprec list\n"

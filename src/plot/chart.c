@@ -180,6 +180,62 @@ void chart_fit(chart *c) {
     fit(&c->value, value, false);
 }
 
+static void letter(chart_series *s, char which) {
+    char name[CHART_TEXT];
+    snprintf(name, sizeof name, "%c %.180s", which, s->name);
+    memcpy(s->name, name, sizeof name);
+}
+
+static void join_axis(chart_axis *axis, const chart_axis *other, double unit) {
+    axis->scale = axis->scale == CHART_LOG ? other->scale : axis->scale;
+    axis->lo = fmin(axis->lo, other->lo * unit);
+    axis->hi = fmax(axis->hi, other->hi * unit);
+}
+
+static void rescale(chart_series *s, double x, double y) {
+    for (size_t i = 0; i < s->count; i++) {
+        s->x[i] *= x;
+        s->y[i] *= y;
+    }
+    if (x != 1)
+        s->note[0] = '\0'; /* it has lengths */
+}
+
+/* What holds for each, then what holds for both. */
+static void join_subtitle(chart *c, const chart *other) {
+    char text[sizeof c->subtitle];
+    const char *rest = strstr(c->subtitle, ". "), *end = strstr(other->subtitle, ". ");
+    const size_t own = rest != NULL ? (size_t)(rest - c->subtitle) : strlen(c->subtitle);
+    const size_t others = end != NULL ? (size_t)(end - other->subtitle) : strlen(other->subtitle);
+    snprintf(text, sizeof text, "A: %.*s. B: %.*s%s", (int)own, c->subtitle, (int)others, other->subtitle,
+             c->subtitle + own);
+    memcpy(c->subtitle, text, sizeof text);
+}
+
+bool chart_join(chart *c, const chart *other, int styles, double unit) {
+    chart_panel *to = &c->panels[0];
+    const chart_panel *from = &other->panels[0];
+    if (c->panel_count * other->panel_count != 1 || strcmp(to->y.key, from->y.key) != 0)
+        return false;
+    const char *measured = strstr(to->y.unit, "scene unit");
+    const double unit_y = measured == NULL ? 1 : measured == to->y.unit ? unit : 1 / unit;
+    for (size_t s = 0; s < to->series_count; s++)
+        letter(&to->series[s], 'A');
+    for (size_t s = 0; s < from->series_count && to->series_count < CHART_SERIES; s++) {
+        chart_series *added = &to->series[to->series_count++];
+        *added = from->series[s];
+        rescale(added, unit, unit_y);
+        letter(added, 'B');
+        added->style.colour += styles;
+        added->style.stroke += styles;
+        added->style.marker += added->style.marker < 0 ? 0 : styles;
+    }
+    join_axis(&to->x, &from->x, unit);
+    join_axis(&to->y, &from->y, unit_y);
+    join_subtitle(c, other);
+    return true;
+}
+
 const char *chart_unit(const chart *c, const chart_axis *axis, char out[CHART_TEXT]) {
     static const char named[] = "scene unit";
     const char *at = c->unit != NULL ? strstr(axis->unit, named) : NULL;

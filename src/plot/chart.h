@@ -135,6 +135,11 @@ chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, si
 /** Fits every axis with lo == hi to the finite data, the same axis in all panels alike. */
 void chart_fit(chart *c);
 
+/** Puts the curves of another chart of one panel on that of this one, on axes that hold both: each name begins with A
+ *  or B, B in the colours behind the first `styles`. A scene unit of the other is `unit` of this one's.
+ *  @return false: they show different things */
+bool chart_join(chart *c, const chart *other, int styles, double unit);
+
 /** A map of columns x rows, centred on the panel's axes (which must be set); false when out of memory. */
 bool chart_add_map(chart *c, chart_panel *panel, int columns, int rows);
 

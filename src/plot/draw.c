@@ -265,13 +265,24 @@ static void describe(const chart *c, char *out, size_t size) {
     }
 }
 
+/* "z log 0.1 1000, interval log 6e-09 1.2\n" of a single panel: the ends of its frame. */
+static void tell_axes(const chart *c, char *out, size_t size) {
+    const chart_axis *both[] = {&c->panels[0].x, &c->panels[0].y};
+    out[0] = '\0';
+    for (size_t i = 0; i < 2 && c->panel_count == 1 && c->panels[0].map.columns == 0; i++)
+        append(out, size, "%s %s %.9g %.9g%s", both[i]->key, both[i]->scale == CHART_LOG ? "log" : "linear",
+               both[i]->lo, both[i]->hi, i == 0 ? ", " : "\n");
+}
+
 bool draw_chart(const chart *c, const theme *t, canvas_format format, int width, int height, const char *command,
                 canvas_bytes *out) {
-    char digest[17], description[CHART_TEXT * 32], clean_description[sizeof description], clean_command[4096];
+    char digest[17], ends[CHART_TEXT], description[CHART_TEXT * 32], clean_description[sizeof description],
+        clean_command[4096];
     describe(c, description, sizeof description);
     chart_digest(c, digest);
+    tell_axes(c, ends, sizeof ends);
     const notes noted = {c->title, notes_clean(clean_description, sizeof clean_description, description),
-                         notes_clean(clean_command, sizeof clean_command, command), digest};
+                         notes_clean(clean_command, sizeof clean_command, command), digest, ends};
     *out = (canvas_bytes){NULL, 0};
     canvas *surface = canvas_new(format, width, height, &noted);
     if (surface == NULL)

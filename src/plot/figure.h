@@ -60,6 +60,7 @@ enum {
     FIGURE_GUARANTEED = 1 << 13, /**< what is guaranteed, unless --model is given */
     FIGURE_MINE = 1 << 15,       /**< functions of somebody's among the methods of linearize */
     FIGURE_FARS = 1 << 14,       /**< several far planes, and no formats */
+    FIGURE_BESIDE = 1 << 15,     /**< curves that another camera's can stand beside, on axes that can be given */
     FIGURE_STAGED = 1 << 12,     /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
 };
 

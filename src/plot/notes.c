@@ -35,7 +35,8 @@ void notes_write_svg(FILE *out, const char *svg, size_t size, const notes *words
     element(out, "<title id=\"title\">", words->title, "</title>\n");
     element(out, "<desc id=\"desc\">", words->description, "</desc>\n");
     element(out, "<metadata>\ncommand: ", words->command, "\n");
-    element(out, "data: ", words->data, "\n</metadata>");
+    element(out, "data: ", words->data, "\n");
+    element(out, *words->axes != '\0' ? "axes: " : "", words->axes, "</metadata>");
     fwrite(svg + tag + 1, 1, size - tag - 1, out);
 }
 

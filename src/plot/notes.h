@@ -12,6 +12,7 @@ typedef struct notes {
     const char *description; /**< what is shown, one paragraph: for screen readers and search */
     const char *command;     /**< the command line that draws it */
     const char *data;        /**< the digest of the numbers that were drawn */
+    const char *axes;        /**< what the axes show, for who lays something over the picture; "" of none */
 } notes;
 
 /** Writes an SVG with <title>, <desc> and <metadata> as the first children of its root, and its role and label. */

@@ -87,6 +87,8 @@ static void blanks(output *out, int count) {
 static void put(text_line *line, const column *c, const char *text) {
     const int length = (int)strlen(text), rest = abs(c->width) - length;
     const bool left = c->width < 0;
+    if (line->out->cells)
+        output_char(line->out, '\x1f');
     if (left)
         line->waiting += !line->begun ? 0 : line->left ? 1 : 2;
     else

@@ -13,7 +13,7 @@ export function serve(measure) {
         engine ??= await load(module);
         engine.measure = measure;
         engine.gpu = gpu;
-        postMessage(engine.run(line, most));
+        postMessage(engine.run(line, most, true));
     };
 }
 
@@ -93,7 +93,11 @@ export function createAside(module, { here, onSaid, onRun }) {
     const needed = () => [...asked, ...wanted].some(({ key }) => key === now.key);
 
     return {
-        known: (line) => last.get(keyOf(line)),
+        known(line) {
+            const key = keyOf(line), said = last.get(key);
+            if (said !== undefined) remember(key, said); // again
+            return said;
+        },
 
         // The lines that the page shows and the most bytes of each, the first most urgent. What runs for nobody any more
         // has a moment left.

@@ -88,8 +88,9 @@ export async function load(from, host = () => ({})) {
         return { exports: instance.exports, memory: instance.exports.memory, streams };
     }
 
-    function call(name, words, most) {
+    function call(name, words, most, cells = false) {
         const { exports, memory, streams } = begin(most);
+        if (cells) exports.cells(1);
         const bytes = encoder.encode(words.map((word) => word.replaceAll("\0", "\ufffd") + "\0").join(""));
         const room = exports.words(bytes.length);
         new Uint8Array(memory.buffer, room, bytes.length).set(bytes);
@@ -104,9 +105,10 @@ export async function load(from, host = () => ({})) {
         // How far text reaches, px; the page has a better one.
         measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),
 
-        // The command's exit status and what it wrote, up to so many bytes; `left` are the others. What begins with "seen" is
-        // a frame of a picture by the GPU: see picture.c.
-        run: ([first, ...others], most) => (first === "seen" ? call(first, others, most) : call("run", [first, ...others], most)),
+        // The command's exit status and what it wrote, up to so many bytes; `left` are the others. Where asked for, the cells
+        // of tables are parted, see sheet.js. What begins with "seen" is a frame of a picture by the GPU: see picture.c.
+        run: ([first, ...others], most, cells) =>
+            first === "seen" ? call(first, others, most) : call("run", [first, ...others], most, cells),
 
         // What the program makes of the words: { status, err, verb, operands, options: [{ name, value }] }.
         parse(words) {

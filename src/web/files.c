@@ -7,9 +7,17 @@
 #include "plot/canvas.h"
 #include "report/output.h"
 #include "system/input.h"
+#include "web/page.h"
+
+static bool cells;
+
+/** Parts the cells of tables from now on, see output.h. */
+PAGE_EXPORT("cells") void part_cells(int on) {
+    cells = on != 0;
+}
 
 int output_open(output *out, const char *path) {
-    *out = (output){.fd = STDOUT_FILENO};
+    *out = (output){.fd = STDOUT_FILENO, .cells = cells};
     if (path == NULL || strcmp(path, "-") == 0)
         return EXIT_FINE;
     fprintf(stderr, "depthprec: the page writes no files, got '%s': leave --output out\n", path);

@@ -4,9 +4,11 @@
 import { createAside, inWorker, serve } from "./aside.js";
 import { load } from "./engine.js";
 import { commands, fromFragment, join, LONGEST, split, toFragment, written } from "./command.js";
+import { createOver, numberAt, numberOfStep, readFigure, stepAt } from "./figure.js";
 import { gpu } from "./gpu.js";
 import { createGpuPanel, profileText } from "./gpu_panel.js";
 import { createPicture } from "./picture.js";
+import { sheet, withoutCells } from "./sheet.js";
 
 const $ = (selector, root = document) => root.querySelector(selector);
 
@@ -31,7 +33,8 @@ const ASKED = {
     table: [], plot: [], budget: [],
 };
 const REFUSED = 2; // the exit status of a command
-const NEVER = ["link", "output", "json", "csv", "type", "theme", "figure-size", "threads", "quiet", "color"];
+const NEVER = ["link", "output", "json", "csv", "type", "theme", "figure-size", "axes", "threads", "quiet", "color"];
+const SHARED = ["interval", "error", "distribution", "share"]; // what holds the curves of both set-ups
 // A figure does not refuse what it has no use for: it leaves it out.
 const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle-class"];
 const UNUSED = {
@@ -73,12 +76,15 @@ function unwanted(verb, asked) {
     return verb === "bias" ? ["at", "range"] : [];
 }
 
-function commandOf(verb, setup) {
+// Of a figure with the curves of a second set-up beside it.
+function commandOf(verb, setup, b = state.setups[1]) {
     const asked = new Map(state.asked[verb] ?? []), without = unwanted(verb, asked);
     if (asked.get("for") === "distance") asked.delete("at");
     const given = new Map([...[...setup].filter(([name]) => !without.includes(name)), ...asked]);
     const inOrder = [...takes[verb].keys()].filter((name) => given.has(name));
     const options = inOrder.map((name) => [name, given.get(name)]);
+    if (verb === "plot" && b && setup !== b && SHARED.includes(state.figure))
+        options.push(["beside", commandOf("plot", b, b).slice(2).map((word) => word.replaceAll(" ", "")).join(" ")]);
     return [verb, ...(verb === "plot" ? [state.figure] : []), ...words(options)];
 }
 
@@ -152,6 +158,7 @@ async function understand(all, from) {
         const read = engine.parse(line);
         if (read.status !== 0) throw new Error(errorOf(read));
         const { verb, operands } = read, panel = ASKED[verb];
+        let beside;
         if (panel === undefined)
             throw new Error(`${verb} is not in the page, which has ${VERBS.join(", ")}: the program has it`);
         const given = mapOf(read);
@@ -162,6 +169,8 @@ async function understand(all, from) {
             if (!FIGURES.includes(operands[0]))
                 throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
             next.figure = operands[0];
+            beside = given.get("beside");
+            given.delete("beside");
         }
         if (verb === "table" || (verb !== "plot" && all.length === 1)) {
             trying = [verb, ...words(given)];
@@ -177,6 +186,11 @@ async function understand(all, from) {
         if (verb === "table" && next.setups.length < 2) next.setups.push(given);
         else if (next.setups.length === 0) next.setups.push(given);
         else for (const [name, value] of given) if (!takes.table.has(name)) next.setups[0].set(name, value);
+        if (beside !== undefined && next.setups.length < 2) {
+            const other = engine.parse(["table", ...split(beside)]);
+            if (other.status !== 0) throw new Error(errorOf(other));
+            next.setups.push(mapOf(other));
+        }
     }
     if (all.length === 1) for (const verb of from.shown) next.shown.add(verb);
     if (next.shown.size === 2) for (const verb of ["solve", "bias"]) next.shown.add(verb);
@@ -212,6 +226,7 @@ async function set(all, byLink = false) {
         return false;
     }
     if (mine !== asking) return true;
+    before = byLink ? null : steady;
     Object.assign(state, next);
     refuse(null);
     if (byLink) see(said);
@@ -444,8 +459,8 @@ function outputOf(panel, index) {
     const place = $(".outputs", panel), verb = panel.dataset.panel, drawn = verb === "plot";
     while (place.children.length <= index) {
         const letter = "AB"[place.children.length], title = `${verb}, set-up ${letter}`;
-        const body = drawn ? make("img", { alt: "" })
-            : make("pre", { tabindex: 0, "data-output": "text", role: "region", "aria-label": title });
+        const body = drawn ? make("div", { class: "stage" }, make("img", { alt: "" }), make("img", { alt: "", class: "ghost", hidden: "" }))
+            : make("div", { tabindex: 0, "data-output": "text", role: "region", "aria-label": title });
         const saves = make("div", { class: "saves" });
         const one = make("div", { class: drawn ? "figure" : "text" }, make("h3", {}, `Set-up ${letter}`),
             make("p", { class: "answer" }), body, make("p", { class: "refused", role: "status" }), saves);
@@ -460,15 +475,16 @@ function outputOf(panel, index) {
             saves.append(button);
         }
         place.append(one);
+        if (drawn) one.over = createOver(body, { onCross: crossTo, onAsk: require });
     }
     return place.children[index];
 }
 
 const unescaped = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&amp;", "&");
 
-function drawing(one, colours) {
+function drawing(one, colours = theme()) {
     const width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640)));
-    const height = Math.max(240, Math.round(width * 0.55));
+    const height = Math.max(320, Math.round(width * 0.55));
     return ["--type", "svg", "-o", "-", "--theme", colours, "--figure-size", `${width}x${height}`];
 }
 
@@ -476,16 +492,21 @@ function showFigure(one, svg) {
     const image = $("img", one);
     image.src = `data:${TYPE.svg},${encodeURIComponent(svg)}`;
     image.alt = unescaped(/<desc[^>]*>([^<]*)/.exec(svg)?.[1] ?? "");
+    one.axes = readFigure(svg);
 }
 
+const narrow = () => matchMedia("(max-width: 40rem)").matches && !printing;
+
 function showText(one, verb, { out: text, left }) {
-    $("pre", one).textContent = left > 0 ? `${text}\n... and ${Math.ceil(left / 1024)} KiB more: CSV has all\n` : text;
-    if (verb !== "table") $(".answer", one).textContent = answers(text);
+    const whole = left > 0 ? `${text}\n... and ${Math.ceil(left / 1024)} KiB more: CSV has all\n` : text;
+    $("[data-output]", one).replaceChildren(...sheet(whole, narrow()));
+    if (verb !== "table") $(".answer", one).textContent = answers(withoutCells(text));
 }
 
 // The outputs of a panel, those of set-ups that there are, and the command of one.
 function outputsOf(panel) {
-    const ones = state.setups.map((_, index) => outputOf(panel, index));
+    const shared = panel.dataset.panel === "plot" && SHARED.includes(state.figure);
+    const ones = state.setups.slice(0, shared ? 1 : 2).map((_, index) => outputOf(panel, index));
     for (const one of $(".outputs", panel).children) one.hidden = !ones.includes(one);
     $("h3", ones[0]).hidden = ones.length === 1;
     return ones;
@@ -493,15 +514,153 @@ function outputsOf(panel) {
 
 function lineOf(verb, setup, one, colours = theme()) {
     const line = commandOf(verb, setup);
-    return verb === "plot" ? [...line, ...drawing(one, colours)] : line;
+    return verb === "plot" ? [...line, ...(held === "" ? [] : ["--axes", held]), ...drawing(one, colours)] : line;
+}
+
+// ---- What lies over a figure --------------------------------------------------------------------------------------
+
+// While something is dragged, until the hand is lifted, the axes stand still, as they were; the curves of what was shown
+// before it lie under those of now.
+let pressed = false, steady = null, before = null, held = "", crossing = "100";
+const axesOf = ({ x, y }) => `${x.text},${y.text}`;
+const figures = () => [...document.querySelectorAll("[data-panel=plot]:not([hidden]) .figure:not([hidden])")];
+const axesNow = () => figures()[0]?.axes ?? null;
+
+function hold() {
+    const axes = axesNow();
+    before = steady;
+    held = axes !== null && SHARED.includes(state.figure) && steady?.figure === state.figure ? axesOf(axes) : "";
+}
+
+function release() {
+    held = "";
+    count();
+    showKnown();
+}
+
+function ghostOf(one, colours) {
+    if (before === null || before.figure !== state.figure || !SHARED.includes(state.figure) || !one.axes) return null;
+    const [a, b] = before.setups, line = commandOf("plot", a, b ?? null);
+    if (join(line) === join(commandOf("plot", state.setups[0]))) return null;
+    return [...line, "--axes", held || axesOf(one.axes), ...drawing(one, colours)];
+}
+
+function showGhost(one) {
+    const line = ghostOf(one), said = line && aside.known(line), ghost = $(".ghost", one);
+    ghost.hidden = line === null || (said === undefined && ghost.hidden) || said?.status === REFUSED;
+    if (!said || said === ghost.said || ghost.hidden) return;
+    const { frame: { x, y, w, h }, size: [width, height] } = one.axes, share = (part, all) => `${(100 * part) / all}%`;
+    ghost.said = said;
+    ghost.src = `data:${TYPE.svg},${encodeURIComponent(said.out)}`;
+    ghost.style.clipPath = `inset(${[share(y, height), share(width - x - w, width), share(height - y - h, height), share(x, width)].join(" ")})`;
+}
+
+// A length for a set-up whose scene unit may be another than A's, which figures have.
+const unitOf = (setup) => setup.get("unit") ?? "";
+function lengthFor(setup, text) {
+    const unit = unitOf(state.setups[0]);
+    return unit === unitOf(setup) || !/[\d.]$/.test(text) ? text : text + unit;
+}
+
+// What the command says of a set-up alone, with other options in place of those about depths.
+const ABOUT_DEPTHS = ["at", "range", "depth", "code", "constants", "full"];
+function askedOf(verb, setup, options) {
+    const given = new Map([...[...setup].filter(([name]) => !ABOUT_DEPTHS.includes(name)), ...Object.entries(options)]);
+    return [verb, ...words([...takes[verb].keys()].filter((name) => given.has(name)).map((name) => [name, given.get(name)]))];
+}
+
+function crossed({ x }) {
+    const z = Number(crossing);
+    return z < x.lo || z > x.hi ? numberAt(x, z < x.lo ? 0 : 1) : crossing;
+}
+const crossLine = (setup, axes) => askedOf("table", setup, { at: lengthFor(setup, crossed(axes)) });
+const reachLine = (setup) =>
+    askedOf("solve", setup, { for: "distance", separation: lengthFor(setup, state.asked.solve.get("separation") ?? "0"), json: "" });
+
+// Commands that say what lies over a figure.
+function outputsOver(colours) {
+    const axes = axesNow(), [one] = figures(), ghost = one && ghostOf(one, colours);
+    if (axes === null || axes.x.key !== "z") return [];
+    const all = state.setups.map((setup) => ({ line: crossLine(setup, axes), over: true }));
+    if (axes.y.key === "interval") all.push(...state.setups.map((setup) => ({ line: reachLine(setup), over: true })));
+    return ghost ? [...all, { line: ghost, over: true }] : all;
+}
+
+function crossTo(text) {
+    if (crossing === text) return;
+    crossing = text;
+    requestAnimationFrame(() => {
+        count();
+        showKnown();
+        want();
+    });
+}
+
+function require(at, separation) {
+    const unit = unitOf(state.setups[0]), asked = state.asked.solve;
+    asked.set("at", at + unit);
+    asked.set("separation", separation + unit);
+    for (const name of ["at", "separation"]) $(`[data-asks=solve] [data-option=${name}]`).value = asked.get(name);
+    later();
+}
+
+// How far each set-up resolves what is required, in A's scene units.
+function reaches() {
+    const all = [], unit = METRES[unitOf(state.setups[0])] ?? 1;
+    state.setups.forEach((setup, i) => {
+        const said = aside.known(reachLine(setup)), table = aside.known(commandOf("table", setup));
+        if (!said || said.status === REFUSED || !/\x1f *guaranteed/.test(table?.out)) return; // or it is of several formats
+        const { possible, answer } = JSON.parse(said.out), own = METRES[unitOf(setup)] ?? unit;
+        if (answer) all.push({ letter: state.setups.length > 1 ? "AB"[i] : "", distance: possible ? (answer.distance * own) / unit : null });
+    });
+    return all;
+}
+
+const shortened = (number) => Number((number * (1 - 4e-6)).toPrecision(6)); // never above it
+function required() {
+    const asked = state.asked.solve, unit = unitOf(state.setups[0]), reach = reaches();
+    const [at, separation] = ["at", "separation"].map((name) => numberOf(asked.get(name) ?? "", unit));
+    const one = ({ letter, distance }) => `${letter} ${distance === null ? "fails everywhere"
+        : distance >= at ? "holds" : `fails beyond ${shortened(distance)}${unit && ` ${unit}`}`}`.trim();
+    const says = `${asked.get("separation")} at ${asked.get("at")}: ${reach.map(one).join(", ")}`;
+    return { at, separation, reach, says: `Required: ${says}` };
+}
+
+function showCrossed(axes) {
+    const unit = unitOf(state.setups[0]), z = crossed(axes), slider = $("#cross"), text = unit === "" ? z : `${z} ${unit}`;
+    slider.value = stepAt(axes.x, Number(z));
+    slider.setAttribute("aria-valuetext", text);
+    $("#cross-is").textContent = text;
+    const all = state.setups.map((setup) => aside.known(crossLine(setup, axes)));
+    if (all.includes(undefined)) return;
+    $("#crossed").replaceChildren(...all.flatMap((said, i) => {
+        const name = state.setups.length > 1 ? `${"AB"[i]} ` : "";
+        if (said.status === REFUSED) return [make("p", {}, `${name}${errorOf(said)}`)];
+        const tables = sheet(said.out, true).filter(({ tagName }) => tagName === "TABLE");
+        if (name !== "") for (const table of tables) table.createCaption().textContent = `Set-up ${name}${unitOf(state.setups[i]) && `(${unitOf(state.setups[i])})`}`;
+        return tables;
+    }));
+}
+
+function showOver() {
+    const axes = axesNow(), has = axes !== null && axes.x.key === "z", wanted = required();
+    $("#crossing").hidden = !has;
+    for (const one of figures()) {
+        one.over.show(one.axes?.x.key === "z" ? one.axes : null, has ? Number(crossed(axes)) : 0, wanted);
+        showGhost(one);
+    }
+    $("#required").textContent = has && axes.y.key === "interval" && wanted.reach.length > 0 ? `${wanted.says}.` : "";
+    if (has) showCrossed(axes);
 }
 
 // A set-up that is refused as a whole says so beside its controls; what was shown of it stays, paler.
 function showOutput(panel, one, index, said) {
-    if (said === one.said) return;
+    const form = narrow();
+    if (said === one.said && one.form === form) return;
+    one.form = form;
     const verb = panel.dataset.panel, drawn = verb === "plot";
     const refused = said.status === REFUSED ? errorOf(said) : "";
-    const saidAbove = refused === fields[index].refused.textContent;
+    const saidAbove = fields.some((own) => refused === own.refused.textContent);
     one.classList.toggle("stale", refused !== "" && saidAbove);
     if (refused !== "" && saidAbove && one.said !== undefined) return;
     one.said = said;
@@ -509,7 +668,7 @@ function showOutput(panel, one, index, said) {
     if (!drawn) showText(one, verb, said);
     else if (refused === "") showFigure(one, said.out);
     $(".refused", one).textContent = refused;
-    for (const part of one.querySelectorAll("pre, img, .saves")) part.hidden = refused !== "";
+    for (const part of one.querySelectorAll(".stage, [data-output], .saves")) part.hidden = refused !== "";
 }
 
 function showSetup(index, said) {
@@ -518,7 +677,7 @@ function showSetup(index, said) {
     while (place.children.length <= index) place.append(make("p", {}));
     const one = place.children[index];
     const letter = state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : [];
-    if (said.status !== REFUSED) one.replaceChildren(...letter, answers(said.out));
+    if (said.status !== REFUSED) one.replaceChildren(...letter, answers(withoutCells(said.out)));
     document.documentElement.dataset.answered = "";
     one.classList.toggle("stale", said.status === REFUSED);
 }
@@ -538,13 +697,15 @@ function outputs(colours) {
     for (const panel of panels.sort((a, b) => onScreen.has(b) - onScreen.has(a)))
         for (const [index, one] of outputsOf(panel).entries())
             all.push({ panel, one, index, line: lineOf(panel.dataset.panel, state.setups[index], one, colours) });
+    all.splice(state.setups.length, 0, ...outputsOver(colours));
     return all;
 }
 
 // Shows what is known; what is not is paler until it comes.
 function showKnown() {
     const late = new Set(), place = $("#verdicts");
-    for (const { panel, one, index, line } of outputs()) {
+    for (const { panel, one, index, line, over } of outputs()) {
+        if (over) continue;
         const said = aside.known(line);
         if (said === undefined) late.add(panel);
         else if (panel === undefined) showSetup(index, said);
@@ -552,6 +713,7 @@ function showKnown() {
     }
     while (place.children.length > state.setups.length) place.lastChild.remove();
     for (const panel of document.querySelectorAll("[data-panel]")) panel.classList.toggle("stale", late.has(panel));
+    if (state.setups.length > 0) showOver();
 }
 
 // While something is dragged, what took long the last time waits until the hand rests, as does what is not on the screen.
@@ -574,6 +736,7 @@ function update(dragged = false) {
     clearTimeout(resting);
     resting = !dragged ? null : setTimeout(() => {
         resting = null;
+        if (!pressed) release();
         want();
     }, REST_MS);
     count();
@@ -590,6 +753,7 @@ function settle() {
     if ($("#said").textContent !== said) $("#said").textContent = said;
     dataset.settled = dataset.updates;
     dataset.ready = "";
+    steady = { figure: state.figure, setups: state.setups.map((setup) => new Map(setup)) };
     aside.want([...outputs(), ...outputs("print")].map(atMost));
 }
 
@@ -612,6 +776,7 @@ function later() {
     supersede();
     linked = false;
     if (waiting) return;
+    if (resting === null && held === "") hold();
     waiting = true;
     requestAnimationFrame(() => {
         waiting = false;
@@ -689,6 +854,15 @@ function listen() {
         });
         $("#figures").append(make("span", {}, input, make("label", { for: input.id }, ` ${name}`)));
     }
+    $("#cross").addEventListener("input", () => crossTo(numberOfStep(axesNow().x, Number($("#cross").value))));
+    addEventListener("pointerdown", () => (pressed = true), true);
+    for (const end of ["pointerup", "pointercancel"])
+        addEventListener(end, () => {
+            pressed = false;
+            if (held === "" || resting !== null) return;
+            release();
+            want();
+        }, true);
     addEventListener("hashchange", () => setLink(location.hash.slice(1)));
     addEventListener("resize", later);
     for (const [when, is] of [["beforeprint", true], ["afterprint", false]])
@@ -747,8 +921,10 @@ async function begin() {
     aside = createAside(engine.module, {
         here: (line, most) => engine.run(line, most),
         onSaid: (line, ms) => {
+            const axes = axesNow();
             cost[costOf(line)] = ms;
             showKnown();
+            if (axesNow() !== axes) want(); // what lies over the figure follows it
         },
         onRun: showRun,
     });

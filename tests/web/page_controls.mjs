@@ -41,7 +41,7 @@ async function put(page, selector, value) {
 const seen = (page, panel, index) => page.evaluate(([name, i]) => {
     const one = document.querySelectorAll(`[data-panel=${name}] [data-run]`)[i], text = (at) => at?.textContent ?? "";
     const verdicts = [...document.querySelectorAll("#verdicts p")].map(text);
-    return { text: text(one?.querySelector("pre")), above: text(one?.querySelector(".answer")), verdicts };
+    return { text: text(one?.querySelector("[data-output]")), above: text(one?.querySelector(".answer")), verdicts };
 }, [panel, index]);
 
 const CONTROLS = [

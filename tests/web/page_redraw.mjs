@@ -39,7 +39,7 @@ const slow = (page) => page.evaluate(() => {
     const drawn = decodeURIComponent(svg.querySelector("img").src.split(",")[1]), size = /width="(\d+)" height="(\d+)"/.exec(drawn);
     const again = ["--type", "svg", "-o", "-", "--theme", "light", "--figure-size", `${size[1]}x${size[2]}`];
     return {
-        text: text.querySelector("pre").textContent, svg: drawn,
+        text: text.querySelector("[data-output]").textContent, svg: drawn,
         textHere: engine.run(text.dataset.run.split(" ")).out,
         svgHere: engine.run([...svg.dataset.run.split(" "), ...again]).out,
     };

@@ -313,21 +313,40 @@ int parse_distances(options *o, const option_row *row, const char *value) {
     return read_depths(o, &free, value, &o->world.distances);
 }
 
-int parse_range(options *o, const option_row *row, const char *value) {
+/* LO:HI, of so many characters. */
+static int read_range(options *o, const option_row *row, const char *value, size_t length, double out[2]) {
     const size_t split = strcspn(value, ":");
     const char *const hi = value + split + 1;
+    const int low = (int)split, high = (int)length - low - 1;
     lengths seen = {.o = o};
-    if (value[split] == '\0')
-        return option_refuse(row, "must be LO:HI, got '%s'", value);
-    if (!read_length(&seen, value, split, NUMBER_FINITE, &o->camera.range_lo))
-        return option_refuse(row, "LO must be a number, got '%.*s' in '%s'%s", (int)split, value, value,
+    if (split >= length)
+        return option_refuse(row, "must be %s, got '%s'", row->argument, value);
+    if (!read_length(&seen, value, split, NUMBER_FINITE, &out[0]))
+        return option_refuse(row, "LO must be a number, got '%.*s' in '%s'%s", low, value, value,
                              unit_hint(value, split));
-    if (!read_length(&seen, hi, strlen(hi), NUMBER_FINITE, &o->camera.range_hi))
-        return option_refuse(row, "HI must be a number, got '%s' in '%s'%s", hi, value, unit_hint(hi, strlen(hi)));
+    if (!read_length(&seen, hi, (size_t)high, NUMBER_FINITE, &out[1]))
+        return option_refuse(row, "HI must be a number, got '%.*s' in '%s'%s", high, hi, value,
+                             unit_hint(hi, (size_t)high));
     const int status = check_mixed(&seen, row, value);
-    return status != EXIT_FINE || o->camera.range_lo < o->camera.range_hi
-               ? status
-               : option_refuse(row, "LO must be less than HI, got '%s'", value);
+    return status != EXIT_FINE || out[0] < out[1] ? status
+                                                  : option_refuse(row, "LO must be less than HI, got '%s'", value);
+}
+
+int parse_range(options *o, const option_row *row, const char *value) {
+    double range[2] = {0};
+    const int status = read_range(o, row, value, strlen(value), range);
+    o->camera.range_lo = range[0];
+    o->camera.range_hi = range[1];
+    return status;
+}
+
+int parse_axes(options *o, const option_row *row, const char *value) {
+    const size_t split = strcspn(value, ",");
+    if (value[split] == '\0')
+        return option_refuse(row, "must be %s, got '%s'", row->argument, value);
+    const int status = read_range(o, row, value, split, o->figure.axes);
+    return status != EXIT_FINE ? status
+                               : read_range(o, row, value + split + 1, strlen(value + split + 1), o->figure.axes + 2);
 }
 
 /* Half the height of what an image shows stands behind "=". */

@@ -135,6 +135,8 @@ typedef enum option_id {
     OPTION_TYPE,
     OPTION_THEME,
     OPTION_FIGURE_SIZE,
+    OPTION_BESIDE,
+    OPTION_AXES,
     OPTION_TITLE,
     OPTION_LINK,
     OPTION_REPORT,
@@ -343,10 +345,12 @@ typedef struct options_image {
 } options_image;
 
 typedef struct options_figure {
-    unsigned type;     /**< a canvas_format, where the name of a file does not say it */
-    unsigned theme;    /**< index of theme_get() */
-    int width, height; /**< px; 0 when not given, so that each figure has its own default */
-    const char *title; /**< null when not given */
+    unsigned type;      /**< a canvas_format, where the name of a file does not say it */
+    unsigned theme;     /**< index of theme_get() */
+    int width, height;  /**< px; 0 when not given, so that each figure has its own default */
+    const char *title;  /**< null when not given, */
+    const char *beside; /**< as is this */
+    double axes[4];     /**< the ends of x and those of y, where given */
 } options_figure;
 
 typedef struct options_output {

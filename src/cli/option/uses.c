@@ -286,6 +286,7 @@ static const option_use of_setups_and_models[] = {
     TAKE(LOG_C), END};
 static const option_use of_one_depth[] = {
     OWN(AT, HELP("the depth, in figures of a single one"), WITHOUT("")), END};
+static const option_use of_axes[] = {TAKE(BESIDE), TAKE(AXES), END};
 static const option_use of_ranges[] = {
     OWN(RANGE, HELP("the depths shown"), WITHOUT("near to far, or to 1e6 times near")), END};
 static const option_use of_scene[] = {OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, DEFAULT("reversed")),
@@ -310,7 +311,7 @@ const option_use plot_uses[] = {
     FOR(FIGURE_SETUPS | FIGURE_MODEL | FIGURE_SHADOW, of_cameras),
     FOR(FIGURE_FARS, of_fars), FOR(FIGURE_AT, of_one_depth),
     FOR(FIGURE_SETUPS | FIGURE_SHADOW | FIGURE_FILE | FIGURE_FARS, of_ranges),
-    FOR(VIEWED, of_views), FOR(SLANTED, of_slants), TAKE(UNIT), GROUP(picture), TAKE(LINK),
+    FOR(VIEWED, of_views), FOR(SLANTED, of_slants), TAKE(UNIT), GROUP(picture), FOR(FIGURE_BESIDE, of_axes), TAKE(LINK),
     OWN(OUTPUT, HELP("draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type says; the numbers of "
         "--json and --csv go to stdout, or to a FILE of another ending"), WITHOUT("")),
     TAKE(JSON), TAKE(CSV), TAKE(QUIET), TAKE(COLOR),

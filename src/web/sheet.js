@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The text of a command as tables and what stands around them, to the byte: the module parts the cells of a table by
+// U+001F, see report/output.h.
+
+const CELL = "\x1f", MOST_ROWS = 200; // of longer tables the rest stays text
+const NUMERIC = /^\s*([-+<~.\d]|inf|none|blind)/;
+// What a reader wants to know first, where there is no room for all.
+const KEYS = ["slanted", "guaranteed", "interval", "error"];
+
+export const withoutCells = (text) => text.replaceAll(CELL, "");
+
+function rowOf(line, order, numbers, head) {
+    const cells = line.split(CELL).slice(1), all = document.createElement("tr");
+    for (const i of order) {
+        const cell = document.createElement(head || i === 0 ? "th" : "td");
+        if (head || i === 0) cell.scope = head ? "col" : "row";
+        cell.className = numbers[i] ? "number" : "";
+        cell.textContent = cells[i] ?? "";
+        all.append(cell);
+    }
+    return all;
+}
+
+function tableOf([head, ...lines], narrow) {
+    const titles = head.split(CELL).slice(1), all = document.createElement("table");
+    const numbers = titles.map((_, i) => lines.every((line) => NUMERIC.test(line.split(CELL)[i + 1])));
+    const rest = titles.map((_, i) => i), place = (i) => (KEYS.indexOf(titles[i].trim()) + 1 || 9) - 9 * (i === 0);
+    const order = narrow ? rest.sort((a, b) => place(a) - place(b)) : rest;
+    all.createTHead().append(rowOf(head, order, numbers, true));
+    all.createTBody().append(...lines.map((line) => rowOf(line, order, numbers, false)));
+    return all;
+}
+
+export function sheet(text, narrow) {
+    const parts = [];
+    let kind = null, from = [];
+    const end = () => {
+        if (kind === true) parts.push(tableOf(from.splice(0, MOST_ROWS), narrow));
+        if (from.length === 0) return;
+        const pre = document.createElement("pre");
+        pre.textContent = withoutCells(from.join(""));
+        parts.push(pre);
+    };
+    for (const line of text.split(/(?<=\n)/)) {
+        const cells = line.startsWith(CELL);
+        if (cells !== kind) end();
+        from = cells === kind ? from : [];
+        from.push(line);
+        kind = cells;
+    }
+    end();
+    return parts;
+}
