@@ -84,10 +84,10 @@ static double step_of(const char *format, double d) {
                                            : 1 / 65535.0;
 }
 
-/* In more digits than depths have: neighbouring numbers differ in the last ones of binary32 alone. */
-static long double eye_of(double d, bool reversed) {
-    const long double n = 0.1, f = 100;
-    return n * f / (reversed ? n + (long double)d * (f - n) : f - (long double)d * (f - n));
+/* How far two depths are apart, without the difference of two that are nearly the same. */
+static double apart(double a, double b, bool reversed) {
+    const double n = 0.1, f = 100, above = reversed ? n : f, rise = reversed ? f - n : n - f;
+    return n * f * (f - n) * fabs(a - b) / ((above + a * rise) * (above + b * rise));
 }
 
 static void one_level(rng *r, tally *t) {
@@ -124,7 +124,7 @@ static void one_level(rng *r, tally *t) {
         TALLY(t, towards >= 0 && towards < step_of(format, level.at[i]) * (format == own ? 0x1p-40 : 1),
               "%s of %d x %d: texel %d is %.9g, not %.9g", words, picture.width, picture.height, i, got.at[i],
               level.at[i]);
-        const double change = (double)fabsl(eye_of(got.at[i], reversed) - eye_of(level.at[i], reversed));
+        const double change = apart(got.at[i], level.at[i], reversed);
         if (change > off) { /* quotients of codes are off by 2^-53 each */
             off = change;
             share = 1e-12 + 0x1p-52 * fmax(got.at[i], level.at[i]) / fabs(got.at[i] - level.at[i]);
