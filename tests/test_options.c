@@ -624,6 +624,10 @@ TEST(test_own) {
     assert_true(o.shadow.light_box[0] == 10 && o.shadow.light_box[1] == 0.5 && o.shadow.light_box[2] == 1000);
     assert_int_equal(parse(&o, "texture", OPTION_PARAMETER, "gap=0.5", line), EXIT_FINE);
     assert_true(o.image.parameter_count == 1 && o.image.parameters[0].value == 0.5);
+    assert_int_equal(parse(&o, "plot interval", OPTION_AXES, "1:10,0.5:1e3", line), EXIT_FINE);
+    assert_true(o.figure.axes[0] == 1 && o.figure.axes[1] == 10 && o.figure.axes[2] == 0.5 && o.figure.axes[3] == 1e3);
+    assert_int_equal(parse(&o, "plot interval", OPTION_BESIDE, "-n 5", line), EXIT_FINE);
+    assert_string_equal(o.figure.beside, "-n 5");
     assert_int_equal(parse(&o, "methods linearize", OPTION_MINE, "a.glsl:f", line), EXIT_FINE);
     assert_true(o.judge.mine_count == 1 && strcmp(o.judge.mine[0], "a.glsl:f") == 0);
     assert_int_equal(parse(&o, "table", OPTION_UNIT, "cm", line), EXIT_FINE);

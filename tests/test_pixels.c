@@ -5,7 +5,7 @@
 #include "plot/pixels.h"
 #include "support.h"
 
-static const notes words = {"a title", "what \xC3\xA9 it shows", "depthprec plot", ""};
+static const notes words = {"a title", "what \xC3\xA9 it shows", "depthprec plot", "", ""};
 
 static void check_words(const char *bytes, size_t size) {
     FILE *in = fmemopen((void *)(uintptr_t)bytes, size, "rb");
