@@ -104,6 +104,11 @@ TEST(compressed_depth_of_numbers) {
         truth_add(&other, "--unit");
         truth_add(&other, "cm");
         in_cm = fmax(in_cm, check_depths(&t, "centimetres", &other, z, 0.01));
+        root = truth_statistics(&other);
+        lattice = json_object_get(root, "lattice");
+        assert_string_equal(json_string_value(json_object_get(lattice, "from")), "given");
+        assert_relative(number_in(lattice, "step"), 0.01 / (double)a, 1e-7);
+        json_decref(root);
     }
     print_message("# compressedDepth: %.3f of the bound is used, %.3f in cm\n", used, in_cm);
     assert_true(used > 0.4 && in_cm > 0.4);

@@ -147,11 +147,9 @@ static bool is_asked(const options *o) {
     return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
 }
 
-/* Whether a word of the note is an option that nothing on the command line stands against. A lattice is in metres. */
+/* Whether a word of the note is an option that nothing on the command line stands against. */
 static bool is_open(const options *o, option_id id) {
     const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC || id == OPTION_LATTICE;
-    if (id == OPTION_LATTICE && o->camera.unit != NULL && strcmp(o->camera.unit->name, "m") != 0)
-        return false;
     return !option_given(o, id) && !(of_samples ? is_asked(o) : o->camera.preset_count > 0 || o->image.matrix != NULL);
 }
 
@@ -258,6 +256,11 @@ static int read_metric(const options *o, texture_source *s) {
     int status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
     if (status != EXIT_FINE)
         return status;
+    if (given.row != NULL && o->given[OPTION_LATTICE][0] == '\0' && o->camera.unit != NULL) {
+        /* a note's is even in 1/z of metres */
+        given.step *= o->camera.unit->nanometres / 1e9;
+        given.offset *= o->camera.unit->nanometres / 1e9;
+    }
     const double zfar = option_given(o, OPTION_FAR) ? o->camera.zfar : (double)INFINITY;
     const char *wrong =
         metric_convert(&s->picture, o->image.metric, zfar, given.row != NULL ? &given : NULL, &s->metric);
