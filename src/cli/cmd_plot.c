@@ -372,27 +372,25 @@ static int height_of(const plotting *p) {
 }
 
 /* The figure, with the curves of the other camera where there is one: they stay in `room`. */
-static const char *build(const plotting *p, bool every, chart *out, chart *room) {
+static const char *build(plotting *p, bool every, chart *out, chart *room) {
     const unit_row *own = p->o->camera.unit, *other = p->beside != NULL ? p->beside->o->camera.unit : NULL;
-    figure_request request = p->request;
-    request.every = request.every || every;
-    const char *wrong = p->row->build(&request, out);
+    p->request.every = p->request.every || every;
+    const char *wrong = p->row->build(&p->request, out);
     if (p->beside == NULL || wrong != NULL)
         return wrong;
-    figure_request second = p->beside->request;
-    second.every = request.every;
-    wrong = p->row->build(&second, room);
+    p->beside->request.every = p->request.every;
+    wrong = p->row->build(&p->beside->request, room);
     if (chart_failed(room))
         chart_fail(out);
     if (wrong != NULL || chart_failed(out))
         return wrong;
-    return chart_join(out, room, (int)request.count, own != NULL && other != NULL ? unit_convert(1, other, own) : 1)
+    return chart_join(out, room, (int)p->request.count, own != NULL && other != NULL ? unit_convert(1, other, own) : 1)
                ? NULL
                : "--beside: must be a camera of which the figure shows the same";
 }
 
 /* To stdout, where the file is that of the figure. As CSV curves share their places, of which a picture needs few. */
-static int write_numbers(const plotting *p) {
+static int write_numbers(plotting *p) {
     options beside = *p->o;
     output out;
     beside.out.file = NULL;

@@ -476,9 +476,11 @@ static bool is_of_two(const level_set *levels, level_set *left) {
 
 static bool is_mixed(const fit_value *values, size_t count, const fit *f) {
     double *room = malloc(3 * count * sizeof *room);
+    if (room == NULL)
+        return true; /* without memory nothing is found */
     level_set levels = {room, room + count, 0}, left = {room + 2 * count, NULL, 0};
-    bool mixed = room == NULL; /* without memory nothing is found */
-    for (size_t i = 0; i < count && room != NULL; i++) {
+    bool mixed = false;
+    for (size_t i = 0; i < count; i++) {
         const double k = rint((values[i].at - f->offset) / f->step);
         if (!can_tell(f, &values[i], FITTING) || !fit_holds(f, &values[i]) ||
             (levels.count > 0 && k == levels.k[levels.count - 1]))
