@@ -641,13 +641,14 @@ static bool time_all(const gpu *g, const compute_run *run, size_t runs, FILE *ou
         for (size_t k = 0; k < FLOATS; k++)
             ((float *)at[0])[k] = ((float)k + 0.5F) / FLOATS;
         rounds[i] = ROUNDS_LEAST;
-        for (int good = -1;
-             good < 2 && rounds[i] < ROUNDS_MOST;) { /* the first time it is made ready; twice: no chance */
+        for (int good = -1; good < 2 && rounds[i] < ROUNDS_MOST;) { /* twice: no chance */
             if (!time_once(&each[i], &run[i], pipeline[i], rounds[i], &ns))
                 return false;
             const bool enough = ns * rounds[i] * run[i].group * run[i].turns >= LEAST_NS;
-            good += good < 0 || enough;
-            rounds[i] *= enough || good == 0 ? 1 : 2;
+            if (good < 0 || enough) /* the first time it is made ready */
+                good++;
+            else
+                rounds[i] *= 2;
         }
     }
     for (size_t k = 0; k < COMPUTE_TIMES * runs; k++) {
