@@ -26,7 +26,8 @@ typedef struct compute_run {
     const float (*cameras)[COMPUTE_CONSTANTS]; /**< in their place those of one camera after another, */
     uint64_t each;                             /**< each for so many depths; 0: no such */
     uint64_t count;
-    unsigned turns; /**< how often it calls the function for each depth, where it is timed; else 0 */
+    unsigned turns; /**< how often it calls the function for each depth, where it is timed, in turns of a loop whose
+                         number is the last constant; else 0 */
     float (*depth)(const void *of, uint64_t i); /**< asked for in the child, and where its values are read */
     const void *of;
 } compute_run;

@@ -612,47 +612,74 @@ static bool compute(gpu *g, const compute_run *run, void *const at[BINDINGS], Vk
     return true;
 }
 
-/* Nanoseconds of a call: the depths in a buffer, again and again. */
-static bool time_once(gpu *g, const compute_run *run, VkPipeline pipeline, uint32_t rounds, double *ns) {
-    const uint32_t all = FLOATS / run->group, groups = rounds < all ? rounds : all, times = rounds / groups;
+/* What is timed: the depths in a buffer, again and again. */
+typedef struct timed {
+    gpu g;
+    VkPipeline pipeline;
+    float *turns;
+    uint32_t groups, most, times; /* workgroups of a dispatch, of all depths; dispatches */
+    double calls;                 /* of all of them */
+} timed;
+
+/* Nanoseconds of a call. */
+static bool time_once(timed *t, double *ns) {
     struct timespec from, to;
     clock_gettime(CLOCK_MONOTONIC, &from);
-    if (!dispatch(g, pipeline, groups, times))
+    if (!dispatch(&t->g, t->pipeline, t->groups, t->times))
         return false;
     clock_gettime(CLOCK_MONOTONIC, &to);
-    const double took = 1e9 * (double)(to.tv_sec - from.tv_sec) + (double)(to.tv_nsec - from.tv_nsec);
-    *ns = took / ((double)groups * run->group * times * run->turns);
+    *ns = (1e9 * (double)(to.tv_sec - from.tv_sec) + (double)(to.tv_nsec - from.tv_nsec)) / t->calls;
+    return true;
+}
+
+/* Twice as many calls: of more depths; then of more turns, beside which reading depths is nothing; then again. */
+static void make_longer(timed *t) {
+    enum { TURNS_MOST = 2048 };
+    if (2 * t->groups <= t->most)
+        t->groups *= 2;
+    else if (2 * *t->turns <= TURNS_MOST)
+        *t->turns *= 2;
+    else
+        t->times *= 2;
+    t->calls *= 2;
+}
+
+static bool make_timed(const gpu *g, const compute_run *run, timed *t) {
+    enum { GROUPS_LEAST = 64 };
+    void *at[BINDINGS];
+    t->g = *g;
+    if (!make_shader(&t->g, run->code, run->size) || !make_compute(&t->g, run, at, &t->pipeline))
+        return false;
+    for (size_t k = 0; k < FLOATS; k++)
+        ((float *)at[0])[k] = ((float)k + 0.5F) / FLOATS;
+    t->turns = (float *)at[2] + COMPUTE_CONSTANTS - 1;
+    t->most = FLOATS / run->group;
+    t->groups = GROUPS_LEAST;
+    t->times = 1;
+    t->calls = (double)GROUPS_LEAST * run->group * run->turns;
     return true;
 }
 
 /* Each as long as starting it is nothing beside; then in turns, so that what disturbs the machine disturbs all alike.
  */
 static bool time_all(const gpu *g, const compute_run *run, size_t runs, FILE *out) {
-    enum { ROUNDS_LEAST = 64, ROUNDS_MOST = 1 << 26, LEAST_NS = 2000000 };
-    gpu each[COMPUTE_TIMED_MOST];
-    VkPipeline pipeline[COMPUTE_TIMED_MOST];
-    uint32_t rounds[COMPUTE_TIMED_MOST];
+    static const double least_ns = 2e6, calls_most = 0x1p44;
+    timed each[COMPUTE_TIMED_MOST];
     double ns;
     for (size_t i = 0; i < runs; i++) {
-        void *at[BINDINGS];
-        each[i] = *g;
-        if (!make_shader(&each[i], run[i].code, run[i].size) || !make_compute(&each[i], &run[i], at, &pipeline[i]))
+        if (!make_timed(g, &run[i], &each[i]))
             return false;
-        for (size_t k = 0; k < FLOATS; k++)
-            ((float *)at[0])[k] = ((float)k + 0.5F) / FLOATS;
-        rounds[i] = ROUNDS_LEAST;
-        for (int good = -1; good < 2 && rounds[i] < ROUNDS_MOST;) { /* twice: no chance */
-            if (!time_once(&each[i], &run[i], pipeline[i], rounds[i], &ns))
+        for (int good = -1; good < 2 && each[i].calls < calls_most;) { /* twice: no chance */
+            if (!time_once(&each[i], &ns))
                 return false;
-            const bool enough = ns * rounds[i] * run[i].group * run[i].turns >= LEAST_NS;
-            if (good < 0 || enough) /* the first time it is made ready */
+            if (good < 0 || ns * each[i].calls >= least_ns) /* the first time it is made ready */
                 good++;
             else
-                rounds[i] *= 2;
+                make_longer(&each[i]);
         }
     }
     for (size_t k = 0; k < COMPUTE_TIMES * runs; k++) {
-        if (!time_once(&each[k % runs], &run[k % runs], pipeline[k % runs], rounds[k % runs], &ns))
+        if (!time_once(&each[k % runs], &ns))
             return false;
         fwrite(&ns, sizeof ns, 1, out);
     }
