@@ -93,9 +93,10 @@ END
 
 # What is promised with a profile is what is promised with its rows, and says of which GPU.
 promises() {
-    camera="-n 0.1 -f 1000 -F d32f -m d3d --viewport 1920x1080"
-    "$DEPTHPREC" table $camera --model float --arith "$1" --raster "$1" >"$scratch/by_profile" || return
-    "$DEPTHPREC" table $camera --model float --arith "$(jq -r .arith "$1")" --raster "$(jq -r .raster "$1")" >"$scratch/by_name"
+    raster=$(jq -r '.raster // empty' "$1")
+    camera="-n 0.1 -f 1000 -F d32f -m d3d ${raster:+--viewport 1920x1080}"
+    "$DEPTHPREC" table $camera --model float --arith "$1" ${raster:+--raster "$1"} >"$scratch/by_profile" || return
+    "$DEPTHPREC" table $camera --model float --arith "$(jq -r .arith "$1")" ${raster:+--raster "$raster"} >"$scratch/by_name"
     head -n "$(wc -l <"$scratch/by_name")" "$scratch/by_profile" | diff - "$scratch/by_name" || return
     tail -n +"$(($(wc -l <"$scratch/by_name") + 1))" "$scratch/by_profile" | tr '\n' ' ' | tr -s ' ' >"$scratch/told"
     grep -qF "Measured on $(jq -r .device.name "$1"), driver $(jq -r .device.driver "$1")." "$scratch/told" &&
