@@ -677,7 +677,9 @@ function showSetup(index, said) {
     while (place.children.length <= index) place.append(make("p", {}));
     const one = place.children[index];
     const letter = state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : [];
-    if (said.status !== REFUSED) one.replaceChildren(...letter, answers(withoutCells(said.out)));
+    // Without a viewport the table is of surfaces that face the camera; the picture's are at any slant.
+    const text = answers(withoutCells(said.out)).replaceAll("resolved:", "resolved, facing the camera:");
+    if (said.status !== REFUSED) one.replaceChildren(...letter, text);
     document.documentElement.dataset.answered = "";
     one.classList.toggle("stale", said.status === REFUSED);
 }

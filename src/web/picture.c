@@ -106,7 +106,7 @@ static number_text gap_text(double gap) {
 static void say_guarantee(void) {
     const number_text from = number_in(gap_text(picture.guaranteed), unit);
     if (draw_picture_marked(&picture))
-        printf("Nothing flickers from %s on: guaranteed.\n", from.text);
+        printf("Nothing flickers from %s on, at any slant: guaranteed.\n", from.text);
     else if (isfinite(picture.guaranteed))
         printf("A separation is guaranteed from %s on, more than there is room for.\n", from.text);
     else

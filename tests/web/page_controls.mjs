@@ -19,7 +19,9 @@ function changed(words, changes) {
 const flat = (text) => text.replaceAll(/\s+/g, " ").trim();
 
 // What stands above the numbers: of a table the sentences on what is told apart, of an answer its first.
-const promise = (out) => flat((out.match(/^Guaranteed[^]*?\.$/gm) ?? []).join(" "));
+// Where the command says no view, the page says which surfaces are meant.
+const promise = (out) =>
+    flat((out.match(/^Guaranteed[^]*?\.$/gm) ?? []).join(" ")).replaceAll("resolved:", "resolved, facing the camera:");
 const sentence = (out) => flat(/^[^]*?\.$/m.exec(out)?.[0] ?? "");
 
 const updated = (page, act) => page.evaluate(() => document.documentElement.dataset.updates).then(async (before) => {
