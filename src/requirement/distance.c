@@ -114,14 +114,15 @@ double distance_about(const dp_setup *setup, double lo, double hi, double limit,
     return r.holds;
 }
 
-/* As `check` would judge it, in one piece: where that stops refining too early, a little less. */
+/* As `check` would judge it, in one piece: where that stops refining too early, a little less, at last the beginning,
+ * which holds. */
 static void confirm(ruler *r, distance_answer *out) {
     const double reach = r->holds;
-    for (double share = 0x1p-48; share < 1.0; share *= 2.0) {
+    for (double share = 0x1p-48;; share *= 2.0) {
         out->reached = judge(r->kind, r->setup, r->lo, r->holds, r->limit);
-        if (out->reached.passed)
+        if (out->reached.passed || r->holds == r->lo)
             break;
-        r->holds = fmax(reach - fabs(reach) * share, r->lo);
+        r->holds = share < 1.0 ? fmax(reach - fabs(reach) * share, r->lo) : r->lo;
     }
     out->value = r->holds;
 }
