@@ -402,3 +402,13 @@ TEST(test_intervals) {
         assert_true(j.at == d);
     }
 }
+
+/* Of each candidate people are told what it is called and where it is defined. */
+TEST(candidates_have_sources) {
+    for (size_t i = 0; judge_output_get(i) != NULL; i++) {
+        const judge_output *o = judge_output_get(i);
+        assert_true(o->formula[0] != '\0' && o->called[0] != '\0' && o->source != NULL && o->source[0] != '\0');
+        for (size_t k = 0; k < i; k++)
+            assert_string_not_equal(o->name, judge_output_get(k)->name);
+    }
+}

@@ -17,7 +17,7 @@ typedef enum dp_conversion {
     DP_CONVERT_EXACT = 0,    /**< the exact product d (2^N - 1), rounded as the set-up says (nearest: ties up) */
     DP_CONVERT_PRODUCT_EVEN, /**< the binary32 product fl(d (2^N - 1)), to nearest even */
     DP_CONVERT_PRODUCT_ZERO, /**< that product truncated */
-    DP_CONVERT_SIXTEENTHS    /**< 2^N d less d, both cut to sixteenths, see depthprec(7): known of 16 and 24 bits */
+    DP_CONVERT_SIXTEENTHS    /**< 2^N d less d, both cut to sixteenths, see depthprec-camera(7): of 16 and 24 bits */
 } dp_conversion;
 
 /** How clip z is divided by w. */

@@ -102,8 +102,9 @@ float dp_pipeline_window(const dp_pipeline *p, float z) {
 }
 
 /*
- * Of 16 bits: 2^20 d less 16 d, both cut, are sixteenths of the code, 7 of them round it. Of 24 bits 16 d counts from
- * 1 on; binary32 has no depth there for which its fraction would matter.
+ * Of 16 bits 2^20 d and 16 d are cut to whole numbers, sixteenths of a code, and 7 of them round the difference. Of 24
+ * bits nothing is taken off below 1/16; from there on depths of binary32 are too coarse to show how 16 d is cut, and
+ * the exact product gives the same codes.
  */
 static uint32_t convert_sixteenths(const dp_format *format, double d) {
     const double top = ldexp(1.0, format->bits);

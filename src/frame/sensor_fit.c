@@ -406,13 +406,13 @@ static int residue_of(double k, int modulus) {
     return (int)(k - modulus * floor(k / modulus));
 }
 
-/* How many levels have each residue. @return the fullest one */
-static int count_residues(const level_set *levels, int modulus, double of[MODULUS_MOST]) {
+/* How many levels have each residue, or how many of their pixels. @return the fullest one */
+static int count_residues(const level_set *levels, int modulus, const double *pixels, double of[MODULUS_MOST]) {
     int fullest = 0;
     for (int i = 0; i < modulus; i++)
         of[i] = 0;
     for (size_t i = 0; i < levels->count; i++)
-        of[residue_of(levels->k[i], modulus)]++;
+        of[residue_of(levels->k[i], modulus)] += pixels != NULL ? pixels[i] : 1;
     for (int i = 1; i < modulus; i++)
         fullest = of[i] > of[fullest] ? i : fullest;
     return fullest;
@@ -421,7 +421,7 @@ static int count_residues(const level_set *levels, int modulus, double of[MODULU
 /* Whether levels avoid some residues, by chi squared and its bound for a chance of e^-15. */
 static bool is_uneven(const level_set *levels, int modulus) {
     double of[MODULUS_MOST], squares = 0, all = (double)levels->count;
-    count_residues(levels, modulus, of);
+    count_residues(levels, modulus, NULL, of);
     for (int i = 0; i < modulus; i++)
         squares += of[i] * of[i];
     return modulus * squares > all * (all + modulus - 1 + 2 * sqrt(15.0 * (modulus - 1)) + 30);
@@ -430,16 +430,12 @@ static bool is_uneven(const level_set *levels, int modulus) {
 /* Where averages of neighbours lie half way between levels few pixels have them. */
 static bool is_half(const level_set *levels) {
     enum { HALVES = 3 };
-    for (int q = 2; q <= HALVES; q++) {
-        double of[HALVES] = {0}, sum = 0;
-        for (size_t i = 0; i < levels->count; i++) {
-            of[residue_of(levels->k[i], q)] += levels->pixels[i];
-            sum += levels->pixels[i];
-        }
-        for (int i = 0; i < q; i++)
-            if (of[i] >= 0.875 * sum)
-                return true;
-    }
+    double of[MODULUS_MOST], sum = 0;
+    for (size_t i = 0; i < levels->count; i++)
+        sum += levels->pixels[i];
+    for (int q = 2; q <= HALVES; q++)
+        if (of[count_residues(levels, q, levels->pixels, of)] >= 0.875 * sum)
+            return true;
     return false;
 }
 
@@ -460,13 +456,13 @@ static bool is_of_two(const level_set *levels, level_set *left) {
     const double all = (double)levels->count;
     for (int q = 2; q <= FIRST_MOST; q++) {
         double of[MODULUS_MOST];
-        const int first = count_residues(levels, q, of);
+        const int first = count_residues(levels, q, NULL, of);
         left->count = 0;
         for (size_t i = 0; i < levels->count; i++)
             if (residue_of(levels->k[i], q) != first)
                 left->k[left->count++] = levels->k[i];
         for (int p = 2; p <= MODULUS_MOST; p++) {
-            const double on = all - (double)left->count + of[count_residues(left, p, of)];
+            const double on = all - (double)left->count + of[count_residues(left, p, NULL, of)];
             if (dp_common_divisor((size_t)q, (size_t)p) == 1 && bits_of(on, all, (1 + (q - 1.0) / p) / q) > PAIR_BITS)
                 return true;
         }

@@ -30,6 +30,7 @@ typedef enum judge_planes { JUDGE_PLANES_NONE, JUDGE_PLANES_BOTH, JUDGE_PLANES_R
 typedef struct judge_output {
     const char *name, *formula;
     const char *called; /**< what people call it, and where */
+    const char *source; /**< where it is defined */
     double (*of)(const dp_setup *setup, double z);
     double (*window)(double v);                     /**< the window depth that a value is; null: it is none */
     double (*eye)(const dp_setup *setup, double v); /**< the eye depth that a value stands for; null: it is none */

@@ -14,7 +14,8 @@ enum { SHORT = 3, ENOUGH = 6 };
 typedef struct named {
     const char *computes, *formula, *called, *from;
     double factor;
-    const char *trap, *right, *source; /* of a formula that is known to be wrong */
+    const char *trap, *right; /* of a formula that is known to be wrong */
+    const char *source;
     setup_fields fields;
 } named;
 
@@ -37,7 +38,7 @@ static void name(const options *o, const judge_candidate *c, named *out) {
                    .factor = c->factor,
                    .trap = c->trap != NULL ? c->trap->name : NULL,
                    .right = c->trap != NULL ? c->trap->right : NULL,
-                   .source = c->trap != NULL ? c->trap->source : NULL,
+                   .source = c->trap != NULL ? c->trap->source : c->output->source,
                    .fields = setup_fields_of(&c->setup, options_unit(o))};
 }
 

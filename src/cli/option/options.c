@@ -178,8 +178,7 @@ static int read_option(options *o, option_id id, const char *argument) {
         return wrong_command(o, id);
     if (argument != NULL && !takes_argument(row) && option_use_optional(use) == NULL)
         return option_error(id, "takes no argument, got '%s'", argument);
-    const bool repeats = id == OPTION_PARAMETER || id == OPTION_DEFINE || id == OPTION_MINE;
-    if (o->given[id] != NULL && (takes_argument(row) || argument != NULL) && !repeats)
+    if (o->given[id] != NULL && (takes_argument(row) || argument != NULL) && !row->repeats)
         return option_error(id, "must not be given twice, got '%s' too", argument);
     o->given[id] = argument != NULL ? argument : "";
     return parse_use(o, use, argument);

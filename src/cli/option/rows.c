@@ -296,10 +296,12 @@ const option_row option_rows[OPTION_COUNT] = {
         "what a uniform or parameter of the function is: near, far, near_far, z_buffer_params, projection_params, "
         "camera_params, inv_device_z, projection, inverse_projection, either with _lh for a camera that looks along "
         "+z, or a number; of a member of a structure with its name, camera.near=near; of a macro 1 or 0; may be "
-        "repeated", .parse = parse_define, .without = "guessed by common names"},
+        "repeated", .parse = parse_define, .without = "guessed by common names",
+        .repeats = true},
     [OPTION_MINE] = {"mine", 0, "FILE:FUNCTION",
         "a function of yours from a window depth to its eye depth, in GLSL, HLSL or FILE.spv, stands beside the "
-        "methods of linearize, timed on this machine's GPU as ours are; may be repeated", .parse = parse_mine},
+        "methods of linearize, timed on this machine's GPU as ours are; may be repeated",
+        .parse = parse_mine, .repeats = true},
     [OPTION_MATRIX] = {"matrix", 0, "FILE",
         "a projection matrix, 16 numbers in row order, for column vectors: gives the planes and the field of view; may "
         "be off-centre, with an oblique near plane; NDC depth follows --mapping",
@@ -317,7 +319,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .standard = "640x360",
         .instead = "; a figure's size is --figure-size"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE",
-        "a parameter of the synthetic image or the effect; may be repeated", .parse = parse_parameter},
+        "a parameter of the synthetic image or the effect; may be repeated", .parse = parse_parameter, .repeats = true},
     [OPTION_SKY] = {"sky", 0, "T|none",
         "window depths within T of the far plane are sky, which no product has; 0: only the far plane itself; none: "
         "sky lies at the far plane, as shaders read it, and fog covers it",

@@ -31,6 +31,7 @@ typedef struct option_row {
     const char *without;    /**< what the default means, or holds without the option; or null */
     const char *instead;    /**< what a command that does not take it may be meant to have; or null */
     const char *optional;   /**< an argument that may be left out, and is written behind "=": "FILE"; else null */
+    bool repeats;           /**< it may be given several times */
     const char *group;      /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
 
