@@ -154,7 +154,8 @@ static const judge_output outputs[] = {
     {.name = "window depth without the logarithm", .formula = "far (z - near)/((far - near) z)",
      .called = "czm_reverseLogDepth of CesiumJS", .source = "CesiumJS, reverseLogDepth.glsl",
      .of = of_matrix},
-    {.name = "NDC depth", .formula = "2 d - 1", .called = "clip z over clip w", .source = "OpenGL 4.6, Coordinate Transformations",
+    {.name = "NDC depth", .formula = "2 d - 1", .called = "clip z over clip w",
+     .source = "OpenGL 4.6, Coordinate Transformations",
      .of = ndc, .window = of_ndc},
 };
 /* clang-format on */
