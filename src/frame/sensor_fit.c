@@ -433,9 +433,11 @@ static bool is_half(const level_set *levels) {
     double of[MODULUS_MOST], sum = 0;
     for (size_t i = 0; i < levels->count; i++)
         sum += levels->pixels[i];
-    for (int q = 2; q <= HALVES; q++)
-        if (of[count_residues(levels, q, levels->pixels, of)] >= 0.875 * sum)
+    for (int q = 2; q <= HALVES; q++) {
+        const int fullest = count_residues(levels, q, levels->pixels, of);
+        if (of[fullest] >= 0.875 * sum)
             return true;
+    }
     return false;
 }
 
