@@ -55,6 +55,8 @@ wasm  | file lib/wasm32-wasi/libc.a                   | wasi-libc             | 
 wasm  | file lib/llvm*/lib/clang/*/lib/wasi/*wasm32.a | libclang-rt-dev-wasm32 | -                 | -
 web   | command node                                  | nodejs                | nodejs             | nodejs
 web   | command zopfli                                | zopfli                | zopfli             | zopfli
+web   | command esbuild                               | esbuild               | golang-github-evanw-esbuild | esbuild
+web   | command wasm-opt                              | binaryen              | binaryen           | binaryen
 browser | command chromium                            | chromium              | chromium           | chromium
 browser | command npm                                 | npm                   | nodejs-npm         | npm
 cross | command aarch64-linux-gnu-gcc                 | gcc-aarch64-linux-gnu | -                  | -

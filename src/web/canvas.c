@@ -22,6 +22,7 @@ struct canvas {
     notes words;
     bool path; /* an attribute d="... is open */
     bool moved;
+    bool lost; /* memory ran out */
     int clips;
 };
 
@@ -47,7 +48,7 @@ canvas *canvas_new(canvas_format format, int width, int height, const notes *wor
 
 bool canvas_finish(canvas *c, canvas_bytes *out) {
     fputs("</svg>\n", c->stream);
-    bool good = (ferror(c->stream) | fclose(c->stream)) == 0;
+    bool good = (ferror(c->stream) | fclose(c->stream)) == 0 && !c->lost;
     *out = (canvas_bytes){NULL, 0};
     FILE *whole = good ? open_memstream(&out->at, &out->size) : NULL;
     good = whole != NULL;
@@ -76,6 +77,13 @@ static void attribute(canvas *c, const char *name, double v) {
     fprintf(c->stream, " %s=\"", name);
     put(c, v);
     fputc('"', c->stream);
+}
+
+static void put_area(canvas *c, canvas_rect area) {
+    attribute(c, "x", area.x);
+    attribute(c, "y", area.y);
+    attribute(c, "width", area.w);
+    attribute(c, "height", area.h);
 }
 
 static void paint(canvas *c, const char *name, canvas_colour colour) {
@@ -138,10 +146,7 @@ void canvas_path_fill(canvas *c, canvas_colour colour) {
 
 void canvas_fill(canvas *c, canvas_rect area, canvas_colour colour) {
     fputs("<rect", c->stream);
-    attribute(c, "x", area.x);
-    attribute(c, "y", area.y);
-    attribute(c, "width", area.w);
-    attribute(c, "height", area.h);
+    put_area(c, area);
     paint(c, "fill", colour);
     fputs("/>\n", c->stream);
 }
@@ -199,35 +204,89 @@ void canvas_text(canvas *c, double x, double y, const char *text, const canvas_f
     fputs("</text>\n", c->stream);
 }
 
-/* As runs of one colour in a row: maps have large areas of it. */
+/* ---- Images: a PNG whose pixels are not compressed, in base64: one element, whatever it shows ---------------------- */
+
+enum { PNG_HEAD = 8 + 25 + 8, PNG_TAIL = 4 + 4 + 12, ROW_HEAD = 5 + 1, ADLER = 65521 };
+
+static uint8_t *put32(uint8_t *to, uint32_t v) {
+    for (int shift = 24; shift >= 0; shift -= 8)
+        *to++ = (uint8_t)(v >> shift);
+    return to;
+}
+
+static uint8_t *put_bytes(uint8_t *to, const char *bytes, size_t size) {
+    memcpy(to, bytes, size);
+    return to + size;
+}
+
+/* The sum behind a chunk, of its name and content. */
+static uint8_t *put_sum(uint8_t *to, const uint8_t *name) {
+    uint32_t sum = ~0U;
+    for (const uint8_t *at = name; at < to; at++) {
+        sum ^= *at;
+        for (int bit = 0; bit < 8; bit++)
+            sum = sum >> 1 ^ (sum & 1 ? 0xEDB88320 : 0);
+    }
+    return put32(to, ~sum);
+}
+
+/* Each row is a block of deflate's that is stored: the filter "none", then red, green, blue and alpha. */
+static uint8_t *put_rows(uint8_t *to, int columns, int rows, const uint32_t *at) {
+    const uint32_t size = 1 + 4 * (uint32_t)columns;
+    uint32_t a = 1, b = 0;
+    for (int row = 0; row < rows; row++) {
+        const uint8_t head[ROW_HEAD] = {row + 1 == rows, (uint8_t)size, (uint8_t)(size >> 8), (uint8_t)~size,
+                                        (uint8_t)(~size >> 8)};
+        const uint8_t *begin = to + ROW_HEAD - 1;
+        to = put_bytes(to, (const char *)head, sizeof head);
+        for (int column = 0; column < columns; column++, at++)
+            to = put32(to, *at << 8 | *at >> 24);
+        for (; begin < to; begin++)
+            b = (b + (a = (a + *begin) % ADLER)) % ADLER;
+    }
+    return put32(to, b << 16 | a);
+}
+
+static size_t write_png(uint8_t *png, int columns, int rows, const uint32_t *at) {
+    const size_t size = 2 + (size_t)rows * (ROW_HEAD + 4 * (size_t)columns) + 4;
+    uint8_t *to = put_bytes(png, "\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), *name = to - 4;
+    to = put32(put32(to, (uint32_t)columns), (uint32_t)rows);
+    to = put_sum(put_bytes(to, "\x08\x06\0\0\0", 5), name);
+    name = put32(to, (uint32_t)size);
+    to = put_rows(put_bytes(name, "IDAT\x78\x01", 6), columns, rows, at);
+    to = put_sum(to, name);
+    return (size_t)(put_bytes(to, "\0\0\0\0IEND\xAE\x42\x60\x82", 12) - png);
+}
+
+static void put_base64(FILE *stream, const uint8_t *at, size_t size) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        uint32_t three = 0;
+        for (size_t k = i; k < i + 3; k++)
+            three = three << 8 | (k < size ? at[k] : 0);
+        for (size_t k = 0; k < 4; k++)
+            fputc(i + k <= size ? digits[three >> (18 - 6 * k) & 63] : '=', stream);
+    }
+}
+
 void canvas_image(canvas *c, canvas_rect area, int columns, int rows, uint32_t *at) {
-    const double w = area.w / columns, h = area.h / rows;
-    fputs("<g shape-rendering=\"crispEdges\">\n", c->stream);
-    for (int row = 0; row < rows; row++)
-        for (int from = 0, to; from < columns; from = to) {
-            const uint32_t *line = at + (ptrdiff_t)row * columns;
-            for (to = from + 1; to < columns && line[to] == line[from];)
-                to++;
-            if (line[from] >> 24 == 0)
-                continue;
-            fputs("<rect", c->stream);
-            attribute(c, "x", area.x + w * from);
-            attribute(c, "y", area.y + h * row);
-            attribute(c, "width", w * (to - from));
-            attribute(c, "height", h);
-            fprintf(c->stream, " fill=\"#%06lx\"/>\n", (unsigned long)line[from] & 0xFFFFFF);
-        }
-    fputs("</g>\n", c->stream);
+    uint8_t *png = malloc(PNG_HEAD + PNG_TAIL + 2 + (size_t)rows * (ROW_HEAD + 4 * (size_t)columns));
+    c->lost |= png == NULL;
+    if (png == NULL)
+        return;
+    fputs("<image preserveAspectRatio=\"none\"", c->stream);
+    put_area(c, area);
+    fputs(" href=\"data:image/png;base64,", c->stream);
+    put_base64(c->stream, png, write_png(png, columns, rows, at));
+    fputs("\"/>\n", c->stream);
+    free(png);
 }
 
 void canvas_clip(canvas *c, canvas_rect area) {
     c->clips++;
     fprintf(c->stream, "<clipPath id=\"clip%d\">", c->clips);
     fputs("<rect", c->stream);
-    attribute(c, "x", area.x);
-    attribute(c, "y", area.y);
-    attribute(c, "width", area.w);
-    attribute(c, "height", area.h);
+    put_area(c, area);
     fprintf(c->stream, "/></clipPath>\n<g clip-path=\"url(#clip%d)\">\n", c->clips);
 }
 

@@ -186,9 +186,34 @@ async function tables() {
     }
 }
 
+// The pixels of maps and their scale: those of the program's figure, which cairo and libpng write, decoded by the browser.
+async function map() {
+    const page = await opened();
+    const pixels = (svg) => page.evaluate(async (text) => {
+        const all = [];
+        for (const [, href] of text.matchAll(/href="(data:image\/png[^"]*)/g)) {
+            const image = new Image();
+            image.src = href;
+            await image.decode();
+            const { width, height } = image, context = new OffscreenCanvas(width, height).getContext("2d");
+            context.drawImage(image, 0, 0);
+            all.push([width, height, ...new Uint32Array(context.getImageData(0, 0, width, height).data.buffer)].join(" "));
+        }
+        return all.sort();
+    }, svg);
+    for (const words of ["-n 0.1 -f 1000 -F unorm24 -m d3d", "-n 0.5 -f 20 -F fp32 -m reversed", "-n 0.1 -f 1000 -F unorm16 -m d3d --at 7"]) {
+        const line = ["plot", "map", ...words.split(" "), "--type", "svg", "-o", "-"];
+        const [{ out: there }] = await native([line]), here = await page.evaluate((run) => window.depthprec.engine.run(run).out, line);
+        const [ours, theirs] = [await pixels(here), await pixels(there)];
+        demand(theirs.length === 2 && ours.length === 2 && ours.every((one, i) => one === theirs[i]), `${words}: other pixels`);
+    }
+    await close(page);
+}
+
 export async function figures() {
     await test("the crosshair's code, error and interval, by pointer and keys", crosshair);
     await test("A and B share axes, which stand still while dragging; the curves of before lie under them", axes);
     await test("a requirement is dragged, by keys too, and what fails of it is marked", requirement);
+    await test("a map has the pixels of the program's, and so has its scale", map);
     await test("tables are tables, on a phone with the key columns first", tables);
 }

@@ -177,7 +177,14 @@ async function functions(page) {
 // A context that is lost between two tries, or in the middle of one.
 async function lost(page) {
     const [worker] = page.workers(), [right] = FUNCTIONS;
-    await worker.evaluate(() => gl.getExtension("WEBGL_lose_context").loseContext());
+    await worker.evaluate(() => {
+        const { isContextLost } = WebGL2RenderingContext.prototype;
+        WebGL2RenderingContext.prototype.isContextLost = function () {
+            WebGL2RenderingContext.prototype.isContextLost = isContextLost;
+            this.getExtension("WEBGL_lose_context").loseContext();
+            return this.isContextLost();
+        };
+    });
     const [out] = await judge(page, right[1]);
     demand(out.startsWith("right: "), `after a loss: ${out}`);
     await worker.evaluate(() => {
