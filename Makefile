@@ -243,7 +243,7 @@ web:
 	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
 WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster api world census report requirement plot probe judge cli cli/option cli/solve cli/judge))
-WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/shader/decode.c src/shader/constants.c src/code/language.c
+WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/shader/decode.c src/shader/constants.c src/code/language.c src/frame/recognise.c
 WEB_NOT := report/output_file report/terminal requirement/camera requirement/reader requirement/requirement requirement/view requirement/check \
     plot/canvas plot/fight plot/linear01 plot/scene plot/shadow plot/world plot/normals plot/pareto plot/stability plot/needs plot/pixels \
     cli/cmd_methods cli/mine cli/cmd_check cli/check_report cli/cmd_code cli/cmd_world \
@@ -255,7 +255,9 @@ WEB_CC ?= clang --target=wasm32-wasi
 # Instructions that browsers and node have since 2020; there is one thread, and what belongs to it is the program's.
 WEB_FLAGS := $(WARN_clang) -Wno-shorten-64-to-32 $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections \
     -mbulk-memory -msign-ext -mnontrapping-fptoint -D_Thread_local=
-WASM_HAS := --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int --enable-mutable-globals
+# The lowest KiB is the far end of the stack: nothing else has an address there.
+WASM_HAS := --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int --enable-mutable-globals \
+    --low-memory-unused --strip-producers --strip-target-features
 # The stack below all else: what overflows it ends, and overwrites nothing.
 WEB_LINK = $(WEB_CC) -mexec-model=reactor -Wl,--gc-sections,--stack-first,-z,stack-size=1048576 -s
 web_objects = $(patsubst %.c,$(B)/web/obj/%.o,$(1))
@@ -275,7 +277,7 @@ $(B)/web/obj/%.o: %.c Makefile
 $(B)/web/depthprec.wasm: $(WEB_O)
 	$(call say,WEB)
 	$(Q)$(WEB_LINK) -o $@.all $^
-	$(Q)wasm-opt -Os $(WASM_HAS) -o $@ $@.all && rm $@.all
+	$(Q)wasm-opt -Oz $(WASM_HAS) -o $@ $@.all && rm $@.all
 
 # One file: no import works from file://, and no static host has to know WebAssembly.
 $(B)/depthprec.html: $(B)/web/depthprec.wasm $(wildcard src/web/*.html src/web/*.css src/web/*.js src/web/*.mjs)

@@ -3,17 +3,18 @@
 // once. A page from file:// may load no other file, so that the worker's is a blob of the page's own.
 import { load } from "./engine.js";
 import { gpu } from "./gpu.js";
+import { recogniseFile } from "./image.js";
 
 export const inWorker = typeof document === "undefined";
 
-// The worker's side: the module comes first, then lines, each answered by what the command said.
+// The worker's side: the module, then a line or a file, answered by what the command says, or what is recognised.
 export function serve(measure) {
     let engine;
-    onmessage = async ({ data: { module, line, most } }) => {
+    onmessage = async ({ data: { module, line, most, file } }) => {
         engine ??= await load(module);
         engine.measure = measure;
         engine.gpu = gpu;
-        postMessage(engine.run(line, most, true));
+        postMessage(file ? await recogniseFile(engine, file) : engine.run(line, most, true));
     };
 }
 
@@ -64,7 +65,7 @@ export function createAside(module, { here, onSaid, onRun }) {
     function fail() {
         works = false;
         halt();
-        if (now !== null) setTimeout(() => end(here(now.line, now.most)));
+        if (now !== null) setTimeout(() => end(now.file ? refusal("cannot be read here: this browser makes no worker") : here(now.line, now.most)));
     }
 
     function make() {
@@ -84,7 +85,7 @@ export function createAside(module, { here, onSaid, onRun }) {
         now.timers.push(setTimeout(() => refuse(`takes longer than ${LIMIT_MS / 1000} s here`), LIMIT_MS));
         try {
             if (worker === null) make();
-            worker.postMessage({ module, line: one.line, most: one.most });
+            worker.postMessage({ module, line: one.line, most: one.most, file: one.file });
         } catch {
             fail();
         }
@@ -108,11 +109,11 @@ export function createAside(module, { here, onSaid, onRun }) {
             next();
         },
 
-        // What a line says, before all that is wanted.
-        ask: (line, most = Infinity) => new Promise((resolve) => {
+        // What a line says, or is recognised in a file, before all that is wanted.
+        ask: (line, most = Infinity, file = undefined) => new Promise((resolve) => {
             const key = keyOf(line), said = last.get(key);
             if (said !== undefined && !(said.left > 0)) return resolve(said);
-            asked.push({ key, line, most, resolve });
+            asked.push({ key, line, most, file, resolve });
             next();
         }),
 

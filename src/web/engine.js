@@ -126,6 +126,16 @@ export async function load(from, host = () => ({})) {
             return taken;
         },
 
+        // What is recognised in samples of one type, an index, and what stands for a window depth of 1: see image.c.
+        recognise({ type, samples, width, height, channels }) {
+            const { exports, memory, streams } = begin(Infinity), room = exports.image_room(samples.byteLength);
+            if (room === 0) throw new Error("needs more memory than there is");
+            new Uint8Array(memory.buffer, room, samples.byteLength).set(new Uint8Array(samples.buffer));
+            exports.image(type, width, height, channels);
+            const [words, why] = streams.text(1).split("\n"), [depth, top, format, reversed, exact] = words.split(" ");
+            return { depth: depth === "1", top: Number(top), format, reversed: Number(reversed), exact: exact === "1", why };
+        },
+
         // An instance that stays: { exports, memory }.
         instance: () => begin(),
     };

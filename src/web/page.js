@@ -7,6 +7,7 @@ import { commands, fromFragment, join, LONGEST, split, toFragment, written } fro
 import { createOver, numberAt, numberOfStep, readFigure, stepAt } from "./figure.js";
 import { gpu } from "./gpu.js";
 import { createGpuPanel, profileText } from "./gpu_panel.js";
+import { createImagePanel } from "./image_panel.js";
 import { createPicture } from "./picture.js";
 import { sheet, withoutCells } from "./sheet.js";
 
@@ -45,7 +46,7 @@ const UNUSED = {
 const STANDARD = "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m";
 const SECOND = "table -n 0.1 -f 1000 -F fp32 -m reversed --unit m";
 
-let engine, aside, picture, gpuPanel;
+let engine, aside, picture, gpuPanel, imagePanel;
 const takes = {}; // options of each command
 // What a page shows at first: a link says only what differs from it.
 const start = () => ({
@@ -432,11 +433,9 @@ function answers(text) {
     return all.filter((line) => line.endsWith(".") && !/ {2}/.test(line)).join(" ");
 }
 
+const [DARK, NARROW] = ["prefers-color-scheme: dark", "max-width: 40rem"].map((what) => globalThis.matchMedia?.(`(${what})`));
 let printing = false;
-function theme() {
-    const chosen = document.documentElement.dataset.theme, dark = matchMedia("(prefers-color-scheme: dark)").matches;
-    return printing ? "print" : (chosen ?? (dark ? "dark" : "light"));
-}
+const theme = () => (printing ? "print" : (document.documentElement.dataset.theme ?? (DARK.matches ? "dark" : "light")));
 
 function save(name, text, type) {
     const link = make("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
@@ -475,15 +474,27 @@ function outputOf(panel, index) {
             saves.append(button);
         }
         place.append(one);
-        if (drawn) one.over = createOver(body, { onCross: crossTo, onAsk: require });
+        if (!drawn) continue;
+        one.over = createOver(body, { onCross: crossTo, onAsk: require });
+        widths.observe(one);
     }
     return place.children[index];
 }
 
 const unescaped = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&amp;", "&");
 
+// How wide a figure may be is observed: to ask for it in each frame would lay out the page again and again.
+let widths;
+const observeWidths = () => new ResizeObserver((entries) => {
+    for (const { target, contentRect: { width } } of entries) {
+        const changes = target.width > 0 && width > 0 && target.width !== width;
+        target.width = width;
+        if (changes) later();
+    }
+});
+
 function drawing(one, colours = theme()) {
-    const width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640)));
+    const width = Math.max(320, Math.min(1200, Math.round(one.width || one.clientWidth || 640)));
     const height = Math.max(320, Math.round(width * 0.55));
     return ["--type", "svg", "-o", "-", "--theme", colours, "--figure-size", `${width}x${height}`];
 }
@@ -495,7 +506,7 @@ function showFigure(one, svg) {
     one.axes = readFigure(svg);
 }
 
-const narrow = () => matchMedia("(max-width: 40rem)").matches && !printing;
+const narrow = () => NARROW.matches && !printing;
 
 function showText(one, verb, { out: text, left }) {
     const whole = left > 0 ? `${text}\n... and ${Math.ceil(left / 1024)} KiB more: CSV has all\n` : text;
@@ -876,7 +887,7 @@ function listen() {
         for (const { target, isIntersecting } of entries) onScreen[isIntersecting ? "add" : "delete"](target);
     });
     for (const panel of document.querySelectorAll("[data-panel]")) watch.observe(panel);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", later);
+    DARK.addEventListener("change", later);
 }
 
 // Beside A its second set-up, or what reversed fp32 makes of the same planes.
@@ -892,6 +903,7 @@ function showPicture() {
     second.hidden = lines.length === 1;
     picture?.set(lines);
     gpuPanel?.draw();
+    imagePanel?.follow();
 }
 
 // Each picture says what it is of; the guarantee's mark is at three quarters of the slider.
@@ -914,6 +926,13 @@ function measurer() {
     };
 }
 
+// What was found here, for set-up A.
+function take(options) {
+    for (const [option, value] of Object.entries(options)) state.setups[0].set(option, value);
+    fill();
+    later();
+}
+
 async function begin() {
     const packed = Uint8Array.from(atob($("#module").textContent), (c) => c.charCodeAt(0));
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -934,6 +953,7 @@ async function begin() {
     for (const verb of [...VERBS, "judge"]) takes[verb] = engine.takes(verb);
     $("#version").textContent = engine.run(["--version"]).out.split("\n")[0].replace(/^depthprec /, "");
     for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
+    widths = observeWidths();
     buildSetup(0);
     buildSetup(1);
     listen();
@@ -952,12 +972,9 @@ async function begin() {
         $, aside, frame: picture.frame, place: () => $("#gap").value / $("#gap").max, setup: () => state.setups[0],
         pictured: () => pictured()[0],
         judged: (text) => ["judge", ...commandOf("judge", state.setups[0]).slice(1), "--", text],
-        take(options) {
-            for (const [option, value] of Object.entries(options)) state.setups[0].set(option, value);
-            fill();
-            later();
-        },
+        take,
     });
+    imagePanel = createImagePanel({ $, aside, setup: () => state.setups[0], take, line: (depth) => askedOf("table", state.setups[0], { depth }) });
     showPicture();
     window.depthprec = { engine, state: () => shown().map(join), set: setLink };
 }

@@ -11,6 +11,7 @@
 // set(lines) takes the words of a command for each picture, fewer where fewer are seen: the same things at the same distance
 // and gap. marks(on) paints wrong pixels yellow.
 const LATELY = 120; // frames: as long as one of them was wrong, it flickers
+const SLOW_MS = 6;  // where all pictures take longer than that, each frame of the page has one of them
 
 function createView({ canvas, onStatus }, engine) {
     const { exports, memory, streams } = engine.instance();
@@ -58,16 +59,19 @@ function createView({ canvas, onStatus }, engine) {
 
 export function createPicture({ views, engine, slider, play, gapIs }) {
     const reduced = matchMedia("(prefers-reduced-motion: reduce)"), all = views.map((view) => createView(view, engine));
-    let shown = [], place = 0, painted = false, moves = false, seen = true, frame = 0, begun = 0, waiting = 0;
+    const due = new Set(); // in the order in which they became so
+    let shown = [], place = 0, painted = false, moves = false, seen = true, frame = 0, begun = 0, waiting = 0, slow = false;
 
     function draw() {
-        const [first] = all, gap = first.exports.picture_gap(place);
-        for (const view of shown) {
+        const [first] = all, gap = first.exports.picture_gap(place), now = [...due].slice(0, slow ? 1 : due.size), start = performance.now();
+        for (const view of now) {
+            due.delete(view);
             const as = view.draw(gap, frame, painted, moves);
             if (view !== first || as === undefined) continue;
             gapIs.textContent = as;
             slider.setAttribute("aria-valuetext", as);
         }
+        slow = (performance.now() - start) * shown.length > SLOW_MS * now.length;
     }
 
     function step(time) {
@@ -78,10 +82,16 @@ export function createPicture({ views, engine, slider, play, gapIs }) {
             draw();
         }
         if (moves && shown.some((view) => view.draws())) soon();
+        else if (due.size > 0) wait();
+    }
+
+    function wait() {
+        if (waiting === 0 && seen) waiting = requestAnimationFrame(step);
     }
 
     function soon() {
-        if (waiting === 0 && seen && shown.length > 0) waiting = requestAnimationFrame(step);
+        for (const view of shown) due.add(view);
+        if (shown.length > 0) wait();
     }
 
     function move(on) {
@@ -114,6 +124,7 @@ export function createPicture({ views, engine, slider, play, gapIs }) {
             const at = ["--at", String(all[0].exports.picture_z())];
             others.forEach((line, i) => all[i + 1].set([...line, ...at]));
             shown = all.slice(0, 1 + (all[0].draws() ? others.length : 0));
+            for (const view of all) if (!shown.includes(view)) due.delete(view);
             slide();
         },
         marks: (on) => ((painted = on), soon()),

@@ -6,6 +6,7 @@ import { bad } from "./page_bad.mjs";
 import { figures } from "./page_figures.mjs";
 import { controls } from "./page_controls.mjs";
 import { gpu } from "./page_gpu.mjs";
+import { image } from "./page_image.mjs";
 import { people } from "./page_people.mjs";
 import { redraw } from "./page_redraw.mjs";
 import { shots } from "./page_shots.mjs";
@@ -14,7 +15,7 @@ import { seed } from "./states.mjs";
 import { demand, finish, test } from "./tap.mjs";
 
 const full = Boolean(process.env.DEPTHPREC_FULL);
-const parts = { figures, redraw, controls, gpu, people, bad, shots, states: () => states(seed(), full ? 1 : 0.1) };
+const parts = { figures, redraw, controls, gpu, image, people, bad, shots, states: () => states(seed(), full ? 1 : 0.1) };
 const only = process.env.ONLY?.split(",") ?? (full ? Object.keys(parts) : ["figures", "bad", "gpu", "states"]);
 for (const name of only) await parts[name]();
 await test("nothing was said on the console", () => demand(said.length === 0, [...new Set(said)].slice(0, 20).join("\n")));

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Depth images that are chosen or dropped: files are put together here, the native program says what is in them.
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { crc32, deflateSync } from "node:zlib";
+import { close, open, settled } from "./browser.mjs";
+import { native } from "./native.mjs";
+import { demand, test } from "./tap.mjs";
+
+const WIDTH = 37, HEIGHT = 23;
+const folder = mkdtempSync(join(tmpdir(), "depthprec-"));
+const put = (name, bytes) => (writeFileSync(join(folder, name), bytes), join(folder, name));
+
+// Window depths of a slope with waves, near 0.3 and far 100; reversed or not.
+const depthAt = (x, y, reversed) => {
+    const z = 2 + 9 * (x / WIDTH) ** 2 + y / 3 + Math.sin(x + y), d = (100 * (z - 0.3)) / (z * 99.7);
+    return reversed ? 1 - d : d;
+};
+const field = (of) => Array.from({ length: WIDTH * HEIGHT }, (_, i) => of(i % WIDTH, Math.floor(i / WIDTH)));
+
+// ---- PNG ----------------------------------------------------------------------------------------------------------
+
+const crc = crc32 ?? ((bytes) => { // node has it since 22
+    let sum = -1;
+    for (const byte of bytes) {
+        sum ^= byte;
+        for (let bit = 0; bit < 8; bit++) sum = (sum >>> 1) ^ (sum & 1 ? 0xedb88320 : 0);
+    }
+    return ~sum >>> 0;
+});
+
+function chunk(name, content) {
+    const all = Buffer.alloc(content.length + 12);
+    all.writeUInt32BE(content.length);
+    all.write(name, 4, "latin1");
+    Buffer.from(content).copy(all, 8);
+    all.writeUInt32BE(crc(all.subarray(4, -4)), all.length - 4);
+    return all;
+}
+
+const paeth = (a, b, c) => [a, b, c].reduce((best, one) => (Math.abs(a + b - c - one) < Math.abs(a + b - c - best) ? one : best));
+
+// Its rows have the filters 0 to 4 in turn; the first of its channels is the depth.
+function png(values, { bits = 16, colour = 0, interlaced = 0, cut = 0 } = {}) {
+    const channels = [1, 0, 3, 1, 2, 0, 4][colour], step = (channels * bits) / 8, rows = [];
+    for (let y = 0, above = Buffer.alloc(WIDTH * step); y < HEIGHT; y++) {
+        const row = Buffer.alloc(WIDTH * step), filtered = [y % 5];
+        for (let x = 0; x < WIDTH; x++)
+            for (let c = 0; c < channels; c++) row.writeUIntBE(c === 0 ? values[y * WIDTH + x] : (x * 77 + c) % 251, x * step + (c * bits) / 8, bits / 8);
+        row.forEach((byte, i) => {
+            const [a, b, c] = [i >= step ? row[i - step] : 0, above[i], i >= step ? above[i - step] : 0];
+            filtered.push((byte - [0, a, b, (a + b) >> 1, paeth(a, b, c)][y % 5]) & 255);
+        });
+        rows.push(...filtered);
+        above = row;
+    }
+    const head = Buffer.alloc(13), data = deflateSync(Buffer.from(rows.slice(0, rows.length - cut)));
+    head.writeUInt32BE(WIDTH);
+    head.writeUInt32BE(HEIGHT, 4);
+    head.set([bits, colour, 0, 0, interlaced], 8);
+    const parts = [data.subarray(0, 100), data.subarray(100)].map((part) => chunk("IDAT", part));
+    return Buffer.concat([Buffer.from("\x89PNG\r\n\x1a\n", "latin1"), chunk("IHDR", head), ...parts, chunk("IEND", [])]);
+}
+
+function npy(name, array, shape = `${HEIGHT}, ${WIDTH}`) {
+    const head = `{'descr': '${name}', 'fortran_order': False, 'shape': (${shape}), }`, size = Math.ceil((11 + head.length) / 64) * 64 - 10;
+    const start = Buffer.concat([Buffer.from("\x93NUMPY\x01\0", "latin1"), Buffer.from([size & 255, size >> 8])]);
+    return Buffer.concat([start, Buffer.from(`${head.padEnd(size - 1)}\n`), Buffer.from(array.buffer)]);
+}
+
+// ---- What is there, beside the program ----------------------------------------------------------------------------
+
+const shown = (page) => page.evaluate(() => ({
+    refused: document.querySelector("#unread").textContent, says: document.querySelector("#recognised").textContent,
+    seen: document.querySelector("#image canvas").checkVisibility(), pixel: document.querySelector("#pixel").innerText,
+    cells: [...document.querySelectorAll("#pixel td, #pixel th[scope=row]")].map((one) => Number(one.textContent)),
+    set: ["format", "mapping"].map((name) => document.querySelector(`#${name}-A`).value),
+}));
+
+async function choose(page, path) {
+    const before = await shown(page);
+    await page.setInputFiles("#file", []);
+    await page.setInputFiles("#file", path);
+    await page.waitForFunction(([refused, says]) => {
+        const [a, b] = ["#unread", "#recognised"].map((id) => document.querySelector(id).textContent);
+        return a !== refused || b !== says;
+    }, [before.refused, before.says]);
+    await settled(page);
+    return shown(page);
+}
+
+// Moves there by keys, from the middle, and says what is told.
+async function at(page, x, y) {
+    await page.focus("#image canvas");
+    for (let i = WIDTH >> 1; i !== x; i += Math.sign(x - i)) await page.keyboard.press(x > i ? "ArrowRight" : "ArrowLeft");
+    for (let i = HEIGHT >> 1; i !== y; i += Math.sign(y - i)) await page.keyboard.press(y > i ? "ArrowDown" : "ArrowUp");
+    await page.waitForFunction(([x, y]) => document.querySelector("#pixel").innerText.startsWith(`Pixel ${x},${y} `) || document.querySelector("#pixel").innerText.startsWith(`Pixel ${x},${y},`), [x, y]);
+    return shown(page);
+}
+
+const near = (a, b) => Math.abs(a - b) <= 2e-8 * Math.abs(b);
+
+// A pixel's eye depth and cell are the program's, and so is how the image was recognised.
+async function agrees(page, path, format, mapping, [x, y]) {
+    const line = ["texture", path, "-n", "0.3", "-f", "100", "-F", format, "-m", mapping], now = await choose(page, path);
+    const [plain, pixel] = await native([[...line, "--json"], [...line, "--pixel", `${x},${y}`, "--json"]]);
+    const { why } = JSON.parse(plain.out).recognised, { z, lo, hi, code } = JSON.parse(pixel.out).pixels[0];
+    demand(now.refused === "" && now.seen, `${path}: ${now.refused}`);
+    demand(now.says.endsWith(`: ${why}.`), `${path}: ${now.says}\nnot ${why}`);
+    demand(String(now.set) === `${format},${mapping}`, `${path}: set-up A is ${now.set}`);
+    const { cells, pixel: says } = await at(page, x, y), quotients = path.includes("lattice"); // of which the program counts more
+    demand(says.includes("not the buffer’s codes") === quotients, `${path}: ${says}`);
+    demand(cells.includes(code) && (quotients ? [z] : [z, lo, hi]).every((one) => cells.some((cell) => near(cell, one))), `${path}: ${cells}, not ${[code, z, lo, hi]}`);
+}
+
+const words = (scale, reversed) => field((x, y) => Math.round(scale * depthAt(x, y, reversed)));
+
+async function read() {
+    const page = await open({ fragment: encodeURIComponent("table -n 0.3 -f 100 -F fp32 -m reversed") });
+    const of24 = Float32Array.from(words(2 ** 24 - 1), (code) => code / (2 ** 24 - 1)), singles = Float32Array.from(field((x, y) => depthAt(x, y, true)));
+    const files = [
+        ["grey.png", png(words(65535)), "unorm16", "d3d"], ["colours.png", png(words(65535), { colour: 2 }), "unorm16", "d3d"],
+        ["alpha.png", png(words(65535), { colour: 6 }), "unorm16", "d3d"], ["u2.npy", npy("<u2", Uint16Array.from(words(65535))), "unorm16", "d3d"],
+        ["u4.npy", npy("<u4", Uint32Array.from(words(2 ** 24 - 1))), "unorm24", "d3d"], ["lattice.npy", npy("<f4", of24), "unorm24", "d3d"],
+        ["reversed.npy", npy("<f4", singles), "fp32", "reversed"], ["f8.npy", npy("<f8", Float64Array.from(singles)), "fp32", "reversed"],
+        ["bits.npy", npy("<u4", new Uint32Array(singles.buffer)), "fp32", "reversed"],
+        ["channels.npy", npy("<u2", Uint16Array.from(words(65535).flatMap((code) => [code, 9])), `${HEIGHT}, ${WIDTH}, 2`), "unorm16", "d3d"],
+    ];
+    for (const [i, [name, bytes, format, mapping]] of files.entries()) await agrees(page, put(name, bytes), format, mapping, [(7 * i) % WIDTH, (5 * i) % HEIGHT]);
+    await close(page);
+    return `${files.length} files`;
+}
+
+async function others() {
+    const page = await open(), ramp = words(255);
+    const coarse = await choose(page, put("bytes.png", png(ramp, { bits: 8 })));
+    demand(coarse.says.includes("shares of 255") && (await at(page, 3, 3)).pixel.includes("not the buffer’s codes"), coarse.says);
+    const metric = await choose(page, put("metres.npy", npy("<f4", Float32Array.from(field((x, y) => 1 + x + y / 8)))));
+    demand(metric.says.includes("metric depth?") && (await at(page, 5, 8)).pixel === "Pixel 5,8 holds 7.", `${metric.says} ${(await shown(page)).pixel}`);
+    const holes = await choose(page, put("holes.npy", npy("<f4", Float32Array.from(field((x, y) => (x + y === 20 ? NaN : depthAt(x, y)))))));
+    demand(holes.seen && (await at(page, 12, 8)).pixel === "Pixel 12,8 is a hole.", (await shown(page)).pixel);
+    const half = await choose(page, put("f2.npy", npy("<f2", Uint16Array.from(field((x, y) => ((y % 14) << 10) | x)))));
+    const [x, y] = [30, 9]; // (1024 + 30) 2^(9 - 25)
+    demand(half.says.includes("numbers of fp16") && (await at(page, x, y)).cells.includes((9 << 10) + 30), `${half.says} ${(await shown(page)).pixel}`);
+    // Dropped anywhere; by the pointer.
+    await page.evaluate((bytes) => {
+        const dropped = new DataTransfer();
+        dropped.items.add(new File([Uint8Array.from(bytes)], "dropped.png"));
+        document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: dropped, bubbles: true, cancelable: true }));
+    }, [...png(words(65535))]);
+    await page.waitForFunction(() => document.querySelector("#recognised").textContent.startsWith("dropped.png, 37 x 23: "));
+    const box = await page.locator("#image canvas").boundingBox();
+    await page.mouse.move(box.x + ((10.5 / WIDTH) * box.width), box.y + (4.5 / HEIGHT) * box.height);
+    await page.waitForFunction(() => document.querySelector("#pixel").innerText.startsWith("Pixel 10,4"));
+    // What a set-up says follows it.
+    const before = (await shown(page)).pixel;
+    await page.fill("#near-A", "0.7");
+    await page.waitForFunction((old) => document.querySelector("#pixel").innerText !== old, before);
+    await close(page);
+}
+
+async function refused() {
+    const page = await open(), good = png(words(65535)), cut = Buffer.from(npy("<f4", Float32Array.from(field(() => 0.5)))).subarray(0, -5);
+    const wide = Buffer.from(good);
+    wide.writeUInt32BE(70000, 16);
+    wide.writeUInt32BE(70000, 20);
+    const filter = deflateSync(Buffer.alloc(HEIGHT * (1 + 2 * WIDTH), 9)), head = good.subarray(0, 33);
+    for (const [name, bytes, says] of [
+        ["interlaced.png", png(words(65535), { interlaced: 1 }), "interlaced"], ["palette.png", png(words(255), { bits: 8, colour: 3 }), "palette"],
+        ["short.png", png(words(65535), { cut: 40 }), "damaged PNG"], ["half.png", good.subarray(0, good.length >> 1), "damaged PNG"],
+        ["filter.png", Buffer.concat([head, chunk("IDAT", filter), chunk("IEND", [])]), "damaged PNG"], ["wide.png", wide, "70000 x 70000 pixels"],
+        ["text.txt", Buffer.from("depth"), "neither PNG nor npy"], ["empty.npy", Buffer.alloc(0), "neither PNG nor npy"], ["cut.npy", cut, "bytes of samples are needed"],
+        ["big.npy", npy(">f4", new Float32Array(WIDTH * HEIGHT)), "little-endian"], ["c.npy", npy("<c8", new Float32Array(2 * WIDTH * HEIGHT)), "little-endian"],
+        ["line.npy", npy("<f4", new Float32Array(9), "9,"), "rows and columns"], ["zero.npy", npy("<f4", new Float32Array(0), "0, 0"), "rows and columns"],
+    ]) {
+        const now = await choose(page, put(name, bytes));
+        demand(now.refused.startsWith(`${name} `) && now.refused.includes(says) && !now.seen, `${name}: ${JSON.stringify(now)}`);
+    }
+    await close(page);
+}
+
+export async function image() {
+    await test("depth images: recognised as the program does, and its depths and cells at a pixel", read);
+    await test("samples that are coarser, metric, holes and halves; dropped; by pointer; beside a set-up that changes", others);
+    await test("a file that is damaged or of another kind is refused in a sentence", refused);
+    rmSync(folder, { recursive: true });
+}
