@@ -439,6 +439,22 @@ static void judge_bands(const char *name, reference_band (*draw)(rng *), uint64_
     assert_true((double)n.above_2 <= expected + 3.0 * sqrt(expected));
 }
 
+/*
+ * Far from the camera NDC in [-1, 1] keeps only multiples of 2^-24, so window depths those of 2^-25, and the format may
+ * tell all of these apart.
+ */
+TEST(tight_where_the_format_takes_nothing) {
+    static const trap bands[] = {
+        {0.8002, infinite, "unorm25", "gl-reversed", "ieee", 0, DP_ROUND_EVEN, 3e6},
+        {0.1, infinite, "float6.9", "gl-reversed", "ieee", 0, DP_ROUND_NEAREST, 1e4},
+    };
+    for (size_t i = 0; i < sizeof bands / sizeof bands[0]; i++) {
+        const dp_setup setup = setup_of(&bands[i]);
+        const reference_band b = reference_measure_band(&setup, bands[i].z);
+        assert_true(!b.worst.broken && b.slack < 1.25);
+    }
+}
+
 TEST(tight) {
     judge_bands("bands", draw_band, number("REFERENCE_BANDS", test_cases(1, 300, 6000)));
 }
