@@ -251,6 +251,8 @@ static const trap traps[] = {
     {10, infinite, "fp32", "reversed", "ieee", 0, DP_ROUND_NEAREST, 3.4e38},
     {1e-12, infinite, "fp32", "reversed", "ieee", 0, DP_ROUND_NEAREST, 1e26},
     {1, infinite, "fp32", "d3d", "reciprocal", 0, DP_ROUND_NEAREST, 1.5},
+    {216, 140000, "unorm24", "gl-reversed", "ieee", 0, DP_ROUND_NEAREST, 4095.934},
+    {0.1, infinite, "float6.9", "gl-reversed", "ieee", 0, DP_ROUND_NEAREST, 2000},
 };
 
 static dp_setup setup_of(const trap *t) {

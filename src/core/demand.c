@@ -173,7 +173,7 @@ static dp_demand demand_falling(const dp_chain *c, double nearest, dp_numerator 
     return (dp_demand){.projection = projection, .window = window, .slope = t.least};
 }
 
-/* What the format loses of two depths of a span. Where the viewport is exact, NDC's own lattice is all that it meets. */
+/* What the format loses of two depths of a span. Where the viewport is exact, it meets only NDC's own lattice. */
 static double format_of(const dp_chain *c, const windows *w, const dp_steps *s1, const dp_steps *s2) {
     const double error = larger(s1->full, s2->full) + larger(w->near_more, w->far_more);
     const int exact = c->two_stage && s1->viewport.error == 0.0 && s2->viewport.error == 0.0;
