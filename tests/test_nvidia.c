@@ -124,6 +124,16 @@ TEST(conversions_are_within_what_bounds_take) {
     }
 }
 
+/* A product of 54 bits, 2^-23 below the middle of two codes. */
+TEST(conversions_are_exact_of_32_bits) {
+    const dp_arith_row row = {.conversion = DP_CONVERT_SIXTEENTHS};
+    dp_format found[2];
+    assert_int_equal(dp_format_parse("unorm32", found), 1);
+    const dp_pipeline p = {.format = found[0], .arith = &row};
+    assert_true(dp_pipeline_convert(&p, 0x1.000004p-1F) == 0x800001FFU);
+    assert_true(nvidia_code(32, 0x1.000004p-1F) == 0x800001FFU);
+}
+
 /* Wherever a bound counts a reciprocal, NVIDIA's has 1.65 times the part of one that is rounded once. */
 TEST(bounds_take_it_everywhere) {
     static const char *const names[] = {"fused", "fused-reciprocal", "nvidia"};

@@ -251,6 +251,8 @@ static const trap traps[] = {
     {10, infinite, "fp32", "reversed", "ieee", 0, DP_ROUND_NEAREST, 3.4e38},
     {1e-12, infinite, "fp32", "reversed", "ieee", 0, DP_ROUND_NEAREST, 1e26},
     {1, infinite, "fp32", "d3d", "reciprocal", 0, DP_ROUND_NEAREST, 1.5},
+    {216, 140000, "unorm24", "gl-reversed", "ieee", 0, DP_ROUND_NEAREST, 4095.934},
+    {0.1, infinite, "float6.9", "gl-reversed", "ieee", 0, DP_ROUND_NEAREST, 2000},
 };
 
 static dp_setup setup_of(const trap *t) {
@@ -437,6 +439,22 @@ static void judge_bands(const char *name, reference_band (*draw)(rng *), uint64_
     assert_int_equal(n.above_4, 0);
     const double expected = 0.02 * (double)measured; /* three standard deviations are left to chance */
     assert_true((double)n.above_2 <= expected + 3.0 * sqrt(expected));
+}
+
+/*
+ * Far from the camera NDC in [-1, 1] keeps only multiples of 2^-24, so window depths those of 2^-25, and the format may
+ * tell all of these apart.
+ */
+TEST(tight_where_the_format_takes_nothing) {
+    static const trap bands[] = {
+        {0.8002, infinite, "unorm25", "gl-reversed", "ieee", 0, DP_ROUND_EVEN, 3e6},
+        {0.1, infinite, "float6.9", "gl-reversed", "ieee", 0, DP_ROUND_NEAREST, 1e4},
+    };
+    for (size_t i = 0; i < sizeof bands / sizeof bands[0]; i++) {
+        const dp_setup setup = setup_of(&bands[i]);
+        const reference_band b = reference_measure_band(&setup, bands[i].z);
+        assert_true(!b.worst.broken && b.slack < 1.25);
+    }
 }
 
 TEST(tight) {

@@ -10,42 +10,47 @@ static const double outward = 1.0 + 0x1p-40;
 /* ---- The format -------------------------------------------------------------------------------------------------- */
 
 /*
- * Whether every binary32 window depth of [low, high] has a code of its own in a UNORM. So it is where a step of the
- * window depth is more than one code. Where it is at most one, codes rise by 0 or 1 a step: then they all rise if they
- * do in total.
+ * Whether every binary32 window depth of [low, high] has a code of its own in a UNORM, or every multiple of `grid` if
+ * that is no finer than binary32 there. So it is where a step of the window depth is more than one code. Where it is at
+ * most one, codes rise by 0 or 1 a step: then they all rise if they do in total.
  */
-static int codes_are_distinct(const dp_pipeline *p, double low, double high) {
-    if (low <= 0.0)
-        return 0;
-    const float first = nextafterf((float)low, 0.0F);
-    const float last = (float)high < 1.0F ? nextafterf((float)high, 2.0F) : 1.0F;
-    const double step = 2.0 * dp_half_ulp((double)first);
+static int codes_are_distinct(const dp_pipeline *p, double low, double high, double grid) {
     const double levels = (double)p->format.code_max;
     const int sixteenths = p->arith->conversion == DP_CONVERT_SIXTEENTHS;
     const int product_exact = p->arith->conversion == DP_CONVERT_EXACT || (p->format.bits > 24 && !sixteenths);
-    if (step * levels > 1.0)
-        return product_exact;
-    if (dp_half_ulp((double)first) != dp_half_ulp((double)nextafterf(last, 0.0F)))
+    const int coarse = product_exact && grid >= 2.0 * dp_half_ulp(smaller(high, 1.0));
+    if (low <= 0.0 && !coarse)
         return 0;
-    if (p->arith->conversion != DP_CONVERT_EXACT && dp_half_ulp((double)first * levels) < 0.5)
+    float first = nextafterf((float)low, 0.0F);
+    float last = (float)high < 1.0F ? nextafterf((float)high, 2.0F) : 1.0F;
+    if (coarse) {
+        first = (float)(ceil(larger(low - 0x1p-50, 0.0) / grid) * grid);
+        last = (float)(floor(smaller(high + 0x1p-50, 1.0) / grid) * grid);
+    }
+    const double step = coarse ? grid : 2.0 * dp_half_ulp((double)first);
+    if (step * levels > 1.0 || (coarse && last <= first))
+        return product_exact;
+    if (!coarse && dp_half_ulp((double)first) != dp_half_ulp((double)nextafterf(last, 0.0F)))
+        return 0;
+    if (p->arith->conversion != DP_CONVERT_EXACT && !coarse && dp_half_ulp((double)first * levels) < 0.5)
         return 0;
     const double codes = (double)dp_pipeline_convert(p, last) - (double)dp_pipeline_convert(p, first);
     return codes == ((double)last - (double)first) / step;
 }
 
 /* Clamped, no window depth is 1. */
-double dp_format_loss(const dp_pipeline *p, double low, double high) {
+double dp_format_loss(const dp_pipeline *p, double low, double high, double grid) {
     const dp_format *format = &p->format;
     const double top = smaller(high, 1.0 - DP_UNIT_BELOW_ONE);
     const double bottom = smaller(larger(low, 0.0), top);
     if (format->kind == DP_FORMAT_FLOAT) {
-        if (format->mantissa_bits < 23)
-            return dp_step_num(format, dp_binade(format, top));
-        /* As fine as binary32, but for subnormals that begin above those of binary32. */
-        const double step = dp_step_num(format, 1 - format->bias);
-        return bottom >= dp_power2(1 - format->bias) || step <= 2.0 * dp_half_ulp(bottom) ? 0.0 : step;
+        /* With 23 bits as fine as binary32, but for subnormals that begin above those of binary32. */
+        const int fine = format->mantissa_bits >= 23;
+        const double step = dp_step_num(format, fine ? 1 - format->bias : dp_binade(format, top));
+        const int finest = fine && (bottom >= dp_power2(1 - format->bias) || step <= 2.0 * dp_half_ulp(bottom));
+        return finest || step <= grid ? 0.0 : step;
     }
-    if (codes_are_distinct(p, low, high))
+    if (codes_are_distinct(p, low, high, grid))
         return 0.0;
     const double levels = (double)format->code_max;
     if (p->arith->conversion == DP_CONVERT_SIXTEENTHS)
@@ -168,10 +173,12 @@ static dp_demand demand_falling(const dp_chain *c, double nearest, dp_numerator 
     return (dp_demand){.projection = projection, .window = window, .slope = t.least};
 }
 
-/* What the format loses of depths of a span, whose window depths are off by so much. */
-static double format_of(const dp_chain *c, const windows *w, double error) {
-    error += larger(w->near_more, w->far_more);
-    return dp_format_loss(&c->pipeline, smaller(w->near, w->far) - error, larger(w->near, w->far) + error);
+/* What the format loses of two depths of a span. Where the viewport is exact, it meets only NDC's own lattice. */
+static double format_of(const dp_chain *c, const windows *w, const dp_steps *s1, const dp_steps *s2) {
+    const double error = larger(s1->full, s2->full) + larger(w->near_more, w->far_more);
+    const int exact = c->two_stage && s1->viewport.error == 0.0 && s2->viewport.error == 0.0;
+    return dp_format_loss(&c->pipeline, smaller(w->near, w->far) - error, larger(w->near, w->far) + error,
+                          exact ? smaller(s1->quotient.grid, s2->quotient.grid) : 0.0);
 }
 
 /* The demand of a depth of `first` and one of `second`, not nearer. */
@@ -179,7 +186,7 @@ static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first,
     dp_numerator t;
     const dp_steps s2 = dp_chain_steps_behind(c, first.lo, second, &t);
     const windows at = windows_of(c, first.lo, second.hi);
-    const double format = format_of(c, &at, larger(s1->full, s2.full));
+    const double format = format_of(c, &at, s1, &s2);
     const double rest = format + extra;
     const double window = before_rounding(s1->viewport, s2.viewport, rest);
     const double quotient = before_rounding(s1->quotient, s2.quotient, window);
@@ -201,7 +208,7 @@ static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first,
 static dp_demand demand_beyond(const dp_chain *c, const dp_steps *s1, dp_span first, double extra) {
     const dp_steps s2 = dp_chain_steps_beyond(c, first.lo);
     const windows at = windows_of(c, first.lo, c->reach.hi);
-    const double format = format_of(c, &at, larger(s1->full, s2.full));
+    const double format = format_of(c, &at, s1, &s2);
     dp_demand d = {.projection =
                        s1->full - s1->inverse.error - s1->quotient.error - s1->viewport.error + s2.product.error,
                    .format = format,

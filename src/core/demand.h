@@ -21,8 +21,9 @@ typedef struct dp_demand {
  */
 double dp_demand_longest(const dp_chain *chain, dp_span first, double extra, dp_demand *out);
 
-/* The longest distance of two binary32 window depths of [low, high] that are stored as one code. */
-double dp_format_loss(const dp_pipeline *pipeline, double low, double high);
+/* The longest distance of two binary32 window depths of [low, high] that are stored as one code: multiples of `grid`,
+ * or of anything if that is 0. */
+double dp_format_loss(const dp_pipeline *pipeline, double low, double high, double grid);
 
 /* The most that storing a window depth, a binary32 number of at most `high`, changes it by. */
 double dp_stored_error(const dp_pipeline *pipeline, double high);

@@ -193,7 +193,7 @@ static double demand_of(const dp_log_shader *s, dp_span run, double hi, double e
     const double ends[2] = {a.scale + a.ndc, b.scale + b.ndc};
     const double low = window_below(s, a.lo - off[0]) - ends[0];
     const double high = (b.hi + off[1]) * s->k_hi + ends[1];
-    const double format = dp_format_loss(&s->pipeline, low, high);
+    const double format = dp_format_loss(&s->pipeline, low, high, 0.0);
     const double rest = format + extra;
     double growth = (rest + ends[0] + ends[1]) / s->k_lo + off[0] + off[1];
     if (high >= 1.0)

@@ -110,7 +110,7 @@ static uint32_t convert_sixteenths(const dp_format *format, double d) {
     const double top = ldexp(1.0, format->bits);
     if (format->bits <= 16)
         return (uint32_t)floor((floor(16.0 * top * d) - floor(16.0 * d) + 7.0) / 16.0);
-    return (uint32_t)floor((d < 1.0 / 16.0 ? top * d : (top - 1.0) * d) + 0.5);
+    return d < 1.0 / 16.0 ? (uint32_t)floor(top * d + 0.5) : dp_format_encode(format, DP_ROUND_NEAREST, d);
 }
 
 uint32_t dp_pipeline_convert(const dp_pipeline *p, float window) {

@@ -181,7 +181,7 @@ static loss loss_of(const dp_chain *c, dp_span at, own_error own, const dp_trian
     out.cause[DP_CAUSE_NDC] = 2.0 * own.ndc + c->below + c->above;
     out.cause[DP_CAUSE_SETUP] = 2.0 * setup;
     out.cause[DP_CAUSE_INTERPOLATION] = asked[DP_CAUSE_INTERPOLATION];
-    out.cause[DP_CAUSE_FORMAT] = dp_format_loss(&c->pipeline, smaller(g1, g2) - room, larger(g1, g2) + room);
+    out.cause[DP_CAUSE_FORMAT] = dp_format_loss(&c->pipeline, smaller(g1, g2) - room, larger(g1, g2) + room, 0.0);
     out.cause[DP_CAUSE_LINEARIZATION] = asked[DP_CAUSE_LINEARIZATION];
     return out;
 }
