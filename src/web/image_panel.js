@@ -3,10 +3,9 @@
 // set-up A. image.js reads it, in the worker; what a depth means is said by the command.
 import { sheet } from "./sheet.js";
 
-const OTHER_WAY = { d3d: "reversed", reversed: "d3d", gl: "gl-reversed", "gl-reversed": "gl" };
-
-// What the page gives: $; aside; setup() and line(depth) of set-up A, and take(options), which changes it.
-export function createImagePanel({ $, aside, setup, line, take }) {
+// What the page gives: $; aside; setup() and line(depth) of set-up A, and take(options), which changes it; narrow(), whether there
+// is no room; otherWay, mappings that are turned round.
+export function createImagePanel({ $, aside, setup, line, take, narrow, otherWay }) {
     const canvas = $("#image canvas"), context = canvas.getContext("2d");
     let image = null, at = [0, 0], asked = 0, files = 0;
 
@@ -34,7 +33,7 @@ export function createImagePanel({ $, aside, setup, line, take }) {
         const said = await aside.ask(line(String(v)));
         if (said.status !== 0) return tell(`${name} holds ${v}. ${said.err.trim().replace(/^depthprec: /, "")}`);
         const coarse = image.exact ? "" : " Its samples are not the buffer’s codes, and so may be off by more than the cell says: texture --pixel of the program counts that.";
-        tell(`${name}, by set-up A:${coarse}`, ...sheet(said.out, true).filter(({ tagName }) => tagName === "TABLE"));
+        tell(`${name}, by set-up A:${coarse}`, ...sheet(said.out, narrow()).filter(({ tagName }) => tagName === "TABLE"));
     }
 
     function move(x, y) {
@@ -54,8 +53,8 @@ export function createImagePanel({ $, aside, setup, line, take }) {
         paint();
         $("#recognised").textContent = `${file.name}, ${image.width} x ${image.height}: ${image.why}.`;
         const { format, mapping } = Object.fromEntries(setup()), turned = image.reversed >= 0 && /reversed/.test(mapping) !== (image.reversed > 0);
-        if (image.depth && (format !== image.format || (turned && mapping in OTHER_WAY)))
-            take({ format: image.format, ...(turned && mapping in OTHER_WAY && { mapping: OTHER_WAY[mapping] }) });
+        if (image.depth && (format !== image.format || (turned && mapping in otherWay)))
+            take({ format: image.format, ...(turned && mapping in otherWay && { mapping: otherWay[mapping] }) });
         move(image.width >> 1, image.height >> 1);
     }
 

@@ -100,12 +100,14 @@ function shown() {
 
 // ---- The address --------------------------------------------------------------------------------------------------
 
-// What is seen beside the commands: the gap of the picture, in thousandths of its slider, and the colours.
-const SEEN = { gap: /^(1000|\d{1,3})$/, theme: /^(system|light|dark)$/ };
-const SEEN_FIRST = { gap: "300", theme: "system" };
+// What is seen beside the commands: the gap of the picture, in thousandths of its slider, how far things are there, in A's scene
+// units, and the colours.
+const SEEN = { gap: /^(1000|\d{1,3})$/, distance: /^\d+(\.\d+)?(e[+-]\d+)?$/, theme: /^(system|light|dark)$/ };
+const SEEN_FIRST = { gap: "300", distance: "", theme: "system" };
+let distance = ""; // where nobody has chosen one it is the first of A's depths, or the picture's choice
 
 function seen() {
-    const now = { gap: $("#gap").value, theme: document.documentElement.dataset.theme ?? "system" };
+    const now = { gap: $("#gap").value, distance, theme: document.documentElement.dataset.theme ?? "system" };
     return Object.entries(now).filter(([name, value]) => value !== SEEN_FIRST[name]).map((pair) => pair.join("="));
 }
 
@@ -116,13 +118,14 @@ function takeSeen(all) {
         for (const word of all.pop().slice(1)) {
             const [name, value] = word.split("=");
             if (!Object.hasOwn(SEEN, name) || !SEEN[name].test(value))
-                throw new Error(`page ${word}: it takes gap=0 to gap=1000 and theme=light or theme=dark`);
+                throw new Error(`page ${word}: it takes gap=0 to gap=1000, distance=NUMBER and theme=light or theme=dark`);
             said[name] = value;
         }
     return said;
 }
 
-function see({ gap, theme }) {
+function see({ gap, distance: far, theme }) {
+    distance = far;
     $("#gap").value = gap;
     $("#gap").dispatchEvent(new Event("input"));
     setTheme(theme);
@@ -272,6 +275,7 @@ function buildSetup(index) {
         const to = state.setups[index];
         if (value === null) to.delete(option);
         else to.set(option, value);
+        if (index === 0 && option === "at") distance = "";
         later();
     };
     // A plane that is dragged pushes the other one before it.
@@ -325,6 +329,16 @@ function buildSetup(index) {
         else setup.delete("unit");
         fill();
     });
+    // The usual ones by their plain names, beside the lists of all.
+    const plainly = PLAIN.map(([name, option, is, choose]) => {
+        const one = make("button", { type: "button" }, name), now = () => own[option].value;
+        one.addEventListener("click", () => {
+            change(option, choose(now()));
+            fill();
+        });
+        return Object.assign(one, { show: () => one.setAttribute("aria-pressed", is.test(now())) });
+    });
+    own.showPlain = () => plainly.forEach((one) => one.show());
     const ortho = make("input", { type: "checkbox", "data-option": "ortho", id: `ortho-${letter}` });
     ortho.addEventListener("change", () => change("ortho", ortho.checked ? "" : null));
     own.ortho = ortho;
@@ -353,6 +367,7 @@ function buildSetup(index) {
     details.open = matchMedia("(min-width: 60rem)").matches;
     root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`), make("div", { class: "row" }, preset),
         length("near", "Near"), length("far", "Far"),
+        make("div", { class: "row", role: "group", "aria-label": `Depth buffer, set-up ${letter}` }, ...plainly),
         make("div", { class: "row" }, select("format", "Format", names("formats")),
             select("mapping", "Mapping", names("mappings")),
             make("span", {}, ortho, make("label", { for: ortho.id }, " orthographic"))),
@@ -366,6 +381,12 @@ function show(input, value) {
     if (document.activeElement !== input || input.tagName === "SELECT") input.value = value;
 }
 
+const OTHER_WAY = { d3d: "reversed", reversed: "d3d", gl: "gl-reversed", "gl-reversed": "gl" };
+const PLAIN = [
+    ["16-bit", "format", /^(unorm|d)16$/i, () => "unorm16"], ["24-bit", "format", /^(unorm|d)24$/i, () => "unorm24"],
+    ["32-bit float", "format", /^(fp32|d32f)$/i, () => "fp32"], ["reversed", "mapping", /reversed/, (now) => OTHER_WAY[now] ?? "reversed"],
+];
+
 // What a command takes where it is given nothing. A preset gives something else.
 const STARTS = {
     near: "0.1", far: "1000", format: "all", mapping: "all", model: "exact", arith: "ieee",
@@ -378,6 +399,20 @@ function showSliders(index) {
         slider.value = stepOf(option, given, state.setups[index].get("unit"));
         slider.setAttribute("aria-valuetext", given);
     }
+}
+
+// The depths of A's camera, of which a slider has an end.
+function depthAxis() {
+    const [lo, far] = ["near", "far"].map((name) => numberOf(fields[0][name].value || STARTS[name], state.setups[0].get("unit")));
+    return { log: lo > 0, lo, hi: Number.isFinite(far) ? far : Math.max(lo, 1e-3) * 1e6 };
+}
+
+function showDistance() {
+    const slider = $("#distance"), unit = unitOf(state.setups[0]), z = Number(picture.z().toPrecision(3)), text = unit === "" ? z : `${z} ${unit}`;
+    slider.value = stepAt(depthAxis(), z);
+    slider.disabled = z === 0;
+    slider.setAttribute("aria-valuetext", text);
+    $("#distance-is").textContent = z === 0 ? "" : text;
 }
 
 // Each question has the fields that its command takes.
@@ -742,6 +777,7 @@ function want() {
 
 function update(dragged = false) {
     fitQuestions();
+    for (const own of fields) own.showPlain();
     for (const panel of document.querySelectorAll("[data-panel]"))
         panel.hidden = panel.dataset.panel !== "view" && !state.shown.has(panel.dataset.panel);
     $("#link").textContent = shown().map((line) => `depthprec ${join(line)}`).join("\n");
@@ -841,6 +877,10 @@ function listen() {
     $("#share").hidden = !navigator.share;
     $("#share").addEventListener("click", () => navigator.share({ title: document.title, url: address() }).catch(() => {}));
     $("#gap").addEventListener("change", later);
+    $("#distance").addEventListener("input", () => {
+        distance = numberOfStep(depthAxis(), Number($("#distance").value));
+        later();
+    });
     copies("#copy-profile", profileText);
     copies("#copy-commands", () => $("#link").textContent);
     for (const input of document.querySelectorAll("[data-shows]"))
@@ -894,14 +934,16 @@ function listen() {
 function pictured() {
     const [a, b] = state.setups, best = new Map([...a, ["format", "fp32"], ["mapping", "reversed"]]);
     const here = (setup) => commandOf("table", new Map([...setup].filter(([name]) => name !== "at")));
-    const lines = [commandOf("table", a), here(b ?? best)];
-    return join(here(a)) === join(lines[1]) ? lines.slice(0, 1) : lines;
+    const first = distance === "" ? commandOf("table", a) : [...here(a), "--at", distance], second = here(b ?? best);
+    return join(here(a)) === join(second) ? [first] : [first, second];
 }
 
 function showPicture() {
     const lines = pictured(), [, second] = document.querySelectorAll("#picture figure");
     second.hidden = lines.length === 1;
-    picture?.set(lines);
+    if (picture === undefined) return;
+    picture.set(lines);
+    showDistance();
     gpuPanel?.draw();
     imagePanel?.follow();
 }
@@ -974,7 +1016,7 @@ async function begin() {
         judged: (text) => ["judge", ...commandOf("judge", state.setups[0]).slice(1), "--", text],
         take,
     });
-    imagePanel = createImagePanel({ $, aside, setup: () => state.setups[0], take, line: (depth) => askedOf("table", state.setups[0], { depth }) });
+    imagePanel = createImagePanel({ $, aside, setup: () => state.setups[0], take, narrow, otherWay: OTHER_WAY, line: (depth) => askedOf("table", state.setups[0], { depth }) });
     showPicture();
     window.depthprec = { engine, state: () => shown().map(join), set: setLink };
 }

@@ -129,5 +129,6 @@ export function createPicture({ views, engine, slider, play, gapIs }) {
         },
         marks: (on) => ((painted = on), soon()),
         frame: () => frame,
+        z: () => all[0].exports.picture_z(), // how far things are, 0 where nothing is drawn
     };
 }

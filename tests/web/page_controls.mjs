@@ -159,6 +159,58 @@ async function pictures() {
     await close(page);
 }
 
+// How far things are, by the picture's own slider: said there, in the link, and taken back by A's depths.
+async function distances() {
+    const page = await open(), slider = page.locator("#distance");
+    const said = () => page.evaluate(() => [document.querySelector("#picture .name").textContent, document.querySelector("#distance-is").textContent,
+        document.querySelector("#distance").getAttribute("aria-valuetext")]);
+    const expect = async (what, text) => {
+        await page.waitForFunction((wanted) => document.querySelector("#picture .name").textContent.includes(`, things about ${wanted} away`), text, { timeout: 5000 })
+            .catch(async () => demand(false, `${what}: ${await said()}`));
+        const [, shown, valued] = await said();
+        demand(shown === text && valued === text, `${what}: ${await said()}`);
+    };
+    await expect("at first", "10 m");
+    await updated(page, () => slider.evaluate((one) => ((one.value = 750), one.dispatchEvent(new Event("input")))));
+    await expect("0.1 (1000/0.1)^(3/4)", "100 m");
+    demand(hashOf(page).endsWith(" ; page distance=100"), hashOf(page));
+    const other = await open({ fragment: new URL(page.url()).hash.slice(1) });
+    await other.waitForFunction(() => document.querySelector("#distance-is").textContent === "100 m");
+    await close(other);
+    await updated(page, () => page.goBack());
+    await expect("back", "10 m");
+    await updated(page, () => slider.press("ArrowRight"));
+    demand(/ ; page distance=10\.[1-3]$/.test(hashOf(page)), `by a key: ${hashOf(page)}`);
+    await put(page, "#at-A", "30");
+    await expect("A's depths", "30 m");
+    demand(!hashOf(page).includes("distance="), hashOf(page));
+    await put(page, "#near-A", "1");
+    const at = await slider.evaluate((one) => Number(one.value));
+    demand(Math.abs(at - (1000 * Math.log10(30)) / 3) < 1, `30 from 1 to 1000 is at ${at}`);
+    await close(page);
+}
+
+// Plain names are the formats and mappings that the lists have, and say what is chosen there.
+async function plainNames() {
+    const page = await open(), button = (name) => page.locator("#a").getByRole("button", { name, exact: true });
+    const pressed = () => page.locator("#a [role=group] button").evaluateAll((all) => all.filter((one) => one.ariaPressed === "true").map((one) => one.textContent).join(" "));
+    for (const [name, line, now] of [
+        ["16-bit", "table -n 0.1 -f 1000 -F unorm16 -m d3d --unit m", "16-bit"], ["reversed", "table -n 0.1 -f 1000 -F unorm16 -m reversed --unit m", "16-bit reversed"],
+        ["32-bit float", "table -n 0.1 -f 1000 -F fp32 -m reversed --unit m", "32-bit float reversed"], ["24-bit", "table -n 0.1 -f 1000 -F unorm24 -m reversed --unit m", "24-bit reversed"],
+        ["reversed", "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m", "24-bit"],
+    ]) {
+        await updated(page, () => button(name).click());
+        const [said] = await native([line.split(" ")]), { text } = await seen(page, "table", 0);
+        demand(text === said.out && (await pressed()) === now, `${name}: ${await pressed()}\n${text}`);
+    }
+    await put(page, "#a [data-option=mapping]", "gl");
+    await updated(page, () => button("reversed").click());
+    demand(hashOf(page).includes("-m gl-reversed") && (await pressed()) === "24-bit reversed", `of gl: ${hashOf(page)}`);
+    await put(page, "#a [data-option=format]", "fp16");
+    demand((await pressed()) === "reversed", `fp16: ${await pressed()}`);
+    await close(page);
+}
+
 // A plane that is dragged pushes the other; a field that is refused says so itself.
 async function planes() {
     const page = await open(), values = () => page.evaluate(() => ["near", "far"].map((name) => document.querySelector(`#${name}-A`).value).join(" "));
@@ -200,5 +252,7 @@ export async function controls() {
     });
     await test("a link holds what differs, Back and Forward step through changes", address);
     await test("the second picture: reversed fp32, or B, at the same distance", pictures);
+    await test("things are as far as the picture's slider says", distances);
+    await test("buttons of plain names", plainNames);
     await test("a plane pushes the other, a refused field is marked", planes);
 }

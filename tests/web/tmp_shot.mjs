@@ -1,0 +1,11 @@
+import { browser, open, settled } from "./browser.mjs";
+const page = await open({ width: 1280 });
+await page.setInputFiles("#file", "/tmp/img/g16.png");
+await page.waitForTimeout(600); await settled(page);
+await page.locator("#image").screenshot({ path: "/tmp/s1.png" });
+await page.screenshot({ path: "/tmp/s0.png" });
+const p = await open({ width: 390, height: 844, mobile: true });
+await p.screenshot({ path: "/tmp/s2.png" });
+await p.setInputFiles("#file", "/tmp/img/g16.png"); await p.waitForTimeout(500);
+await p.locator("#image").screenshot({ path: "/tmp/s3.png" });
+await browser.close();
