@@ -375,6 +375,17 @@ function buildSetup(index) {
     for (const option of Object.keys(STARTS)) own[option].setAttribute("aria-describedby", own.refused.id);
 }
 
+// What the commands' help says of an option stands beside its control.
+function explain() {
+    const texts = {};
+    for (const input of document.querySelectorAll("[data-option], [data-slider]")) {
+        const verb = input.closest("[data-asks]")?.dataset.asks ?? "table", { option = input.dataset.slider } = input.dataset;
+        texts[verb] ??= engine.run([verb, "--help"]).out;
+        const said = new RegExp(`^ {2,6}(?:-., )?--${option}\\b[^\n]*\n(?: {20,}[^\n]*\n)*`, "m").exec(texts[verb])?.[0].split("\n");
+        input.title = said?.map((line) => (line[29] === " " ? line.slice(30) : "")).join(" ").trim() ?? "";
+    }
+}
+
 function show(input, value) {
     if (input.tagName === "SELECT" && ![...input.options].some((option) => option.value === value))
         input.append(make("option", {}, value));
@@ -998,6 +1009,7 @@ async function begin() {
     widths = observeWidths();
     buildSetup(0);
     buildSetup(1);
+    explain();
     listen();
     const fragment = location.hash.slice(1);
     await setLink(""); // something to change, however long the link takes
