@@ -182,6 +182,20 @@ TEST(crossing) {
     }
 }
 
+/* Tilted by 60 degrees: what is added along one normal counts for less along the other, and yet it is found. */
+TEST(steep) {
+    const char *path = scratch_file("steep.obj");
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs("o below\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n"
+          "o above\nv -0.1 -0.1 1e-4\nv 0.1 -0.1 1e-4\nv 0 0.1 0.3465\nf 4 5 6\n",
+          out);
+    assert_int_equal(fclose(out), 0);
+    const said s = ask(path, "-F d16 -m d3d -n 0.1 -f 1000 --viewport 1280x720 --fov 60 --separation 1 --within 20 "
+                             "--angle 80 --eye 0,0,3 --look 0,0,0");
+    assert_true(s.fights && s.lift > 1e-4 && s.lift < 0.01);
+}
+
 /* A camera of the file has the class of the very triangles: of a sliver 4 long and 1/1000 of that high, seen from 3. */
 TEST(class_of_a_sliver) {
     static const double seen = 4 * 360 / (3 * 0.57735026918962576); /* pixels of 720 in 60 degrees */

@@ -270,6 +270,7 @@ bool overlap_find(exact_triangle a, exact_triangle b, double gap, double sine, o
     *out = (overlap){.opposite = f.view.sign < 0.0};
     out->area = p.corners < 3 ? 0.0 : 0.5 * area_of(&p, &centroid) * fabs(f.n[f.w]);
     memcpy(out->normal, f.na, sizeof out->normal);
+    memcpy(out->along, f.n, sizeof out->along);
     if (out->area <= AREA_SLACK * longest_side(a) * longest_side(b))
         out->area = 0.0;
     lift(&f, centroid, out->place);

@@ -16,6 +16,7 @@ typedef struct overlap {
     double area;      /* 0 where it rounds to that */
     double width;     /* area over the longest diagonal */
     double normal[3]; /* of a, length 1 */
+    double along[3];  /* the common normal, length 1, on a's front side */
     double place[3];  /* the centroid, on a */
     double corner[OVERLAP_CORNERS][3]; /* on a, in order */
 } overlap;

@@ -86,7 +86,9 @@ static void see_polygon(polygon *p, const dp_setup *setup, scene_sight *out) {
 
 /* A pair as all eyes have it: its overlap on the first triangle, and both normals, of length 1. */
 typedef struct pair {
-    double gap_lo, gap_hi; /* along the first one's normal */
+    double along[3];       /* their common normal */
+    double gap_lo, gap_hi; /* along it */
+    double upright;        /* which share of that the distance from a plane is at least, along either normal */
     double corner[FINDER_CORNERS][3];
     int corners;
     double vertex[2][3][3];
@@ -106,14 +108,19 @@ static void unit_normal(const model *m, uint32_t triangle, double out[3]) {
         out[k] /= length;
 }
 
-static pair pair_of(const sight_asked *asked, const finder_pair *of) {
+/* With their overlap where they are at most `gap` apart. */
+static pair pair_of(const sight_asked *asked, const finder_pair *of, double gap) {
     const model *m = asked->m;
-    pair p = {.gap_lo = of->gap_lo, .gap_hi = of->gap_hi};
-    p.corners = finder_corners(m, of->triangle, asked->gap, p.corner);
+    overlap o = {0};
+    pairs_overlap(m, of->triangle, gap, &o);
+    pair p = {.gap_lo = o.lo, .gap_hi = o.hi, .upright = 1.0, .corners = o.corners};
+    memcpy(p.along, o.along, sizeof p.along);
+    memcpy(p.corner, o.corner, sizeof p.corner);
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++)
             memcpy(p.vertex[i][k], m->position[m->triangle[of->triangle[i]][k]], sizeof p.vertex[i][k]);
         unit_normal(m, of->triangle[i], p.normal[i]);
+        p.upright = fmin(p.upright, fabs(dot(p.along, p.normal[i])));
         p.two_sided[i] = asked->any_side || m->surface[m->of[of->triangle[i]]].two_sided;
     }
     return p;
@@ -146,7 +153,7 @@ static bool see_pair(const pair *p, const dp_setup *setup, const scene_eye *eye,
         for (int c = 0; c < p->corners; c++) {
             double at[3];
             for (int k = 0; k < 3; k++)
-                at[k] = p->corner[c][k] + off[s] * p->normal[0][k];
+                at[k] = p->corner[c][k] + off[s] * p->along[k];
             scene_eye_sees(eye, at, seen.at[c]);
         }
         see_polygon(&seen, setup, out);
@@ -225,7 +232,8 @@ typedef struct standard {
 static const dp_setup *standard_of(const pair *p, const sight_asked *asked, const scene_eye *eye,
                                    const scene_sight *seen, standard *out) {
     out->covered = setup_of(p, asked->setup, eye, seen, &out->own);
-    out->least = p->gap_lo <= 0.0 && p->gap_hi >= 0.0 ? 0.0 : fmin(fabs(p->gap_lo), fabs(p->gap_hi));
+    const double apart = fmin(fabs(p->gap_lo), fabs(p->gap_hi));
+    out->least = p->gap_lo <= 0.0 && p->gap_hi >= 0.0 ? 0.0 : apart * p->upright;
     return out->covered ? &out->own : asked->setup;
 }
 
@@ -298,7 +306,7 @@ static void judge_eyes(const sight_asked *asked, const finder_finding *f, scene_
     for (size_t e = 0; e < asked->eyes; e++)
         sight[e] = (scene_sight){.seen_from = nan, .seen_to = nan, .fights_from = nan, .covered = true, .eye = e};
     for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
-        const pair p = pair_of(asked, &asked->found->pair[f->first + i]);
+        const pair p = pair_of(asked, &asked->found->pair[f->first + i], asked->gap);
         for (size_t e = 0; e < asked->eyes; e++) {
             scene_sight seen;
             if (!see_pair(&p, asked->setup, &asked->eye[e], &seen))
@@ -314,25 +322,6 @@ static void judge_eyes(const sight_asked *asked, const finder_finding *f, scene_
 }
 
 /* ---- What mends it ----------------------------------------------------------------------------------------------- */
-
-/* All of their overlap, however far apart. */
-static overlap whole_overlap(const model *m, const finder_pair *of) {
-    overlap o;
-    pairs_overlap(m, of->triangle, FINDER_COORDINATE_MAX, &o);
-    return o;
-}
-
-static pair whole_pair_of(const sight_asked *asked, const finder_pair *of) {
-    pair p = pair_of(asked, of);
-    const overlap o = whole_overlap(asked->m, of);
-    if (o.corners > 0) {
-        p.corners = o.corners;
-        memcpy(p.corner, o.corner, (size_t)o.corners * sizeof *o.corner);
-        p.gap_lo = o.lo;
-        p.gap_hi = o.hi;
-    }
-    return p;
-}
 
 /* What a distance along the normal of either grows by where it is added along that of the other: its share. */
 static double parallel(const double a[3], const double b[3]) {
@@ -370,7 +359,7 @@ static double lack_moved(const sight_asked *asked, const pair *p, double by) {
         if (!see_pair(&to, asked->setup, asked->eye, &seen))
             continue;
         const dp_setup *used = standard_of(&to, asked, asked->eye, &seen, &of);
-        lack = fmax(lack, lack_of(asked, used, &seen, of.least));
+        lack = fmax(lack, lack_of(asked, used, &seen, of.least) / (p->upright * parallel(p->normal[0], p->normal[1])));
     }
     return lack;
 }
@@ -407,7 +396,7 @@ static double lack_of_all(const sight_asked *asked, const finder_finding *f, dou
     const double none = SCENE_NO_GAP * asked->found->extent;
     double lack = 0.0;
     for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
-        const pair p = whole_pair_of(asked, &asked->found->pair[f->first + i]);
+        const pair p = pair_of(asked, &asked->found->pair[f->first + i], FINDER_COORDINATE_MAX);
         if (p.gap_hi >= -none)
             lack = fmax(lack, lack_moved(asked, &p, lift));
         if (p.gap_lo <= none)
