@@ -204,7 +204,7 @@ void canvas_text(canvas *c, double x, double y, const char *text, const canvas_f
     fputs("</text>\n", c->stream);
 }
 
-/* ---- Images: a PNG whose pixels are not compressed, in base64: one element, whatever it shows ---------------------- */
+/* ---- Images: a PNG whose pixels are not compressed, in base64 ---------------------------------------------------- */
 
 enum { PNG_HEAD = 8 + 25 + 8, PNG_TAIL = 4 + 4 + 12, ROW_HEAD = 5 + 1, ADLER = 65521 };
 
