@@ -226,6 +226,28 @@ TEST(a_binade_end_at_zero) {
     assert_true(w.bound >= 1.0 && w.bound <= 1.0 + 0x1p-9);
 }
 
+/*
+ * Next to -1/4 the bound stays above every depth, down to single ones. The worst is next to -1/2: 2^-24 of format and
+ * of window depth, and 2^-25 of the depths of either surface.
+ */
+TEST(the_worst_in_another_branch) {
+    dp_spec spec = dp_spec_default();
+    dp_setup s;
+    dp_separation_worst w;
+    dp_format found[2];
+    dp_format_parse("fp32", found);
+    spec.format = found[0];
+    spec.znear = -1.0;
+    spec.zfar = 0.0;
+    spec.mapping = DP_MAPPING_GL;
+    spec.ortho = 1;
+    spec.rounding = DP_ROUND_ZERO;
+    spec.model = DP_MODEL_STAGED;
+    assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+    assert_int_equal(dp_separation_over(&s, -1.0, -0x1.f377bbcb335cp-3, 0.0, &w), DP_OK);
+    assert_true(w.separation >= 3.0 * 0x1p-24 && w.bound <= 3.0 * 0x1p-24 * (1.0 + 1e-6));
+}
+
 TEST(known_answers) {
     dp_spec spec = dp_spec_default();
     dp_format found[2];

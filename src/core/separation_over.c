@@ -145,10 +145,27 @@ static void divide(search *s, const part *p) {
     offer(s, middle, p->hi);
 }
 
+/*
+ * The youngest part, as what was found about it says where the worst is; in a long search the one of the largest bound,
+ * of several the widest, so that no branch whose bound stays above its depths is all that is looked at.
+ */
+static part next_part(search *s) {
+    int at = s->count - 1;
+    if (s->evaluations > EVALUATIONS_OF_RUN && s->count < PARTS_MAX / 2)
+        for (int i = 0; i < s->count; i++) {
+            const part *a = &s->parts[at], *b = &s->parts[i];
+            if (b->bound > a->bound || (b->bound == a->bound && b->hi - b->lo > a->hi - a->lo))
+                at = i;
+        }
+    const part p = s->parts[at];
+    s->parts[at] = s->parts[--s->count];
+    return p;
+}
+
 static void refine(search *s) {
     const int most = s->inner != NULL ? EVALUATIONS_OF_RUN : EVALUATIONS_MAX;
     while (s->count > 0) {
-        const part p = s->parts[--s->count];
+        const part p = next_part(s);
         const double enough = s->limit > 0.0 ? s->limit : slack * s->worst->separation;
         const int exceeded = s->limit > 0.0 && s->worst->separation > s->limit;
         if (p.bound <= enough || exceeded || s->evaluations >= most || isinf(s->worst->separation))
