@@ -44,8 +44,7 @@ static double with_eye(const dp_setup *setup, double lo, double hi, double ahead
     const double outward = dp_curve_outward(setup) * (1.0 + 0x1p-50);
     if (setup->spec.model == DP_MODEL_EXACT)
         return ahead * outward;
-    const double size = fabs(lo);
-    return (ahead + dp_eye_rounding(larger(size, hi), larger(size, hi + ahead))) * outward;
+    return dp_apart_with_eye(lo, hi, ahead) * outward;
 }
 
 /*
@@ -291,8 +290,11 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
         worst.bound = larger(worst.bound, worst.separation) * dp_curve_outward(setup);
     } else {
         branch_and_bound(&s, 0.0);
-        if (worst.separation <= limit && worst.bound > limit)
+        if (worst.separation <= limit && worst.bound > limit) {
+            const double known = worst.bound;
             branch_and_bound(&s, limit);
+            worst.bound = smaller(worst.bound, known);
+        }
     }
     *out = worst;
     return DP_OK;
