@@ -264,6 +264,12 @@ TEST(about_zero) {
     const dp_separation_worst w = worst_over("unorm5", DP_MAPPING_D3D, DP_MODEL_FLOAT, ahead, 0.0, 1e-9);
     assert_worst(w, 1.0 / 31.0, 1e-5);
     assert_worst(w, w.separation, 1e-11);
+    static const double small[2] = {0.0, 0x1p-12}; /* flushed to 0, depths are off by 2^-126 each, and so is d */
+    const double flushed[2] = {
+        worst_over("fp32", DP_MAPPING_D3D, DP_MODEL_STAGED, small, 0.0, 0x1p-120).bound,
+        worst_over("fp32", DP_MAPPING_D3D, DP_MODEL_FLOAT, small, 0.0, 0x1p-120).bound,
+    };
+    assert_true(flushed[0] >= 0x1p-125 + 0x1p-150 && flushed[1] >= 0x1p-125 + 2.0 * 0x1p-126 * 0x1p-12);
 }
 
 TEST(known_answers) {

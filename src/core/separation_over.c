@@ -280,8 +280,9 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     search s = {.setup = setup, .guarantee = dp_guarantee_make(setup), .lattice = lattice_of(setup), .worst = &worst};
     note_separation(&s, hi);
     note_separation(&s, lo);
+    const int rises = lo >= 0x1p-126 || (lo >= 0.0 && hi >= 0x1p-102); /* the rounding of eye depths, flushed or not */
     const int exact =
-        !s.guarantee.computed && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && lo >= 0.0));
+        !s.guarantee.computed && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && rises));
     if (isinf(worst.separation)) {
         worst.bound = worst.separation;
     } else if (exact) {
