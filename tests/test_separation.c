@@ -139,7 +139,9 @@ static void limits(planes which, const char *name) {
         if (isinf(w.separation))
             continue;
         const double limit = w.separation * (1.0 + ldexp(rng_unit(&r) - 0.25, -(int)rng_below(&r, 40)));
+        const double bound = w.bound;
         assert_int_equal(dp_separation_over(&s, lo, hi, limit, &w), DP_OK);
+        assert_true(w.bound <= bound);
         const int is_decided = w.bound <= limit * (1.0 + 1e-12) || w.separation > limit;
         undecided += !is_decided;
         TALLY(&decided, is_decided || (which == EITHER_SIGN && w.bound <= (is_hazy(&s, lo, hi) ? 2.01 : 1.5) * limit),
@@ -224,6 +226,50 @@ TEST(a_binade_end_at_zero) {
     assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
     assert_int_equal(dp_separation_over(&s, -0.5, -0x1p-100, 0.0, &w), DP_OK);
     assert_true(w.bound >= 1.0 && w.bound <= 1.0 + 0x1p-9);
+}
+
+/* Over part of what an orthographic camera sees, all of which is given. */
+static dp_separation_worst worst_over(const char *format, dp_mapping mapping, dp_model model, const double camera[2],
+                                      double lo, double hi) {
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    dp_setup s;
+    dp_separation_worst w;
+    dp_format_parse(format, found);
+    spec.format = found[0];
+    spec.znear = camera[0];
+    spec.zfar = camera[1];
+    spec.mapping = mapping;
+    spec.ortho = 1;
+    spec.model = model;
+    assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+    assert_int_equal(dp_separation_over(&s, lo, hi, 0.0, &w), DP_OK);
+    return w;
+}
+
+static void assert_worst(dp_separation_worst w, double at_least, double excess) {
+    assert_true(w.separation >= at_least && w.bound <= at_least * (1.0 + excess));
+}
+
+/*
+ * From -1 to 0 the worst is next to -1/2, where steps grow to 2^-24: with signed NDC two stages have one, and depths
+ * are rounded by 2^-25 twice; the bound next to -1/4 stays above every depth, down to single ones. Without there is one
+ * step, and the surface ahead is nearer to 0 and rounded by 2^-26. Next to 0 a depth is the worst that is as good as 0.
+ */
+TEST(about_zero) {
+    static const double behind[2] = {-1.0, 0.0}, ahead[2] = {0.0, 1.0};
+    assert_worst(worst_over("fp32", DP_MAPPING_GL, DP_MODEL_STAGED, behind, -1.0, -0x1.f377bbcb335cp-3), 12.0 * 0x1p-26,
+                 1e-6);
+    assert_worst(worst_over("fp32", DP_MAPPING_D3D, DP_MODEL_STAGED, behind, -0.8, -0.2), 7.0 * 0x1p-26, 1e-6);
+    const dp_separation_worst w = worst_over("unorm5", DP_MAPPING_D3D, DP_MODEL_FLOAT, ahead, 0.0, 1e-9);
+    assert_worst(w, 1.0 / 31.0, 1e-5);
+    assert_worst(w, w.separation, 1e-11);
+    static const double small[2] = {0.0, 0x1p-12}; /* flushed to 0, depths are off by 2^-126 each, and so is d */
+    const double flushed[2] = {
+        worst_over("fp32", DP_MAPPING_D3D, DP_MODEL_STAGED, small, 0.0, 0x1p-120).bound,
+        worst_over("fp32", DP_MAPPING_D3D, DP_MODEL_FLOAT, small, 0.0, 0x1p-120).bound,
+    };
+    assert_true(flushed[0] >= 0x1p-125 + 0x1p-150 && flushed[1] >= 0x1p-125 + 2.0 * 0x1p-126 * 0x1p-12);
 }
 
 TEST(known_answers) {

@@ -337,10 +337,9 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
 static double apart_over(dp_span run, double longest) {
     const double nearest_to_0 = larger(larger(run.lo, -(run.hi + longest)), 0.0);
     const double step = 2.0 * dp_half_ulp(nearest_to_0);
-    const double whole = longest < 0x1p45 * step ? floor(longest / step) * step : longest;
-    const double nearest_size = fabs(run.lo); /* the larger one of a negative run */
-    const double eye = dp_eye_rounding(larger(nearest_size, run.hi), larger(nearest_size, run.hi + whole));
-    return (eye + whole) * outward;
+    const double steps = longest < 0x1p45 * step ? floor(longest / step) * step : longest;
+    const double whole = smaller(steps, last_within(run.hi, longest) - run.lo);
+    return dp_apart_with_eye(run.lo, run.hi, whole) * outward;
 }
 
 /*

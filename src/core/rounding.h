@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "core/extremes.h"
 #include "core/lattice.h"
 
 /* DP_UNIT just below 1. */
@@ -34,6 +35,24 @@ static inline double dp_depth_rounding(double z) {
 /* Surfaces are real: each is up to half a step of binary32 away from the depth that enters the pipeline. */
 static inline double dp_eye_rounding(double z1, double z2) {
     return isinf(z2) ? 0.0 : dp_depth_rounding(z1) + dp_depth_rounding(z2);
+}
+
+/*
+ * Of surfaces from lo to hi and others at most `apart` behind them: the most that lies between, with what rounding the
+ * eye depths adds. Where the others are nearer to 0, more is added only to those that are not as far behind, as to
+ * those that may be flushed to 0.
+ */
+static inline double dp_apart_with_eye(double lo, double hi, double apart) {
+    const double tiny = 0x1p-126, size = dp_depth_rounding(larger(-lo, hi));
+    const double first = lo < tiny && hi > -tiny ? larger(size, tiny) : size;
+    const double behind = larger(-(lo + apart), hi + apart);
+    const double power = 2.0 * dp_power2(dp_exponent(larger(behind, tiny)));
+    double most = apart + (first + dp_depth_rounding(behind));
+    if (-lo > power)
+        most = larger(most, smaller(apart, -lo - power) + (first + dp_depth_rounding(lo)));
+    if (lo < tiny && hi + apart > -tiny)
+        most = larger(most, smaller(apart, tiny - lo) + (first + tiny));
+    return most;
 }
 
 /* The lowest set bit of a normal binary32 number, as a value: the number is a whole multiple of it. 0 has none. */

@@ -44,8 +44,7 @@ static double with_eye(const dp_setup *setup, double lo, double hi, double ahead
     const double outward = dp_curve_outward(setup) * (1.0 + 0x1p-50);
     if (setup->spec.model == DP_MODEL_EXACT)
         return ahead * outward;
-    const double size = fabs(lo);
-    return (ahead + dp_eye_rounding(larger(size, hi), larger(size, hi + ahead))) * outward;
+    return dp_apart_with_eye(lo, hi, ahead) * outward;
 }
 
 /*
@@ -145,10 +144,27 @@ static void divide(search *s, const part *p) {
     offer(s, middle, p->hi);
 }
 
+/*
+ * The youngest part, as what was found about it says where the worst is; in a long search the one of the largest bound,
+ * of several the widest, so that no branch whose bound stays above its depths is all that is looked at.
+ */
+static part next_part(search *s) {
+    int at = s->count - 1;
+    if (s->evaluations > EVALUATIONS_OF_RUN && s->count < PARTS_MAX / 2)
+        for (int i = 0; i < s->count; i++) {
+            const part *a = &s->parts[at], *b = &s->parts[i];
+            if (b->bound > a->bound || (b->bound == a->bound && b->hi - b->lo > a->hi - a->lo))
+                at = i;
+        }
+    const part p = s->parts[at];
+    s->parts[at] = s->parts[--s->count];
+    return p;
+}
+
 static void refine(search *s) {
     const int most = s->inner != NULL ? EVALUATIONS_OF_RUN : EVALUATIONS_MAX;
     while (s->count > 0) {
-        const part p = s->parts[--s->count];
+        const part p = next_part(s);
         const double enough = s->limit > 0.0 ? s->limit : slack * s->worst->separation;
         const int exceeded = s->limit > 0.0 && s->worst->separation > s->limit;
         if (p.bound <= enough || exceeded || s->evaluations >= most || isinf(s->worst->separation))
@@ -264,8 +280,9 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     search s = {.setup = setup, .guarantee = dp_guarantee_make(setup), .lattice = lattice_of(setup), .worst = &worst};
     note_separation(&s, hi);
     note_separation(&s, lo);
+    const int rises = lo >= 0x1p-126 || (lo >= 0.0 && hi >= 0x1p-102); /* the rounding of eye depths, flushed or not */
     const int exact =
-        !s.guarantee.computed && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && lo >= 0.0));
+        !s.guarantee.computed && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && rises));
     if (isinf(worst.separation)) {
         worst.bound = worst.separation;
     } else if (exact) {
@@ -274,8 +291,11 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
         worst.bound = larger(worst.bound, worst.separation) * dp_curve_outward(setup);
     } else {
         branch_and_bound(&s, 0.0);
-        if (worst.separation <= limit && worst.bound > limit)
+        if (worst.separation <= limit && worst.bound > limit) {
+            const double known = worst.bound;
             branch_and_bound(&s, limit);
+            worst.bound = smaller(worst.bound, known);
+        }
     }
     *out = worst;
     return DP_OK;
