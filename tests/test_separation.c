@@ -73,9 +73,11 @@ static double probe(rng *r, const dp_setup *s, double lo, double hi) {
     return z >= lo && z <= hi ? z : rng_uniform(r, lo, hi);
 }
 
-/* So near 0 that d cannot be told from 1/2, where planes are as far on either side: the step may be twice it. */
+/* So near 0 that d cannot be told from 1/2, where planes are as far on either side, or all so near a plane that d
+ * cannot be told from 0: the step may be twice it. */
 static int is_hazy(const dp_setup *s, double lo, double hi) {
-    return s->spec.znear <= 0.0 && fmin(fabs(lo), fabs(hi)) < 1e-12 * (s->spec.zfar - s->spec.znear);
+    const double n = s->spec.znear, f = s->spec.zfar, little = 1e-12 * (f - n);
+    return n <= 0.0 && (fmin(fabs(lo), fabs(hi)) < little || hi - n < little || f - lo < little);
 }
 
 static void sweep(planes which, dp_model model, const char *name, double excess) {
