@@ -266,7 +266,7 @@ WEB_O := $(call web_objects,$(WEB_SOURCES))
 WEB_DRAW_O := $(call web_objects,$(filter-out %/fight.c %/mesh.c %/vertex_compare.c %/vertex_program.c,$(wildcard src/raster/*.c)))
 SAMPLES_O := $(foreach p,samples frames,$(B)/web/obj/tests/web/$p.o $(B)/obj/tests/web/$p.o)
 # Fast where numbers are made, small elsewhere.
-$(call web_objects,$(patsubst %,src/core/%.c,batch batch_baseline boundary depth elementary expansion pipeline reading separation \
+$(call web_objects,$(patsubst %,src/core/%.c,batch batch_baseline boundary depth elementary expansion pipeline separation \
     separation_over windows) $(patsubst %,src/raster/%.c,clip draw mesa picture pixels raster snapped swiftshader)): WEB_OPTIMIZE := -O2
 $(B)/web/obj/%.o: WEB_OPTIMIZE ?= -Oz
 $(B)/web/obj/%.o: %.c Makefile

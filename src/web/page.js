@@ -683,13 +683,15 @@ function required() {
     return { at, separation, reach, says: `Required: ${says}` };
 }
 
+let crossedNow = []; // what the tables there are of
 function showCrossed(axes) {
     const unit = unitOf(state.setups[0]), z = crossed(axes), slider = $("#cross"), text = unit === "" ? z : `${z} ${unit}`;
     slider.value = stepAt(axes.x, Number(z));
     slider.setAttribute("aria-valuetext", text);
     $("#cross-is").textContent = text;
     const all = state.setups.map((setup) => aside.known(crossLine(setup, axes)));
-    if (all.includes(undefined)) return;
+    if (all.includes(undefined) || (all.length === crossedNow.length && all.every((said, i) => said === crossedNow[i]))) return;
+    crossedNow = all;
     $("#crossed").replaceChildren(...all.flatMap((said, i) => {
         const name = state.setups.length > 1 ? `${"AB"[i]} ` : "";
         if (said.status === REFUSED) return [make("p", {}, `${name}${errorOf(said)}`)];
@@ -773,6 +775,15 @@ function showKnown() {
     while (place.children.length > state.setups.length) place.lastChild.remove();
     for (const panel of document.querySelectorAll("[data-panel]")) panel.classList.toggle("stale", late.has(panel));
     if (state.setups.length > 0) showOver();
+}
+
+// What has been said is shown, while something is dragged once in a frame; what lies over a figure follows it.
+let following = 0;
+function follow() {
+    const axes = axesNow();
+    following = 0;
+    showKnown();
+    if (axesNow() !== axes) want();
 }
 
 // While something is dragged, what took long the last time waits until the hand rests, as does what is not on the screen.
@@ -995,10 +1006,9 @@ async function begin() {
     aside = createAside(engine.module, {
         here: (line, most) => engine.run(line, most),
         onSaid: (line, ms) => {
-            const axes = axesNow();
             cost[costOf(line)] = ms;
-            showKnown();
-            if (axesNow() !== axes) want(); // what lies over the figure follows it
+            if (resting === null) follow();
+            else following ||= requestAnimationFrame(follow);
         },
         onRun: showRun,
     });

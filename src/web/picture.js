@@ -60,12 +60,13 @@ function createView({ canvas, onStatus }, engine) {
 export function createPicture({ views, engine, slider, play, gapIs }) {
     const reduced = matchMedia("(prefers-reduced-motion: reduce)"), all = views.map((view) => createView(view, engine));
     const due = new Set(); // in the order in which they became so
-    let shown = [], place = 0, painted = false, moves = false, seen = true, frame = 0, begun = 0, waiting = 0, slow = false;
+    let shown = [], lines = [], place = 0, painted = false, moves = false, seen = true, frame = 0, begun = 0, waiting = 0, slow = false;
 
     function draw() {
         const [first] = all, gap = first.exports.picture_gap(place), now = [...due].slice(0, slow ? 1 : due.size), start = performance.now();
         for (const view of now) {
             due.delete(view);
+            if (view !== first) view.set([...lines[all.indexOf(view)], "--at", String(first.exports.picture_z())]);
             const as = view.draw(gap, frame, painted, moves);
             if (view !== first || as === undefined) continue;
             gapIs.textContent = as;
@@ -119,11 +120,10 @@ export function createPicture({ views, engine, slider, play, gapIs }) {
     move(false);
 
     return {
-        set([first, ...others]) {
-            all[0].set(first);
-            const at = ["--at", String(all[0].exports.picture_z())];
-            others.forEach((line, i) => all[i + 1].set([...line, ...at]));
-            shown = all.slice(0, 1 + (all[0].draws() ? others.length : 0));
+        set(wanted) { // the others when it is their turn
+            lines = wanted;
+            all[0].set(lines[0]);
+            shown = all.slice(0, all[0].draws() ? lines.length : 1);
             for (const view of all) if (!shown.includes(view)) due.delete(view);
             slide();
         },

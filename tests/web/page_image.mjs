@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Depth images that are chosen or dropped: files are put together here, the native program says what is in them.
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { crc32, deflateSync } from "node:zlib";
-import { close, open, settled } from "./browser.mjs";
+import { axe, close, open, settled } from "./browser.mjs";
 import { native } from "./native.mjs";
 import { demand, test } from "./tap.mjs";
 
@@ -132,6 +132,12 @@ async function read() {
     return `${files.length} files`;
 }
 
+async function axeFindsNothing(page) {
+    await page.evaluate(readFileSync(axe, "utf8"));
+    const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+    demand(violations.length === 0, JSON.stringify(violations.map(({ id, nodes }) => [id, nodes[0].html])));
+}
+
 async function others() {
     const page = await open(), ramp = words(255);
     const coarse = await choose(page, put("bytes.png", png(ramp, { bits: 8 })));
@@ -139,6 +145,7 @@ async function others() {
     const metric = await choose(page, put("metres.npy", npy("<f4", Float32Array.from(field((x, y) => 1 + x + y / 8)))));
     demand(metric.says.includes("metric depth?") && (await at(page, 5, 8)).pixel === "Pixel 5,8 holds 7.", `${metric.says} ${(await shown(page)).pixel}`);
     const holes = await choose(page, put("holes.npy", npy("<f4", Float32Array.from(field((x, y) => (x + y === 20 ? NaN : depthAt(x, y)))))));
+    await axeFindsNothing(page);
     demand(holes.seen && (await at(page, 12, 8)).pixel === "Pixel 12,8 is a hole.", (await shown(page)).pixel);
     const half = await choose(page, put("f2.npy", npy("<f2", Uint16Array.from(field((x, y) => ((y % 14) << 10) | x)))));
     const [x, y] = [30, 9]; // (1024 + 30) 2^(9 - 25)
@@ -177,6 +184,7 @@ async function refused() {
         const now = await choose(page, put(name, bytes));
         demand(now.refused.startsWith(`${name} `) && now.refused.includes(says) && !now.seen, `${name}: ${JSON.stringify(now)}`);
     }
+    await axeFindsNothing(page);
     await close(page);
 }
 
