@@ -19,6 +19,7 @@ void list_test(struct CMUnitTest test) {
 
 int run_listed(CMFixtureFunction before, CMFixtureFunction after) {
     cmocka_set_message_output(CM_OUTPUT_TAP);
+    cmocka_set_test_filter(getenv("DEPTHPREC_TEST"));
     return _cmocka_run_group_tests("tests", tests, test_count, before, after);
 }
 

@@ -14,7 +14,8 @@ export function serve(measure) {
         engine ??= await load(module);
         engine.measure = measure;
         engine.gpu = gpu;
-        postMessage(file ? await recogniseFile(engine, file) : engine.run(line, most, true));
+        const said = file ? await recogniseFile(engine, file) : engine.run(line, most, true);
+        postMessage(said, said.values ? [said.values.buffer] : []);
     };
 }
 

@@ -87,16 +87,23 @@ function valuesOf({ type, samples, channels }, { top }) {
         bits ? bits[i * channels] : half ? numberOfHalf(samples[i * channels]) : samples[i * channels] / top);
 }
 
+// The least and the greatest value that is no cleared background.
+function spread(values, { depth }) {
+    let [lo, hi] = [Infinity, 0];
+    for (const v of values) if (v > 0 && !(depth && v >= 1)) [lo, hi] = [Math.min(lo, v), Math.max(hi, v)];
+    return { lo, hi };
+}
+
 // What is recognised in a file: { status, err } of one that is refused, else { width, height, depth, format, reversed, exact, why,
-// values }, the values by rows from the top.
+// values, lo, hi }, the values by rows from the top.
 export async function recogniseFile(engine, file) {
     try {
         if (file.size > BYTES_MAX) throw new Error(`has ${file.size} bytes, the page reads at most ${BYTES_MAX}`);
         const bytes = new Uint8Array(await file.arrayBuffer()), magic = String.fromCharCode(...bytes.subarray(0, 6));
         const read = magic.startsWith("\x89PNG") && bytes.length > 32 ? png : magic === "\x93NUMPY" && bytes.length > 12 ? npy : null;
         if (read === null) throw new Error("is neither PNG nor npy: the program reads other kinds, too");
-        const image = await read(bytes), found = engine.recognise(image);
-        return { status: 0, width: image.width, height: image.height, values: valuesOf(image, found), ...found };
+        const image = await read(bytes), found = engine.recognise(image), values = valuesOf(image, found);
+        return { status: 0, width: image.width, height: image.height, values, ...spread(values, found), ...found };
     } catch (error) {
         return { status: 2, err: error.message };
     }

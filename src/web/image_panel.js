@@ -7,12 +7,11 @@ import { sheet } from "./sheet.js";
 // is no room; otherWay, mappings that are turned round.
 export function createImagePanel({ $, aside, setup, line, take, narrow, otherWay }) {
     const canvas = $("#image canvas"), context = canvas.getContext("2d");
-    let image = null, at = [0, 0], asked = 0, files = 0;
+    let image = null, at = [0, 0], asked = [], files = 0;
 
-    // From the least to the greatest value that is no cleared background; what has none is left out.
+    // Holes are left out.
     function paint() {
-        const { width, height, values, depth } = image, few = values.filter((v) => v > 0 && !(depth && v >= 1));
-        const [lo, hi] = few.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, 0]);
+        const { width, height, values, lo, hi } = image;
         canvas.width = Math.min(width, 640);
         canvas.height = Math.max(1, Math.round((canvas.width * height) / width));
         const pixels = new ImageData(canvas.width, canvas.height);
@@ -26,11 +25,13 @@ export function createImagePanel({ $, aside, setup, line, take, narrow, otherWay
     }
 
     async function showPixel() {
-        const mine = ++asked, [x, y] = at, v = image.values[y * image.width + x], name = `Pixel ${x},${y}`;
-        const tell = (text, ...more) => mine === asked && ($("#pixel").replaceChildren(text, ...more));
+        const [x, y] = at, v = image.values[y * image.width + x], name = `Pixel ${x},${y}`, mine = line(String(v));
+        const tell = (text, ...more) => mine === asked && $("#pixel").replaceChildren(text, ...more);
+        aside.leave(asked);
+        asked = mine;
         if (Number.isNaN(v)) return tell(`${name} is a hole.`);
         if (!image.depth) return tell(`${name} holds ${v}.`);
-        const said = await aside.ask(line(String(v)));
+        const said = await aside.ask(mine);
         if (said.status !== 0) return tell(`${name} holds ${v}. ${said.err.trim().replace(/^depthprec: /, "")}`);
         const coarse = image.exact ? "" : " Its samples are not the buffer’s codes, and so may be off by more than the cell says: texture --pixel of the program counts that.";
         tell(`${name}, by set-up A:${coarse}`, ...sheet(said.out, narrow()).filter(({ tagName }) => tagName === "TABLE"));
@@ -43,7 +44,8 @@ export function createImagePanel({ $, aside, setup, line, take, narrow, otherWay
     }
 
     async function open(file) {
-        const mine = ++files, said = await aside.ask(["image", String(mine), file.name], Infinity, file);
+        const mine = ++files, key = ["image", String(mine)], said = await aside.ask(key, Infinity, file);
+        aside.forget(key);
         if (mine !== files) return;
         $("#unread").textContent = said.status === 0 ? "" : `${file.name} ${said.err.trim()}`;
         for (const id of ["#recognised", "#pixel", "#image canvas"]) $(id).hidden = said.status !== 0;
@@ -67,11 +69,11 @@ export function createImagePanel({ $, aside, setup, line, take, narrow, otherWay
         move(at[0] + x, at[1] + y);
     });
     $("#file").addEventListener("change", () => $("#file").files[0] && open($("#file").files[0]));
-    addEventListener("dragover", (event) => event.preventDefault());
-    addEventListener("drop", (event) => {
-        event.preventDefault();
-        const [file] = event.dataTransfer.files;
-        if (file) open(file);
-    });
+    for (const when of ["dragover", "drop"])
+        addEventListener(when, (event) => {
+            if (!event.dataTransfer.types.includes("Files")) return;
+            event.preventDefault();
+            if (when === "drop") open(event.dataTransfer.files[0]);
+        });
     return { follow: () => image !== null && showPixel() };
 }
