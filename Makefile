@@ -248,7 +248,7 @@ WEB_NOT := report/output_file report/terminal requirement/camera requirement/rea
     plot/canvas plot/fight plot/linear01 plot/scene plot/shadow plot/world plot/normals plot/pareto plot/stability plot/needs plot/pixels \
     cli/cmd_methods cli/mine cli/cmd_check cli/check_report cli/cmd_code cli/cmd_world \
     cli/constants cli/link cli/completions cli/stop cli/junit cli/option/profile cli/option/program \
-    api/profile_file web/plain probe/opengl probe/vulkan probe/compile probe/probe judge/read_pairs judge/listing judge/written cli/judge/shader
+    api/profile_file web/plain probe/opengl probe/vulkan probe/vulkan_compute probe/compile probe/probe judge/read_pairs judge/listing judge/written cli/judge/shader
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
@@ -308,7 +308,7 @@ npm:
 	@sh src/packages.sh npm
 	@$(MAKE) $(PARALLEL) $(B)/dist/depthprec-$(VERSION).tgz
 
-NPM_NOT := $(patsubst %,src/%.c,plot/canvas plot/pixels image/png cli/cmd_methods cli/stop frame/strips probe/opengl probe/vulkan probe/compile \
+NPM_NOT := $(patsubst %,src/%.c,plot/canvas plot/pixels image/png cli/cmd_methods cli/stop frame/strips probe/opengl probe/vulkan probe/vulkan_compute probe/compile \
     report/output_file report/terminal system/dynload system/sandbox)
 NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still) \
     src/npm/config.c src/npm/standin.c)

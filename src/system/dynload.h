@@ -19,13 +19,16 @@ typedef void dynload_function(void);
 /** From a list of at most 64 functions, LIST(X) with X(name) for each: `functions`, to call them by name, and
  * `symbols`, their names in the same order. */
 #define DYNLOAD_FUNCTIONS(LIST)                                                                                        \
+    DYNLOAD_CALLS(LIST)                                                                                                \
+    static const char *const symbols[] = {LIST(DYNLOAD_NAME) NULL};
+/** The first of both alone, for a header. */
+#define DYNLOAD_CALLS(LIST)                                                                                            \
     typedef union functions {                                                                                          \
         struct {                                                                                                       \
             LIST(DYNLOAD_MEMBER)                                                                                       \
         };                                                                                                             \
         dynload_function *all[64];                                                                                     \
-    } functions;                                                                                                       \
-    static const char *const symbols[] = {LIST(DYNLOAD_NAME) NULL};
+    } functions;
 #define DYNLOAD_MEMBER(name) __typeof__(name) *name;
 #define DYNLOAD_NAME(name)   #name,
 
