@@ -552,7 +552,7 @@ help:
 ## make demo        install what is missing, build, print the table of one camera and draw its figures
 ## make             build the library and the program into build/
 ## make check       install what is missing, build, run the tests: at most 5 minutes on two cores
-## make check-full  8 times the cases (DEPTHPREC_FULL=1000 in front of one test: all), and check-web, check-probe, cross,
+## make check-full  4 times the cases (DEPTHPREC_FULL=1000 in front of one test: all), and check-web, check-probe, cross,
 ##                  cross-windows and check-dist: hours, before a release (Debian)
 ## make check-baseline  the tests that know it, without AVX
 ## make check-probe  a Vulkan driver without a GPU, and what the probe finds there (Debian): a part, see check-full

@@ -50,7 +50,7 @@ double rng_depth(rng *r, double znear, double zfar);
 
 typedef enum effort { EFFORT_QUICK = 0, EFFORT_CHECK, EFFORT_FULL } effort;
 effort test_effort(void);
-/** One of three numbers of cases, by effort. `full` is at most 8 times `check`, so that a whole run ends; or
+/** One of three numbers of cases, by effort. `full` is at most 4 times `check`, so that a whole run ends; or
  * DEPTHPREC_FULL times it where that is more than 1. */
 uint64_t test_cases(uint64_t quick, uint64_t check, uint64_t full);
 
