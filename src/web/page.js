@@ -412,16 +412,16 @@ function showSliders(index) {
     }
 }
 
-// The depths of A's camera, of which a slider has an end.
-function depthAxis() {
-    const [lo, far] = ["near", "far"].map((name) => numberOf(fields[0][name].value || STARTS[name], state.setups[0].get("unit")));
-    return { log: lo > 0, lo, hi: Number.isFinite(far) ? far : Math.max(lo, 1e-3) * 1e6 };
+// How far the things of the picture can be, which reach from 0.54 to 1.61 of that, to lie between A's planes.
+function distances() {
+    const [near, far] = ["near", "far"].map((name) => numberOf(fields[0][name].value || STARTS[name], state.setups[0].get("unit")));
+    const hi = (0.999 * (Number.isFinite(far) ? far : Math.max(near, 1e-3) * 1e6)) / 1.61;
+    return { log: true, lo: (1.001 * near) / 0.54, hi };
 }
 
 function showDistance() {
     const slider = $("#distance"), unit = unitOf(state.setups[0]), z = Number(picture.z().toPrecision(3)), text = unit === "" ? z : `${z} ${unit}`;
-    slider.value = stepAt(depthAxis(), z);
-    slider.disabled = z === 0;
+    slider.value = stepAt(distances(), z || Number(distance));
     slider.setAttribute("aria-valuetext", text);
     $("#distance-is").textContent = z === 0 ? "" : text;
 }
@@ -900,7 +900,7 @@ function listen() {
     $("#share").addEventListener("click", () => navigator.share({ title: document.title, url: address() }).catch(() => {}));
     $("#gap").addEventListener("change", later);
     $("#distance").addEventListener("input", () => {
-        distance = numberOfStep(depthAxis(), Number($("#distance").value));
+        distance = numberOfStep(distances(), Number($("#distance").value));
         later();
     });
     copies("#copy-profile", profileText);
@@ -956,7 +956,8 @@ function listen() {
 function pictured() {
     const [a, b] = state.setups, best = new Map([...a, ["format", "fp32"], ["mapping", "reversed"]]);
     const here = (setup) => commandOf("table", new Map([...setup].filter(([name]) => name !== "at")));
-    const first = distance === "" ? commandOf("table", a) : [...here(a), "--at", distance], second = here(b ?? best);
+    const { lo, hi } = distances(), at = String(Math.max(lo, Math.min(hi, Number(distance))));
+    const first = distance === "" ? commandOf("table", a) : [...here(a), "--at", at], second = here(b ?? best);
     return join(here(a)) === join(second) ? [first] : [first, second];
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each control does what it says: it is set as a person sets it, and what is shown, beside it, above the panels and of
 // which set-up, is what the program prints for a command that is written here by hand.
-import { close, open, settled } from "./browser.mjs";
+import { close, go, open, settled } from "./browser.mjs";
 import { native } from "./native.mjs";
 import { demand, test } from "./tap.mjs";
 
@@ -172,10 +172,12 @@ async function distances() {
     };
     await expect("at first", "10 m");
     await updated(page, () => slider.evaluate((one) => ((one.value = 750), one.dispatchEvent(new Event("input")))));
-    await expect("0.1 (1000/0.1)^(3/4)", "100 m");
-    demand(hashOf(page).endsWith(" ; page distance=100"), hashOf(page));
+    const [lo, hi] = [0.1 / 0.54, 1000 / 1.61], wanted = Number((lo * (hi / lo) ** 0.75).toPrecision(3));
+    await expect("three quarters", `${wanted} m`);
+    demand(hashOf(page).endsWith(` ; page distance=${wanted}`), hashOf(page));
     const other = await open({ fragment: new URL(page.url()).hash.slice(1) });
-    await other.waitForFunction(() => document.querySelector("#distance-is").textContent === "100 m");
+    await other.waitForFunction(() => document.querySelector("#distance-is").textContent !== "10 m");
+    await other.waitForFunction((text) => document.querySelector("#distance-is").textContent === text, `${wanted} m`);
     await close(other);
     await updated(page, () => page.goBack());
     await expect("back", "10 m");
@@ -186,7 +188,16 @@ async function distances() {
     demand(!hashOf(page).includes("distance="), hashOf(page));
     await put(page, "#near-A", "1");
     const at = await slider.evaluate((one) => Number(one.value));
-    demand(Math.abs(at - (1000 * Math.log10(30)) / 3) < 1, `30 from 1 to 1000 is at ${at}`);
+    demand(Math.abs(at - (1000 * Math.log(30 * 0.54)) / Math.log(hi / (1 / 0.54))) < 1, `30 from 1/0.54 to ${hi} is at ${at}`);
+    // Both ends draw, and so does a distance beyond them, of a link or of planes that have changed.
+    for (const end of [0, 1000]) {
+        await updated(page, () => slider.evaluate((one, value) => ((one.value = value), one.dispatchEvent(new Event("input"))), end));
+        await expect(`at ${end}`, end === 0 ? "1.85 m" : "620 m");
+    }
+    await put(page, "#far-A", "50");
+    await expect("far comes nearer", "31 m");
+    await go(page, encodeURIComponent("table -n 0.1 -f inf -F d24 -m d3d --unit m ; page distance=1e+300"));
+    demand(/^[\d.e+]+ m$/.test((await said())[1]), `beyond all: ${await said()}`);
     await close(page);
 }
 
