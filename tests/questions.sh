@@ -21,6 +21,8 @@ cameras = { game = { near = 0.1; far = 1000; mapping = "d3d"; format = "d24"; };
 requirements = { walls = { camera = "game"; at = "50 m"; separation = "1 mm"; }; };
 END
 
+: >"$scratch/answered"
+
 # The commands of the page, those that go on in the next line put together.
 sed -e 's/\\(aq/'"'"'/g' -e ':more' -e '/\\e$/{' -e 'N' -e 's/ *\\e\n */ /' -e 'b more' -e '}' \
     man/depthprec-questions.7 >"$scratch/commands"
