@@ -161,10 +161,28 @@ static part next_part(search *s) {
     return p;
 }
 
+/*
+ * Now and then in a long search: whether even neighbours well inside the part have its bound, as where rounding hides
+ * how depths differ. Then only depths one by one would tell more, and there are too many.
+ */
+static int is_hopeless(const search *s, const part *p) {
+    enum { SELDOM = 64, FEW = 4096 };
+    const double middle = middle_of(p->lo, p->hi), inside[] = {middle, middle_of(p->lo, middle)};
+    if (s->evaluations <= EVALUATIONS_OF_RUN || s->evaluations % SELDOM >= 2 || dp_is_computed(s->setup) ||
+        p->hi - p->lo < FEW * 0x1p-52 * larger(fabs(p->lo), fabs(p->hi)))
+        return 0;
+    for (int i = 0; i < 2; i++)
+        if (bound_of(s, inside[i], nextafter(inside[i], HUGE_VAL)) * (1.0 + 0x1p-12) < p->bound)
+            return 0;
+    return 1;
+}
+
 static void refine(search *s) {
     const int most = s->inner != NULL ? EVALUATIONS_OF_RUN : EVALUATIONS_MAX;
     while (s->count > 0) {
         const part p = next_part(s);
+        if (is_hopeless(s, &p))
+            s->evaluations = most;
         const double enough = s->limit > 0.0 ? s->limit : slack * s->worst->separation;
         const int exceeded = s->limit > 0.0 && s->worst->separation > s->limit;
         if (p.bound <= enough || exceeded || s->evaluations >= most || isinf(s->worst->separation))

@@ -151,7 +151,8 @@ dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, do
 
 /* ---- Beyond ------------------------------------------------------------------------------------------------------ */
 
-enum { OCTAVES = 16, EACH = 64, NEXT_TO = 24, TRIED = 2 * OCTAVES * EACH };
+/* So many depths in a row that pass by themselves are a region whose depths cannot be told apart. */
+enum { OCTAVES = 16, EACH = 64, NEXT_TO = 24, TRIED = 2 * OCTAVES * EACH, POINTS_MOST = 16 };
 static const double SHORTEST = 0x1p-24;
 
 typedef struct trials {
@@ -189,11 +190,11 @@ static void choose_depths(trials *t) {
 size_t distance_again(const dp_setup *setup, double after, double hi, double limit, distance_span *out, size_t room) {
     trials t = {.setup = setup, .after = after, .end = fmin(hi, farthest)};
     double fails = after;
-    size_t count = 0;
+    size_t count = 0, points = 0;
     if (!(after > 0.0)) /* an orthographic range about the camera: a step is a step */
         return 0;
     choose_depths(&t);
-    for (size_t i = 0; i < t.count && count < room; i++) {
+    for (size_t i = 0; i < t.count && count < room && points < POINTS_MOST; i++) {
         if (count > 0 && t.z[i] <= out[count - 1].hi)
             continue;
         if (!judge(MEASURE_SEPARATION, setup, t.z[i], t.z[i], limit).passed) {
@@ -208,7 +209,9 @@ size_t distance_again(const dp_setup *setup, double after, double hi, double lim
         if (distance_solve(MEASURE_SEPARATION, setup, r.fails, t.end, limit, &answer) != DP_OK || !answer.possible)
             continue;
         fails = answer.value;
-        if (answer.value > r.fails * (1.0 + SHORTEST)) /* else a depth that passes by how it was rounded */
+        const bool is_point = answer.value <= r.fails * (1.0 + SHORTEST); /* which passes by how it was rounded */
+        points = is_point ? points + 1 : 0;
+        if (!is_point)
             out[count++] = (distance_span){r.fails, answer.value};
     }
     return count;
