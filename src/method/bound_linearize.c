@@ -3,6 +3,7 @@
  * The methods of linearize as their operations: see linearize.c, where they run. Of d, n and f; in exact arithmetic z
  * is the eye depth, i its reciprocal, and s the share of the way from the far plane.
  */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -76,7 +77,7 @@ static term constant_of(const steps *s, int index, const steps_given *given, boo
     const double value = steps_value(s, index, given);
     const double a = of->of[0] < 0 ? 0 : steps_value(s, of->of[0], given);
     const double b = of->of[1] < 0 ? 0 : steps_value(s, of->of[1], given);
-    if (of->kind == STEPS_NUMBER || (wide && of->kind == STEPS_NAME))
+    if (of->kind == STEPS_NUMBER || (of->kind == STEPS_NAME && (wide || (double)(float)value == value)))
         return term_exact(value);
     if (wide && of->kind == STEPS_PRODUCT)
         return term_apart(value, fma(a, b, -value));
@@ -175,6 +176,15 @@ static term called(const bound_walk *w, const steps_node *of, const range *exact
     return rounded(w, &t, w->how->rounding);
 }
 
+/* By a power of two a binary32 number becomes another one, within the normal ones. */
+static bool scales(const term *a, const term *product) {
+    int exponent;
+    const range is = range_sum(product->exact, product->off);
+    const bool power =
+        a->exact.lo == a->exact.hi && a->off.lo == 0 && a->off.hi == 0 && frexp(a->exact.lo, &exponent) == 0.5;
+    return power && (is.lo >= (double)FLT_MIN || is.hi <= -(double)FLT_MIN) && fmax(is.hi, -is.lo) <= (double)FLT_MAX;
+}
+
 static term computed(const bound_walk *w, int index, const range *exact) {
     const steps_node *of = &w->steps.node[index];
     if (of->kind == STEPS_NUMBER)
@@ -193,6 +203,8 @@ static term computed(const bound_walk *w, int index, const range *exact) {
     t = sum                         ? term_sum(&a, &b, *exact)
         : of->kind == STEPS_PRODUCT ? term_product(&a, &b)
                                     : term_quotient(&a, &b, *exact);
+    if (of->kind == STEPS_PRODUCT && (scales(&a, &t) || scales(&b, &t)))
+        return t;
     return rounded(w, &t, of->kind == STEPS_QUOTIENT ? w->how->division : w->how->rounding);
 }
 
