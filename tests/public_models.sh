@@ -30,11 +30,11 @@ nothing_in_one_plane() {
 hardly_anything() {
     searched >"$scratch/found"
     awk '$1 > 1 || $2 > 1e-6 { print } { all++; some += $1 > 0 }
-        END { if (all != 82 || some > 7) print some, "of", all, "models have findings" }' "$scratch/found" | empty cat
+        END { if (all != 82 || some > 8) print some, "of", all, "models have findings" }' "$scratch/found" | empty cat
 }
 
 none="82 models of controllers have nothing in one plane"
-some="where as much is asked as is not told apart, at most 7 have a finding, none above a square millimetre"
+some="where as much is asked as is not told apart, at most 8 have a finding, none above a square millimetre"
 if [ -z "${DEPTHPREC_FULL:-}" ]; then
     skip "$none" "make check-full fetches them"
 elif ! fetched; then
