@@ -6,7 +6,7 @@
 
 folder=$B/gappa
 mkdir -p "$folder"
-cameras=0.1:1000
+cameras='0.1:1000 0.25:64'
 [ -z "${DEPTHPREC_FULL-}" ] || cameras='0.1:1000 3:500 0.25:64 0.01:20000 1:65536 0.05:150'
 
 # The octaves of d and those of 1 - d.

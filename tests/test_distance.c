@@ -270,6 +270,34 @@ TEST(test_again) {
     assert_true(outside.cases > 0 && outside.skipped * 5000 <= outside.cases);
 }
 
+/* Of depths so near 0 that rounding hides how they differ none is certain: little is asked of them. Else it takes
+ * hours. */
+TEST(test_next_to_zero) {
+    distance_span span[8];
+    distance_answer a;
+    dp_separation_worst worst;
+    dp_setup setup;
+    dp_format format[2];
+    dp_spec spec = dp_spec_default();
+    spec.znear = 0.0;
+    spec.zfar = 0x1.53b510c69f821p+1;
+    spec.ortho = 1;
+    spec.mapping = DP_MAPPING_REVERSED;
+    spec.rounding = DP_ROUND_ZERO;
+    spec.model = DP_MODEL_STAGED;
+    assert_int_equal(dp_format_parse("fp32", format), 1);
+    spec.format = format[0];
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const double limit = 0x1.86aa77b50d68fp-22, lo = 0x1.ab87b087e0227p-339;
+    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, lo, spec.zfar, limit, &a), DP_OK);
+    assert_false(a.possible);
+    const size_t count = distance_again(&setup, lo, spec.zfar, limit, span, 8);
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(dp_separation_over(&setup, span[i].lo, span[i].hi, limit, &worst), DP_OK);
+        assert_true(worst.bound <= limit);
+    }
+}
+
 TEST(test_door) {
     distance_answer a;
     dp_setup setup;
