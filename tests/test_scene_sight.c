@@ -412,7 +412,7 @@ TEST(drawn) {
         finder_free(&found);
     }
     tally_end(&t);
-    assert_true(wrong > 100);
+    assert_true(wrong > test_cases(100, 1000, 1000));
 }
 
 /* ---- Of several eyes, and eyes by hand --------------------------------------------------------------------------- */

@@ -182,7 +182,7 @@ static void refine(search *s) {
     while (s->count > 0) {
         const part p = next_part(s);
         if (is_hopeless(s, &p))
-            s->evaluations = most;
+            s->evaluations = most; /* the bounds stay as they are */
         const double enough = s->limit > 0.0 ? s->limit : slack * s->worst->separation;
         const int exceeded = s->limit > 0.0 && s->worst->separation > s->limit;
         if (p.bound <= enough || exceeded || s->evaluations >= most || isinf(s->worst->separation))
@@ -304,7 +304,7 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     if (isinf(worst.separation)) {
         worst.bound = worst.separation;
     } else if (exact) {
-        if (setup->reversed && setup->spec.format.kind == DP_FORMAT_FLOAT)
+        if (lo < hi && setup->reversed && setup->spec.format.kind == DP_FORMAT_FLOAT)
             over_binades(&s);
         worst.bound = larger(worst.bound, worst.separation) * dp_curve_outward(setup);
     } else {

@@ -42,7 +42,7 @@ typedef struct distance_span {
  * Where a separation holds again beyond the depth `after`, up to which distance_solve() found it to: each span is
  * certified as that is, longer than 2^-24 of its depth, and begins where a bisection ends. Only those are found of
  * which a depth is tried: 64 an octave over 16 octaves, and as many just behind the ends of the binades of window
- * depth, where a float gets finer.
+ * depth, where a float gets finer. Given up where 16 in a row end where they begin: rounding hides how depths differ.
  *
  * @return how many there are in `out`, ascending
  */
