@@ -98,7 +98,7 @@ static const written functions[] = {
     {"window depth", "window depth", false, false, unchanged},
     {"1 minus window depth", "window depth", false, false, inverted},
 };
-enum { FUNCTIONS = sizeof functions / sizeof functions[0], ENDLESS = 12, NO_PLANES = 17 };
+enum { FUNCTIONS = sizeof functions / sizeof functions[0], ENDLESS = 12, VIEW = 15, NO_PLANES = 17 };
 
 static judge_pair pair_room[PAIRS];
 
@@ -177,6 +177,24 @@ TEST(test_right) {
     tally_end(&own);
     tally_end(&other);
     tally_end(&found);
+}
+
+/* Far is 10^4 times near and went in: a line that fits may have it a little nearer. */
+TEST(test_far_plane_asked) {
+    tally t = {.name = "far plane asked"};
+    rng r = rng_make("far plane");
+    for (int i = 0; i < 50; i++) {
+        const double n = (double)(float)rng_log(&r, 0.01, 10), f = (double)(float)(n * rng_log(&r, 1e4, 1e5));
+        judge_pairs p = asked(&r, &functions[VIEW], n, f);
+        const dp_setup setup = camera(3 * n, 7 * n * 40, DP_MAPPING_D3D);
+        judgement j;
+        p.pairs[0] = (judge_pair){-f, (double)stored_view((float)-f, (float)n, (float)f)};
+        judge_function(&p, &setup, 1, true, &j);
+        TALLY(&t, j.named && fabs(j.found.setup.spec.znear / n - 1) < 1e-4 && j.found.setup.spec.zfar >= f * (1 - 1e-6),
+              "near %g, far %g: %g %g", n, f, j.named ? j.found.setup.spec.znear : 0,
+              j.named ? j.found.setup.spec.zfar : 0);
+    }
+    tally_end(&t);
 }
 
 /* The other direction is another set-up, a factor is one, and both are named. */

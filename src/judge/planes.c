@@ -65,6 +65,16 @@ static void line_of(const points *p, double *c0, double *c1) {
     *c0 = y - u * *c1;
 }
 
+/* No depth that went in lies outside the planes. Where far is 10^4 times near, the far plane of a line that fits may be a
+ * little nearer than the last depth; one beyond infinity, which is negative here, stays there. */
+static void take_in(const judge_pairs *p, const judge_input *input, double *znear, double *zfar) {
+    for (size_t i = 0; i < p->count; i++) {
+        const double z = input->metric * p->pairs[i].in;
+        *znear = fmin(*znear, z);
+        *zfar = *zfar > 0 ? fmax(*zfar, z) : *zfar;
+    }
+}
+
 bool judge_planes_of(const judge_pairs *pairs, const dp_setup *setup, const judge_input *input,
                      const judge_output *output, bool alike, double *znear, double *zfar) {
     static _Thread_local points p;
@@ -90,6 +100,7 @@ bool judge_planes_of(const judge_pairs *pairs, const dp_setup *setup, const judg
     } else {
         *znear = ortho ? -c0 / c1 : -c1 / c0;
         *zfar = ortho ? (1 - c0) / c1 : *znear / (1 - 1 / c0);
+        take_in(pairs, input, znear, zfar);
     }
     return true;
 }
