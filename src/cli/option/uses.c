@@ -97,7 +97,8 @@ const option_use table_uses[] = {
     GROUP(written), END};
 
 const option_use budget_uses[] = {
-    OWN(MAPPING, HELP(PERSPECTIVE ", " DP_MAPPING_NAMES_LOG "; all are d3d and reversed"), DEFAULT("all")),
+    OWN(FORMAT, DEFAULT("fp32")),
+    OWN(MAPPING, HELP(PERSPECTIVE ", " DP_MAPPING_NAMES_LOG "; all are d3d and reversed"), DEFAULT("reversed")),
     OWN(TOLERANCE, HELP("a model suffices if it neglects no more of the separation, 0.05 or 5%"), DEFAULT("5%")),
     TAKE(AT), TAKE(LOG_C),
     OWN(SCHEME, HELP("with --from-origin: the world-to-view scheme, see 'depthprec list schemes'"),
@@ -129,7 +130,7 @@ const option_use zfight_uses[] = {
     OWN(SLANT, .argument = "LO:HI|SLANT,AZIMUTH", .parse = parse_slant_or_plane, DEFAULT("0:90"),
         HELP("angles between surface normal and view axis, degrees; 0 faces the camera, 90 is edge-on; with "
         "--rasterize also one angle and the direction of the normal on the screen, 0 right and 90 up")),
-    OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("all")),
+    OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("reversed")),
     OWN(RANGE, HELP("the depths tested"), WITHOUT("near to far; needed where far is inf")),
     OWN(SEPARATION, HELP("find where surfaces S scene units apart tie or swap"),
         WITHOUT("neighbouring binary32 depths")),
@@ -141,7 +142,7 @@ const option_use zfight_uses[] = {
     GROUP(slanted), GROUP(projected), GROUP(written), END};
 
 const option_use prepass_uses[] = {
-    OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("all")),
+    OWN(FORMAT, DEFAULT("fp32")), OWN(MAPPING, HELP(ALL_PERSPECTIVE), DEFAULT("reversed")),
     OWN(ARITH, ALSO("by default that of --platform where known")),
     OWN(RANGE, HELP("the eye depths of the vertices"), WITHOUT("near to far; needed where far is inf")),
     OWN(FROM_ORIGIN, HELP("no coordinate of a camera exceeds R"), DEFAULT("100")),
@@ -151,7 +152,7 @@ const option_use prepass_uses[] = {
     GROUP(projected), GROUP(written), END};
 
 const option_use bias_uses[] = {
-    OWN(FORMAT, DEFAULT("fp32,unorm16,unorm24"), WITHOUT("those of depth buffers")),
+    OWN(FORMAT, DEFAULT("fp32")),
     OWN(PRESET, ALSO("for a bias also the API of its users; " OF_VIEW)),
     OWN(PLATFORM, ALSO("for a bias also its API; with --viewport also its rasterizer")),
     OWN(SEPARATION, HELP("how much nearer the bias must bring a layer, in scene units"),
