@@ -132,7 +132,7 @@ static void random_options(rng *r, double size, bool eye, char out[512]) {
 TEST(lifts) {
     rng r = rng_make("mended models");
     tally t = {.name = "enough"}, said_some = {.name = "said"};
-    for (uint64_t run = 0; run < test_cases(60, 200, 4000); run++) {
+    for (uint64_t run = 0; run < test_cases(30, 80, 4000); run++) {
         const bool eye = run % 4 != 0;
         const double size = rng_log(&r, 0.3, 10), gap = rng_below(&r, 5) == 0 ? 0 : size * rng_log(&r, 1e-6, 1e-3);
         char options[512];
@@ -232,7 +232,7 @@ TEST(class_of_a_sliver) {
 TEST(requirements) {
     rng r = rng_make("requirements of models");
     tally t = {.name = "fails"};
-    for (uint64_t run = 0; run < test_cases(100, 400, 10000); run++) {
+    for (uint64_t run = 0; run < test_cases(50, 150, 10000); run++) {
         const double size = rng_log(&r, 0.3, 10), gap = size * rng_log(&r, 1e-4, 1e-1);
         char options[512], line[1280];
         const char *path = scratch_file("asked.obj");

@@ -195,7 +195,7 @@ static int one(tally *t, rng *r, const kind *k) {
 }
 
 TEST(lattices_are_found_or_assumed) {
-    const uint64_t rounds = test_cases(1, 20, 850);
+    const uint64_t rounds = test_cases(1, 8, 850);
     tally t = {.name = "lattices"};
     rng r = rng_make("sensor");
     for (size_t k = 0; k < KINDS; k++) {
@@ -474,7 +474,7 @@ TEST(a_part_of_a_step_is_not_found) {
 /* Averages of neighbours lie on half of the step, too: where levels are nearly as many as pixels, half of the step
  * explains more values, and its odd levels are so few that it would be taken for two lattices. */
 TEST(averages_are_not_levels) {
-    const uint64_t rounds = test_cases(4, 40, 1000);
+    const uint64_t rounds = test_cases(4, 12, 1000);
     static double z[N];
     tally t = {.name = "averages"};
     rng r = rng_make("averages");

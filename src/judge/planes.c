@@ -65,8 +65,8 @@ static void line_of(const points *p, double *c0, double *c1) {
     *c0 = y - u * *c1;
 }
 
-/* No depth that went in lies outside the planes. Where far is 10^4 times near, the far plane of a line that fits may be a
- * little nearer than the last depth; one beyond infinity, which is negative here, stays there. */
+/* No depth that went in lies outside the planes. Where far is 10^4 times near, the far plane of a line that fits may be
+ * a little nearer than the last depth; one beyond infinity, which is negative here, stays there. */
 static void take_in(const judge_pairs *p, const judge_input *input, double *znear, double *zfar) {
     for (size_t i = 0; i < p->count; i++) {
         const double z = input->metric * p->pairs[i].in;
