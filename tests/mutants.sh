@@ -147,7 +147,7 @@ judge() { # judge TREE TEST...: prints what came of it
                 { echo "error: the tests do not compile" && return; }
             tests=$(cd "$tree" && ls tests/test_*.c tests/*.sh |
                 sed -n 's|^tests/\(test_.*\)\.c$|build/tests/\1|p; /\.sh$/p')
-            tests=$(echo "$tests" | grep -vxE "tests/(run|tap|coverage|cross|linked|page|bench|mutants)\.sh|$(echo "$near" | tr '\n' '|')-")
+            tests=$(echo "$tests" | grep -vxE "tests/(run|tap|coverage|cross|linked|page|bench|windows|dist|mutants)\.sh|$(echo "$near" | tr '\n' '|')-")
             how=', which is not named'
         fi
         quick=$((round % 2)) && quick=${quick#0}
