@@ -484,6 +484,11 @@ static void perturb_place(tally *t, rng *r, size_t p, double *most) {
     dp_setup s;
     assert_int_equal(method_setup(&linearize_family, 0, n, f, false, &s), DP_OK);
     const double bound = code_place_bound(language(promises[p].name), method("complement"), &s);
+    /* two products, each so many half units off, and a constant that is rounded to nearest */
+    const double each = 1 + 2 * promises[p].sums * 0x1p-24;
+    const double depths = code_bound(language(promises[p].name), method("complement"), &s);
+    const double want = (1 + depths) * (1 + 0x1p-24) * each * each - 1;
+    TALLY(t, fabs(bound / want - 1) < 1e-9, "%s: bound %.17g, not %.17g", promises[p].name, bound, want);
     for (int i = 0; i < DEPTHS; i++) {
         const uint32_t width = 1 + (uint32_t)rng_below(r, 8192);
         const float centre = (float)rng_below(r, width) + 0.5f, d = (float)rng_unit(r), w = (float)width;
