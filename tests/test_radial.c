@@ -274,6 +274,13 @@ static double output_of(int effect, const rays *k, const double *z, int i) {
                                : across(z, i, 0) > 0.01 || across(z, i, 1) > 0.01;
 }
 
+/* What a millimetre along the ray changes there: a sample may be cut or rounded to one. */
+static double change_of(int effect, const rays *k, int i) {
+    long double s[2];
+    slopes(k, i, s);
+    return 0.001 / (double)ray(k, i) * (effect == 0 ? 3.0 / 8 : effect == 1 ? 1.0 / 4 : fabs((double)s[1]) / 0.7);
+}
+
 TEST(effects_of_distances) {
     tally t = {.name = "effects"};
     rng r = rng_make("effects of distances");
@@ -306,6 +313,9 @@ TEST(effects_of_distances) {
             const double off = 255 * fabs((double)seen[i] - output_of(e, k, z, i));
             TALLY(&t, off <= (double)map[i], "%s, pixel %d: off by %g, not within %g", effects[e].effect, i, off,
                   (double)map[i]);
+            /* of a depth that is read wrong the map says how wrong */
+            TALLY(&t, e == EDGES || (double)map[i] <= 255 * change_of(e, k, i) + 1e-3, "%s, pixel %d: off by %g, not %g",
+                  effects[e].effect, i, (double)map[i], 255 * change_of(e, k, i));
             used[e] = fmax(used[e], map[i] > 0 ? off / (double)map[i] : 0);
         }
     }
