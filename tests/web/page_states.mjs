@@ -41,16 +41,19 @@ async function engines(page, r, count) {
 // What is said of a refusal, in the page without the name of the program.
 const refusal = ({ status, err }) => (status === 2 ? err.trim().replace(/^depthprec: /, "") : "");
 
+// A command that its time ended: how much of it there is, a busy machine decides.
+export const isEnded = (error) => error.includes("takes longer than 10 s here");
+
 // Each text that is shown is what the program prints for the words beside it; so is what it refuses.
 async function compareShown(page, what) {
     const now = await shown(page), runs = now.runs.filter((one) => one.panel !== "plot");
     const there = await native(runs.map((one) => words(one.run)));
     runs.forEach((one, i) => {
         const here = { out: one.text, err: one.refused };
-        const wrong = difference({ out: there[i].out, err: refusal(there[i]) }, here);
+        const wrong = isEnded(one.refused) ? "" : difference({ out: there[i].out, err: refusal(there[i]) }, here);
         demand(wrong === "", `${what}: depthprec ${one.run}\n    ${wrong}`);
     });
-    return { now, count: runs.length };
+    return { now, count: runs.filter((one) => !isEnded(one.refused)).length };
 }
 
 // One command, by its link or pasted: the page shows it, or refuses it in the program's words and stays as it is.
@@ -65,10 +68,10 @@ async function setOne(page, line, link, there, byLink) {
         return 0;
     }
     const { now, count } = await compareShown(page, what);
-    demand(now.error === "", `${what}: ${now.error}`);
+    demand(now.error === "" || isEnded(now.error), `${what}: ${now.error}`);
     const own = now.runs.find((one) => one.panel === verb);
     demand(own !== undefined, `${what}: there is no panel ${verb}`);
-    if (verb !== "plot") demand(own.text === there.out, `${what}: shown is ${own.run}`);
+    if (verb !== "plot" && !isEnded(own.refused)) demand(own.text === there.out, `${what}: shown is ${own.run}`);
     return count;
 }
 
