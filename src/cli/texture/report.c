@@ -194,10 +194,9 @@ static const column columns[] = {
 
 /* Of a corner, where rays are longest. */
 static double longest_ray(const texture_camera *c) {
-    double most = 0;
-    for (int i = 0; i < 4; i++)
-        most = fmax(most, camera_radial(c, i % 2 == 0 ? 0 : c->width - 1, i < 2 ? 0 : c->height - 1));
-    return most;
+    const uint32_t right = c->width - 1, bottom = c->height - 1;
+    return fmax(fmax(camera_radial(c, 0, 0), camera_radial(c, right, 0)),
+                fmax(camera_radial(c, 0, bottom), camera_radial(c, right, bottom)));
 }
 
 /* What is said of the source by names, and of its options. */
