@@ -560,7 +560,7 @@ help:
 ## make cross-windows  the same for Windows, by Wine
 ## make asan        the tests, built by clang, under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
-## make mutants     whether the tests notice the changes of the source in tests/mutants.txt: an hour (ROOM=, ONLY=)
+## make mutants     whether the tests notice the changes of the source in tests/mutants.txt: two hours (ROOM=, ONLY=)
 ## make coverage    the lines that the tests reach, per file
 ## make lint        format, warnings of clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again

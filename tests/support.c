@@ -126,7 +126,7 @@ double rng_depth(rng *r, double znear, double zfar) {
 
 /* ---- effort ---- */
 
-enum { TIMES = 4 }; /* as many cases as usual at most: all tests end in some two hours */
+enum { TIMES = 4 }; /* as many cases as usual at most: make check-full ends in an hour or two */
 
 static int is_set(const char *name) {
     const char *text = getenv(name);
