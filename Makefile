@@ -551,7 +551,7 @@ help:
 
 ## make demo        install what is missing, build, print the table of one camera and draw its figures
 ## make             build the library and the program into build/
-## make check       install what is missing, build, run the tests: at most 5 minutes on two cores
+## make check       install what is missing, build, run the tests: some 7 minutes on two cores
 ## make check-full  4 times the cases (DEPTHPREC_FULL=1000 in front of one test: all), and check-web, check-probe, cross,
 ##                  cross-windows and check-dist: hours, before a release (Debian)
 ## make check-baseline  the tests that know it, without AVX

@@ -314,8 +314,8 @@ TEST(effects_of_distances) {
             TALLY(&t, off <= (double)map[i], "%s, pixel %d: off by %g, not within %g", effects[e].effect, i, off,
                   (double)map[i]);
             /* of a depth that is read wrong the map says how wrong */
-            TALLY(&t, e == EDGES || (double)map[i] <= 255 * change_of(e, k, i) + 1e-3, "%s, pixel %d: off by %g, not %g",
-                  effects[e].effect, i, (double)map[i], 255 * change_of(e, k, i));
+            TALLY(&t, e == EDGES || (double)map[i] <= 255 * change_of(e, k, i) + 1e-3,
+                  "%s, pixel %d: off by %g, not %g", effects[e].effect, i, (double)map[i], 255 * change_of(e, k, i));
             used[e] = fmax(used[e], map[i] > 0 ? off / (double)map[i] : 0);
         }
     }
