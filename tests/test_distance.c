@@ -139,10 +139,11 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
             TALLY(&beyond, a.value == fmin(q.hi, 1e18) && isnan(a.fails), "%s: up to %.17g", text, a.value);
             continue;
         }
-        /* Next to it: the next binary32 depth; staged, where it is certain not to, 2^-40 of the greatest depth. */
+        /* Next to it: the next binary32 depth; staged and near 0, where it is certain not to, 2^-40 of the camera. */
         const double next = model == DP_MODEL_FLOAT ? (double)nextafterf((float)a.value, INFINITY) : a.value;
         const double most = fmax(fabs(q.setup.spec.znear), fmin(fabs(q.setup.spec.zfar), a.fails));
-        const double behind = model == DP_MODEL_STAGED ? fmin(a.fails + most * 0x1p-40, q.hi) : a.fails;
+        const bool about_zero = model == DP_MODEL_STAGED && q.setup.spec.znear <= 0;
+        const double behind = about_zero ? fmin(a.fails + most * 0x1p-40, q.hi) : a.fails;
         dp_separation_over(&q.setup, a.value, behind, q.limit, &worst);
         dp_worst_over(&q.setup, q.lo, a.fails, &error);
         TALLY(&beyond,

@@ -674,6 +674,9 @@ TEST(test_slanted) {
     assert_true(isnan(o.camera.azimuth) && o.camera.triangles.width == 1920 && o.camera.triangles.height == 1080 &&
                 o.camera.format_count == 1);
     assert_string_equal(o.camera.raster->name, "llvmpipe");
+    assert_int_equal(options_parse(&o, 3, (char *[]){"depthprec", "plot", "fight", NULL}), EXIT_FINE);
+    assert_int_equal(view_drawn(&o), EXIT_FINE);
+    assert_int_equal(o.camera.format_count, 3); /* of all four those that it has */
     assert_int_equal(parse(&o, "table", OPTION_TRIANGLE_CLASS, "slim=4,depth=3,pixels=20", line), EXIT_FINE);
     assert_true(o.camera.triangles.depth == 3 && o.camera.triangles.pixels == 20 && o.camera.triangles.slim == 4);
     assert_int_equal(parse(&o, "table", OPTION_TRIANGLE_CLASS, "pixels=20", line), EXIT_FINE);
