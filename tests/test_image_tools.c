@@ -70,7 +70,7 @@ static void number_attribute(handmade *h, const char *name, const char *type, si
     attribute(h, name, type, &value);
 }
 
-static void exr_header(handmade *h, const exr_channel *channels, size_t count, int shown) {
+static void exr_header(handmade *h, const exr_channel *channels, size_t count, const int *shown) {
     handmade list = {.size = 0}, box = {.size = 0}, display = {.size = 0}, one = {.size = 0};
     for (size_t k = 0; k < count; k++) {
         handmade_bytes(&list, channels[k].name, strlen(channels[k].name) + 1);
@@ -83,7 +83,7 @@ static void exr_header(handmade *h, const exr_channel *channels, size_t count, i
     for (int k = 0; k < 4; k++) {
         static const int ends[4] = {-3, 5, ACROSS - 4, DOWN + 4};
         handmade_number(&box, (uint64_t)ends[k], 4, 1);
-        handmade_number(&display, (uint64_t)(ends[k] + (k == 2 ? shown : 0)), 4, 1);
+        handmade_number(&display, (uint64_t)(ends[k] + (shown != NULL ? shown[k] : 0)), 4, 1);
     }
     handmade_number(&one, 0x3F800000, 4, 1);
     handmade_number(h, 20000630, 4, 1);
@@ -100,7 +100,7 @@ static void exr_header(handmade *h, const exr_channel *channels, size_t count, i
 }
 
 /* Scanlines without compression; the channels in the order of their names. */
-static void make_exr(handmade *h, const exr_channel *channels, size_t count, int shown) {
+static void make_exr(handmade *h, const exr_channel *channels, size_t count, const int *shown) {
     size_t row = 0;
     exr_header(h, channels, count, shown);
     for (size_t k = 0; k < count; k++)
@@ -133,7 +133,7 @@ static bool is_read(const char *kind, const handmade *h) {
 
 static bool exr_is_read(void) {
     handmade h = {.size = 0};
-    make_exr(&h, &(exr_channel){"Z", IMAGE_F32, false}, 1, 0);
+    make_exr(&h, &(exr_channel){"Z", IMAGE_F32, false}, 1, NULL);
     return is_read("EXR", &h);
 }
 
@@ -146,6 +146,10 @@ static const char *write_file(const char *name, const handmade *h) {
     return path;
 }
 
+#define COLOUR(other)                                                                                                  \
+    "EXR: its channels R and " other " differ, so it is a colour picture and no depth: --channel R reads one of them " \
+    "all the same"
+
 TEST(exr_channels) {
     static const struct {
         exr_channel channels[3];
@@ -155,9 +159,14 @@ TEST(exr_channels) {
         const char *sentence;
     } rows[] = {
         {{{"A", IMAGE_F16, true}, {"R", IMAGE_F16, true}, {"Z", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, NULL},
-        {{{"B", IMAGE_F16, true}, {"G", IMAGE_F16, true}, {"R", IMAGE_F16, false}}, 3, NULL, IMAGE_F16, NULL},
+        {{{"B", IMAGE_F16, true}, {"G", IMAGE_F16, true}, {"R", IMAGE_F16, false}}, 3, "R", IMAGE_F16, NULL},
+        {{{"B", IMAGE_F16, false}, {"G", IMAGE_F16, false}, {"R", IMAGE_F16, false}}, 3, NULL, IMAGE_F16, NULL},
+        {{{"B", IMAGE_F32, true}, {"G", IMAGE_F32, false}, {"R", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, COLOUR("B")},
+        {{{"A", IMAGE_F32, true}, {"G", IMAGE_F16, false}, {"R", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, COLOUR("G")},
+        {{{"A", IMAGE_F32, true}, {"R", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
         {{{"A", IMAGE_F32, true}, {"depth", IMAGE_U32, false}}, 2, NULL, IMAGE_U32, NULL},
-        {{{"R", IMAGE_F32, false}, {"depth", IMAGE_U32, true}}, 2, NULL, IMAGE_F32, NULL},
+        {{{"R", IMAGE_F32, true}, {"depth", IMAGE_U32, false}}, 2, NULL, IMAGE_U32, NULL},
+        {{{"R", IMAGE_F32, true}, {"far.depth", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
         {{{"A", IMAGE_F32, true}, {"z", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
         {{{"V.Depth.Z", IMAGE_F32, false}, {"V.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
         {{{"Y", IMAGE_F16, false}}, 1, NULL, IMAGE_F16, NULL},
@@ -166,7 +175,7 @@ TEST(exr_channels) {
          2,
          NULL,
          IMAGE_F32,
-         "EXR: has no channel Z, R or depth, but X, Y: --channel NAME takes one"},
+         "EXR: has no channel Z, depth or R, but X, Y: --channel NAME takes one"},
         {{{"X", IMAGE_F32, true}, {"Z", IMAGE_F32, true}}, 2, "z", IMAGE_F32, "EXR: has no channel z, but X, Z"},
     };
     if (!exr_is_read())
@@ -175,7 +184,7 @@ TEST(exr_channels) {
         handmade h = {.size = 0};
         image img;
         image_error error = {.text = ""};
-        make_exr(&h, rows[i].channels, rows[i].count, 0);
+        make_exr(&h, rows[i].channels, rows[i].count, NULL);
         const bool good =
             image_read_as(write_file("c.exr", &h), &(image_asked){.channel = rows[i].asked}, &img, &error);
         if (good != (rows[i].sentence == NULL))
@@ -189,12 +198,49 @@ TEST(exr_channels) {
         assert_bits(&img, rows[i].type, 0);
         image_free(&img);
     }
+}
+
+/* A display window whose edges lie so much beyond those of the data window, left, top, right, bottom: what is there of
+ * the data is where it belongs, and the rest is no number. */
+TEST(exr_windows) {
+    static const int rows[][4] = {{0, 0, 2, 0}, {-2, -1, 3, 4}, {2, 1, -3, -2}, {5, -2, 4, -1}, {-7, 3, -20, 9}};
+    if (!exr_is_read())
+        skip();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        for (image_type type = IMAGE_U32; type <= IMAGE_F32; type++) {
+            const int *e = rows[i], width = ACROSS + e[2] - e[0], height = DOWN + e[3] - e[1];
+            const bool whole = e[0] >= 0 && e[1] >= 0 && e[2] <= 0 && e[3] <= 0;
+            handmade h = {.size = 0};
+            image img;
+            image_error error = {.text = ""};
+            make_exr(&h, &(exr_channel){"Z", type, false}, 1, e);
+            if (!image_parse(h.at, h.size, &img, &error)) {
+                assert_true(type == IMAGE_U32 && !whole);
+                assert_non_null(strstr(error.text, "whole numbers have none for no depth"));
+                continue;
+            }
+            assert_true(type != IMAGE_U32 || whole);
+            assert_int_equal(img.width, width);
+            assert_int_equal(img.height, height);
+            for (int y = 0; y < height; y++)
+                for (int x = 0; x < width; x++) {
+                    const int column = x + e[0], row = y + e[1];
+                    const bool there = column >= 0 && column < ACROSS && row >= 0 && row < DOWN;
+                    const size_t at = (size_t)(y * width + x), of = (size_t)(row * ACROSS + column);
+                    const uint64_t bits =
+                        type == IMAGE_F16 ? ((const uint16_t *)img.data)[at] : ((const uint32_t *)img.data)[at];
+                    const uint64_t infinite = type == IMAGE_F16 ? 0x7C00 : 0x7F800000,
+                                   most = type == IMAGE_F16 ? 0x7FFF : 0x7FFFFFFF;
+                    assert_true(there ? bits == bits_of(type, of) : (bits & most) > infinite);
+                }
+            image_free(&img);
+        }
     handmade h = {.size = 0};
     image img;
     image_error error;
-    make_exr(&h, &(exr_channel){"Z", IMAGE_F32, false}, 1, 2);
+    make_exr(&h, &(exr_channel){"Z", IMAGE_F32, false}, 1, (const int[]){ACROSS, 0, ACROSS, 0});
     assert_false(image_parse(h.at, h.size, &img, &error));
-    assert_string_equal(error.text, "EXR: its data window -3,5 to 19,15 is not its display window: save it whole");
+    assert_string_equal(error.text, "EXR: its data window -3,5 to 19,15 has no pixel of its display window");
 }
 
 /* ---- TIFF ---------------------------------------------------------------------------------------------------------*/
@@ -397,7 +443,7 @@ TEST(damaged_files) {
     handmade files[2] = {{.size = 0}, {.size = 0}};
     const bool there[2] = {exr_is_read(), tiff_is_read()};
     const size_t step = test_cases(41, 3, 1);
-    make_exr(&files[0], &(exr_channel){"Z", IMAGE_F32, false}, 1, 0);
+    make_exr(&files[0], &(exr_channel){"Z", IMAGE_F32, false}, 1, NULL);
     make_tiff(&files[1], &(tiff_of){.type = IMAGE_U16});
     for (int f = 0; f < 2; f++)
         for (size_t at = 4; there[f] && at < files[f].size - 4;
@@ -498,9 +544,9 @@ static void prepare(void) {
     handmade exr = {.size = 0}, half = {.size = 0}, other = {.size = 0}, tiff = {.size = 0}, real = {.size = 0};
     handmade small = {.size = 0};
     handmade raw = {.size = 0}, wide = {.size = 0}, narrow = {.size = 0}, pixels = {.size = 0}, bytes = {.size = 0};
-    make_exr(&exr, &(exr_channel){"Z", IMAGE_F32, false}, 1, 0);
-    make_exr(&half, (const exr_channel[]){{"G", IMAGE_F16, true}, {"R", IMAGE_F16, false}}, 2, 0);
-    make_exr(&other, &(exr_channel){"Y", IMAGE_F16, true}, 1, 0);
+    make_exr(&exr, &(exr_channel){"Z", IMAGE_F32, false}, 1, NULL);
+    make_exr(&half, (const exr_channel[]){{"G", IMAGE_F16, false}, {"R", IMAGE_F16, false}}, 2, NULL);
+    make_exr(&other, &(exr_channel){"Y", IMAGE_F16, true}, 1, NULL);
     make_tiff(&tiff, &(tiff_of){.type = IMAGE_U16});
     make_tiff(&real, &(tiff_of){.type = IMAGE_F32});
     make_tiff(&small, &(tiff_of){.type = IMAGE_U8});
@@ -597,9 +643,11 @@ TEST(by_the_program) {
     char path[256];
     if (!exr_is_read())
         skip();
-    make_exr(&h, (const exr_channel[]){{"Q", IMAGE_F32, false}, {"Z", IMAGE_F32, true}}, 2, 0);
+    make_exr(&h, (const exr_channel[]){{"Q", IMAGE_F32, false}, {"Z", IMAGE_F32, true}}, 2, NULL);
     snprintf(path, sizeof path, "%s", write_file("q.exr", &h));
-    check_says(0, "23 x 11 pixels, EXR of f4, 1 channel", "texture %s --channel Q -q", path);
+    check_says(0, "23 x 11 pixels, EXR of f4, channel Q", "texture %s --channel Q -q", path);
+    check_says(2, "channel Z is read, the others are Q; --channel NAME reads another", "texture %s --metric 1", path);
+    check_says(0, "\"channel\":\"Z\"", "texture %s --format fp32 -m gl -n 1 --json -q", path);
     check_says(2, "EXR: has no channel X, but Q, Z", "texture %s --channel X -q", path);
     prepare();
     check_says(2, "--channel names one of an EXR; those of PNG have no names", "texture %s --channel Z",

@@ -322,6 +322,47 @@ TEST(bands_count_levels) {
     }
 }
 
+/* The numbers that a file has, where it has fewer than its lattice: halves in any unit, and steps of millimetres. */
+TEST(bands_count_numbers_of_the_file) {
+    static const struct {
+        image_type type;
+        double scale, step;
+    } kinds_of[] = {{IMAGE_F16, 1, 0}, {IMAGE_F16, 0.01, 0}, {IMAGE_F16, 1e-4, 0}, {IMAGE_F32, 1, 0.01}};
+    rng r = rng_make("numbers of the file");
+    static double data[PIXELS];
+    for (size_t kind = 0; kind < sizeof kinds_of / sizeof kinds_of[0]; kind++) {
+        const double scale = kinds_of[kind].scale, step = kinds_of[kind].step;
+        command c = {.count = 0};
+        for (int i = 0; i < PIXELS; i++) {
+            const double x = rng_log(&r, 0.3, 9) * (scale < 1e-3 ? 1e-5 / scale : 1 / scale);
+            truth_store(data, kinds_of[kind].type, (size_t)i, step > 0 ? rint(x / step) * step : half_of(x, 0));
+        }
+        truth_write(truth_path("in.npy"), IMAGE_NPY, kinds_of[kind].type, data);
+        truth_add(&c, truth_path("in.npy"));
+        truth_add_number(&c, 0, "--metric", scale);
+        truth_add(&c, "--lattice");
+        truth_add(&c, "file");
+        json_t *root = statistics(&c);
+        assert_true(json_array_size(json_object_get(root, "bands")) > 3);
+        for (size_t i = 0; i < json_array_size(json_object_get(root, "bands")); i++) {
+            const json_t *band = json_array_get(json_object_get(root, "bands"), i);
+            const double lo = number_in(band, "lo") * (1 - 1e-9), hi = number_in(band, "hi") * (1 - 1e-9),
+                         at = number_in(band, "gap_z") / scale * (1 + 1e-9);
+            double count = 0;
+            for (int k = 1; k < 31 * 1024; k++) {
+                const double half = k < 1024 ? ldexp(k, -24) : ldexp(1024 + k % 1024, k / 1024 - 25);
+                const double z = step > 0 ? k * step : half * scale;
+                count += z >= lo && z < hi;
+            }
+            const double gap = step > 0 ? step : fmax(ldexp(1, ilogb(at) - 10), 0x1p-24) * scale;
+            if (number_in(band, "available") != count)
+                fail_msg("kind %zu, from %g: %g instead of %g", kind, lo, number_in(band, "available"), count);
+            assert_relative(number_in(band, "interval"), gap, 1e-6);
+        }
+        json_decref(root);
+    }
+}
+
 TEST(what_is_no_lattice_is_refused) {
     static const char *const bad[] = {"",         "stereo",  "stereo:500", "stereo:500,0.1,1,2",
                                       "even:0",   "even:-1", "even:",      "even:1,",

@@ -200,6 +200,23 @@ static void of_levels(const sensor *lattice, survey_band *out) {
     out->steps = (uint64_t)fmin(rint(out->gap / out->interval), 0x1p62);
 }
 
+/* Nor are they where the file's own numbers are fewer: halves, or steps. */
+static void of_numbers(const frame *f, survey_band *out) {
+    const double zfar = f->camera->setup.spec.zfar;
+    out->available =
+        (uint64_t)(grain_numbers_below(f->grain, out->hi / zfar) - grain_numbers_below(f->grain, out->lo / zfar));
+    if (isnan(out->gap))
+        return;
+    out->interval = grain_number_gap(f->grain, out->gap_z / zfar) * zfar;
+    out->steps = (uint64_t)rint(out->gap / out->interval);
+}
+
+static bool has_fewer(const frame *f) {
+    const grain *g = f->metric ? f->grain : NULL;
+    return g != NULL && (g->kind == GRAIN_STEPS ? g->steps != f->camera->setup.spec.format.code_max
+                                                : g->kind == GRAIN_FLOATS && g->bits < 24);
+}
+
 static void finish_band(const surveying *s, size_t index, survey_band *out) {
     const uint32_t start = s->bands.start[index], end = s->bands.start[index + 1];
     uint32_t before = next_used(s, start, end), nearest = 0;
@@ -227,6 +244,8 @@ static void finish_band(const surveying *s, size_t index, survey_band *out) {
     }
     if (s->f->sensor != NULL && s->f->sensor->row->levels != GRAIN_FINE)
         of_levels(s->f->sensor, out);
+    else if (has_fewer(s->f))
+        of_numbers(s->f, out);
 }
 
 typedef struct finishing {

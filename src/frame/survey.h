@@ -12,7 +12,8 @@ typedef struct survey_band {
     double lo, hi;
     uint64_t pixels;
     uint64_t codes;     /**< different ones among them */
-    uint64_t available; /**< codes whose depths lie in the band; levels where the frame's sensor has some */
+    uint64_t available; /**< codes whose depths lie in the band; levels where the frame's sensor has some,
+ else numbers of the file where these are fewer */
     double gap;         /**< between the two nearest different depths; NaN where there are not two */
     double gap_z;       /**< the nearer of the two */
     uint64_t steps;     /**< how many codes, or levels, apart they are: 0 within one level */

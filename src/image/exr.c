@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * OpenEXR by the C interface of OpenEXRCore: one channel of half, float or uint, scanlines or tiles, in any compression
- * that the library has. The channel is the one that is asked for, else Z, R or depth, else the one whose last part is
- * Z, as in "ViewLayer.Depth.Z", else the only one.
+ * that the library has. The channel is the one that is asked for, else Z or depth, else the one whose last part is one
+ * of these, as in "ViewLayer.Depth.Z", else R where G and B hold the same or are not there, else the only one.
+ *
+ * The image is the display window: pixels that the data window has not hold no depth, what lies around it is left out.
  *
  * Its headers may be missing where this is compiled, and its library where this runs; its structs differ between
  * versions, so the library must be that of the headers.
@@ -53,7 +55,7 @@ typedef struct reading {
     exr_context_t file;
     int part;
     const char *channel;
-    exr_attr_box2i_t window;
+    exr_attr_box2i_t window, shown;
     exr_decode_pipeline_t decode;
     bool decoding;
     size_t have; /* bytes of out->data */
@@ -126,8 +128,16 @@ static bool find_like(reading *r, const char *wanted, likeness how) {
     return false;
 }
 
-static bool no_channel(reading *r) {
-    char names[128] = "";
+static void add_name(char *names, size_t size, const char *name) {
+    const size_t used = strlen(names);
+    if (used + 48 < size)
+        append(names, size, "%s%.40s", used > 0 ? ", " : "", name);
+    else if (names[used - 1] != '.')
+        append(names, size, ", ...");
+}
+
+/* All but the one that is read. @return how many parts are flat */
+static int name_channels(reading *r, char *names, size_t size) {
     int parts = 0, flat = 0;
     const exr_attr_chlist_t *list;
     r->call.exr_get_count(r->file, &parts);
@@ -136,21 +146,28 @@ static bool no_channel(reading *r) {
             continue;
         flat++;
         for (int i = 0; i < list->num_channels; i++)
-            append(names, sizeof names, "%s%.40s", *names != '\0' ? ", " : "", list->entries[i].name.str);
+            if (list->entries[i].name.str != r->channel)
+                add_name(names, size, list->entries[i].name.str);
     }
-    if (flat == 0)
+    return flat;
+}
+
+static bool no_channel(reading *r) {
+    char names[128] = "";
+    if (name_channels(r, names, sizeof names) == 0)
         return source_fail(r->source, "EXR: it is deep, with any number of samples a pixel: flatten it");
     if (r->source->asked.channel != NULL)
         return source_fail(r->source, "EXR: has no channel %.40s, but %s", r->source->asked.channel, names);
-    return source_fail(r->source, "EXR: has no channel Z, R or depth, but %s: --channel NAME takes one", names);
+    return source_fail(r->source, "EXR: has no channel Z, depth or R, but %s: --channel NAME takes one", names);
 }
 
 static bool find_channel(reading *r) {
     const char *asked = r->source->asked.channel;
     if (asked != NULL)
         return find_like(r, asked, LIKE_SAME) || no_channel(r);
-    return find_like(r, "Z", LIKE_CASE) || find_like(r, "R", LIKE_CASE) || find_like(r, "depth", LIKE_CASE) ||
-           find_like(r, "Z", LIKE_LAST) || find_like(r, NULL, LIKE_SAME) || no_channel(r);
+    return find_like(r, "Z", LIKE_CASE) || find_like(r, "depth", LIKE_CASE) || find_like(r, "Z", LIKE_LAST) ||
+           find_like(r, "depth", LIKE_LAST) || find_like(r, "R", LIKE_CASE) || find_like(r, NULL, LIKE_SAME) ||
+           no_channel(r);
 }
 
 /* DWA knows colours by name, and takes what has other names as it is. */
@@ -183,33 +200,37 @@ static const char *lossy_name(const reading *r, exr_pixel_type_t type) {
     }
 }
 
+static const exr_attr_chlist_entry_t *find_entry(const reading *r, const char *name) {
+    const exr_attr_chlist_t *list;
+    if (r->call.exr_get_channels(r->file, r->part, &list) != EXR_ERR_SUCCESS)
+        return NULL;
+    for (int i = 0; i < list->num_channels; i++)
+        if (strcmp(list->entries[i].name.str, name) == 0)
+            return &list->entries[i];
+    return NULL;
+}
+
+static uint64_t side_of(int32_t first, int32_t last) {
+    return (uint64_t)((int64_t)last - first + 1);
+}
+
 static bool find_shape(reading *r) {
     static const image_type types[] = {
         [EXR_PIXEL_UINT] = IMAGE_U32, [EXR_PIXEL_HALF] = IMAGE_F16, [EXR_PIXEL_FLOAT] = IMAGE_F32};
-    exr_attr_box2i_t shown;
-    const exr_attr_chlist_t *list;
+    const exr_attr_chlist_entry_t *entry = find_entry(r, r->channel);
     exr_result_t code = r->call.exr_get_data_window(r->file, r->part, &r->window);
     if (code == EXR_ERR_SUCCESS)
-        code = r->call.exr_get_display_window(r->file, r->part, &shown);
-    if (code == EXR_ERR_SUCCESS)
-        code = r->call.exr_get_channels(r->file, r->part, &list);
-    if (code != EXR_ERR_SUCCESS)
+        code = r->call.exr_get_display_window(r->file, r->part, &r->shown);
+    if (code != EXR_ERR_SUCCESS || entry == NULL)
         return damaged(r, code);
     const exr_attr_box2i_t *w = &r->window;
-    if (memcmp(w, &shown, sizeof shown) != 0)
-        return source_fail(r->source, "EXR: its data window %d,%d to %d,%d is not its display window: save it whole",
-                           w->min.x, w->min.y, w->max.x, w->max.y);
-    int i = 0;
-    while (list->entries[i].name.str != r->channel)
-        i++;
-    const exr_attr_chlist_entry_t *entry = &list->entries[i];
     if (entry->x_sampling != 1 || entry->y_sampling != 1)
         return source_fail(r->source, "EXR: channel %.40s has not a sample for every pixel", r->channel);
     if ((unsigned)entry->pixel_type > EXR_PIXEL_FLOAT)
         return source_fail(r->source, "EXR: channel %.40s is neither half, float nor uint", r->channel);
     const char *lossy = lossy_name(r, entry->pixel_type);
-    const bool good = source_shape(r->source, r->out, (uint64_t)((int64_t)w->max.x - w->min.x + 1),
-                                   (uint64_t)((int64_t)w->max.y - w->min.y + 1), 1, types[entry->pixel_type]);
+    const bool good = source_shape(r->source, r->out, side_of(w->min.x, w->max.x), side_of(w->min.y, w->max.y), 1,
+                                   types[entry->pixel_type]);
     r->out->lossy = lossy;
     return good;
 }
@@ -278,9 +299,87 @@ static bool read_tiles(reading *r) {
     return code == EXR_ERR_SUCCESS || damaged(r, code);
 }
 
+static bool read_samples(reading *r) {
+    exr_storage_t storage = EXR_STORAGE_SCANLINE;
+    r->call.exr_get_storage(r->file, r->part, &storage);
+    return storage == EXR_STORAGE_TILED ? read_tiles(r) : read_scanlines(r);
+}
+
+/* Whether another channel of the part holds what was read. */
+static bool holds_same(reading *r, const char *name, bool *same) {
+    reading other = *r;
+    image made = *r->out;
+    made.data = NULL;
+    other.out = &made;
+    other.channel = name;
+    other.have = 0;
+    const bool good = read_samples(&other);
+    *same = good && memcmp(made.data, r->out->data, image_bytes(&made)) == 0;
+    r->decode = other.decode;
+    r->decoding = other.decoding;
+    free(made.data);
+    return good;
+}
+
+/* A depth that renderers write as grey has the same in all colours; a photograph has not. */
+static bool check_grey(reading *r) {
+    static const char *const others[] = {"G", "B"};
+    const exr_attr_chlist_entry_t *red = find_entry(r, r->channel);
+    for (size_t i = 0; i < 2 && r->source->asked.channel == NULL && is_like(r->channel, "R", LIKE_CASE); i++) {
+        const exr_attr_chlist_entry_t *entry = find_entry(r, others[i]);
+        bool same =
+            entry == NULL || (entry->pixel_type == red->pixel_type && entry->x_sampling == 1 && entry->y_sampling == 1);
+        if (entry != NULL && same && !holds_same(r, entry->name.str, &same))
+            return false;
+        if (!same)
+            return source_fail(r->source,
+                               "EXR: its channels R and %s differ, so it is a colour picture and no depth: --channel R "
+                               "reads one of them all the same",
+                               others[i]);
+    }
+    return true;
+}
+
+/* ---- The display window ------------------------------------------------------------------------------------------ */
+
+/* Rows of what is shown; where there is nothing of them, NaN. */
+static void place(const reading *r, const image *from, image *to) {
+    const size_t size = image_type_size(to->type);
+    const int64_t left = (int64_t)r->window.min.x - r->shown.min.x, top = (int64_t)r->window.min.y - r->shown.min.y;
+    const int64_t first = left > 0 ? left : 0, most = left + from->width, last = most < to->width ? most : to->width;
+    memset(to->data, 0xFF, image_bytes(to)); /* a NaN of either type */
+    for (int64_t y = 0; y < to->height; y++)
+        if (y >= top && y < top + from->height && first < last)
+            memcpy((char *)to->data + ((size_t)y * to->width + (size_t)first) * size,
+                   (const char *)from->data + ((size_t)(y - top) * from->width + (size_t)(first - left)) * size,
+                   (size_t)(last - first) * size);
+}
+
+static bool show(reading *r) {
+    const exr_attr_box2i_t *w = &r->window, *d = &r->shown;
+    image made = *r->out;
+    if (memcmp(w, d, sizeof *d) == 0)
+        return true;
+    if (w->min.x > d->max.x || w->max.x < d->min.x || w->min.y > d->max.y || w->max.y < d->min.y)
+        return source_fail(r->source, "EXR: its data window %d,%d to %d,%d has no pixel of its display window",
+                           w->min.x, w->min.y, w->max.x, w->max.y);
+    if (!source_shape(r->source, &made, side_of(d->min.x, d->max.x), side_of(d->min.y, d->max.y), 1, made.type))
+        return false;
+    const bool covers = w->min.x <= d->min.x && w->min.y <= d->min.y && w->max.x >= d->max.x && w->max.y >= d->max.y;
+    if (!covers && made.type == IMAGE_U32)
+        return source_fail(r->source, "EXR: its data window is smaller than its display window, and whole numbers have "
+                                      "none for no depth: save it whole, or as float");
+    made.data = malloc(image_bytes(&made));
+    if (made.data == NULL)
+        return source_fail(r->source, "out of memory: %u x %u pixels", made.width, made.height);
+    place(r, r->out, &made);
+    free(r->out->data);
+    *r->out = made;
+    return true;
+}
+
 static bool read_file(reading *r) {
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    exr_storage_t storage = EXR_STORAGE_SCANLINE;
     how.error_handler_fn = say_nothing;
     how.user_data = r;
     how.read_fn = give;
@@ -291,8 +390,9 @@ static bool read_file(reading *r) {
     if (!find_channel(r) || !find_shape(r))
         return false;
     r->out->named_depth = names_depth(r->channel);
-    r->call.exr_get_storage(r->file, r->part, &storage);
-    return storage == EXR_STORAGE_TILED ? read_tiles(r) : read_scanlines(r);
+    snprintf(r->out->channel, sizeof r->out->channel, "%s", r->channel);
+    name_channels(r, r->out->others, sizeof r->out->others);
+    return read_samples(r) && check_grey(r) && show(r);
 }
 
 static bool read_exr(image_source *source, image *out) {

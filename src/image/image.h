@@ -44,7 +44,7 @@ typedef enum image_file {
     IMAGE_FILE_COUNT
 } image_file;
 
-enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4, IMAGE_NOTE_SIZE = 256 };
+enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4, IMAGE_NOTE_SIZE = 256, IMAGE_NAMES_SIZE = 128 };
 
 /** What a PNG says of its colours, and a program that obeys would change in its samples: bits. */
 enum { IMAGE_SRGB = 1, IMAGE_GAMMA = 2, IMAGE_PROFILE = 4 };
@@ -53,14 +53,16 @@ enum { IMAGE_SRGB = 1, IMAGE_GAMMA = 2, IMAGE_PROFILE = 4 };
 typedef struct image {
     uint32_t width, height, channels;
     image_type type;
-    image_file file;            /**< what it was read from */
-    void *data;                 /**< malloc'ed */
-    bool named_depth;           /**< its channel is called Z or depth */
-    const char *says;           /**< the depth format that the file names, "unorm24"; null when it names none */
-    unsigned colours;           /**< IMAGE_SRGB, ... */
-    uint32_t most;              /**< the largest sample, where the file says another than the type's; else 0 */
-    bool size_assumed;          /**< of a raw one: by its length alone */
-    const char *lossy;          /**< the compression, where it may have changed samples: "PXR24"; else null */
+    image_file file;                /**< what it was read from */
+    void *data;                     /**< malloc'ed */
+    bool named_depth;               /**< its channel is called Z or depth */
+    char channel[IMAGE_NAMES_SIZE]; /**< of a kind whose channels have names: the one that was read; else "" */
+    char others[IMAGE_NAMES_SIZE];  /**< the names of all others, "B, G, R", perhaps cut short */
+    const char *says;               /**< the depth format that the file names, "unorm24"; null when it names none */
+    unsigned colours;               /**< IMAGE_SRGB, ... */
+    uint32_t most;                  /**< the largest sample, where the file says another than the type's; else 0 */
+    bool size_assumed;              /**< of a raw one: by its length alone */
+    const char *lossy;              /**< the compression, where it may have changed samples: "PXR24"; else null */
     char note[IMAGE_NOTE_SIZE]; /**< of a PNG that depthprec wrote: the note; of compressedDepth the same; else "" */
 } image;
 

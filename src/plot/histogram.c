@@ -76,22 +76,13 @@ static bool count_codes(const frame *f, bins *b) {
     return true;
 }
 
-/* Numbers of so many bits, or multiples of 1/steps, below that share of the end of the file's lattice. */
-static double samples_below(const grain *g, double share) {
-    int exponent;
-    if (g->kind == GRAIN_STEPS)
-        return ceil(share * g->steps);
-    const double mantissa = frexp(share, &exponent);
-    return ceil(ldexp(mantissa, g->bits)) + ldexp(exponent, g->bits - 1);
-}
-
 /* Levels of metric depth, between the edges of the bins, and what the file itself could hold there. */
 static void count_levels(const frame *f, bins *b) {
     const double end = f->camera->setup.spec.zfar;
     for (int i = 0; i < BINS; i++) {
         const double lo = chart_axis_at(&b->x, (double)i / BINS), hi = chart_axis_at(&b->x, (double)(i + 1) / BINS);
         b->codes[i] = fmax(sensor_levels(f->sensor, lo, hi), 0);
-        b->samples[i] = samples_below(f->grain, hi / end) - samples_below(f->grain, lo / end);
+        b->samples[i] = grain_numbers_below(f->grain, hi / end) - grain_numbers_below(f->grain, lo / end);
     }
 }
 

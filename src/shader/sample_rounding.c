@@ -25,6 +25,16 @@ static double unit_of(const grain *g, double v) {
     return v > 0 ? fmax(ldexp(1, exponent - g->bits), g->least) : g->least;
 }
 
+double grain_number_gap(const grain *g, double v) {
+    return g->kind == GRAIN_STEPS ? 1 / g->steps : unit_of(g, v);
+}
+
+/* Each binade above the least has half as many as all below it together. */
+double grain_numbers_below(const grain *g, double v) {
+    const double gap = grain_number_gap(g, v), whole = ceil(v / gap * (1 - 0x1p-44));
+    return g->kind == GRAIN_STEPS ? whole : whole + ldexp(ilogb(gap / g->least), g->bits - 1);
+}
+
 /* Steps that were rounded to numbers may have been the next ones. */
 static span steps_span_of(const grain *g, double steps, double v) {
     const double blur = g->bits > 0 ? floor(0.5 + 1.5 * unit_of(g, v) * steps) : 0;

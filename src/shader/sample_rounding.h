@@ -52,6 +52,10 @@ typedef struct grain {
 /** How far apart levels near v are, in what they are even in; GRAIN_HALF: in window depth. */
 double grain_level_gap(const grain *g, double v);
 
+/** GRAIN_STEPS and GRAIN_FLOATS: how far apart the numbers of the file near v are, and how many it has below v. */
+double grain_number_gap(const grain *g, double v);
+double grain_numbers_below(const grain *g, double v);
+
 /** "unknown", "nearest", "zero". */
 const char *grain_rounding_name(grain_rounding rounding);
 

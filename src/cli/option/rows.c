@@ -343,7 +343,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "how the channels of FILE together hold the depth: @; see 'depthprec list packings'",
         ROW(image.packing, packings)},
     [OPTION_CHANNEL] = {"channel", 0, "NAME",
-        "the EXR channel to read", TEXT(image.channel), .without = "the first there is of Z, R and depth"},
+        "the EXR channel to read", TEXT(image.channel), .without = "the first there is of Z, depth and R"},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]",
         "describe single pixels: code, eye depth and its range, neighbours, position, normal; 0,0 is the "
         "top left. With an effect alone: the pixel that sees the depths",

@@ -104,6 +104,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, source.camera.height, "height", "")},
                                         {FIELD(statistics, named.type, "type", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.channels, "channels", ""), .when = OF_IMAGE},
+                                        {FIELD(statistics, named.channel, "channel", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric_from, "metric_from", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.radial, "radial", ""), .when = OF_IMAGE},
@@ -211,6 +212,7 @@ static void name_all(statistics *r) {
     r->named.truth = statistics_of_image(r) ? NULL : "synthetic";
     r->named.packing = r->o->image.packing != NULL ? r->o->image.packing->name : NULL;
     r->named.type = image_type_name(s->type);
+    r->named.channel = s->picture.channel[0] != '\0' ? s->picture.channel : NULL;
     r->named.rounded = g->kind == GRAIN_CODES ? NULL : grain_rounding_name(g->rounding);
     r->named.format = s->found.depth ? s->found.format.name : NULL;
     r->named.certain = s->found.certain != 0;

@@ -115,20 +115,30 @@ static void warn_of_colours(const options *o, const texture_source *s) {
         message("depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong", s->path);
 }
 
-/* A byte is less than any depth has; colours that are not grey may be the channels of one. */
+/* Whether all pixels are grey, as those of a depth that was written as colour are. */
+static bool is_grey(const image *p) {
+    const size_t size = image_type_size(p->type), count = (size_t)p->width * p->height;
+    const char *at = p->data;
+    for (size_t i = 0; p->channels >= 3 && i < count; i++, at += p->channels * size)
+        if (memcmp(at, at + size, size) != 0 || memcmp(at, at + 2 * size, size) != 0)
+            return false;
+    return true;
+}
+
+/* A byte is less than any depth has; colours that are not grey may be the channels of one, or a picture. */
 static void warn_of_channels(const options *o, const texture_source *s) {
     const image *p = &s->picture;
-    const unsigned char *const bytes = p->data;
-    bool grey = p->type != IMAGE_U8 || p->channels < 3;
-    for (size_t i = 0; !grey && i < (size_t)p->width * p->height; i++) {
-        const unsigned char *const at = bytes + i * p->channels;
-        if (at[0] != at[1] || at[0] != at[2])
-            break;
-        grey = i + 1 == (size_t)p->width * p->height;
-    }
-    if (!grey && !o->out.quiet && o->image.channel == NULL)
-        message("depthprec: %s: of %u channels the first is read, 8 bits; --packing rgb24 reads a depth of 24 bits in "
-                "three",
+    if (o->out.quiet || o->image.channel != NULL)
+        return;
+    if (*p->others != '\0')
+        message("depthprec: %s: channel %s is read, the others are %s; --channel NAME reads another", s->path,
+                p->channel, p->others);
+    else if (!is_grey(p))
+        message(p->type == IMAGE_U8
+                    ? "depthprec: %s: of %u channels the first is read, 8 bits; --packing rgb24 reads a depth of 24 "
+                      "bits in three"
+                    : "depthprec: %s: of %u channels that differ the first is read; a colour picture or a map of "
+                      "places has no depth there",
                 s->path, p->channels);
 }
 

@@ -148,17 +148,22 @@ static void say_source(statistics *r, page *p) {
     const texture_source *s = &r->source;
     char parameters[512] = "";
     char packed[48] = "";
+    char channels[IMAGE_NAMES_SIZE + 16];
     p->unit = options_unit(r->o);
     if (r->o->image.packing != NULL)
         snprintf(packed, sizeof packed, ", packed as %s", r->o->image.packing->name);
     else if (s->channels > 1)
         snprintf(packed, sizeof packed, ", the first is read");
+    if (r->named.channel != NULL)
+        snprintf(channels, sizeof channels, "channel %s", r->named.channel);
+    else
+        snprintf(channels, sizeof channels, "%u channel%s", s->channels, s->channels == 1 ? "" : "s");
     for (size_t i = 0; statistics_next_parameter(r, i) != NULL; i++)
         append(parameters, sizeof parameters, "%s %s %s", i > 0 ? "," : ";", r->parameter,
                number_of(r->parameter_value, 6).text);
     if (statistics_of_image(r))
-        page_text(p, "%s: %u x %u pixels, %s of %s, %u channel%s%s", s->path, s->camera.width, s->camera.height,
-                  image_file_name(s->picture.file), r->named.type, s->channels, s->channels == 1 ? "" : "s", packed);
+        page_text(p, "%s: %u x %u pixels, %s of %s, %s%s", s->path, s->camera.width, s->camera.height,
+                  image_file_name(s->picture.file), r->named.type, channels, packed);
     else
         page_text(p, "synthetic %s: %u x %u pixels%s", r->named.synthetic, s->camera.width, s->camera.height,
                   parameters);

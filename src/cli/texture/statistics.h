@@ -45,8 +45,8 @@ typedef struct statistics {
     sensor_buffer buffer;
     setup_fields setup;
     struct {
-        const char *synthetic, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from,
-            *metric_from;
+        const char *synthetic, *truth, *packing, *type, *channel, *rounded, *format, *format_from, *mapping_from,
+            *direction_from, *metric_from;
         double metric, radial, step, steps, steps_or, bits, fov, half_height;
         bool coarser, certain;
         const bool *reversed;
