@@ -112,6 +112,28 @@ static void corners_are(const model *m, size_t triangle, const double want[3][3]
         }
 }
 
+/* The header of a file says of which IFC it is; the same file of another one is refused by that name. */
+TEST(schemas) {
+    static const struct {
+        const char *name;
+        bool read;
+    } rows[] = {{"IFC2X3", true}, {"IFC2X2_FINAL", true}, {"IFC4", false}, {"IFC4X3_ADD2", false}, {"IFC5", false}};
+    static const model_asked asked = {.transforms = MODEL_EXACT};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char text[sizeof ifc + 32], want[64];
+        const char *schema = strstr(ifc, "IFC2X3");
+        model m;
+        model_error error = {.text = ""};
+        snprintf(text, sizeof text, "%.*s%s%s", (int)(schema - ifc), ifc, rows[i].name, schema + 6);
+        snprintf(want, sizeof want, "is of %s, and of IFC only IFC2X3 is read", rows[i].name);
+        const bool read = model_read(written("schema.ifc", text), &asked, &m, &error);
+        if (read != rows[i].read || (!read && strncmp(error.text, want, strlen(want)) != 0))
+            fail_msg("%s: %s", rows[i].name, error.text);
+        if (read)
+            model_free(&m);
+    }
+}
+
 TEST(plain) {
     static const struct {
         const char *name, *text;

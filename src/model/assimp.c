@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Every other kind of model, by libassimp: IFC, FBX, Collada, STL, PLY and more. It holds coordinates and matrices of
- * nodes in binary32, whatever the file has; matrices are multiplied here, as those of glTF are. Vertices are neither
+ * Every other kind of model, by libassimp: IFC2X3, FBX, Collada, STL, PLY and more. It holds coordinates and matrices
+ * of nodes in binary32, whatever the file has; matrices are multiplied here, as those of glTF are. Vertices are neither
  * joined nor moved. What it says is not trusted: a count or an index may be anything.
  *
  * Units: IFC and Collada come in metres, y up; FBX says its unit and its axes and is turned into that. The others say

@@ -15,6 +15,19 @@ static bool no_memory(model_error *error) {
     return false;
 }
 
+/* The schema that a STEP file names in its header. libassimp reads the IFC of 2x3: of newer ones it loses shapes
+ * without a word, where it does not break down. */
+static bool check_schema(model_source *s) {
+    const char *text = (const char *)s->file.at, *name = strstr(text, "FILE_SCHEMA");
+    const char *quote = name != NULL && strncmp(text, "ISO-10303-21", 12) == 0 ? strchr(name, '\'') : NULL;
+    if (quote == NULL || strncasecmp(quote + 1, "IFC", 3) != 0 || strncasecmp(quote + 1, "IFC2X", 5) == 0)
+        return true;
+    return model_fail(s,
+                      "is of %.*s, and of IFC only IFC2X3 is read: make glTF of it, with IfcConvert (IfcConvert a.ifc "
+                      "a.glb) or with Blender and Bonsai",
+                      (int)(strcspn(quote + 1, "' \t\r\n") < 20 ? strcspn(quote + 1, "' \t\r\n") : 20), quote + 1);
+}
+
 /* A file, and what its name ends in, from the dot on; "" where it has none. */
 static bool parse(file_bytes file, const char *extension, const char *folder, const model_asked *asked, model *out,
                   model_error *error) {
@@ -26,7 +39,7 @@ static bool parse(file_bytes file, const char *extension, const char *folder, co
     *error = (model_error){0};
     const bool read = strcasecmp(extension, ".obj") == 0 ? model_read_obj(&s)
                       : gltf                             ? model_read_gltf(&s)
-                                                         : model_read_other(&s, extension);
+                                                         : check_schema(&s) && model_read_other(&s, extension);
     if (read) {
         *out = made;
         return true;
