@@ -131,6 +131,8 @@ static const file_kind kinds[] = {
     {"shares of bytes", IMAGE_F32, IMAGE_NPY, NULL, false, byte_share},
     {"unrounded", IMAGE_F64, IMAGE_NPY, "fp32", true, unrounded},
     {"halves", IMAGE_F16, IMAGE_NPY, NULL, false, half},
+    {"halves in f4", IMAGE_F32, IMAGE_NPY, NULL, false, half},
+    {"halves in f8", IMAGE_F64, IMAGE_NPY, "unorm16", false, half},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
@@ -237,8 +239,7 @@ static camera draw_camera_signed(rng *r, const char *format) {
 static void one_image(tally *t, rng *r, const file_kind *k, bool either_sign, used *u) {
     const camera c = either_sign ? draw_camera_signed(r, k->buffer) : draw_camera(r, k->buffer);
     const int picture = (int)rng_below(r, PICTURES), mode = (int)rng_below(r, 2);
-    /* What is not said is taken to be finer than the file: binary16 of 16 bits is not. */
-    const bool given = rng_below(r, 2) == 0 || k->whole || (k->type == IMAGE_F16 && quantum(c.format) == 65535);
+    const bool given = rng_below(r, 2) == 0 || k->whole;
     const bool curved = strcmp(c.mapping, "linear") == 0 || strcmp(c.mapping, "log") == 0;
     double z[PIXELS], got[PIXELS], bound[PIXELS];
     float eye[PIXELS], map[PIXELS];

@@ -309,6 +309,7 @@ static void want_image(values *v, const char *path, const image *shot, const dp_
     want_text(v, "synthetic", NULL);
     want_text(v, "packing", NULL); /* test_packing has it otherwise */
     want_text(v, "lossy", NULL);   /* and test_image_compressed this */
+    want_text(v, "channel", NULL); /* and test_image_tools this */
     values_under(v, "sky.");
     want_count(v, "zeros", 0); /* of packings, in test_packing */
     values_under(v, "recognised.");

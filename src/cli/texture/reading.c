@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an image does not say: how coarse it is against its buffer, and what was assumed about it. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -17,8 +18,31 @@ static const double FINER = 0x1p-24;
 /* Steps of 1/65535 and 1/65536 are as fine as 16 bits. */
 static const double COARSER = 0.75;
 
+static bool is_half(const dp_format *format) {
+    return strcmp(format->name, "fp16") == 0;
+}
+
+/* Whether all numbers are of binary16, in a file of such or in one that could hold more. */
+static bool are_halves(const texture_source *s) {
+    const dp_recognised *found = &s->found;
+    return s->picture.type == IMAGE_F16 ||
+           (s->picture.type > IMAGE_F16 && found->depth && found->distinct > 0 && is_half(&found->format));
+}
+
 static int number_bits(const texture_source *s) {
-    return s->picture.type == IMAGE_F16 ? 11 : s->picture.type == IMAGE_F32 ? 24 : 53;
+    return are_halves(s) ? 11 : s->picture.type == IMAGE_F32 ? 24 : 53;
+}
+
+/* Whether each half may be a code of 16 bits that was rounded or cut off: halves above 1/32 all may be. */
+static bool may_be_words(const texture_source *s) {
+    const size_t count = (size_t)s->picture.width * s->picture.height;
+    const grain halves = {.kind = GRAIN_FLOATS, .bits = 11, .least = 0x1p-24};
+    for (size_t i = 0; i < count; i++) {
+        const double x = image_sample(&s->picture, i), unit = grain_number_gap(&halves, x);
+        if (x >= 0 && x <= 1 && floor((x + unit) * 65535) < (x - 0.5 * unit) * 65535)
+            return false;
+    }
+    return true;
 }
 
 static grain_rounding rounding_of(const options *o) {
@@ -69,14 +93,14 @@ static grain steps_grain(const texture_source *s, double found, double own) {
                              : coarse ? FINER + 0.5 / 65535
                                       : FINER,
                    .bits = numbers ? number_bits(s) : 0,
-                   .least = s->picture.type == IMAGE_F16 ? 0x1p-24 : 0x1p-149};
+                   .least = are_halves(s) ? 0x1p-24 : 0x1p-149};
 }
 
 static void find_grain(const options *o, texture_source *s) {
     const dp_format *format = &s->setup.spec.format;
     const image_type type = s->picture.type;
     const double own = type_steps(s), found = o->image.metric > 0 ? 0 : found_steps(s);
-    const bool half = strcmp(format->name, "fp16") == 0, assumed = s->format_from != ORIGIN_GIVEN;
+    const bool half = is_half(format), assumed = s->format_from != ORIGIN_GIVEN;
     s->grain = (grain){.kind = GRAIN_CODES};
     if (o->image.metric > 0)
         s->grain = s->metric.grain;
@@ -84,9 +108,14 @@ static void find_grain(const options *o, texture_source *s) {
         s->grain = s->unpacked.grain;
     else if (found > 0 || own > 0)
         s->grain = steps_grain(s, found, own);
-    else if (type == IMAGE_F16 && (assumed || !half))
-        s->grain =
-            (grain){.kind = GRAIN_FLOATS, .buffer = !half, .margin = half ? FINER : 0, .bits = 11, .least = 0x1p-24};
+    else if (are_halves(s) && (assumed || !half))
+        s->grain = (grain){.kind = GRAIN_FLOATS,
+                           .buffer = !half,
+                           .margin = !half             ? 0
+                                     : may_be_words(s) ? FINER + 0.5 / 65535
+                                                       : FINER,
+                           .bits = 11,
+                           .least = 0x1p-24};
     else if (type >= IMAGE_F32 && format->kind == DP_FORMAT_UNORM)
         s->grain = (grain){.kind = GRAIN_FLOATS, .buffer = true, .bits = number_bits(s), .least = 0x1p-149};
     if (option_given(o, OPTION_ROUNDING))
