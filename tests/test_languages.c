@@ -6,6 +6,7 @@
  */
 #include <dlfcn.h>
 
+#include "allowed.h"
 #include "code/code.h"
 #include "method/bench.h"
 #include "probe/compute.h"
@@ -309,32 +310,6 @@ TEST(c_packs_what_the_rows_say) {
 
 /* ---- The bound --------------------------------------------------------------------------------------------------- */
 
-/* What a language may make of an exact number: a binary32 number within so many units in the last place. */
-typedef struct device {
-    rng *r;
-    double sums, quotients; /* ulp; 0.5: to nearest */
-    bool fuses, flushes;
-    int bias; /* -1, 1: always down, or up, as far as that goes; 0: any */
-} device;
-
-static float flushed(const device *v, float x) {
-    return v->flushes && fabsf(x) < 0x1p-126f && v->bias <= 0 ? 0.0f : x;
-}
-
-static float rounded(const device *v, long double x, double ulps) {
-    const float nearest = (float)x; /* of long double: rounded once */
-    if (x == 0 || ulps < 1 || (ulps == 1 && (long double)nearest == x))
-        return flushed(v, nearest);
-    int exponent;
-    frexpl(x, &exponent);
-    const long double ulp = ldexpl(1, exponent - 24 > -149 ? exponent - 24 : -149), most = ulps * ulp;
-    const double share = v->bias != 0 ? v->bias : rng_uniform(v->r, -1, 1);
-    float y = (float)(x + share * most);
-    while (fabsl((long double)y - x) > most || (ulps <= 1 && fabsl((long double)y - x) >= ulp))
-        y = nextafterf(y, (float)x);
-    return flushed(v, y);
-}
-
 static float multiply_add(const device *v, float base, float slope, float q) {
     const long double product = (long double)slope * q;
     return v->fuses ? rounded(v, base + product, v->sums)
@@ -385,24 +360,6 @@ static const struct {
                 {"unity", unity},           {"complement-unity", complement_unity},
                 {"linear-01", linear_01},   {"linear-01-near", linear_01_near}};
 
-/* Written down apart from the rows of the languages. */
-static const struct {
-    const char *name;
-    double sums, quotients;
-    bool fuses, flushes;
-} promises[] = {{"glsl", 1, 2.5, false, true}, {"hlsl", 1, 1, false, true},  {"wgsl", 1, 2.5, true, true},
-                {"msl", 1, 1, true, true},     {"c", 0.5, 0.5, true, false}, {"numpy", 0.5, 0.5, false, false}};
-
-/* Which fuses and rounds in turn as the language lets it. */
-static device device_of(rng *r, size_t p, int i) {
-    return (device){r,
-                    promises[p].sums,
-                    promises[p].quotients,
-                    promises[p].fuses && i % 2 == 0,
-                    promises[p].flushes,
-                    i / 2 % 3 - 1};
-}
-
 static void perturb(tally *t, rng *r, const dp_setup *s, size_t p, size_t m, double *most) {
     const double n = s->spec.znear, f = s->spec.zfar;
     const bool reversed = s->reversed != 0;
@@ -429,8 +386,7 @@ static void perturb(tally *t, rng *r, const dp_setup *s, size_t p, size_t m, dou
 TEST(no_language_is_off_by_more_than_its_bound) {
     rng r = rng_make("languages");
     tally t = {.name = "bounds"};
-    const size_t count = sizeof promises / sizeof promises[0];
-    for (size_t p = 0; p < count; p++)
+    for (size_t p = 0; p < PROMISES; p++)
         for (size_t m = 0; m < sizeof formulas / sizeof formulas[0]; m++) {
             double most = 0;
             for (uint64_t k = 0; k < test_cases(12, 120, 2000); k++) {
@@ -468,7 +424,7 @@ TEST(no_code_is_off_by_more_than_its_bound) {
     rng r = rng_make("codes");
     tally t = {.name = "codes"};
     const dp_setup setups[] = {stored("unorm16"), stored("unorm24")};
-    for (size_t p = 0; p < sizeof promises / sizeof promises[0]; p++)
+    for (size_t p = 0; p < PROMISES; p++)
         for (int k = 0; k < 4; k++) {
             double most = 0;
             for (int again = 0; again < 100; again++)
@@ -508,7 +464,7 @@ static void perturb_place(tally *t, rng *r, size_t p, double *most) {
 TEST(no_place_is_off_by_more_than_its_bound) {
     rng r = rng_make("places");
     tally t = {.name = "places"};
-    for (size_t p = 0; p < sizeof promises / sizeof promises[0]; p++) {
+    for (size_t p = 0; p < PROMISES; p++) {
         double most = 0;
         for (uint64_t k = 0; k < test_cases(20, 100, 3000); k++)
             perturb_place(&t, &r, p, &most);
@@ -596,7 +552,7 @@ static void perturb_normal(tally *t, rng *r, bool stereo, size_t which, double *
 TEST(no_channel_is_off_by_more_than_its_bound) {
     rng r = rng_make("channels");
     tally t = {.name = "channels"};
-    for (size_t which = 0; which < sizeof promises / sizeof promises[0]; which++) {
+    for (size_t which = 0; which < PROMISES; which++) {
         double most[2] = {0, 0};
         for (size_t i = 0; packing_get(i) != NULL; i++) {
             double slack = 0;
@@ -614,21 +570,6 @@ TEST(no_channel_is_off_by_more_than_its_bound) {
 }
 
 /* ---- Linear and logarithmic depth -------------------------------------------------------------------------------- */
-
-/* What a language says of exp2 and log2, once more: relative, that for each unit of |x|, and absolute from 0.5 to 2. */
-static const struct {
-    double exp2, each, log2, inside;
-} powers[] = {{3 * 0x1p-23, 0x1p-22, 3 * 0x1p-23, 0x1p-21},
-              {0x1p-21, 0, 0x1p-21, 0x1p-21},
-              {3 * 0x1p-23, 0x1p-22, 3 * 0x1p-23, 0x1p-21},
-              {0x1p-21, 0, 0x1p-21, 0}};
-
-static float within(const device *v, long double x, long double most) {
-    float y = (float)(x + (v->bias != 0 ? v->bias : rng_uniform(v->r, -1, 1)) * most);
-    while (fabsl(y - x) > most && y != (float)x)
-        y = nextafterf(y, (float)x);
-    return flushed(v, y);
-}
 
 /* As the mappings are defined: 0 log, 1 cesium, 2 three-webgpu, 3 orthographic, 4 that reversed. */
 typedef struct curve {
@@ -695,7 +636,7 @@ TEST(no_curve_is_off_by_more_than_its_bound) {
                                           DP_MAPPING_REVERSED};
     rng r = rng_make("curves");
     tally t = {.name = "curves"};
-    for (size_t p = 0; p < sizeof powers / sizeof powers[0]; p++)
+    for (size_t p = 0; p < POWERS; p++)
         for (int m = 0; m < 5; m++) {
             double most[2] = {0, 0};
             for (uint64_t k = 0; k < test_cases(20, 100, 2000); k++)

@@ -60,7 +60,8 @@ static void weighted(char *out, double weight) {
 
 static void pack_text(const packing *p, const digits *d, char *out) {
     char member[IMAGE_CHANNELS_MAX];
-    append(out, CODE_TEXT_SIZE, d->rest > 0 ? "k = d*%.17g" : "k = even(d*%.17g)", d->most);
+    append(out, CODE_TEXT_SIZE, d->rest > 0 ? "k = min(max(d, 0), 1)*%.17g" : "k = even(min(max(d, 0), 1)*%.17g)",
+           d->most);
     for (int i = 0; i + 1 < d->count; i++) {
         const char name = digit_names[d->channel[i]], rest[] = {rests[i], '\0'};
         append(out, CODE_TEXT_SIZE, d->rest > 0 ? "; %c = min(floor(" : "; %c = floor(", name);
@@ -150,8 +151,9 @@ code_said code_packing(output *out, const code_language *l, const packing *p) {
     code_say(out, l, "%s: %s%s", p->name, p->note, p->wraps ? "; here 1 stays 1" : "");
     code_say_rules(out, l, false);
     code_say(out, l,
-             "So a texel is off by at most %s of its steps of %s for any d from 0 to 1, where channels are stored to "
-             "nearest, and unpack_depth by at most %s of what the texel says, where they are read within 1 ulp.",
+             "So a texel is off by at most %s of its steps of %s for any d, outside 0 to 1 as at its nearer end, where "
+             "channels are stored to nearest, and unpack_depth by at most %s of what the texel says, where they are "
+             "read within 1 ulp.",
              number_up(off, 6).text, number_of(1 / p->steps, 6).text, number_up(more, 3).text);
     write_both(out, l, (const char *const[]){"pack_depth", "unpack_depth"}, (const char *const[]){"d", used},
                (const char *const[]){there, back});
@@ -175,8 +177,8 @@ static const struct {
         "u = r*3.5554 - 1.7777; v = g*3.5554 - 1.7777; w = 2/(u*u + v*v + 1); x = w*u; y = w*v; z = w - 1"},
     [PACK_OCT] = {"rg", PLACE "r = a + signed(t, a); g = c + signed(t, c)", FOLD("r", "g") UNIT("u", "v", "c")},
     [PACK_OCT_888] = {"rgb",
-        PLACE "u = a + signed(t, a); v = c + signed(t, c); i = floor((u*0.5 + 0.5)*4095.5); "
-        "j = floor((v*0.5 + 0.5)*4095.5); p = floor(i*0.00390625); q = floor(j*0.00390625); "
+        PLACE "u = a + signed(t, a); v = c + signed(t, c); i = floor(max(u*0.5 + 0.5, 0)*4095.5); "
+        "j = floor(max(v*0.5 + 0.5, 0)*4095.5); p = floor(i*0.00390625); q = floor(j*0.00390625); "
         "r = (i - p*256)/255; g = (j - q*256)/255; b = (p + q*16)/255",
         "h = even(b*255); q = floor(h*0.0625); p = h - q*16; k = even(r*255) + p*256; i = k/4095*2 - 1; "
         "l = even(g*255) + q*256; j = l/4095*2 - 1; " FOLD("i", "j") UNIT("u", "v", "c")},

@@ -55,6 +55,9 @@ const char *linear01_build(const figure_request *request, chart *out) {
     const size_t far_count = request->far_count > 0 ? request->far_count : 1;
     const bool several = far_count > 1;
     char near[TICKS_TEXT], to[TICKS_TEXT];
+    for (size_t far = 0; far < far_count; far++)
+        if (isinf(fars[far]))
+            return "--far: must be finite in the figure linear01, got inf";
     panel->x.scale = CHART_LINEAR;
     ticks_label(request->setups[0].spec.znear, false, near);
     ticks_label(fars[0], fars[0] >= 1e6, to);
@@ -63,8 +66,6 @@ const char *linear01_build(const figure_request *request, chart *out) {
         dp_spec spec = request->setups[0].spec;
         dp_setup setup;
         spec.zfar = fars[far];
-        if (isinf(spec.zfar))
-            return "--far: must be finite in the figure linear01, got inf";
         for (size_t i = 0; i < request->count; i++) {
             spec.mapping = request->setups[i].spec.mapping;
             if (i > 0 && spec.mapping == request->setups[0].spec.mapping)

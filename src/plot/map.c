@@ -72,11 +72,11 @@ static void add_panel(const figure_request *request, chart *out, size_t i, doubl
         (spec->zfar - spec->znear) / 2; /* of what linear axes show: where the planes meet is a corner */
     chart_panel *panel = chart_add_panel(out);
     panel->x = (chart_axis){.scale = scale, .label = "near plane", .key = "near", .unit = "scene units"};
-    panel->x.lo = any_sign ? spec->znear - half : fmax(spec->znear / around, 1e-12);
-    panel->x.hi = any_sign ? spec->znear + half : fmin(spec->znear * around, 1e12);
+    panel->x.lo = fmax(any_sign ? spec->znear - half : spec->znear / around, any_sign ? -1e12 : 1e-12);
+    panel->x.hi = fmin(any_sign ? spec->znear + half : spec->znear * around, 1e12);
     panel->y = (chart_axis){.scale = scale, .label = "far plane", .key = "far", .unit = "scene units"};
     panel->y.lo = any_sign ? spec->zfar - half : infinite ? spec->znear * infinite_from : spec->zfar / around;
-    panel->y.hi = any_sign ? spec->zfar + half : fmin(infinite ? spec->znear * infinite_to : spec->zfar * around, 1e18);
+    panel->y.hi = fmin(any_sign ? spec->zfar + half : infinite ? spec->znear * infinite_to : spec->zfar * around, 1e18);
     if (request->count > 1)
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
     if (!chart_add_map(out, panel, (int)(GRID_COLUMNS * shrink), (int)(GRID_ROWS * shrink)))

@@ -30,7 +30,7 @@ static void superscript(char *out, size_t size, int power) {
 }
 
 void ticks_label(double value, bool powers, char out[TICKS_TEXT]) {
-    if (!powers || value == 0) {
+    if (!powers || value == 0 || !isfinite(value)) {
         snprintf(out, TICKS_TEXT, fabs(value) >= 1e3 && fabs(value) < 1e6 ? "%.6g" : "%.3g", value);
         return;
     }
@@ -52,13 +52,15 @@ void ticks_about(double value, char out[TICKS_TEXT]) {
 static void linear(const chart_axis *axis, int room, ticks *out) {
     double span = axis->hi - axis->lo, step = dp_pow(10, floor(dp_log10(span / room)));
     static const double factors[] = {1, 2, 5, 10, 20};
+    double more = 0;
     for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
         double finer = i > 0 ? factors[i - 1] : 1, next = step * factors[i];
         double count = floor(axis->hi / next) - ceil(axis->lo / next) + 1;
         if (count <= room) {
-            step *= count < 2 && room > 2 ? finer : factors[i]; /* rather one too many than a single one */
+            step *= count < 2 && more < room + 2 ? finer : factors[i]; /* rather too many than a single one */
             break;
         }
+        more = count;
     }
     double first = ceil(axis->lo / step - 1e-9);
     for (int i = 0; i < TICKS_MAX && (first + i) * step <= axis->hi + 1e-9 * span; i++) {

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Every figure of a camera, of every kind of camera: it is drawn, with numbers at its points and labels at its ticks
+ * that tell them apart, or refused in a sentence. No kind crashes.
+ */
+#include "drawn.h"
+#include "plot/figure.h"
+#include "printed.h"
+
+typedef struct camera_kind {
+    const char *words;
+    bool drawn; /* its ticks are looked at, too */
+} camera_kind;
+
+static const camera_kind kinds[] = {
+    {"-n 0.1 -f 1000 -m reversed", false},
+    {"-n 0.1 -f inf", true},
+    {"-n 0.1 -f inf -m d3d", false},
+    {"-n 0.1 -f inf -m gl-reversed", false},
+    {"-n 1e12 -f inf", true},
+    {"-n 1e-12 -f inf", false},
+    {"-n 1e-12 -f 1e18", true},
+    {"-n 1e12 -f 1e18 -m d3d", false},
+    {"-n 1 -f 1.00001 -m d3d", true},
+    {"-n 1e12 -f 1.00001e12", true},
+    {"-n 1e-12 -f 1.00001e-12", true},
+    {"--ortho -n 0.1 -f 100", false},
+    {"--ortho -n 0 -f 1e18", true},
+    {"--ortho -n -50 -f 50 -m d3d", true},
+    {"--ortho -n -1000 -f -1", false},
+    {"--ortho -n -1e18 -f 1e18", false},
+    {"-m log -f 1e9", false},
+    {"-m log -n 0.1 -f inf", false},
+    {"-m linear", false},
+    {"-m cesium -f 1e9", false},
+    {"-m three-webgpu -n 1e-3", false},
+    {"-m osgearth -n 1 -f 1.001", false},
+};
+
+/* Of the camera that options describe; the others have one of their own. */
+static bool is_of_camera(const figure_row *figure) {
+    return (figure->takes & (FIGURE_SETUPS | FIGURE_FARS)) != 0 && figure->family == NULL;
+}
+
+/* What takes long is looked at in one format, and the slowest of some kinds. */
+static bool is_slow(const char *figure) {
+    return strcmp(figure, "normals") == 0 || strcmp(figure, "map") == 0;
+}
+
+static const char *few(const char *figure) {
+    return is_slow(figure) ? " -F unorm24" : "";
+}
+
+static bool holds_nan(const char *csv) {
+    for (const char *at = csv; (at = strstr(at, "nan")) != NULL; at++)
+        if ((at == csv || strchr(",-\n", at[-1]) != NULL) && strchr(",\n", at[3]) != NULL)
+            return true;
+    return false;
+}
+
+/* Numbers or one sentence. @return whether it has any */
+static bool check_data(const char *figure, const camera_kind *kind, const char *form) {
+    printed p = print_of("plot %s %s%s %s", figure, kind->words, few(figure), form);
+    const bool good = p.status == 0;
+    if (!good && (p.status != 2 || p.out[0] != '\0' || strchr(p.errors, '\n') != strrchr(p.errors, '\n')))
+        fail_msg("plot %s %s %s ends with %d: %s", figure, kind->words, form, p.status, p.errors);
+    if (good && strcmp(form, "--csv") == 0 && (holds_nan(p.out) || strchr(p.out, '\n') == strrchr(p.out, '\n')))
+        fail_msg("plot %s %s %s: no numbers", figure, kind->words, form);
+    if (good && strcmp(form, "--json") == 0)
+        json_decref(json_of(p.out));
+    printed_free(&p);
+    return good;
+}
+
+/* Panels above others have no labels below them. No two ticks of an axis say the same, and what they say grows with
+ * their place. */
+static void check_labels(const drawn_scale *s, const char *what, const char *figure, const camera_kind *kind) {
+    for (int i = 0; i < s->labels; i++)
+        for (int k = 0; k < i; k++) {
+            const double one = drawn_number(s->at[i]->text), other = drawn_number(s->at[k]->text);
+            const bool grows = s->px[i] == s->px[k] ? one == other : (one - other) * (s->px[i] - s->px[k]) * s->b > 0;
+            if (!grows)
+                fail_msg("plot %s %s: on %s '%s' and '%s'", figure, kind->words, what, s->at[i]->text, s->at[k]->text);
+        }
+    if (s->labels == 1)
+        fail_msg("plot %s %s: one label on %s", figure, kind->words, what);
+}
+
+static void check_ticks(const char *figure, const camera_kind *kind) {
+    drawn *d = drawn_run(&drawn_light, "plot %s %s%s", figure, kind->words, few(figure));
+    for (size_t i = 0; i < d->panel_count; i++) {
+        check_labels(&d->panels[i].x, "x", figure, kind);
+        check_labels(&d->panels[i].y, "y", figure, kind);
+    }
+    svg_free(d->svg); /* its words are looked at elsewhere */
+    free(d);
+}
+
+TEST(every_figure_of_every_kind_of_camera) {
+    size_t written = 0, looked = 0;
+    for (size_t i = 0; figure_get(i) != NULL; i++)
+        for (size_t k = 0; is_of_camera(figure_get(i)) && k < sizeof kinds / sizeof kinds[0]; k++) {
+            const char *figure = figure_get(i)->name;
+            if (is_slow(figure) && k % test_cases(6, 2, 1) != 0)
+                continue;
+            const bool has = check_data(figure, &kinds[k], "--csv");
+            if (!is_slow(figure) && check_data(figure, &kinds[k], "--json") != has)
+                fail_msg("plot %s %s: CSV or JSON alone", figure, kinds[k].words);
+            written += has;
+            if (has && kinds[k].drawn && strcmp(figure, "normals") != 0) {
+                check_ticks(figure, &kinds[k]);
+                looked++;
+            }
+        }
+    assert_true(written > 140 && looked > 50);
+}
