@@ -160,3 +160,23 @@ TEST(rounded) {
     assert_string_equal(number_in(number_of((double)NAN, 3), "cm").text, "-");
     assert_string_equal(number_in(number_full(-2.2250738585072014e-308), "km").text, "-2.2250738585072014e-308 km");
 }
+
+/* Two that a sentence compares never have one text, or one that is in the other order, unless they are equal. */
+TEST(compared) {
+    uint64_t word = 1729;
+    for (int i = 0; i < 100000; i++) {
+        const double a = ldexp((double)(next(&word) >> 11), (int)(next(&word) % 200) - 150);
+        const double b = a * (1 + ldexp((double)(next(&word) % 3) - 1, -(int)(next(&word) % 54)));
+        const number_two two = number_compared(a, b, 6);
+        const double x = strtod(two.value.text, NULL), y = strtod(two.limit.text, NULL);
+        assert_true((x > y) - (x < y) == (a > b) - (a < b));
+        assert_true(x >= a * (1 - 0x1p-50) && y >= b * (1 - 0x1p-50)); /* to 16 digits, themselves rounded */
+    }
+    const number_two near = number_compared(0.0090027845, 0.0090027849, 6), far = number_compared(1.5, 0.01, 6);
+    assert_string_equal(near.value.text, "0.0090027845");
+    assert_string_equal(near.limit.text, "0.0090027849");
+    assert_string_equal(far.value.text, "1.5");
+    assert_string_equal(far.limit.text, "0.01");
+    assert_string_equal(number_compared((double)INFINITY, 0.01, 6).value.text, "inf");
+    assert_string_equal(number_compared(0.25, (double)NAN, 6).value.text, "0.25");
+}

@@ -3,6 +3,8 @@
  * Every value that solve prints. The planes that it found are taken from its JSON and put to the test: there the
  * measure is what is printed beside them, they pass, and beyond them nothing does. Text and CSV say the same.
  */
+#include <time.h>
+
 #include "api/cost.h"
 #include "printed.h"
 #include "requirement/distance.h"
@@ -225,7 +227,7 @@ static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
     double first = NAN, end = NAN;
     assert_int_equal(distance_solve(c->kind, setup, c->lo, c->hi, c->limit, &d), DP_OK);
     const double from = d.possible ? d.value : c->lo;
-    if (setup->spec.model == DP_MODEL_FLOAT && from < c->hi) {
+    if (setup->spec.model == DP_MODEL_FLOAT && from + c->limit <= c->hi) {
         first = first_fight(setup, from, c->hi - c->limit, c->limit);
         end = from;
         for (uint32_t depths = 1 << 14; end < c->hi && !(end >= first); depths *= 2)
@@ -552,3 +554,44 @@ TEST(typed_lengths) {
 }
 
 LIST_TEST(check_apart)
+
+/* Up to where it is guaranteed and up to where nothing was found, the first never farther; no depth before near. */
+TEST(no_contradiction) {
+    static const double apart[] = {950, 850, 831, 800, 700, 100, 1};
+    for (size_t i = 0; i < sizeof apart / sizeof apart[0]; i++) {
+        const char *line = "solve --for distance -n 0.1 -f 1000 -F fp16 -m d3d";
+        json_t *all = json_printed(0, "%s --separation %g", line, apart[i]);
+        const double reached = number_at(all, "answer.distance"), seen = number_at(all, "fight.searched_to"),
+                     first = number_at(all, "fight.first");
+        assert_true(reached >= 0.1);
+        assert_true(isnan(seen) == (reached + apart[i] > 1000)); /* a pair is left to look at, or none is */
+        assert_true(isnan(seen) || seen >= reached);
+        assert_true(isnan(first) || first >= reached);
+        printed p = print_of("%s --separation %g --full", line, apart[i]);
+        assert_null(strstr(p.out, "z = -"));
+        assert_int_equal(strstr(p.out, "nothing up to z = 1000 lies that far behind it") != NULL, isnan(seen));
+        printed_free(&p);
+        json_decref(all);
+    }
+    static const refused_row rows[] = {
+        {"--for distance -n 0.1 -f 1000 --separation 2000", "--separation: must be at most 999.9, all", 2},
+        {"--for format -n 0.1 -f 1000 --separation 2000 --at 5", "--separation: must be at most 999.9, all", 2},
+        {"--for mapping -n 0.1 -f 1000 -F d24 --separation 2000 --at 5", "--separation: must be at most 999.9", 2},
+        {"--for near -f 1000 --separation 2000 --at 5", "--separation: must be at most 1000, all", 2},
+        {"--for frusta -n 0.1 -f 1000 -F d24 -m d3d --separation 2000", "--separation: must be at most 999.9", 2},
+        {"--for distance --ortho -n -5 -f 5 --separation 10.5", "--separation: must be at most 10, all", 2}};
+    CHECK_REFUSED("solve", rows);
+}
+
+/* Next to 0 an octave holds as many depths as anywhere: few of them are looked at, from before 0 too. */
+TEST(soon_beside_0) {
+    static const char *const cameras[] = {"-n -1 -f 1e-6 --separation 1e-9", "-n -1 -f 1e6 --separation 0.1"};
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
+        const time_t start = time(NULL);
+        json_t *all = json_printed(-1, "solve --for distance --ortho -F fp32 -m reversed %s", cameras[i]);
+        assert_true(time(NULL) - start < 15); /* minutes before; some two now, longer sanitized */
+        const double seen = number_at(all, "fight.searched_to"), first = number_at(all, "fight.first");
+        assert_true(isnan(first) || first <= seen);
+        json_decref(all);
+    }
+}

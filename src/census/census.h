@@ -87,6 +87,7 @@ census_status census_run(const census_request *request, census_result *result);
 typedef struct census_sample_request {
     census_request common;
     uint64_t count; /**< pairs to draw; 0: every depth of the range, which needs a gap */
+    uint64_t most;  /**< of every depth: so many at most, from the nearest on; 0: all */
     uint64_t seed;
     double gap; /**< scene units; 0: the pairs are neighbours */
 } census_sample_request;

@@ -139,7 +139,10 @@ census_status census_sample(const census_sample_request *request, census_result 
     const census_status status = census_open(r, &s.plan, result, &s.range);
     if (status != CENSUS_DONE)
         return status;
-    const uint64_t total = request->count > 0 ? request->count : (uint64_t)s.range.last - s.range.first + 1;
+    const uint64_t all = (uint64_t)s.range.last - s.range.first + 1;
+    const uint64_t total = request->count > 0                         ? request->count
+                           : request->most > 0 && request->most < all ? request->most
+                                                                      : all;
     if (judge_all(&s, total, result))
         return CENSUS_STOPPED;
     census_close(r, &s.plan, &s.range, result);

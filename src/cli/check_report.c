@@ -22,10 +22,9 @@ static bool has_code(const check_verdict *v) {
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 /* A length with the unit of the file behind it, "0.001 m"; a share as it is. */
-static void put(char *out, const char *before, const check_file *f, double value, bool is_length, bool upward) {
-    const number_text number = upward ? number_up(value, DIGITS) : number_of(value, DIGITS);
-    const bool has_unit = is_length && f->file.unit[0] != '\0' && isfinite(value);
-    append(out, SENTENCE_SIZE, "%s %s%s%s", before, number.text, has_unit ? " " : "", has_unit ? f->file.unit : "");
+static void put(char *out, const char *before, const check_file *f, number_text number, bool is_length) {
+    const bool has_unit = is_length && f->file.unit[0] != '\0';
+    append(out, SENTENCE_SIZE, "%s %s", before, number_in(number, has_unit ? f->file.unit : NULL).text);
 }
 
 static number_text surfaces(const check_verdict *v) {
@@ -35,19 +34,20 @@ static number_text surfaces(const check_verdict *v) {
 /* "separation 0.00149 m at 50 m (code 123), facing, allowed 0.001 m"; what is promised is rounded up */
 static const char *sentence(const check_file *f, const check_verdict *v, char out[SENTENCE_SIZE]) {
     const need_kind_row *kind = need_kind_get(v->asked->kind);
+    const number_two compared = number_compared(v->value, v->asked->limit, DIGITS);
     out[0] = '\0';
-    put(out, kind->phrase, f, v->value, kind->is_length, true);
+    put(out, kind->phrase, f, compared.value, kind->is_length);
     if (!kind->is_length) { /* of a range, not of a depth */
-        put(out, " from", f, v->asked->lo, true, false);
-        put(out, " to", f, v->asked->hi, true, false);
+        put(out, " from", f, number_of(v->asked->lo, DIGITS), true);
+        put(out, " to", f, number_of(v->asked->hi, DIGITS), true);
     } else if (!isnan(v->z)) {
-        put(out, " at", f, v->z, true, false);
+        put(out, " at", f, number_of(v->z, DIGITS), true);
     }
     if (kind->is_length && has_code(v))
         append(out, SENTENCE_SIZE, " (code %u)", v->code);
     if (v->asked->kind == NEED_SEPARATION)
         append(out, SENTENCE_SIZE, ", %s", surfaces(v).text);
-    put(out, ", allowed", f, v->asked->limit, kind->is_length, false);
+    put(out, ", allowed", f, compared.limit, kind->is_length);
     return out;
 }
 

@@ -13,7 +13,8 @@ static int by_input(const void *a, const void *b) {
 
 void judge_pairs_look(judge_pairs *p) {
     bool half = true, bytes = true;
-    qsort(p->pairs, p->count, sizeof *p->pairs, by_input);
+    if (p->count > 1) /* none: no array either */
+        qsort(p->pairs, p->count, sizeof *p->pairs, by_input);
     for (size_t i = 0; i < p->count; i++) {
         const double v = p->pairs[i].out, k = v * 255;
         p->distinct += i == 0 || p->pairs[i].in != p->pairs[i - 1].in;

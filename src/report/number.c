@@ -196,6 +196,15 @@ number_text number_down(double value, int digits) {
     return bound_of(value, digits, false);
 }
 
+number_two number_compared(double value, double limit, int digits) {
+    for (; digits < 17; digits++) {
+        const number_two out = {number_up(value, digits), number_up(limit, digits)};
+        if (!(value != limit && isfinite(value) && isfinite(limit)) || strcmp(out.value.text, out.limit.text) != 0)
+            return out;
+    }
+    return (number_two){number_full(value), number_full(limit)}; /* by which any two doubles differ */
+}
+
 int number_digits_within(double at, double step, int least, int most) {
     if (!isfinite(at) || !isfinite(step) || at == 0.0 || step == 0.0)
         return least;

@@ -58,6 +58,13 @@ number_text number_in(number_text number, const char *unit);
 number_text number_up(double value, int digits);
 number_text number_down(double value, int digits);
 
+/** Two numbers that a sentence compares, rounded up to so many digits or as many more as it takes to see which is
+ * greater: "0.009002786" and "0.009002791". */
+typedef struct number_two {
+    number_text value, limit;
+} number_two;
+number_two number_compared(double value, double limit, int digits);
+
 /** The same number in fewer characters: 82800 for 8.28e+04, 1.2e-7 for 1.2e-07. */
 number_text number_brief(number_text number);
 

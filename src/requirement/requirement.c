@@ -164,7 +164,8 @@ static bool names_differ(reader *r) {
         return reader_fail(r, NULL, "no memory for %zu requirements", count);
     for (size_t i = 0; i < count; i++)
         sorted[i] = &r->file->needs[i];
-    qsort(sorted, count, sizeof *sorted, by_name);
+    if (count > 1) /* none: malloc() may have given no array */
+        qsort(sorted, count, sizeof *sorted, by_name);
     bool good = true;
     for (size_t i = 1; i < count && good; i++)
         if (strcmp(sorted[i - 1]->name, sorted[i]->name) == 0) {

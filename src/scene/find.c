@@ -169,7 +169,8 @@ static finder_status group(search *s) {
                                                          .first = i};
         add_pair(s, &f->finding[f->findings - 1], p);
     }
-    qsort(f->finding, f->findings, sizeof *f->finding, worst_first);
+    if (f->findings > 1) /* none: no array either */
+        qsort(f->finding, f->findings, sizeof *f->finding, worst_first);
     return FINDER_DONE;
 }
 

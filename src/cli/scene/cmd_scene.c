@@ -236,7 +236,8 @@ static int judge_findings(scene *s) {
     s->passed = true;
     for (size_t i = 0; i < s->found.findings; i++)
         s->passed = s->passed && !s->findings[i].fights;
-    qsort(s->findings, s->found.findings, sizeof *s->findings, compare);
+    if (s->found.findings > 1) /* none: no array either */
+        qsort(s->findings, s->found.findings, sizeof *s->findings, compare);
     return status;
 }
 

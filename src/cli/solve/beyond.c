@@ -8,11 +8,20 @@
 #include "core/bits.h"
 
 /* The first stretch is short, since most fights are near, and each that follows is twice as long. */
-enum { FIRST_STRETCH = 1 << 14, DEPTHS_MOST = 1 << 25, AGAIN_SHOWN = 3 };
+enum { FIRST_STRETCH = 1 << 14, DEPTHS_MOST = 1 << 24, AGAIN_SHOWN = 3 };
+
+int solve_check_apart(const options *o, solve_target target) {
+    const bool known = option_given(o, OPTION_FAR) || o->camera.preset_count > 0;
+    const double near = target == SOLVE_FOR_NEAR ? 0.0 : o->camera.znear;
+    const double most = target == SOLVE_FOR_FAR || !known ? HUGE_VAL : o->camera.zfar - near;
+    if (!option_given(o, OPTION_SEPARATION) || o->wanted.separation <= most)
+        return EXIT_FINE;
+    return option_error(OPTION_SEPARATION, "must be at most %s, all that lies between near and far, got %s",
+                        options_length(o, most, 0).text, options_length(o, o->wanted.separation, 0).text);
+}
 
 static double depth_behind(double z, uint32_t count, double hi) {
-    const uint32_t bits = dp_bits32((float)z);
-    return fmin(bits < 0x7f000000u - count ? (double)dp_float32(bits + count) : hi, hi);
+    return fmin((double)dp_ranked32(dp_rank32((float)z) + count), hi); /* behind infinity NaN, which counts as hi */
 }
 
 /* Surfaces that far apart, the nearer one at each binary32 depth; before `from` it is certain that none fight. */
@@ -20,12 +29,11 @@ static solve_fight find_fight(const dp_setup *setup, double from, double hi, dou
     solve_fight out = {(double)NAN, (double)NAN};
     double z = from;
     uint32_t stretch = FIRST_STRETCH;
-    for (uint64_t done = 0; done < DEPTHS_MOST && z < hi && isnan(out.first); done += stretch, stretch *= 2) {
+    for (uint64_t done = 0; done < DEPTHS_MOST && z + apart <= hi && isnan(out.first); done += stretch, stretch *= 2) {
         census_result found;
         const double end = depth_behind(z, stretch, hi);
         const census_sample_request request = {
-            .common = {.setup = setup, .lo = z, .hi = fmin(end + 2.0 * apart, fmin(hi, (double)FLT_MAX))},
-            .gap = apart};
+            .common = {.setup = setup, .lo = z, .hi = fmin(hi, (double)FLT_MAX)}, .most = stretch, .gap = apart};
         if (census_sample(&request, &found) != CENSUS_DONE)
             break;
         out = (solve_fight){found.all.first, fmin(end, hi - apart)};

@@ -345,6 +345,8 @@ int cmd_solve(const options *o) {
     if (status == EXIT_FINE)
         status = check_depths(o, &r);
     if (status == EXIT_FINE)
+        status = solve_check_apart(o, r.target);
+    if (status == EXIT_FINE)
         status = add_asked(&r);
     if (status != EXIT_FINE)
         return status;

@@ -139,6 +139,8 @@ int solve_frusta(const options *o) {
                   .fixed_value = (double)NAN,
                   .fixed_z = (double)NAN};
     int status = check_frusta(o);
+    if (status == EXIT_FINE)
+        status = solve_check_apart(o, SOLVE_FOR_FRUSTA);
     if (status != EXIT_FINE)
         return status;
     const dp_spec spec = spec_of(o);

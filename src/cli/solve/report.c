@@ -67,12 +67,18 @@ static number_text bound(const solve_report *r, double value, bool upward) {
     return upward ? up(r, value) : in_unit(r, number_down(value, SOLVE_DIGITS));
 }
 
-/* What is measured, in the unit of what is wanted. */
-static number_text measured(const solve_report *r, double value) {
+/* What is measured, in the unit of what is wanted, and that beside it. */
+static number_two against_wanted(const solve_report *r, double value) {
     const options *o = r->o;
     const unit_row *unit = options_unit_of(o, r->kind == MEASURE_ERROR ? OPTION_ERROR : OPTION_SEPARATION);
-    return number_in(number_up(unit_convert(value, o->camera.unit, unit), SOLVE_DIGITS),
-                     unit != NULL ? unit->name : NULL);
+    const char *name = unit != NULL ? unit->name : NULL;
+    const number_two out = number_compared(unit_convert(value, o->camera.unit, unit),
+                                           unit_convert(r->limit, o->camera.unit, unit), SOLVE_DIGITS);
+    return (number_two){number_in(out.value, name), number_in(out.limit, name)};
+}
+
+static number_text measured(const solve_report *r, double value) {
+    return against_wanted(r, value).value;
 }
 
 /* ---- Numbers that keep what they promise, as they are printed ---------------------------------------------------- */
@@ -170,6 +176,9 @@ static void sentence_of_distance(const solve_report *r, const solve_candidate *c
         output_format(out, "; first found to z-fight at z = %s", bound(r, r->fight.first, false).text);
     else if (!isnan(r->fight.searched))
         output_format(out, "; no z-fighting found up to z = %s", bound(r, r->fight.searched, false).text);
+    else if (c->possible && !d->throughout && r->kind == MEASURE_SEPARATION && !is_slanted(r) &&
+             d->value + r->limit > r->hi)
+        output_format(out, "; nothing up to z = %s lies that far behind it", whole(r, r->hi).text);
     if (c->spec.model == DP_MODEL_EXACT)
         output_text(out, ".\n");
     else if (!c->lattice.possible)
@@ -287,7 +296,7 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
         page_note(p, "guaranteed", "nothing there: 'depthprec budget' says why");
     else if (binary32 > r->limit * (1.0 + 1e-6))
         page_note(p, "guaranteed", "only %s, short of %s: 'depthprec budget' says why", measured(r, binary32).text,
-                  whole(r, r->limit).text);
+                  against_wanted(r, binary32).limit.text);
     else if (!isnan(binary32))
         page_note(p, "guaranteed", "%s there", measured(r, binary32).text);
 }
@@ -316,7 +325,7 @@ void solve_report_answer(page *p, void *item) {
     if (c->solved && c->possible)
         say_plane(r, c, p);
     if (!isnan(r->limit))
-        snprintf(wanted, sizeof wanted, ", wanted %s", digits(r, r->limit).text);
+        snprintf(wanted, sizeof wanted, ", wanted %s", against_wanted(r, c->reached.value).limit.text);
     page_note(p, solve_measure_name(r), "%s at z = %s%s", measured(r, c->reached.value).text,
               (r->target == SOLVE_FOR_DISTANCE ? bound(r, c->reached.z, false) : digits(r, c->reached.z)).text, wanted);
     if (is_slanted(r))

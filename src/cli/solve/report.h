@@ -36,7 +36,7 @@ typedef struct solve_candidate {
 /** Surfaces that far apart in the binary32 pipeline, from the guaranteed distance on. */
 typedef struct solve_fight {
     double first;    /**< the nearest depth at which a census finds them to fight; NaN: none found */
-    double searched; /**< the farthest that it looked at; NaN: there is nothing to look at */
+    double searched; /**< the farthest that it looked at; NaN: no pair lies farther */
 } solve_fight;
 
 enum { SOLVE_AGAIN_MAX = 32 };
@@ -57,6 +57,10 @@ typedef struct solve_report {
 
 /** solve --for frusta, all of it. @return an exit status */
 int solve_frusta(const options *o);
+
+/** That the view is as deep as the separation: else there is no pair of surfaces to ask about. @return EXIT_FINE, or
+ * EXIT_USAGE after one line on stderr */
+int solve_check_apart(const options *o, solve_target target);
 
 /** Fills in `fight` and `again` of the answer. */
 void solve_look_beyond(solve_report *r);
