@@ -85,6 +85,13 @@ static double sign_of(rng *r) {
     return rng_below(r, 2) ? 1.0 : -1.0;
 }
 
+double most_far(const dp_spec *spec) {
+    const char *name = dp_mapping_get(spec->mapping)->name;
+    const double own = strcmp(name, "three-webgpu") == 0 ? 1 / spec->znear : spec->log_c;
+    const double by = dp_mapping_get(spec->mapping)->curve != DP_CURVE_LOG ? 0 : own;
+    return spec->ortho ? 1e18 : fmax(1e18, fmin(1e28, 1e30 / fmax(spec->znear, by) * (1 - 1e-9)));
+}
+
 void rng_planes(rng *r, double *znear, double *zfar) {
     const double size = rng_below(r, 2) ? rng_log(r, 1e-2, 1e3) : rng_log(r, 1e-12, 1e12);
     const uint64_t kind = rng_below(r, 8);

@@ -18,6 +18,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "depthprec/depthprec.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +44,9 @@ uint64_t rng_below(rng *r, uint64_t count); /**< 0 .. count-1 */
 double rng_unit(rng *r);                    /**< [0, 1) */
 double rng_uniform(rng *r, double lo, double hi);
 double rng_log(rng *r, double lo, double hi); /**< log-uniform in [lo, hi], both positive */
+
+/** The largest far plane of such a near plane, mapping and constant. */
+double most_far(const dp_spec *spec);
 
 /** Planes of an orthographic camera, near <= 0: near 0, far 0, both behind the camera, and 0 between them. */
 void rng_planes(rng *r, double *znear, double *zfar);

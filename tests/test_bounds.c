@@ -154,6 +154,11 @@ static const camera cameras[] = {
     {DP_MAPPING_REVERSED, 0, 0.25, INFINITY, 1, DP_ROUND_NEAREST, 0.25, 1e6},
     {DP_MAPPING_D3D, 0, 1e-12, 1e18, 1, DP_ROUND_NEAREST, 1e-11, 1e-3},
     {DP_MAPPING_REVERSED, 0, 1e12, 1.00001e12, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_REVERSED, 0, 100, 1e28, 1, DP_ROUND_NEAREST, 1e20, 1e28},
+    {DP_MAPPING_D3D, 0, 1e-12, 1e28, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_THREE_WEBGL, 0, 1e-6, 1e24, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_CESIUM, 0, 0.1, 1e27, 1, DP_ROUND_NEAREST, 1e19, 1e27},
+    {DP_MAPPING_LOG, 0, 1e-3, 1e28, 100, DP_ROUND_NEAREST, 0, 0},
 };
 enum { CAMERAS = sizeof cameras / sizeof *cameras };
 
@@ -216,14 +221,16 @@ TEST(random_ranges) {
         spec.ortho = kind < -4;
         spec.rounding = (dp_rounding)rng_below(&r, DP_ROUNDING_COUNT);
         spec.znear = rng_below(&r, 2) ? rng_log(&r, 0.01, 10) : rng_log(&r, 1e-12, 1e12);
-        spec.zfar = rng_below(&r, 2) ? spec.znear * rng_log(&r, 2, 1e6)
-                                     : fmin(1e18, spec.znear * (1 + rng_log(&r, 1.0001e-6, 1e30)));
+        spec.zfar =
+            rng_below(&r, 2) ? spec.znear * rng_log(&r, 2, 1e6) : spec.znear * (1 + rng_log(&r, 1.0001e-6, 1e30));
         if (kind >= -4 && kind < 0)
             spec.zfar = INFINITY;
         if (spec.ortho && rng_below(&r, 2))
             rng_planes(&r, &spec.znear, &spec.zfar);
         const int either_sign = spec.znear <= 0;
         spec.log_c = rng_below(&r, 2) ? 1 : rng_log(&r, 1e-6, 1e6);
+        if (!isinf(spec.zfar))
+            spec.zfar = fmin(spec.zfar, most_far(&spec));
         int e = 2 + (int)rng_below(&r, 7), pick = (int)rng_below(&r, 6);
         if (pick < 2)
             spec.format = oracle_unorm(pick == 0 ? 16 : 1 + (int)rng_below(&r, 20));

@@ -56,13 +56,15 @@ static void random_spec(rng *r, dp_spec *spec) {
         break;
     default:
         spec->znear = rng_log(r, 1e-12, 1e12);
-        spec->zfar = fmin(1e18, spec->znear * (1 + rng_log(r, 1.0001e-6, 1e30)));
+        spec->zfar = spec->znear * (1 + rng_log(r, 1.0001e-6, 1e30));
     }
     if (kind >= 10)
         spec->zfar = INFINITY;
     if (spec->ortho && rng_below(r, 2))
         rng_planes(r, &spec->znear, &spec->zfar);
     spec->log_c = rng_below(r, 2) ? 1 : rng_log(r, 1e-6, 1e6);
+    if (!isinf(spec->zfar))
+        spec->zfar = fmin(spec->zfar, most_far(spec));
 }
 
 static double random_depth(rng *r, const dp_spec *spec) {
@@ -194,6 +196,7 @@ TEST(slivers) {
             s.spec.znear = rng_log(&r, 1e-12, 1e6);
         if (isinf(s.spec.zfar) || !(s.spec.zfar > 1.1 * s.spec.znear))
             s.spec.zfar = s.spec.znear * 1000;
+        s.spec.zfar = fmin(s.spec.zfar, most_far(&s.spec));
         open_scene(&s);
         uint32_t code = oracle_code(&s.o, rng_log(&r, s.spec.znear, s.spec.zfar));
         if (code > 0) {
@@ -201,6 +204,8 @@ TEST(slivers) {
             oracle_eye(&s.o, z, boundary);
             double znear = oracle_double(z) * (1 + (rng_unit(&r) - 0.5) * rng_log(&r, 1e-16, 1e-8));
             close_scene(&s);
+            if (s.spec.zfar > 1e18 && znear * s.spec.zfar > 1e30)
+                continue;
             if (!(znear >= 1e-12 && znear <= 1e12 && (s.spec.zfar - znear) / znear > 2e-6))
                 continue;
             s.spec.znear = znear;

@@ -106,13 +106,15 @@ static void random_spec(rng *r, dp_spec *spec) {
         spec->zfar = spec->znear * rng_log(r, 2, 1e6);
     } else {
         spec->znear = rng_log(r, 1e-12, 1e12);
-        spec->zfar = fmin(1e18, spec->znear * (1 + rng_log(r, 1.1e-6, 1e30)));
+        spec->zfar = spec->znear * (1 + rng_log(r, 1.1e-6, 1e30));
     }
     if (kind >= 14)
         spec->zfar = INFINITY;
     if (spec->ortho && rng_below(r, 2))
         rng_planes(r, &spec->znear, &spec->zfar);
     spec->log_c = rng_below(r, 2) ? 1 : rng_log(r, 1e-12, 1e12);
+    if (!isinf(spec->zfar))
+        spec->zfar = fmin(spec->zfar, most_far(spec));
 }
 
 static double random_depth(rng *r, const dp_spec *spec) {

@@ -27,7 +27,8 @@ typedef enum dp_model {
 typedef struct dp_spec {
     double
         znear; /**< near plane, scene units, in [1e-12, 1e12]; orthographic: 0, or of that magnitude, of either sign */
-    double zfar; /**< far plane, scene units, at most 1e18, or INFINITY; (far - near)/near >= 1e-6. Orthographic:
+    double zfar; /**< far plane, scene units, at most 1e18, or 1e28 with near and C times it at most
+1e30, or INFINITY; (far - near)/near >= 1e-6. Orthographic:
                     finite; 0, or of a magnitude in [1e-12, 1e18], of either sign; (far - near)/|near| >= 1e-6 */
     int ortho;   /**< nonzero: orthographic projection (d3d, gl, reversed and gl-reversed only) */
     dp_mapping mapping;

@@ -24,7 +24,7 @@ typedef enum dp_status {
     DP_OK = 0,
     DP_ERROR_NULL,       /**< a pointer that must not be null is null */
     DP_ERROR_NEAR,       /**< near is not in [1e-12, 1e12] */
-    DP_ERROR_FAR,        /**< far is neither in (near, 1e18] nor infinite */
+    DP_ERROR_FAR,        /**< far is neither in (near, 1e18] nor what setup.h allows, nor infinite */
     DP_ERROR_PLANES,     /**< far is not beyond near by at least 1e-6 of near */
     DP_ERROR_INFINITE,   /**< an infinite far with a mapping or projection that needs a finite one */
     DP_ERROR_ORTHO,      /**< an orthographic projection with a mapping that has none */

@@ -42,6 +42,13 @@ static int is_plane(double z, double most) {
     return z == 0.0 || within(fabs(z), 1e-12, most);
 }
 
+/* Above 1e18 products that binary32 and logarithms form may be no larger than those of all near planes and constants
+ * with that. */
+static int far_is_held(const dp_spec *spec, const dp_mapping_row *row) {
+    const double by = row->curve != DP_CURVE_LOG ? spec->znear : row->log_over_near ? 1.0 / spec->znear : spec->log_c;
+    return spec->zfar <= 1e18 || (spec->zfar <= 1e28 && spec->znear * spec->zfar <= 1e30 && by * spec->zfar <= 1e30);
+}
+
 static dp_status check(const dp_spec *spec) {
     const dp_mapping_row *row = dp_mapping_get(spec->mapping);
     if (row == NULL)
@@ -59,9 +66,9 @@ static dp_status check(const dp_spec *spec) {
         {dp_arith_get(spec->arith) != NULL, DP_ERROR_ARITH},
         {any_sign || within(spec->znear, 1e-12, 1e12), DP_ERROR_NEAR},
         {!any_sign || is_plane(spec->znear, 1e12), DP_ERROR_ORTHO_NEAR},
-        {(spec->zfar > spec->znear && spec->zfar <= 1e18) || spec->zfar == HUGE_VAL,
+        {(spec->zfar > spec->znear && (any_sign || far_is_held(spec, row))) || spec->zfar == HUGE_VAL,
          spec->znear > 0.0 ? DP_ERROR_FAR : DP_ERROR_ORTHO_FAR},
-        {isinf(spec->zfar) || is_plane(spec->zfar, 1e18), DP_ERROR_ORTHO_FAR},
+        {!any_sign || isinf(spec->zfar) || is_plane(spec->zfar, 1e18), DP_ERROR_ORTHO_FAR},
         {spec->znear == 0.0 || (spec->zfar - spec->znear) / fabs(spec->znear) >= 1e-6, DP_ERROR_PLANES},
         {!spec->ortho || row->ortho, DP_ERROR_ORTHO},
         {!isinf(spec->zfar) || (row->far_infinite && !spec->ortho), DP_ERROR_INFINITE},

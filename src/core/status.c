@@ -6,7 +6,8 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_OK] = "no error",
     [DP_ERROR_NULL] = "a pointer is null",
     [DP_ERROR_NEAR] = "near must be from 1e-12 to 1e12",
-    [DP_ERROR_FAR] = "far must be greater than near and at most 1e18, or inf",
+    [DP_ERROR_FAR] =
+        "far must be greater than near and at most 1e18, or 1e28 with near x far and C x far at most 1e30, or inf",
     [DP_ERROR_PLANES] = "far must be beyond near by at least 1e-6 of near",
     [DP_ERROR_INFINITE] =
         "an infinite far needs a perspective projection and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,

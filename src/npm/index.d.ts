@@ -17,7 +17,7 @@ export class DepthprecError extends Error {
 export interface CameraOptions {
     /** In [1e-12, 1e12]; orthographic: either sign, or 0. Default 0.1. */
     near?: number;
-    /** At most 1e18, or Infinity. Default 1000. */
+    /** At most 1e18, or 1e28 with near and C times it at most 1e30, or Infinity. Default 1000. */
     far?: number;
     /** "unorm24", "d24", "fp32", "unorm16", ...: names as APIs write them, unormN, floatE.M[bB]. Default "fp32". */
     format?: string;

@@ -246,8 +246,10 @@ static void search_planes(search *s) {
 static dp_status limits(const solve_problem *p, double *least, double *most) {
     dp_setup setup;
     const bool znear = p->unknown == SOLVE_NEAR;
-    *least = znear ? near_least : fmax(fmax(p->hi, p->spec.znear * (1.0 + planes_apart)), near_least);
-    *most = znear ? fmin(fmin(p->lo, near_most), p->spec.zfar / (1.0 + planes_apart)) : far_most;
+    /* A far plane beyond 1e18 leaves less to near: see setup.h. */
+    const double large = isinf(p->spec.zfar) ? 1.0 : fmax(p->spec.zfar / 1e18, 1.0);
+    *least = znear ? near_least * large : fmax(fmax(p->hi, p->spec.znear * (1.0 + planes_apart)), near_least);
+    *most = znear ? fmin(fmin(p->lo, near_most / large), p->spec.zfar / (1.0 + planes_apart)) : far_most;
     if (!(*least <= *most) || (znear ? p->hi > p->spec.zfar : p->lo < p->spec.znear))
         return DP_ERROR_RANGE;
     double *inner = znear ? most : least;

@@ -71,6 +71,8 @@ const char *camera_init(texture_camera *camera, const dp_setup *setup, const cam
     const char *error = wrong(spec, ortho);
     if (error != NULL)
         return error;
+    if (setup->spec.zfar > 1e18 && !isinf(setup->spec.zfar))
+        return "far must be at most 1e18, or inf: shaders multiply places with each other, and binary32 ends at 3.4e38";
     const double half_height = ortho ? spec->half_height : dp_tan(spec->fov_y * DEGREE / 2);
     const double sy = dp_sin(spec->yaw * DEGREE), cy = dp_cos(spec->yaw * DEGREE);
     const double sp = dp_sin(spec->pitch * DEGREE), cp = dp_cos(spec->pitch * DEGREE);

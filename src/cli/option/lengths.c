@@ -132,7 +132,7 @@ int parse_near(options *o, const option_row *row, const char *value) {
 
 int parse_far(options *o, const option_row *row, const char *value) {
     if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FAR, &o->camera.zfar))
-        return option_refuse(row, "must be a number greater than near and at most 1e18, or inf, got '%s'%s", value,
+        return option_refuse(row, "must be a number greater than near and at most 1e28, or inf, got '%s'%s", value,
                              unit_hint(value, strlen(value)));
     return EXIT_FINE;
 }

@@ -71,7 +71,7 @@ const option_row option_rows[OPTION_COUNT] = {
         LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1",
         .group = "The camera"},
     [OPTION_FAR] = {"far", 'f', "Z|inf",
-        "far plane, up to 1e18 scene units and at least 1e-6 of near beyond it, or inf",
+        "far plane, up to 1e28 scene units and at least 1e-6 of near beyond it, or inf",
         parse_far, .standard = "1000"},
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all",
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "

@@ -35,7 +35,8 @@ Worst.__doc__ = """The worst over a range, proven bounds over every depth in it;
 class Camera:
     """A camera's planes and how its depth is stored, checked once; it does not change.
 
-    near, far  scene units: near in [1e-12, 1e12], far at most 1e18 or math.inf; orthographic: either sign, or 0
+    near, far  scene units: near in [1e-12, 1e12], far at most 1e18 or math.inf, or up to 1e28 with near and C times
+               it at most 1e30; orthographic: either sign, or 0
     format     "unorm24", "d24", "fp32", "unorm16", ...: names as APIs write them, unormN, floatE.M[bB]
     mapping    "d3d", "gl", "reversed", "gl-reversed", "linear", "log", "three-webgl", "three-webgpu", "cesium",
                "osgearth"
