@@ -78,7 +78,8 @@ typedef struct made {
     double lo, hi, step, offset;
     bool cut, file_cut;
     image_type type;
-    double unit; /* of the file's samples; 0: numbers */
+    double unit;  /* of the file's samples; 0: numbers */
+    double again; /* what levels were rounded to before that; 0: nothing */
 } made;
 
 static double rounded(double x, bool cut) {
@@ -163,10 +164,33 @@ static void spoil(rng *r, double holes, double averages, double *z) {
 
 /* ---- Found, or assumed ------------------------------------------------------------------------------------------- */
 
+/* Roundings between a lattice and a file. */
+static const struct second {
+    const char *name;
+    double again;
+    image_type type;
+    double unit;
+} seconds[] = {
+    {"none", 0, IMAGE_F64, 0}, /* files as they are drawn */
+    {"mm in 0.2 mm", 0.001, IMAGE_U16, 0.0002},
+    {"1.035 mm in 0.2 mm", 0.001035, IMAGE_U16, 0.0002},
+    {"1.076 mm in mm", 0.001076, IMAGE_U16, 0.001},
+    {"0.5 mm in 0.2 mm", 0.0005, IMAGE_U16, 0.0002},
+    {"mm in numbers", 0.001, IMAGE_F32, 0},
+    {"1.031 mm in numbers", 0.001031, IMAGE_F64, 0},
+};
+enum { SECONDS = sizeof seconds / sizeof seconds[0] };
+
 /* 1: found; 0: assumed. */
-static int one(tally *t, rng *r, const kind *k) {
+static int one(tally *t, rng *r, const kind *k, const struct second *second) {
     static double z[N];
-    const made m = draw(r, k);
+    made m = draw(r, k);
+    if (second->again > 0) {
+        m.again = second->again;
+        m.type = second->type;
+        m.unit = second->unit;
+        m.hi = fmin(m.hi, 12);
+    }
     const bool spoiled = rng_below(r, 2) == 0;
     scene(r, m.lo, m.hi, rng_below(r, 2) == 0 ? 0 : rng_log(r, 1e-4, 1e-2), z);
     for (int i = 0; i < N; i++)
@@ -175,18 +199,25 @@ static int one(tally *t, rng *r, const kind *k) {
         const double averages = rng_uniform(r, 0, 0.08), holes = rng_uniform(r, 0, 0.5);
         spoil(r, holes, averages, z);
     }
+    for (int i = 0; i < N && m.again > 0; i++)
+        z[i] = m.again * rounded(z[i] / m.again, m.file_cut);
     const sensor s = found_in(&m, z);
     const char *what = k->name, *got = s.row->name;
     if (!s.found) {
         TALLY(t, true, "-");
         return 0;
     }
+    if (m.again > 0 && strcmp(got, "even") == 0 && fabs(s.step - m.again) < 0.01 * m.again)
+        return 0; /* levels too close to be told from the rounding */
     TALLY(t, strcmp(got, names[k->lattice]) == 0, "%s, step %.9g of %.9g to %.9g, file %d of %g: found %s of step %.9g",
           what, m.step, m.lo, m.hi, (int)m.type, m.unit, got, s.step);
     if (k->lattice >= HALF || strcmp(got, names[k->lattice]) != 0)
         return 1;
-    TALLY(t, fabs(s.step - m.step) <= s.step_off + 1e-15, "%s: step %.12g, file %d of %g, found %.12g within %.3g",
-          what, m.step, (int)m.type, m.unit, s.step, s.step_off);
+    if (m.again > 0 && m.unit == 0 && fabs(s.step - m.step) / m.step * m.hi <= m.again)
+        return 1; /* multiples of the first rounding that are evenly apart: nothing tells another step */
+    TALLY(t, fabs(s.step - m.step) <= s.step_off + 1e-15,
+          "%s: step %.12g, %s in file %d of %g, found %.12g within %.3g", what, m.step, second->name, (int)m.type,
+          m.unit, s.step, s.step_off);
     const double beside = (s.offset - m.offset) / m.step;
     TALLY(t, fabs(beside - rint(beside)) * m.step <= s.offset_off + 1e-14,
           "%s: levels from %.9g in steps of %.9g, found from %.9g within %.3g", what, m.offset, m.step, s.offset,
@@ -201,10 +232,28 @@ TEST(lattices_are_found_or_assumed) {
     for (size_t k = 0; k < KINDS; k++) {
         int found = 0;
         for (uint64_t i = 0; i < rounds; i++)
-            found += one(&t, &r, &kinds[k]);
+            found += one(&t, &r, &kinds[k], &seconds[0]);
         print_message("# %s: %d of %d found\n", kinds[k].name, found, (int)rounds);
     }
     tally_end(&t);
+}
+
+/* Each lattice under each rounding that came before the file's: what is found is that lattice, within its bounds. */
+TEST(levels_that_were_rounded_twice_are_found_or_assumed) {
+    const uint64_t rounds = test_cases(1, 3, 200);
+    tally t = {.name = "rounded twice"};
+    rng r = rng_make("rounded twice");
+    int coarse = 0;
+    for (size_t k = 0; k < KINDS; k++)
+        for (size_t second = 1; second < SECONDS; second++) {
+            int found = 0;
+            for (uint64_t i = 0; i < rounds; i++)
+                found += one(&t, &r, &kinds[k], &seconds[second]);
+            coarse += k < 4 ? found : 0;
+            print_message("# %s, %s: %d of %d found\n", kinds[k].name, seconds[second].name, found, (int)rounds);
+        }
+    tally_end(&t);
+    assert_true(coarse * 3 > (int)(4 * (SECONDS - 1) * rounds));
 }
 
 /* Draws of fine steps that would be off by more than they say: averages lie on a level by chance, or a level was

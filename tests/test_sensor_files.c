@@ -77,7 +77,12 @@ TEST(compressed_depth_of_numbers) {
     static uint8_t bytes[FILE_MOST];
     tally t = {.name = "compressedDepth"};
     rng r = rng_make("compressedDepth");
-    double used = 0, in_cm = 0;
+    static const struct {
+        const char *unit;
+        double in_metres;
+    } units[] = {{"1", 1}, {"0.01", 0.01}, {"mm", 0.001}, {"1cm", 0.01}, {"tum", 0.0002}};
+    enum { UNITS = sizeof units / sizeof units[0] };
+    double used = 0, in_cm = 0, said[UNITS] = {0};
     for (uint64_t i = 0; i < test_cases(4, 12, 200); i++) {
         const float q = i == 0 ? 100 : (float)rng_log(&r, 20, 250), most = i == 0 ? 10 : (float)rng_log(&r, 4, 20);
         double z[PIXELS], samples[PIXELS], holes = 0;
@@ -109,9 +114,24 @@ TEST(compressed_depth_of_numbers) {
         assert_string_equal(json_string_value(json_object_get(lattice, "from")), "given");
         assert_relative(number_in(lattice, "step"), 0.01 / (double)a, 1e-7);
         json_decref(root);
+        for (size_t k = 0; k < UNITS; k++) { /* what names the unit leaves the lattice that the header gives */
+            command named = c;
+            truth_add(&named, "--metric");
+            truth_add(&named, units[k].unit);
+            said[k] = fmax(said[k], check_depths(&t, units[k].unit, &named, z, 1 / units[k].in_metres));
+            root = truth_statistics(&named);
+            lattice = json_object_get(root, "lattice");
+            assert_string_equal(json_string_value(json_object_get(lattice, "from")), "given");
+            assert_string_equal(json_string_value(json_object_get(root, "metric_from")), "given");
+            assert_relative(number_in(lattice, "step"), 1 / (double)a / units[k].in_metres, 1e-7);
+            assert_true(number_in(lattice, "off_pixels") == 0);
+            json_decref(root);
+        }
     }
     print_message("# compressedDepth: %.3f of the bound is used, %.3f in cm\n", used, in_cm);
     assert_true(used > 0.4 && in_cm > 0.4);
+    for (size_t k = 0; k < UNITS; k++)
+        assert_true(said[k] > 0.4);
     tally_end(&t);
 }
 

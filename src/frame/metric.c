@@ -85,7 +85,8 @@ static void look_through(const image *img, const sensor_file *file, const sensor
     out->sensor = out->seen;
     if (given != NULL) {
         out->sensor = *given;
-        sensor_complete(img, file, l->least * file->scale, l->most * file->scale, &out->sensor);
+        const double ends[2] = {l->least * file->scale, l->most * file->scale};
+        sensor_complete(img, file, ends, &out->seen, &out->sensor);
     }
 }
 
@@ -114,7 +115,8 @@ static const char *of_integers(const image *img, double scale, look *l, const se
     const double divisor = l->seen.count >= VALUES_LEAST ? l->divisor : 1;
     const sensor_file file = {.step = divisor * scale, .unit = scale, .scale = scale};
     look_through(img, &file, given, l, out);
-    bits = bits_for(fmin(sensor_end(&out->sensor, (l->most + divisor) * scale) / scale, ldexp(1, BITS_MAX) - 1), bits);
+    const double end = sensor_end(&out->sensor, (l->most + divisor) * scale + out->sensor.again) / scale;
+    bits = bits_for(fmin(end, ldexp(1, BITS_MAX) - 1), bits);
     const double top = ldexp(1, bits) - 1;
     dp_format formats[2];
     char name[24];
@@ -157,7 +159,7 @@ static const char *of_numbers(const image *img, double scale, look *l, const sen
     const bool single = (double)l->single >= SENSOR_SHARE * (double)l->depths;
     const sensor_file file = {.step = step * scale, .digits = single ? own : 53, .scale = scale};
     look_through(img, &file, given, l, out);
-    const double end = sensor_end(&out->sensor, (l->most * (1 + 0x1p-10) + step) * scale);
+    const double end = sensor_end(&out->sensor, (l->most * (1 + 0x1p-10) + step) * scale + out->sensor.again);
     while (out->sensor.row->levels != GRAIN_FINE && ldexp(scale, exponent) < fmin(end, 5e17))
         exponent++;
     const bool alone = step == 0 && out->sensor.row->levels == GRAIN_FINE;

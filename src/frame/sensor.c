@@ -56,7 +56,7 @@ typedef struct interval {
     double lo, hi;
 } interval;
 
-static interval interval_of(const sensor_file *file, double x) {
+static interval stored_of(const sensor_file *file, double x) {
     int exponent;
     const double z = x * file->scale;
     if (file->step > 0)
@@ -65,6 +65,12 @@ static interval interval_of(const sensor_file *file, double x) {
     const double unit = ldexp(1, exponent - (file->digits < DIGITS_MOST ? file->digits : DIGITS_MOST));
     /* a product, a sum and a quotient in numbers of so many bits; of binary16 itself it was only stored */
     return file->digits == 11 ? (interval){z - 0.5 * unit, z + unit} : (interval){z - 3 * unit, z + 3 * unit};
+}
+
+/* Before it was stored it was rounded to multiples, or cut off. */
+static interval interval_of(const sensor_file *file, double x) {
+    const interval z = stored_of(file, x);
+    return (interval){z.lo - 0.5 * file->again, z.hi + file->again};
 }
 
 static fit_value value_of(grain_levels levels, interval z) {
@@ -199,13 +205,19 @@ static bool halves_change(const depths *d, const sensor_file *file) {
     return true;
 }
 
-static bool find_even(const depths *d, const sensor_file *file, grain_levels levels, fit *out) {
+/* @return null without memory */
+static fit_value *values_of(const depths *d, const sensor_file *file, grain_levels levels) {
     fit_value *values = malloc((d->count + 1) * sizeof *values);
     for (size_t i = 0; i < d->count && values != NULL; i++) {
         const size_t to = levels == GRAIN_INVERSE ? d->count - 1 - i : i;
         values[to] = value_of(levels, interval_of(file, d->samples[i]));
         values[to].pixels = d->pixels[i];
     }
+    return values;
+}
+
+static bool find_even(const depths *d, const sensor_file *file, grain_levels levels, fit *out) {
+    fit_value *values = values_of(d, file, levels);
     const bool found = values != NULL && fit_find(values, d->count, out);
     free(values);
     return found;
@@ -289,6 +301,7 @@ void sensor_into(const sensor *s, double zfar, grain *g) {
     const double step = s->step + s->step_off;
     g->levels = s->row->levels;
     g->level = s->row->levels == GRAIN_INVERSE ? step * zfar : s->row->levels == GRAIN_HALF ? 1 / zfar : step / zfar;
+    g->between = s->again / zfar;
 }
 
 /* ---- Surfaces ---------------------------------------------------------------------------------------------------- */
@@ -311,12 +324,17 @@ static void run_of(const image *img, const sensor *s, size_t pixel, size_t step,
         counts[k[0] - 4 * k[1] + 6 * k[2] - 4 * k[3] + k[4] == 0]++;
 }
 
+void sensor_scale(sensor *s, double scale) {
+    const double by = s->row->levels == GRAIN_INVERSE ? 1 / scale : scale;
+    s->step *= by;
+    s->offset *= by;
+}
+
 static bool is_surface(const image *img, const sensor *s, double scale) {
     const size_t all = (size_t)img->width * img->height, stride = (1 + (all - 1) / LOOKED_AT) | 1U;
     sensor in_samples = *s;
     size_t counts[2] = {0, 0};
-    in_samples.step = s->row->levels == GRAIN_INVERSE ? s->step * scale : s->step / scale;
-    in_samples.offset = s->row->levels == GRAIN_INVERSE ? s->offset * scale : s->offset / scale;
+    sensor_scale(&in_samples, 1 / scale);
     for (size_t i = 0; i < all && s->row->levels != GRAIN_HALF; i += stride) {
         if (i % img->width + RUN <= img->width)
             run_of(img, &in_samples, i, 1, counts);
@@ -472,6 +490,109 @@ static void choose(const depths *d, const sensor_file *file, choice *c) {
         c->other = NULL;
 }
 
+/* What is too fine to be seen as multiples may be such steps of the file, nearly its own where depths were scaled, or
+ * of numbers 2^-14 of the farthest depth. */
+static const double before[] = {1.25, 2.5, 5};
+enum { BEFORE = sizeof before / sizeof before[0] };
+
+static double before_of(const sensor_file *file, size_t i, double farthest) {
+    return before[i] * (file->step > 0 ? file->step : 0x1p-14 * farthest);
+}
+
+/* Samples that fit may have been rounded as coarsely as all that both roundings explain. */
+static double most_before(const sensor_file *as) {
+    return as->again > 0 ? 1.5 * (as->again + as->step) : 0;
+}
+
+/* How many of upward numbers lie outside of an interval of such a width that has most of them. */
+static size_t outside(const double *x, size_t count, double width) {
+    size_t most = 0;
+    for (size_t first = 0, end = 0; end < count; end++) {
+        while (x[end] - x[first] > width)
+            first++;
+        most = end + 1 - first > most ? end + 1 - first : most;
+    }
+    return count - most;
+}
+
+/* One rounding leaves depths within its step of each other beside their levels, but for averages that lie there by
+ * chance, as they lie elsewhere: more of them show that there was another rounding. */
+static bool is_blurred(const depths *d, const sensor_file *as, const choice *c) {
+    static const double slack = 0.0625, beyond = 0.4375 / 1.5; /* of a step, and of what both ways to round explain */
+    double *beside = malloc((d->count + 1) * sizeof *beside), chance = 0;
+    const sensor s = of_fit(c->row, &c->fit);
+    const double step = as->step + as->again;
+    size_t held = 0;
+    for (size_t i = 0; i < d->count && beside != NULL && step > 0 && c->row->levels != GRAIN_HALF; i++) {
+        const double z = d->samples[i] * as->scale, off = value_of(c->row->levels, interval_of(as, d->samples[i])).off;
+        if (!(off < c->fit.step / 6))
+            continue;
+        if (holds(&s, as, d->samples[i]))
+            beside[held++] = z - sensor_round(&s, z);
+        else
+            chance += beyond * 2 * off / (c->fit.step - 2 * off);
+    }
+    if (beside != NULL)
+        qsort(beside, held, sizeof *beside, compare_doubles);
+    const bool blurred =
+        beside == NULL || (double)outside(beside, held, step * (1 + slack)) > chance + 4 * sqrt(chance) + 2;
+    free(beside);
+    return blurred;
+}
+
+/* A rounding that is not seen may have been as coarse as all that explains the samples: so are the bounds. */
+static void widen(const depths *d, sensor_file *as, choice *c) {
+    as->again = most_before(as);
+    fit_value *values = values_of(d, as, c->row->levels);
+    if (values != NULL && c->row->levels != GRAIN_HALF)
+        fit_bound(values, d->count, &c->fit);
+    free(values);
+}
+
+/* The step of multiples that the samples lie on, which levels may have been rounded to; 0: they lie on none. */
+static double multiples_of(const sensor_row *row, double step, double offset, double offset_off) {
+    return row != NULL && row->levels == GRAIN_EVEN && fabs(offset) <= offset_off ? step : 0;
+}
+
+/* A lattice, or one that was rounded to it: the coarser one is meant. */
+static void search(const depths *d, sensor_file *file, choice *c) {
+    choose(d, file, c);
+    sensor_file again = *file;
+    again.again = multiples_of(c->row, c->fit.step, c->fit.offset, c->fit.offset_off);
+    choice coarser = {0};
+    if (again.again > 0)
+        choose(d, &again, &coarser);
+    if (coarser.row != NULL) {
+        *file = again;
+        *c = coarser;
+    }
+}
+
+/* Other roundings, from fine to coarse, until one explains the samples. @return whether none does */
+static bool explain(const depths *d, const sensor_file *file, sensor_file *tried, choice *c) {
+    const double farthest = d->samples[d->count - 1] * file->scale;
+    const bool seen = tried->again > 0;
+    bool blurred = c->row != NULL && is_blurred(d, tried, c);
+    for (size_t i = 0; i < BEFORE && !seen && !c->unclear && (c->row == NULL || blurred); i++) {
+        sensor_file coarser = *file;
+        choice other = {0};
+        coarser.again = before_of(file, i, farthest);
+        choose(d, &coarser, &other);
+        if (other.unclear)
+            break;
+        if (other.row == NULL)
+            continue;
+        *tried = coarser;
+        *c = other;
+        blurred = is_blurred(d, tried, c);
+    }
+    if (blurred && !seen)
+        tried->again = fmax(tried->again, before_of(file, 0, farthest));
+    if (c->row != NULL && !seen && tried->again > 0)
+        widen(d, tried, c);
+    return blurred;
+}
+
 /* Multiples of a step may have been rounded to it, or be the levels that are looked for. */
 void sensor_find(const image *img, const sensor_file *file, sensor *out) {
     depths d;
@@ -479,20 +600,23 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
     sensor_file tried = *file;
     const bool good = gather(img, &d);
     if (good)
-        choose(&d, &tried, &c);
+        search(&d, &tried, &c);
     if (good && c.row == NULL && file->unit < file->step) {
         tried.step = file->unit;
-        choose(&d, &tried, &c);
+        search(&d, &tried, &c);
         if (file->unit == 0 && !(c.fit.step > 1.5 * file->step))
             c.row = NULL; /* the step itself: millimetres in metres */
     }
+    const bool again_seen = tried.again > 0, blurred = good && d.count > 0 && explain(&d, file, &tried, &c);
     *out = of_file(img, file, &d);
     out->found = out->found && !c.unclear;
     if (c.row != NULL) {
         sensor s = of_fit(c.row, &c.fit);
         s.other = c.other;
-        s.found = c.other == NULL;
+        s.found = c.other == NULL && !blurred;
         s.file_step = tried.step;
+        s.again = tried.again;
+        s.again_seen = again_seen;
         if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale) && !is_put_together(img, &tried, &s))
             *out = s, out->residual = residual_of(&d, &tried, &s);
         name_like(out);
@@ -500,16 +624,19 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
     depths_free(&d);
 }
 
-/* The offset that most pixels are on. */
+/* The offset that most pixels are on, to a 4096th of the step: far levels are coarse. */
 static double best_offset(const image *img, const sensor_file *file, sensor *s) {
     enum { TRIED = 64 };
-    double best = 0, fewest = (double)INFINITY;
-    for (int i = 0; i < TRIED; i++) {
-        s->offset = s->step * i / TRIED;
-        count_all(img, file, s);
-        if (s->off_pixels < fewest) {
-            fewest = s->off_pixels;
-            best = s->offset;
+    double best = 0.5 * s->step, fewest = (double)INFINITY;
+    for (int round = 0; round < 2; round++) {
+        const double first = best - 0.5 * s->step / (round > 0 ? TRIED : 1);
+        for (int i = 0; i < TRIED; i++) {
+            s->offset = first + s->step * i / (round > 0 ? TRIED * TRIED : TRIED);
+            count_all(img, file, s);
+            if (s->off_pixels < fewest) {
+                fewest = s->off_pixels;
+                best = s->offset;
+            }
         }
     }
     return best;
@@ -523,8 +650,32 @@ void sensor_between(double lo, double hi, sensor *s) {
     s->step = (inverse ? 1 / lo - 1 / hi : hi - lo) / (s->levels - 1);
 }
 
-void sensor_complete(const image *img, const sensor_file *file, double lo, double hi, sensor *s) {
-    sensor_between(lo, hi, s);
+/* Whether the samples that tell are on levels: others are within a coarse rounding of any. */
+static bool is_told(const image *img, const sensor_file *as, const sensor *s) {
+    size_t told = 0, held = 0;
+    for (size_t i = 0; i < (size_t)img->width * img->height; i++) {
+        const double x = image_sample(img, i);
+        if (s->row->levels == GRAIN_HALF || !is_depth(x) ||
+            !(value_of(s->row->levels, interval_of(as, x)).off < s->step / 6))
+            continue;
+        told++;
+        held += holds(s, as, x);
+    }
+    return told >= FIT_LEVELS && (double)held >= SENSOR_SHARE * (double)told;
+}
+
+/* Fills in the rest for one rounding. @return whether few pixels are on no level */
+static bool complete_as(const image *img, const sensor_file *as, const sensor *known, sensor *s) {
+    s->again = s->again_seen ? as->again : most_before(as);
+    s->offset = known->offset;
+    if (s->row->levels != GRAIN_HALF && isnan(s->offset))
+        s->offset = best_offset(img, as, s);
+    const bool few = count_all(img, as, s);
+    return as->again > 0 ? few && is_told(img, as, s) : few;
+}
+
+void sensor_complete(const image *img, const sensor_file *file, const double ends[2], const sensor *seen, sensor *s) {
+    sensor_between(ends[0], ends[1], s);
     const sensor known = *s;
     sensor_file as = *file;
     if (known.row->levels != GRAIN_FINE && known.step < 4 * file->step)
@@ -538,7 +689,21 @@ void sensor_complete(const image *img, const sensor_file *file, double lo, doubl
         s->offset = 0;
         return;
     }
-    if (known.row->levels != GRAIN_HALF && isnan(s->offset))
-        s->offset = best_offset(img, &as, s);
-    count_all(img, &as, s);
+    const double shown =
+        seen->again > 0 ? seen->again : multiples_of(seen->row, seen->step, seen->offset, seen->offset_off);
+    const double steps[] = {
+        isnan(known.again) ? 0 : known.again, shown < known.step || known.row->levels != GRAIN_EVEN ? shown : 0,
+        before_of(&as, 0, ends[1]),           before_of(&as, 1, ends[1]),
+        before_of(&as, 2, ends[1]),           0}; /* it is of another lattice */
+    bool good = false;
+    for (size_t i = 0; i < sizeof steps / sizeof steps[0] && !good; i++) {
+        as.again = steps[i];
+        s->again_seen = i < 2;
+        good = complete_as(img, &as, &known, s) || !isnan(known.again);
+    }
+    if (!good && seen->row == known.row && isnan(known.offset) &&
+        fabs(seen->step - known.step) < 0x1p-10 * known.step) {
+        *s = *seen; /* the same to three digits */
+        s->given = true;
+    }
 }

@@ -30,6 +30,7 @@ typedef struct sensor_file {
     double unit;  /**< of an integer, at most the step; 0: numbers */
     int digits;   /**< numbers: significant bits, 11, 24 or 53; 0: integers */
     double scale; /**< scene units of 1 in a sample */
+    double again; /**< what was rounded to before that, scene units: multiples of it; 0: nothing was */
 } sensor_file;
 
 /** What was found. What there is not is NaN. */
@@ -38,6 +39,8 @@ typedef struct sensor {
     bool given;                /**< by somebody who knows */
     bool found;                /**< by the rule above, and no other row explains the values as well; else assumed */
     double file_step;          /**< what the file itself rounded to, step or unit of it */
+    double again;              /**< multiples that the levels were rounded to before that; 0: they were not */
+    bool again_seen;           /**< the samples show them; else it is a step that is large enough */
     double step, step_off;     /**< of 1/z, or of z, and how far off it is at most */
     double offset, offset_off; /**< the level nearest to 0, in the unit of the step */
     double levels;             /**< from the nearest to the farthest depth, whether used or not */
@@ -54,9 +57,14 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out);
 
 /**
  * What somebody knows: a row, and of its levels the step and the offset, or how many there are from lo to hi. NaN
- * stands for what is not known; an offset is then where most values are. Fills in the rest.
+ * stands for what is not known; an offset is then where most values are, and what they were rounded to between lattice
+ * and file is what leaves few of them on no level. Fills in the rest.
+ * @param seen  what sensor_find() found
  */
-void sensor_complete(const image *img, const sensor_file *file, double lo, double hi, sensor *s);
+void sensor_complete(const image *img, const sensor_file *file, const double ends[2], const sensor *seen, sensor *s);
+
+/** From levels of samples to levels of scene units, `scale` of them a sample's 1. */
+void sensor_scale(sensor *s, double scale);
 
 /** Where it is known how many levels there are from lo to hi: their step and offset. */
 void sensor_between(double lo, double hi, sensor *s);

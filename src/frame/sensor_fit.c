@@ -359,7 +359,7 @@ static void keep_least(double *least, size_t size, double x) {
  * difference. Of pairs that share no value as many are wrong at most as averages are on a level, and the next strictest
  * holds.
  */
-static void bound(const fit_value *values, size_t count, fit *f) {
+void fit_bound(const fit_value *values, size_t count, fit *f) {
     end_values e[2];
     double above = (double)INFINITY, below = (double)INFINITY, offs[2 * ENDS + 1];
     f->offset -= f->step * rint(f->offset / f->step);
@@ -510,6 +510,6 @@ bool fit_find(const fit_value *values, size_t count, fit *out) {
         polish(values, count, out);
     if (!found || may_have_slipped(values, count, out) || is_mixed(values, count, out))
         return false;
-    bound(values, count, out);
+    fit_bound(values, count, out);
     return isfinite(out->step_off);
 }

@@ -44,4 +44,7 @@ double fit_chance(const double *probabilities, size_t count, size_t on);
 /** The lattice that says most. @param values  by `at`, upwards, all different @return false when none extends to all */
 bool fit_find(const fit_value *values, size_t count, fit *out);
 
+/** What any lattice that explains the same values by the same levels may differ by. */
+void fit_bound(const fit_value *values, size_t count, fit *f);
+
 #endif

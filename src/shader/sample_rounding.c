@@ -75,6 +75,14 @@ double grain_level_gap(const grain *g, double v) {
     return g->levels == GRAIN_HALF ? ldexp(g->level, exponent > -13 ? exponent - 11 : -24) : g->level;
 }
 
+/* A depth that was rounded to multiples of a step, or cut off, before the file rounded it. */
+static span between_span(const grain *g, span s) {
+    const double below[] = {[GRAIN_ANY] = 0.5, [GRAIN_NEAREST] = 0.5, [GRAIN_ZERO] = 0};
+    const double above[] = {[GRAIN_ANY] = 1, [GRAIN_NEAREST] = 0.5, [GRAIN_ZERO] = 1};
+    return (span){s.lo - below[g->rounding] * g->between * s.den, s.hi + above[g->rounding] * g->between * s.den,
+                  s.den};
+}
+
 /* What was rounded to a level lies a step away at most on either side: cut-off numbers of binary16 lie above theirs,
  * which way others were cut is not known. */
 static span level_span(const grain *g, span s) {
@@ -91,7 +99,7 @@ static span level_span(const grain *g, span s) {
 
 /* Without a buffer: the numbers that the sample may have been. */
 static span sample_span(const grain *g, double v) {
-    const span s = g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v);
+    const span s = between_span(g, g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v));
     return g->levels == GRAIN_FINE ? s : level_span(g, s);
 }
 

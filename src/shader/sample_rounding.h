@@ -45,6 +45,8 @@ typedef struct grain {
     double margin; /**< ... a finer buffer, whose cells reach so far beyond its numbers, window depth */
     int bits; /**< GRAIN_FLOATS: significant bits, 11, 24 or 53; GRAIN_STEPS: 0, or those that steps were rounded to */
     double least;        /**< the least subnormal */
+    double between;      /**< of a linear mapping from the eye on alone: a depth was rounded to multiples of it, window
+                              depth, before that; 0: it was not */
     grain_levels levels; /**< of a linear mapping from the eye on alone: what was rounded before, in the same way */
     double level;        /**< its step, of window depth or of the inverse of that; GRAIN_HALF: 1 as window depth */
 } grain;

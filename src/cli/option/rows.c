@@ -334,7 +334,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_LATTICE] = {"lattice", 0, "NAME[:NUMBERS]",
         "what metric depth was rounded to before, in place of what the image shows: stereo:FOCAL,BASELINE[,PIXELS] "
         "with the step of disparity in pixels, inverse:A[,B] with steps of 1/A in 1/z, even:STEP[,FROM] in z, "
-        "inverse-levels:N or levels:N from the nearest to the farthest depth, binary16, file",
+        "inverse-levels:N or levels:N from the nearest to the farthest depth, binary16, file; @STEP behind it "
+        "if it was rounded to that before it was stored",
         TEXT(image.lattice), .without = "as found"},
     [OPTION_RADIAL] = {"radial", 0, NULL,
         "with --metric: the samples are distances along the rays, which --fov, --hfov or --intrinsics says",

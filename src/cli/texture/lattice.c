@@ -9,7 +9,7 @@
 #include "report/message.h"
 #include "report/number.h"
 
-enum { NUMBERS = 3 };
+enum { NUMBERS = 3, LATTICE_SIZE = 128 };
 
 /* The step, and the offset of a level; NaN where it is not said. */
 typedef void lattice_maker(const double numbers[NUMBERS], sensor *out);
@@ -67,20 +67,34 @@ static bool read_numbers(const char *text, const struct way *way, double out[NUM
     return count >= way->least && count <= way->most;
 }
 
-int texture_lattice(option_id id, const char *text, sensor *out) {
-    const size_t length = text != NULL ? strcspn(text, ":") : 0;
+/* What the levels were rounded to before the file was written stands behind a sign. @return whether it is well said */
+static bool read_again(char *text, option_id id, sensor *out) {
+    char *const at = strchr(text, '@');
+    if (at == NULL)
+        return true;
+    *at = '\0';
+    return id == OPTION_LATTICE && number_parse(at + 1, NUMBER_FINITE, &out->again) && out->again >= 0 &&
+           out->again <= 1e12;
+}
+
+int texture_lattice(option_id id, const char *given, sensor *out) {
     const double none = (double)NAN;
-    *out = (sensor){.step = none, .offset = none, .levels = none};
+    char room[LATTICE_SIZE], *const text = given != NULL ? room : NULL;
+    *out = (sensor){.step = none, .offset = none, .levels = none, .again = none};
+    snprintf(room, sizeof room, "%s", given != NULL ? given : "");
+    const bool good_again = read_again(room, id, out) && (given == NULL || strlen(given) < sizeof room);
+    const size_t length = strcspn(room, ":");
     for (const struct way *way = ways; text != NULL && way < ways + WAYS; way++) {
         double numbers[NUMBERS];
-        if (strlen(way->name) != length || strncmp(way->name, text, length) != 0)
+        if (!good_again || strlen(way->name) != length || strncmp(way->name, text, length) != 0)
             continue;
         if (!read_numbers(text[length] == ':' ? text + length + 1 : NULL, way, numbers))
             break;
         way->make(numbers, out);
-        const bool good = way->make == make_levels  ? out->levels >= 2 && out->levels <= 0x1p32
-                          : way->make == make_alone ? true
-                                                    : out->step >= 1e-12 && out->step <= 1e12;
+        const bool good = way->levels == GRAIN_FINE  ? isnan(out->again)
+                          : way->make == make_levels ? out->levels >= 2 && out->levels <= 0x1p32
+                          : way->make == make_alone  ? true
+                                                     : out->step >= 1e-12 && out->step <= 1e12;
         if (!good)
             break;
         for (size_t i = 0; sensor_get(i) != NULL; i++)
@@ -95,7 +109,9 @@ int texture_lattice(option_id id, const char *text, sensor *out) {
                : i + 1 < WAYS ? ", "
                               : " or ",
                ways[i].name, ways[i].numbers);
-    return text == NULL ? EXIT_FINE : option_error(id, "must be %s, of numbers above 0, got '%s'", known, text);
+    return text == NULL ? EXIT_FINE
+                        : option_error(id, "must be %s, of numbers above 0%s, got '%s'", known,
+                                       id == OPTION_LATTICE ? ", and @STEP behind it" : "", given);
 }
 
 void texture_lattice_warn(const options *o, const texture_source *s) {

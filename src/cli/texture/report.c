@@ -88,6 +88,7 @@ static const column lattice_columns[] = {{FIELD(statistics, lattice.name, "name"
                                          {FIELD(statistics, lattice.step_error, "step_error", "")},
                                          {FIELD(statistics, lattice.offset, "offset", "")},
                                          {FIELD(statistics, lattice.offset_error, "offset_error", "")},
+                                         {FIELD(statistics, lattice.before, "before", "scene")},
                                          {FIELD(statistics, lattice.constant, "constant", "scene")},
                                          {FIELD(statistics, lattice.levels, "levels", "")},
                                          {FIELD(statistics, lattice.bits, "bits", "")},

@@ -159,8 +159,11 @@ static bool is_asked(const options *o) {
 
 /* Whether a word of the note is an option that nothing on the command line stands against. */
 static bool is_open(const options *o, option_id id) {
-    const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC || id == OPTION_LATTICE;
-    return !option_given(o, id) && !(of_samples ? is_asked(o) : o->camera.preset_count > 0 || o->image.matrix != NULL);
+    const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC;
+    const bool of_lattice = option_given(o, OPTION_PACKING) || option_given(o, OPTION_FORMAT);
+    return !option_given(o, id) && !(of_samples             ? is_asked(o)
+                                     : id == OPTION_LATTICE ? of_lattice
+                                                            : o->camera.preset_count > 0 || o->image.matrix != NULL);
 }
 
 /* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
@@ -190,7 +193,8 @@ static int take_note(options *o, texture_source *s) {
                 return status;
             o->given[known[i]] = "";
             s->noted = s->noted || known[i] == OPTION_MAPPING;
-            s->metric_from = s->picture.file == IMAGE_ROS && s->type == IMAGE_U16 ? ORIGIN_ASSUMED : ORIGIN_FOUND;
+            if (known[i] == OPTION_METRIC)
+                s->metric_from = s->picture.file == IMAGE_ROS && s->type == IMAGE_U16 ? ORIGIN_ASSUMED : ORIGIN_FOUND;
         }
     }
     return EXIT_FINE;
@@ -266,11 +270,8 @@ static int read_metric(const options *o, texture_source *s) {
     int status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
     if (status != EXIT_FINE)
         return status;
-    if (given.row != NULL && o->given[OPTION_LATTICE][0] == '\0' && o->camera.unit != NULL) {
-        /* a note's is even in 1/z of metres */
-        given.step *= o->camera.unit->nanometres / 1e9;
-        given.offset *= o->camera.unit->nanometres / 1e9;
-    }
+    if (given.row != NULL && o->given[OPTION_LATTICE][0] == '\0')
+        sensor_scale(&given, o->image.metric); /* a note's is of samples, whatever unit these have */
     const double zfar = option_given(o, OPTION_FAR) ? o->camera.zfar : (double)INFINITY;
     const char *wrong =
         metric_convert(&s->picture, o->image.metric, zfar, given.row != NULL ? &given : NULL, &s->metric);

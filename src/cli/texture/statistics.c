@@ -80,6 +80,7 @@ void statistics_name_lattice(statistics *r) {
                                   .step_error = s->step_off,
                                   .offset = s->offset,
                                   .offset_error = s->offset_off,
+                                  .before = s->again > 0 ? s->again : (double)NAN,
                                   .constant = s->row->levels == GRAIN_INVERSE ? 1 / s->step : (double)NAN,
                                   .levels = s->levels,
                                   .bits = s->bits,
@@ -134,6 +135,10 @@ static void say_metric(statistics *r, page *p) {
         page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);
     else
         page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
+    if (s->again > 0)
+        page_note(p, "before", "the levels were rounded to steps of %s%s, which every error counts",
+                  number_in(number_of(s->again, 4), p->unit != NULL ? p->unit : "scene units").text,
+                  s->again_seen ? "" : " at most");
     page_note(p, "lattice", "%s %s%s%s%s%s", s->row->name, origin_of(s), s->given ? "" : ": ",
               s->given ? "" : s->row->note, s->other != NULL ? "; as well explained by " : "",
               s->other != NULL ? s->other->name : "");

@@ -23,7 +23,7 @@ typedef struct error_line {
 /** What is printed of the lattice of metric depth. */
 typedef struct lattice_fields {
     const char *name, *from, *other, *like;
-    double step, step_error, offset, offset_error, constant, levels, bits, off_pixels, residual;
+    double step, step_error, offset, offset_error, before, constant, levels, bits, off_pixels, residual;
 } lattice_fields;
 
 /** How far apart its levels are, scene units. */
