@@ -4,6 +4,7 @@
  * coplanar layers apart, or to bring one nearer by a gap.
  */
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "api/bias.h"
@@ -189,6 +190,11 @@ static void say_states(page *p, void *item) {
     append(text, sizeof text, "%s", s->api->name);
     if (!b->inverse)
         append(text, sizeof text, ", units %s", number_full(s->units).text);
+    if (!b->inverse && isinf(b->each.o->bias.units) && s->api->whole)
+        append(text, sizeof text,
+               " (%s in 32 bits, as a cast that saturates makes it; in C it is undefined, and x86 "
+               "makes -2147483648 of either sign)",
+               number_full(b->each.o->bias.units).text);
     if (s->factor != 0.0 && isfinite(s->factor))
         append(text, sizeof text, ", factor %s", number_full(s->factor).text);
     if (!b->inverse && s->clamp != 0.0)
@@ -377,7 +383,8 @@ static int check_states(const options *o, const bias_api *api) {
         return option_error(OPTION_VIEWPORT, "conflicts with --units: it says how many suffice");
     if (given && option_given(o, OPTION_SEPARATION))
         return option_error(OPTION_UNITS, "conflicts with --separation, which solves for them");
-    if (given && api->whole && !(o->bias.units == nearbyint(o->bias.units) && fabs(o->bias.units) <= 0x1.fffffffcp30) &&
+    if (given && api->whole && !isinf(o->bias.units) &&
+        !(o->bias.units == nearbyint(o->bias.units) && fabs(o->bias.units) <= 0x1.fffffffcp30) &&
         (o->camera.platform == NULL || !o->camera.platform->cuts))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",
                             api->name, number_full(o->bias.units).text);
@@ -419,8 +426,10 @@ int cmd_bias(const options *given) {
     b.state.api = b.goal.api = &b.row_here;
     if (o.camera.platform != NULL && o.camera.platform->cuts)
         b.state.units = trunc(o.bias.units);
+    if (isinf(b.state.units) && b.row_here.whole)
+        b.state.units = b.state.units > 0.0 ? INT32_MAX : INT32_MIN;
     b.units_sent = b.state.units;
-    b.units = b.inverse ? (double)NAN : o.bias.units;
+    b.units = b.inverse ? (double)NAN : isinf(o.bias.units) ? b.state.units : o.bias.units;
     b.gap = b.inverse ? o.wanted.separation : (double)NAN;
     b.triangles = slant_fields_of(&o, &b.slant);
     b.chosen = bias_chooses_factor(&o);

@@ -97,6 +97,15 @@ int parse_number(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
+/* Some engines set an infinite one, of either sign. */
+int parse_units(options *o, const option_row *row, const char *value) {
+    double endless;
+    if (!number_parse(*value == '-' ? value + 1 : value, NUMBER_FAR, &endless) || !isinf(endless))
+        return parse_number(o, row, value);
+    *(double *)option_field(o, row) = *value == '-' ? -endless : endless;
+    return EXIT_FINE;
+}
+
 /* None is below 0. */
 int parse_sky(options *o, const option_row *row, const char *value) {
     char limits[OPTION_TEXT_SIZE];

@@ -226,8 +226,8 @@ const option_row option_rows[OPTION_COUNT] = {
         .group = "The bias"},
     [OPTION_UNITS] = {"units", 0, "U",
         "constant bias in units of r, a whole number for d3d11, d3d12 and webgpu; in window depth for d3d9 and "
-        "vulkan-float",
-        NUMBER(bias.units, -1e12, 1e12, NULL),
+        "vulkan-float; inf or -inf as a program sets it that casts it",
+        .parse = parse_units, FIELD(double, bias.units), LIMITS(-1e12, 1e12, NULL),
         .without = "the units needed"},
     [OPTION_FACTOR] = {"factor", 0, "F",
         "bias in units of the window slope", NUMBER(bias.factor, -1e12, 1e12, NULL), .standard = "0"},
