@@ -26,6 +26,7 @@ same.sh                      | depthprec | 0 | 1
 python.sh                    | python3   | 0 | 2
 gappa.sh                     | depthprec | 1 | all
 code.sh                      | depthprec | 0 | 20
+judge_code.sh                | depthprec | 0 | 2
 gappa.sh                     | gappa     | 0 | all
 cli.sh tests/cli/help.txt    | depthprec | 0 | all
 cli.sh tests/cli/solve.txt   | jq        | 1 | 1

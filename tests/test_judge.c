@@ -275,6 +275,60 @@ static double half_of_normal(double z) {
     return ldexp(rint(ldexp(m, 11)), exponent - 11);
 }
 
+/* The numbers of binary16 on either side: ten bits behind the first, of small ones those of 2^-14. */
+static double half_beside(double v, bool up) {
+    const double step = exp2(fmax(floor(log2(fabs(v))), -14) - 10), k = v / step;
+    const double h = v == 0 ? 0 : (up ? ceil(k) : floor(k)) * step;
+    return h > 65504 ? (up ? (double)INFINITY : 65504) : h < -65504 ? (up ? -65504 : -(double)INFINITY) : h;
+}
+
+enum { AS_BINARY32, AS_HALF, AS_CUT_HALF };
+
+static double kept_as(int kind, double v) {
+    const double lo = half_beside(v, false), hi = half_beside(v, true);
+    return kind == AS_BINARY32   ? v
+           : kind == AS_CUT_HALF ? (v > 0 ? lo : hi)
+           : isinf(lo)           ? (v > -65520 ? hi : lo)
+           : isinf(hi)           ? (v < 65520 ? lo : hi)
+           : v - lo < hi - v     ? lo
+                                 : hi;
+}
+
+/* Right functions, as they are and kept in binary16, rounded and cut, subnormal too, for the camera that is given: none
+ * is accused, at depths spread evenly as they go in or by their logarithm. */
+TEST(test_none_accused) {
+    tally accused = {.name = "accused"}, right = {.name = "right"};
+    rng r = rng_make("accused");
+    for (uint64_t i = 0; i < test_cases(300, 3000, 100000); i++) {
+        const written *w = &functions[rng_below(&r, FUNCTIONS)];
+        const double n = (double)(float)rng_log(&r, 0.01, 10);
+        const double f = w->far_infinite ? (double)INFINITY : (double)(float)(n * rng_log(&r, 20, 1e5));
+        const int kind = (int)(i % 3);
+        const bool even = rng_below(&r, 2) == 0;
+        judge_pairs p = asked(&r, w, n, f);
+        dp_setup setup = camera(n, f, mapping_of(w, w->reversed));
+        judgement j;
+        for (int k = 0; k < PAIRS; k++) {
+            const double lo = p.pairs[0].in, hi = p.pairs[PAIRS - 1].in;
+            const float x = even ? (float)(lo + (hi - lo) * k / (PAIRS - 1)) : (float)p.pairs[k].in;
+            p.pairs[k] = (judge_pair){(double)x, kept_as(kind, (double)w->of(x, (float)n, (float)f))};
+        }
+        p.distinct = 0;
+        judge_pairs_look(&p);
+        judge_function(&p, &setup, 1, false, &j);
+        TALLY(&accused, j.verdict != JUDGE_OTHER && j.verdict != JUDGE_WRONG,
+              "%s from %s, near %g, far %g, kept as %d: %s: %s from %s, %s, near %g", w->computes, w->from, n, f, kind,
+              judge_verdict_name(j.verdict), j.found.output->name, j.found.input->name,
+              judge_precision_name(j.precision), j.found.setup.spec.znear);
+        const bool flat = j.because != NULL && strstr(j.because, "differ by") != NULL; /* or another fits alike */
+        TALLY(&right, flat || j.also || (j.verdict == JUDGE_RIGHT && is_named(&j, w)),
+              "%s from %s, near %g, far %g, kept as %d: %s, %s", w->computes, w->from, n, f, kind,
+              judge_verdict_name(j.verdict), j.because != NULL ? j.because : j.found.output->name);
+    }
+    tally_end(&accused);
+    tally_end(&right);
+}
+
 /* Stored in fewer bits, and printed with few digits: right still, and said. */
 TEST(test_precision) {
     static const struct {
@@ -323,8 +377,10 @@ TEST(test_decides) {
     const dp_setup setup = camera(n, f, DP_MAPPING_D3D);
     judge_pairs p = {.pairs = pair_room, .count = 4, .distinct = 4, .bytes = true};
     judgement j;
-    for (int k = 0; k < 4; k++)
-        p.pairs[k] = (judge_pair){0.9999 + k * 2e-5, k == 0 ? 254.5 / 255 : 1};
+    for (int k = 0; k < 4; k++) { /* of 252.2 and its like 252 to 255 */
+        const double share = fmin((252.2 + k) / 255, 1);
+        p.pairs[k] = (judge_pair){(1 - n / (share * f)) / (1 - n / f), (252 + k) / 255.0};
+    }
     judge_function(&p, &setup, 1, false, &j);
     assert_true(j.verdict == JUDGE_RIGHT && j.also && j.precision == JUDGE_BYTES);
     assert_string_equal(j.found.output->name, "eye depth over far");
@@ -421,11 +477,113 @@ TEST(test_intervals) {
     }
 }
 
+/* Functions that are one for the camera at hand: both are named, that of the convention that was given first. */
+TEST(test_same) {
+    static const struct {
+        double n, f;
+        dp_mapping mapping;
+        const char *first, *second;
+        bool ortho, second_ortho;
+        judge_verdict verdict;
+    } cases[] = {
+        {0.1, 10, DP_MAPPING_D3D, "eye depth", "reciprocal of eye depth", true, false, JUDGE_OTHER},
+        {0.25, 4, DP_MAPPING_GL, "eye depth", "reciprocal of eye depth", true, false, JUDGE_OTHER},
+        {0.1, 10, DP_MAPPING_REVERSED, "reciprocal of eye depth", "eye depth", false, true, JUDGE_RIGHT},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const double n = cases[i].n, f = cases[i].f;
+        const dp_setup setup = camera(n, f, cases[i].mapping);
+        judge_pairs p = {.pairs = pair_room, .count = 33, .distinct = 33};
+        judgement j;
+        for (int k = 0; k < 33; k++)
+            p.pairs[k] = (judge_pair){k / 32.0, n + (f - n) * (k / 32.0)};
+        judge_function(&p, &setup, 1, false, &j);
+        assert_int_equal(j.verdict, cases[i].verdict);
+        assert_true(j.same_count >= 1 && !j.also);
+        assert_string_equal(j.found.output->name, cases[i].first);
+        assert_string_equal(j.same[0].output->name, cases[i].second);
+        assert_true(j.found.setup.spec.ortho == cases[i].ortho && j.same[0].setup.spec.ortho == cases[i].second_ortho);
+    }
+}
+
+/* (1 - d)/(x d + y) where little is left of 1 - d, in long double: what it is judged by loses nothing. Of rounded
+ * depths that is the rounding of what went in, of exact ones next to nothing. */
+TEST(test_exact_references) {
+    const double n = 0.1, f = 1000;
+    const dp_setup setup = camera(n, f, DP_MAPPING_REVERSED);
+    judge_pairs p = {.pairs = pair_room, .count = 24, .distinct = 24};
+    judgement j;
+    for (int k = 0; k < 24; k++) {
+        const double d = 1 - exp2(-1 - 2 * k);
+        const long double q = 1 - (long double)d;
+        p.pairs[k] = (judge_pair){d, (double)(q / (((long double)f / (long double)n - 1) * (long double)d + 1))};
+    }
+    judge_function(&p, &setup, 1, false, &j);
+    assert_int_equal(j.verdict, JUDGE_RIGHT);
+    assert_string_equal(j.found.output->name, "the way from near to far");
+    assert_true(j.error < 1e-15);
+    for (int k = 0; k < 24; k++) /* NDC depth where it is about 0, of eye depths: z = 2 f n/(f + n) */
+    {
+        const double z = 2 * f * n / (f + n) * (1 + (k - 12) * 0x1p-40);
+        const long double at = (long double)z, a = (long double)n, b = (long double)f;
+        p.pairs[k] = (judge_pair){z, (double)(((a + b) * at - 2 * a * b) / (at * (b - a)))};
+    }
+    const dp_setup gl = camera(n, f, DP_MAPPING_GL);
+    const judge_candidate ndc = {
+        .setup = gl, .input = judge_input_get(JUDGE_EYE), .output = judge_output_get(8), .factor = 1};
+    assert_string_equal(ndc.output->name, "NDC depth");
+    for (int k = 0; k < 24; k++)
+        if (k < 9 || k > 15) /* long double has 11 bits more */
+            assert_relative(judge_value(&ndc, p.pairs[k].in), p.pairs[k].out, 1e-7);
+}
+
+/* A byte or two in which nothing is to be seen tell nothing, a wrong formula least of all. */
+TEST(test_nearly_constant) {
+    const dp_setup setup = camera(0.1, 1000, DP_MAPPING_D3D);
+    judge_pairs p = {.pairs = pair_room, .count = 32};
+    judgement j;
+    for (int k = 0; k < 32; k++)
+        p.pairs[k] = (judge_pair){k / 31.0, (128 + k % 2) / 255.0};
+    judge_pairs_look(&p);
+    judge_function(&p, &setup, 1, false, &j);
+    assert_true(j.verdict == JUDGE_UNKNOWN && !j.named && strstr(j.because, "differ by") != NULL);
+}
+
+/* Digits k/256 in bytes n/255, with the lowest digit first, in 2 to 4 bytes, rounded and cut: known, and off by as much
+ * as the formulas of the test say. Halfway between two bytes either may be meant. */
+TEST(test_digits) {
+    const dp_setup setup = camera(1, 20000, DP_MAPPING_GL);
+    for (int count = 2; count <= 4; count++)
+        for (int cut = 0; cut < 2; cut++) {
+            judge_pairs p = {.pairs = pair_room, .count = PAIRS};
+            judgement j;
+            double off = 0;
+            for (int k = 0; k < PAIRS; k++) {
+                const double d = (k + 0.37) / PAIRS;
+                double v = 0;
+                for (int i = 0; i < count; i++) {
+                    const double rest = fmod(d * pow(256, i), 1),
+                                 digit = i + 1 < count ? floor(rest * 256) / 256 : rest;
+                    v += floor(digit * 255 + (cut ? 0 : 0.5)) / 255 / pow(256, i);
+                }
+                p.pairs[k] = (judge_pair){d, v};
+                off = fmax(off, fabs(v - d));
+            }
+            judge_pairs_look(&p);
+            judge_function(&p, &setup, 1, false, &j);
+            assert_int_equal(j.verdict, JUDGE_RIGHT);
+            assert_string_equal(j.found.output->name, "window depth");
+            assert_string_equal(judge_precision_name(j.precision), "digits k/256 in bytes n/255");
+            assert_relative(j.off, off, 1e-12);
+            assert_true(off > (cut ? 3.5e-3 : 1.7e-3) && off < (cut ? 1.0 / 255 : 2.01e-3));
+        }
+}
+
 /* Of each candidate people are told what it is called and where it is defined. */
 TEST(candidates_have_sources) {
     for (size_t i = 0; judge_output_get(i) != NULL; i++) {
         const judge_output *o = judge_output_get(i);
-        assert_true(o->formula[0] != '\0' && o->called[0] != '\0' && o->source != NULL && o->source[0] != '\0');
+        assert_true(o->formula[0] != '\0' && o->called[0] != NULL && o->source != NULL && o->source[0] != '\0');
         for (size_t k = 0; k < i; k++)
             assert_string_not_equal(o->name, judge_output_get(k)->name);
     }

@@ -335,7 +335,7 @@ TEST(test_refused) {
         check_says(2, rows[i].said, "judge %s%s", path, rows[i].words);
     check_says(2, "is no SPIR-V", "judge %s", damaged);
     check_says(2, "--define: is not for SPIR-V", "judge %s --define a=1", damaged);
-    check_says(2, "--define: is for FILE:FUNCTION alone", "judge --pairs %s --define a=1", damaged);
+    check_says(2, "--define: does not apply with --pairs, only with FILE", "judge --pairs %s --define a=1", damaged);
     check_says(3, "No such file", "judge absent.glsl:f");
     check_says(3, "no device has that name or number", "judge %s:textbook --device none-such", path);
 }
@@ -344,7 +344,7 @@ TEST(test_refused) {
 TEST(test_endless) {
     need_device();
     printed p = print_of("judge %s:hangs --json", scratch_text("depth.glsl", "%s", glsl));
-    assert_true(p.status == 3 ? strstr(p.errors, "does not come to an end") != NULL
+    assert_true(p.status == 3 ? strstr(p.errors, "did not end in 10 s of work") != NULL
                               : p.status == 0 && strstr(p.out, "\"pairs\":512,") != NULL);
     printed_free(&p);
 }

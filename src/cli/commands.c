@@ -108,7 +108,8 @@ const command_row command_rows[CMD_COUNT] = {
      "  depthprec judge fog.hlsl:EyeDepth --define _Planes=near_far -m reversed\n"
      "  depthprec judge --pairs-for 64 -o depths.csv\n"
      "  depthprec judge --pairs pairs.csv -n 0.1 -f 1000 -F d24 -m d3d\n"
-     "  my-program | depthprec judge --pairs - --json\n"},
+     "  my-program | depthprec judge --pairs - --json\n",
+     .part = judge_asked, .parts = judge_parts},
     [CMD_PROBE] = {"probe", CMD_PROBE, probe_uses, "", 0, 0, NULL,
      .summary = "what this machine's GPU does to depth, measured",
      .example = "  depthprec probe\n"

@@ -17,71 +17,118 @@ const char *judge_verdict_name(judge_verdict verdict) {
 }
 
 const char *judge_precision_name(judge_precision precision) {
-    static const char *const names[] = {"binary32", "binary32 after a difference", "binary16", "8 bits",
-                                        "the digits that are printed"};
-    return names[precision];
+    static const char *const names[] = {"binary32", "binary32 after a difference", "binary16", "8 bits", "8 bits, cut"};
+    return precision == JUDGE_PRINTED  ? "the digits that are printed"
+           : precision >= JUDGE_QUICK  ? "a reciprocal from the bits of a number and Newton steps"
+           : precision >= JUDGE_DIGITS ? stored_digits_name((int)precision - JUDGE_DIGITS)
+                                       : names[precision];
 }
 
 /* ---- A candidate ------------------------------------------------------------------------------------------------- */
 
-double judge_value(const judge_candidate *c, double x) {
-    double z = c->input->eye(&c->setup, x);
+static double value_at(const judge_candidate *c, judge_depth at) {
     if (c->trap != NULL)
-        z = trap_reads(c->trap, &c->setup, 1, z);
-    return c->factor * c->output->of(&c->setup, z);
+        at = judge_depth_of(&c->setup, trap_reads_at(c->trap, &c->setup, &(trap_depth){at.z, at.behind, at.left, 1}));
+    return c->factor * c->output->of(&c->setup, &at);
 }
 
-/* Whether x can go in. Eye depths may be off by the rounding of binary32. */
+double judge_value(const judge_candidate *c, double x) {
+    return value_at(c, c->input->depth(&c->setup, x));
+}
+
+/* Whether x can go in: all window depths, since some curves begin before the near plane, and eye depths up to the far
+ * plane, as a formula goes on. They may be off by the rounding of binary32. */
 static bool goes_in(const judge_candidate *c, double x) {
     const dp_spec *s = &c->setup.spec;
-    const double spare = 0x1p-22, d = c->input->window != NULL ? c->input->window(x) : 0;
-    if (c->input == judge_input_get(JUDGE_CODES))
-        return !isnan(c->input->eye(&c->setup, x));
-    if (c->input->window != NULL && (d < -spare || d > 1 + spare || c->setup.curve == DP_CURVE_PERSPECTIVE))
-        return d >= -spare && d <= 1 + spare;
-    if (c->input->window != NULL) /* depths before the near plane have window depths, too */
-        return c->input->eye(&c->setup, x) >= s->znear - spare * fabs(s->znear);
-    const double z = c->input->metric * x;
-    return z >= s->znear - spare * fabs(s->znear) && z <= s->zfar + spare * fabs(s->zfar);
+    const double spare = 0x1p-22, z = c->input->metric * x;
+    if (c->input->window != NULL)
+        return c->input->window(x) >= -spare && c->input->window(x) <= 1 + spare;
+    if (c->input->metric == 0)
+        return !isnan(c->input->depth(&c->setup, x).z);
+    return z <= s->zfar + spare * fabs(s->zfar) && (z >= 0 || s->ortho);
 }
 
-/* All that a value may be where x went in. What is computed here is not exact either, where a logarithm or an NDC depth
- * is near 0. */
-static void span_of(const judge_candidate *c, const judge_pairs *p, judge_precision precision, double x, double *lo,
-                    double *hi) {
+/* All that a value may be. */
+typedef struct span {
+    double lo, hi;
+    bool inverse; /* they are reciprocals: between them lies infinity */
+} span;
+
+/* What a logarithm loses: roundings of what it is of, which is about 1 where it begins. */
+static double logarithm_from(const judge_candidate *c) {
+    return c->setup.curve == DP_CURVE_LOG ? fmax(1, 1 / c->setup.kappa) : 1;
+}
+
+static void store(judge_precision precision, span *s) {
+    if (precision == JUDGE_BINARY16)
+        stored_half(&s->lo, &s->hi);
+    else if (precision == JUDGE_BYTES || precision == JUDGE_CUT_BYTES)
+        stored_bytes(precision == JUDGE_CUT_BYTES, &s->lo, &s->hi);
+    else if (precision >= JUDGE_DIGITS && precision < JUDGE_QUICK)
+        stored_digits((int)precision - JUDGE_DIGITS, &s->lo, &s->hi);
+    else if (precision >= JUDGE_QUICK && precision < JUDGE_PRINTED)
+        stored_quotient((int)precision - JUDGE_QUICK + 1, &s->lo, &s->hi);
+}
+
+static double share_of(const judge_candidate *c) {
+    return (c->setup.curve == DP_CURVE_LOG ? LOG_STEPS : STEPS) * 0x1p-24;
+}
+
+/* What went in may be off by roundings of a difference, which are as large as those of what it is from. */
+static span span_of(const judge_candidate *c, const judge_pairs *p, judge_precision precision, double x) {
     const bool differs = precision > JUDGE_BINARY32, depth = c->input->window != NULL;
-    const double share = (c->setup.curve == DP_CURVE_LOG ? LOG_STEPS : STEPS) * 0x1p-24;
-    const double off = share * (differs && depth ? fmax(fabs(x), 1) : fabs(x)) + p->in_digits.absolute +
-                       p->in_digits.relative * fabs(x);
-    *lo = (double)INFINITY;
-    *hi = -(double)INFINITY;
-    for (int i = -1; i <= 1; i++) {
-        const double v = judge_value(c, x + i * off), size = isfinite(v) ? fabs(v) : 0;
-        double spare = share * (differs && c->output->window != NULL ? fmax(size, 1) : size) + p->out_digits.absolute +
-                       p->out_digits.relative * size;
-        spare += c->setup.curve == DP_CURVE_LOG ? 0x1p-36 : c->output->window != NULL ? 0x1p-48 : 0;
-        spare += precision == JUDGE_BINARY16 ? 0x1p-11 * size : precision == JUDGE_BYTES ? 0.51 / 255 : 0;
-        *lo = fmin(*lo, v - spare);
-        *hi = fmax(*hi, v + spare);
+    const double share = share_of(c), most = logarithm_from(c);
+    const double from = depth ? most : c->input->metric != 0 ? fabs(c->setup.anchor) : 0;
+    const double off =
+        share * (differs ? fmax(fabs(x), from) : fabs(x)) + p->in_digits.absolute + p->in_digits.relative * fabs(x);
+    span s = {(double)INFINITY, -(double)INFINITY, false};
+    judge_depth at[3];
+    for (int i = 0; i < 3; i++) {
+        at[i] = c->input->depth(&c->setup, x + (i - 1) * off);
+        s.inverse = s.inverse || (depth && c->output->unbounded && c->trap == NULL &&
+                                  c->setup.curve == DP_CURVE_PERSPECTIVE && !(at[i].z > 0 && isfinite(at[i].z)));
     }
+    for (int i = 0; i < 3; i++) {
+        const double v = s.inverse ? 1 / value_at(c, at[i]) : value_at(c, at[i]), size = isfinite(v) ? fabs(v) : 0;
+        const double spare = share * (differs && c->output->window != NULL ? fmax(size, most) : size);
+        s.lo = fmin(s.lo, v - spare);
+        s.hi = fmax(s.hi, v + spare);
+    }
+    if (!s.inverse && s.lo <= s.hi)
+        store(precision, &s);
+    s.lo -= p->out_digits.absolute * !s.inverse + p->out_digits.relative * fabs(isfinite(s.lo) ? s.lo : 0);
+    s.hi += p->out_digits.absolute * !s.inverse + p->out_digits.relative * fabs(isfinite(s.hi) ? s.hi : 0);
+    return s;
+}
+
+/* A window depth beyond the planes may have been clamped to its range. */
+static bool clamps(const judge_candidate *c, const span *s, double v) {
+    return c->output->window != NULL && c->output->window(v) == (s->hi < 1 ? 0 : 1) &&
+           (c->output->window(s->hi) <= 0 || c->output->window(s->lo) >= 1);
 }
 
 static bool fits_pair(const judge_candidate *c, const judge_pairs *p, judge_precision precision,
                       const judge_pair *pair) {
-    double lo, hi;
     if (!goes_in(c, pair->in))
         return false;
-    span_of(c, p, precision, pair->in, &lo, &hi);
-    return pair->out >= lo && pair->out <= hi;
+    const span s = span_of(c, p, precision, pair->in);
+    const double v = s.inverse ? 1 / pair->out : pair->out;
+    return (v >= s.lo && v <= s.hi) || clamps(c, &s, v);
 }
 
 static bool fits(const judge_candidate *c, const judge_pairs *p, judge_precision precision) {
     if (c->input == judge_input_get(JUDGE_CODES) && p->pairs[p->count - 1].in <= 1)
         return false; /* as good as any depth */
-    for (size_t i = 0; i < p->count; i++)
-        if (!fits_pair(c, p, precision, &p->pairs[i]))
+    if (c->output->whole && (c->input == judge_input_get(JUDGE_CODES) || !p->whole))
+        return false;
+    bool tells = precision < JUDGE_DIGITS || precision >= JUDGE_QUICK; /* digits that lose nothing are a guess */
+    for (size_t i = 0; i < p->count; i++) {
+        const judge_pair *pair = &p->pairs[i];
+        if (!fits_pair(c, p, precision, pair))
             return false;
-    return true;
+        tells = tells || (pair->out > 0 && fabs(pair->out - judge_value(c, pair->in)) > 0x1p-18);
+    }
+    return tells;
 }
 
 /* What goes in, of a share of all that can: window depths to either end, eye depths as their logarithm. */
@@ -103,16 +150,35 @@ static double parts(const judge_candidate *a, const judge_candidate *b, const ju
     double best = 0, at = (double)NAN;
     for (int i = 0; i < PROBES; i++) {
         const double x = probe(a, i);
-        double lo[2], hi[2];
-        span_of(a, p, precision, x, &lo[0], &hi[0]);
-        span_of(b, p, precision, x, &lo[1], &hi[1]);
-        const double gap = fmax(lo[1] - hi[0], lo[0] - hi[1]), size = fmax(fabs(hi[0]), fabs(hi[1]));
-        if (!goes_in(a, x) || !goes_in(b, x) || !isfinite(gap) || !(gap > best * size))
+        if (!goes_in(a, x) || !goes_in(b, x))
+            continue;
+        const span s = span_of(a, p, precision, x), t = span_of(b, p, precision, x);
+        const double gap = fmax(t.lo - s.hi, s.lo - t.hi), size = fmax(fabs(s.hi), fabs(t.hi));
+        if (s.inverse || t.inverse || !isfinite(gap) || !(gap > best * size))
             continue;
         best = gap / size;
         at = x;
     }
     return at;
+}
+
+/* Whether two that never part have different names worth telling: those of one camera by chance, or of one set-up. */
+static bool is_another(const judge_candidate *a, const judge_candidate *b, const judge_pairs *p) {
+    judge_candidate one = *a, other = *b;
+    const bool planes = a->setup.spec.znear == b->setup.spec.znear && a->setup.spec.zfar == b->setup.spec.zfar;
+    const bool mapping = a->setup.spec.mapping == b->setup.spec.mapping && a->setup.spec.ortho == b->setup.spec.ortho;
+    if (!planes || a->trap != NULL || b->trap != NULL || !isnan(parts(a, b, p, JUDGE_BINARY32)))
+        return false;
+    if (mapping && a->input == b->input)
+        return a->output != b->output;
+    dp_spec spec = a->setup.spec;
+    spec.znear += 0.3 * fabs(spec.znear) + (spec.znear == 0);
+    spec.zfar += 3 * fabs(spec.zfar) + 4 * fabs(spec.znear);
+    if (dp_setup_init(&one.setup, &spec) != DP_OK)
+        return false;
+    spec.mapping = b->setup.spec.mapping;
+    spec.ortho = b->setup.spec.ortho;
+    return dp_setup_init(&other.setup, &spec) == DP_OK && !isnan(parts(&one, &other, p, JUDGE_BINARY32));
 }
 
 /* ---- All candidates ---------------------------------------------------------------------------------------------- */
@@ -139,8 +205,14 @@ static void try(search *s, const judge_candidate *c) {
         return;
     }
     const double at = parts(&out->found, c, s->pairs, s->precision);
-    if (isnan(at))
+    if (isnan(at)) {
+        bool another = out->same_count < JUDGE_SAME && is_another(&out->found, c, s->pairs);
+        for (size_t i = 0; i < out->same_count && another; i++)
+            another = is_another(&out->same[i], c, s->pairs);
+        if (another)
+            out->same[out->same_count++] = *c;
         return;
+    }
     out->also = true;
     out->other = *c;
     out->decides = at;
@@ -165,14 +237,17 @@ static bool is_asked(const search *s, const dp_setup *setup) {
     return false;
 }
 
-/* Calls `of` with every set-up of the same planes and format. */
+/* Calls `of` with every set-up of the same planes and format, the mappings that were asked about first. */
 static void each_set_up(search *s, void (*of)(search *s, const dp_setup *setup)) {
-    for (int k = 0; k < 2 * DP_MAPPING_COUNT; k++) {
+    for (int k = 0; k < 4 * DP_MAPPING_COUNT; k++) {
         dp_spec spec = s->setups[0].spec;
         dp_setup setup;
+        bool asked = false;
         spec.mapping = (dp_mapping)(k % DP_MAPPING_COUNT);
-        spec.ortho = k / DP_MAPPING_COUNT != s->setups[0].spec.ortho;
-        if (dp_setup_init(&setup, &spec) == DP_OK)
+        for (size_t i = 0; i < s->count; i++)
+            asked = asked || s->setups[i].spec.mapping == spec.mapping;
+        spec.ortho = k / DP_MAPPING_COUNT % 2 != s->setups[0].spec.ortho;
+        if (asked == (k < 2 * DP_MAPPING_COUNT) && dp_setup_init(&setup, &spec) == DP_OK)
             of(s, &setup);
     }
 }
@@ -235,13 +310,19 @@ static void try_factor(search *s) {
 /* ---- The verdict ------------------------------------------------------------------------------------------------- */
 
 static const char *cannot(const judge_pairs *p) {
-    bool constant = true;
-    for (size_t i = 1; i < p->count; i++)
-        constant = constant && p->pairs[i].out == p->pairs[0].out;
+    double least = (double)INFINITY, most = -(double)INFINITY;
+    for (size_t i = 0; i < p->count; i++) {
+        least = fmin(least, p->pairs[i].out);
+        most = fmax(most, p->pairs[i].out);
+    }
+    const double size = isfinite(most - least) ? fmax(fabs(least), fabs(most)) : 0;
+    const double lost = p->bytes ? 1.001 / 255 : (p->half ? 0x1p-10 : STEPS * 0x1p-23) * size;
     if (p->distinct < JUDGE_LEAST)
         return "too few pairs: three different ones are the least";
-    if (constant)
+    if (most == least)
         return "the value is the same whatever goes in";
+    if (most - least <= lost + 2 * (p->out_digits.absolute + p->out_digits.relative * size))
+        return "the values differ by no more than their last bits lose";
     return NULL;
 }
 
@@ -260,16 +341,18 @@ static void measure(const judge_pairs *p, judgement *out) {
     const judge_candidate *c = &out->found;
     for (size_t i = 0; i < p->count; i++) {
         const double x = p->pairs[i].in, v = judge_value(c, x), error = fabs(p->pairs[i].out - v);
-        const double z = c->input->eye(&c->setup, x), h = 0x1p-20 * fabs(z);
+        const double z = c->input->depth(&c->setup, x).z, h = 0x1p-20 * fabs(z);
         if (!isfinite(v) || !isfinite(error) || !isfinite(z))
             continue;
+        out->off = fmax(out->off, error);
         if (v != 0 && error > out->error * fabs(v)) {
             out->error = error / fabs(v);
             out->at = x;
         }
-        if (c->trap != NULL || !(z - h >= c->setup.spec.znear && z + h <= c->setup.spec.zfar))
+        if (c->trap != NULL || c->output->whole || !(z - h >= c->setup.spec.znear && z + h <= c->setup.spec.zfar))
             continue;
-        const double slope = (c->output->of(&c->setup, z + h) - c->output->of(&c->setup, z - h)) / (2 * h) * c->factor;
+        const double slope =
+            (value_at(c, judge_depth_of(&c->setup, z + h)) - value_at(c, judge_depth_of(&c->setup, z - h))) / (2 * h);
         const dp_cell cell = dp_cell_of(&c->setup, dp_code(&c->setup, z));
         const double intervals = error / (cell.width * fabs(slope));
         if (isfinite(intervals) && !(intervals <= out->intervals)) {
@@ -287,15 +370,13 @@ static bool is_printed(const judge_pairs *p) {
     return false;
 }
 
-static void try_all(search *s, bool planes_open) {
-    const bool fit = s->pairs->distinct >= JUDGE_FITTED_LEAST;
+static void try_right(search *s) {
     s->as = JUDGE_RIGHT;
-    for (size_t i = 0; i < s->count && !planes_open; i++)
+    for (size_t i = 0; i < s->count; i++)
         try_functions(s, &s->setups[i]);
-    if (planes_open && fit)
-        each_set_up(s, try_planes);
-    if (planes_open)
-        return;
+}
+
+static void try_rest(search *s) {
     s->as = JUDGE_OTHER;
     each_set_up(s, try_other);
     if (!s->out->named)
@@ -303,36 +384,89 @@ static void try_all(search *s, bool planes_open) {
     s->as = JUDGE_WRONG;
     try_traps(s);
     s->as = JUDGE_OTHER;
-    if (!s->out->named && fit)
+    if (!s->out->named && s->pairs->distinct >= JUDGE_FITTED_LEAST)
         each_set_up(s, try_planes);
 }
 
 static bool is_possible(const judge_pairs *p, judge_precision precision) {
-    return (precision != JUDGE_BINARY16 || p->half) && (precision != JUDGE_BYTES || p->bytes);
+    return precision == JUDGE_BINARY16 ? p->half
+           : precision < JUDGE_BYTES   ? true
+           : precision < JUDGE_DIGITS  ? p->bytes
+           : precision < JUDGE_QUICK   ? p->shares && stored_digits_lose((int)precision - JUDGE_DIGITS)
+                                       : true;
 }
 
-/* What is right and loses more may be met more closely by another factor or other planes: where both are the same at
- * what it loses, it is right. */
+/* What is right and loses more may be met more closely by another function: where both are the same at what it loses,
+ * and where all values are as they are stored, it is right. */
 static void excuse(search *s) {
     judgement *out = s->out, right = *out;
     right.named = right.also = false;
+    right.same_count = 0;
     right.decides = (double)NAN;
     s->out = &right;
-    s->as = JUDGE_RIGHT;
-    for (int k = (int)out->precision + 1; k <= JUDGE_BYTES && !right.named; k++) {
+    for (int k = (int)out->precision + 1; k < JUDGE_PRINTED && !right.named; k++) {
         s->precision = right.precision = (judge_precision)k;
-        for (size_t i = 0; i < s->count && is_possible(s->pairs, s->precision); i++)
-            try_functions(s, &s->setups[i]);
+        if (is_possible(s->pairs, s->precision))
+            try_right(s);
     }
-    if (right.named && isnan(parts(&right.found, &out->found, s->pairs, s->precision)))
+    if (right.named &&
+        (right.precision > JUDGE_DIFFERENCE || isnan(parts(&right.found, &out->found, s->pairs, s->precision))))
         *out = right;
     s->out = out;
+}
+
+/* What is right, at whatever it loses, before all else but what is met as closely as binary32 can. */
+static void judge_given(search *s) {
+    judgement *out = s->out;
+    s->precision = out->precision = JUDGE_BINARY32;
+    try_right(s);
+    try_rest(s);
+    if (out->named && out->verdict != JUDGE_RIGHT)
+        excuse(s);
+    for (int k = JUDGE_DIFFERENCE; k < JUDGE_PRINTED && !out->named; k++) {
+        s->precision = out->precision = (judge_precision)k;
+        if (!is_possible(s->pairs, s->precision))
+            continue;
+        try_right(s);
+        if (out->named)
+            try_rest(s);
+    }
+    for (int k = JUDGE_DIFFERENCE; k < JUDGE_DIGITS && !out->named; k++) {
+        s->precision = out->precision = (judge_precision)k;
+        if (is_possible(s->pairs, s->precision))
+            try_rest(s);
+    }
+}
+
+/* What is made of window depths alone needs no planes. */
+static void try_windows(search *s) {
+    for (size_t i = 0; i < s->count; i++) {
+        judge_candidate c = {.setup = s->setups[i], .factor = 1};
+        for (size_t in = 0; (c.input = judge_input_get(in)) != NULL && c.input->window != NULL; in++)
+            for (size_t k = 0; (c.output = judge_output_get(k)) != NULL; k++)
+                if (c.output->window != NULL || c.output->of_windows || c.output->whole)
+                    try(s, &c);
+    }
+}
+
+static void judge_open(search *s) {
+    s->as = JUDGE_RIGHT;
+    for (int k = 0; k < 2 * JUDGE_DIGITS && !s->out->named; k++) {
+        s->precision = s->out->precision = (judge_precision)(k % JUDGE_DIGITS);
+        s->others = k >= JUDGE_DIGITS;
+        if (!is_possible(s->pairs, s->precision))
+            continue;
+        try_windows(s);
+        if (!s->out->named)
+            each_set_up(s, try_planes);
+    }
 }
 
 void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t count, bool planes_open, judgement *out) {
     *out = (judgement){.verdict = JUDGE_UNKNOWN,
                        .decides = (double)NAN,
                        .error = (double)NAN,
+                       .off = (double)NAN,
                        .at = (double)NAN,
                        .intervals = (double)NAN,
                        .z = (double)NAN,
@@ -341,17 +475,11 @@ void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t cou
     if (out->because == NULL && planes_open && pairs->distinct < JUDGE_FITTED_LEAST)
         out->because = "too few pairs where near and far are not given: five different ones are the least";
     search s = {.pairs = pairs, .setups = setups, .count = count, .out = out};
-    for (int k = 0; k <= 2 * JUDGE_BYTES + 1 && out->because == NULL && !out->named; k++) {
-        s.precision = out->precision = (judge_precision)(k % (JUDGE_BYTES + 1));
-        s.others = k > JUDGE_BYTES;
-        if (is_possible(pairs, s.precision) && (planes_open || !s.others))
-            try_all(&s, planes_open);
-    }
-    if (out->named && !planes_open && (out->verdict == JUDGE_OTHER || out->verdict == JUDGE_WRONG))
-        excuse(&s);
+    if (out->because == NULL)
+        (planes_open ? judge_open : judge_given)(&s);
     if (out->precision == JUDGE_BINARY32 && is_printed(pairs))
         out->precision = JUDGE_PRINTED;
-    out->error = out->named ? 0 : (double)NAN;
+    out->error = out->off = out->named ? 0 : (double)NAN;
     if (out->named)
         measure(pairs, out);
     else if (out->because == NULL)
@@ -383,6 +511,7 @@ static void merge(judgement *out, const judgement *of) {
     }
     if (of->strays > 0 && (out->strays == 0 || of->stray < out->stray))
         out->stray = of->stray;
+    out->off = fmax(out->off, of->off);
     out->strays += of->strays;
     out->precision = of->precision > out->precision ? of->precision : out->precision;
 }

@@ -12,13 +12,21 @@
 #define JUDGE_JUDGE_H
 
 #include "judge/pairs.h"
+#include "judge/stored.h"
 #include "shader/constants.h"
+
+/** A depth that went in, each number of it without what another would have lost. */
+typedef struct judge_depth {
+    double z;            /**< eye depth: INFINITY, or below 0, at and beyond the far end of 1/z; NaN: none */
+    double num, comp;    /**< window depth, and what is left to 1, */
+    double den, ndc;     /**< as shares of `den`, and NDC depth; den 0: all that is known is z */
+    double behind, left; /**< z - near, far - z */
+} judge_depth;
 
 /** What goes in. */
 typedef struct judge_input {
     const char *name;
-    /** The eye depth that it stands for, INFINITY beyond the far end of 1/z; NaN for what is none. */
-    double (*eye)(const dp_setup *setup, double x);
+    judge_depth (*depth)(const dp_setup *setup, double x);
     double (*window)(double x); /**< the window depth that it is; null: none */
     double metric;              /**< 1 of an eye depth, -1 of a view z that is negative; else 0 */
 } judge_input;
@@ -26,15 +34,20 @@ typedef struct judge_input {
 /** What planes can be told from a value: see line. */
 typedef enum judge_planes { JUDGE_PLANES_NONE, JUDGE_PLANES_BOTH, JUDGE_PLANES_RATIO } judge_planes;
 
-/** What comes out, of an eye depth z. */
+/** Projections by what people call functions of their depths: perspective, orthographic, what a shader writes. */
+enum { JUDGE_PERSPECTIVE, JUDGE_ORTHO, JUDGE_SHADER_DEPTH, JUDGE_PROJECTIONS };
+
+/** What comes out. */
 typedef struct judge_output {
     const char *name, *formula;
-    const char *called; /**< what people call it, and where */
-    const char *source; /**< where it is defined */
-    double (*of)(const dp_setup *setup, double z);
+    const char *called[JUDGE_PROJECTIONS]; /**< what people call it, and where; null: as of a perspective */
+    const char *source;                    /**< where it is defined */
+    double (*of)(const dp_setup *setup, const judge_depth *depth);
+    bool unbounded;                                 /**< infinite where depth is */
     double (*window)(double v);                     /**< the window depth that a value is; null: it is none */
     double (*eye)(const dp_setup *setup, double v); /**< the eye depth that a value stands for; null: it is none */
     bool of_windows; /**< made of window depths alone: of others it is the one of the other direction */
+    bool whole;      /**< a code: whole numbers, of window and eye depths */
     judge_planes planes;
     /** Of a value at the share of the way of 1/z, orthographic of z, from near to far what is affine in that share:
      * that of near and far themselves, or far/near at 0 and 1 at 1, orthographic near/far. NaN: none */
@@ -45,6 +58,9 @@ typedef struct judge_output {
 enum { JUDGE_WINDOW, JUDGE_NDC, JUDGE_CODES, JUDGE_EYE, JUDGE_VIEW };
 const judge_input *judge_input_get(size_t index);
 const judge_output *judge_output_get(size_t index);
+
+/** The depth that an eye depth is. */
+judge_depth judge_depth_of(const dp_setup *setup, double z);
 
 typedef enum judge_verdict {
     JUDGE_RIGHT,  /**< for a set-up that was asked about, */
@@ -72,22 +88,30 @@ double judge_value(const judge_candidate *c, double x);
 typedef enum judge_precision {
     JUDGE_BINARY32,   /**< roundings of binary32 */
     JUDGE_DIFFERENCE, /**< the same after a difference from 1, or from a plane: what lay near 0 lost its precision */
-    JUDGE_BINARY16,   /**< values stored in binary16 */
-    JUDGE_BYTES,      /**< or in 8 bits */
-    JUDGE_PRINTED     /**< roundings of binary32, and of the digits that the values are printed with */
+    JUDGE_BINARY16,   /**< values stored in binary16, rounded or cut */
+    JUDGE_BYTES,      /**< or in 8 bits, */
+    JUDGE_CUT_BYTES,  /**< which are cut */
+    JUDGE_DIGITS,     /**< or as digits in several bytes: one for each of STORED_DIGITS ways */
+    JUDGE_QUICK = JUDGE_DIGITS + STORED_DIGITS, /**< or come of a quick reciprocal: one for each number of steps */
+    JUDGE_PRINTED = JUDGE_QUICK + STORED_STEPS  /**< roundings of binary32, and of the digits that are printed */
 } judge_precision;
 
 const char *judge_precision_name(judge_precision precision);
+
+enum { JUDGE_SAME = 3 };
 
 typedef struct judgement {
     judge_verdict verdict;
     bool named;            /**< `found` is there */
     judge_candidate found; /**< what it computes; of UNKNOWN what it may */
     bool also;
-    judge_candidate other; /**< where `also`: what fits as well */
-    double decides;        /**< what to put in, so that one of both is left; NaN: nothing would */
+    judge_candidate other;            /**< where `also`: what fits as well */
+    double decides;                   /**< what to put in, so that one of both is left; NaN: nothing would */
+    judge_candidate same[JUDGE_SAME]; /**< by another name the same for the planes at hand */
+    size_t same_count;
     judge_precision precision;
-    double error, at;    /**< the largest relative error of a value, and what went in there */
+    double error, at;    /**< the largest relative error of a value, and what went in there; 0, NaN: none */
+    double off;          /**< the largest error of a value, not relative */
     double intervals, z; /**< the largest error in z-fighting intervals, and the eye depth there; NaN: it has none */
     const char *because; /**< of UNKNOWN: why, a phrase; else null */
     uint64_t strays;     /**< of judge_more(): pairs that do not fit what was found of fewer, */

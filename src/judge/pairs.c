@@ -11,18 +11,24 @@ static int by_input(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+/* Printed with fewer digits, too, as long as these tell such numbers from others. */
+static bool is_half(double v, const judge_digits *digits) {
+    const double near = isfinite(v) ? (double)half_of((float)v) : v;
+    return v == near || fabs(v - near) <= fmin(digits->absolute + digits->relative * fabs(v), 0x1p-15 * fabs(near));
+}
+
 void judge_pairs_look(judge_pairs *p) {
-    bool half = true, bytes = true;
+    p->half = p->bytes = p->whole = p->shares = true;
     if (p->count > 1) /* none: no array either */
         qsort(p->pairs, p->count, sizeof *p->pairs, by_input);
     for (size_t i = 0; i < p->count; i++) {
         const double v = p->pairs[i].out, k = v * 255;
         p->distinct += i == 0 || p->pairs[i].in != p->pairs[i - 1].in;
-        half = half && (!isfinite(v) || half_of((float)v) == (float)v);
-        bytes = bytes && v >= 0 && v <= 1 && fabs(k - rint(k)) <= 1e-3;
+        p->half = p->half && is_half(v, &p->out_digits);
+        p->bytes = p->bytes && v >= 0 && v <= 1 && fabs(k - rint(k)) <= 1e-3;
+        p->whole = p->whole && v == floor(v);
+        p->shares = p->shares && v >= 0 && v <= 1.01;
     }
-    p->half = half;
-    p->bytes = bytes;
 }
 
 void judge_pairs_free(judge_pairs *pairs) {

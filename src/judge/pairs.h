@@ -23,7 +23,8 @@ typedef struct judge_pairs {
     size_t nan_count; /**< left out: the value is no number, the first */
     double nan_at;    /**< here */
     judge_digits in_digits, out_digits;
-    bool half, bytes; /**< all values are numbers of binary16; shares of 255 */
+    /** All values are numbers of binary16; shares of 255; whole numbers; from 0 to about 1. */
+    bool half, bytes, whole, shares;
 } judge_pairs;
 
 /**

@@ -86,7 +86,7 @@ bool compute_compile(const char *text, bool hlsl, compute_run *run, unsigned *li
         fail(error, "needs a file for a while, which cannot be made: ", strerror(errno));
     if (good) {
         rewind(c.text);
-        const sandbox_end end = sandbox_run(work, &c, (sandbox_limits){.wall = SECONDS}, &said);
+        const sandbox_end end = sandbox_run(work, &c, (sandbox_limits){SECONDS, 6 * SECONDS}, &said);
         good = end == SANDBOX_DONE && read_code(run, c.code, error);
         if (end == SANDBOX_BROKEN)
             first_error(said, line, error);

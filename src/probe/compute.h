@@ -10,8 +10,9 @@ enum {
     COMPUTE_FEW = 65536,
     COMPUTE_TIMED_MOST = 32,
     COMPUTE_TIMES = 15,
-    COMPUTE_SECONDS = 10, /**< for few depths, and for a portion of more */
+    COMPUTE_SECONDS = 10, /**< of processor time, for few depths, */
     COMPUTE_ALL_SECONDS = 30,
+    COMPUTE_WAIT_SECONDS = 120, /**< as a clock counts, for a GPU that works meanwhile */
     COMPUTE_ERROR_SIZE = 512,
     COMPUTE_NAME_SIZE = 64
 };

@@ -80,7 +80,7 @@ static bool ended(sandbox_end end, const char *what, int seconds, shot_machine *
         return fail(error, size, "needs a file for a while, which cannot be made: ", strerror(errno));
     if (end == SANDBOX_NO_PROCESS)
         return fail(error, size, "needs a process of its own, which cannot be made: ", strerror(errno));
-    snprintf(hangs, sizeof hangs, "the %s does not come to an end in %d s", what, seconds);
+    snprintf(hangs, sizeof hangs, "the %s in %d s%s", what, seconds, seconds == PROBE_SECONDS ? "" : " of work");
     if (end == SANDBOX_ENDLESS)
         return fail(error, size, hangs, "");
     if (end == SANDBOX_BROKEN)
@@ -97,7 +97,7 @@ bool probe_run(const char *device, uint64_t seed, probe_result *r, char error[SH
     if (!plan_make(&r->plan, seed))
         return fail(error, SHOT_ERROR_SIZE, "there is no memory for it", "");
     const sandbox_end end = sandbox_run(work, &j, (sandbox_limits){.wall = PROBE_SECONDS}, &made);
-    bool good = ended(end, "driver", PROBE_SECONDS, &r->machine, made, error, SHOT_ERROR_SIZE);
+    bool good = ended(end, "driver does not come to an end", PROBE_SECONDS, &r->machine, made, error, SHOT_ERROR_SIZE);
     if (good && !read_shots(&r->plan, made))
         good = fail(error, SHOT_ERROR_SIZE, "what the driver made is damaged", "");
     sandbox_close(made);
@@ -135,9 +135,9 @@ bool compute_values(const char *device, const compute_run *run, size_t runs, sho
                     bool *endless, char error[COMPUTE_ERROR_SIZE]) {
     computing c = {device, run, runs, machine};
     const unsigned seconds = runs > 0 || run->count > COMPUTE_FEW ? COMPUTE_ALL_SECONDS : COMPUTE_SECONDS;
-    const sandbox_end end = sandbox_run(work_compute, &c, (sandbox_limits){.wall = seconds}, values);
+    const sandbox_end end = sandbox_run(work_compute, &c, (sandbox_limits){seconds, COMPUTE_WAIT_SECONDS}, values);
     *endless = end == SANDBOX_ENDLESS;
-    if (ended(end, "function", (int)seconds, machine, *values, error, COMPUTE_ERROR_SIZE))
+    if (ended(end, "function did not end", (int)seconds, machine, *values, error, COMPUTE_ERROR_SIZE))
         return true;
     sandbox_close(*values);
     *values = NULL;

@@ -74,7 +74,7 @@ static bool dispatch(gpu *g, VkPipeline pipeline, uint32_t groups, uint32_t time
         g->call.vkCmdDispatch(g->commands, groups, 1, 1);
     g->call.vkCmdPipelineBarrier(g->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                                  &read, 0, NULL, 0, NULL);
-    return vulkan_do_commands(g, COMPUTE_SECONDS);
+    return vulkan_do_commands(g, COMPUTE_WAIT_SECONDS);
 }
 
 /* In portions that a buffer holds. A value that the shader does not write is NaN. */

@@ -88,54 +88,46 @@ shader_corners shader_corners_of(const texture_camera *c) {
 /* ---- Traps ------------------------------------------------------------------------------------------------------- */
 
 /* 1/((1 - n/f) d + f/n) f with d = f (z - n)/((f - n) z): the first product is (z - n)/z. */
-static double inverted_x(const dp_setup *s, double half, double z) {
-    (void)half;
+static double inverted_x(const dp_setup *s, const trap_depth *at) {
     const double n = s->spec.znear, f = s->spec.zfar;
-    return f / ((z - n) / z + f / n);
+    return f / (at->behind / at->z + f / n);
 }
 
-static double doubled_product(const dp_setup *s, double half, double z) {
-    (void)half;
+static double doubled_product(const dp_setup *s, const trap_depth *at) {
     (void)s;
-    return 2 * z;
+    return 2 * at->z;
 }
 
 /* 1/z is linear in d, and 2 d - 1 is as far before d as d is before 1: 2/z - 1/f. */
-static double ndc_as_depth(const dp_setup *s, double half, double z) {
-    (void)half;
-    return 1 / (2 / z - 1 / s->spec.zfar);
+static double ndc_as_depth(const dp_setup *s, const trap_depth *at) {
+    return 1 / (2 / at->z - 1 / s->spec.zfar);
 }
 
-static double other_direction(const dp_setup *s, double half, double z) {
-    (void)half;
+static double other_direction(const dp_setup *s, const trap_depth *at) {
     const double n = s->spec.znear, f = s->spec.zfar;
-    return 1 / ((z - n) / (n * z) + 1 / f);
+    return 1 / (at->behind / (n * at->z) + 1 / f);
 }
 
 /* 1/z is 1/n at near and 1/f at far; depth is as far from both. */
-static double perspective_of_ortho(const dp_setup *s, double half, double z) {
-    (void)half;
-    const double n = s->spec.znear, f = s->spec.zfar, share = (z - n) / (f - n);
-    return 1 / ((1 - share) / n + share / f);
+static double perspective_of_ortho(const dp_setup *s, const trap_depth *at) {
+    const double n = s->spec.znear, f = s->spec.zfar;
+    return (f - n) / (at->left / n + at->behind / f);
 }
 
-static double linear_of_perspective(const dp_setup *s, double half, double z) {
-    (void)half;
-    const double n = s->spec.znear, f = s->spec.zfar;
-    return n + f * (z - n) / z;
+static double linear_of_perspective(const dp_setup *s, const trap_depth *at) {
+    return s->spec.znear + s->spec.zfar * at->behind / at->z;
 }
 
 /* x + y/255 of the stereographic normal (1/2, 1/2) of what faces the camera. */
-static double normal_as_depth(const dp_setup *s, double half, double z) {
-    (void)half;
-    (void)z;
+static double normal_as_depth(const dp_setup *s, const trap_depth *at) {
+    (void)at;
     return 128.0 / 255 * s->spec.zfar;
 }
 
 /* A near plane at 45 degrees through where the axis meets near, and a far plane through the frustum's farthest corner,
  * as Lengyel clips: in the middle of the picture d = (z - n)/z / (1 - n/f + half). */
-static double perspective_of_oblique(const dp_setup *s, double half, double z) {
-    const double n = s->spec.znear, f = s->spec.zfar, d = (z - n) / (z * (1 - n / f + half));
+static double perspective_of_oblique(const dp_setup *s, const trap_depth *at) {
+    const double n = s->spec.znear, f = s->spec.zfar, d = at->behind / (at->z * (1 - n / f + at->half));
     return 1 / ((1 - d) / n + d / f);
 }
 
@@ -172,11 +164,15 @@ const trap_row *trap_get(size_t index) {
     return index < sizeof traps / sizeof traps[0] ? &traps[index] : NULL;
 }
 
-double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z) {
+double trap_reads_at(const trap_row *row, const dp_setup *setup, const trap_depth *at) {
     const dp_mapping_row *mapping = dp_mapping_get(setup->spec.mapping);
     const bool kind = setup->spec.ortho ? row->ortho : setup->reversed ? row->reversed : row->standard;
     const bool far = !isinf(setup->spec.zfar) || row->far_infinite;
     const bool is_trap = kind && far && mapping->curve == DP_CURVE_PERSPECTIVE && setup->spec.znear > 0 &&
                          (mapping->ndc_signed || !row->ndc_signed);
-    return is_trap ? row->reads(setup, half, z) : (double)NAN;
+    return is_trap ? row->reads(setup, at) : (double)NAN;
+}
+
+double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z) {
+    return trap_reads_at(row, setup, &(trap_depth){z, z - setup->spec.znear, setup->spec.zfar - z, half});
 }

@@ -51,12 +51,18 @@ typedef struct shader_corners {
 
 shader_corners shader_corners_of(const texture_camera *camera);
 
+/** A depth between the planes: z, and without cancellation what lies in front of it and what is left behind it. */
+typedef struct trap_depth {
+    double z, behind, left; /**< z, z - near, far - z */
+    double half;
+} trap_depth;
+
 /** A formula that is found in articles and shaders, and is not right: what it reads is an eye depth. */
 typedef struct trap_row {
     const char *name, *formula, *right, *source;
     bool standard, reversed, ortho; /**< which set-ups it is a trap of */
     bool ndc_signed, far_infinite;  /**< of OpenGL's NDC alone; of an infinite far plane, too */
-    double (*reads)(const dp_setup *setup, double half, double z);
+    double (*reads)(const dp_setup *setup, const trap_depth *at);
 } trap_row;
 
 const trap_row *trap_get(size_t index); /**< null beyond the last */
@@ -64,5 +70,7 @@ const trap_row *trap_get(size_t index); /**< null beyond the last */
 /** What it takes a surface at z for, within 2^-40 of exactly; NaN where it is no trap of the set-up. Between the
  * planes, near above 0; `half` is the tangent of half the vertical field of view, INFINITY what has no depth left. */
 double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z);
+/** The same of a depth that is known better than by z. */
+double trap_reads_at(const trap_row *row, const dp_setup *setup, const trap_depth *at);
 
 #endif

@@ -30,10 +30,19 @@ typedef struct report {
     const char *function, *device, *defines;
 } report;
 
+/* As people call it for such a projection. */
+static const char *called(const judge_candidate *c) {
+    const dp_setup *s = &c->setup;
+    const char *own = c->output->called[s->spec.ortho                      ? JUDGE_ORTHO
+                                        : s->curve == DP_CURVE_PERSPECTIVE ? JUDGE_PERSPECTIVE
+                                                                           : JUDGE_SHADER_DEPTH];
+    return own != NULL ? own : c->output->called[JUDGE_PERSPECTIVE];
+}
+
 static void name(const options *o, const judge_candidate *c, named *out) {
     *out = (named){.computes = c->output->name,
                    .formula = c->trap != NULL ? c->trap->formula : c->output->formula,
-                   .called = c->output->called,
+                   .called = called(c),
                    .from = c->input->name,
                    .factor = c->factor,
                    .trap = c->trap != NULL ? c->trap->name : NULL,
@@ -43,6 +52,27 @@ static void name(const options *o, const judge_candidate *c, named *out) {
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+/* What is stored in bytes is a share of 1, whose error counts as it is. */
+static void say_losses(page *p, const report *r) {
+    const judgement *j = &r->found;
+    char off[NUMBER_SIZE + 32] = "";
+    if (j->off == 0) {
+        page_note(p, "loses", "nothing: the values are exact");
+        return;
+    }
+    if (j->precision >= JUDGE_BYTES && j->precision < JUDGE_QUICK)
+        snprintf(off, sizeof off, ", and %s of full scale", number_brief(number_of(j->off, SHORT)).text);
+    if (isnan(j->at))
+        page_note(p, "loses", "%s where it must be 0: %s", number_brief(number_of(j->off, SHORT)).text, r->precision);
+    else
+        page_note(p, "loses", "%s of the value at most, at %s%s: %s", number_brief(number_of(j->error, SHORT)).text,
+                  number_full(j->at).text, off, r->precision);
+    if (!isnan(j->intervals))
+        page_note(p, "buffer", "up to %s z-fighting intervals of %s, at z = %s",
+                  number_brief(number_of(j->intervals, SHORT)).text, j->found.setup.spec.format.name,
+                  options_length(r->o, j->z, ENOUGH).text);
+}
 
 static void say_all(page *p, void *item) {
     const report *r = item;
@@ -57,12 +87,11 @@ static void say_all(page *p, void *item) {
     if (j->named) {
         page_note(p, "formula", "%s", r->is.formula);
         page_note(p, r->is.trap != NULL ? "right is" : "called", "%s", r->is.trap != NULL ? r->is.right : r->is.called);
-        page_note(p, "loses", "%s of the value at most, at %s: %s", number_brief(number_of(j->error, SHORT)).text,
-                  number_full(j->at).text, r->precision);
-        if (!isnan(j->intervals))
-            page_note(p, "buffer", "up to %s z-fighting intervals of %s, at z = %s",
-                      number_brief(number_of(j->intervals, SHORT)).text, j->found.setup.spec.format.name,
-                      options_length(r->o, j->z, ENOUGH).text);
+        say_losses(p, r);
+    }
+    for (size_t i = 0; i < j->same_count; i++) {
+        shader_say(r->o, &j->same[i], text);
+        page_note(p, "the same", "%s", text);
     }
     if (j->also) {
         shader_say(r->o, &j->other, text);
@@ -93,9 +122,9 @@ static const column named_columns[] = {{FIELD(named, computes, "computes", "")},
 static void *found_of(void *of, size_t i) {
     report *r = of;
     const judgement *j = &r->found;
-    if (i >= (size_t)j->named + j->also)
+    if (!j->named || i > j->same_count + j->also)
         return NULL;
-    name(r->o, i == 0 ? &j->found : &j->other, &r->is);
+    name(r->o, i == 0 ? &j->found : i <= j->same_count ? &j->same[i - 1] : &j->other, &r->is);
     return &r->is;
 }
 
@@ -104,6 +133,7 @@ static const column columns[] = {{FIELD(report, verdict, "verdict", "")},
                                  {FIELD(report, precision, "precision", "")},
                                  {FIELD(report, found.error, "error", "1")},
                                  {FIELD(report, found.at, "at", "")},
+                                 {FIELD(report, found.off, "off", "")},
                                  {FIELD(report, found.intervals, "intervals", "")},
                                  {FIELD(report, found.z, "intervals_z", "scene")},
                                  {FIELD(report, found.decides, "decides", "")},
@@ -119,10 +149,28 @@ static const column columns[] = {{FIELD(report, verdict, "verdict", "")},
 
 /* ---- What to ask ------------------------------------------------------------------------------------------------- */
 
-static void write_depths(output *out, unsigned count) {
+typedef struct asked {
+    double depth;
+    unsigned count;
+} asked;
+
+static void *next_depth(void *of, size_t i) {
+    asked *a = of;
+    a->depth = i < a->count ? shader_asked((unsigned)i, a->count) : 0;
+    return i < a->count ? a : NULL;
+}
+
+static void write_depths(output *out, output_form form, unsigned count) {
+    static const column each[] = {{FIELD(asked, depth, "depth", "")}, {.kind = COLUMN_END}};
+    static const column all[] = {{LIST("depths", each, next_depth)}, {.kind = COLUMN_END}};
+    asked a = {.count = count};
+    if (form == FORM_JSON) {
+        report_write(&(report_spec){"judge", all, &a, .label = 0}, out, form);
+        return;
+    }
     output_text(out, "depth\n");
-    for (unsigned i = 0; i < count; i++) {
-        output_text(out, number_of(shader_asked(i, count), 9).text);
+    for (size_t i = 0; next_depth(&a, i) != NULL; i++) {
+        output_text(out, number_of(a.depth, 9).text);
         output_char(out, '\n');
     }
 }
@@ -186,23 +234,21 @@ int cmd_judge(const options *o) {
     output out;
     setups all = {0};
     report r = {.o = o};
-    const bool asked = o->judge.depths > 0, shaded = o->operand_count > 0;
-    if ((o->judge.pairs != NULL) + asked + shaded != 1)
+    const bool for_depths = o->judge.depths > 0, shaded = o->operand_count > 0;
+    if ((o->judge.pairs != NULL) + for_depths + shaded != 1)
         return usage_error("judge needs FILE:FUNCTION, or --pairs FILE, or --pairs-for N, which prints depths to ask a "
                            "function for");
-    if (!shaded && o->judge.define_count > 0)
-        return option_error(OPTION_DEFINE, "is for FILE:FUNCTION alone");
-    if (!asked && o->camera.format_count > 1)
+    if (!for_depths && o->camera.format_count > 1)
         return option_error(OPTION_FORMAT, "must be one format, got %zu", o->camera.format_count);
-    int status = asked ? EXIT_FINE : setups_make(o, &all);
+    int status = for_depths ? EXIT_FINE : setups_make(o, &all);
     if (status == EXIT_FINE && o->judge.pairs != NULL)
         status = read_pairs(o, &r.pairs);
     if (status == EXIT_FINE && shaded)
         status = shader_open(o, &all.items[0], o->operands[0], false, &r.code);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
-    if (status == EXIT_FINE && asked) {
-        write_depths(&out, o->judge.depths);
+    if (status == EXIT_FINE && for_depths) {
+        write_depths(&out, o->out.form, o->judge.depths);
         status = output_close(&out);
     } else if (status == EXIT_FINE) {
         status = run(&r, &all, &out);

@@ -256,15 +256,19 @@ const option_use code_uses[] = {
     TAKE(LANGUAGE), TAKE(WHAT), TAKE(UNIFORMS), TAKE(LOG_C), TAKE(HFOV), GROUP(projected),
     TAKE(JSON), TAKE(OUTPUT), TAKE(QUIET), END};
 
-const option_use judge_uses[] = {
+enum { JUDGE_FILE = 1, JUDGE_PAIRS = 2, JUDGE_ASKED = 4 };
+static const option_use judge_device[] = {
+    TAKE(DEFINE), OWN(DEVICE, .argument = "N|NAME",
+        HELP("the GPU that runs FILE: its number among the Vulkan devices, or part of its name")), END};
+static const option_use judge_camera[] = {
     OWN(NEAR, WITHOUT("with no --far either: the planes that fit; else 0.1")),
     OWN(FAR, WITHOUT("with no --near either: the planes that fit; else 1000")),
     OWN(FORMAT, DEFAULT("fp32")),
     OWN(MAPPING, HELP("what is right: @; all means d3d and reversed")),
-    TAKE(PAIRS), TAKE(PAIRS_FOR), TAKE(DEFINE),
-    OWN(DEVICE, .argument = "N|NAME",
-        HELP("the GPU that runs FILE: its number among the Vulkan devices, or part of its name")),
-    TAKE(LOG_C), GROUP(projected), GROUP(written), END};
+    TAKE(LOG_C), GROUP(projected), END};
+const option_use judge_uses[] = {
+    TAKE(PAIRS), TAKE(PAIRS_FOR), FOR(JUDGE_FILE, judge_device), FOR(JUDGE_FILE | JUDGE_PAIRS, judge_camera),
+    GROUP(written), END};
 
 const option_use list_uses[] = {
     OWN(TOLERANCE, HELP("list methods: the cases in which each is the cheapest whose bound is at most 0.05, or 5%"),
@@ -330,6 +334,8 @@ const command_part table_parts[] = {{"to the table of depths", TABLE_OF_DEPTHS},
 const command_part solve_parts[] = {
     {"without --for frusta", SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
 const command_part shadow_parts[] = {{"to cascades", SHADOW_CASCADES}, {"with --light-box", SHADOW_BOX}, {NULL, 0}};
+const command_part judge_parts[] = {
+    {"with FILE", JUDGE_FILE}, {"with --pairs", JUDGE_PAIRS}, {"with --pairs-for", JUDGE_ASKED}, {NULL, 0}};
 const command_part texture_parts[] = {{"to an effect alone that needs no position", TEXTURE_EFFECT},
                                       {"to an effect alone that needs the position", TEXTURE_PLACED},
                                       {"with FILE or --synthetic", TEXTURE_IMAGE},
@@ -345,6 +351,10 @@ size_t solve_asked(const options *o) {
 
 size_t shadow_asked(const options *o) {
     return option_given(o, OPTION_LIGHT_BOX);
+}
+
+size_t judge_asked(const options *o) {
+    return o->judge.depths > 0 ? 2 : o->judge.pairs != NULL;
 }
 
 size_t texture_asked(const options *o) {
