@@ -36,8 +36,7 @@ extern const option_own option_plain;
 extern const option_use table_uses[], budget_uses[], solve_uses[], check_uses[], zfight_uses[], prepass_uses[],
     bias_uses[], world_uses[], scene_uses[], texture_uses[], shadow_uses[], methods_uses[], code_uses[], judge_uses[],
     probe_uses[], plot_uses[], list_uses[], no_uses[];
-extern const command_part table_parts[], solve_parts[], shadow_parts[], texture_parts[],
-    judge_parts[];
+extern const command_part table_parts[], solve_parts[], shadow_parts[], texture_parts[], judge_parts[];
 size_t table_asked(const options *o), solve_asked(const options *o), shadow_asked(const options *o),
     texture_asked(const options *o), judge_asked(const options *o), plot_asked(const options *o);
 
