@@ -154,11 +154,11 @@ check "19. so many steps of 2^-24" agrees 'polygonOffsetUnits =' '-1 - 0.01 / wi
     '-0.01 / width(50, 0.1, 2000, 2 ^ -24)'
 check "20. bands of an intersection highlight" answers 0 \
     'depthprec texture --product effect:intersection -F d24 -m d3d --parameter half-width=0.5' '1/255: what 8 bits hold'
-# The stored depth is half a step off; over the half-width that is a level.
-check "20. half a step is a level" agrees 'Up to z =' '0.99 * sqrt(2 * 0.5 / 255 / width(1, 0.1, 1000, d24))' \
-    '1.01 * sqrt(2 * 0.5 / 255 / width(1, 0.1, 1000, d24))'
-check "20. half of the last step is none" agrees 'half-width from' '0.99 * 255 / 2 * width(1000, 0.1, 1000, d24)' \
-    '1.01 * 255 / 2 * width(1000, 0.1, 1000, d24)'
+# A band begins where the next depth is stored, a step away; over the half-width that is a level.
+check "20. a step is a level" agrees 'Up to z =' '0.99 * sqrt(0.5 / 255 / width(1, 0.1, 1000, d24))' \
+    '1.01 * sqrt(0.5 / 255 / width(1, 0.1, 1000, d24))'
+check "20. the last step is none" agrees 'half-width from' '0.99 * 255 * width(1000, 0.1, 1000, d24)' \
+    '1.01 * 255 * width(1000, 0.1, 1000, d24)'
 check "21. the bias of a shadow map in two APIs" answers 0 \
     'depthprec shadow --light-box 40mx40mx100m -F d16 --api d3d12,vulkan' \
     'D3D12_RASTERIZER_DESC.DepthBias = U, SlopeScaledDepthBias = F'

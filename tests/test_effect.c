@@ -756,6 +756,102 @@ TEST(test_step_limits) {
     assert_relative(effect_share(shadow, &near, p, 30), facing, 1e-9);
 }
 
+/* ---- Steps, from code to code ------------------------------------------------------------------------------------ */
+
+/* The window depth of a code: a share of the greatest, or bits of a float of 16 or 32. */
+static long double window_of(const dp_format *f, uint32_t code) {
+    const int mantissa = f->code_max > 0xffff ? 23 : 10, bias = f->code_max > 0xffff ? 127 : 15;
+    const int exponent = (int)(code >> mantissa);
+    const long double rest = code & ((1U << mantissa) - 1);
+    return f->kind == DP_FORMAT_UNORM ? (long double)code / f->code_max
+           : exponent == 0            ? ldexpl(rest, 1 - bias - mantissa)
+                                      : ldexpl(ldexpl(1, mantissa) + rest, exponent - bias - mantissa);
+}
+
+static long double eye_of_window(const dp_setup *s, long double d) {
+    const long double n = s->spec.znear, f = s->spec.zfar;
+    if (s->spec.mapping == DP_MAPPING_LINEAR)
+        return d * f;
+    if (s->spec.mapping == DP_MAPPING_LOG)
+        return exp2l(d * log2l(f + 1)) - 1;
+    return s->spec.mapping == DP_MAPPING_REVERSED ? 1 / (d / n + (1 - d) / f) : 1 / ((1 - d) / n + d / f);
+}
+
+/* By how many levels the outputs of a code and of the next one, farther away, differ; both depths. */
+static long double step_by_hand(const hand *h, const dp_setup *s, uint32_t code, double p, long double z[2]) {
+    const camera c = camera_of(s);
+    const uint32_t next = s->spec.mapping == DP_MAPPING_REVERSED ? code - 1 : code + 1;
+    z[0] = eye_of_window(s, window_of(&s->spec.format, code));
+    z[1] = eye_of_window(s, window_of(&s->spec.format, next));
+    return 255 * h->error(&c, (cell){.stored = z[0], .lo = z[0], .hi = z[1]}, p);
+}
+
+/* Codes near the one that ends it, and by chance. */
+static void check_steps(tally *t, rng *r, const hand *h, const dp_setup *s, size_t *ended) {
+    enum { CODES = 3000, BESIDE = 1000 };
+    const effect_row *row = effect_find(h->name);
+    const effect_view view = view_of(s);
+    const bool reversed = s->spec.mapping == DP_MAPPING_REVERSED;
+    const double near = s->spec.znear, far = s->spec.zfar, factor = rng_log(r, 0.03, 30);
+    double p[PARAMETERS_MAX];
+    parameters_of(row, p);
+    p[row->wanted] = p[row->wanted] == 0 ? factor : p[row->wanted] * factor;
+    const double reach_of = effect_reach(row, &view, p, true, near, far, 1);
+    const uint32_t at = dp_code(s, isnan(reach_of) ? near : reach_of), first = dp_code(s, near), last = dp_code(s, far);
+    const uint32_t least = (reversed ? last : first) + reversed, most = (reversed ? first : last) - !reversed;
+    bool beyond = false;
+    for (int i = 0; i < CODES; i++) {
+        const int64_t beside = (int64_t)at + i - BESIDE / 2;
+        const int64_t code = i < BESIDE ? beside : least + (int64_t)rng_below(r, (uint64_t)most - least + 1);
+        if (code < (int64_t)least || code > (int64_t)most)
+            continue;
+        long double z[2];
+        const long double levels = step_by_hand(h, s, (uint32_t)code, p[row->wanted], z);
+        const double got = effect_step(row, &view, p, dp_stored(s, (uint32_t)code));
+        const long double off = 1e-9L + 0x1p-40L * z[1] / (z[1] - z[0]);
+        TALLY(t, z[0] < near || z[1] > far || fabsl(got - levels) <= off * fmaxl(levels, 1e-3L) * 2,
+              "%s %s %s code %lld: %g levels, %Lg", h->name, s->spec.format.name, dp_mapping_get(s->spec.mapping)->name,
+              (long long)code, got, levels);
+        TALLY(t, !(z[1] <= reach_of) || z[0] < near || levels <= 1 + off,
+              "%s %s %s: up to %.9g, but %Lg to %Lg are %Lg levels", h->name, s->spec.format.name,
+              dp_mapping_get(s->spec.mapping)->name, reach_of, z[0], z[1], levels);
+        beyond = beyond || (llabs(code - (int64_t)at) <= 2 && levels > 1 - off);
+    }
+    TALLY(t, reach_of >= far || beyond, "%s %s %s: ends at %.9g, where no step is a level", h->name,
+          s->spec.format.name, dp_mapping_get(s->spec.mapping)->name, reach_of);
+    *ended += reach_of < far;
+}
+
+TEST(test_steps_of_codes) {
+    static const char *const formats[] = {"unorm16", "unorm24", "unorm10", "fp16", "fp32"};
+    static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED, DP_MAPPING_LINEAR,
+                                          DP_MAPPING_LOG};
+    rng r = rng_make("effects steps");
+    tally t = {.name = "steps"};
+    size_t ended = 0;
+    for (size_t k = 0; k < HAND_COUNT; k++)
+        for (size_t i = 0; effect_is_steady(effect_find(hands[k].name)) && i < 25; i++) {
+            const dp_setup s = setup_of(i % 2 ? 0.1 : 0.3, i % 2 ? 1000 : 200, mappings[i % 5], formats[i / 5]);
+            check_steps(&t, &r, &hands[k], &s, &ended);
+        }
+    assert_true(ended > 50);
+    tally_end(&t);
+}
+
+/* 16 bits of a buffer from .3 to 200: codes 63391 and 63392 differ by 1.998 levels, one is passed 2.6 m before. */
+TEST(test_step_of_soft_particles) {
+    const dp_setup s = setup_of(0.3, 200, DP_MAPPING_D3D, "unorm16");
+    const effect_view view = view_of(&s);
+    const effect_row *row = effect_find("soft-particles");
+    double p[PARAMETERS_MAX];
+    parameter_defaults(row->parameters, p);
+    p[row->wanted] = 0.5;
+    assert_relative(effect_step(row, &view, p, dp_stored(&s, 63391)), 1.998, 1e-3);
+    assert_relative(effect_reach(row, &view, p, true, 0.3, 200, 1), 6.21, 1e-3);
+    assert_relative(effect_reach(row, &view, p, false, 0.3, 200, 1), 8.786, 1e-4);
+    assert_true(isnan(effect_step(effect_find("shadow"), &view, p, 5)));
+}
+
 /* How far an effect stays within a level, and what does so everywhere: at as many depths as it takes to see. */
 TEST(test_reach) {
     static const struct {
@@ -780,8 +876,8 @@ TEST(test_reach) {
             if (!effect_is_steady(row))
                 continue;
             parameter_defaults(row->parameters, p);
-            const double reach = effect_reach(row, &view, p, near, far, 1);
-            const double usable = effect_usable_over(row, &view, p, near, far, 1);
+            const double reach = effect_reach(row, &view, p, false, near, far, 1);
+            const double usable = effect_usable_over(row, &view, p, false, near, far, 1);
             const texture_parameter *range = &row->parameters[row->wanted];
             const bool inside = usable > range->lo && usable < range->hi;
             memcpy(limited, p, sizeof p);

@@ -522,6 +522,7 @@ TEST(test_vector) {
                 parts[0] = 1.5 * (ndc_x(k) - last[0]) / 2;
                 parts[1] = 1.5 * (ndc_y(k) - last[1]) / 2;
                 most = fmax(most, hypot((double)got[PARTS * k] - parts[0], (double)got[PARTS * k + 1] - parts[1]));
+                most = fmax(most, fabs((double)got[PARTS * k + 2] - hypot(parts[0], parts[1])));
                 if (at == 0 && k != 11)
                     TALLY(&t,
                           fabs((double)got[PARTS * k] - parts[0]) < ROUNDED &&

@@ -421,9 +421,10 @@ static double error_at(const work *w, frame_ranges *last, uint32_t x) {
     const bool scene = w->in->frame->synthetic != NULL;
     const double seen = (double)output_at(w, x), stored = pixel_stored(w->camera, x, w->in->row, w->in->codes[x]);
     const double z = scene ? frame_truth(w->in, x).z : stored;
-    const double off = isnan(z)       ? (double)NAN
-                       : w->row->wide ? vector_off(w, &view, x, z)
-                                      : LEVELS * fabs(seen - (scene ? true_output : exact_at)(w, &view, x));
+    const double alone = LEVELS * fabs(seen - (scene ? true_output : exact_at)(w, &view, x)),
+                 off = isnan(z)       ? (double)NAN
+                       : w->row->wide ? fmax(vector_off(w, &view, x, z), alone) /* a length has roundings of its own */
+                                      : alone;
     return scene ? off : off + range_error(w, &view, stored, frame_range_of(w->in, last, x));
 }
 

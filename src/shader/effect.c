@@ -269,9 +269,27 @@ static double error_in(const cell_case *at, const double *parameters) {
     return LEVELS * kinds[at->row->kind].error(at, parameters);
 }
 
+/* From what is stored of z to what is stored of the next depths beyond its cell. */
+static cell_case step_at(const effect_row *row, const effect_view *view, double z) {
+    const dp_setup *setup = view->setup;
+    const uint32_t code = dp_code(setup, z), last = setup->reversed ? 0 : setup->spec.format.code_max;
+    const uint32_t next = code == last ? code : setup->reversed ? code - 1 : code + 1;
+    const double stored = dp_stored(setup, code);
+    return (cell_case){row, view, {.stored = stored, .lo = stored, .hi = dp_stored(setup, next)}, .first = stored};
+}
+
+static bool has_step(const cell_case *at) {
+    return has_error(at) && at->row->kind != EFFECT_STEP && at->row->behind == 0;
+}
+
 double effect_error(const effect_row *row, const effect_view *view, const double *parameters, double z) {
     const cell_case at = case_at(row, view, parameters, z);
     return has_error(&at) ? error_in(&at, parameters) : (double)NAN;
+}
+
+double effect_step(const effect_row *row, const effect_view *view, const double *parameters, double z) {
+    const cell_case at = step_at(row, view, z);
+    return has_step(&at) ? error_in(&at, parameters) : (double)NAN;
 }
 
 double effect_error_within(const effect_row *row, const effect_view *view, const double *parameters,
@@ -302,21 +320,30 @@ static void to_last_usable(const cell_case *at, double *p, double levels) {
     }
 }
 
-double effect_usable(const effect_row *row, const effect_view *view, const double *parameters, double z,
-                     double levels) {
-    const cell_case at = case_at(row, view, parameters, z);
+static double usable_in(const cell_case *at, const double *parameters, double levels) {
+    const effect_row *row = at->row;
     const texture_parameter *range = &row->parameters[row->wanted];
     double p[PARAMETERS_MAX];
-    if (!has_error(&at))
-        return (double)NAN;
     memcpy(p, parameters, sizeof p);
     double *wanted = &p[row->wanted];
-    *wanted = kinds[row->kind].limit(&at, p, levels / LEVELS);
+    *wanted = kinds[row->kind].limit(at, p, levels / LEVELS);
     if (*wanted > 0 && isfinite(*wanted))
-        to_last_usable(&at, p, levels);
+        to_last_usable(at, p, levels);
     if (row->smallest)
         return *wanted <= range->hi ? fmax(*wanted, range->lo) : (double)NAN;
     return *wanted >= range->lo ? fmin(*wanted, range->hi) : (double)NAN;
+}
+
+double effect_usable(const effect_row *row, const effect_view *view, const double *parameters, double z,
+                     double levels) {
+    const cell_case at = case_at(row, view, parameters, z);
+    return has_error(&at) ? usable_in(&at, parameters, levels) : (double)NAN;
+}
+
+double effect_step_usable(const effect_row *row, const effect_view *view, const double *parameters, double z,
+                          double levels) {
+    const cell_case at = step_at(row, view, z);
+    return has_step(&at) ? usable_in(&at, parameters, levels) : (double)NAN;
 }
 
 double effect_ceiling(const effect_row *row, const effect_view *view, const double *parameters, double z) {

@@ -150,15 +150,17 @@ bool effect_applies(const effect_row *row, const dp_setup *setup);
  * beyond; `hi` where none is beyond, NaN where `lo` is. Depths are tried at 64 places of each run of them whose steps
  * grow with the depth, and at its end: with the step grows the error, but for effects of two depths, pixels or
  * frames, which effect_is_steady() tells.
+ *
+ * @param steps  of effect_step() instead, for all but EFFECT_STEP: so far a step of the stored depth shows in no band
  */
 bool effect_is_steady(const effect_row *row);
-double effect_reach(const effect_row *row, const effect_view *view, const double *parameters, double lo, double hi,
-                    double levels);
+double effect_reach(const effect_row *row, const effect_view *view, const double *parameters, bool steps, double lo,
+                    double hi, double levels);
 
-/** effect_usable() of all depths from lo to hi, tried at the same places; NaN where nothing is usable at one of them.
- */
-double effect_usable_over(const effect_row *row, const effect_view *view, const double *parameters, double lo,
-                          double hi, double levels);
+/** effect_usable(), or effect_step_usable(), of all depths from lo to hi, tried at the same places; NaN where nothing is
+ *  usable at one of them. */
+double effect_usable_over(const effect_row *row, const effect_view *view, const double *parameters, bool steps,
+                          double lo, double hi, double levels);
 
 /**
  * The error of the output at z, in levels of 1/255.
@@ -173,6 +175,13 @@ double effect_usable_over(const effect_row *row, const effect_view *view, const 
  * @return from 0 to 255; NaN where the effect cannot be had, and in the model float, which has no cells
  */
 double effect_error(const effect_row *row, const effect_view *view, const double *parameters, double z);
+
+/**
+ * How far the outputs of what is stored of z, and of what is stored of the depths right beyond its cell, lie apart at
+ * most, in levels: the edge of a band, about twice the error. 0 beyond the last code; NaN for EFFECT_STEP, for effects
+ * of two stored depths, and where the error is NaN.
+ */
+double effect_step(const effect_row *row, const effect_view *view, const double *parameters, double z);
 
 /** What is known of the depth behind a pixel, in place of a cell. */
 typedef struct effect_depths {
@@ -194,6 +203,10 @@ double effect_error_within(const effect_row *row, const effect_view *view, const
  * @return within the range of the parameter; NaN when no value of the range is usable, and where the error is NaN
  */
 double effect_usable(const effect_row *row, const effect_view *view, const double *parameters, double z, double levels);
+
+/** The same of effect_step(). */
+double effect_step_usable(const effect_row *row, const effect_view *view, const double *parameters, double z,
+                          double levels);
 
 /** The largest value of the parameter `ceiling` with which no place of a plane, at a depth of z's cell, gets another
  *  answer than it should, the others being what they are: every smaller one has none either. NaN for other rows, in the

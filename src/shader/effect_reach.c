@@ -10,10 +10,11 @@ typedef struct search {
     const effect_view *view;
     const double *parameters;
     double levels;
+    bool steps; /* of the stored depth, in place of its rounding */
 } search;
 
 static bool holds(const search *s, double z) {
-    return effect_error(s->row, s->view, s->parameters, z) <= s->levels;
+    return (s->steps ? effect_step : effect_error)(s->row, s->view, s->parameters, z) <= s->levels;
 }
 
 static double halfway(double a, double b) {
@@ -56,9 +57,9 @@ static double before_last_cell(const dp_setup *setup, double lo, double end) {
 
 enum { PARTS = 64 };
 
-double effect_reach(const effect_row *row, const effect_view *view, const double *parameters, double lo, double hi,
-                    double levels) {
-    const search s = {row, view, parameters, levels};
+double effect_reach(const effect_row *row, const effect_view *view, const double *parameters, bool steps, double lo,
+                    double hi, double levels) {
+    const search s = {row, view, parameters, levels, steps};
     double from = lo;
     if (!holds(&s, lo))
         return (double)NAN;
@@ -78,14 +79,16 @@ double effect_reach(const effect_row *row, const effect_view *view, const double
     return hi;
 }
 
-double effect_usable_over(const effect_row *row, const effect_view *view, const double *parameters, double lo,
-                          double hi, double levels) {
-    double from = lo, worst = effect_usable(row, view, parameters, lo, levels);
+double effect_usable_over(const effect_row *row, const effect_view *view, const double *parameters, bool steps,
+                          double lo, double hi, double levels) {
+    double (*const usable_at)(const effect_row *, const effect_view *, const double *, double, double) =
+        steps ? effect_step_usable : effect_usable;
+    double from = lo, worst = usable_at(row, view, parameters, lo, levels);
     for (int k = 1; from < hi && !isnan(worst); k++) {
         const double to = run_end(view->setup, k, hi);
         for (int i = 1; i <= PARTS + 1 && to > from && !isnan(worst); i++) {
             const double z = i <= PARTS ? part_of(from, to, i, PARTS) : before_last_cell(view->setup, from, to);
-            const double usable = effect_usable(row, view, parameters, z, levels);
+            const double usable = usable_at(row, view, parameters, z, levels);
             worst = isnan(usable) ? usable : row->smallest ? fmax(worst, usable) : fmin(worst, usable);
         }
         from = fmax(from, to);

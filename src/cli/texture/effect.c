@@ -60,7 +60,9 @@ typedef struct table {
     row row;
     bool begun;
     double usable, z, ceiling, ceiling_z;
+    bool steps;        /* of the stored depth, whose edges show as bands; of the others a plane is drawn right or not */
     double reach;      /* up to which depth no step is more than a level; NaN where one is at near */
+    double rounding;   /* the same of the rounding of depths, about half a step */
     double everywhere; /* what is usable at all depths, not at those alone that are shown; NaN where nothing is */
     char label[SETUP_LABEL_SIZE];
 } table;
@@ -119,8 +121,9 @@ static void *next_setup(void *of, size_t i) {
     const double lo = setup->spec.znear, hi = farthest(setup);
     if (!is_asked_of_all(t))
         return t;
-    t->reach = effect_reach(t->effect, &t->view, t->parameters, lo, hi, ONE_LEVEL);
-    t->everywhere = effect_usable_over(t->effect, &t->view, t->parameters, lo, hi, ONE_LEVEL);
+    t->reach = effect_reach(t->effect, &t->view, t->parameters, t->steps, lo, hi, ONE_LEVEL);
+    t->rounding = effect_reach(t->effect, &t->view, t->parameters, false, lo, hi, ONE_LEVEL);
+    t->everywhere = effect_usable_over(t->effect, &t->view, t->parameters, t->steps, lo, hi, ONE_LEVEL);
     return t;
 }
 
@@ -167,34 +170,41 @@ static void every_depth(const page *p, const dp_setup *setup, char out[64]) {
              all ? "" : " up to z = ", all ? "" : number_in(number_full(farthest(setup)), p->unit).text);
 }
 
+/* "Up to z = 81.1 " and what is behind it. */
+static void say_within(page *p, const table *t, double reach, const char *all, const char *within) {
+    if (isnan(reach))
+        page_text(p, "At no depth, not even at near, is it certain that %s", within);
+    else if (reach >= farthest(t->each.setup))
+        page_text(p, "A%s %s", all + 1, within);
+    else
+        page_text(p, "Up to z = %s %s", number_in(number_down(reach, DIGITS), p->unit).text, within);
+}
+
 /* What a level is, how far from the camera the effect stays within one, and what of its parameter does so everywhere.
  */
 static void say_reach(page *p, const table *t) {
-    const bool step = t->effect->kind == EFFECT_STEP;
-    const char *const within = step ? "a plane is drawn right"
-                                    : "a step of the stored depth changes the output by at most a level (1/255: what "
-                                      "8 bits hold)";
-    char all[64], limit[128];
+    char all[64], within[256];
     if (!is_asked_of_all(t)) {
-        page_text(p, "levels: changes of the output by 1/255, what 8 bits hold");
+        page_text(p, "levels: changes of the output by 1/255, from the rounding of the depth%s",
+                  t->steps ? "; those of a step are about twice as large" : "");
         return;
     }
     every_depth(p, t->each.setup, all);
+    snprintf(within, sizeof within, "%s; with ",
+             t->steps ? "a step of the stored depth changes the output by at most a level (1/255: what 8 bits hold)"
+                      : "a plane is drawn right");
     if (isnan(t->everywhere))
-        snprintf(limit, sizeof limit, "no %s", t->wanted_name);
+        append(within, sizeof within, "no %s", t->wanted_name);
     else if (t->everywhere == (t->effect->smallest ? t->wanted->lo : t->wanted->hi))
-        snprintf(limit, sizeof limit, "every %s", t->wanted_name);
+        append(within, sizeof within, "every %s", t->wanted_name);
     else
-        snprintf(limit, sizeof limit, "%s %s %s%s", t->wanted_name, t->direction,
-                 (t->effect->smallest ? number_up : number_down)(t->everywhere, DIGITS).text,
-                 t->effect->smallest ? " up" : "");
-    if (isnan(t->reach))
-        page_text(p, "At no depth, not even at near, is it certain that %s; with %s %s.", within, limit, all);
-    else if (t->reach >= farthest(t->each.setup))
-        page_text(p, "A%s %s; with %s, too.", all + 1, within, limit);
-    else
-        page_text(p, "Up to z = %s %s; with %s %s.", number_in(number_down(t->reach, DIGITS), p->unit).text, within,
-                  limit, all);
+        append(within, sizeof within, "%s %s %s%s", t->wanted_name, t->direction,
+               (t->effect->smallest ? number_up : number_down)(t->everywhere, DIGITS).text,
+               t->effect->smallest ? " up" : "");
+    append(within, sizeof within, t->reach >= farthest(t->each.setup) ? ", too." : " %s.", all);
+    say_within(p, t, t->reach, all, within);
+    if (t->steps && !(t->reach >= farthest(t->each.setup)))
+        say_within(p, t, t->rounding, all, "the rounding of the depth, about half a step, does.");
 }
 
 static void say_parameters(page *p, table *t) {
@@ -258,7 +268,7 @@ static const column parameter_columns[] = {{FIELD(struct parameter, name, "name"
                                            {FIELD(struct parameter, value, "value", "")},
                                            {.kind = COLUMN_END}};
 
-enum { WITH_SHARE = 1, WITH_RADIUS = 2, USABLE_WIDTH = 17 };
+enum { WITH_SHARE = 1, WITH_RADIUS = 2, WITH_STEPS = 4, USABLE_WIDTH = 17 };
 
 static const column all_columns[] = {{FIELD(table, usable, "usable", "")},
                                      {FIELD(table, z, "z", "scene")},
@@ -329,8 +339,8 @@ static void say_columns(page *p, void *item) {
         page_text(p, "Up to that z a plane is drawn right; with that %s it is %s.", t->wanted_name, all);
     else
         page_text(p,
-                  "Up to that z a step of the stored depth changes the output by at most a level (1/255: what 8 bits "
-                  "hold); with that %s it does so %s.",
+                  "Up to the first z a step of the stored depth changes the output by at most a level (1/255: what 8 "
+                  "bits hold), up to the second its rounding, about half a step; with that %s steps do so %s.",
                   t->wanted_name, all);
     page_text(p, "--full prints the tables: codes, depths, levels.");
 }
@@ -338,14 +348,18 @@ static void say_columns(page *p, void *item) {
 static int write_beside(table *t, int status) {
     char usable[64];
     snprintf(usable, sizeof usable, "%s %s", t->wanted_name, t->direction);
-    const column rows[] = {{TEXT_FIELD(table, label, "", -22, 0)},
-                           {TEXT_FIELD(table, reach, "up to z", 12, DIGITS), .downward = true, .brief = true},
-                           {TEXT_FIELD(table, everywhere, usable, 24, DIGITS), .upward = t->effect->smallest,
-                            .downward = !t->effect->smallest, .brief = true},
-                           {.kind = COLUMN_END}};
+    const column rows[] = {
+        {TEXT_FIELD(table, label, "", -22, 0)},
+        {TEXT_FIELD(table, reach, "up to z", 12, DIGITS), .downward = true, .brief = true},
+        {TEXT_FIELD(table, rounding, "rounding", 12, DIGITS), .when = WITH_STEPS, .downward = true, .brief = true},
+        {TEXT_FIELD(table, everywhere, usable, 24, DIGITS), .upward = t->effect->smallest,
+         .downward = !t->effect->smallest, .brief = true},
+        {.kind = COLUMN_END}};
     const column list[] = {{LIST(NULL, rows, next_beside), .head = say_beside, .notes = say_columns},
                            {.kind = COLUMN_END}};
-    return each_setup_write(&t->each, &(report_spec){.command = "texture", .columns = list, .item = t}, status);
+    return each_setup_write(
+        &t->each, &(report_spec){.command = "texture", .columns = list, .item = t, .when = t->steps ? WITH_STEPS : 0},
+        status);
 }
 
 int texture_effect_table(const options *o) {
@@ -362,6 +376,7 @@ int texture_effect_table(const options *o) {
     if (status == EXIT_FINE)
         status = make_view(&t, &t.each.all.items[0]);
     t.name = t.effect->name;
+    t.steps = t.effect->kind != EFFECT_STEP && effect_is_steady(t.effect);
     t.wanted = &t.effect->parameters[t.effect->wanted];
     t.wanted_name = t.wanted->name;
     t.direction = t.effect->smallest ? "from" : "up to";
