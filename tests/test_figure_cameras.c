@@ -31,6 +31,7 @@ static const camera_kind kinds[] = {
     {"--ortho -n -1e18 -f 1e18", false},
     {"-m log -f 1e9", false},
     {"-m log -n 0.1 -f inf", false},
+    {"-n 1 -f 1e25", true},
     {"-m linear", false},
     {"-m cesium -f 1e9", false},
     {"-m three-webgpu -n 1e-3", false},

@@ -76,7 +76,10 @@ static void add_panel(const figure_request *request, chart *out, size_t i, doubl
     panel->x.hi = fmin(any_sign ? spec->znear + half : spec->znear * around, 1e12);
     panel->y = (chart_axis){.scale = scale, .label = "far plane", .key = "far", .unit = "scene units"};
     panel->y.lo = any_sign ? spec->zfar - half : infinite ? spec->znear * infinite_from : spec->zfar / around;
-    panel->y.hi = fmin(any_sign ? spec->zfar + half : infinite ? spec->znear * infinite_to : spec->zfar * around, 1e18);
+    panel->y.hi = fmin(any_sign   ? spec->zfar + half
+                       : infinite ? spec->znear * infinite_to
+                                  : spec->zfar * around,
+                       infinite ? 1e18 : fmax(spec->zfar, 1e18));
     if (request->count > 1)
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
     if (!chart_add_map(out, panel, (int)(GRID_COLUMNS * shrink), (int)(GRID_ROWS * shrink)))

@@ -157,8 +157,8 @@ bool effect_is_steady(const effect_row *row);
 double effect_reach(const effect_row *row, const effect_view *view, const double *parameters, bool steps, double lo,
                     double hi, double levels);
 
-/** effect_usable(), or effect_step_usable(), of all depths from lo to hi, tried at the same places; NaN where nothing is
- *  usable at one of them. */
+/** effect_usable(), or effect_step_usable(), of all depths from lo to hi, tried at the same places; NaN where nothing
+ * is usable at one of them. */
 double effect_usable_over(const effect_row *row, const effect_view *view, const double *parameters, bool steps,
                           double lo, double hi, double levels);
 
