@@ -113,5 +113,5 @@ TEST(every_figure_of_every_kind_of_camera) {
                 looked++;
             }
         }
-    assert_true(written > 140 && looked > 50);
+    assert_true(written > 110 && looked > 40);
 }
