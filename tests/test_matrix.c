@@ -514,3 +514,46 @@ TEST(same_camera) {
     }
     tally_end(&t);
 }
+
+/* What rounded entries say of the planes: halves of steps of binary32 or of the last digit, by hand; near is e/(c + 1),
+ * far e/(c - 1) of a row -c, -e of NDC depths from -1 on. Few digits are exact. */
+TEST(planes_by_digits) {
+    static const struct {
+        const char *rest, *row; /* the first entry, of the others the digits */
+        double c[2], e[2];
+    } rows[] = {
+        {"1.7320508", "-1.00000095 -0.10000005", {7.5 * 0x1p-23, 8.5 * 0x1p-23}, {0.100000045, 0.100000055}},
+        {"1.7320508", "-1.0000200 -0.20000200", {0.00001995, 168.5 * 0x1p-23}, {0.20000199, 0.20000201}},
+        {"1.5", "-1.000020 -0.2", {19.5e-6, 20.5e-6}, {0.2, 0.2}},
+        {"1.7320508", "-1 -0.2", {-0x1p-25, 0x1p-24}, {0.2 - 1e-8, 0.2 + 1e-8}},
+        {"1.5", "-1.05 -1.2", {0.05, 0.05}, {1.2, 1.2}},
+        {"1.5", "-1 -1.2", {0, 0}, {1.2, 1.2}},
+        {"1.7320508075688772",
+         "-1.0000200002000020 -0.20000200002000020",
+         {2.00002e-5, 2.00002e-5},
+         {0.200002, 0.200002}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char arguments[512];
+        const char *path = scratch_file("digits.txt");
+        FILE *f = fopen(path, "w");
+        assert_non_null(f);
+        fprintf(f, "%s 0 0 0  0 %s 0 0  0 0 %s  0 0 -1 0\n", rows[i].rest, rows[i].rest, rows[i].row);
+        fclose(f);
+        snprintf(arguments, sizeof arguments, "texture --synthetic plane --size 8x8 -F unorm24 -m gl --matrix %s",
+                 path);
+        char *out = output_of(0, arguments, "--json");
+        json_t *root = json_of(out), *matrix = json_object_get(root, "matrix");
+        const double *c = rows[i].c, *e = rows[i].e;
+        const double least = e[0] / c[1], most = c[0] > 0 ? e[1] / c[0] : INFINITY;
+        const double got[2] = {endless_at(matrix, "far_least"), endless_at(matrix, "far_most")};
+        if (!(fabs(got[0] / least - 1) < 1e-4 || (isinf(got[0]) && isinf(least))) ||
+            !(fabs(got[1] / most - 1) < 1e-4 || (isinf(got[1]) && isinf(most))))
+            fail_msg("%s: far %.9g to %.9g, not %.9g to %.9g", rows[i].row, got[0], got[1], least, most);
+        assert_true(endless_at(matrix, "near_least") <= e[1] / 2 && endless_at(matrix, "near_most") >= e[0] / 2.06);
+        if (c[0] == c[1] && strlen(rows[i].row) < 12)
+            assert_true(got[0] == got[1] && endless_at(matrix, "near_least") == endless_at(matrix, "near_most"));
+        json_decref(root);
+        free(out);
+    }
+}

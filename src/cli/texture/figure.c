@@ -78,7 +78,8 @@ static void words_of(const options *o, const texture_source *s, const char *titl
     char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle];
     const char *unit = options_unit(o);
     c->unit = unit;
-    setup_label(&s->setup, true, label);
+    const dp_setup shown = texture_matrix_shown(&s->matrix, &s->setup);
+    setup_label(&shown, true, label);
     if (o->image.metric > 0)
         snprintf(label, sizeof label, "metric depth, %g %s a unit", o->image.metric,
                  unit != NULL ? unit : "scene units");

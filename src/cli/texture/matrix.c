@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/errors.h"
@@ -11,7 +12,7 @@
 #include "report/number.h"
 #include "system/input.h"
 
-enum { ENTRIES = 16, FILE_MOST = 1 << 16 };
+enum { ENTRIES = 16, DEPTH = 10, FILE_MOST = 1 << 16, DIGITS_ROUNDED = 6 };
 
 static const double DEGREE = M_PI / 180;
 
@@ -21,8 +22,32 @@ static bool is_between(char c) {
     return c == ',' || c == ' ' || (c >= '\t' && c <= '\r');
 }
 
+/* What a matrix says: its entries, their significant digits, and the worth of the last; 0: exact. */
+typedef struct entries {
+    double m[ENTRIES], last[ENTRIES];
+    int digits[ENTRIES];
+} entries;
+
+static void count_digits(const char *text, size_t length, entries *e, size_t i) {
+    int digits = 0, decimals = 0;
+    size_t at = 0;
+    bool point = false;
+    for (; at < length && text[at] != 'e' && text[at] != 'E'; at++) {
+        const bool digit = text[at] >= '0' && text[at] <= '9';
+        if (!digit && strchr("+-.", text[at]) == NULL)
+            return; /* hexadecimal: exact */
+        point = point || text[at] == '.';
+        decimals += digit && point;
+        digits += digit && (digits > 0 || text[at] != '0');
+    }
+    e->digits[i] = digits;
+    char worth[32];
+    snprintf(worth, sizeof worth, "1e%ld", (at < length ? strtol(text + at + 1, NULL, 10) : 0) - decimals);
+    e->last[i] = strtod(worth, NULL);
+}
+
 /* Sixteen numbers between white space and commas; # begins a comment. */
-static int parse_entries(const char *path, const char *text, size_t size, double m[ENTRIES]) {
+static int parse_entries(const char *path, const char *text, size_t size, entries *e) {
     size_t count = 0, line = 1;
     for (size_t at = 0; at < size;) {
         size_t length = 0;
@@ -38,9 +63,11 @@ static int parse_entries(const char *path, const char *text, size_t size, double
         }
         while (at + length < size && !is_between(text[at + length]) && text[at + length] != '#')
             length++;
-        if (!number_parse_part(text + at, length, NUMBER_FINITE, count < ENTRIES ? &m[count] : &extra))
+        if (!number_parse_part(text + at, length, NUMBER_FINITE, count < ENTRIES ? &e->m[count] : &extra))
             return option_error(OPTION_MATRIX, "%s: line %zu: must be a finite number, got '%s'", path, line,
                                 error_word(text + at, length, shown));
+        if (count < ENTRIES)
+            count_digits(text + at, length, e, count);
         count++;
         at += length;
     }
@@ -48,7 +75,7 @@ static int parse_entries(const char *path, const char *text, size_t size, double
                             : option_error(OPTION_MATRIX, "%s: must hold 16 numbers, row by row, got %zu", path, count);
 }
 
-static int read_entries(const char *path, double m[ENTRIES]) {
+static int read_entries(const char *path, entries *e) {
     char text[FILE_MOST + 1];
     FILE *in = input_open(path);
     const size_t size = in != NULL ? fread(text, 1, sizeof text, in) : 0;
@@ -61,7 +88,87 @@ static int read_entries(const char *path, double m[ENTRIES]) {
     }
     if (size > FILE_MOST)
         return option_error(OPTION_MATRIX, "%s: must have at most %d bytes: 16 numbers, row by row", path, FILE_MOST);
-    return parse_entries(path, text, size, m);
+    text[size] = '\0';
+    return parse_entries(path, text, size, e);
+}
+
+/* ---- What its digits say of the planes --------------------------------------------------------------------------- */
+
+/* Where entries of many digits are all numbers of binary32, to their digits, as programs print them: such they are. */
+static bool are_single(const entries *e) {
+    bool long_one = false;
+    for (size_t i = 0; i < ENTRIES; i++) {
+        if (!(fabs((double)(float)e->m[i] - e->m[i]) <= 0.5 * e->last[i] * (1 + 1e-9)))
+            return false;
+        long_one = long_one || e->digits[i] >= DIGITS_ROUNDED;
+    }
+    return long_one;
+}
+
+/* What was rounded to an entry lies between. Few digits were not rounded, but typed. */
+static void ends_of(const entries *e, size_t i, bool single, double ends[2]) {
+    const double m = e->m[i], half = e->digits[i] >= DIGITS_ROUNDED ? 0.5 * e->last[i] : 0;
+    const double own = half > 0 ? fmax(half, 0x1p-53 * fabs(m)) : 0;
+    const float f = (float)m;
+    for (int k = 0; k < 2; k++) {
+        const double sign = k == 0 ? -1 : 1;
+        const double beside = 0.5 * ((double)f + (double)nextafterf(f, (float)sign * INFINITY));
+        ends[k] = m + sign * own;
+        if (single && m != 0)
+            ends[k] = k == 0 ? fmin(ends[k], beside) : fmax(ends[k], beside);
+    }
+}
+
+/* Depth depends on the last two entries of the third row; planes are monotone in each. */
+static void find_planes(const entries *e, const dp_mapping_row *row, texture_matrix *t) {
+    const dp_projection *p = &t->taken;
+    const bool single = are_single(e);
+    double ends[2][2], m[ENTRIES];
+    ends_of(e, DEPTH, single, ends[0]);
+    ends_of(e, DEPTH + 1, single, ends[1]);
+    memcpy(m, e->m, sizeof m);
+    t->planes[0] = t->planes[1] = p->znear;
+    t->planes[2] = t->planes[3] = p->zfar;
+    for (int i = 0; i < 4; i++) {
+        dp_projection other;
+        m[DEPTH] = ends[0][i & 1];
+        m[DEPTH + 1] = ends[1][i >> 1];
+        if (dp_projection_init(&other, m, row->ndc_signed, row->reversed, NULL) != DP_OK)
+            continue;
+        t->planes[0] = fmin(t->planes[0], other.znear);
+        t->planes[1] = fmax(t->planes[1], other.znear);
+        t->planes[2] = fmin(t->planes[2], other.zfar);
+        t->planes[3] = fmax(t->planes[3], other.zfar);
+    }
+}
+
+/* To the digits that lie in the range, or as it is. */
+static double carried(double value, const double range[2]) {
+    const double off = fmax(value - range[0], range[1] - value) / fabs(value);
+    int digits = 1;
+    if (!(off > 0) || !isfinite(off))
+        return value;
+    for (double left = 10 * off; left < 1 && digits < 17; left *= 10)
+        digits++;
+    return strtod(number_of(value, digits).text, NULL);
+}
+
+dp_setup texture_matrix_shown(const texture_matrix *t, const dp_setup *setup) {
+    dp_setup shown = *setup;
+    if (t->path != NULL) {
+        shown.spec.znear = carried(setup->spec.znear, t->planes);
+        shown.spec.zfar = carried(setup->spec.zfar, t->planes + 2);
+    }
+    return shown;
+}
+
+void texture_matrix_say_planes(const texture_matrix *t, page *p) {
+    if (t->path != NULL && (t->planes[0] < t->planes[1] || t->planes[2] < t->planes[3]))
+        page_note(p, "planes",
+                  "near may be %s to %s, far %s to %s, by the digits of the entries; all below is of the "
+                  "entries as they are",
+                  number_down(t->planes[0], 9).text, number_up(t->planes[1], 9).text, number_down(t->planes[2], 6).text,
+                  number_up(t->planes[3], 6).text);
 }
 
 /* ---- What it says ------------------------------------------------------------------------------------------------ */
@@ -108,17 +215,17 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
     const bool given = option_given(o, OPTION_MAPPING);
     const dp_mapping asked = given ? o->camera.mappings[0] : DP_MAPPING_D3D;
     const dp_mapping_row *row = dp_mapping_get(asked);
-    double m[ENTRIES];
+    entries e = {.m = {0}};
     dp_matrix_fault why;
     int status = check_others(o);
     if (status == EXIT_FINE)
         status = check_mapping(o, asked);
     if (status == EXIT_FINE)
-        status = read_entries(o->image.matrix, m);
+        status = read_entries(o->image.matrix, &e);
     if (status != EXIT_FINE)
         return status;
     dp_projection *p = &s->matrix.taken;
-    if (dp_projection_init(p, m, row->ndc_signed, row->reversed, &why) != DP_OK)
+    if (dp_projection_init(p, e.m, row->ndc_signed, row->reversed, &why) != DP_OK)
         return option_error(OPTION_MATRIX, "%s: %s, got %.9g %.9g %.9g %.9g", o->image.matrix, why.rule, why.got[0],
                             why.got[1], why.got[2], why.got[3]);
     if (given && p->mapping != asked)
@@ -131,6 +238,7 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
                             o->image.matrix);
     s->matrix.path = o->image.matrix;
     name_edges(&s->matrix);
+    find_planes(&e, row, &s->matrix);
     s->mapping_from = given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
     s->direction_from = p->ortho && !given ? ORIGIN_ASSUMED : given ? ORIGIN_GIVEN : ORIGIN_FOUND;
     with->camera.mappings[0] = p->mapping;
@@ -152,6 +260,7 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
 void texture_matrix_say(const texture_matrix *t, page *p) {
     const dp_projection *x = &t->taken;
     const bool centred = x->centre[0] == 0 && x->centre[1] == 0;
+    texture_matrix_say_planes(t, p);
     page_note(p, "matrix", "%s: looks along %s%s%s", t->path, t->looks, centred ? "" : ", not centred",
               t->oblique ? ", planes of each pixel's own: near is the nearest, far the farthest" : "");
     if (x->ortho)
@@ -163,9 +272,17 @@ void texture_matrix_say(const texture_matrix *t, page *p) {
                   number_of(t->edges[2], 6).text, number_of(t->edges[3], 6).text);
 }
 
-const column texture_matrix_columns[] = {
-    {FIELD(texture_matrix, path, "file", "")},           {FIELD(texture_matrix, looks, "looks_along", "")},
-    {FIELD(texture_matrix, oblique, "oblique", "")},     {FIELD(texture_matrix, edges[0], "left", "")},
-    {FIELD(texture_matrix, edges[1], "right", "")},      {FIELD(texture_matrix, edges[2], "bottom", "")},
-    {FIELD(texture_matrix, edges[3], "top", "")},        {FIELD(texture_matrix, fov[0], "fov_x", "degrees")},
-    {FIELD(texture_matrix, fov[1], "fov_y", "degrees")}, {.kind = COLUMN_END}};
+const column texture_matrix_columns[] = {{FIELD(texture_matrix, path, "file", "")},
+                                         {FIELD(texture_matrix, looks, "looks_along", "")},
+                                         {FIELD(texture_matrix, oblique, "oblique", "")},
+                                         {FIELD(texture_matrix, edges[0], "left", "")},
+                                         {FIELD(texture_matrix, edges[1], "right", "")},
+                                         {FIELD(texture_matrix, edges[2], "bottom", "")},
+                                         {FIELD(texture_matrix, edges[3], "top", "")},
+                                         {FIELD(texture_matrix, fov[0], "fov_x", "degrees")},
+                                         {FIELD(texture_matrix, fov[1], "fov_y", "degrees")},
+                                         {FIELD(texture_matrix, planes[0], "near_least", "scene")},
+                                         {FIELD(texture_matrix, planes[1], "near_most", "scene")},
+                                         {FIELD(texture_matrix, planes[2], "far_least", "scene")},
+                                         {FIELD(texture_matrix, planes[3], "far_most", "scene")},
+                                         {.kind = COLUMN_END}};

@@ -239,13 +239,15 @@ static void say_head(page *p, void *item) {
     const texture_source *s = all->source;
     char label[SETUP_LABEL_SIZE];
     p->unit = options_unit(all->o);
+    const dp_setup shown = texture_matrix_shown(&s->matrix, &s->setup);
     page_text(p, "%s: %u x %u pixels, %s", all->synthetic != NULL ? all->synthetic : s->path, s->camera.width,
-              s->camera.height, all->o->image.metric > 0 ? "metric depth" : setup_label(&s->setup, true, label));
+              s->camera.height, all->o->image.metric > 0 ? "metric depth" : setup_label(&shown, true, label));
     if (all->o->image.metric == 0)
         page_text(p, "format %s, mapping %s%s", all->format_from, all->mapping_from,
                   has_camera(all)   ? ""
                   : s->camera.ortho ? "; --ortho=H adds position and normal"
                                     : "; --fov adds position and normal");
+    texture_matrix_say_planes(&s->matrix, p);
     output_char(p->out, '\n');
 }
 

@@ -30,6 +30,7 @@ typedef struct texture_matrix {
     bool oblique;
     double fov[2];     /**< degrees, across and up; NaN where it is orthographic */
     double edges[4];   /**< left, right, bottom, top: slopes, or scene units where it is orthographic */
+    double planes[4];  /**< near and far may be from, to, by the digits of the entries; equal where these are exact */
     const char *looks; /**< "+z", "-z" */
 } texture_matrix;
 
@@ -122,6 +123,11 @@ int texture_matrix_open(const options *o, texture_source *s, options *with);
 
 /** The frustum of --intrinsics, in a picture of such a size; planes are not its matter. */
 void texture_intrinsics_take(const double intrinsics[4], const double size[2], texture_matrix *t);
+
+/** The same set-up, for a title: its planes to the digits that the matrix carries, if there is one. And the line that
+ *  says what they may be, where they are not exact. */
+dp_setup texture_matrix_shown(const texture_matrix *t, const dp_setup *setup);
+void texture_matrix_say_planes(const texture_matrix *t, page *p);
 
 /** For a report: its lines, and its columns, of a texture_matrix. */
 void texture_matrix_say(const texture_matrix *t, page *p);
