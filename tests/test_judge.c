@@ -302,7 +302,7 @@ TEST(test_none_accused) {
     for (uint64_t i = 0; i < test_cases(300, 3000, 100000); i++) {
         const written *w = &functions[rng_below(&r, FUNCTIONS)];
         const double n = (double)(float)rng_log(&r, 0.01, 10);
-        const double f = w->far_infinite ? (double)INFINITY : (double)(float)(n * rng_log(&r, 20, 1e5));
+        const double f = w->far_infinite ? (double)INFINITY : (double)(float)(n * rng_log(&r, 20, 1e6));
         const int kind = (int)(i % 3);
         const bool even = rng_below(&r, 2) == 0;
         judge_pairs p = asked(&r, w, n, f);

@@ -56,7 +56,7 @@ static const char *describe(const option_use *use, char out[DESCRIPTION_SIZE]) {
     const option_row *row = &option_rows[use->id];
     const char *help = use->own->help != NULL ? use->own->help : row->help, *standard, *without;
     char text[OPTION_TEXT_SIZE];
-    const int before = (int)strcspn(help, "@");
+    const int before = row->names != NULL ? (int)strcspn(help, "@") : (int)strlen(help);
     const bool named = help[before] != '\0', limited = row->least < row->most && use->own->parse == NULL;
     option_default(use, &standard, &without);
     out[0] = '\0';

@@ -96,6 +96,10 @@ static span span_of(const judge_candidate *c, const judge_pairs *p, judge_precis
     }
     if (!s.inverse && s.lo <= s.hi)
         store(precision, &s);
+    else if (s.inverse && precision == JUDGE_BINARY16) { /* what is too large for it may be cut to the largest */
+        s.lo = s.lo < 0 ? fmin(s.lo * (1 + 0x1p-10), -1 / 65504.0) : s.lo;
+        s.hi = s.hi > 0 ? fmax(s.hi * (1 + 0x1p-10), 1 / 65504.0) : s.hi;
+    }
     s.lo -= p->out_digits.absolute * !s.inverse + p->out_digits.relative * fabs(isfinite(s.lo) ? s.lo : 0);
     s.hi += p->out_digits.absolute * !s.inverse + p->out_digits.relative * fabs(isfinite(s.hi) ? s.hi : 0);
     return s;

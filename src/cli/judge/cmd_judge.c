@@ -144,7 +144,7 @@ static const column columns[] = {{FIELD(report, verdict, "verdict", "")},
                                  {FIELD(report, function, "function", "")},
                                  {FIELD(report, device, "device", "")},
                                  {FIELD(report, defines, "defines", "")},
-                                 {LIST("fits", named_columns, found_of)},
+                                 {LIST("fits", named_columns, found_of), .only = AS_JSON | AS_CSV},
                                  {.kind = COLUMN_END}};
 
 /* ---- What to ask ------------------------------------------------------------------------------------------------- */
