@@ -94,7 +94,7 @@ typedef struct vector {
 /* A pixel and the two neighbours: their depths and places, and the signs of the differences. */
 typedef struct corner {
     float z, h, v;
-    float sx, sy, sx_h, sy_v;
+    float sx, sy, sx_h, sy_h, sx_v, sy_v;
     float per_x, per_y; /* 1 over the step of sx towards h and of sy towards v, with their signs */
     mask opposed;       /* left and above, or right and below */
 } corner;
@@ -122,8 +122,8 @@ DP_INLINE vector cross(vector a, vector b, mask back) {
 DP_INLINE vector corner_cross(const corner *c) {
     const float unit = unit_at(c, 20), z = c->z * unit, h = c->h * unit, v = c->v * unit;
     const float px = c->sx * z, py = c->sy * z;
-    const vector a = {c->sx_h * h - px, c->sy * h - py, h - z, 0};
-    const vector b = {c->sx * v - px, c->sy_v * v - py, v - z, 0};
+    const vector a = {c->sx_h * h - px, c->sy_h * h - py, h - z, 0};
+    const vector b = {c->sx_v * v - px, c->sy_v * v - py, v - z, 0};
     return cross(a, b, c->opposed);
 }
 
@@ -131,13 +131,18 @@ DP_INLINE vector corner_cross(const corner *c) {
  * slopes where `z`, `h` and `v` are 1. */
 DP_INLINE vector half_cross(const corner *c, float z, float h, float v) {
     const float p[3] = {half_of(c->sx * z), half_of(c->sy * z), half_below(c->z)};
-    const vector a = {half_of(c->sx_h * h) - p[0], half_of(c->sy * h) - p[1], half_below(c->h) - p[2], 0};
-    const vector b = {half_of(c->sx * v) - p[0], half_of(c->sy_v * v) - p[1], half_below(c->v) - p[2], 0};
+    const vector a = {half_of(c->sx_h * h) - p[0], half_of(c->sy_h * h) - p[1], half_below(c->h) - p[2], 0};
+    const vector b = {half_of(c->sx_v * v) - p[0], half_of(c->sy_v * v) - p[1], half_below(c->v) - p[2], 0};
     return cross(a, b, c->opposed);
 }
 
 DP_INLINE vector corner_half(const corner *c) {
     return half_cross(c, c->z, c->h, c->v);
+}
+
+/* Of neighbours whose depths were kept in binary16 before. */
+DP_INLINE vector corner_kept(const corner *c) {
+    return half_cross(c, c->z, half_below(c->h), half_below(c->v));
 }
 
 DP_INLINE vector corner_half_ortho(const corner *c) {
@@ -162,6 +167,19 @@ DP_INLINE vector corner_ortho(const corner *c) {
     return (vector){within_1e18((c->h - c->z) * c->per_x), within_1e18((c->v - c->z) * c->per_y), -1.0f, 0};
 }
 
+/* The slope of a neighbour, which is at the share u of the picture, `extent` across in slopes. */
+typedef float (*uv_rule)(float slope, float u, float extent);
+
+DP_INLINE float uv_single(float slope, float u, float extent) {
+    (void)u, (void)extent;
+    return slope;
+}
+
+/* That share was kept in binary16. */
+DP_INLINE float uv_half(float slope, float u, float extent) {
+    return slope + (half_within(u) - u) * extent;
+}
+
 /* ---- A row of pixels -------------------------------------------------------------------------------------------- */
 
 /* The five pixels of a column or row through a pixel. */
@@ -184,7 +202,7 @@ DP_INLINE mask side_at(const line *l, uint32_t i, mask within, side_rule rule) {
 }
 
 DP_INLINE void normals(const normal_rows *in, float *restrict nx, float *restrict ny, float *restrict nz, int step,
-                       side_rule side, corner_rule rule, float_rule kept) {
+                       side_rule side, corner_rule rule, float_rule kept, uv_rule uv) {
     const texture_camera *camera = in->camera;
     const line x = across(in, step), y = upwards(in, step);
     const float *s = in->slope_x, *s_left = s - step, *s_right = s + step;
@@ -194,17 +212,27 @@ DP_INLINE void normals(const normal_rows *in, float *restrict nx, float *restric
     const float per_x = (float)(camera->width / (2 * step * camera->half[0]));
     const float per_y = (float)(camera->height / (2 * step * camera->half[1]));
     const uint32_t count = in->count, column = in->column;
+    /* of the picture, from the left and from below */
+    const float wide = (float)(2 * camera->half[0]), high = (float)(2 * camera->half[1]);
+    const float inverse_width = 1.0f / (float)camera->width, away = (float)step * inverse_width;
+    const float v = (float)((camera->height - in->row - 0.5) / camera->height);
+    const float v_step = (float)((double)step / camera->height);
+    const float sy_h = uv(sy, v, high);
+    const float sy_first = uv(sy_below, v - v_step, high), sy_second = uv(sy_above, v + v_step, high);
     const mask even_row = -(in->row % 2 == 0);
 #pragma omp simd
     for (uint32_t i = 0; i < count; i++) {
         const mask left = side_at(&x, i, -(int32_t)((column + i) & 1), side), below = side_at(&y, i, even_row, side);
+        const float u = ((float)(int32_t)(column + i) + 0.5f) * inverse_width;
         const corner c = {.z = x.mid[i],
                           .h = select(left, x.first[i], x.second[i]),
                           .v = select(below, y.first[i], y.second[i]),
                           .sx = s[i],
                           .sy = sy,
-                          .sx_h = select(left, s_left[i], s_right[i]),
-                          .sy_v = select(below, sy_below, sy_above),
+                          .sx_h = uv(select(left, s_left[i], s_right[i]), u + negate(left, away), wide),
+                          .sy_h = sy_h,
+                          .sx_v = uv(s[i], u, wide),
+                          .sy_v = select(below, sy_first, sy_second),
                           .per_x = negate(left, per_x),
                           .per_y = negate(below, per_y),
                           .opposed = left ^ below};
@@ -226,12 +254,12 @@ DP_INLINE void sides_of(const normal_rows *in, uint8_t *sides, int step, side_ru
 }
 
 /* Along an orthographic camera's plane z itself is straight: the extrapolation of `high` is then exact. */
-#define METHOD(name, step, side, ortho_side, rule, ortho_rule, kept)                                                   \
+#define METHOD(name, step, side, ortho_side, rule, ortho_rule, kept, uv)                                               \
     CLONES static void name##_perspective(const normal_rows *in, float *nx, float *ny, float *nz) {                    \
-        normals(in, nx, ny, nz, step, side, rule, kept);                                                               \
+        normals(in, nx, ny, nz, step, side, rule, kept, uv);                                                           \
     }                                                                                                                  \
     CLONES static void name##_ortho(const normal_rows *in, float *nx, float *ny, float *nz) {                          \
-        normals(in, nx, ny, nz, step, ortho_side, ortho_rule, kept);                                                   \
+        normals(in, nx, ny, nz, step, ortho_side, ortho_rule, kept, uv);                                               \
     }                                                                                                                  \
     static void name##_run(const normal_rows *in, float *nx, float *ny, float *nz) {                                   \
         (in->camera->ortho ? name##_ortho : name##_perspective)(in, nx, ny, nz);                                       \
@@ -243,16 +271,16 @@ DP_INLINE void sides_of(const normal_rows *in, uint8_t *sides, int step, side_ru
             sides_of(in, sides, step, side);                                                                           \
     }
 
-#define SINGLE(name, step, side) METHOD(name, step, side, side, corner_cross, corner_ortho, single_of)
-#define HALF(name, step, side)   METHOD(name, step, side, side, corner_half, corner_half_ortho, half_within)
+#define SINGLE(name, step, side) METHOD(name, step, side, side, corner_cross, corner_ortho, single_of, uv_single)
+#define HALF(name, step, side)   METHOD(name, step, side, side, corner_kept, corner_half_ortho, half_within, uv_half)
 
 SINGLE(low, 1, side_quad)
 SINGLE(medium, 2, side_farther)
 SINGLE(medium_1, 1, side_farther)
 SINGLE(high, 2, side_straight)
 SINGLE(high_1, 1, side_straight)
-METHOD(projective, 1, side_projective, side_straight, corner_projective, corner_ortho, single_of)
-HALF(low_half, 1, side_quad)
+METHOD(projective, 1, side_projective, side_straight, corner_projective, corner_ortho, single_of, uv_single)
+METHOD(low_half, 1, side_quad, side_quad, corner_half, corner_half_ortho, half_within, uv_single)
 HALF(medium_half, 2, side_farther)
 HALF(high_half, 2, side_straight)
 
@@ -276,10 +304,10 @@ const normal_row normal_methods[] = {
      1, 2, "depthprec(7)", projective_run, projective_sides, .half = false},
     [NORMAL_LOW_HALF] = {"low-half", "low of places in binary16, as half3 is; so is the normal",
      1, 1, urp, low_half_run, low_half_sides, .half = true, .sees_sky = true},
-    [NORMAL_MEDIUM_HALF] = {"medium-half", "medium likewise", 2, 2, urp, medium_half_run, medium_half_sides,
-     .half = true, .sees_sky = true},
-    [NORMAL_HIGH_HALF] = {"high-half", "high likewise", 2, 4, urp, high_half_run, high_half_sides,
-     .half = true, .sees_sky = true},
+    [NORMAL_MEDIUM_HALF] = {"medium-half", "medium likewise, of neighbours whose uv and depth were half3 before",
+     2, 2, urp, medium_half_run, medium_half_sides, .half = true, .half_uv = true, .sees_sky = true},
+    [NORMAL_HIGH_HALF] = {"high-half", "high likewise, of neighbours whose uv and depth were half3 before",
+     2, 4, urp, high_half_run, high_half_sides, .half = true, .half_uv = true, .sees_sky = true},
 };
 /* clang-format on */
 

@@ -41,6 +41,7 @@ typedef struct normal_row {
     /** The neighbours that run() takes. */
     void (*sides)(const normal_rows *in, uint8_t *sides);
     bool half;     /**< places and normals in binary16 */
+    bool half_uv;  /**< the neighbours' shares of the picture, from the left and from below, and depths before that */
     bool sees_sky; /**< as the shader does, whose depth texture holds the far plane there; the sky itself has none */
 } normal_row;
 

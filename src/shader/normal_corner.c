@@ -23,9 +23,25 @@ static double area(vector a, vector b) {
 
 static const double HALF = 0x1p-11, HALF_LEAST = 0x1p-25, HALF_MOST = 65504;
 
-/* What a place is off by in the shader: the eye depth as it is read, slopes and products in binary32, then binary16. */
-static double place_off(const normal_row *method, vector place, double reading) {
-    const double size = length(place), single = size * (reading + 4 * DP_UNIT);
+/* From a number to the nearest one of binary16; beside a tie both are as far. */
+static double to_half(double x) {
+    const double step = ldexp(1, (x < 0x1p-14 ? -14 : ilogb(x)) - 10);
+    return fabs(x - rint(x / step) * step);
+}
+
+/* What a neighbour's place is off by because its share of the picture and its depth were in binary16 before. */
+static double uv_off(const texture_camera *camera, const normal_tap *tap, double ray, double reading) {
+    const double u = (tap->column + 0.5) / camera->width, v = (camera->height - tap->row - 0.5) / camera->height;
+    const double z = tap->stored, depth = to_half(z) + 2 * reading * z;
+    const double across =
+        dp_hypot(2 * camera->half[0] * (to_half(u) + 4 * DP_UNIT), 2 * camera->half[1] * (to_half(v) + 4 * DP_UNIT));
+    return ray * depth + across * (camera->ortho ? 1 : z + depth);
+}
+
+/* What a place is off by in the shader: `before` that the eye depth as it is read, slopes and products in binary32,
+ * then binary16. */
+static double place_off(const normal_row *method, vector place, double reading, double before) {
+    const double size = length(place) + before, single = before + size * (reading + 4 * DP_UNIT);
     if (!method->half)
         return single;
     return size + single < HALF_MOST ? single + (size + single) * HALF + sqrt(3) * HALF_LEAST : (double)INFINITY;
@@ -45,7 +61,8 @@ double normal_corner_bound(const texture_camera *camera, const normal_row *metho
         place[i] = (vector){view[0], view[1], view[2]};
         camera_view(camera, taps[i].column, taps[i].row, 1, view);
         ray[i] = camera->ortho ? (vector){0, 0, 1} : (vector){view[0], view[1], 1};
-        off[i] = place_off(method, place[i], reading);
+        off[i] = place_off(method, place[i], reading,
+                           i > 0 && method->half_uv ? uv_off(camera, &taps[i], length(ray[i]), reading) : 0);
     }
     const vector a = difference(place[1], place[0]), b = difference(place[2], place[0]), c = difference(a, b);
     const double e0 = taps[0].reach, e1 = taps[1].reach, e2 = taps[2].reach, whole = area(a, b);
