@@ -32,6 +32,8 @@ static const camera_kind kinds[] = {
     {"-m log -f 1e9", false},
     {"-m log -n 0.1 -f inf", false},
     {"-n 1 -f 1e25", true},
+    {"-n 1e-6 -f 1e24 -m three-webgl", true},
+    {"-n 100 -f 1e28 -m reversed", false},
     {"-m linear", false},
     {"-m cesium -f 1e9", false},
     {"-m three-webgpu -n 1e-3", false},

@@ -27,7 +27,7 @@ static const struct {
     const char *planes, *option;
 } planes[] = {{"-n 0 -f 10", "near"},  {"-n x -f 10", "near"},       {"-n 1e13 -f 1e14", "near"},
               {"-n=-1 -f 10", "near"}, {"-n 5 -f 2", "far"},         {"-n 1 -f x", "far"},
-              {"-n 1 -f 1e19", "far"}, {"-n 1 -f 1.0000001", "far"}, {"-n 1e-13 -f 10", "near"},
+              {"-n 1 -f 1e29", "far"}, {"-n 1 -f 1.0000001", "far"}, {"-n 1e-13 -f 10", "near"},
               {"-n -5 -f 10", "near"}};
 
 static const refusal refusals[] = {

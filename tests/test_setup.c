@@ -61,10 +61,19 @@ TEST(near_plane) {
 }
 
 TEST(far_plane) {
-    static const double bad[] = {0.0, -1.0, -INFINITY, NAN, 0.05, 0.1, 1e19, 0x1p-1074};
+    static const double bad[] = {0.0, -1.0, -INFINITY, NAN, 0.05, 0.1, 1e29, 0x1p-1074};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         REFUSE(DP_ERROR_FAR, spec.zfar = bad[i]);
-    REFUSE(DP_ERROR_FAR, spec.zfar = nextafter(1e18, INFINITY));
+    REFUSE(DP_ERROR_FAR, spec.zfar = nextafter(1e28, INFINITY));
+    ACCEPT(spec.zfar = 1e28);
+    REFUSE(DP_ERROR_FAR, spec.znear = 1e12; spec.zfar = nextafter(1e18, INFINITY));
+    REFUSE(DP_ERROR_FAR, spec.znear = 1e6; spec.zfar = 1.01e24);
+    ACCEPT(spec.znear = 1e6; spec.zfar = 0.99e24);
+    REFUSE(DP_ERROR_FAR, spec.mapping = DP_MAPPING_LOG; spec.log_c = 1e3; spec.zfar = 1.01e27);
+    ACCEPT(spec.mapping = DP_MAPPING_LOG; spec.log_c = 1e3; spec.zfar = 0.99e27);
+    REFUSE(DP_ERROR_FAR, spec.mapping = DP_MAPPING_THREE_WEBGPU; spec.znear = 1e-6; spec.zfar = 1.01e24);
+    ACCEPT(spec.mapping = DP_MAPPING_THREE_WEBGPU; spec.znear = 1e-6; spec.zfar = 0.99e24);
+    REFUSE(DP_ERROR_ORTHO_FAR, spec.ortho = 1; spec.zfar = nextafter(1e18, INFINITY));
     REFUSE(DP_ERROR_FAR, spec.zfar = 1.7976931348623157e308);
     ACCEPT(spec.zfar = 1e18);
     ACCEPT(spec.zfar = INFINITY);
@@ -260,7 +269,12 @@ TEST(limits_in_sentences) {
     ACCEPT(spec.znear = most; spec.zfar = 2 * most);
     REFUSE(DP_ERROR_NEAR, spec.znear = nextafter(least, 0));
     REFUSE(DP_ERROR_NEAR, spec.znear = nextafter(most, INFINITY); spec.zfar = 2 * most);
-    assert_int_equal(sscanf(strstr(dp_status_text(DP_ERROR_FAR), "at most"), "at most %lf", &most), 1);
+    double always, product;
+    assert_int_equal(sscanf(strstr(dp_status_text(DP_ERROR_FAR), "at most"),
+                            "at most %lf, or %lf with near x far and C x far at most %lf", &always, &most, &product),
+                     3);
+    ACCEPT(spec.znear = product / always; spec.zfar = always);
+    REFUSE(DP_ERROR_FAR, spec.znear = product / always; spec.zfar = nextafter(always, INFINITY));
     ACCEPT(spec.zfar = most);
     REFUSE(DP_ERROR_FAR, spec.zfar = nextafter(most, INFINITY));
     assert_int_equal(sscanf(strstr(dp_status_text(DP_ERROR_PLANES), "at least"), "at least %lf", &share), 1);
