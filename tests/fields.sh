@@ -33,7 +33,7 @@ all_named plot interval
 all_named plot map -F unorm24
 all_named plot budget -F unorm24
 all_named plot needs tests/needs/village.need
-for what in formats mappings presets platforms apis rasterizers programs upscalers schemes encodings packings constants traps lattices products effects synthetic positions normals figures; do all_named list $what; done
+for what in formats mappings presets platforms apis rasterizers programs upscalers schemes encodings packings constants traps lattices sensors products effects synthetic positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --separation 0.01
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --rasterize --sample 10
@@ -98,6 +98,8 @@ all_named texture --synthetic plane --size 64x36 --product effect:fog --pixel 1,
 all_named texture "$scratch/depth.npy"
 "$DEPTHPREC" texture --synthetic plane --size 64x36 -F fp32 -m reversed --product eye -o "$scratch/metres.npy"
 all_named texture "$scratch/metres.npy" --metric 1
+all_named texture "$scratch/metres.npy" --stereo 700,0.1
+all_named table --lattice kinect1
 all_named texture --synthetic plane --product eye -o "$scratch/eye.png"
 all_named texture --synthetic plane --product eye -o "$scratch/eye.png" --error-map="$scratch/map.png"
 all_named texture --synthetic plane --size 64x36 --histogram "$scratch/histogram.svg"

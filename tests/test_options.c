@@ -583,6 +583,39 @@ TEST(test_places) {
                 o.view.intrinsics[3] == 0.5 && o.view.spec.fov_y == 60);
 }
 
+/* By place, by name in any order, by a data sheet and what it does not say. */
+TEST(test_disparity) {
+    static const struct {
+        const char *words;
+        double numbers[4]; /* focal, baseline, offset, step */
+    } rows[] = {{"700,0.12", {700, 0.12, 0, 1}},
+                {"700,12cm,-1.5,1/16", {700, 0.12, -1.5, 0.0625}},
+                {"step=-1/8,baseline=75mm,focal=580", {580, 0.075, 0, -0.125}},
+                {"700,0.12,step=4/3", {700, 0.12, 0, 4.0 / 3}},
+                {"oak-d", {882.5, 0.075, 0, 1}},
+                {"OAK-D,step=1/8,focal=800", {800, 0.075, 0, 0.125}}};
+    static const char *const wrong[] = {
+        "",       "700",      "700,",        "zed2",        "700,0.1,0,1,2", "700,0.1,0,1/0",
+        "0,0.1",  "700,-0.1", "700,0.1,inf", "focal=,1",    "700,0.1,step=", "baseline=1",
+        "700,1q", "700,1,,1", "700,oak-d",   "oak-d,oak-d", "700,0.1,1e7",   "700,0.1,0,1e-9"};
+    char line[1024] = "";
+    options o;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        assert_int_equal(parse(&o, "texture a.npy", OPTION_STEREO, rows[i].words, line), EXIT_FINE);
+        assert_true(near_to(o.image.stereo.focal, rows[i].numbers[0]) &&
+                    near_to(o.image.stereo.step, rows[i].numbers[3]));
+        assert_true(near_to(o.image.stereo.baseline, rows[i].numbers[1]) &&
+                    o.image.stereo.offset == rows[i].numbers[2]);
+        assert_true(o.image.metric == 1);
+        options_release(&o);
+    }
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        assert_int_equal(parse(&o, "texture a.npy", OPTION_STEREO, wrong[i], line), EXIT_USAGE);
+        assert_non_null(strstr(line, "depthprec: --stereo: "));
+        options_release(&o);
+    }
+}
+
 TEST(test_own) {
     char line[1024] = "";
     options o;

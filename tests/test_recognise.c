@@ -329,8 +329,7 @@ TEST(no_depth) {
     } rows[] = {
         {2.5F, 100, SAMPLES,
          "no window depth: 4096 of 4096 samples are not in [0, 1], finite ones go from 2.5 to 100: metric depth? "
-         "--metric "
-         "1 reads it"},
+         "--metric 1m reads 2.5 to 100 m or --stereo middlebury 3.42 to 6.06 m"},
         {-1, 0.5F, SAMPLES / 2, "finite ones go from -1 to 0.5: OpenGL's NDC?"},
         {-7, 0.5F, SAMPLES / 2, "finite ones go from -7 to 0.5"},
         {(float)NAN, (float)INFINITY, SAMPLES, "no window depth: no sample is finite"},

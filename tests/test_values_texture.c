@@ -3,6 +3,7 @@
 #include "frame/frame.h"
 #include "frame/recognise.h"
 #include "frame/survey.h"
+#include "frame/units.h"
 #include "named.h"
 #include "shader/decode.h"
 #include "views.h"
@@ -319,6 +320,12 @@ static void want_image(values *v, const char *path, const image *shot, const dp_
         want_bool(v, "reversed", found->reversed);
     else
         want_text(v, "reversed", NULL);
+    unit_reading units[UNITS_MAX]; /* test_stereo has which there are */
+    const size_t count = found->metric ? units_find(shot, units) : 0;
+    for (size_t i = 0; i < count; i++) {
+        values_under(v, "recognised.units[%zu].", i);
+        want(v, "option=%s lo=%f hi=%f", units[i].option, units[i].lo, units[i].hi);
+    }
 }
 
 /* The step in scene units is that of metric depth, which these are not; test_image_truth has what is shifted up. */

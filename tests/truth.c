@@ -76,7 +76,7 @@ int truth_run(const char *const *arguments, size_t count) {
     assert_true(dup2(kept, STDERR_FILENO) >= 0);
     close(kept);
     if (status != 0) {
-        char line[256] = "";
+        char line[512] = "";
         FILE *said = fopen(truth_path("said"), "r");
         if (said != NULL && fgets(line, sizeof line, said) != NULL)
             print_message("# %s", line);

@@ -10,6 +10,7 @@
 #include "cli/compare.h"
 #include "cli/constants.h"
 #include "cli/each_setup.h"
+#include "cli/levels.h"
 #include "cli/lookup.h"
 #include "cli/per_vertex.h"
 #include "cli/resolved.h"
@@ -361,6 +362,8 @@ static unsigned conditions(const table *t) {
 }
 
 int cmd_table(const options *o) {
+    if (levels_wanted(o))
+        return levels_write(o);
     if (o->wanted.constants)
         return constants_write(o);
     if (lookup_wanted(o))

@@ -11,7 +11,7 @@
 #include "api/upscaler.h"
 #include "code/language.h"
 #include "core/append.h"
-#include "frame/sensor.h"
+#include "frame/device.h"
 #include "frame/synthetic.h"
 #include "method/method.h"
 #include "plot/figure.h"
@@ -269,6 +269,28 @@ bool list_lattice(size_t index, list_item *item) {
     return true;
 }
 
+bool list_device(size_t index, list_item *item) {
+    static const double at[] = {1, 2, 5, 10};
+    const device_row *row = device_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    const sensor s = device_sensor(row);
+    append(item->bound, sizeof item->bound, "%s%s", row->unit > 0 ? number_of(1000 * row->unit, 6).text : "disparity",
+           row->unit > 0 ? " mm a unit" : "");
+    if (row->focal > 0)
+        append(item->bound, sizeof item->bound, ", %s pixel%s, focal length %s", number_of(fabs(row->step), 6).text,
+               fabs(row->step) > 1 ? "s" : "", number_of(row->focal, 7).text);
+    if (row->baseline > 0)
+        append(item->bound, sizeof item->bound, ", baseline %s mm", number_of(1000 * row->baseline, 6).text);
+    append(item->bound, sizeof item->bound, "; %s to %s m%s", number_of(row->nearest, 3).text,
+           number_of(row->farthest, 3).text, row->radial ? " along the ray" : "");
+    for (size_t i = 0; row->levels != GRAIN_FINE && i < sizeof at / sizeof at[0]; i++)
+        append(item->bound, sizeof item->bound, "%s%s at %s m", i == 0 ? "; apart by " : ", ",
+               number_of(sensor_gap(&s, at[i]), 4).text, number_of(at[i], 4).text);
+    return true;
+}
+
 bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
@@ -348,6 +370,8 @@ static const topic topics[] = {
      .bound = "values", .names = LIST_CONSTANTS},
     {"traps", "depth formulas found in shaders that are wrong", list_trap, .bound = "reads"},
     {"lattices", "what metric depth was rounded to, for texture --metric", list_lattice, .bound = "gap"},
+    {"sensors", "data sheets of depth cameras and data sets, for texture --stereo and --lattice", list_device,
+     .bound = "sheet", .names = "datasets cameras"},
     {"products", "what texture makes of the depths, for --product", list_product, .bound = "methods"},
     {"effects", "effects for texture --product effect: formulas and parameters", list_effect, .bound = "parameters"},
     {"figures", "figures, for plot", list_figure, .bound = "bound"},

@@ -59,6 +59,8 @@ bool list_position(size_t index, list_item *item);
 bool list_normal(size_t index, list_item *item);
 bool list_packing(size_t index, list_item *item);
 bool list_lattice(size_t index, list_item *item);
+bool list_device(size_t index, list_item *item);
+bool list_stereo(size_t index, list_item *item);  /**< of name alone: those of disparity */
 bool list_samples(size_t index, list_item *item); /**< of name alone */
 bool list_method(size_t index, list_item *item);
 

@@ -79,7 +79,8 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
     const char *refused = camera_refuses(f, product);
     if (refused != NULL)
         return refused;
-    if (product->kind == FRAME_POSITION && product->position != NULL && !position_applies(product->position, f->camera))
+    if (product->kind == FRAME_POSITION && product->position != NULL &&
+        (!position_applies(product->position, f->camera) || (f->metric && !product->position->curved)))
         return "this method does not support this projection and mapping";
     if (product->kind == FRAME_LINEAR01 && isinf(frame_planes(f)->spec.zfar))
         return "this needs a finite far plane";

@@ -9,14 +9,7 @@
 #include "core/recognise_lattice.h"
 #include "frame/image_depths.h"
 
-enum {
-    BITS_MAX = 31,
-    VALUES_LEAST = 16,
-    TOP = 65535,
-    FAR = 30000 /* of sensors, in millimetres */,
-    GUESSED_FROM = 1 << 18,
-    BEYOND = 100
-};
+enum { BITS_MAX = 31, VALUES_LEAST = 16, TOP = 65535, FAR = 30000 /* of sensors, in millimetres */, BEYOND = 100 };
 
 static bool is_depth(double x) {
     return x > 0 && isfinite(x);
@@ -32,7 +25,7 @@ typedef struct look {
 
 /* Where nothing was seen some sensors write 65535 and some programs 1e10 or the like: the largest sample is that where
  * all others end long before. @return NaN where it is not */
-static double find_top(const image *img) {
+double metric_find_top(const image *img) {
     const size_t count = (size_t)img->width * img->height;
     double most = 0, next = 0;
     for (size_t i = 0; i < count; i++) {
@@ -54,9 +47,8 @@ static void clear_between(image *img, double lo, double hi) {
             memset((char *)img->data + i * img->channels * size, 0, size);
 }
 
-/* Such samples become 0. */
-static double clear_top(image *img) {
-    const double top = find_top(img);
+double metric_clear_top(image *img) {
+    const double top = metric_find_top(img);
     if (!isnan(top))
         clear_between(img, top, top);
     return top;
@@ -146,6 +138,16 @@ static double find_step(const image *img, look *l, int exponent) {
     return 0;
 }
 
+double metric_step(const image *img) {
+    look l;
+    int exponent;
+    look_at(img, &l);
+    frexp(l.most, &exponent);
+    const double step = l.depths > 0 ? find_step(img, &l, exponent) : 0;
+    free(l.seen.slots);
+    return step;
+}
+
 static const char *of_numbers(const image *img, double scale, look *l, const sensor *given, metric *out) {
     const int own = img->type == IMAGE_F16 ? 11 : 24;
     int exponent;
@@ -176,50 +178,6 @@ static const char *of_numbers(const image *img, double scale, look *l, const sen
     return NULL;
 }
 
-/* ---- What nobody has said ---------------------------------------------------------------------------------------- */
-
-static const char *guess_numbers(const image *img, const char **why) {
-    bool beyond = false;
-    for (size_t i = 0; i < (size_t)img->width * img->height; i++) {
-        const double x = image_sample(img, i);
-        if (x < 0)
-            return NULL;
-        beyond = beyond || (x > 1 && isfinite(x));
-    }
-    *why = "its channel is called depth, and holds numbers above 1";
-    return beyond && img->named_depth ? "1" : NULL;
-}
-
-/* Some of the rows tell. */
-static const char *guess_integers(const image *img, const char **why) {
-    const size_t width = img->width, step = 1 + width * img->height / GUESSED_FROM;
-    const sensor_file millimetres = {.step = 0.001, .unit = 0.001, .scale = 0.001};
-    image copy = *img;
-    sensor seen = {.found = false};
-    look l;
-    copy.height = (uint32_t)(1 + (img->height - 1) / step);
-    copy.data = malloc(copy.height * width * sizeof(uint16_t));
-    if (copy.data == NULL)
-        return NULL;
-    for (size_t i = 0; i < copy.height; i++)
-        memcpy((uint16_t *)copy.data + i * width, (const uint16_t *)img->data + i * step * width,
-               width * sizeof(uint16_t));
-    clear_top(&copy);
-    look_at(&copy, &l);
-    if (l.depths < copy.height * width && l.most <= FAR)
-        sensor_find(&copy, &millimetres, &seen);
-    free(l.seen.slots);
-    free(copy.data);
-    *why = "its levels are those of a sensor that is known";
-    return seen.found && seen.like != NULL ? "mm" : NULL;
-}
-
-const char *metric_guess(const image *img, const char **why) {
-    if (img->type >= IMAGE_F16)
-        return guess_numbers(img, why);
-    return img->type == IMAGE_U16 && img->channels == 1 ? guess_integers(img, why) : NULL;
-}
-
 /* ---- Together ---------------------------------------------------------------------------------------------------- */
 
 static bool replace(image *img, const metric *m, double scale) {
@@ -246,7 +204,7 @@ const char *metric_convert(image *img, double scale, double zfar, const sensor *
     const double end = zfar / scale, off = img->type == IMAGE_F16 ? 0x1p-10 : 0x1p-20;
     look l;
     clear_between(img, end * (1 - off), end * (1 + off));
-    *out = (metric){.top = clear_top(img)};
+    *out = (metric){.mapping = DP_MAPPING_LINEAR, .top = metric_clear_top(img)};
     look_at(img, &l);
     const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"
                         : img->type < IMAGE_F16 ? of_integers(img, scale, &l, given, out)

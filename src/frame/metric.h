@@ -19,16 +19,18 @@
 
 typedef struct metric {
     dp_format format;
+    dp_mapping mapping; /**< linear; of disparity reversed */
     double znear, zfar; /**< half the nearest depth or less; the end of the lattice, scene units: beyond what the
                              farthest depth may have been, where that has an end */
-    double step;        /**< scene units between neighbouring samples: integers, or numbers that all are multiples of
-                             it; 0: numbers of their own precision */
-    sensor sensor;      /**< what it was rounded to before: as given, else as seen */
-    sensor seen;        /**< as the samples show it */
-    double depths;      /**< pixels that hold one */
-    double top;         /**< a sample that is no depth: 65535 of 16 bits where no other is above 30000, and a number a
-                             hundred times as large as the next one; NaN where there is none */
-    grain grain;        /**< how far the depth can be beside its sample, with both roundings */
+    double sample_from, sample_per; /**< codes of disparity: the sample of 0, and what a code more adds; else 0 */
+    double step;   /**< scene units, or pixels of disparity, between neighbouring samples: integers, or numbers that all
+                      are multiples of   it; 0: numbers of their own precision */
+    sensor sensor; /**< what it was rounded to before: as given, else as seen */
+    sensor seen;   /**< as the samples show it */
+    double depths; /**< pixels that hold one */
+    double top;    /**< a sample that is no depth: 65535 of 16 bits where no other is above 30000, and a number a
+                        hundred times as large as the next one; NaN where there is none */
+    grain grain;   /**< how far the depth can be beside its sample, with both roundings */
 } metric;
 
 /**
@@ -40,13 +42,11 @@ typedef struct metric {
  */
 const char *metric_convert(image *img, double scale, double zfar, const sensor *given, metric *out);
 
-/**
- * Whether samples can be nothing but metric depth, where nobody says what they are: numbers above 1 and none below 0 of
- * a channel that is called depth, and whole numbers of 16 bits with holes that lie, as millimetres, on the levels of a
- * sensor that is known.
- * @param why  what shows it
- * @return the unit of 1 in a sample, as --metric takes it; null: not so
- */
-const char *metric_guess(const image *img, const char **why);
+/** Of numbers: what all are multiples of, as parts of a metre that files are written in; 0: nothing. */
+double metric_step(const image *img);
+
+/** A sample that is no depth, metric.top; with _clear_ it becomes 0. */
+double metric_find_top(const image *img);
+double metric_clear_top(image *img);
 
 #endif

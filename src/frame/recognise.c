@@ -5,18 +5,18 @@
 
 #include "core/append.h"
 #include "frame/image_depths.h"
+#include "frame/units.h"
 
 /* Of numbers; of others that there are some outside is all. */
-static const char *hint(const dp_recognised *r) {
-    return r->metric                                            ? ": metric depth? --metric 1 reads it"
-           : r->least < 0 && r->least >= -1 && r->greatest <= 1 ? ": OpenGL's NDC?"
-                                                                : "";
-}
-
 static void say_outside(const image *img, const dp_recognised *r, char *why) {
+    char units[UNITS_TEXT_SIZE];
     append(why, RECOGNISE_WHY_SIZE, "no window depth: %zu of %zu samples are not in [0, 1]", r->invalid, r->samples);
     if (img->type >= IMAGE_F16)
-        append(why, RECOGNISE_WHY_SIZE, ", finite ones go from %.6g to %.6g%s", r->least, r->greatest, hint(r));
+        append(why, RECOGNISE_WHY_SIZE, ", finite ones go from %.6g to %.6g%s%s", r->least, r->greatest,
+               r->metric                                            ? ": metric depth? "
+               : r->least < 0 && r->least >= -1 && r->greatest <= 1 ? ": OpenGL's NDC?"
+                                                                    : "",
+               r->metric ? units_say(img, units) : "");
 }
 
 static void say_lattice(const dp_recognised *r, char *why) {

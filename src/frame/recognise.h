@@ -6,7 +6,7 @@
 #include "depthprec/recognise.h"
 #include "image/image.h"
 
-enum { RECOGNISE_WHY_SIZE = 320 };
+enum { RECOGNISE_WHY_SIZE = 480 };
 
 /** Looks at channel 0 of every pixel. Never fails: an image that cannot be window depth has depth == false.
  *  @param why  one sentence: how it was told, or why it is no window depth, and recognise_towards() */

@@ -419,12 +419,13 @@ static double residual_of(const depths *d, const sensor_file *file, const sensor
     return above >= below ? 0.5 * (above - below) : s->residual;
 }
 
-static void name_like(sensor *s) {
+const char *sensor_like(grain_levels levels, double step) {
     for (size_t i = 0; i < sizeof known_steps / sizeof known_steps[0]; i++) {
         const struct known_step *k = &known_steps[i];
-        if (k->levels == s->row->levels && fabs(s->step - k->step) <= k->within * k->step)
-            s->like = k->name;
+        if (k->levels == levels && fabs(step - k->step) <= k->within * k->step)
+            return k->name;
     }
+    return NULL;
 }
 
 /* Integers: what all of the values that are not rare are multiples of, and -log2 of the chance that they are. */
@@ -619,7 +620,7 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
         s.again_seen = again_seen;
         if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale) && !is_put_together(img, &tried, &s))
             *out = s, out->residual = residual_of(&d, &tried, &s);
-        name_like(out);
+        out->like = sensor_like(out->row->levels, out->step);
     }
     depths_free(&d);
 }

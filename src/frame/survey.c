@@ -327,13 +327,29 @@ static bool visit_codes(surveying *s, const frame *f, double sky_from, survey *o
     return true;
 }
 
+/* Depths without a far plane end at the farthest pixel. @return what lies behind it */
+static uint32_t find_end(const frame *f, const dp_setup *setup) {
+    uint32_t *codes = malloc((size_t)f->camera->width * sizeof *codes), end = 1;
+    for (uint32_t row = 0; row < f->camera->height && codes != NULL; row++) {
+        frame_codes(f, row, codes);
+        for (uint32_t x = 0; x < f->camera->width; x++)
+            if (codes[x] != UINT32_MAX && frame_rank(setup, codes[x]) >= end)
+                end = frame_rank(setup, codes[x]) + 1;
+    }
+    free(codes);
+    return end;
+}
+
 bool survey_make(const frame *given, survey *out) {
     texture_camera camera;
     const frame along = frame_along(given, &camera), *f = &along;
     const dp_setup *setup = &camera.setup;
-    surveying s = {.f = given, .setup = setup, .sky = frame_sky_rank(f)};
+    const bool endless = f->metric && isinf(setup->spec.zfar);
+    surveying s = {.f = given, .setup = setup, .sky = endless ? find_end(f, setup) : frame_sky_rank(f)};
     bool good = true;
-    const double sky_from = f->metric ? setup->spec.zfar : dp_cell_of(setup, frame_code(setup, s.sky)).lo;
+    const double sky_from = endless     ? stored(setup, s.sky - 1)
+                            : f->metric ? setup->spec.zfar
+                                        : dp_cell_of(setup, frame_code(setup, s.sky)).lo;
     s.used = calloc((size_t)(setup->spec.format.code_max >> 6) + 2, sizeof *s.used);
     if (s.used == NULL)
         return false;

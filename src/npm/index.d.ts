@@ -153,11 +153,12 @@ export function bias(options: CommandOptions): Promise<any>;
 export function check(requirements: { [key: string]: unknown }): Promise<any>;
 
 /** What a depth image, rows of samples from the top, holds: its format, whether that is certain, whether depth is reversed,
- *  and why. Throws where it is no depth image, with what it looks like. */
+ *  and why; with { metric } its unit and lattice, and these null. Throws where it is no depth image, with what it looks like,
+ *  and TypeError where the image has any other key: options come behind it. */
 export function recognise(
     image: { data: ArrayBufferView; width: number; height: number; channels?: number },
     options?: CommandOptions,
-): Promise<{ format: string; certain: boolean; reversed: boolean | null; why: string; [key: string]: any }>;
+): Promise<{ format: string | null; certain: boolean | null; reversed: boolean | null; why: string | null; [key: string]: any }>;
 
 /**
  * Runs a command and gives its answer: objects where --json is among the words, else text, or bytes where it is none.

@@ -61,6 +61,15 @@ function real(value, what) {
     return value;
 }
 
+// An object that has no key but these; what is not known would have no effect.
+function only(given, names, what = "options") {
+    if (given === undefined) return {};
+    if (typeof given !== "object" || given === null) throw new TypeError(`${what} must be an object, got ${given === null ? "null" : typeof given}`);
+    for (const name of Object.keys(given))
+        if (!names.includes(name)) throw new TypeError(`${what} must have no '${name}', but ${names.join(", ")}${what === "an image" ? ": options come behind it" : ""}`);
+    return given;
+}
+
 function word(value, what) {
     if (typeof value !== "string") throw new TypeError(`${what} must be a word, got ${value === null ? "null" : typeof value}`);
     if (value.includes("\0")) throw new DepthprecError(`${what} must not contain a zero byte`);
@@ -200,7 +209,8 @@ export class Camera {
         return new Camera({ near, far: far ?? Infinity, mapping, format, ...more });
     }
 
-    encode(z, { out } = {}) {
+    encode(z, options) {
+        const { out } = only(options, ["out"]);
         const given = elements(z, "eye depths");
         if (given === undefined) return this.#single("code", number(z, "an eye depth"), "Float64Array", "Uint32Array");
         const from = reals(given), to = output(from, this.#narrow ? ["Uint16Array", "Uint32Array"] : ["Uint32Array"], out, true);
@@ -208,7 +218,8 @@ export class Camera {
         return to;
     }
 
-    decode(values, { bounds = false, window = false, out } = {}) {
+    decode(values, options) {
+        const { bounds = false, window = false, out } = only(options, ["bounds", "window", "out"]);
         const given = elements(values, "codes or window depths");
         if (given === undefined) return this.#decoded(values, bounds, window);
         const floating = window || (kindOf(values) in REALS);
@@ -280,7 +291,8 @@ export class Camera {
         return blocks[to][1][0];
     }
 
-    #map(name, z, { out } = {}) {
+    #map(name, z, options) {
+        const { out } = only(options, ["out"]);
         const given = elements(z, "eye depths");
         if (given === undefined) {
             number(z, "an eye depth");
@@ -320,7 +332,7 @@ function number(value, what) {
 // ---- The command, which is a program of its own ---------------------------------------------------------------------
 
 let loading;
-const program = () => (loading ??= import("./program.js").then((own) => own.begin({ Camera, DepthprecError, USUAL })));
+const program = () => (loading ??= import("./program.js").then((own) => own.begin({ Camera, DepthprecError, USUAL, only })));
 
 export const run = async (args, options) => (await program()).run(args, options);
 export const solve = async (options) => (await program()).solve(options);

@@ -42,7 +42,7 @@ const argument = (value) => (Array.isArray(value) ? value.map(argument).join(","
 const wordsOf = (options) => Object.entries(options).filter(([, value]) => value !== undefined && value !== null && value !== false)
     .map(([name, value]) => `--${kebab(name)}${value === true ? "" : `=${argument(value)}`}`);
 
-export function begin({ Camera, DepthprecError, USUAL }) {
+export function begin({ Camera, DepthprecError, USUAL, only }) {
     // A camera as options of a command, or as keys of a requirement file.
     function given(camera, verb) {
         if (camera === undefined || camera === null) return {};
@@ -59,7 +59,8 @@ export function begin({ Camera, DepthprecError, USUAL }) {
 
     const asked = (verb, { camera, ...options }) => wordsOf({ ...given(camera, verb), ...options });
 
-    async function run(args, { input, text = false, fs } = {}) {
+    async function run(args, options) {
+        const { input, text = false, fs } = only(options, ["input", "text", "fs"], "options of run");
         const words = typeof args === "string" ? split(args) : Array.from(args);
         for (const word of words) {
             if (typeof word !== "string") throw new TypeError(`words must be text, got ${word === null ? "null" : typeof word}`);
@@ -103,7 +104,8 @@ export function begin({ Camera, DepthprecError, USUAL }) {
     const TYPES = { Float16Array: "f2", Float32Array: "f4", Float64Array: "f8", Uint8Array: "u1", Uint8ClampedArray: "u1", Uint16Array: "u2", Uint32Array: "u4" };
 
     // The bytes of an .npy file; typed arrays have the order of the machine's bytes, which is little wherever this runs.
-    function npy({ data, width, height, channels }) {
+    function npy(image) {
+        const { data, width, height, channels } = only(image, ["data", "width", "height", "channels"], "an image");
         const type = TYPES[ArrayBuffer.isView(data) ? data[Symbol.toStringTag] : ""];
         if (type === undefined) throw new TypeError(`data must be an array of float16, float32, float64, uint8, uint16 or uint32`);
         const each = channels ?? data.length / (width * height);
@@ -130,8 +132,9 @@ export function begin({ Camera, DepthprecError, USUAL }) {
         check: (requirements) => run(["check", "--json", "-"], { input: group(object(requirements, "requirements"), "\n") }),
         async recognise(image, options = {}) {
             const found = await run(["texture", "--json", "--quiet", ...asked("texture", object(options, "options")), "-"], { input: npy(object(image, "an image")) });
-            const { samples, packing, metric, lossy, type, width, height, channels } = found;
-            return { ...found.recognised, samples, packing, metric, lossy, type, width, height, channels };
+            const { samples, packing, metric = null, stereo = null, lattice = null, lossy, type, width, height, channels } = found;
+            const own = found.recognised ?? { format: null, certain: null, reversed: null, why: null };
+            return { ...own, samples, packing, metric, stereo, lattice, lossy, type, width, height, channels };
         },
     };
 }

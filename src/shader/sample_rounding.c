@@ -42,8 +42,8 @@ static span steps_span_of(const grain *g, double steps, double v) {
     const double cut = first * (steps / (steps + 1)) * (1 - 0x1p-50);
     const double below[] = {[GRAIN_ANY] = fmin(first - 0.5, cut), [GRAIN_NEAREST] = first - 0.5, [GRAIN_ZERO] = first};
     const double above[] = {[GRAIN_ANY] = last + 1, [GRAIN_NEAREST] = last + 0.5, [GRAIN_ZERO] = last + 1};
-    const double margin = g->margin * steps;
-    return (span){below[g->rounding] - margin, above[g->rounding] + margin, steps};
+    const double margin = g->margin * steps, down = first - below[g->rounding], up = above[g->rounding] - last;
+    return (span){first - (g->mirrored ? up : down) - margin, last + (g->mirrored ? down : up) + margin, steps};
 }
 
 static span steps_span(const grain *g, double v) {

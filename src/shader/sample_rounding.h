@@ -42,6 +42,7 @@ typedef struct grain {
     double own; /**< GRAIN_STEPS: what they are multiples of in any case, where steps may be chance; 0: nothing more */
     double whole;  /**< GRAIN_STEPS: k may as well be k/whole: 2^N - 1 where N bits were shifted up; 0: not so */
     bool buffer;   /**< behind the image lies a buffer of the set-up's format; else the depth itself, or */
+    bool mirrored; /**< GRAIN_STEPS: what was rounded falls where v rises, so that what is cut off lies below */
     double margin; /**< ... a finer buffer, whose cells reach so far beyond its numbers, window depth */
     int bits; /**< GRAIN_FLOATS: significant bits, 11, 24 or 53; GRAIN_STEPS: 0, or those that steps were rounded to */
     double least;        /**< the least subnormal */

@@ -53,6 +53,12 @@ test("images", async () => {
     await refuses(() => recognise({ data: z, width: 64, height: 48 }), /cannot be window depth/);
     await refuses(() => recognise({ data: z, width: 64, height: 47 }), /got 3072 for 64 x 47/);
     for (const bad of [z, null, { data: [1], width: 1, height: 1 }, { data: new BigInt64Array(1), width: 1, height: 1 }]) await refuses(() => recognise(bad), /must be/, TypeError);
+    const metres = await recognise({ data: z, width: 64, height: 48 }, { metric: "1m" });
+    assert.deepEqual([metres.metric, metres.format, metres.lattice.name, metres.type], [1, null, "file", "f4"]);
+    assert.equal(codes.lattice, null);
+    await refuses(() => recognise({ data: z, width: 64, height: 48, metric: "1m" }), /an image must have no 'metric', but data, width, height, channels: options come behind it/, TypeError);
+    for (const work of [() => c.encode(z, { ot: z }), () => c.decode(data, { bound: true }), () => c.separation(z, { o: z }), () => run("list", { txt: true })])
+        await refuses(async () => work(), /options(?: of run)? must have no '/, TypeError);
 });
 
 test("files are those of the fs that is given, and whole or not there", async () => {

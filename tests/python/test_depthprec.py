@@ -11,13 +11,15 @@ import os
 import pickle
 import subprocess
 import sys
+import tempfile
 import threading
+import types
 import unittest
 import warnings
 from fractions import Fraction
 
 import depthprec
-from depthprec import Camera, Error, _arrays, _core
+from depthprec import Camera, Error, _arrays, _core, _program
 from oracle import AFFINE, FORMATS, Setup, binary32, generator, nudge, random_depth, random_setup, relative
 
 try:
@@ -273,6 +275,34 @@ class Program(unittest.TestCase):
         for wrong in (d, 3, None, memoryview(array.array("q", range(4)))):
             with self.assertRaises((Error, TypeError)):
                 depthprec.recognise(wrong)
+        metres = memoryview(z).cast("B").cast("f", (48, 64))
+        found = depthprec.recognise(metres, metric="1m")
+        self.assertEqual([found["metric"], found["format"], found["lattice"]["name"]], [1, None, "file"])
+        path = os.path.join(tempfile.mkdtemp(), "z.npy")
+        with open(path, "wb") as file:
+            file.write(_program._npy(metres))
+        self.assertEqual(depthprec.recognise(path, metric="1m"), found)
+        self.assertIsNone(depthprec.recognise(codes)["lattice"])
+
+    def test_masks(self):
+        """Of masked arrays, numpy's or what stands in for them here, none is read or written that masks anything."""
+        if numpy is not None:
+            import numpy.ma as ma
+        else:
+            ma = types.ModuleType("numpy.ma")
+            ma.MaskedArray = type("MaskedArray", (array.array,), {"mask": types.SimpleNamespace(any=lambda: True)})
+            ma.array = lambda data, mask: ma.MaskedArray("f", data)
+            self.addCleanup(sys.modules.pop, "numpy.ma", None)
+            sys.modules["numpy.ma"] = ma
+        masked, c = ma.array([1.0, 2.0, 3.0, 4.0], mask=[True, False, False, False]), Camera()
+        for work in (lambda: c.encode(masked), lambda: c.decode(masked), lambda: c.separation(masked),
+                     lambda: c.interval([1.0] * 4, out=masked), lambda: depthprec.recognise(masked, metric="1m"),
+                     lambda: Camera.from_matrix(masked)):
+            with self.assertRaisesRegex(ValueError, "must have no mask"):
+                work()
+        if numpy is not None:
+            whole = ma.array([1.0, 2.0], mask=False)
+            self.assertEqual(list(c.encode(whole)), list(c.encode([1.0, 2.0])))
 
     def test_refused(self):
         for words, said in (("tabl", "did you mean"), ("plot error --type pdf -o x.pdf", "rsvg-convert"),

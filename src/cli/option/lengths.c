@@ -8,6 +8,7 @@
 #include "api/unit.h"
 #include "cli/option/rows.h"
 #include "core/append.h"
+#include "frame/device.h"
 #include "report/number.h"
 
 /* What the lengths of one argument have: some a unit, and some, other than 0, none. */
@@ -110,6 +111,93 @@ int parse_metric(options *o, const option_row *row, const char *value) {
     list_item item;
     const bool named = names_find(row->names, value, NULL, &item);
     return parse_length(o, row, named ? ((const struct sample_unit *)item.row)->length : value);
+}
+
+bool list_stereo(size_t index, list_item *item) {
+    size_t left = index;
+    for (size_t i = 0; device_get(i) != NULL; i++)
+        if (device_get(i)->focal > 0 && left-- == 0)
+            return list_fill(item, (list_item){.name = device_get(i)->name, .row = device_get(i)});
+    return false;
+}
+
+static int take_device(lengths *seen, const device_row *d, stereo_spec *out) {
+    const unit_row *metre = unit_find("m");
+    if (seen->o->camera.unit == NULL)
+        seen->o->camera.unit = metre;
+    *out = (stereo_spec){d->focal, unit_convert(d->baseline, metre, seen->o->camera.unit), d->offset, d->step};
+    return EXIT_FINE;
+}
+
+/* A number, or a quotient of two. */
+static bool read_quotient(const char *text, size_t length, double *out) {
+    const char *const over = memchr(text, '/', length);
+    const size_t whole = over != NULL ? (size_t)(over - text) : length;
+    double divisor = 1;
+    const bool good =
+        number_parse_part(text, whole, NUMBER_FINITE, out) &&
+        (over == NULL || (number_parse_part(over + 1, length - whole - 1, NUMBER_FINITE, &divisor) && divisor != 0.0));
+    *out /= divisor;
+    return good;
+}
+
+/* Numbers in this order, or behind their names in any. */
+static const struct stereo_part {
+    const char *name, *limits;
+    double least, most;
+    size_t place;
+} stereo_parts[] = {
+    {"focal", "a number from 0.001 to 1e9", 1e-3, 1e9, offsetof(stereo_spec, focal)},
+    {"baseline", "a length from 1e-9 to 1e9", 1e-9, 1e9, offsetof(stereo_spec, baseline)},
+    {"offset", "a number from -1e6 to 1e6", -1e6, 1e6, offsetof(stereo_spec, offset)},
+    {"step", "a number from -1e6 to 1e6, and not within 1e-6 of 0", -1e6, 1e6, offsetof(stereo_spec, step)}};
+enum { STEREO_PARTS = sizeof stereo_parts / sizeof stereo_parts[0], STEREO_BASELINE = 1, STEREO_STEP = 3 };
+static const double STEREO_STEP_LEAST = 1e-6;
+
+static int stereo_part_set(lengths *seen, const option_row *row, const char *text, size_t length, size_t place,
+                           stereo_spec *out) {
+    const char *const equals = memchr(text, '=', length);
+    const size_t name = equals != NULL ? (size_t)(equals - text) : 0, from = equals != NULL ? name + 1 : 0;
+    for (size_t i = 0; equals != NULL && (place = i) < STEREO_PARTS; i++)
+        if (strlen(stereo_parts[i].name) == name && memcmp(stereo_parts[i].name, text, name) == 0)
+            break;
+    char names[NAMES_SIZE];
+    if (place >= STEREO_PARTS || (place == 0 && equals == NULL && is_letter(text[0])))
+        return option_refuse(row, "must be focal=F,baseline=B[,offset=O][,step=S], or begin with %s, got '%.*s'",
+                             names_join(row->names, ", ", " or ", names), (int)length, text);
+    const struct stereo_part *p = &stereo_parts[place];
+    double value;
+    const bool read = place == STEREO_BASELINE ? read_length(seen, text + from, length - from, NUMBER_FINITE, &value)
+                                               : read_quotient(text + from, length - from, &value);
+    if (!read || !(value >= p->least && value <= p->most) || (place == STEREO_STEP && fabs(value) < STEREO_STEP_LEAST))
+        return option_refuse(row, "%s must be %s, got '%.*s'%s", p->name, p->limits, (int)(length - from), text + from,
+                             place == STEREO_BASELINE ? unit_hint(text + from, length - from) : "");
+    *(double *)((char *)out + p->place) = value;
+    return EXIT_FINE;
+}
+
+int parse_stereo(options *o, const option_row *row, const char *value) {
+    lengths seen = {.o = o};
+    stereo_spec *out = option_field(o, row);
+    int status = EXIT_FINE;
+    *out = (stereo_spec){.step = 1};
+    o->image.metric = 1; /* of scene units */
+    for (size_t place = 0; status == EXIT_FINE; place++) {
+        const size_t length = strcspn(value, ",");
+        char name[32];
+        list_item item;
+        snprintf(name, sizeof name, "%.*s", (int)length, value);
+        if (place == 0 && length < sizeof name && names_find(row->names, name, NULL, &item))
+            status = take_device(&seen, item.row, out);
+        else
+            status = stereo_part_set(&seen, row, value, length, place, out);
+        if (value[length] == '\0')
+            break;
+        value += length + 1;
+    }
+    if (status == EXIT_FINE && !(out->focal > 0 && out->baseline > 0))
+        return option_refuse(row, "needs focal=F and baseline=B, got '%s'", o->given[OPTION_STEREO]);
+    return status;
 }
 
 /* Surfaces of a model may be in one place. */

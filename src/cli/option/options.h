@@ -23,6 +23,7 @@
 #include "cli/errors.h"
 #include "cli/product.h"
 #include "depthprec/depthprec.h"
+#include "frame/stereo.h"
 #include "frame/synthetic.h"
 #include "raster/raster.h"
 #include "raster/vertex_compare.h"
@@ -117,6 +118,7 @@ typedef enum option_id {
     OPTION_PARAMETER,
     OPTION_SKY,
     OPTION_METRIC,
+    OPTION_STEREO,
     OPTION_LATTICE,
     OPTION_RADIAL,
     OPTION_PACKING,
@@ -320,6 +322,7 @@ typedef struct options_image {
     size_t parameter_count;
     double sky;             /**< window depth */
     double metric;          /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    stereo_spec stereo;     /**< of disparities, `metric` is then 1; its focal length 0 when not given */
     const char *lattice;    /**< what it was rounded to before; null when not given */
     bool radial;            /**< metric depth is the distance along the ray */
     const char *as;         /**< what eye depth is rounded to; null when not given */

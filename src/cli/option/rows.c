@@ -32,6 +32,7 @@ static const name_list synthetics = {.get = list_synthetic};
 static const name_list products = {.get = list_product};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
 static const name_list samples = {.get = list_samples};
+static const name_list stereos = {.get = list_stereo};
 static const name_list packings = {.get = list_packing};
 /* In the order of their enumerators. */
 static const name_list targets = {
@@ -331,11 +332,16 @@ const option_row option_rows[OPTION_COUNT] = {
         "numbers, NaN and infinity are holes",
         .parse = parse_metric, .names = &samples, FIELD(double, image.metric),
         LIMITS(METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_STEREO] = {"stereo", 0, "focal=F,baseline=B[,offset=O][,step=S]|NAME",
+        "the samples are disparities: O + S x sample is that in pixels, of a focal length of F pixels and a baseline "
+        "B, a length; S may be a quotient, 1/256, and is below 0 where larger samples are farther; NAME is one of "
+        "'depthprec list sensors', of which others of these may follow; 0 and what is not finite are holes",
+        .parse = parse_stereo, .names = &stereos, FIELD(stereo_spec, image.stereo)},
     [OPTION_LATTICE] = {"lattice", 0, "NAME[:NUMBERS]",
         "what metric depth was rounded to before, in place of what the image shows: stereo:FOCAL,BASELINE[,PIXELS] "
         "with the step of disparity in pixels, inverse:A[,B] with steps of 1/A in 1/z, even:STEP[,FROM] in z, "
-        "inverse-levels:N or levels:N from the nearest to the farthest depth, binary16, file; @STEP behind it "
-        "if it was rounded to that before it was stored",
+        "inverse-levels:N or levels:N from the nearest to the farthest depth, binary16, file, or a name from "
+        "'depthprec list sensors'; @STEP behind it if it was rounded to that before it was stored",
         TEXT(image.lattice), .without = "as found"},
     [OPTION_RADIAL] = {"radial", 0, NULL,
         "with --metric: the samples are distances along the rays, which --fov, --hfov or --intrinsics says",

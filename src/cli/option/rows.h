@@ -95,7 +95,7 @@ int parse_names(options *o, const option_row *row, const char *value, option_par
 option_parser parse_unit, parse_preset, parse_presets, parse_near, parse_far, parse_fars, parse_formats, parse_mappings,
     parse_tolerance, parse_at, parse_schemes, parse_range, parse_origin, parse_distances, parse_error_map,
     parse_size_or_n, parse_figure_size, parse_axes, parse_separation_or_0, parse_intrinsics, parse_metric, parse_units,
-    parse_sky, parse_tint;
+    parse_stereo, parse_sky, parse_tint;
 option_parser parse_product, parse_apis, parse_size, parse_parameter, parse_form, parse_link, parse_against, parse_also,
     parse_define, parse_mine;
 option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */

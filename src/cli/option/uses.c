@@ -74,7 +74,7 @@ static const option_use picture[] = {
 /* ---- The commands ------------------------------------------------------------------------------------------------ */
 
 /* What the reverse has no use for. */
-enum { TABLE_OF_DEPTHS = 1, TABLE_OF_CODES = 2, TABLE_OF_CONSTANTS = 4 };
+enum { TABLE_OF_DEPTHS = 1, TABLE_OF_CODES = 2, TABLE_OF_CONSTANTS = 4, TABLE_OF_LEVELS = 8 };
 static const option_use of_depths[] = {
     OWN(TOLERANCE, WITHOUT("5% for the model; intervals are exact")),
     TAKE(RANGE), OWN(VIEWPORT, ALSO("with --constants the shape of the view, 1920x1080 where not given")), END};
@@ -88,10 +88,18 @@ static const option_use asked_depths[] = {
 static const option_use of_constants[] = {
     TAKE(NEAR), TAKE(FAR), TAKE(MAPPING), TAKE(UNIT), TAKE(ORTHO), TAKE(FOV), TAKE(HFOV),
     OWN(VIEWPORT, DEFAULT("1920x1080")), END};
+static const option_use compared[] = {
+    OWN(PRESET, .argument = "NAME[,NAME...]", ALSO(OF_VIEW "; several are compared"), .parse = parse_presets), END};
+static const option_use of_levels[] = {
+    OWN(AT, WITHOUT("1, 2, 5 and 10")), TAKE(UNIT), END};
 const option_use table_uses[] = {
-    OWN(PRESET, .argument = "NAME[,NAME...]", ALSO(OF_VIEW "; several are compared"), .parse = parse_presets),
+    FOR(TABLE_OF_DEPTHS | TABLE_OF_CODES | TABLE_OF_CONSTANTS, compared),
     FOR(TABLE_OF_DEPTHS, of_depths), FOR(TABLE_OF_DEPTHS | TABLE_OF_CODES, of_stored),
     FOR(TABLE_OF_DEPTHS | TABLE_OF_CONSTANTS, asked_depths), FOR(TABLE_OF_CONSTANTS, of_constants), TAKE(CONSTANTS),
+    FOR(TABLE_OF_LEVELS, of_levels),
+    OWN(LATTICE, HELP("instead: how far apart the levels of a sensor or data set are, a name from 'depthprec list "
+        "sensors', or as texture --lattice has them: stereo:FOCAL,BASELINE[,PIXELS], inverse:A, even:STEP, binary16"),
+        WITHOUT("")),
     OWN(FULL, HELP("all columns, however wide, and the cell of each depth; a table for each set-up in place of a "
         "comparison")),
     GROUP(written), END};
@@ -186,8 +194,8 @@ const option_use scene_uses[] = {
 enum { TEXTURE_EFFECT = 1, TEXTURE_PLACED = 2, TEXTURE_IMAGE = 4 };
 static const option_use of_effect[] = {TAKE(AT), END};
 static const option_use of_image[] = {
-    TAKE(SKY), TAKE(METRIC), TAKE(LATTICE), TAKE(RADIAL), TAKE(INTRINSICS), TAKE(AS), TAKE(ERROR_MAP), TAKE(FIGURE),
-    TAKE(HI_Z),
+    TAKE(SKY), TAKE(METRIC), TAKE(STEREO), TAKE(LATTICE), TAKE(RADIAL), TAKE(INTRINSICS), TAKE(AS), TAKE(ERROR_MAP),
+    TAKE(FIGURE), TAKE(HI_Z),
     GROUP(picture), TAKE(THREADS), TAKE(PACKING), TAKE(NORMAL_FORMAT), TAKE(CHANNEL), TAKE(OVERLAY),
     OWN(RANGE, HELP("the values of an effect that are black and white in its PNG"),
         WITHOUT("0:1, of a vector -1:1")),
@@ -330,6 +338,7 @@ const option_use no_uses[] = {END};
 const command_part table_parts[] = {{"to the table of depths", TABLE_OF_DEPTHS},
                                     {"with --depth or --code", TABLE_OF_CODES},
                                     {"with --constants", TABLE_OF_CONSTANTS},
+                                    {"with --lattice", TABLE_OF_LEVELS},
                                     {NULL, 0}};
 const command_part solve_parts[] = {
     {"without --for frusta", SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
@@ -342,7 +351,7 @@ const command_part texture_parts[] = {{"to an effect alone that needs no positio
                                       {NULL, 0}};
 
 size_t table_asked(const options *o) {
-    return o->wanted.constants ? 2 : o->wanted.looked_up.count > 0;
+    return o->image.lattice != NULL ? 3 : o->wanted.constants ? 2 : o->wanted.looked_up.count > 0;
 }
 
 size_t solve_asked(const options *o) {

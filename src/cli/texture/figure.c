@@ -80,7 +80,10 @@ static void words_of(const options *o, const texture_source *s, const char *titl
     c->unit = unit;
     const dp_setup shown = texture_matrix_shown(&s->matrix, &s->setup);
     setup_label(&shown, true, label);
-    if (o->image.metric > 0)
+    if (o->image.stereo.focal > 0)
+        snprintf(label, sizeof label, "disparity, focal length %g pixels, baseline %g %s", o->image.stereo.focal,
+                 o->image.stereo.baseline, unit != NULL ? unit : "scene units");
+    else if (o->image.metric > 0)
         snprintf(label, sizeof label, "metric depth, %g %s a unit", o->image.metric,
                  unit != NULL ? unit : "scene units");
     else if (unit != NULL)
@@ -260,7 +263,8 @@ int texture_histogram_draw(const options *o, const texture_source *s) {
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();
-    const bool good = c != NULL && histogram_build(&s->frame, texture_is_window(o), c, &counted);
+    const bool good =
+        c != NULL && histogram_build(&s->frame, texture_is_window(o) || o->image.stereo.focal > 0, c, &counted);
     if (good && counted > 0) {
         if (counted < pixels)
             snprintf(more, sizeof more, "; %llu pixels of sky or holes are left out",

@@ -9,8 +9,8 @@
 #include "report/number.h"
 
 int texture_hi_z_check(const options *o) {
-    static const option_id others[] = {OPTION_PRODUCT, OPTION_FIGURE, OPTION_HISTOGRAM, OPTION_PIXEL,    OPTION_METRIC,
-                                       OPTION_RADIAL,  OPTION_CSV,    OPTION_AS,        OPTION_ERROR_MAP};
+    static const option_id others[] = {OPTION_PRODUCT, OPTION_FIGURE, OPTION_HISTOGRAM, OPTION_PIXEL, OPTION_METRIC,
+                                       OPTION_STEREO,  OPTION_RADIAL, OPTION_CSV,       OPTION_AS,    OPTION_ERROR_MAP};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (option_given(o, others[i]))
             return option_error(others[i], "conflicts with --hi-z, which keeps window depth");

@@ -4,8 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/option/names.h"
 #include "cli/texture/texture.h"
 #include "core/append.h"
+#include "frame/device.h"
 #include "report/message.h"
 #include "report/number.h"
 
@@ -77,12 +79,32 @@ static bool read_again(char *text, option_id id, sensor *out) {
            out->again <= 1e12;
 }
 
-int texture_lattice(option_id id, const char *given, sensor *out) {
+/* Of a data sheet. @return whether there is one of that name */
+static bool find_device(const options *o, const char *text, sensor *out) {
+    const name_list devices = {.get = list_device};
+    const double again = out->again;
+    list_item item;
+    if (!names_find(&devices, text, NULL, &item))
+        return false;
+    *out = device_sensor(item.row);
+    const double metres = o->camera.unit != NULL ? o->camera.unit->nanometres / 1e9 : 1;
+    const double per = out->row->levels == GRAIN_INVERSE ? metres : 1 / metres;
+    out->step *= per;
+    out->again = again;
+    return true;
+}
+
+int texture_lattice(const options *o, option_id id, const char *given, sensor *out) {
     const double none = (double)NAN;
     char room[LATTICE_SIZE], *const text = given != NULL ? room : NULL;
     *out = (sensor){.step = none, .offset = none, .levels = none, .again = none};
     snprintf(room, sizeof room, "%s", given != NULL ? given : "");
     const bool good_again = read_again(room, id, out) && (given == NULL || strlen(given) < sizeof room);
+    if (good_again && find_device(o, room, out))
+        return out->row->levels != GRAIN_FINE
+                   ? EXIT_FINE
+                   : option_error(id, "%s has no lattice that is published; 'depthprec list sensors' has its sheet",
+                                  room);
     const size_t length = strcspn(room, ":");
     for (const struct way *way = ways; text != NULL && way < ways + WAYS; way++) {
         double numbers[NUMBERS];
@@ -102,10 +124,10 @@ int texture_lattice(option_id id, const char *given, sensor *out) {
                 out->row = sensor_get(i);
         return EXIT_FINE;
     }
-    char known[256] = "";
+    char known[320] = "";
     for (size_t i = 0; i < WAYS; i++)
         append(known, sizeof known, "%s%s%s",
-               i == 0         ? ""
+               i == 0         ? "a name of 'depthprec list sensors', "
                : i + 1 < WAYS ? ", "
                               : " or ",
                ways[i].name, ways[i].numbers);

@@ -74,7 +74,7 @@ static void describe_pixel(const options *o, const texture_source *s, pixel *p, 
     synthetic_hit hit = {.z = (double)INFINITY};
     p->state = hole ? "hole" : sky ? "sky" : "depth";
     p->depth = depth_at(f, p, code);
-    p->code = hole ? none : (double)code;
+    p->code = hole ? none : s->metric.sample_per != 0 ? s->metric.sample_from + s->metric.sample_per * code : code;
     p->z = hole ? none : pixel_stored(&s->camera, p->column, p->row, code);
     p->range = hole ? (grain_range){none, none, none} : pixel_range_of(&s->camera, f->grain, p->column, p->row, code);
     p->interval = p->range.hi - p->range.lo;
@@ -241,7 +241,10 @@ static void say_head(page *p, void *item) {
     p->unit = options_unit(all->o);
     const dp_setup shown = texture_matrix_shown(&s->matrix, &s->setup);
     page_text(p, "%s: %u x %u pixels, %s", all->synthetic != NULL ? all->synthetic : s->path, s->camera.width,
-              s->camera.height, all->o->image.metric > 0 ? "metric depth" : setup_label(&shown, true, label));
+              s->camera.height,
+              all->o->image.stereo.focal > 0 ? "disparity"
+              : all->o->image.metric > 0     ? "metric depth"
+                                             : setup_label(&shown, true, label));
     if (all->o->image.metric == 0)
         page_text(p, "format %s, mapping %s%s", all->format_from, all->mapping_from,
                   has_camera(all)   ? ""

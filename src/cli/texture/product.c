@@ -128,7 +128,7 @@ int texture_product_resolve(const options *o, texture_product *p) {
     if (o->image.as != NULL && (row->kind != FRAME_EYE || row->radial))
         return option_error(OPTION_AS, "is for --product eye");
     if (status == EXIT_FINE)
-        status = texture_lattice(OPTION_AS, o->image.as, &p->as);
+        status = texture_lattice(o, OPTION_AS, o->image.as, &p->as);
     if (o->image.as != NULL)
         p->made.as = &p->as;
     p->made.hides = o->image.picture != NULL && row->kind == FRAME_EFFECT && p->made.effect->surface;
@@ -158,7 +158,7 @@ int texture_product_check(const options *o, const texture_source *s, texture_pro
         [FRAME_EFFECT] = {"largest possible error", "largest possible error"},
     };
     if (p->made.kind == FRAME_LINEAR01 && !texture_far_known(o))
-        return option_error(OPTION_PRODUCT, "linear01 needs --far with --metric, which has none");
+        return option_error(OPTION_PRODUCT, "linear01 needs --far with --metric and --stereo, which have none");
     if (o->image.as != NULL && !find_levels(s, p))
         return usage_error("texture: no memory for the levels of --as");
     const char *wrong = frame_refuses(&s->frame, o->image.error_file != NULL ? &p->error : &p->made);

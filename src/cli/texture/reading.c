@@ -7,6 +7,7 @@
 #include "cli/texture/texture.h"
 #include "core/append.h"
 #include "frame/image_depths.h"
+#include "frame/units.h"
 #include "report/message.h"
 #include "report/number.h"
 
@@ -249,7 +250,7 @@ const char *texture_zeros_of(const options *o, const texture_source *s, char out
 }
 
 static void warn(const options *o, const texture_source *s) {
-    char text[READINGS_SIZE];
+    char text[READINGS_SIZE], units[UNITS_TEXT_SIZE];
     if (o->out.quiet)
         return;
     if (s->unpacked.zeros > 0)
@@ -259,9 +260,8 @@ static void warn(const options *o, const texture_source *s) {
     if (s->reading_count == 0 && o->image.metric == 0 && s->mapping_from == ORIGIN_ASSUMED)
         message("depthprec: %s: the mapping is assumed; --mapping sets it", s->path);
     if (o->image.metric == 0 && s->found.metric)
-        message("depthprec: %s: may be metric depth, whole numbers with 0 for holes; --metric 0.001 reads "
-                "millimetres",
-                s->path);
+        message("depthprec: %s: may be metric depth, whole numbers with 0 for holes: %s", s->path,
+                units_say(&s->picture, units));
 }
 
 void texture_read_on(const options *o, texture_source *s) {

@@ -42,14 +42,14 @@ static void *next_error(void *of, size_t i) {
     return e;
 }
 
-/* Of an image window depth without --metric, and levels with it. */
-enum { OF_SYNTHETIC = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8, OF_METRIC = 16 };
+/* Of an image window depth without --metric, and levels with it or --stereo. */
+enum { OF_SYNTHETIC = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8, OF_METRIC = 16, OF_STEREO = 32 };
 
 static unsigned conditions(const statistics *r) {
     const unsigned source = !statistics_of_image(r)   ? OF_SYNTHETIC
                             : r->o->image.metric == 0 ? OF_IMAGE | OF_WINDOW
                                                       : OF_IMAGE | OF_METRIC;
-    return source | (r->source.matrix.path != NULL ? OF_MATRIX : 0);
+    return source | (r->source.matrix.path != NULL ? OF_MATRIX : 0) | (r->stereo.focal > 0 ? OF_STEREO : 0);
 }
 
 static const column parameter_columns[] = {{FIELD(statistics, parameter, "name", "")},
@@ -64,10 +64,25 @@ static const column sample_columns[] = {{FIELD(statistics, named.step, "step", "
                                         {FIELD(statistics, named.rounded, "rounded", "")},
                                         {.kind = COLUMN_END}};
 
+static void *next_unit(void *of, size_t i) {
+    statistics *r = of;
+    unit_reading all[UNITS_MAX];
+    if (!r->source.found.metric || i >= units_find(&r->source.picture, all))
+        return NULL;
+    r->unit = all[i];
+    return r;
+}
+
+static const column unit_columns[] = {{FIELD(statistics, unit.option, "option", "")},
+                                      {FIELD(statistics, unit.lo, "lo", "m")},
+                                      {FIELD(statistics, unit.hi, "hi", "m")},
+                                      {.kind = COLUMN_END}};
+
 static const column recognised_columns[] = {{FIELD(statistics, named.format, "format", "")},
                                             {FIELD(statistics, named.certain, "certain", "")},
                                             {FIELD(statistics, named.reversed, "reversed", "")},
                                             {FIELD(statistics, source.why, "why", "")},
+                                            {LIST("units", unit_columns, next_unit)},
                                             {.kind = COLUMN_END}};
 
 static const column gap_columns[] = {
@@ -98,6 +113,13 @@ static const column lattice_columns[] = {{FIELD(statistics, lattice.name, "name"
                                          {LIST("gaps", gap_columns, statistics_next_gap)},
                                          {.kind = COLUMN_END}};
 
+static const column stereo_columns[] = {{FIELD(statistics, stereo.focal, "focal", "pixels")},
+                                        {FIELD(statistics, stereo.baseline, "baseline", "scene")},
+                                        {FIELD(statistics, stereo.offset, "offset", "pixels")},
+                                        {FIELD(statistics, stereo.step, "step", "pixels")},
+                                        {FIELD(statistics, named.pixels, "resolution", "pixels")},
+                                        {.kind = COLUMN_END}};
+
 static const column source_columns[] = {{FIELD(statistics, source.path, "file", "")},
                                         {FIELD(statistics, named.synthetic, "synthetic", "")},
                                         {LIST("parameters", parameter_columns, statistics_next_parameter)},
@@ -108,6 +130,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, named.channel, "channel", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric_from, "metric_from", ""), .when = OF_IMAGE},
+                                        {GROUP("stereo", stereo_columns), .when = OF_STEREO},
                                         {FIELD(statistics, named.radial, "radial", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
@@ -220,10 +243,12 @@ static void name_all(statistics *r) {
     r->named.format_from = texture_origin_name(s->format_from);
     r->named.mapping_from = texture_origin_name(s->mapping_from);
     r->named.direction_from = texture_origin_name(s->direction_from);
-    r->named.metric = is_metric ? r->o->image.metric : none;
-    r->named.metric_from = is_metric ? texture_origin_name(s->metric_from) : NULL;
+    const bool disparity = r->stereo.focal > 0;
+    r->named.metric = is_metric && !disparity ? r->o->image.metric : none;
+    r->named.metric_from = is_metric && !disparity ? texture_origin_name(s->metric_from) : NULL;
     r->named.radial = s->camera.radial ? longest_ray(&s->camera) : none;
-    r->named.step = is_metric && s->metric.step > 0 ? s->metric.step : none;
+    r->named.step = is_metric && !disparity && s->metric.step > 0 ? s->metric.step : none;
+    r->named.pixels = disparity && s->metric.step > 0 ? s->metric.step : none;
     r->named.steps = !is_metric && has_steps ? g->steps : none;
     r->named.steps_or = !is_metric && has_steps && g->whole > 0 ? g->whole : none;
     r->named.bits = g->kind == GRAIN_FLOATS ? g->bits : none;
@@ -294,6 +319,7 @@ int texture_report_write(const options *o, const texture_source *source) {
     output out;
     statistics r = {.o = o,
                     .source = *source,
+                    .stereo = o->image.stereo,
                     .condition =
                         camera_is_centred(&source->camera) ? position_condition(&source->camera) : (double)NAN};
     const int status = options_open(o, &out);

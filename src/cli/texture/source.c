@@ -9,6 +9,7 @@
 #include "cli/setups.h"
 #include "cli/texture/texture.h"
 #include "frame/normals.h"
+#include "frame/units.h"
 #include "report/message.h"
 #include "report/number.h"
 
@@ -73,8 +74,41 @@ static int check_window(const options *o) {
         if (option_given(o, window[i]) && (o->image.metric > 0 || window[i] != OPTION_SKY) &&
             (raw || window[i] != OPTION_PRODUCT))
             return option_error(window[i], "%sdoes not apply with --%s%s, which is not window depth",
-                                window[i] == OPTION_PRODUCT ? "raw " : "", o->image.metric > 0 ? "metric" : "packing ",
+                                window[i] == OPTION_PRODUCT ? "raw " : "",
+                                o->image.stereo.focal > 0 ? "stereo"
+                                : o->image.metric > 0     ? "metric"
+                                                          : "packing ",
                                 o->image.metric > 0 ? "" : o->image.packing->name);
+    return EXIT_FINE;
+}
+
+/* The focal length is the camera's, too: what says another one, or none, is refused, and so are planes without a use.
+ */
+static int check_stereo(const options *o) {
+    static const struct {
+        option_id id;
+        const char *why;
+    } others[] = {
+        {OPTION_METRIC, "conflicts with --stereo, which makes depths of disparities"},
+        {OPTION_PACKING, "conflicts with --stereo"},
+        {OPTION_LATTICE, "conflicts with --stereo, whose step it is"},
+        {OPTION_RADIAL, "conflicts with --stereo, which gives depths along the view axis"},
+        {OPTION_ORTHO, "conflicts with --stereo, whose camera is a perspective one"},
+        {OPTION_MATRIX, "conflicts with --stereo, whose focal length says the angle; --intrinsics says the rest"},
+        {OPTION_FOV, "conflicts with --stereo, whose focal length says it"},
+        {OPTION_HFOV, "conflicts with --stereo, whose focal length says it"}};
+    static const option_id planes[] = {OPTION_NEAR, OPTION_FAR, OPTION_PRESET, OPTION_PLATFORM};
+    if (o->image.stereo.focal == 0)
+        return EXIT_FINE;
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (option_given(o, others[i].id))
+            return option_error(others[i].id, "%s", others[i].why);
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
+        if (option_given(o, planes[i]) && o->image.product == NULL && !option_given(o, OPTION_PIXEL))
+            return option_error(planes[i], "is for --product and --pixel beside --stereo, whose depths have no planes");
+    if (option_given(o, OPTION_INTRINSICS) && o->view.intrinsics[0] != o->image.stereo.focal)
+        return option_error(OPTION_INTRINSICS, "FX must be the focal length of --stereo, %s, got %s",
+                            number_full(o->image.stereo.focal).text, number_full(o->view.intrinsics[0]).text);
     return EXIT_FINE;
 }
 
@@ -88,8 +122,11 @@ static int check_together(const options *o) {
             "texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF, PGM or raw image, or --synthetic NAME");
     if (file && o->image.effect == NULL && o->image.parameter_count > 0)
         return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
+    const bool disparity = o->image.stereo.focal > 0;
     if (o->image.metric > 0 && !file)
-        return option_error(OPTION_METRIC, "needs FILE");
+        return option_error(disparity ? OPTION_STEREO : OPTION_METRIC, "needs FILE");
+    if (check_stereo(o) != EXIT_FINE)
+        return EXIT_USAGE;
     if (o->image.radial && o->image.metric == 0)
         return option_error(OPTION_RADIAL, "needs --metric");
     if (o->image.lattice != NULL && o->image.metric == 0)
@@ -154,7 +191,8 @@ static void warn_of_compression(const options *o, const texture_source *s) {
 
 /* Whether the command line says what the samples are. */
 static bool is_asked(const options *o) {
-    return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
+    return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_STEREO) ||
+           option_given(o, OPTION_FORMAT);
 }
 
 /* Whether a word of the note is an option that nothing on the command line stands against. */
@@ -251,7 +289,7 @@ static bool is_said(const options *o) {
 
 /* Metric depth where nothing is said and the samples can be nothing else. */
 static int guess(options *o, texture_source *s) {
-    const char *why = NULL, *unit = is_said(o) ? NULL : metric_guess(&s->picture, &why);
+    const char *why = NULL, *unit = is_said(o) ? NULL : units_guess(&s->picture, &why);
     const option_row *row = &option_rows[OPTION_METRIC];
     int status = EXIT_FINE;
     if (unit != NULL) {
@@ -265,9 +303,14 @@ static int guess(options *o, texture_source *s) {
     return status;
 }
 
+static int read_stereo(const options *o, texture_source *s) {
+    const char *wrong = stereo_convert(&s->picture, &o->image.stereo, &s->metric);
+    return wrong == NULL ? EXIT_FINE : usage_error("%s: no disparity: %s", s->path, wrong);
+}
+
 static int read_metric(const options *o, texture_source *s) {
     sensor given;
-    int status = texture_lattice(OPTION_LATTICE, o->image.lattice, &given);
+    int status = texture_lattice(o, OPTION_LATTICE, o->image.lattice, &given);
     if (status != EXIT_FINE)
         return status;
     if (given.row != NULL && o->given[OPTION_LATTICE][0] == '\0')
@@ -315,7 +358,7 @@ static int read_image(options *o, texture_source *s) {
         return status != EXIT_FINE ? status : unpack(o, s);
     warn_of_channels(o, s);
     if (o->image.metric > 0)
-        return read_metric(o, s);
+        return o->image.stereo.focal > 0 ? read_stereo(o, s) : read_metric(o, s);
     recognise(&s->picture, &s->found, s->why);
     return EXIT_FINE;
 }
@@ -405,9 +448,10 @@ static int make_camera(const options *o, texture_source *s) {
         status = texture_camera_place(o, &spec);
     if (status != EXIT_FINE)
         return status;
-    if (option_given(o, OPTION_INTRINSICS))
-        texture_intrinsics_take(o->view.intrinsics, (double[]){spec.width, spec.height}, &s->matrix);
-    const bool says_angle = s->matrix.path != NULL || option_given(o, OPTION_INTRINSICS);
+    const double focal = o->image.stereo.focal, middle[] = {focal, focal, 0.5 * spec.width, 0.5 * spec.height};
+    const bool said = option_given(o, OPTION_INTRINSICS), says_angle = s->matrix.path != NULL || said || focal > 0;
+    if (said || focal > 0)
+        texture_intrinsics_take(said ? o->view.intrinsics : middle, (double[]){spec.width, spec.height}, &s->matrix);
     s->fov_y = says_angle ? s->matrix.fov[1] : spec.fov_y;
     spec.matrix = says_angle ? &s->matrix.taken : NULL;
     spec.radial = o->image.radial;
@@ -420,10 +464,11 @@ static int make_camera(const options *o, texture_source *s) {
         dp_spec lattice = dp_spec_default();
         lattice.znear = s->metric.znear;
         lattice.zfar = s->metric.zfar;
-        lattice.mapping = DP_MAPPING_LINEAR;
+        lattice.mapping = s->metric.mapping;
         lattice.format = s->metric.format;
         if (dp_setup_init(&s->setup, &lattice) != DP_OK)
-            return usage_error("%s: no metric depth: its depths are too small or too large for --metric", s->path);
+            return usage_error("%s: no metric depth: its depths are too small or too large for --%s", s->path,
+                               focal > 0 ? "stereo" : "metric");
         s->camera.setup = s->setup;
     }
     const bool moves = o->image.effect != NULL && (o->image.effect->needs & EFFECT_LAST_FRAME) != 0;
@@ -448,7 +493,7 @@ int texture_source_open(options *o, texture_source *s) {
                 .parameters = s->parameters,
                 .grain = s->path != NULL ? &s->grain : NULL,
                 .metric = o->image.metric > 0,
-                .sensor = o->image.metric > 0 ? &s->metric.sensor : NULL,
+                .sensor = o->image.metric > 0 && o->image.stereo.focal == 0 ? &s->metric.sensor : NULL,
                 .planes = o->image.metric > 0 ? &s->planes : NULL,
                 .sky = o->image.sky,
                 .threads = o->out.threads};

@@ -125,14 +125,31 @@ static void say_levels(statistics *r, page *p) {
                   number_in(number_of(b->znear, 6), p->unit).text, number_in(number_of(b->zfar, 6), p->unit).text);
 }
 
-static void say_metric(statistics *r, page *p) {
+/* What makes depths of the samples. */
+static void say_stereo(const statistics *r, page *p) {
+    const stereo_spec *s = &r->stereo;
+    char offset[NUMBER_SIZE + 8] = "";
+    if (s->offset != 0)
+        snprintf(offset, sizeof offset, "%s %c ", number_of(s->offset, 9).text, s->step < 0 ? '-' : '+');
+    page_text(p, "disparity: %s%s x sample pixels; focal length %s pixels, baseline %s", offset,
+              number_of(s->offset != 0 ? fabs(s->step) : s->step, 9).text, number_of(s->focal, 9).text,
+              in_scene(p, s->baseline).text);
+}
+
+static void say_units(const statistics *r, page *p) {
     const metric *m = &r->source.metric;
-    const sensor *s = &m->sensor;
     page_text(p, "metric depth%s, samples in units of %s, up to %s",
               r->source.metric_from == ORIGIN_ASSUMED ? " assumed" : "", in_scene(p, r->o->image.metric).text,
               in_scene(p, m->zfar).text);
+}
+
+static void say_metric(statistics *r, page *p) {
+    const metric *m = &r->source.metric;
+    const sensor *s = &m->sensor;
+    (r->stereo.focal > 0 ? say_stereo : say_units)(r, p);
     if (m->step > 0)
-        page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);
+        page_note(p, "samples", "steps of %s, rounded or truncated",
+                  r->stereo.focal > 0 ? number_in(number_of(m->step, 9), "pixels").text : in_scene(p, m->step).text);
     else
         page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
     if (s->again > 0)

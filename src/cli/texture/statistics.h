@@ -7,6 +7,7 @@
 #include "cli/texture/texture.h"
 #include "frame/sensor_buffer.h"
 #include "frame/survey.h"
+#include "frame/units.h"
 
 enum { ERRORS_MAX = 32 };
 
@@ -43,11 +44,12 @@ typedef struct statistics {
     lattice_fields lattice;
     lattice_gap gap;
     sensor_buffer buffer;
+    stereo_spec stereo;
     setup_fields setup;
     struct {
         const char *synthetic, *truth, *packing, *type, *channel, *rounded, *format, *format_from, *mapping_from,
             *direction_from, *metric_from;
-        double metric, radial, step, steps, steps_or, bits, fov, half_height;
+        double metric, radial, step, pixels, steps, steps_or, bits, fov, half_height;
         bool coarser, certain;
         const bool *reversed;
         const survey_pairs *pairs;
@@ -57,6 +59,7 @@ typedef struct statistics {
     const char *parameter;
     double parameter_value;
     texture_reading reading;
+    unit_reading unit;
     survey_band band;
     double band_steps;
 } statistics;

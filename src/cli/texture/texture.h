@@ -71,9 +71,9 @@ const char *texture_origin_name(texture_origin origin);
 int texture_source_open(options *o, texture_source *out);
 void texture_source_close(texture_source *s);
 
-/** What the text of --lattice or --as says; NaN where it does not, no row where the text is null. @return an exit
- *  status, after one line on stderr */
-int texture_lattice(option_id id, const char *text, sensor *out);
+/** What the text of --lattice or --as says, of a sensor by name in the unit of a scene, metres where that is open; NaN
+ * where it does not, no row where the text is null. @return an exit status, after one line on stderr */
+int texture_lattice(const options *o, option_id id, const char *text, sensor *out);
 
 /** One line on stderr where the image contradicts it. */
 void texture_lattice_warn(const options *o, const texture_source *s);

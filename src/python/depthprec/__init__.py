@@ -300,6 +300,7 @@ class Camera:
         """`out`, or new memory of the kind of `values`, with what a method makes of `read`."""
         if out is None:
             out = _arrays.made(values, read, self._written(name, read.format)[0])
+        _arrays.refuse_mask(out)
         write = memoryview(out)
         if write.readonly or not write.c_contiguous:
             raise ValueError("out must be contiguous memory that can be written")

@@ -55,6 +55,14 @@ def real(value, what):
         return math.inf if value > 0 else -math.inf
 
 
+def refuse_mask(values):
+    """The memory of a masked array of numpy says nothing of its mask."""
+    masked = getattr(sys.modules.get("numpy.ma"), "MaskedArray", None)
+    if masked is not None and isinstance(values, masked) and values.mask.any():
+        raise ValueError("an array must have no mask, which would be lost: .filled(numpy.nan), or of integers .filled(0), "
+                         "says what masked elements are")
+
+
 def _from_list(values):
     numpy = numpy_module()
     if numpy is not None:
@@ -72,6 +80,7 @@ def given(values, what, direct=REALS):
     kind = type(values)
     if kind is float or kind is int:
         return None
+    refuse_mask(values)
     try:
         view = memoryview(values)
     except (TypeError, ValueError, BufferError):

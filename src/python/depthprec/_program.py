@@ -8,6 +8,7 @@ import struct
 import subprocess
 import warnings
 
+from . import _arrays
 from ._core import Error
 
 PATH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bin", "depthprec")
@@ -114,7 +115,9 @@ def recognise(image, camera=None, **options):
     camera, options  as solve(), those of ``depthprec texture``
 
     Returns a dict: ``format``, ``certain``, ``reversed`` (None: cannot tell), ``why``, and ``samples``, ``packing``,
-    ``metric``, ``lossy``, ``type``, ``width``, ``height``, ``channels`` as depthprec(5) has them.
+    ``metric``, ``stereo``, ``lattice``, ``lossy``, ``type``, ``width``, ``height``, ``channels`` as depthprec(5) has
+    them. Of metric depth and disparity, ``recognise(image, metric="mm")``, the first four are None, of others ``stereo``
+    and ``lattice``.
     Raises Error where it is no depth image, with what it looks like.
     """
     words = ["texture", "--json", "--quiet", *_asked(camera, "texture", options)]
@@ -122,8 +125,9 @@ def recognise(image, camera=None, **options):
         found = run([*words, "--", os.fspath(image)])
     else:
         found = run([*words, "-"], input=_npy(image))
-    kept = ("samples", "packing", "metric", "lossy", "type", "width", "height", "channels")
-    return {**found["recognised"], **{name: found[name] for name in kept}}
+    kept = ("samples", "packing", "metric", "stereo", "lattice", "lossy", "type", "width", "height", "channels")
+    own = found.get("recognised") or dict.fromkeys(("format", "certain", "reversed", "why"))
+    return {**own, **{name: found.get(name) for name in kept}}
 
 
 def _asked(camera, command, options):
@@ -164,6 +168,7 @@ def _setting(value):
 
 def _npy(image):
     """The bytes of an .npy file."""
+    _arrays.refuse_mask(image)
     try:
         view = memoryview(image)
     except TypeError:
