@@ -392,12 +392,14 @@ static void try_rest(search *s) {
         each_set_up(s, try_planes);
 }
 
+/* Where few digits are printed nothing tells how values were stored in bytes. */
 static bool is_possible(const judge_pairs *p, judge_precision precision) {
+    const bool fine = p->out_digits.absolute <= 0x1p-17 && p->out_digits.relative <= 0x1p-17;
     return precision == JUDGE_BINARY16 ? p->half
            : precision < JUDGE_BYTES   ? true
            : precision < JUDGE_DIGITS  ? p->bytes
-           : precision < JUDGE_QUICK   ? p->shares && stored_digits_lose((int)precision - JUDGE_DIGITS)
-                                       : true;
+           : precision < JUDGE_QUICK   ? fine && p->shares && stored_digits_lose((int)precision - JUDGE_DIGITS)
+                                       : fine;
 }
 
 /* What is right and loses more may be met more closely by another function: where both are the same at what it loses,

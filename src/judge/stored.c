@@ -51,6 +51,7 @@ void stored_quotient(int steps, double *lo, double *hi) {
 typedef struct digits {
     int count;
     bool cut;
+    enum { LAST_REST, LAST_WHOLE, LAST_LESS } last;
     double written, read, unit, scale; /* the bases; a digit k is the byte k unit/base; what is read is multiplied */
 } digits;
 
@@ -60,17 +61,21 @@ static digits digits_of(int way) {
                     .written = way / 6 % 2 == 0 ? 256 : BYTE,
                     .read = way / 12 % 2 == 0 ? 256 : BYTE,
                     .unit = way / 24 % 2 == 0 ? BYTE : 256,
-                    .scale = way / 48 == 0 ? 1 : 255.0 / 256};
+                    .scale = way / 48 % 2 == 0 ? 1 : 255.0 / 256,
+                    .last = way / 96};
 }
 
-/* As shaders do it: fract(v (1, 256, ...)), less the next digit over 256 but for the last. A byte halfway between two
- * may be either. */
+/* As shaders do it: fract(v (1, 256, ...)), less the next digit over 256, of the last one itself, or nothing. A byte
+ * halfway between two may be either. */
 static void read_back(const digits *d, double v, double *least, double *most) {
     const double unsure = 0x1p-10;
     double weight = d->scale / BYTE, lo = 0, hi = 0;
     for (int i = 0; i < d->count; i++, weight /= d->read) {
         const double rest = v - floor(v), next = rest * d->written;
-        const double digit = i + 1 < d->count ? rest - (next - floor(next)) / d->written : rest;
+        const double less = i + 1 < d->count || d->last == LAST_WHOLE ? next - floor(next)
+                            : d->last == LAST_LESS                    ? rest
+                                                                      : 0;
+        const double digit = rest - less / d->written;
         const double byte = digit * d->unit + (d->cut ? 0 : 0.5);
         lo += weight * fmin(fmax(floor(byte - unsure), 0), BYTE);
         hi += weight * fmin(fmax(floor(byte + unsure), 0), BYTE);

@@ -6,8 +6,9 @@
 #include <stdbool.h>
 
 /** Ways in which digits are written into bytes and read back, the commonest first: 2 to 4 digits; bytes rounded or cut;
- * digits of 256 or 255, read as of 256 or 255; k stored as k/255 or k/256; read as it is, or times 255/256. */
-enum { STORED_DIGITS = 3 * 2 * 2 * 2 * 2 * 2 };
+ * digits of 256 or 255, read as of 256 or 255; k stored as k/255 or k/256; read as it is, or times 255/256; the last of
+ * them the rest, a whole digit, or the rest less its 256th part. */
+enum { STORED_DIGITS = 3 * 2 * 2 * 2 * 2 * 2 * 3 };
 
 /** Quotients, from the bits of what is divided by and so many Newton steps, from 1. */
 enum { STORED_STEPS = 2 };
