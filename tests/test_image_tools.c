@@ -200,6 +200,33 @@ TEST(exr_channels) {
     }
 }
 
+/* The one that is read and the others, as many as there is room for. */
+TEST(exr_names) {
+    static const exr_channel few[] = {{"A", IMAGE_F16, true}, {"B.mask", IMAGE_F32, true}, {"Z", IMAGE_F32, false}};
+    exr_channel many[5];
+    char names[5][64];
+    if (!exr_is_read())
+        skip();
+    for (size_t i = 0; i < 5; i++) {
+        snprintf(names[i], sizeof names[i], "layer%02zu.a.rather.long.name", i);
+        many[i] = (exr_channel){i < 4 ? names[i] : "z.Z", IMAGE_F16, i < 4};
+    }
+    for (int k = 0; k < 2; k++) {
+        handmade h = {.size = 0};
+        image img;
+        image_error error;
+        make_exr(&h, k == 0 ? few : many, k == 0 ? 3 : 5, NULL);
+        assert_true(image_parse(h.at, h.size, &img, &error));
+        assert_string_equal(img.channel, k == 0 ? "Z" : "z.Z");
+        if (k == 0)
+            assert_string_equal(img.others, "A, B.mask");
+        else
+            assert_non_null(strstr(img.others, "layer02.a.rather.long.name, ..."));
+        assert_true(strlen(img.others) < sizeof img.others);
+        image_free(&img);
+    }
+}
+
 /* A display window whose edges lie so much beyond those of the data window, left, top, right, bottom: what is there of
  * the data is where it belongs, and the rest is no number. */
 TEST(exr_windows) {
