@@ -84,6 +84,18 @@ static void compare_codes(tally *t, const method_row *row, const dp_setup *setup
               (double)d[i], printed(d[i]), own[i]);
 }
 
+/* Truncated: the whole number below d M, which a long double holds. */
+static void compare_cut(tally *t, const dp_setup *setup, void *symbol, rng *r) {
+    float d[DEPTHS];
+    uint32_t (*printed)(float);
+    *(void **)&printed = symbol;
+    assert_non_null(symbol);
+    windows(r, d);
+    for (int i = 0; i < DEPTHS; i++)
+        TALLY(t, (long double)printed(d[i]) == floorl((long double)d[i] * setup->spec.format.code_max),
+              "truncated to %s, d %a: %u", setup->spec.format.name, (double)d[i], printed(d[i]));
+}
+
 static dp_setup stored(const char *format) {
     dp_setup setup;
     size_t which = 0;
@@ -126,6 +138,7 @@ TEST(c_has_the_bits_of_the_library) {
     const int count = (int)test_cases(8, 24, CAMERAS_MAX);
     const dp_setup formats[] = {stored("unorm16"), stored("unorm24")};
     const method_row *const codes[] = {&encode_family.methods[2], &encode_family.methods[3], &encode_family.methods[4]};
+    const method_row *const cut = &code_encoders(DP_ROUND_ZERO)->methods[1];
     begin_c(&out, "languages", path);
     for (int k = 0; k < count; k++) {
         setups[k] = camera_of(&r, (uint64_t)k);
@@ -142,7 +155,16 @@ TEST(c_has_the_bits_of_the_library) {
             code_function(&out, c, codes[k % 3], &formats[k / 3], false);
             output_format(&out, "uint32_t code_%d(float d) { return depth_code(d); }\n#undef depth_code\n", k);
         }
+    for (int k = 0; k < 2; k++) {
+        output_format(&out, "#define depth_code body_cut_%d\n", k);
+        code_function(&out, c, cut, &formats[k], false);
+        output_format(&out, "uint32_t cut_%d(float d) { return depth_code(d); }\n#undef depth_code\n", k);
+    }
     void *library = load_c(&out, path);
+    for (int k = 0; k < 2; k++) {
+        snprintf(symbol, sizeof symbol, "cut_%d", k);
+        compare_cut(&t, &formats[k], dlsym(library, symbol), &r);
+    }
     for (int k = 0; k < count; k++)
         for (size_t i = 0; i < *linearize_family.method_count; i++) {
             float (*printed)(float);
@@ -402,18 +424,22 @@ TEST(no_language_is_off_by_more_than_its_bound) {
 /* ---- Codes ------------------------------------------------------------------------------------------------------- */
 
 /* d M rounded as the language lets it, then to a whole number in either way. */
-static void perturb_code(tally *t, rng *r, const dp_setup *s, size_t p, bool even, double *most) {
-    const method_row *row = even ? &encode_family.methods[3] : &encode_family.methods[2];
+static void perturb_code(tally *t, rng *r, const dp_setup *s, size_t p, int way, double *most) {
+    static const char *const names[] = {"floor", "rint", "truncate"};
+    const method_row *row = way == 2 ? &code_encoders(DP_ROUND_ZERO)->methods[0] : &encode_family.methods[2 + way];
     const double bound = code_bound(language(promises[p].name), row, s), m = s->spec.format.code_max;
     float d[DEPTHS];
-    assert_string_equal(row->name, even ? "rint" : "floor");
+    assert_string_equal(row->name, names[way]);
     windows(r, d);
     for (int i = 0; i < DEPTHS && !isnan(bound); i++) {
         const device v = {r, promises[p].sums, 0, i % 2 == 0, promises[p].flushes, i / 2 % 3 - 1};
         const float product = rounded(&v, (long double)d[i] * m, v.sums);
         const float sum =
             v.fuses ? rounded(&v, (long double)d[i] * m + 0.5L, v.sums) : rounded(&v, product + 0.5L, v.sums);
-        const long double code = even ? rintl(product) : floorl(sum), off = fabsl(code - (long double)d[i] * m);
+        const long double code = way == 0   ? floorl(sum)
+                                 : way == 1 ? rintl(product)
+                                            : floorl(product),
+                          off = fabsl(code - (long double)d[i] * m);
         TALLY(t, off <= bound && code <= m, "%s in %s of %s, d %a: %Lg, bound %g", row->name, promises[p].name,
               s->spec.format.name, (double)d[i], off, bound);
         *most = fmax(*most, (double)off);
@@ -425,11 +451,11 @@ TEST(no_code_is_off_by_more_than_its_bound) {
     tally t = {.name = "codes"};
     const dp_setup setups[] = {stored("unorm16"), stored("unorm24")};
     for (size_t p = 0; p < PROMISES; p++)
-        for (int k = 0; k < 4; k++) {
+        for (int k = 0; k < 6; k++) {
             double most = 0;
             for (int again = 0; again < 100; again++)
-                perturb_code(&t, &r, &setups[k / 2], p, k % 2 != 0, &most);
-            printf("# %s in %s: up to %.6g\n", k % 2 ? "rint" : "floor", promises[p].name, most);
+                perturb_code(&t, &r, &setups[k / 3], p, k % 3, &most);
+            printf("# way %d in %s: up to %.6g\n", k % 3, promises[p].name, most);
         }
     tally_end(&t);
 }

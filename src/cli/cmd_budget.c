@@ -385,6 +385,8 @@ int cmd_budget(const options *o) {
     b.triangles = slant_fields_of(o, &b.slant);
     if (option_given(o, OPTION_SCHEME))
         status = take_scheme(&b, o);
+    else if (option_given(o, OPTION_SHARE))
+        status = option_error(OPTION_SHARE, "needs --scheme: without one no mesh has an origin");
     if (status != EXIT_FINE)
         return status;
     if (o->world.terms.world > 0.0 && b.scheme == NULL)

@@ -38,6 +38,39 @@ static int refuse_method(const wanted_code *w, const char *given, const char *la
                : usage_error("code: METHOD must be one of %s, got '%s'", all, given);
 }
 
+/* What a part has no use for: of options that are given the first. */
+static int check_needless(const wanted_code *w) {
+    enum {
+        MATRIX = 1 << WHAT_PROJECTION,
+        PLACES = 1 << WHAT_POSITION,
+        CODES = 1 << WHAT_ENCODE,
+        CAMERA = MATRIX | PLACES | CODES | 1 << WHAT_LINEARIZE
+    };
+    static const struct {
+        option_id id;
+        unsigned parts;
+    } rows[] = {{OPTION_NEAR, CAMERA},
+                {OPTION_FAR, CAMERA},
+                {OPTION_FORMAT, CAMERA},
+                {OPTION_MAPPING, CAMERA},
+                {OPTION_ORTHO, CAMERA},
+                {OPTION_PRESET, CAMERA},
+                {OPTION_PLATFORM, CAMERA},
+                {OPTION_LOG_C, CAMERA},
+                {OPTION_FOV, MATRIX | PLACES},
+                {OPTION_HFOV, MATRIX | PLACES},
+                {OPTION_VIEWPORT, MATRIX | PLACES},
+                {OPTION_ROUNDING, CODES}};
+    const unsigned what = w->o->code.what;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (option_given(w->o, rows[i].id) && (rows[i].parts & 1U << what) == 0)
+            return option_error(rows[i].id, "has no effect with --what %s", option_word(OPTION_WHAT, what));
+    if (option_given(w->o, OPTION_ROUNDING) && is_written(&w->setup))
+        return option_error(OPTION_ROUNDING, "has no effect with --mapping %s, whose window depth is not rounded here",
+                            dp_mapping_get(w->setup.spec.mapping)->name);
+    return EXIT_FINE;
+}
+
 /* Scripts hold one function of one camera, without logarithms. */
 static int check_language(const wanted_code *w) {
     const unsigned what = w->o->code.what;
@@ -69,7 +102,7 @@ static int find_method(wanted_code *w) {
                                      : usage_error("code: there is one way for --mapping %s%s, and no METHOD, got '%s'",
                                                    dp_mapping_get(w->setup.spec.mapping)->name,
                                                    w->setup.spec.ortho ? " with --ortho" : "", o->operands[0]);
-    w->family = encode ? &encode_family : &linearize_family;
+    w->family = encode ? code_encoders(w->setup.spec.rounding) : &linearize_family;
     if (encode && (format->kind != DP_FORMAT_UNORM || format->code_max > 0xffffff))
         return option_error(OPTION_FORMAT, "must be unormN of at most 24 bits with --what encode, got %s",
                             format->name);
@@ -214,6 +247,8 @@ int cmd_code(const options *o) {
     const unsigned what = o->code.what;
     wanted_code w = {.o = o, .language = o->code.language};
     int status = find_setup(&w);
+    if (status == EXIT_FINE)
+        status = check_needless(&w);
     if (status == EXIT_FINE)
         status = check_language(&w);
     if (status == EXIT_FINE)

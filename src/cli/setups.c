@@ -125,6 +125,8 @@ int setups_make(const options *o, setups *out) {
         status = add_setups(options_of(o, i), i, out);
     if (status == EXIT_FINE && o->camera.budgeted && option_given(o, OPTION_LOG2) && !setups_have_log(out))
         status = option_error(OPTION_LOG2, "needs one of the mappings " DP_MAPPING_NAMES_LOG);
+    if (status == EXIT_FINE && option_given(o, OPTION_LOG_C) && !setups_have_log(out))
+        status = option_error(OPTION_LOG_C, "needs one of the mappings " DP_MAPPING_NAMES_LOG);
     if (status != EXIT_FINE)
         setups_release(out);
     return status;

@@ -34,12 +34,14 @@ const char *code_lacks(const code_language *l, const method_row *row, const dp_s
     return calls(row, setup, "fma(") && l->fused == NULL ? "needs a product and a sum that are rounded once" : NULL;
 }
 
-/* What is claimed of a format, whose part above half a step is of roundings to nearest: see depthprec-code(1). */
+/* What is claimed of a format, whose part above half a step, or a truncated code's above one, is of roundings to
+ * nearest: see depthprec-code(1). */
 static double encode_bound(const bound_arithmetic *how, const method_row *row, const dp_setup *setup) {
     size_t i = 0;
     while (i < encode_family.case_count && strcmp(encode_family.cases[i].format, setup->spec.format.name) != 0)
         i++;
-    return i == encode_family.case_count ? (double)NAN : 0.5 + how->rounding * (row->claims[i].worst - 0.5);
+    const double worst = i < encode_family.case_count ? row->claims[i].worst : (double)NAN, own = worst < 1 ? 0.5 : 1;
+    return own + how->rounding * (worst - own);
 }
 
 double code_bound(const code_language *l, const method_row *row, const dp_setup *setup) {

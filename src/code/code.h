@@ -25,6 +25,9 @@ typedef struct code_said {
 /** Why a language has no function for a row at a camera, "needs a finite far plane"; or null. */
 const char *code_lacks(const code_language *l, const method_row *row, const dp_setup *setup);
 
+/** The ways from window depth to code that round so: of nearest the family of methods. */
+const method_family_row *code_encoders(dp_rounding rounding);
+
 /** The row of linearize or encode with the least bound in a language; null where it has none. */
 const method_row *code_best(const code_language *l, const method_family_row *family, const dp_setup *setup);
 

@@ -269,11 +269,12 @@ static const option_use judge_device[] = {
     TAKE(DEFINE), OWN(DEVICE, .argument = "N|NAME",
         HELP("the GPU that runs FILE: its number among the Vulkan devices, or part of its name")), END};
 static const option_use judge_camera[] = {
-    OWN(NEAR, WITHOUT("with no --far either: the planes that fit; else 0.1")),
+    OWN(NEAR, ALSO("with --ortho also 0 or negative"),
+        WITHOUT("with no --far either: the planes that fit; else 0.1")),
     OWN(FAR, WITHOUT("with no --near either: the planes that fit; else 1000")),
     OWN(FORMAT, DEFAULT("fp32")),
     OWN(MAPPING, HELP("what is right: @; all means d3d and reversed")),
-    TAKE(LOG_C), GROUP(projected), END};
+    TAKE(LOG_C), TAKE(ORTHO), TAKE(PLATFORM), GROUP(planes), TAKE(PRESET), END};
 const option_use judge_uses[] = {
     TAKE(PAIRS), TAKE(PAIRS_FOR), FOR(JUDGE_FILE, judge_device), FOR(JUDGE_FILE | JUDGE_PAIRS, judge_camera),
     GROUP(written), END};
