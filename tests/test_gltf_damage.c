@@ -79,6 +79,45 @@ TEST(refused) {
     }
 }
 
+/* Instances have a number, whichever accessor comes first: the longest and the shortest at each place. */
+TEST(instances_of_one_number) {
+    static const char *const names[] = {"TRANSLATION", "ROTATION", "SCALE"};
+    for (int i = 0; i < 27; i++) {
+        const int count[] = {i % 3, i / 3 % 3, i / 9}; /* 0: not given */
+        char attributes[128] = "", json[2048];
+        int least = 2, most = 0;
+        for (int k = 0; k < 3; k++) {
+            if (count[k] == 0)
+                continue;
+            snprintf(attributes + strlen(attributes), sizeof attributes - strlen(attributes), "%s\"%s\":%d",
+                     attributes[0] != '\0' ? "," : "", names[k], 2 * k + count[k]);
+            least = count[k] < least ? count[k] : least;
+            most = count[k] > most ? count[k] : most;
+        }
+        size_t used = (size_t)snprintf(
+            json, sizeof json,
+            ASSET
+            "\"nodes\":[{\"name\":\"row\",\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{%s}}"
+            "}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":["
+            "{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}",
+            attributes);
+        for (int k = 1; k <= 6; k++)
+            used += (size_t)snprintf(json + used, sizeof json - used,
+                                     ",{\"componentType\":5126,\"count\":%d,\"type\":\"VEC%d\"}", 2 - k % 2,
+                                     (k + 1) / 2 == 2 ? 4 : 3);
+        snprintf(json + used, sizeof json - used, "]}");
+        const model_asked asked = {0};
+        model m;
+        model_error error = {.text = ""};
+        const bool read = model_parse(json, strlen(json), false, NULL, &asked, &m, &error);
+        const bool differ = strstr(error.text, "glTF: the instances of node 'row' differ in number") != NULL;
+        if (differ != (most > least) || (read && differ))
+            fail_msg("%d, %d, %d instances: %s", count[0], count[1], count[2], error.text);
+        if (read)
+            model_free(&m);
+    }
+}
+
 #ifndef __SANITIZE_ADDRESS__
 /* What a small file says that it has: with room for 64 MiB more it is refused for what it lacks, not for want of it. */
 TEST(claims) {

@@ -169,6 +169,8 @@ TEST(exr_channels) {
         {{{"R", IMAGE_F32, true}, {"far.depth", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
         {{{"A", IMAGE_F32, true}, {"z", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
         {{{"V.Depth.Z", IMAGE_F32, false}, {"V.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
+        {{{"layer.z", IMAGE_F32, false}, {"v.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
+        {{{"A", IMAGE_F16, true}, {"DEPTH", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
         {{{"Y", IMAGE_F16, false}}, 1, NULL, IMAGE_F16, NULL},
         {{{"Q", IMAGE_F16, false}, {"Z", IMAGE_F32, true}}, 2, "Q", IMAGE_F16, NULL},
         {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}},

@@ -34,11 +34,15 @@ static const code_language *language(const char *called) {
     return code_language_get(i);
 }
 
-/* Every third camera has no far plane. */
+/* Every third camera has no far plane, and planes of every fourth are of few bits: then sums can be exact. */
 static dp_setup camera_of(rng *r, uint64_t k) {
     dp_setup setup;
-    const double near = rng_log(r, 1e-12, 1e12),
-                 far = k % 3 == 2 ? INFINITY : fmin(near * rng_log(r, 1.001, 1e9), 1e18);
+    double near = rng_log(r, 1e-12, 1e12), far = fmin(near * rng_log(r, 1.001, 1e9), 1e18);
+    if (k % 4 == 3) {
+        near = ldexp((double)(1 + rng_below(r, 8)), (int)rng_below(r, 8) - 4);
+        far = near + ldexp((double)(1 + rng_below(r, 8)), (int)rng_below(r, 12) - 4);
+    }
+    far = k % 3 == 2 ? INFINITY : far;
     assert_int_equal(method_setup(&linearize_family, k % 2, near, far, false, &setup), DP_OK);
     return setup;
 }
@@ -382,7 +386,15 @@ static const struct {
                 {"unity", unity},           {"complement-unity", complement_unity},
                 {"linear-01", linear_01},   {"linear-01-near", linear_01_near}};
 
-static void perturb(tally *t, rng *r, const dp_setup *s, size_t p, size_t m, double *most) {
+/* A camera, the depth at which an evaluation of it was off by most, and by how much of the bound. */
+typedef struct hardest {
+    dp_setup setup;
+    float d;
+    double used;
+} hardest;
+
+static void perturb(tally *t, rng *r, size_t p, size_t m, const hardest *near, hardest *out) {
+    const dp_setup *s = &out->setup;
     const double n = s->spec.znear, f = s->spec.zfar;
     const bool reversed = s->reversed != 0;
     const method_row *row = method(formulas[m].name);
@@ -392,33 +404,76 @@ static void perturb(tally *t, rng *r, const dp_setup *s, size_t p, size_t m, dou
     float d[DEPTHS];
     windows(r, d);
     for (int i = 0; i < DEPTHS; i++) {
+        if (near->used > 0 && i % 2 != 0)
+            d[i] = fminf(near->d * (1 + (i % 4 == 1 ? -1 : 1) * (float)rng_log(r, 0x1p-25, 0x1p-8)), 1);
         const long double at = d[i], q = reversed ? at : 1 - at,
                           z = isinf(f) ? n / q : n * (long double)f / (n + (f - n) * q);
-        const device v = device_of(r, p, i);
+        const device v = device_of(r, p, i / 4);
         if (q <= (isinf(f) ? 0x1p-125L : -1) || z > 0x1p125L || isinf(bound))
             continue;
         const double error = (double)(fabsl(formulas[m].of(&v, n, f, reversed, d[i]) - z) / z);
         TALLY(t, error <= bound, "%s in %s, near %.17g, far %.17g, d %a: %g, bound %g", row->name, promises[p].name, n,
               f, (double)d[i], error, bound);
-        if (bound < 0.1)
-            *most = fmax(*most, error / bound);
+        if (bound < 0.1 && error > out->used * bound) {
+            out->used = error / bound;
+            out->d = d[i];
+        }
     }
 }
 
+/* The same camera, or one a little beside it. */
+static dp_setup beside(rng *r, const dp_setup *s) {
+    dp_setup out = *s;
+    if (rng_below(r, 2))
+        return out;
+    double plane[] = {s->spec.znear, s->spec.zfar};
+    plane[rng_below(r, 2)] *= 1 + (rng_below(r, 2) ? 1 : -1) * rng_log(r, 0x1p-26, 0x1p-4);
+    if (plane[1] < 1.0001 * plane[0] ||
+        method_setup(&linearize_family, s->reversed ? 1 : 0, plane[0], plane[1], false, &out) != DP_OK)
+        return *s;
+    return out;
+}
+
+/* Climbed to: first any cameras, then those beside the hardest one. */
 TEST(no_language_is_off_by_more_than_its_bound) {
     rng r = rng_make("languages");
     tally t = {.name = "bounds"};
     for (size_t p = 0; p < PROMISES; p++)
         for (size_t m = 0; m < sizeof formulas / sizeof formulas[0]; m++) {
-            double most = 0;
-            for (uint64_t k = 0; k < test_cases(12, 120, 2000); k++) {
-                const dp_setup setup = camera_of(&r, k);
-                perturb(&t, &r, &setup, p, m, &most);
+            hardest most = {.used = 0};
+            const uint64_t cases = test_cases(30, 120, 2000);
+            for (uint64_t k = 0; k < cases; k++) {
+                const bool any = k < cases / 3 || most.used == 0;
+                hardest one = {.setup = any ? camera_of(&r, k) : beside(&r, &most.setup)};
+                perturb(&t, &r, p, m, any ? &one : &most, &one);
+                most = one.used > most.used ? one : most;
             }
-            printf("# %s in %s: up to %.3f of the bound\n", formulas[m].name, promises[p].name, most);
-            TALLY(&t, most > 0.5, "%s in %s: slack, %g", formulas[m].name, promises[p].name, most);
+            printf("# %s in %s: up to %.3f of the bound, near %.9g, far %.9g\n", formulas[m].name, promises[p].name,
+                   most.used, most.setup.spec.znear, most.setup.spec.zfar);
+            TALLY(&t, most.used > 0.5, "%s in %s: slack, %g", formulas[m].name, promises[p].name, most.used);
         }
     tally_end(&t);
+}
+
+/* Where a product may be fused into a sum that would be exact else, what is said is more than any evaluation that was
+ * climbed to: smaller numbers than these, in units of 2^-24, need a proof of their own. */
+TEST(no_claim_falls_without_a_proof) {
+    static const struct {
+        const char *language, *method;
+        double near, far, least;
+    } rows[] = {{"msl", "unity", 1, 8, 11.99},
+                {"wgsl", "unity", 1, 8, 14.99},
+                {"c", "unity", 1, 8, 5.49},
+                {"c", "textbook", 0.25, 64, 129.49},
+                {"msl", "complement", 1, 8, 6.74}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        dp_setup setup;
+        assert_int_equal(method_setup(&linearize_family, 0, rows[i].near, rows[i].far, false, &setup), DP_OK);
+        const double bound = code_bound(language(rows[i].language), method(rows[i].method), &setup) * 0x1p24;
+        if (!(bound >= rows[i].least))
+            fail_msg("%s in %s, near %g, far %g: %g", rows[i].method, rows[i].language, rows[i].near, rows[i].far,
+                     bound);
+    }
 }
 
 /* ---- Codes ------------------------------------------------------------------------------------------------------- */
@@ -624,39 +679,93 @@ static float window_depth(const device *v, const curve *s, size_t p, float z) {
     return R((long double)log2 * (float)(1 / s->span));
 }
 
-static void perturb_curve(tally *t, rng *r, dp_mapping mapping, int kind, size_t p, double most[2]) {
+/* The planes and C of a curve, the window depth and the eye depth where it was off by most, and by how much of both
+ * bounds. */
+typedef struct hardest_curve {
+    double plane[2], c;
+    float d[2];
+    double used[2];
+} hardest_curve;
+
+/* Just above a power of two, and so near the middle of two numbers of binary32 that its rounding weighs as much as one
+ * can: up where `way` is positive, else down. */
+static double heavy(rng *r, int power, double way) {
+    return ldexp(1 + (2 * (double)(0x2000 + rng_below(r, 512)) + 1) * 0x1p-24 + way, power);
+}
+
+static hardest_curve any_curve(rng *r, int kind) {
+    hardest_curve out = {.plane = {rng_log(r, 1e-3, 1e2) * (kind >= 3 && rng_below(r, 2) == 0 ? -1 : 1)},
+                         .c = rng_log(r, 1e-3, 1e3)};
+    out.plane[1] = fabs(out.plane[0]) * rng_log(r, 10, 1e8);
+    if (kind < 3 && rng_below(r, 2)) {
+        const double way = rng_below(r, 2) ? 0x1p-36 : -0x1p-36, span = heavy(r, 3 + (int)rng_below(r, 2), way);
+        out.c = 1 / heavy(r, (int)rng_below(r, 20) - 10, way);
+        out.plane[0] = kind == 2 ? 1 / out.c : out.plane[0];
+        out.plane[1] = (kind == 0 ? 0 : out.plane[0]) + (exp2(span) - (kind < 2)) / out.c;
+    }
+    return out;
+}
+
+static hardest_curve curve_beside(rng *r, const hardest_curve *of) {
+    hardest_curve out = *of;
+    double *const part[] = {&out.plane[0], &out.plane[1], &out.c, NULL};
+    double *at = part[rng_below(r, 4)];
+    if (at != NULL)
+        *at *= 1 + (rng_below(r, 2) ? 1 : -1) * rng_log(r, 0x1p-26, 0x1p-8);
+    return out;
+}
+
+static void perturb_curve(tally *t, rng *r, dp_mapping mapping, int kind, size_t p, hardest_curve *one) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
+    const hardest_curve from = *one;
     float d[DEPTHS];
     spec.mapping = mapping;
     spec.ortho = kind >= 3;
-    spec.znear = rng_log(r, 1e-3, 1e2) * (kind >= 3 && rng_below(r, 2) == 0 ? -1 : 1);
-    spec.zfar = fabs(spec.znear) * rng_log(r, 10, 1e8);
-    spec.log_c = rng_log(r, 1e-3, 1e3);
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    spec.znear = one->plane[0];
+    spec.zfar = one->plane[1];
+    spec.log_c = one->c;
+    if (dp_setup_init(&setup, &spec) != DP_OK)
+        return;
     const bound_arithmetic *how = &language(promises[p].name)->how;
     const long double n = kind == 0 ? 0 : spec.znear, f = spec.zfar, c = kind == 2 ? 1 / n : spec.log_c;
     const curve s = {kind, spec.znear, spec.zfar, (double)c, kind < 3 ? log2l(c * (f - n) + 1) : 0};
     const double back = code_curve_back(&setup, how), there = kind < 3 ? code_curve_there(&setup, how) : 1;
+    one->used[0] = one->used[1] = 0;
+    if (kind < 3) { /* roundings of one sign, as they are counted in depthprec(7) */
+        const double once = 2 * promises[p].sums * 0x1p-24, both = once + 0x1p-24, span = (double)s.span;
+        const double power = (M_LN2 * both + powers[p].each) * span + powers[p].exp2, sums[] = {once, both + once, 0};
+        const double count = power + both + sums[kind];
+        TALLY(t, fabs(back / (count * (1 + count)) - 1) < 1e-9, "%s in %s: bound %.17g, not %.17g",
+              dp_mapping_get(mapping)->name, promises[p].name, back, count * (1 + count));
+    }
     windows(r, d);
-    for (int i = 0; i < DEPTHS; i++) {
-        const device v = device_of(r, p, i);
+    for (int i = from.used[0] > 0 ? DEPTHS * 7 / 8 : 0; i < DEPTHS; i++) {
+        const device v = device_of(r, p, i / 8);
+        if (i % 16 == 2)
+            d[i] = 1;
+        else if (i % 2 != 0 && from.used[0] > 0)
+            d[i] = fminf(from.d[i / 2 % 2] * (1 + (i % 8 < 4 ? 1 : -1) * (float)rng_log(r, 0x1p-25, 0x1p-6)), 1);
         const long double z = kind == 3   ? n + (f - n) * d[i]
                               : kind == 4 ? f - (f - n) * d[i]
                                           : n + (exp2l(d[i] * s.span) - 1) / c;
         const long double share = kind >= 3 ? 1 : kind == 2 ? z : z + 1 / c;
         const float at = fmaxf((float)z, nextafterf((float)spec.znear, INFINITY));
-        const double off = (double)(fabsl(eye_depth(&v, &s, p, d[i]) - z) / share);
-        const double apart =
-            kind < 3 ? (double)fabsl(window_depth(&v, &s, p, at) - log2l(c * (at - n) + 1) / s.span) : 0;
-        TALLY(t, off <= back && apart <= there, "%s in %s, near %g, far %g, C %g, d %a: %g of %g, %g of %g",
-              dp_mapping_get(mapping)->name, promises[p].name, spec.znear, spec.zfar, spec.log_c, (double)d[i], off,
-              back, apart, there);
-        most[0] = fmax(most[0], off / back);
-        most[1] = fmax(most[1], apart / there);
+        const double off[] = {
+            (double)(fabsl(eye_depth(&v, &s, p, d[i]) - z) / share) / back,
+            kind < 3 ? (double)fabsl(window_depth(&v, &s, p, at) - log2l(c * (at - n) + 1) / s.span) / there : 0};
+        TALLY(t, off[0] <= 1 && off[1] <= 1, "%s in %s, near %.17g, far %.17g, C %.17g, d %a: %g of %g, %g of %g",
+              dp_mapping_get(mapping)->name, promises[p].name, spec.znear, spec.zfar, spec.log_c, (double)d[i], off[0],
+              back, off[1], there);
+        for (int k = 0; k < 2; k++)
+            if (off[k] > one->used[k]) {
+                one->used[k] = off[k];
+                one->d[k] = d[i];
+            }
     }
 }
 
+/* Climbed to, by turns back and there: first any cameras, then those beside the hardest one. */
 TEST(no_curve_is_off_by_more_than_its_bound) {
     static const dp_mapping mappings[] = {DP_MAPPING_LOG, DP_MAPPING_CESIUM, DP_MAPPING_THREE_WEBGPU, DP_MAPPING_D3D,
                                           DP_MAPPING_REVERSED};
@@ -664,13 +773,20 @@ TEST(no_curve_is_off_by_more_than_its_bound) {
     tally t = {.name = "curves"};
     for (size_t p = 0; p < POWERS; p++)
         for (int m = 0; m < 5; m++) {
-            double most[2] = {0, 0};
-            for (uint64_t k = 0; k < test_cases(20, 100, 2000); k++)
-                perturb_curve(&t, &r, mappings[m], m, p, most);
+            hardest_curve most[2] = {0};
+            const uint64_t cases = test_cases(30, 100, 2000);
+            for (uint64_t k = 0; k < cases; k++) {
+                const int way = m >= 3 ? 0 : (int)(k % 2);
+                const bool any = k < cases / 2 || most[way].used[way] == 0;
+                hardest_curve one = any ? any_curve(&r, m) : curve_beside(&r, &most[way]);
+                perturb_curve(&t, &r, mappings[m], m, p, &one);
+                for (int w = 0; w < 2; w++)
+                    most[w] = one.used[w] > most[w].used[w] ? one : most[w];
+            }
             printf("# %s in %s: up to %.3f, %.3f of the bound\n", dp_mapping_get(mappings[m])->name, promises[p].name,
-                   most[0], most[1]);
-            TALLY(&t, most[0] > 0.5 && (m >= 3 || most[1] > 0.4), "%s in %s: slack", dp_mapping_get(mappings[m])->name,
-                  promises[p].name);
+                   most[0].used[0], most[1].used[1]);
+            TALLY(&t, most[0].used[0] > 0.5 && (m >= 3 || most[1].used[1] > 0.4), "%s in %s: slack",
+                  dp_mapping_get(mappings[m])->name, promises[p].name);
         }
     tally_end(&t);
 }

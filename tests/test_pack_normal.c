@@ -146,6 +146,100 @@ TEST(test_normals_sampled) {
     tally_end(&t);
 }
 
+/* ---- Shaders of binary32, at the corners of codes ---------------------------------------------------------------- */
+
+static float sign_of32(float x) {
+    return x < 0 ? -1 : 1;
+}
+
+static void stereo_32(vec n, int bits, uint32_t codes[3]) {
+    const float most = (float)((1 << bits) - 1), in[] = {(float)n.x, (float)n.y}, z = (float)n.z + 1;
+    for (int k = 0; k < 2; k++) {
+        const float e = in[k] / z / 1.7777F * 0.5F + 0.5F;
+        codes[k] = (uint32_t)floorf(e * most + 0.5F);
+    }
+}
+
+static void oct_32(vec n, int bits, uint32_t codes[3]) {
+    const float most = (float)((1 << (bits - 1)) - 1), s = fabsf((float)n.x) + fabsf((float)n.y) + fabsf((float)n.z);
+    const float x = (float)n.x / s, y = (float)n.y / s, down = fmaxf(-(float)n.z / s, 0);
+    codes[0] = bits_of(roundf((x + sign_of32(x) * down) * most), bits);
+    codes[1] = bits_of(roundf((y + sign_of32(y) * down) * most), bits);
+}
+
+static void xyz_32(vec n, int bits, uint32_t codes[3]) {
+    const float most = (float)((1 << (bits - 1)) - 1);
+    codes[0] = bits_of(roundf((float)n.x * most), bits);
+    codes[1] = bits_of(roundf((float)n.y * most), bits);
+    codes[2] = bits_of(roundf((float)n.z * most), bits);
+}
+
+static vec unit_of(vec n) {
+    const long double length = sqrtl(n.x * n.x + n.y * n.y + n.z * n.z);
+    return (vec){n.x / length, n.y / length, n.z / length};
+}
+
+/* The normal at a place of the codes: whole numbers are what codes stand for, halves where they meet. */
+static vec normal_at(const pack_row *row, const long double at[3]) {
+    const long double most = (long double)((1 << (row->bits - (row->layout != PACK_STEREO))) - 1);
+    const long double x = at[0] / most, y = at[1] / most;
+    if (row->layout == PACK_STEREO) {
+        const long double u = (2 * x - 1) * 1.7777L, v = (2 * y - 1) * 1.7777L, g = 2 / (1 + u * u + v * v);
+        return (vec){g * u, g * v, g - 1};
+    }
+    vec n = {x, y, row->layout == PACK_XYZ ? at[2] / most : 1 - fabsl(x) - fabsl(y)};
+    if (row->layout == PACK_OCT && n.z < 0)
+        n = (vec){(1 - fabsl(y)) * sign_of(x), (1 - fabsl(x)) * sign_of(y), n.z};
+    return unit_of(n);
+}
+
+/* What a shader stores under a code is never farther off than is said of it, its own roundings included, which take
+ * some normals into a code that is not theirs. */
+TEST(test_shaders_at_corners) {
+    static void (*const encode[PACK_LAYOUTS])(vec, int, uint32_t *) = {
+        [PACK_STEREO] = stereo_32, [PACK_OCT] = oct_32, [PACK_XYZ] = xyz_32};
+    rng r = rng_make("corners");
+    tally t = {.name = "corners"};
+    for (size_t i = 0; i < pack_count(); i++) {
+        const pack_row *row = pack_get(i);
+        uint64_t beyond = 0;
+        if (row->kind != PACK_NORMAL || encode[row->layout] == NULL)
+            continue;
+        for (uint64_t k = 0; k < test_cases(20000, 60000, 1000000); k++) {
+            uint32_t own[3] = {0}, there[3] = {0};
+            long double at[3];
+            const vec any = any_normal(&r, row);
+            own_error(row, any, own);
+            for (int c = 0; c < 3; c++) {
+                const int half = 1 << (row->bits - 1);
+                const int code =
+                    row->layout != PACK_STEREO && (int)own[c] >= half ? (int)own[c] - 2 * half : (int)own[c];
+                at[c] = code + (rng_below(&r, 2) ? 1 : -1) * (0.5L + rng_uniform(&r, -1, 1) * 0x1p-18L);
+            }
+            if (row->layout == PACK_XYZ) { /* no unit vector has all three at ends */
+                const int c = (int)rng_below(&r, 3);
+                const long double a = at[(c + 1) % 3], b = at[(c + 2) % 3],
+                                  most = (long double)((1 << (row->bits - 1)) - 1);
+                at[c] = sqrtl(fmaxl(most * most - a * a - b * b, 0)) * sign_of(at[c]);
+            }
+            const vec n = normal_at(row, at);
+            encode[row->layout](n, row->bits, there);
+            double back[PACK_INPUTS_MAX];
+            if (memcmp(own, there, sizeof own[0] * (size_t)row->channels) != 0)
+                continue;
+            row->decode(row, own, back);
+            const long double off = degrees_between(n, (vec){back[0], back[1], back[2]});
+            TALLY(&t, off <= (long double)pack_reach(row, own, false), "%s: %.12Lg of %.12g", row->name, off,
+                  pack_reach(row, own, false));
+            own_error(row, n, there);
+            beyond += memcmp(own, there, sizeof own[0] * (size_t)row->channels) != 0;
+        }
+        printf("# %s: %llu normals of another code\n", row->name, (unsigned long long)beyond);
+        TALLY(&t, beyond > 10, "%s: no normal of another code", row->name);
+    }
+    tally_end(&t);
+}
+
 /* The maximum is reached where it is said to be, and nothing about that place, or about any corner of codes, is worse.
  */
 TEST(test_normals_worst) {

@@ -320,6 +320,34 @@ TEST(test_not_found) {
     probe_free(&r);
 }
 
+/* One bit of binary32 in one pixel of a flat tile, where nothing is rounded, up or down. */
+TEST(test_one_bit) {
+    static probe_result r;
+    const device is = {1, .reciprocal = true, .float_step = 1, .code_step = 1};
+    make(&r, &is);
+    shot *s = plan_find(&r.plan, PLAN_CONSTANT, SHOT_D32F);
+    int flat = 0;
+    for (int tile = 0; tile < PLAN_TILES; tile++) {
+        const plan_tile own = plan_tile_of(SHOT_D32F, tile);
+        uint32_t *code = &s->code[(tile / ACROSS * PLAN_TILE + 8) * SHOT_SIZE + tile % ACROSS * PLAN_TILE + 8];
+        if (own.slope_x != 0 || own.slope_y != 0)
+            continue;
+        for (int way = -1; way <= 1; way++) {
+            *code += (uint32_t)way;
+            r.count = 0;
+            probe_judge(&r);
+            const probe_finding *f = find(&r, "bias", "d32f");
+            if ((f->sure == PROBE_NO_ROW) != (way != 0) || f->cases - f->hits != (way != 0))
+                fail_msg("tile %d, %d bits off: %s", tile, way, f->words);
+            *code -= (uint32_t)way;
+        }
+        flat++;
+        tile += 16; /* some of them */
+    }
+    assert_true(flat > 5);
+    probe_free(&r);
+}
+
 TEST(test_other_states) {
     static probe_result r;
     const device finer = {0, .finer = true, .differs = true, .float_step = 1, .code_step = 1};

@@ -362,6 +362,21 @@ TEST(no_depth) {
         }
 }
 
+/* Numbers with a sign are OpenGL's where all of them are from -1 to 1, and no others. */
+TEST(normalized_device) {
+    square *s = square_of(IMAGE_F32);
+    for (int least = -20; least < 0; least++)
+        for (int most = 0; most <= 12; most++) {
+            for (int i = 0; i < SAMPLES; i++)
+                s->data.f32[i] = (float)(i % 2 ? least : most) / 4;
+            dp_recognised r;
+            recognise(&s->img, &r, why);
+            if (r.depth || (strstr(why, "OpenGL's NDC?") != NULL) != (least >= -4 && most <= 4))
+                fail_msg("from %g to %g: %s", least / 4.0, most / 4.0, why);
+        }
+    free(s);
+}
+
 /* Holes are no hindrance: NaN and infinities, of all types that have them. */
 TEST(holes) {
     for (int type = IMAGE_F16; type <= IMAGE_F64; type++) {
@@ -611,6 +626,39 @@ TEST(counted_in_slots) {
         assert_true(r.depth && r.metric == with && r.at_zero == 2);
     }
     free(d);
+}
+
+/* An image of `levels` as a type of number holds them, each rounded to its bits; 0: numbers without steps. */
+static void fill_levels(square *s, int levels, rng *r) {
+    const float tiny = 0x1p-24f; /* a step of subnormal halves */
+    for (int i = 0; i < SAMPLES; i++) {
+        const double x = levels > 0 ? (double)(i % (levels + 1)) / levels : rng_unit(r);
+        if (s->img.type == IMAGE_F64)
+            s->data.f64[i] = x;
+        else if (s->img.type == IMAGE_F32)
+            s->data.f32[i] = (float)x;
+        else /* the bits of a half, rounded to nearest by the processor's own sums */
+            s->data.u16[i] =
+                (uint16_t)(x < 0x1p-14 ? nearbyint(x / (double)tiny)
+                                       : ldexp((double)(ilogb(x) + 14), 10) + nearbyint(ldexp(x, 10 - ilogb(x))));
+    }
+}
+
+/* Levels of images of few bits are found in each type that holds them, with the bits that it has; and in numbers
+ * without levels none. */
+TEST(levels_in_each_type) {
+    static const int levels[] = {255, 511, 1023, 0};
+    rng r = rng_make("levels");
+    for (int type = IMAGE_F16; type <= IMAGE_F64; type++)
+        for (size_t k = 0; k < sizeof levels / sizeof levels[0]; k++) {
+            square *s = square_of((image_type)type);
+            dp_recognised found;
+            fill_levels(s, levels[k], &r);
+            recognise(&s->img, &found, why);
+            if (found.steps != levels[k])
+                fail_msg("type %d: %g steps, not %d", type, found.steps, levels[k]);
+            free(s);
+        }
 }
 
 /* Numbers that are proved to be finer than 24 bits, and are steps of ten. */

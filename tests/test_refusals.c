@@ -382,3 +382,26 @@ TEST(test_refusals) {
         check_refusal(&t, refusals[i].arguments, refusals[i].option, refusals[i].status);
     tally_end(&t);
 }
+
+/* A range needs two binary32 depths in it: those between the middles of their neighbours, none, one or two. */
+TEST(test_depths_of_a_range) {
+    static const struct {
+        double lo, hi; /* in steps of binary32 from 4 on */
+        bool enough;
+    } rows[] = {{0.25, 0.75, false}, {1.25, 1.5, false}, {0.5, 1.5, false}, {1, 1.5, false},  {0.75, 1, false},
+                {0.75, 2.25, true},  {1, 2, true},       {0, 1, true},      {0.5, 2.25, true}};
+    tally t = {.name = "depths of a range"};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[128];
+        snprintf(line, sizeof line, "zfight -F fp32 -m reversed --range %.17g:%.17g", 4 + rows[i].lo * 0x1p-21,
+                 4 + rows[i].hi * 0x1p-21);
+        if (!rows[i].enough) {
+            check_refusal(&t, line, "range", 2);
+            continue;
+        }
+        printed p = print_of("%s", line);
+        TALLY(&t, p.status == 0 && p.errors[0] == '\0', "%s: %d, %s", line, p.status, p.errors);
+        printed_free(&p);
+    }
+    tally_end(&t);
+}

@@ -123,6 +123,43 @@ TEST(budget) {
     free(named);
 }
 
+/* The same with triangles on a screen: what a place is farther from the eye than deep is that of the screen's corner,
+ * and of as many pixels beyond it as a triangle may reach, both ways; at least 2. */
+TEST(budget_of_a_screen) {
+    static const struct {
+        uint32_t width, height;
+        double fov, pixels;
+    } rows[] = {{1920, 1080, 120, 4096}, {1920, 1080, 120, 16}, {1080, 1920, 150, 512},
+                {640, 480, 30, 512},     {640, 480, 30, 8192},  {4096, 256, 100, 64}};
+    const world_scheme s = {scheme_of(1).row, 65536.0};
+    bool wider = false, usual = false;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        dp_triangles t = dp_triangles_default();
+        t.width = rows[i].width;
+        t.height = rows[i].height;
+        t.fov_y = rows[i].fov;
+        t.pixels = rows[i].pixels;
+        const dp_setup setup =
+            SETUP("fp32", .zfar = INFINITY, .mapping = DP_MAPPING_REVERSED, .model = DP_MODEL_FLOAT, .triangles = t);
+        const double pixel = 2 * tan(rows[i].fov / 2 * M_PI / 180) / rows[i].height;
+        const double x = pixel * (rows[i].width / 2.0 + rows[i].pixels);
+        const double y = pixel * (rows[i].height / 2.0 + rows[i].pixels), ray = sqrt(1 + x * x + y * y);
+        const world_asked a = {.setup = &setup, .z = 30.0, .ray_ratio = fmax(ray, 2)};
+        dp_budget_terms terms = {0};
+        dp_budget b;
+        wider = wider || ray > 2;
+        usual = usual || ray < 2;
+        assert_int_equal(world_budget(&s, &a, sqrt(3.0) * 1e5, &terms, &b), DP_OK);
+        json_t *root = json_printed(0,
+                                    "budget -n 0.1 -f inf -F fp32 -m reversed --from-origin 1e5 --at 30 --scheme split "
+                                    "--viewport %ux%u --fov %g --triangle-class pixels=%g",
+                                    rows[i].width, rows[i].height, rows[i].fov, rows[i].pixels);
+        assert_relative(number_at(node_at(root, "setups[0].rows[0]"), "separation"), b.separation, 1e-12);
+        json_decref(root);
+    }
+    assert_true(wider && usual);
+}
+
 /* check: the same of a camera in a file. */
 TEST(check) {
     static const char *const wrong[] = {"from_origin = 5.0;",
