@@ -281,6 +281,43 @@ TEST(greys) {
     tally_end(&t);
 }
 
+/* Bits that are said to be moved are moved back: depths by formulas, and what the file shows is said where nobody says
+ * it. */
+TEST(moved_bits_by_name) {
+    static double data[PIXELS];
+    static const char *const names[] = {"sun3d", "mm,rotated", "0.1mm,rotated", "mm,swapped", "nyu-raw"};
+    rng r = rng_make("moved");
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        double z[PIXELS];
+        float eye[PIXELS];
+        command c = {.count = 0};
+        for (int i = 0; i < PIXELS; i++) {
+            const unsigned v = k == 4 ? 400 + (unsigned)rng_below(&r, 650) : 600 + (unsigned)rng_below(&r, 9000);
+            const unsigned swapped = v % 256 * 256 + v / 256, rotated = (v << 3 | v >> 13) & 65535;
+            z[i] = k == 4 ? 351.3 / (1092.5 - v) : k == 2 ? 0.0001 * v : 0.001 * v;
+            truth_store(data, IMAGE_U16, (size_t)i, k < 3 ? rotated : swapped);
+        }
+        truth_write(truth_path("in.png"), IMAGE_PNG, IMAGE_U16, data);
+        truth_add(&c, truth_path("in.png"));
+        truth_add(&c, "--metric");
+        truth_add(&c, names[k]);
+        truth_product(&c, "eye.npy", "eye", NULL, false);
+        truth_floats("eye.npy", 1, eye);
+        for (int i = 0; i < PIXELS; i++)
+            assert_relative((double)eye[i], z[i], 1e-6);
+        json_t *root = truth_statistics(&c);
+        assert_string_equal(json_string_value(json_object_get(root, "moved_from")), "given");
+        json_decref(root);
+        assert_false(truth_said("may be no depths"));
+    }
+    command wrong = {.count = 0};
+    truth_add(&wrong, truth_path("in.png"));
+    truth_add(&wrong, "--metric");
+    truth_add(&wrong, "mm,turned");
+    assert_int_equal(truth_run(wrong.arguments, wrong.count), 2);
+    assert_true(truth_said("must have one of rotated, swapped, halves behind the comma"));
+}
+
 /* Units by name are those lengths, in any scene unit. */
 TEST(units_by_name) {
     static const struct {

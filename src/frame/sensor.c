@@ -505,9 +505,10 @@ static double most_before(const sensor_file *as) {
     return as->again > 0 ? 1.5 * (as->again + as->step) : 0;
 }
 
-/* How many of upward numbers lie outside of an interval of such a width that has most of them. */
-static size_t outside(const double *x, size_t count, double width) {
+/* How many numbers lie outside of an interval of such a width that has most of them. Sorts them. */
+static size_t outside(double *x, size_t count, double width) {
     size_t most = 0;
+    qsort(x, count, sizeof *x, compare_doubles);
     for (size_t first = 0, end = 0; end < count; end++) {
         while (x[end] - x[first] > width)
             first++;
@@ -517,28 +518,27 @@ static size_t outside(const double *x, size_t count, double width) {
 }
 
 /* One rounding leaves depths within its step of each other beside their levels, but for averages that lie there by
- * chance, as they lie elsewhere: more of them show that there was another rounding. */
+ * chance, as they lie elsewhere: more of them show that there was another rounding. A few at a time, as the fit is a
+ * little off from one end to the other. */
 static bool is_blurred(const depths *d, const sensor_file *as, const choice *c) {
+    enum { GROUP = 32 };
     static const double slack = 0.0625, beyond = 0.4375 / 1.5; /* of a step, and of what both ways to round explain */
-    double *beside = malloc((d->count + 1) * sizeof *beside), chance = 0;
     const sensor s = of_fit(c->row, &c->fit);
-    const double step = as->step + as->again;
+    const double step = as->step + as->again, width = step * (1 + slack);
+    double beside[GROUP], chance = 0, out = 0;
     size_t held = 0;
-    for (size_t i = 0; i < d->count && beside != NULL && step > 0 && c->row->levels != GRAIN_HALF; i++) {
+    for (size_t i = 0; i < d->count && step > 0 && c->row->levels != GRAIN_HALF; i++) {
         const double z = d->samples[i] * as->scale, off = value_of(c->row->levels, interval_of(as, d->samples[i])).off;
-        if (!(off < c->fit.step / 6))
-            continue;
-        if (holds(&s, as, d->samples[i]))
+        if (off < c->fit.step / 6 && holds(&s, as, d->samples[i]))
             beside[held++] = z - sensor_round(&s, z);
-        else
+        else if (off < c->fit.step / 6)
             chance += beyond * 2 * off / (c->fit.step - 2 * off);
+        if (held == GROUP || i + 1 == d->count) {
+            out += (double)outside(beside, held, width);
+            held = 0;
+        }
     }
-    if (beside != NULL)
-        qsort(beside, held, sizeof *beside, compare_doubles);
-    const bool blurred =
-        beside == NULL || (double)outside(beside, held, step * (1 + slack)) > chance + 4 * sqrt(chance) + 2;
-    free(beside);
-    return blurred;
+    return out > chance + 4 * sqrt(chance) + 2;
 }
 
 /* A rounding that is not seen may have been as coarse as all that explains the samples: so are the bounds. */
@@ -555,11 +555,16 @@ static double multiples_of(const sensor_row *row, double step, double offset, do
     return row != NULL && row->levels == GRAIN_EVEN && fabs(offset) <= offset_off ? step : 0;
 }
 
-/* A lattice, or one that was rounded to it: the coarser one is meant. */
+/* A lattice, or one that was rounded to it, or to what all samples are multiples of but for rare ones: the coarser one
+ * is meant. */
 static void search(const depths *d, sensor_file *file, choice *c) {
+    double bits = 0;
     choose(d, file, c);
     sensor_file again = *file;
     again.again = multiples_of(c->row, c->fit.step, c->fit.offset, c->fit.offset_off);
+    const double multiple = c->row == NULL && file->digits == 0 ? common_step(d, &bits) * file->unit : 0;
+    if (bits >= FIT_BITS && multiple > 1.5 * file->step)
+        again.again = multiple;
     choice coarser = {0};
     if (again.again > 0)
         choose(d, &again, &coarser);

@@ -95,11 +95,10 @@ int parse_length(options *o, const option_row *row, const char *value) {
 
 /* What 1 in a sample of metric depth is. */
 static const struct sample_unit {
-    const char *name, *length;
+    const char *name, *length, *moved; /* moved: a row of moved_get(), or null */
 } sample_units[] = {
-    {"mm", "1mm"},
-    {"tum", "0.2mm"},
-    {"kitti", "3.90625mm"},
+    {"mm", "1mm", NULL},         {"tum", "0.2mm", NULL},         {"kitti", "3.90625mm", NULL},
+    {"sun3d", "1mm", "rotated"}, {"nyu-raw", "1m", "disparity"},
 };
 
 bool list_samples(size_t index, list_item *item) {
@@ -109,8 +108,27 @@ bool list_samples(size_t index, list_item *item) {
 
 int parse_metric(options *o, const option_row *row, const char *value) {
     list_item item;
-    const bool named = names_find(row->names, value, NULL, &item);
-    return parse_length(o, row, named ? ((const struct sample_unit *)item.row)->length : value);
+    char unit[32];
+    const size_t length = strcspn(value, ",");
+    snprintf(unit, sizeof unit, "%.*s", (int)length, value);
+    const bool named = names_find(row->names, unit, NULL, &item);
+    const struct sample_unit *const known = named ? item.row : NULL;
+    const char *const way = value[length] == ',' ? value + length + 1 : named ? known->moved : NULL;
+    char ways[OPTION_TEXT_SIZE] = "";
+    o->image.moved = NULL;
+    for (size_t i = 0; moved_get(i) != NULL; i++) {
+        if (moved_get(i)->reading == NULL || moved_get(i)->lattice != NULL)
+            continue;
+        append(ways, sizeof ways, "%s%s", ways[0] != '\0' ? ", " : "", moved_get(i)->name);
+        if (way != NULL && strcmp(moved_get(i)->name, way) == 0)
+            o->image.moved = moved_get(i);
+    }
+    if (value[length] == ',' && (o->image.moved == NULL || (named && known->moved != NULL)))
+        return option_refuse(row, "must have one of %s behind the comma of a unit, got '%s'", ways, value);
+    for (size_t i = 0; named && known->moved != NULL && moved_get(i) != NULL; i++)
+        if (strcmp(moved_get(i)->name, known->moved) == 0)
+            o->image.moved = moved_get(i);
+    return parse_length(o, row, named ? known->length : length < sizeof unit ? unit : value);
 }
 
 bool list_stereo(size_t index, list_item *item) {

@@ -23,6 +23,7 @@
 #include "cli/errors.h"
 #include "cli/product.h"
 #include "depthprec/depthprec.h"
+#include "frame/moved.h"
 #include "frame/stereo.h"
 #include "frame/synthetic.h"
 #include "raster/raster.h"
@@ -322,6 +323,7 @@ typedef struct options_image {
     size_t parameter_count;
     double sky;             /**< window depth */
     double metric;          /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    const moved_row *moved; /**< how its bits were moved on the way into the file; null: they were not */
     stereo_spec stereo;     /**< of disparities, `metric` is then 1; its focal length 0 when not given */
     const char *lattice;    /**< what it was rounded to before; null when not given */
     bool radial;            /**< metric depth is the distance along the ray */

@@ -326,10 +326,10 @@ const option_row option_rows[OPTION_COUNT] = {
         "sky lies at the far plane, as shaders read it, and fog covers it",
         .parse = parse_sky, FIELD(double, image.sky), LIMITS(0, 0.5, NULL), .standard = "0.0001",
         .without = "as in Unity's shaders"},
-    [OPTION_METRIC] = {"metric", 0, "SCALE|mm|tum|kitti",
+    [OPTION_METRIC] = {"metric", 0, "SCALE|mm|tum|kitti|sun3d|nyu-raw",
         "the samples are eye depths in units of SCALE, 1 of COMPUTE_EYEDEPTH; of TUM there are 5000 to the metre, of "
-        "KITTI 256; 0, negative "
-        "numbers, NaN and infinity are holes",
+        "KITTI 256; of SUN3D and NYU's raw files the bits are moved back, of others behind a comma: rotated, swapped, "
+        "halves; 0, negative numbers, NaN and infinity are holes",
         .parse = parse_metric, .names = &samples, FIELD(double, image.metric),
         LIMITS(METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     [OPTION_STEREO] = {"stereo", 0, "focal=F,baseline=B[,offset=O][,step=S]|NAME",

@@ -134,6 +134,8 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, named.radial, "radial", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
+                                        {FIELD(statistics, named.moved, "moved", ""), .when = OF_IMAGE},
+                                        {FIELD(statistics, named.moved_from, "moved_from", ""), .when = OF_IMAGE},
                                         {GROUP("samples", sample_columns), .when = OF_IMAGE},
                                         {GROUP("lattice", lattice_columns), .when = OF_METRIC},
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
@@ -246,6 +248,12 @@ static void name_all(statistics *r) {
     const bool disparity = r->stereo.focal > 0;
     r->named.metric = is_metric && !disparity ? r->o->image.metric : none;
     r->named.metric_from = is_metric && !disparity ? texture_origin_name(s->metric_from) : NULL;
+    const moved_row *row = r->o->image.moved != NULL ? r->o->image.moved : s->moved.row;
+    r->named.moved = row != NULL ? row->name : NULL;
+    r->named.moved_from = row == NULL ? NULL
+                          : r->o->image.moved != NULL
+                              ? texture_origin_name(ORIGIN_GIVEN)
+                              : texture_origin_name(s->moved.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED);
     r->named.radial = s->camera.radial ? longest_ray(&s->camera) : none;
     r->named.step = is_metric && !disparity && s->metric.step > 0 ? s->metric.step : none;
     r->named.pixels = disparity && s->metric.step > 0 ? s->metric.step : none;

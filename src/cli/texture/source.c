@@ -308,6 +308,28 @@ static int read_stereo(const options *o, texture_source *s) {
     return wrong == NULL ? EXIT_FINE : usage_error("%s: no disparity: %s", s->path, wrong);
 }
 
+/* What was said of the samples' bits is undone; what they show is said. */
+static int move_bits(options *o, texture_source *s) {
+    const moved_row *said = o->image.metric > 0 ? o->image.moved : NULL;
+    if (said != NULL && !moved_undo(said, &s->picture))
+        return usage_error("%s: --metric %s: it must be of 16 bits that %s", s->path, o->given[OPTION_METRIC],
+                           said->note);
+    if (said != NULL && said->lattice != NULL && o->image.lattice == NULL) {
+        o->image.lattice = said->lattice;
+        o->given[OPTION_LATTICE] = "";
+    }
+    if (said != NULL || o->image.packing != NULL || o->image.stereo.focal > 0)
+        return EXIT_FINE;
+    s->moved = moved_find(&s->picture);
+    const moved_row *row = s->moved.row;
+    if (row == NULL || o->out.quiet || (o->image.metric == 0 && !s->moved.certain))
+        return EXIT_FINE;
+    message("depthprec: %s: its samples may be no depths: %s%s%s%s%s", s->path,
+            s->moved.certain ? "" : "it may be that ", row->note, row->reading != NULL ? "; --metric " : "",
+            row->reading != NULL ? row->reading : "", row->reading != NULL ? " reads them" : "");
+    return EXIT_FINE;
+}
+
 static int read_metric(const options *o, texture_source *s) {
     sensor given;
     int status = texture_lattice(o, OPTION_LATTICE, o->image.lattice, &given);
@@ -320,6 +342,8 @@ static int read_metric(const options *o, texture_source *s) {
         metric_convert(&s->picture, o->image.metric, zfar, given.row != NULL ? &given : NULL, &s->metric);
     if (wrong != NULL)
         return usage_error("%s: no metric depth: %s", s->path, wrong);
+    if (s->moved.row != NULL) /* levels of samples that may be no depths */
+        s->metric.sensor.found = s->metric.seen.found = false;
     texture_lattice_warn(o, s);
     return EXIT_FINE;
 }
@@ -345,6 +369,8 @@ static int read_image(options *o, texture_source *s) {
     s->channels = s->picture.channels;
     warn_of_compression(o, s);
     int status = take_note(o, s);
+    if (status == EXIT_FINE)
+        status = move_bits(o, s);
     if (status == EXIT_FINE)
         status = guess(o, s);
     if (status == EXIT_FINE)

@@ -152,6 +152,10 @@ static void say_metric(statistics *r, page *p) {
                   r->stereo.focal > 0 ? number_in(number_of(m->step, 9), "pixels").text : in_scene(p, m->step).text);
     else
         page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
+    const moved_row *const undone = r->o->image.moved, *const shown = r->source.moved.row;
+    if (undone != NULL || shown != NULL)
+        page_note(p, "bits", "%s%s", shown == NULL || r->source.moved.certain ? "" : "it may be that ",
+                  undone != NULL ? undone->note : shown->note);
     if (s->again > 0)
         page_note(p, "before", "the levels were rounded to steps of %s%s, which every error counts",
                   number_in(number_of(s->again, 4), p->unit != NULL ? p->unit : "scene units").text,

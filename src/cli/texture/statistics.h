@@ -48,7 +48,7 @@ typedef struct statistics {
     setup_fields setup;
     struct {
         const char *synthetic, *truth, *packing, *type, *channel, *rounded, *format, *format_from, *mapping_from,
-            *direction_from, *metric_from;
+            *direction_from, *metric_from, *moved, *moved_from;
         double metric, radial, step, pixels, steps, steps_or, bits, fov, half_height;
         bool coarser, certain;
         const bool *reversed;

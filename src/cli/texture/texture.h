@@ -43,6 +43,7 @@ typedef struct texture_source {
     image_type type; /**< of the file, where --metric has changed the picture's */
     uint32_t channels;
     metric metric;              /**< with --metric */
+    moved moved;                /**< what the samples show of their bits; nothing where --metric has said it */
     unpacked unpacked;          /**< with --packing */
     bool noted;                 /**< the file itself says its mapping */
     char note[IMAGE_NOTE_SIZE]; /**< its words, which options may point to */
