@@ -121,7 +121,7 @@ TEST(every_figure_of_every_kind_of_camera) {
 
 /* The share of what has no end would be 0 everywhere. */
 TEST(linear01_has_a_finite_far_plane) {
-    static const refused_row rows[] = {{"-f inf -o /dev/null", "must be finite in the figure linear01", 2},
+    static const refused_row rows[] = {{"-f inf -o /dev/null --type svg", "must be finite in the figure linear01", 2},
                                        {"-f 100,inf --json", "must be finite in the figure linear01", 2},
                                        {"-f inf --csv", "must be finite in the figure linear01", 2}};
     CHECK_REFUSED("plot linear01", rows);
