@@ -284,7 +284,11 @@ TEST(test_one_unit_can_fail) {
     const dp_setup setup = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, "fp32"); /* a binary32 step is a code */
     const bias_goal goal = {.api = api};
     double worst;
-    assert_true(bias_needed_over(&setup, &goal, 0.1, 1000.0, &worst) == 1.0);
+    assert_true(bias_needed_over(&setup, &goal, 0.1, 999.0, &worst) == 1.0);
+    /* At d = 0 r is 2^-149, which is 0 where subnormal numbers are flushed: then nothing is added, however many. */
+    assert_true(bias_unit_at(api, &setup.spec.format, 0.0).least == 0x1p-149);
+    assert_true(isinf(bias_needed(&setup, &goal, 1000.0)) && isinf(bias_units(api, &setup.spec.format, 0.0, 0x1p-149)));
+    assert_true(isinf(bias_needed_over(&setup, &goal, 0.1, 1000.0, &worst)) && worst == 1000.0);
 }
 
 /*

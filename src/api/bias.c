@@ -230,9 +230,14 @@ static double round_up(const bias_api *api, const dp_format *format, double unit
     return rounded <= units_most ? rounded : (double)INFINITY;
 }
 
+/* How many units reach a window distance. One that is no normal binary32 number may be flushed to 0: none suffice. */
+static double units_to(double window, double r) {
+    return r >= 0x1p-126 ? window / r : window > 0.0 ? (double)INFINITY : 0.0;
+}
+
 double bias_units(const bias_api *api, const dp_format *format, double d, double window) {
     const double outward = api->binary32 ? 0x1p-22 : 0x1p-48;
-    return round_up(api, format, (1.0 + outward) * window / bias_unit_at(api, format, d).least);
+    return round_up(api, format, units_to((1.0 + outward) * window, bias_unit_at(api, format, d).least));
 }
 
 /* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */
@@ -245,7 +250,8 @@ static double needed_with(const dp_setup *setup, const bias_goal *goal, double z
     const double window = fmax(step, gap) - goal->factor * m;
     /* Covers the roundings above and, where o itself is rounded to binary32, those; a single step is exact. */
     const double outward = gap <= step && m == 0.0 ? 0.0 : goal->api->binary32 ? 0x1p-22 : 0x1p-48;
-    return round_up(goal->api, format, fmax((window + (fmax(step, gap) + fabs(goal->factor) * m) * outward) / r, 0.0));
+    return round_up(goal->api, format,
+                    units_to(fmax(window + (fmax(step, gap) + fabs(goal->factor) * m) * outward, 0.0), r));
 }
 
 double bias_factor_least(const dp_setup *setup) {
@@ -295,7 +301,7 @@ static double needed_slanted(const dp_setup *setup, const bias_goal *goal, doubl
         const double m = bias_window_slope(setup, ends[i], goal->slope);
         const double window = fmax(step, window_of_gap(setup, ends[i], goal->gap)) + taken_by_slope(goal, &apart, m);
         const double outward = 0x1p-20 * (fabs(window) + (apart.pixels + fabs(goal->factor)) * m);
-        const double units = round_up(goal->api, format, fmax((window + outward) / r, 0.0));
+        const double units = round_up(goal->api, format, units_to(fmax(window + outward, 0.0), r));
         if (units > needed) {
             needed = units;
             *worst = ends[i];
