@@ -312,8 +312,8 @@ static int read_stereo(const options *o, texture_source *s) {
 static int move_bits(options *o, texture_source *s) {
     const moved_row *said = o->image.metric > 0 ? o->image.moved : NULL;
     if (said != NULL && !moved_undo(said, &s->picture))
-        return usage_error("%s: --metric %s: it must be of 16 bits that %s", s->path, o->given[OPTION_METRIC],
-                           said->note);
+        return usage_error("%s: --metric %s needs samples of 16 bits that were moved so, got %s", s->path,
+                           o->given[OPTION_METRIC], image_type_name(s->type));
     if (said != NULL && said->lattice != NULL && o->image.lattice == NULL) {
         o->image.lattice = said->lattice;
         o->given[OPTION_LATTICE] = "";
