@@ -310,11 +310,8 @@ TEST(what_is_a_unit) {
     static const struct guessed {
         double scale, least, most; /* samples a metre, and depths */
         image_type type;
-    } all[] = {{1000, 0.6, 6, IMAGE_U16},
-               {5000, 0.6, 6, IMAGE_U16},
-               {1, 0.7, 9, IMAGE_F32},
-               {1000, 0.3, 4, IMAGE_F32},
-               {100, 400, 680, IMAGE_F32}};
+    } all[] = {{1000, 0.6, 6, IMAGE_U16}, {5000, 0.6, 6, IMAGE_U16}, {5000, 0.6, 11, IMAGE_U16},
+               {1, 0.7, 9, IMAGE_F32},    {1000, 0.3, 4, IMAGE_F32}, {100, 400, 680, IMAGE_F32}};
     static const struct told {
         double scale; /* samples a metre */
         const char *said;

@@ -249,6 +249,14 @@ const char *texture_zeros_of(const options *o, const texture_source *s, char out
     return out;
 }
 
+/* Whole numbers that are larger than millimetres are may be of a finer unit, where nobody says that they are codes. */
+bool texture_may_be_metric(const texture_source *s) {
+    const dp_recognised *r = &s->found;
+    const bool open = s->mapping_from == ORIGIN_ASSUMED && s->format_from == ORIGIN_ASSUMED;
+    return r->metric ||
+           (open && s->type == IMAGE_U16 && s->channels == 1 && r->at_one == 0 && r->at_zero > r->samples / 1000);
+}
+
 static void warn(const options *o, const texture_source *s) {
     char text[READINGS_SIZE], units[UNITS_TEXT_SIZE];
     if (o->out.quiet)
@@ -259,7 +267,7 @@ static void warn(const options *o, const texture_source *s) {
     warn_of(s, "format");
     if (s->reading_count == 0 && o->image.metric == 0 && s->mapping_from == ORIGIN_ASSUMED)
         message("depthprec: %s: the mapping is assumed; --mapping sets it", s->path);
-    if (o->image.metric == 0 && s->found.metric)
+    if (o->image.metric == 0 && texture_may_be_metric(s))
         message("depthprec: %s: may be metric depth, whole numbers with 0 for holes: %s", s->path,
                 units_say(&s->picture, units));
 }

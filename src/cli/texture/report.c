@@ -67,7 +67,7 @@ static const column sample_columns[] = {{FIELD(statistics, named.step, "step", "
 static void *next_unit(void *of, size_t i) {
     statistics *r = of;
     unit_reading all[UNITS_MAX];
-    if (!r->source.found.metric || i >= units_find(&r->source.picture, all))
+    if (!texture_may_be_metric(&r->source) || i >= units_find(&r->source.picture, all))
         return NULL;
     r->unit = all[i];
     return r;

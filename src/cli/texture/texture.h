@@ -94,6 +94,9 @@ void texture_read_on(const options *o, texture_source *s);
 /** Whether the samples are coarser than the format, and not by its own steps. */
 bool texture_coarser(const texture_source *s);
 
+/** Whether its samples may be metric depth, or disparity: whole numbers with holes at 0, or numbers above 1. */
+bool texture_may_be_metric(const texture_source *s);
+
 /** What is said of the pixels of a packing that wraps which hold 0. @return out */
 const char *texture_zeros_of(const options *o, const texture_source *s, char out[READINGS_SIZE]);
 
