@@ -63,6 +63,7 @@ typedef struct table {
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
     per_vertex_worst written;
+    double uncertain; /* the nearest depth shown before far whose guarantee is more than is left up to far; NaN: none */
     choosing choice;
     choice_fields chosen;
 } table;
@@ -115,6 +116,8 @@ static void *next_row(void *of, size_t i) {
     dp_sample_at(&t->setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
     r->lattice = separation_in(&t->exact, &t->setup, &r->sample);
     r->guaranteed = separation_in(&t->full, &t->setup, &r->sample);
+    if (!(t->uncertain <= z) && z < t->full.spec.zfar && z + r->guaranteed > t->full.spec.zfar)
+        t->uncertain = z;
     r->slanted = slanted_at(t, z);
     r->written = per_vertex_at(&t->setup, z, t->slant.triangles.depth, r->guaranteed); /* no depth of 0 is one */
     per_vertex_add(&t->written, &r->written, z);
@@ -146,6 +149,7 @@ static void *next_setup(void *of, size_t i) {
     range_resolve(t->each.here, &t->lo, &t->hi);
     t->exact = resolved_in(setup, DP_MODEL_EXACT);
     t->full = dp_setup_guaranteed(setup);
+    t->uncertain = (double)NAN;
     t->written = per_vertex_none();
     t->choice = choosing_start(setup, o->wanted.tolerance);
     if (option_given(o, OPTION_TOLERANCE))
@@ -247,6 +251,9 @@ static void say_guarantee(page *p, const guarantee *g, const char *label, const 
 static void say_notes(page *p, void *item) {
     const table *t = item;
     say_worst(p, t->worst);
+    if (!isnan(t->uncertain) && isfinite(t->full.spec.zfar))
+        page_note(p, "no room", "at z = %s nothing behind it up to far is certain",
+                  number_in(number_of(t->uncertain, DIGITS_USUAL), p->unit).text);
     say_guarantee(p, t->guarantee, "worst separation",
                   t->full.shader             ? "guaranteed for every log2 that a shader may use"
                   : dp_is_computed(&t->full) ? "guaranteed in binary32 (model float)"
