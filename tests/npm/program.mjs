@@ -45,7 +45,7 @@ test("presets have the planes of the program's list", async () => {
 });
 
 test("images", async () => {
-    const c = new Camera({ format: "unorm16", mapping: "reversed" }), z = Float32Array.from({ length: 64 * 48 }, (_, i) => 1 + i * 0.029), data = c.encode(z);
+    const c = new Camera({ format: "unorm16", mapping: "reversed" }), z = Float32Array.from({ length: 64 * 48 }, (_, i) => 1 + i * 0.02903517), data = c.encode(z);
     const codes = await recognise({ data, width: 64, height: 48 });
     assert.deepEqual([codes.format, codes.width, codes.height, codes.type, codes.channels], ["unorm16", 64, 48, "u2", 1]);
     const windows = await recognise({ data: Float32Array.from(data, (code) => code / 65535), width: 64, height: 48 });
