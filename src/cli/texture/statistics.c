@@ -149,7 +149,8 @@ static void say_metric(statistics *r, page *p) {
     (r->stereo.focal > 0 ? say_stereo : say_units)(r, p);
     if (m->step > 0)
         page_note(p, "samples", "steps of %s, rounded or truncated",
-                  r->stereo.focal > 0 ? number_in(number_of(m->step, 9), "pixels").text : in_scene(p, m->step).text);
+                  r->stereo.focal > 0 ? number_in(number_of(m->step, 9), m->step == 1 ? "pixel" : "pixels").text
+                                      : in_scene(p, m->step).text);
     else
         page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
     const moved_row *const undone = r->o->image.moved, *const shown = r->source.moved.row;
