@@ -113,7 +113,8 @@ static void check_statistics(const stereo_kind *k, const command *base, size_t h
     json_decref(root);
 }
 
-static void check_pixel(const stereo_kind *k, const command *base, int i, const double *z, const double *samples) {
+static void check_pixel(const stereo_kind *k, const command *base, int i, const double *z, const double *samples,
+                        const char *rounding) {
     char text[24];
     command c = *base;
     snprintf(text, sizeof text, "%d,%d", i % WIDTH, i / WIDTH);
@@ -125,8 +126,13 @@ static void check_pixel(const stereo_kind *k, const command *base, int i, const 
     if (!isnan(z[i])) {
         assert_relative(number_in(pixel, "z"), depth_of(k, samples[i]), k->type == IMAGE_F64 ? 1e-7 : 1e-12);
         assert_true(number_in(pixel, "lo") <= z[i] && z[i] <= number_in(pixel, "hi"));
-        if (k->grid > 0)
+        const double down = *rounding == 'z' ? 0 : 0.5, up = *rounding == 'n' ? 0.5 : 1;
+        const double a = depth_of(k, samples[i] - down * k->grid), b = depth_of(k, samples[i] + up * k->grid);
+        if (k->grid > 0) {
             assert_relative(number_in(pixel, "code"), samples[i], 1e-12);
+            assert_relative(number_in(pixel, "lo"), fmin(a, b), 1e-9);
+            assert_relative(number_in(pixel, "hi"), fmax(a, b), 1e-9);
+        }
     }
     json_decref(root);
 }
@@ -166,7 +172,7 @@ static double one_picture(tally *t, rng *r, const stereo_kind *k) {
     }
     check_statistics(k, &base, holes);
     for (int i = 0; i < 3; i++)
-        check_pixel(k, &base, (int)rng_below(r, PIXELS), z, samples);
+        check_pixel(k, &base, (int)rng_below(r, PIXELS), z, samples, roundings[said]);
     return used;
 }
 
