@@ -242,12 +242,13 @@ web:
 	@sh src/packages.sh web
 	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
-WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster api world census report requirement plot probe judge cli cli/option cli/solve cli/judge))
+WEB_ROOMS := $(sort $(wildcard src/cli/*/options.c src/cli/world/origin.c \
+    $(patsubst %,src/%/*.c,web core raster api world census report requirement plot probe judge cli cli/option cli/camera cli/solve cli/judge)))
 WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/shader/decode.c src/shader/constants.c src/code/language.c src/frame/recognise.c
 WEB_NOT := report/output_file report/terminal requirement/camera requirement/reader requirement/requirement requirement/view requirement/check \
     plot/canvas plot/fight plot/linear01 plot/scene plot/shadow plot/world plot/normals plot/pareto plot/stability plot/needs plot/pixels \
     cli/cmd_methods cli/mine cli/cmd_check cli/check_report cli/cmd_code cli/cmd_world \
-    cli/constants cli/link cli/completions cli/stop cli/junit cli/option/profile cli/option/program \
+    cli/constants cli/link cli/completions cli/stop cli/junit cli/camera/profile \
     api/profile_file web/plain probe/opengl probe/vulkan probe/vulkan_compute probe/compile probe/probe judge/read_pairs judge/listing judge/written cli/judge/shader
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 

@@ -14,8 +14,8 @@
 #include "method/choose.h"
 #include "printed.h"
 
-int cmd_methods(const options *o);
-int cmd_plot(const options *o);
+int cmd_methods(void *request);
+int cmd_plot(void *request);
 
 /* ---- In place of the measuring ----------------------------------------------------------------------------------- */
 
@@ -115,11 +115,11 @@ size_t stability_run(const method_family_row *family, unsigned cases, stability_
 }
 
 /* A command of this program, its output from the file that it writes. */
-static char *command_output(int (*command)(const options *), int status, const char *line) {
+static char *command_output(int (*command)(void *request), int status, const char *line) {
     static char words[256], file[512];
     char *argv[24];
     int argc = 0;
-    options o;
+    asked_line o;
     snprintf(words, sizeof words, "depthprec %s", line);
     snprintf(file, sizeof file, "%s", scratch_file("output"));
     for (char *word = strtok(words, " "); word != NULL; word = strtok(NULL, " "))
@@ -129,7 +129,7 @@ static char *command_output(int (*command)(const options *), int status, const c
     argv[argc] = NULL;
     remove(file);
     assert_int_equal(options_parse(&o, argc, argv), EXIT_FINE);
-    assert_int_equal(command(&o), status);
+    assert_int_equal(command(o.request), status);
     options_release(&o);
     return text_of_file(file);
 }

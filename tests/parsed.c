@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-int parsed(options *o, int argc, char **argv, char line[1024]) {
+int parsed(asked_line *o, int argc, char **argv, char line[1024]) {
     memset(line, 0, 1024);
     FILE *const terminal = stderr;
     stderr = fmemopen(line, 1024, "w");

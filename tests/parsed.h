@@ -3,9 +3,12 @@
 #ifndef TESTS_PARSED_H
 #define TESTS_PARSED_H
 
-#include "cli/option/options.h"
+#include "cli/option/option.h"
 
 /** options_parse(); `line` becomes the first line that it says on stderr, "" for none. */
-int parsed(options *o, int argc, char **argv, char line[1024]);
+int parsed(asked_line *o, int argc, char **argv, char line[1024]);
+
+/** What the command of that name was asked on it. */
+#define ASKED(command, line) ((const command##_request *)(line).request)
 
 #endif

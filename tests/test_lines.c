@@ -1,14 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Whole command lines: lengths with units, options that are given twice, and in what order words may stand. */
-#include "cli/option/uses.h"
+#include "cli/bias/request.h"
+#include "cli/budget/request.h"
+#include "cli/code/request.h"
+#include "cli/judge/request.h"
+#include "cli/list/request.h"
+#include "cli/methods/request.h"
+#include "cli/plot/request.h"
+#include "cli/prepass/request.h"
+#include "cli/probe/request.h"
+#include "cli/scene/request.h"
+#include "cli/shadow/request.h"
+#include "cli/solve/request.h"
+#include "cli/table/request.h"
+#include "cli/texture/request.h"
+#include "cli/world/request.h"
+#include "cli/zfight/request.h"
 #include "parsed.h"
 #include "support.h"
 
-#define AT(member) offsetof(options, member)
+#define AT(command, member) offsetof(command##_request, member)
 
-static double number_at(const options *o, size_t field) {
+static double number_at(const asked_line *o, size_t field) {
     double number;
-    memcpy(&number, (const char *)o + field, sizeof number);
+    memcpy(&number, (const char *)o->request + field, sizeof number);
     return number;
 }
 
@@ -17,14 +32,20 @@ static double number_at(const options *o, size_t field) {
 enum { WORDS_MAX = 16 };
 
 /* A whole command line, words parted by '|'; `line` as parsed() has it. */
-static int parse_line(options *o, const char *words, char line[1024]) {
+static int parse_line(asked_line *o, const char *words, char line[1024]) {
     static char text[512];
     char *argv[WORDS_MAX + 1] = {(char[]){"depthprec"}};
     int argc = 1;
     snprintf(text, sizeof text, "%s", words);
     for (char *word = strtok(text, "|"); word != NULL && argc < WORDS_MAX; word = strtok(NULL, "|"))
         argv[argc++] = word;
+    options_release(o);
     return parsed(o, argc, argv, line);
+}
+
+/* The camera of whatever command takes one. */
+static const camera_asked *camera_on(const asked_line *o) {
+    return option_group(o, option_find(o->command, "near"));
 }
 
 /* What a line makes of a field, converted by hand. */
@@ -33,63 +54,65 @@ static const struct {
     size_t field;
     double expected;
     const char *unit; /* null: not known */
-} lengths[] = {
-    {"table|-n|10cm", AT(camera.znear), 0.1, "m"},
-    {"table|-n|0.25", AT(camera.znear), 0.25, NULL},
-    {"table|-n|250 mm", AT(camera.znear), 0.25, "m"},
-    {"table|-n|10cm|--unit|cm", AT(camera.znear), 10, "cm"},
-    {"table|--unit|cm|-n|10cm", AT(camera.znear), 10, "cm"},
-    {"table|--unit|mm|-n|0.25", AT(camera.znear), 0.25, "mm"},
-    {"table|-n|1in", AT(camera.znear), 0.0254, "m"},
-    {"table|-n|3ft|--unit|in", AT(camera.znear), 36, "in"},
-    {"table|-n|5e3nm", AT(camera.znear), 5e-6, "m"},
-    {"table|-n|7um|--unit|nm", AT(camera.znear), 7000, "nm"},
-    {"table|-n|7\302\265m|--unit|nm", AT(camera.znear), 7000, "nm"},
-    {"table|-n|0x1p3", AT(camera.znear), 8, NULL},
-    {"table|-f|1km", AT(camera.zfar), 1000, "m"},
-    {"table|-f|1km|--unit|ft", AT(camera.zfar), 1e12 / 304.8e6, "ft"},
-    {"table|--at|5m|--preset|unreal", AT(camera.at.lo), 500, "cm"},
-    {"table|--at|5km,10m", AT(camera.at.hi), 5000, "m"},
-    {"table|--at|5km,10m", AT(camera.at.lo), 10, "m"},
-    {"table|--at|1m:1km:log:5|--unit|cm", AT(camera.at.lo), 100, "cm"},
-    {"table|--at|1m:1km:log:5|--unit|cm", AT(camera.at.hi), 1e5, "cm"},
-    {"table|--range|1m:1km|--unit|mm", AT(camera.range_lo), 1e3, "mm"},
-    {"table|--range|0:1km|--unit|mm", AT(camera.range_hi), 1e6, "mm"},
-    {"table|--preset|unreal|--unit|m", AT(camera.znear), 0.1, "m"},
-    {"table|--unit|m|--preset|unreal|-n|5", AT(camera.znear), 5, "m"},
-    {"table|--preset|unity|--unit|cm", AT(camera.znear), 30, "cm"},
-    {"table|--preset|unity|--unit|cm", AT(camera.zfar), 1e5, "cm"},
-    {"table|--preset|unity", AT(camera.znear), 0.3, "m"},
-    {"table|--preset|cesium|--unit|cm", AT(camera.log_c), 0.01, "cm"},
-    {"table|--preset|cesium|--unit|cm|--log-c|2", AT(camera.log_c), 2, "cm"},
-    {"table|--preset|three|--at|50cm", AT(camera.at.lo), 0.5, "m"},
-    {"table|--preset|three", AT(camera.znear), 0.1, NULL},
-    {"table|--preset|mujoco|--unit|m|--at|50cm", AT(camera.at.lo), 0.5, "m"},
-    {"solve|--separation|1mm", AT(wanted.separation), 0.001, "m"},
-    {"solve|--error|2 cm|--preset|unreal", AT(wanted.error), 2, "cm"},
-    {"bias|--separation|3mm|--unit|cm", AT(wanted.separation), 0.3, "cm"},
-    {"bias|--slope|5cm", AT(bias.slope), 0.05, "m"},
-    {"budget|--from-origin|2km", AT(world.terms.world), 2000, "m"},
-    {"texture|x|--ortho=10ft", AT(view.spec.half_height), 3.048, "m"},
-    {"texture|x|--metric|1mm", AT(image.metric), 0.001, "m"},
-    {"texture|x|--eye|-1m,0,20cm", AT(view.eye[0]), -1, "m"},
-    {"texture|x|--eye|-1m,0,20cm", AT(view.eye[2]), 0.2, "m"},
-    {"texture|x|--last-eye|0,0,30cm", AT(view.last_eye[2]), 0.3, "m"},
+} converted[] = {
+    {"table|-n|10cm", AT(table, camera.znear), 0.1, "m"},
+    {"table|-n|0.25", AT(table, camera.znear), 0.25, NULL},
+    {"table|-n|250 mm", AT(table, camera.znear), 0.25, "m"},
+    {"table|-n|10cm|--unit|cm", AT(table, camera.znear), 10, "cm"},
+    {"table|--unit|cm|-n|10cm", AT(table, camera.znear), 10, "cm"},
+    {"table|--unit|mm|-n|0.25", AT(table, camera.znear), 0.25, "mm"},
+    {"table|-n|1in", AT(table, camera.znear), 0.0254, "m"},
+    {"table|-n|3ft|--unit|in", AT(table, camera.znear), 36, "in"},
+    {"table|-n|5e3nm", AT(table, camera.znear), 5e-6, "m"},
+    {"table|-n|7um|--unit|nm", AT(table, camera.znear), 7000, "nm"},
+    {"table|-n|7\302\265m|--unit|nm", AT(table, camera.znear), 7000, "nm"},
+    {"table|-n|0x1p3", AT(table, camera.znear), 8, NULL},
+    {"table|-f|1km", AT(table, camera.zfar), 1000, "m"},
+    {"table|-f|1km|--unit|ft", AT(table, camera.zfar), 1e12 / 304.8e6, "ft"},
+    {"table|--at|5m|--preset|unreal", AT(table, camera.at.lo), 500, "cm"},
+    {"table|--at|5km,10m", AT(table, camera.at.hi), 5000, "m"},
+    {"table|--at|5km,10m", AT(table, camera.at.lo), 10, "m"},
+    {"table|--at|1m:1km:log:5|--unit|cm", AT(table, camera.at.lo), 100, "cm"},
+    {"table|--at|1m:1km:log:5|--unit|cm", AT(table, camera.at.hi), 1e5, "cm"},
+    {"table|--range|1m:1km|--unit|mm", AT(table, camera.range_lo), 1e3, "mm"},
+    {"table|--range|0:1km|--unit|mm", AT(table, camera.range_hi), 1e6, "mm"},
+    {"table|--preset|unreal|--unit|m", AT(table, camera.znear), 0.1, "m"},
+    {"table|--unit|m|--preset|unreal|-n|5", AT(table, camera.znear), 5, "m"},
+    {"table|--preset|unity|--unit|cm", AT(table, camera.znear), 30, "cm"},
+    {"table|--preset|unity|--unit|cm", AT(table, camera.zfar), 1e5, "cm"},
+    {"table|--preset|unity", AT(table, camera.znear), 0.3, "m"},
+    {"table|--preset|cesium|--unit|cm", AT(table, camera.log_c), 0.01, "cm"},
+    {"table|--preset|cesium|--unit|cm|--log-c|2", AT(table, camera.log_c), 2, "cm"},
+    {"table|--preset|three|--at|50cm", AT(table, camera.at.lo), 0.5, "m"},
+    {"table|--preset|three", AT(table, camera.znear), 0.1, NULL},
+    {"table|--preset|mujoco|--unit|m|--at|50cm", AT(table, camera.at.lo), 0.5, "m"},
+    {"solve|--separation|1mm", AT(solve, separation), 0.001, "m"},
+    {"solve|--error|2 cm|--preset|unreal", AT(solve, error), 2, "cm"},
+    {"bias|--separation|3mm|--unit|cm", AT(bias, bias.separation), 0.3, "cm"},
+    {"bias|--slope|5cm", AT(bias, bias.slope), 0.05, "m"},
+    {"budget|--from-origin|2km", AT(budget, origin.terms.world), 2000, "m"},
+    {"texture|x|--ortho=10ft", AT(texture, camera.spec.half_height), 3.048, "m"},
+    {"texture|x|--metric|1mm", AT(texture, image.metric), 0.001, "m"},
+    {"texture|x|--eye|-1m,0,20cm", AT(texture, image.eye[0]), -1, "m"},
+    {"texture|x|--eye|-1m,0,20cm", AT(texture, image.eye[2]), 0.2, "m"},
+    {"texture|x|--last-eye|0,0,30cm", AT(texture, image.last_eye[2]), 0.3, "m"},
 };
 
 TEST(test_units) {
     tally t = {.name = "units"};
-    for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
+    for (size_t i = 0; i < sizeof converted / sizeof converted[0]; i++) {
         char line[1024];
-        options o;
-        const int status = parse_line(&o, lengths[i].words, line);
-        TALLY(&t, status == EXIT_FINE, "%s: %s", lengths[i].words, line);
-        TALLY(&t, fabs(number_at(&o, lengths[i].field) - lengths[i].expected) <= 4e-16 * fabs(lengths[i].expected),
-              "%s: %.17g", lengths[i].words, number_at(&o, lengths[i].field));
+        asked_line o = {.request = NULL};
+        const int status = parse_line(&o, converted[i].words, line);
+        TALLY(&t, status == EXIT_FINE, "%s: %s", converted[i].words, line);
         TALLY(&t,
-              lengths[i].unit == NULL ? o.camera.unit == NULL
-                                      : o.camera.unit != NULL && strcmp(o.camera.unit->name, lengths[i].unit) == 0,
-              "%s: in %s", lengths[i].words, o.camera.unit != NULL ? o.camera.unit->name : "nothing");
+              fabs(number_at(&o, converted[i].field) - converted[i].expected) <= 4e-16 * fabs(converted[i].expected),
+              "%s: %.17g", converted[i].words, number_at(&o, converted[i].field));
+        TALLY(&t,
+              converted[i].unit == NULL
+                  ? o.lengths->unit == NULL
+                  : o.lengths->unit != NULL && strcmp(o.lengths->unit->name, converted[i].unit) == 0,
+              "%s: in %s", converted[i].words, o.lengths->unit != NULL ? o.lengths->unit->name : "nothing");
         options_release(&o);
     }
     tally_end(&t);
@@ -113,10 +136,10 @@ TEST(test_typed) {
     };
     for (size_t i = 0; i < sizeof typed / sizeof typed[0]; i++) {
         char line[1024];
-        options o;
+        asked_line o = {.request = NULL};
         assert_int_equal(parse_line(&o, typed[i].words, line), EXIT_FINE);
-        assert_string_equal(options_length(&o, typed[i].value, 0).text, typed[i].said);
-        const unit_row *unit = options_unit_of(&o, OPTION_SEPARATION);
+        assert_string_equal(lengths_text(o.lengths, typed[i].value, 0).text, typed[i].said);
+        const unit_row *unit = option_unit(&o, "separation");
         assert_string_equal(unit != NULL ? unit->name : "", typed[i].unit != NULL ? typed[i].unit : "");
         options_release(&o);
     }
@@ -153,19 +176,20 @@ TEST(test_no_units) {
     tally t = {.name = "no units"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         char line[1024];
-        options o;
+        asked_line o = {.request = NULL};
         const int status = parse_line(&o, words[i], line);
         TALLY(&t, status == EXIT_USAGE && strstr(line, "nm, um, mm, cm, m, km, in or ft") != NULL, "%s: %s", words[i],
               line);
         options_release(&o);
     }
     char line[1024];
-    options o;
+    asked_line o = {.request = NULL};
     assert_int_equal(parse_line(&o, "table|-f|infm", line), EXIT_USAGE);
     assert_int_equal(parse_line(&o, "table|--preset|mujoco|--at|1m", line), EXIT_USAGE);
     assert_string_equal(line, "depthprec: --unit: must be given: mujoco measures in extents");
     options_release(&o);
     tally_end(&t);
+    options_release(&o);
 }
 
 /* What a browser stores takes the place of a preset's format, not of what is given. */
@@ -191,19 +215,23 @@ TEST(test_platforms) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024], formats[64] = "";
         dp_arith arith;
-        options o;
+        asked_line o = {.request = NULL};
         dp_arith_parse(rows[i].arith, &arith);
         TALLY(&t, parse_line(&o, rows[i].line, line) == EXIT_FINE, "%s: %s", rows[i].line, line);
-        for (size_t f = 0; f < o.camera.format_count && f < 3; f++)
+        for (size_t f = 0; f < camera_on(&o)->format_count && f < 3; f++)
             snprintf(formats + strlen(formats), sizeof formats - strlen(formats), "%s%s", f > 0 ? " " : "",
-                     o.camera.formats[f].name);
+                     camera_on(&o)->formats[f].name);
         TALLY(&t, strcmp(formats, rows[i].formats) == 0, "%s: %s", rows[i].line, formats);
         TALLY(&t,
-              o.camera.mapping_count == 1 && strcmp(dp_mapping_get(o.camera.mappings[0])->name, rows[i].mapping) == 0,
+              camera_on(&o)->mapping_count == 1 &&
+                  strcmp(dp_mapping_get(camera_on(&o)->mappings[0])->name, rows[i].mapping) == 0,
               "%s: mapping", rows[i].line);
-        TALLY(&t, o.camera.arith == arith, "%s: arithmetic", rows[i].line);
-        TALLY(&t, rows[i].api == NULL || strcmp(o.bias.api->name, rows[i].api) == 0, "%s: API", rows[i].line);
-        TALLY(&t, rows[i].raster == NULL ? o.camera.raster == NULL : strcmp(o.camera.raster->name, rows[i].raster) == 0,
+        TALLY(&t, camera_on(&o)->arith == arith, "%s: arithmetic", rows[i].line);
+        TALLY(&t, rows[i].api == NULL || strcmp(ASKED(bias, o)->bias.api->name, rows[i].api) == 0, "%s: API",
+              rows[i].line);
+        TALLY(&t,
+              rows[i].raster == NULL ? camera_on(&o)->raster == NULL
+                                     : strcmp(camera_on(&o)->raster->name, rows[i].raster) == 0,
               "%s: rasterizer", rows[i].line);
         options_release(&o);
     }
@@ -214,30 +242,32 @@ TEST(test_platforms) {
 
 /* An option with an argument is given once; which one would count, nobody can see. */
 TEST(test_twice) {
-    static const char *const examples[OPTION_COUNT] = {
-        [OPTION_NEAR] = "1",       [OPTION_FORMAT] = "d24",    [OPTION_AT] = "1",     [OPTION_PRESET] = "unity",
-        [OPTION_UNIT] = "cm",      [OPTION_OUTPUT] = "x",      [OPTION_SEED] = "1",   [OPTION_SYNTHETIC] = "steps",
-        [OPTION_MODEL] = "staged", [OPTION_SEPARATION] = "1m", [OPTION_FAR] = "1000", [OPTION_MAPPING] = "gl"};
+    static const char *const examples[][2] = {{"near", "1"},       {"format", "d24"},      {"at", "1"},
+                                              {"preset", "unity"}, {"unit", "cm"},         {"output", "x"},
+                                              {"seed", "1"},       {"synthetic", "steps"}, {"model", "exact"},
+                                              {"far", "1000"},     {"separation", "1m"},   {"mapping", "gl"}};
     tally t = {.name = "twice"};
-    for (int id = 0; id < OPTION_COUNT; id++)
-        for (size_t v = 0; v < command_count && examples[id] != NULL; v++) {
+    const command_row *v;
+    for (size_t k = 0; k < sizeof examples / sizeof examples[0]; k++)
+        for (size_t i = 0; (v = command_get(i)) != NULL; i++) {
             char words[256], line[1024], expected[128];
-            options o;
-            if (option_used(&command_rows[v], ~0U, (option_id)id) == NULL)
+            asked_line o = {.request = NULL};
+            const char *name = examples[k][0], *value = examples[k][1];
+            if (option_used(v, ~0U, option_find(v, name)).row == NULL)
                 continue;
-            const char *name = option_rows[id].name, *value = examples[id];
-            snprintf(words, sizeof words, "%s|--%s|%s|--%s=%s", command_rows[v].name, name, value, name, value);
+            snprintf(words, sizeof words, "%s|--%s|%s|--%s=%s", v->name, name, value, name, value);
             snprintf(expected, sizeof expected, "depthprec: --%s: must not be given twice, got '%s' too", name, value);
             TALLY(&t, parse_line(&o, words, line) == EXIT_USAGE && strcmp(line, expected) == 0, "%s: %s", words, line);
             options_release(&o);
         }
     char line[1024];
-    options o;
+    asked_line o = {.request = NULL};
     assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1|--parameter|b=2", line), EXIT_FINE);
-    assert_int_equal(o.image.parameter_count, 2);
+    assert_int_equal(ASKED(texture, o)->image.parameter_count, 2);
     assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1|--parameter|a=2", line), EXIT_USAGE);
     assert_int_equal(parse_line(&o, "table|-q|-q|--json|--json|--ortho|--ortho", line), EXIT_FINE);
     tally_end(&t);
+    options_release(&o);
 }
 
 /* Options before the command; what is no option's is the command, wherever it stands. */
@@ -259,7 +289,7 @@ TEST(test_order) {
     tally t = {.name = "order"};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024];
-        options o;
+        asked_line o = {.request = NULL};
         const int status = parse_line(&o, rows[i].words, line);
         TALLY(&t, (status == EXIT_FINE) == (rows[i].command != NULL), "%s: %d, %s", rows[i].words, status, line);
         TALLY(&t, rows[i].command == NULL || strcmp(o.command->name, rows[i].command) == 0, "%s: %s", rows[i].words,
@@ -268,8 +298,8 @@ TEST(test_order) {
               rows[i].operand == NULL ? status != EXIT_FINE || o.operand_count == 0
                                       : o.operand_count == 1 && strcmp(o.operands[0], rows[i].operand) == 0,
               "%s: operands", rows[i].words);
-        TALLY(&t, strstr(rows[i].words, "-n|5") == NULL || o.camera.znear == 5, "%s: near %g", rows[i].words,
-              o.camera.znear);
+        TALLY(&t, strstr(rows[i].words, "-n|5") == NULL || camera_on(&o)->znear == 5, "%s: near %g", rows[i].words,
+              camera_on(&o)->znear);
     }
     tally_end(&t);
 }

@@ -2,10 +2,10 @@
 /* The number that solve prints, typed in again, passes: rounded to the safe side and tried, not concluded. */
 #include <unistd.h>
 
-#include "cli/option/options.h"
+#include "cli/option/option.h"
 #include "support.h"
 
-int cmd_solve(const options *o);
+int cmd_solve(void *request);
 
 typedef struct asked {
     const char *format, *mapping, *model;
@@ -80,10 +80,10 @@ static int ask(const asked *a, const char *path, char line[512]) {
         argv[argc++] = "--at";
         argv[argc++] = z;
     }
-    static options o;
+    static asked_line o;
     int status = options_parse(&o, argc, argv);
     if (status == EXIT_FINE)
-        status = cmd_solve(&o);
+        status = cmd_solve(o.request);
     options_release(&o);
     FILE *in = fopen(path, "r");
     if (in == NULL || fgets(line, 512, in) == NULL)

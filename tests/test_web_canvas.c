@@ -6,7 +6,7 @@
 #include <cairo.h>
 #include <unistd.h>
 
-#include "cli/option/options.h"
+#include "cli/option/option.h"
 #include "plot/canvas.h"
 #include "support.h"
 #include "web/page.h"
@@ -73,9 +73,9 @@ static void draw_here(const char *command, const char *path) {
     snprintf(line, sizeof line, "%s --type svg -o %s", command, path);
     for (char *word; (word = strsep(&rest, " ")) != NULL;)
         words[count++] = word;
-    options o;
+    asked_line o;
     assert_int_equal(options_parse(&o, count, words), EXIT_FINE);
-    assert_int_equal(cmd_plot(&o), EXIT_FINE);
+    assert_int_equal(cmd_plot(o.request), EXIT_FINE);
     options_release(&o);
 }
 

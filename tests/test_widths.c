@@ -135,9 +135,9 @@ TEST(nothing_is_wider) {
     for (size_t k = 0; k < sizeof widths / sizeof widths[0]; k++) {
         for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
             check_widths(&t, lines[i], widths[k]);
-        for (size_t i = 0; i < command_count; i++) {
+        for (size_t i = 0; command_get(i) != NULL; i++) {
             char help[64];
-            snprintf(help, sizeof help, "help %s", command_rows[i].name);
+            snprintf(help, sizeof help, "help %s", command_get(i)->name);
             check_widths(&t, help, widths[k]);
         }
     }
@@ -146,14 +146,14 @@ TEST(nothing_is_wider) {
 
 /* Each command is among the lines above. */
 TEST(all_commands) {
-    for (size_t i = 0; i < command_count; i++) {
-        const size_t length = strlen(command_rows[i].name);
+    for (size_t i = 0; command_get(i) != NULL; i++) {
+        const size_t length = strlen(command_get(i)->name);
         size_t k = 0;
         while (k < sizeof lines / sizeof lines[0] &&
-               (strncmp(lines[k], command_rows[i].name, length) != 0 || (lines[k][length] & ~' ') != 0))
+               (strncmp(lines[k], command_get(i)->name, length) != 0 || (lines[k][length] & ~' ') != 0))
             k++;
         if (k == sizeof lines / sizeof lines[0])
-            fail_msg("%s is not tried", command_rows[i].name);
+            fail_msg("%s is not tried", command_get(i)->name);
     }
 }
 

@@ -4,10 +4,10 @@
 #include <jansson.h>
 #include <unistd.h>
 
-#include "cli/option/options.h"
+#include "cli/option/option.h"
 #include "support.h"
 
-int cmd_texture(const options *o);
+int cmd_texture(void *request);
 
 static uint16_t half_bits(double x) {
     int e;
@@ -61,7 +61,7 @@ const char *truth_path(const char *name) {
 
 int truth_run(const char *const *arguments, size_t count) {
     char *argv[ARGUMENTS + 3] = {(char *)(uintptr_t) "depthprec", (char *)(uintptr_t) "texture"};
-    options o;
+    asked_line o;
     assert_true(count <= ARGUMENTS);
     for (size_t i = 0; i < count; i++)
         argv[i + 2] = (char *)(uintptr_t)arguments[i];
@@ -70,7 +70,7 @@ int truth_run(const char *const *arguments, size_t count) {
     assert_non_null(freopen(truth_path("said"), "w", stderr));
     int status = options_parse(&o, (int)count + 2, argv);
     if (status == EXIT_FINE)
-        status = cmd_texture(&o);
+        status = cmd_texture(o.request);
     options_release(&o);
     fflush(stderr);
     assert_true(dup2(kept, STDERR_FILENO) >= 0);

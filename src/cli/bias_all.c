@@ -4,6 +4,7 @@
  * their units differ, and how they are written does not.
  */
 #include "cli/bias_all.h"
+#include "cli/bias/request.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -52,7 +53,7 @@ bias_call_text bias_call(const bias_api *api, double units, double factor) {
     return call_of(api, units_text(units).text, number_full(factor).text);
 }
 
-const char *bias_of_gpu(const options *o, const bias_api *api, const dp_format *format, char out[BIAS_CALL_SIZE]) {
+const char *bias_of_gpu(const bias_request *o, const bias_api *api, const dp_format *format, char out[BIAS_CALL_SIZE]) {
     const profile_format *of = profile_biased(&o->camera.gpu, o->camera.platform, api, format);
     out[0] = '\0';
     if (of == NULL)
@@ -68,10 +69,10 @@ const char *bias_of_gpu(const options *o, const bias_api *api, const dp_format *
     return out;
 }
 
-int bias_check_slant(const options *o) {
+int bias_check_slant(const bias_request *o) {
     for (size_t i = 0; i < o->camera.mapping_count && o->camera.triangles.width > 0; i++)
         if (dp_mapping_get(o->camera.mappings[i])->curve != DP_CURVE_PERSPECTIVE)
-            return option_error(OPTION_VIEWPORT, "does not apply to %s, which is not affine on the screen",
+            return option_error("viewport", "does not apply to %s, which is not affine on the screen",
                                 dp_mapping_get(o->camera.mappings[i])->name);
     return EXIT_FINE;
 }
@@ -88,6 +89,7 @@ typedef struct row {
 
 typedef struct all {
     each_setup each;
+    const bias_request *o;
     double lo, hi; /* the range, where no depths are given */
     bool by_range;
     row row;
@@ -101,14 +103,14 @@ typedef struct all {
 
 /* ---- What is needed ---------------------------------------------------------------------------------------------- */
 
-static bias_goal goal_of(const options *o, const bias_api *api, const dp_setup *setup) {
+static bias_goal goal_of(const bias_request *o, const bias_api *api, const dp_setup *setup) {
     const double factor = bias_chooses_factor(o) ? bias_factor_least(setup) : o->bias.factor * bias_sign(setup);
-    return (bias_goal){.api = api, .factor = factor, .slope = o->bias.slope, .gap = o->wanted.separation};
+    return (bias_goal){.api = api, .factor = factor, .slope = o->bias.slope, .gap = o->bias.separation};
 }
 
 /* Where the gap leads to the near plane, at least. */
 static double range_from(const all *a) {
-    return fmin(fmax(a->lo, a->each.here->camera.znear + a->each.here->wanted.separation), a->hi);
+    return fmin(fmax(a->lo, a->each.here->znear + a->o->bias.separation), a->hi);
 }
 
 /* The call, or where in the range there is one. */
@@ -133,7 +135,7 @@ static void write_short(double units, char out[NUMBER_SIZE]) {
 }
 
 static void fill_row(const all *a, const bias_api *named, const dp_setup *setup, double z, row *r) {
-    const options *o = a->each.here;
+    const bias_request *o = a->o;
     const bias_api here = profile_bias(&o->camera.gpu, o->camera.platform, named, &setup->spec.format), *api = &here;
     const bias_goal goal = goal_of(o, api, setup);
     *r = (row){.api = api->name, .label = api->name, .z = z, .lo = (double)NAN, .hi = (double)NAN, .units_z = z};
@@ -158,9 +160,9 @@ static void fill_row(const all *a, const bias_api *named, const dp_setup *setup,
         snprintf(r->said, sizeof r->said, "%s", call_of(api, shown, "F").text);
 }
 
-static size_t api_count(const options *o) {
+static size_t api_count(const bias_request *o) {
     size_t count = 0;
-    while (options_api(o, count) != NULL)
+    while (bias_asked_api(&o->bias, count) != NULL)
         count++;
     return count;
 }
@@ -168,8 +170,8 @@ static size_t api_count(const options *o) {
 /* Place by place, API by API. */
 static void *next_row(void *of, size_t i) {
     all *a = of;
-    const size_t apis = api_count(a->each.o);
-    const bias_api *api = options_api(a->each.o, i % apis);
+    const size_t apis = api_count(a->o);
+    const bias_api *api = bias_asked_api(&a->o->bias, i % apis);
     if (i / apis == (a->by_range ? 1 : a->each.at.count) || output_failed(&a->each.out))
         return NULL;
     fill_row(a, api, a->each.setup, a->by_range ? (double)NAN : depths_get(&a->each.at, i / apis), &a->row);
@@ -179,7 +181,7 @@ static void *next_row(void *of, size_t i) {
 /* The same for all set-ups at once. */
 static void *next_beside(void *of, size_t i) {
     all *a = of;
-    const bias_api *api = options_api(a->each.o, i);
+    const bias_api *api = bias_asked_api(&a->o->bias, i);
     row r;
     if (api == NULL)
         return NULL;
@@ -200,17 +202,18 @@ static void *next_setup(void *of, size_t i) {
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 static void say_goal(page *p, const all *a) {
-    const options *o = a->each.here;
+    const bias_request *o = a->o;
     char goal[64] = "To be resolved", place[128] = "", slope[64] = "";
-    if (o->wanted.separation > 0.0)
-        snprintf(goal, sizeof goal, "To bring a layer %s nearer", options_length(o, o->wanted.separation, 0).text);
+    if (o->bias.separation > 0.0)
+        snprintf(goal, sizeof goal, "To bring a layer %s nearer",
+                 camera_length(&o->camera, o->bias.separation, 0).text);
     if (o->bias.slope > 0.0)
-        snprintf(slope, sizeof slope, ", slope %s per pixel", options_length(o, o->bias.slope, 0).text);
+        snprintf(slope, sizeof slope, ", slope %s per pixel", camera_length(&o->camera, o->bias.slope, 0).text);
     if (a->by_range)
-        snprintf(place, sizeof place, " from z = %s to %s", options_length(o, range_from(a), DIGITS_Z).text,
-                 options_length(o, a->hi, DIGITS_Z).text);
+        snprintf(place, sizeof place, " from z = %s to %s", camera_length(&o->camera, range_from(a), DIGITS_Z).text,
+                 camera_length(&o->camera, a->hi, DIGITS_Z).text);
     else if (a->each.at.count == 1)
-        snprintf(place, sizeof place, " at z = %s", options_length(o, a->each.at.lo, DIGITS_Z).text);
+        snprintf(place, sizeof place, " at z = %s", camera_length(&o->camera, a->each.at.lo, DIGITS_Z).text);
     page_text(p, "%s%s%s:", goal, place, slope);
 }
 
@@ -231,15 +234,15 @@ static const bias_api *api_named(const char *name) {
     return bias_api_get(i);
 }
 
-static bool is_asked(const options *o, const char *name) {
+static bool is_asked(const bias_request *o, const char *name) {
     size_t i = 0;
-    while (options_api(o, i) != NULL && strcmp(options_api(o, i)->name, name) != 0)
+    while (bias_asked_api(&o->bias, i) != NULL && strcmp(bias_asked_api(&o->bias, i)->name, name) != 0)
         i++;
-    return options_api(o, i) != NULL;
+    return bias_asked_api(&o->bias, i) != NULL;
 }
 
 /* Those that are asked for; those that were measured in the format are told, and left out. @return out */
-static const char *say_measured(page *p, const options *o, const dp_format *format, char out[BIAS_CALL_SIZE]) {
+static const char *say_measured(page *p, const bias_request *o, const dp_format *format, char out[BIAS_CALL_SIZE]) {
     char text[BIAS_CALL_SIZE] = "";
     out[0] = '\0';
     for (size_t i = 0; i < sizeof chosen_by_drivers / sizeof chosen_by_drivers[0]; i++) {
@@ -254,7 +257,7 @@ static const char *say_measured(page *p, const options *o, const dp_format *form
     return out;
 }
 
-static void say_choice(page *p, const options *o, const dp_format *format) {
+static void say_choice(page *p, const bias_request *o, const dp_format *format) {
     char text[BIAS_CALL_SIZE];
     const char *const open = say_measured(p, o, format, text);
     if (*open == '\0')
@@ -270,21 +273,21 @@ static void say_choice(page *p, const options *o, const dp_format *format) {
 
 static void say_notes(page *p, void *item) {
     const all *a = item;
-    if (bias_chooses_factor(a->each.here) && isinf(a->row.factor))
+    if (bias_chooses_factor(a->o) && isinf(a->row.factor))
         page_line(p, "%s", BIAS_NO_FACTOR);
-    else if (bias_chooses_factor(a->each.here))
+    else if (bias_chooses_factor(a->o))
         page_line(p, "F, the slope factor, is %s", number_full(a->row.factor).text);
     if (a->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);
     if (bias_is_missed(a->each.setup))
         page_line(p, "%s", BIAS_MISSED);
-    say_choice(p, a->each.here, &a->each.setup->spec.format);
+    say_choice(p, a->o, &a->each.setup->spec.format);
 }
 
 /* Formats above mappings, and below what is written in place of U. */
 static void say_beside(page *p, void *item) {
     const all *a = item;
-    const options *o = a->each.here;
+    const bias_request *o = a->o;
     page_title(p, "near %s, far %s, %s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
                o->camera.ortho ? "orthographic" : "perspective");
     say_goal(p, a);
@@ -312,12 +315,12 @@ static void say_calls(page *p, void *item) {
     if (is_any(a, bias_is_missed))
         page_line(p, "%s", BIAS_MISSED);
     char open[BIAS_CALL_SIZE];
-    if (*say_measured(p, a->each.o, NULL, open) != '\0' && is_any(a, is_integer))
+    if (*say_measured(p, a->o, NULL, open) != '\0' && is_any(a, is_integer))
         page_line(p, "%s: in integer formats r is the implementation's choice, 2^-N is assumed", open);
     output_char(p->out, '\n');
     const bias_api *api;
-    for (size_t i = 0; (api = options_api(a->each.o, i)) != NULL; i++)
-        page_note(p, api->name, "%s", call_of(api, "U", number_full(a->each.o->bias.factor).text).text);
+    for (size_t i = 0; (api = bias_asked_api(&a->o->bias, i)) != NULL; i++)
+        page_note(p, api->name, "%s", call_of(api, "U", number_full(a->o->bias.factor).text).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -370,22 +373,22 @@ static int write_beside(all *a, int status) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-int bias_all_write(const options *o) {
-    all a = {.by_range = !option_given(o, OPTION_AT),
-             .apis = o->given[OPTION_API],
+int bias_all_write(const bias_request *o) {
+    all a = {.o = o,
+             .by_range = !option_given(o->line, "at"),
+             .apis = option_text(o->line, "api"),
              .slope = o->bias.slope,
-             .gap = o->wanted.separation};
-    a.triangles = slant_fields_of(o, &a.slant);
+             .gap = o->bias.separation};
+    a.triangles = slant_fields_of(&o->camera, &a.slant);
     a.factor = bias_chooses_factor(o) ? (double)NAN : o->bias.factor;
-    if (option_given(o, OPTION_UNITS) || option_given(o, OPTION_CLAMP))
-        return option_error(OPTION_API, "must be one API with --%s, got '%s'",
-                            option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP),
-                            o->given[OPTION_API]);
-    if (option_given(o, OPTION_AT) && option_given(o, OPTION_RANGE))
-        return option_error(OPTION_RANGE, "conflicts with --at for all APIs");
-    int status = each_setup_start(&a.each, o);
+    if (option_given(o->line, "units") || option_given(o->line, "clamp"))
+        return option_error("api", "must be one API with --%s, got '%s'",
+                            option_given(o->line, "units") ? "units" : "clamp", option_text(o->line, "api"));
+    if (option_given(o->line, "at") && option_given(o->line, "range"))
+        return option_error("range", "conflicts with --at for all APIs");
+    int status = each_setup_start(&a.each, &o->camera, &o->out);
     if (status == EXIT_FINE)
-        status = range_resolve(o, &a.lo, &a.hi);
+        status = range_resolve(&o->camera, &a.lo, &a.hi);
     const bool beside = o->out.form == FORM_TEXT && !o->out.full && a.each.all.count > 1 &&
                         a.each.all.count <= BESIDE && (a.by_range || a.each.at.count == 1) && a.triangles == NULL &&
                         o->camera.gpu.measured[0] == '\0'; /* what was measured is told of each format */

@@ -3,7 +3,7 @@
 #ifndef CLI_BIAS_ALL_H
 #define CLI_BIAS_ALL_H
 
-#include "cli/option/options.h"
+#include "cli/bias/request.h"
 
 enum { BIAS_CALL_SIZE = 128 };
 
@@ -33,18 +33,18 @@ static inline bool bias_is_missed(const dp_setup *setup) {
 }
 
 /** Whether each set-up's factor is the least that is enough at any slant: a viewport, and neither factor nor slope. */
-static inline bool bias_chooses_factor(const options *o) {
-    return o->camera.triangles.width > 0 && !option_given(o, OPTION_FACTOR) && !option_given(o, OPTION_SLOPE);
+static inline bool bias_chooses_factor(const bias_request *o) {
+    return o->camera.triangles.width > 0 && !option_given(o->line, "factor") && !option_given(o->line, "slope");
 }
 
 /** What was measured of an API's r in that format on the GPU of a profile: a sentence, "" where nothing was. @return
  * out */
-const char *bias_of_gpu(const options *o, const bias_api *api, const dp_format *format, char out[BIAS_CALL_SIZE]);
+const char *bias_of_gpu(const bias_request *o, const bias_api *api, const dp_format *format, char out[BIAS_CALL_SIZE]);
 
 /** Refuses what no bias can be about: a viewport with a mapping that is not affine. @return an exit status */
-int bias_check_slant(const options *o);
+int bias_check_slant(const bias_request *o);
 
 /** Writes it for the depths of --at, or the range. @return an exit status */
-int bias_all_write(const options *o);
+int bias_all_write(const bias_request *o);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/check_report.h"
+#include "cli/check/request.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -60,7 +61,7 @@ static void say_measured(page *p, const check_file *f) {
     }
 }
 
-static void write_text(const options *o, bool failures, output *out, const check_file *files, size_t count) {
+static void write_text(const checks_request *o, bool failures, output *out, const check_file *files, size_t count) {
     char text[SENTENCE_SIZE], label[SETUP_LABEL_SIZE];
     page p = page_start(out, 4); /* where what decided is indented to */
     for (const check_file *f = files; f < files + count; f++) {
@@ -71,7 +72,7 @@ static void write_text(const options *o, bool failures, output *out, const check
             page_text(&p, "%s%s%s  %s:%d: %s: camera %s, %s (%s): %s", v->passed ? p.good : p.bad,
                       v->passed ? "pass" : "FAIL", p.plain, f->file.path, v->asked->line, v->asked->name,
                       v->camera->name, setup_label(&v->setup, false, label),
-                      option_word(OPTION_MODEL, setup_model(&v->setup)), sentence(f, v, text));
+                      option_word("model", setup_model(&v->setup)), sentence(f, v, text));
             if (o->out.full)
                 page_note(&p, "", "decided by %s: %s", check_method_name(v->method),
                           setup_label(&v->setup, true, label));
@@ -188,13 +189,13 @@ static const column columns[] = {{FIELD(verdicts, passed, "passed", ""), .only =
                                  {LIST("requirements", verdict_columns, next_verdict)},
                                  {.kind = COLUMN_END}};
 
-void check_say_failures(const options *o, const check_file *files, size_t count) {
+void check_say_failures(const checks_request *o, const check_file *files, size_t count) {
     output errors = {.fd = STDERR_FILENO, .colour = (output_colour)o->out.colour};
     write_text(o, true, &errors, files, count);
     output_flush(&errors);
 }
 
-void check_report(const options *o, output *out, const check_file *files, size_t count, bool passed) {
+void check_report(const checks_request *o, output *out, const check_file *files, size_t count, bool passed) {
     verdicts all = {.files = files, .count = count, .passed = passed};
     const output_form form = o->out.report == REPORT_JSON ? FORM_JSON : o->out.form;
     if (o->out.report == REPORT_JUNIT)

@@ -3,7 +3,7 @@
 #ifndef CLI_CHECK_REPORT_H
 #define CLI_CHECK_REPORT_H
 
-#include "cli/option/options.h"
+#include "cli/check/request.h"
 #include "requirement/check.h"
 
 typedef struct check_file {
@@ -14,10 +14,10 @@ typedef struct check_file {
 } check_file;
 
 /** Writes the report that the options ask for; `passed`: nothing failed. */
-void check_report(const options *o, output *out, const check_file *files, size_t count, bool passed);
+void check_report(const checks_request *o, output *out, const check_file *files, size_t count, bool passed);
 
 /** Writes what failed on stderr, for where the report goes to a file. */
-void check_say_failures(const options *o, const check_file *files, size_t count);
+void check_say_failures(const checks_request *o, const check_file *files, size_t count);
 
 /** Reads a requirement file. @return EXIT_FINE, EXIT_USAGE or EXIT_IO after one line on stderr that names the line */
 int check_read(const char *path, need_file *file);

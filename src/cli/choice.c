@@ -69,11 +69,11 @@ choosing choose_at(const dp_setup *setup, double tolerance, const depths *at) {
     return c;
 }
 
-void setup_choose(const options *o, const depths *at, dp_setup *setup) {
+void setup_choose(const camera_asked *c, const depths *at, dp_setup *setup) {
     dp_spec spec = setup->spec;
-    if (!o->camera.model_auto)
+    if (!c->model_auto)
         return;
-    spec.model = choose_at(setup, o->wanted.tolerance, at).choice.model;
+    spec.model = choose_at(setup, c->tolerance, at).choice.model;
     dp_setup_init(setup, &spec); /* the choice is among the models that the set-up has */
 }
 

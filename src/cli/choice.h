@@ -38,7 +38,7 @@ void choosing_finish(choosing *c);
 choosing choose_at(const dp_setup *setup, double tolerance, const depths *at);
 
 /** Under --model auto, gives a set-up the model that is enough at these depths; else leaves it as it is. */
-void setup_choose(const options *o, const depths *at, dp_setup *setup);
+void setup_choose(const camera_asked *c, const depths *at, dp_setup *setup);
 
 /** One sentence without a line end. */
 typedef struct choice_words {

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "api/bias.h"
+#include "cli/bias/request.h"
 #include "cli/bias_all.h"
 #include "cli/each_setup.h"
 #include "cli/resolved.h"
@@ -39,6 +40,7 @@ typedef struct needs {
 /* What is asked; below `range_lo`, what belongs to the set-up at hand. */
 typedef struct biasing {
     each_setup each;
+    const bias_request *o;
     const char *api;
     const bias_api *named;
     double units_sent; /* as the platform sends them */
@@ -154,7 +156,7 @@ static needs over_range(const biasing *b) {
 
 /* The API as the platform and the GPU have it in the format of this set-up. */
 static void take_measured(biasing *b) {
-    const options *o = b->each.o;
+    const bias_request *o = b->o;
     const dp_format *format = &b->each.setup->spec.format;
     const profile_format *found = profile_biased(&o->camera.gpu, o->camera.platform, b->named, format);
     b->row_here = profile_bias(&o->camera.gpu, o->camera.platform, b->named, format);
@@ -174,7 +176,7 @@ static void *next_setup(void *of, size_t i) {
     }
     if (b->chosen)
         b->state.factor = bias_sign(b->each.setup) * bias_factor_least(b->each.setup);
-    if (b->inverse && b->each.o->out.form != FORM_CSV)
+    if (b->inverse && b->o->out.form != FORM_CSV)
         b->needs = over_range(b);
     return b;
 }
@@ -185,30 +187,30 @@ static void say_states(page *p, void *item) {
     const biasing *b = item;
     const bias_state *s = &b->state;
     each_setup_title(p, item);
-    slant_say(p, page_title, b->each.o, &b->slanted);
+    slant_say(p, page_title, &b->o->camera, &b->slanted);
     char text[256] = "";
     append(text, sizeof text, "%s", s->api->name);
     if (!b->inverse)
         append(text, sizeof text, ", units %s", number_full(s->units).text);
-    if (!b->inverse && isinf(b->each.o->bias.units) && s->api->whole)
+    if (!b->inverse && isinf(b->o->bias.units) && s->api->whole)
         append(text, sizeof text,
                " (%s in 32 bits, as a cast that saturates makes it; in C it is undefined, and x86 "
                "makes -2147483648 of either sign)",
-               number_full(b->each.o->bias.units).text);
+               number_full(b->o->bias.units).text);
     if (s->factor != 0.0 && isfinite(s->factor))
         append(text, sizeof text, ", factor %s", number_full(s->factor).text);
     if (!b->inverse && s->clamp != 0.0)
         append(text, sizeof text, ", clamp %s", number_full(s->clamp).text);
     if (b->goal.slope > 0.0)
-        append(text, sizeof text, ", slope %s per pixel", options_length(b->each.here, b->goal.slope, 0).text);
+        append(text, sizeof text, ", slope %s per pixel", camera_length(b->each.here, b->goal.slope, 0).text);
     page_text(p, "%s", text);
 }
 
 /* "  resolved    -2 units from 0.1 to 1000 (needed at z = 0.1)", or where a bias suffices at all. */
-static void say_needed(page *p, const options *o, const char *what, double units, const double range[2], double z,
+static void say_needed(page *p, const bias_request *o, const char *what, double units, const double range[2], double z,
                        const double enough[2]) {
-    const number_text lo = options_length(o, range[0], DIGITS_Z);
-    const number_text hi = options_length(o, range[1], DIGITS_Z);
+    const number_text lo = camera_length(&o->camera, range[0], DIGITS_Z);
+    const number_text hi = camera_length(&o->camera, range[1], DIGITS_Z);
     const number_text from = number_in(number_up(enough[0], DIGITS_Z), p->unit);
     const number_text to = number_in(number_down(enough[1], DIGITS_Z), p->unit);
     if (range[0] == range[1] && isnan(units))
@@ -218,7 +220,7 @@ static void say_needed(page *p, const options *o, const char *what, double units
                   lo.text);
     else if (!isnan(units))
         page_note(p, what, "%s unit%s from %s to %s (needed at z = %s)", number_of(units, DIGITS_Z).text,
-                  fabs(units) == 1.0 ? "" : "s", lo.text, hi.text, options_length(o, z, DIGITS_Z).text);
+                  fabs(units) == 1.0 ? "" : "s", lo.text, hi.text, camera_length(&o->camera, z, DIGITS_Z).text);
     else if (isnan(enough[0]))
         page_note(p, what, "no bias suffices from %s to %s", lo.text, hi.text);
     else if (enough[0] == range[0])
@@ -232,10 +234,10 @@ static void say_needed(page *p, const options *o, const char *what, double units
 
 static void say_range(page *p, const biasing *b) {
     const needs *r = &b->needs;
-    say_needed(p, b->each.here, "resolved", r->apart, (const double[]){r->lo, r->hi}, r->apart_z,
+    say_needed(p, b->o, "resolved", r->apart, (const double[]){r->lo, r->hi}, r->apart_z,
                (const double[]){r->apart_from, r->apart_to});
     if (b->goal.gap > 0.0)
-        say_needed(p, b->each.here, "separated", r->gap, (const double[]){r->gap_lo, r->hi}, r->gap_z,
+        say_needed(p, b->o, "separated", r->gap, (const double[]){r->gap_lo, r->hi}, r->gap_z,
                    (const double[]){r->gap_from, r->gap_to});
     const double units = b->goal.gap > 0.0 ? r->gap : r->apart;
     if (!isnan(units))
@@ -246,17 +248,17 @@ static void say_range(page *p, const biasing *b) {
                   number_of(next, DIGITS_Z).text);
     if (b->goal.gap == 0.0)
         return;
-    const unit_row *unit = options_unit_of(b->each.here, OPTION_SEPARATION);
-    const double shift = unit_convert(fabs(r->shift_hi), b->each.here->camera.unit, unit);
+    const unit_row *unit = option_unit(b->o->line, "separation");
+    const double shift = unit_convert(fabs(r->shift_hi), b->each.here->lengths.unit, unit);
     if (!isnan(r->shift_hi))
         page_note(p, "", "the same units bring a layer nearer by %s at z = %s",
                   number_in(number_of(shift, DIGITS), unit != NULL ? unit->name : NULL).text,
-                  options_length(b->each.here, r->hi, DIGITS_Z).text);
+                  camera_length(b->each.here, r->hi, DIGITS_Z).text);
 }
 
 /* What of r was measured. @return whether there is nothing more to say of it */
 static bool say_measured(page *p, const biasing *b) {
-    const options *o = b->each.o;
+    const bias_request *o = b->o;
     char text[BIAS_CALL_SIZE];
     if (o->camera.gpu.measured[0] == '\0')
         return false;
@@ -300,8 +302,8 @@ static void say_notes(page *p, void *item) {
         page_line(p, "a biased depth outside [0, 1] is clamped to the plane");
     if (!say_measured(p, b))
         say_open(p, b);
-    if (b->each.o->camera.platform != NULL && b->each.o->camera.platform->bias[0] != '\0')
-        page_line(p, "%s %s", b->each.o->camera.platform->name, b->each.o->camera.platform->bias);
+    if (b->o->camera.platform != NULL && b->o->camera.platform->bias[0] != '\0')
+        page_line(p, "%s %s", b->o->camera.platform->name, b->o->camera.platform->bias);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -311,7 +313,7 @@ enum { EFFECT = 1, INVERSE = 2, WITH_GAP = 4, WITH_SLOPE = 8, VERBOSE = 16, WITH
 
 static unsigned conditions(const biasing *b) {
     return (b->inverse ? INVERSE : EFFECT) | (b->goal.gap > 0.0 ? WITH_GAP : 0) |
-           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->each.o->out.full ? VERBOSE : 0) |
+           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->o->out.full ? VERBOSE : 0) |
            (b->triangles != NULL ? WITH_TRIANGLES : 0);
 }
 
@@ -377,31 +379,31 @@ static const column columns[] = {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-static int check_states(const options *o, const bias_api *api) {
-    const bool given = option_given(o, OPTION_UNITS);
-    if (given && option_given(o, OPTION_VIEWPORT))
-        return option_error(OPTION_VIEWPORT, "conflicts with --units: it says how many suffice");
-    if (given && option_given(o, OPTION_SEPARATION))
-        return option_error(OPTION_UNITS, "conflicts with --separation, which solves for them");
+static int check_states(const bias_request *o, const bias_api *api) {
+    const bool given = option_given(o->line, "units");
+    if (given && option_given(o->line, "viewport"))
+        return option_error("viewport", "conflicts with --units: it says how many suffice");
+    if (given && option_given(o->line, "separation"))
+        return option_error("units", "conflicts with --separation, which solves for them");
     if (given && api->whole && !isinf(o->bias.units) &&
         !(o->bias.units == nearbyint(o->bias.units) && fabs(o->bias.units) <= 0x1.fffffffcp30) &&
         (o->camera.platform == NULL || !o->camera.platform->cuts))
-        return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",
-                            api->name, number_full(o->bias.units).text);
-    if (option_given(o, OPTION_CLAMP) && !api->clamps)
-        return option_error(OPTION_CLAMP, "must not be given for %s, which has no clamp",
+        return option_error("units", "must be a whole number from -2147483647 to 2147483647 for %s, got %s", api->name,
+                            number_full(o->bias.units).text);
+    if (option_given(o->line, "clamp") && !api->clamps)
+        return option_error("clamp", "must not be given for %s, which has no clamp",
                             o->camera.platform != NULL && o->camera.platform->drops_clamp ? o->camera.platform->name
                                                                                           : api->name);
-    if (option_given(o, OPTION_CLAMP) && !given)
-        return option_error(OPTION_CLAMP, "must be given together with --units");
+    if (option_given(o->line, "clamp") && !given)
+        return option_error("clamp", "must be given together with --units");
     return EXIT_FINE;
 }
 
 /* The range that is asked for, else that of the depths that are. */
-static int resolve(biasing *b, const options *o) {
+static int resolve(biasing *b, const bias_request *o) {
     const depths *at = &b->each.at;
-    const int status = range_resolve(o, &b->range_lo, &b->range_hi);
-    if (status != EXIT_FINE || option_given(o, OPTION_RANGE) || !option_given(o, OPTION_AT))
+    const int status = range_resolve(&o->camera, &b->range_lo, &b->range_hi);
+    if (status != EXIT_FINE || option_given(o->line, "range") || !option_given(o->line, "at"))
         return status;
     b->range_lo = b->range_hi = depths_get(at, 0);
     for (size_t i = 1; i < at->count; i++) {
@@ -411,15 +413,17 @@ static int resolve(biasing *b, const options *o) {
     return status;
 }
 
-int cmd_bias(const options *given) {
-    options o = *given;
+int cmd_bias(void *request) {
+    const bias_request *given = request;
+    bias_request o = *given;
     const bias_api *api = o.bias.api;
     const int affine = bias_check_slant(&o);
     if (affine != EXIT_FINE || api == NULL)
         return affine != EXIT_FINE ? affine : bias_all_write(&o);
-    biasing b = {.state = {api, o.bias.units, o.bias.factor, o.bias.clamp},
-                 .goal = {.api = api, .slope = o.bias.slope, .gap = o.wanted.separation},
-                 .inverse = !option_given(&o, OPTION_UNITS),
+    biasing b = {.o = &o,
+                 .state = {api, o.bias.units, o.bias.factor, o.bias.clamp},
+                 .goal = {.api = api, .slope = o.bias.slope, .gap = o.bias.separation},
+                 .inverse = !option_given(o.line, "units"),
                  .api = api->name,
                  .named = api,
                  .row_here = platform_bias(o.camera.platform, api)};
@@ -430,14 +434,14 @@ int cmd_bias(const options *given) {
         b.state.units = b.state.units > 0.0 ? INT32_MAX : INT32_MIN;
     b.units_sent = b.state.units;
     b.units = b.inverse ? (double)NAN : isinf(o.bias.units) ? b.state.units : o.bias.units;
-    b.gap = b.inverse ? o.wanted.separation : (double)NAN;
-    b.triangles = slant_fields_of(&o, &b.slant);
+    b.gap = b.inverse ? o.bias.separation : (double)NAN;
+    b.triangles = slant_fields_of(&o.camera, &b.slant);
     b.chosen = bias_chooses_factor(&o);
     b.factor = b.chosen ? (double)NAN : o.bias.factor;
     int status = check_states(&o, &b.row_here);
     if (status != EXIT_FINE)
         return status;
-    status = each_setup_start(&b.each, &o);
+    status = each_setup_start(&b.each, &o.camera, &o.out);
     if (status == EXIT_FINE)
         status = resolve(&b, &o);
     const report_spec spec = {"bias", columns, &b, .when = conditions(&b), .label = 12};

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/budget/request.h"
 #include "cli/choice.h"
 #include "cli/each_setup.h"
 #include "cli/remedy.h"
@@ -36,6 +37,7 @@ typedef struct worst {
 /* What a budget is made of; below `linearize`, what belongs to the set-up at hand. */
 typedef struct budget {
     each_setup each;
+    const budget_request *o;
     dp_budget_terms terms;
     slant_fields slant;
     const slant_fields *triangles; /* null: surfaces face the camera */
@@ -103,7 +105,7 @@ static void budget_by(const budget *b, const world_scheme *scheme, const dp_setu
     const world_asked a = {.setup = setup,
                            .z = z,
                            .ray_ratio = ray_ratio_of(&setup->spec.triangles),
-                           .shared_origin = b->each.o->world.shared_origin};
+                           .shared_origin = b->o->origin.shared_origin};
     *terms = b->terms;
     if (scheme != NULL)
         world_budget(scheme, &a, root3 * b->terms.world, terms, out);
@@ -206,7 +208,7 @@ static void *next_row(void *of, size_t index) {
         budget_by(b, b->scheme, &b->facing, r->z, &terms, &facing);
         r->facing = facing.separation;
     }
-    for (int i = 0; i < DP_CAUSE_COUNT && b->each.o->out.form == FORM_TEXT; i++)
+    for (int i = 0; i < DP_CAUSE_COUNT && b->o->out.form == FORM_TEXT; i++)
         write_cause(r, i);
     note(b, r);
     return r;
@@ -221,7 +223,7 @@ static void *next_setup(void *of, size_t i) {
     b->chosen = b->shader ? NULL : &b->chosen_fields;
     b->staged_share = (double)NAN;
     b->facing = dp_setup_facing(b->each.setup);
-    b->choice = choosing_start(&b->facing, b->each.o->wanted.tolerance);
+    b->choice = choosing_start(&b->facing, b->o->camera.tolerance);
     b->hopeless = b->largest.z = b->largest.parts.separation = (double)NAN;
     return b;
 }
@@ -232,15 +234,15 @@ static void say_setup(page *p, void *item) {
     const budget *b = item;
     each_setup_title(p, item);
     if (b->scheme != NULL)
-        page_title(p, "from origin %s, scheme %s%s%s", options_length(b->each.here, b->terms.world, 0).text,
+        page_title(p, "from origin %s, scheme %s%s%s", camera_length(b->each.here, b->terms.world, 0).text,
                    b->scheme_name, b->scheme->row->size != NULL ? ":" : "",
                    b->scheme->row->size != NULL ? number_full(b->scheme->size).text : "");
     else if (b->composition != NULL)
-        page_title(p, "from origin %s, composition %s", options_length(b->each.here, b->terms.world, 0).text,
+        page_title(p, "from origin %s, composition %s", camera_length(b->each.here, b->terms.world, 0).text,
                    b->composition);
     if (b->shader)
         page_title(p, "log2 %s: %s", dp_log2_get(b->terms.log2)->name, dp_log2_get(b->terms.log2)->note);
-    slant_say(p, page_title, b->each.o, b->each.setup);
+    slant_say(p, page_title, &b->o->camera, b->each.setup);
 }
 
 static void say_worst(page *p, const worst *w) {
@@ -358,42 +360,44 @@ static const column columns[] = {
     {.kind = COLUMN_END}};
 
 /* One scheme; `absolute` is what --from-origin means without. */
-static int take_scheme(budget *b, const options *o) {
-    if (!(o->world.terms.world > 0.0))
-        return option_error(OPTION_SCHEME, "needs --from-origin: eye depth is given");
-    if (o->world.scheme_count != 1)
-        return option_error(OPTION_SCHEME, "must be one scheme for budget, got %zu", o->world.scheme_count);
-    if (o->world.schemes[0].row == world_get(0))
+static int take_scheme(budget *b, const budget_request *o) {
+    if (!(o->origin.terms.world > 0.0))
+        return option_error("scheme", "needs --from-origin: eye depth is given");
+    if (o->origin.scheme_count != 1)
+        return option_error("scheme", "must be one scheme for budget, got %zu", o->origin.scheme_count);
+    if (o->origin.schemes[0].row == world_get(0))
         return EXIT_FINE;
     if (o->camera.ortho)
-        return option_error(OPTION_SCHEME, "conflicts with --ortho; --composition does not");
-    if (option_given(o, OPTION_COMPOSITION))
-        return option_error(OPTION_COMPOSITION, "conflicts with --scheme %s", o->world.schemes[0].row->name);
-    b->scheme = &o->world.schemes[0];
+        return option_error("scheme", "conflicts with --ortho; --composition does not");
+    if (option_given(o->line, "composition"))
+        return option_error("composition", "conflicts with --scheme %s", o->origin.schemes[0].row->name);
+    b->scheme = &o->origin.schemes[0];
     b->scheme_name = b->scheme->row->name;
     return EXIT_FINE;
 }
 
-int cmd_budget(const options *o) {
-    budget b = {.terms = o->world.terms,
-                .log2 = dp_log2_get(o->world.terms.log2)->name,
-                .linearize = o->world.terms.linearize != 0};
-    options in_binary32 = *o;
+int cmd_budget(void *request) {
+    const budget_request *o = request;
+    budget b = {.o = o,
+                .terms = o->origin.terms,
+                .log2 = dp_log2_get(o->origin.terms.log2)->name,
+                .linearize = o->origin.terms.linearize != 0};
+    budget_request in_binary32 = *o;
     in_binary32.camera.model = DP_MODEL_FLOAT;
     in_binary32.camera.budgeted = true;
     int status = EXIT_FINE;
-    b.triangles = slant_fields_of(o, &b.slant);
-    if (option_given(o, OPTION_SCHEME))
+    b.triangles = slant_fields_of(&o->camera, &b.slant);
+    if (option_given(o->line, "scheme"))
         status = take_scheme(&b, o);
-    else if (option_given(o, OPTION_SHARE))
-        status = option_error(OPTION_SHARE, "needs --scheme: without one no mesh has an origin");
+    else if (option_given(o->line, "share"))
+        status = option_error("share", "needs --scheme: without one no mesh has an origin");
     if (status != EXIT_FINE)
         return status;
-    if (o->world.terms.world > 0.0 && b.scheme == NULL)
-        b.composition = dp_composition_get(o->world.terms.composition)->name;
-    else if (option_given(o, OPTION_COMPOSITION) && b.scheme == NULL)
-        return option_error(OPTION_COMPOSITION, "needs --from-origin: eye depth is given");
-    status = each_setup_start(&b.each, &in_binary32);
+    if (o->origin.terms.world > 0.0 && b.scheme == NULL)
+        b.composition = dp_composition_get(o->origin.terms.composition)->name;
+    else if (option_given(o->line, "composition") && b.scheme == NULL)
+        return option_error("composition", "needs --from-origin: eye depth is given");
+    status = each_setup_start(&b.each, &in_binary32.camera, &in_binary32.out);
     if (status == EXIT_FINE)
         status = depths_in_binary32(&b.each.at);
     const report_spec spec = {"budget", columns, &b, .when = conditions(&b)};

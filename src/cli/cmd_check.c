@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "census/census.h"
+#include "cli/check/request.h"
 #include "cli/check_report.h"
 #include "cli/option/names.h"
 #include "cli/progress.h"
@@ -30,7 +31,7 @@ static int advance(void *context, uint64_t done) {
 /* A check_counter that runs a census or a sample; context is the options. */
 static bool count_ties(void *context, const dp_setup *setup, double lo, double hi, bool sample, double *share,
                        double *z) {
-    const options *o = context;
+    const checks_request *o = context;
     census_result *result = malloc(sizeof *result);
     if (result == NULL)
         return false;
@@ -58,7 +59,7 @@ static bool count_ties(void *context, const dp_setup *setup, double lo, double h
     return status == CENSUS_DONE || status == CENSUS_RANGE; /* a range of one depth has no pair to tie */
 }
 
-static int check_cameras(const options *o, check_file *f) {
+static int check_cameras(const checks_request *o, check_file *f) {
     const check_request request = {.file = &f->file, .count = count_ties, .context = (void *)(uintptr_t)o};
     f->count = check_count(&f->file);
     f->verdicts = calloc(f->count, sizeof *f->verdicts);
@@ -70,10 +71,10 @@ static int check_cameras(const options *o, check_file *f) {
     return EXIT_FINE;
 }
 
-static int judge_all(const options *o, check_file *files, size_t count, long *failed) {
+static int judge_all(const checks_request *o, check_file *files, size_t count, long *failed) {
     int status = EXIT_FINE;
     for (size_t i = 0; i < count && status == EXIT_FINE; i++) /* a mistake in the last file is told at once */
-        status = check_read(o->operands[i], &files[i].file);
+        status = check_read(o->line->operands[i], &files[i].file);
     for (size_t i = 0; i < count && status == EXIT_FINE; i++) {
         status = check_cameras(o, &files[i]);
         *failed += files[i].failed;
@@ -81,13 +82,14 @@ static int judge_all(const options *o, check_file *files, size_t count, long *fa
     return status;
 }
 
-int cmd_check(const options *o) {
-    const size_t count = (size_t)o->operand_count;
+int cmd_check(void *request) {
+    const checks_request *o = request;
+    const size_t count = (size_t)o->line->operand_count;
     long failed = 0;
     output out;
     if (o->out.report != REPORT_TEXT && o->out.form != FORM_TEXT)
-        return option_error(OPTION_REPORT, "conflicts with --json or --csv");
-    int status = options_open(o, &out);
+        return option_error("report", "conflicts with --json or --csv");
+    int status = output_start(&o->out, NULL, &out);
     if (status != EXIT_FINE)
         return status;
     check_file *files = calloc(count, sizeof *files);

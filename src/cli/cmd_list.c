@@ -3,6 +3,7 @@
  * list: the rows of the tables that the program works from, with what is claimed of each and where it comes from: those
  * of a topic, or whatever in any of them is called by a word.
  */
+#include "cli/list/request.h"
 #include "cli/methods.h"
 #include "report/report.h"
 
@@ -11,7 +12,7 @@ static const topic all_topics = {"topics", "", list_topic, .bound = "bound"};
 
 /* What is listed, and the thing at hand. */
 typedef struct listing {
-    const options *o;
+    const list_request *o;
     const topic *topic;
     const char *what;
     const char *word; /* only what is called so; null: all of the topic */
@@ -30,8 +31,8 @@ static void *next_item(void *of, size_t i) {
         return NULL;
     if (item->source != NULL && *item->source == '\0')
         item->source = NULL;
-    if (option_given(l->o, OPTION_TOLERANCE))
-        list_method_choice(l->o, index, l->chosen);
+    if (option_given(l->o->line, "tolerance"))
+        list_method_choice(index, l->o->tolerance, l->chosen);
     return l;
 }
 
@@ -86,7 +87,7 @@ static void write_list(listing *l, output *out) {
         {FIELD(listing, what, "what", ""), .only = AS_JSON},
         {LIST("items", items, next_item), .only = topics_alone ? AS_JSON | AS_CSV : 0, .head = say_item},
         {.kind = COLUMN_END}};
-    report_write(&(report_spec){"list", columns, l, .when = option_given(l->o, OPTION_TOLERANCE) ? WITH_CHOICES : 0,
+    report_write(&(report_spec){"list", columns, l, .when = option_given(l->o->line, "tolerance") ? WITH_CHOICES : 0,
                                 .label = 12, .head = topics_alone ? say_topics : NULL,
                                 .notes = l->topic->get == list_format && l->word == NULL ? say_other_formats : NULL},
                  out, l->o->out.form);
@@ -114,20 +115,21 @@ bool list_knows(const char *word) {
     return names_find(&topics, word, NULL, NULL) || write_word(&(listing){.word = word}, NULL);
 }
 
-int cmd_list(const options *o) {
+int cmd_list(void *request) {
+    const list_request *o = request;
     list_item asked = {.row = &all_topics};
     listing l = {.o = o};
     int status = EXIT_FINE;
-    if (o->operand_count > 0 && !names_find(&topics, o->operands[0], NULL, &asked))
-        l.word = o->operands[0];
+    if (o->line->operand_count > 0 && !names_find(&topics, o->line->operands[0], NULL, &asked))
+        l.word = o->line->operands[0];
     if (l.word != NULL && (o->out.form != FORM_TEXT || !write_word(&l, NULL)))
-        status = check_operand(o->command, "WHAT", &topics, l.word, &asked);
+        status = check_operand(o->line->command, "WHAT", &topics, l.word, &asked);
     l.topic = asked.row;
-    if (status == EXIT_FINE && option_given(o, OPTION_TOLERANCE) && l.topic->get != list_method)
-        return option_error(OPTION_TOLERANCE, "applies to list methods only");
+    if (status == EXIT_FINE && option_given(o->line, "tolerance") && l.topic->get != list_method)
+        return option_error("tolerance", "applies to list methods only");
     output out;
     if (status == EXIT_FINE)
-        status = options_open(o, &out);
+        status = output_start(&o->out, NULL, &out);
     if (status != EXIT_FINE)
         return status;
     l.what = l.topic->name;

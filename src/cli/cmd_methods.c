@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "cli/methods.h"
+#include "cli/methods/request.h"
 #include "cli/mine.h"
 #include "cli/setups.h"
 #include "method/choose.h"
@@ -33,7 +34,7 @@ typedef struct line {
 } line;
 
 typedef struct measuring {
-    const options *o;
+    const judge_request *o;
     methods_asked asked;
     setup_fields fields;
     const char *family, *measure;
@@ -292,20 +293,20 @@ static const column family_columns[] = {{FIELD(family_line, name, "name", "")},
 static const column families[] = {{LIST("families", family_columns, next_family), .only = AS_JSON | AS_CSV},
                                   {.kind = COLUMN_END}};
 
-static int list_families(const options *o, output *out) {
+static int list_families(const judge_request *o, output *out) {
     family_line l;
     report_write(&(report_spec){"methods", families, &l, .label = 12, .head = say_families}, out, o->out.form);
     return output_close(out);
 }
 
 /* What a camera says is asked of a family. */
-static int check_family(const options *o) {
-    static const option_id of_family[] = {OPTION_NEAR,    OPTION_FAR,       OPTION_FORMAT,
-                                          OPTION_MAPPING, OPTION_TOLERANCE, OPTION_MINE};
+static int check_family(const judge_request *o) {
+    static const char *const of_family[] = {"near", "far", "format", "mapping", "tolerance", "mine"};
     char text[NAMES_SIZE];
-    for (size_t i = 0; i < sizeof of_family / sizeof of_family[0] && o->operand_row == NULL; i++)
-        if (option_given(o, of_family[i]))
-            return option_error(of_family[i], "needs FAMILY: %s", names_join(o->command->names, ", ", " or ", text));
+    for (size_t i = 0; i < sizeof of_family / sizeof of_family[0] && o->line->operand_row == NULL; i++)
+        if (option_given(o->line, of_family[i]))
+            return option_error(of_family[i], "needs FAMILY: %s",
+                                names_join(o->line->command->names, ", ", " or ", text));
     return EXIT_FINE;
 }
 
@@ -320,10 +321,10 @@ static int measure(measuring *b) {
 }
 
 static void describe(measuring *b) {
-    const options *o = b->o;
+    const judge_request *o = b->o;
     const double ratio = o->camera.zfar / o->camera.znear;
     const method_wish wish = {
-        .tolerance = o->wanted.tolerance, .ratio_lo = fmin(ratio, METHOD_RATIO_HI), .ratio_hi = ratio};
+        .tolerance = o->camera.tolerance, .ratio_lo = fmin(ratio, METHOD_RATIO_HI), .ratio_hi = ratio};
     if (!isnan(b->tolerance))
         b->choice = method_choose(b->asked.family, b->asked.which, &wish);
     methods_machine(b->machine, sizeof b->machine);
@@ -334,7 +335,7 @@ static void describe(measuring *b) {
     }
     b->family = b->asked.family->name;
     b->measure = b->asked.family->measure;
-    b->fields = setup_fields_of(&b->asked.setup, options_unit(o));
+    b->fields = setup_fields_of(&b->asked.setup, camera_unit(&o->camera));
     b->limit = b->results[0].limit;
     order(b);
 }
@@ -347,17 +348,18 @@ static bool all_hold(const measuring *b) {
     return true;
 }
 
-int cmd_methods(const options *o) {
+int cmd_methods(void *request) {
+    const judge_request *o = request;
     output out;
-    measuring b = {.o = o, .tolerance = option_given(o, OPTION_TOLERANCE) ? o->wanted.tolerance : (double)NAN};
+    measuring b = {.o = o, .tolerance = option_given(o->line, "tolerance") ? o->camera.tolerance : (double)NAN};
     int status = check_family(o);
-    if (status == EXIT_FINE && o->operand_row != NULL)
-        status = methods_resolve(o, o->operand_row, &b.asked);
+    if (status == EXIT_FINE && o->line->operand_row != NULL)
+        status = methods_resolve(o, o->line->operand_row, &b.asked);
     if (status == EXIT_FINE)
-        status = options_open(o, &out);
+        status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)
         return status;
-    if (o->operand_row == NULL)
+    if (o->line->operand_row == NULL)
         return list_families(o, &out);
     if (o->judge.mine_count > 0)
         status = mine_open(o, &b.asked, false, &b.mine);

@@ -13,6 +13,7 @@
 #include "cli/list.h"
 #include "cli/methods.h"
 #include "cli/mine.h"
+#include "cli/plot/request.h"
 #include "cli/raster_setups.h"
 #include "cli/scene/figure.h"
 #include "cli/shadow/maps.h"
@@ -28,7 +29,7 @@ enum { WIDTH = 800, HEIGHT = 500 };
 static const uint64_t census_depths = UINT64_C(1) << 28;
 
 typedef struct plotting {
-    const options *o;
+    const plot_request *o;
     const figure_row *row;
     figure_request request;
     setups all;
@@ -36,6 +37,9 @@ typedef struct plotting {
     char text[CHART_SETUPS][SETUP_LABEL_SIZE];
     methods_asked asked;
     char where[2 * SHADER_TEXT_SIZE]; /* of what is timed */
+    judge_request judge;              /* what their methods, */
+    scene_request scene;              /* a model, */
+    shadow_request shadow;            /* and shadow maps are asked */
     mine *mine;                       /* null: none is given */
     need_file file;
     shadow_maps maps;
@@ -45,69 +49,79 @@ typedef struct plotting {
     struct plotting *beside; /* another camera's curves in the same figure; else null */
 } plotting;
 
-static plotting plotting_of(const options *o) {
+static plotting plotting_of(const plot_request *o) {
     const figure_request request = {.lo = NAN,
                                     .hi = NAN,
                                     .at = NAN,
-                                    .terms = o->world.terms,
-                                    .tolerance = option_given(o, OPTION_TOLERANCE) ? o->wanted.tolerance : (double)NAN,
-                                    .every = o->out.form == FORM_CSV && !figure_file_wanted(o),
+                                    .terms = o->origin.terms,
+                                    .tolerance = option_given(o->line, "tolerance") ? o->camera.tolerance : (double)NAN,
+                                    .every = o->out.form == FORM_CSV && !figure_file_wanted(o->line, &o->out),
                                     .census = census_depths,
                                     .columns = o->figure.width > 0 ? o->figure.width : WIDTH,
                                     .rows = o->figure.height > 0 ? o->figure.height : HEIGHT,
                                     .far_count = o->camera.far_count,
                                     .fars = o->camera.fars};
-    return (plotting){.o = o, .row = o->operand_row, .request = request, .chart = chart_new()};
+    scene_asked scene_of = o->scene;
+    scene_of.angle = o->shadow.angle; /* as this is */
+    return (plotting){
+        .o = o,
+        .row = o->line->operand_row,
+        .request = request,
+        .judge = {.line = o->line, .camera = o->camera, .out = o->out, .judge = o->judge},
+        .scene = {.line = o->line, .camera = o->camera, .out = o->out, .scene = scene_of, .bias = o->bias},
+        .shadow = {.line = o->line, .camera = o->camera, .out = o->out, .shadow = o->shadow, .bias = o->bias},
+        .chart = chart_new()};
 }
 
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
 static int resolve_depths(plotting *p) {
-    const options *o = p->o;
-    if (option_given(o, OPTION_AT)) {
+    const plot_request *o = p->o;
+    if (option_given(o->line, "at")) {
         if (o->camera.at.count != 1)
-            return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", p->row->name,
-                                o->camera.at.count);
-        if (option_given(o, OPTION_RANGE))
-            return option_error(OPTION_AT, "conflicts with --range");
+            return option_error("at", "must be one depth in the figure %s, got %zu", p->row->name, o->camera.at.count);
+        if (option_given(o->line, "range"))
+            return option_error("at", "conflicts with --range");
         p->request.at = o->camera.at.lo;
     }
-    if (!option_given(o, OPTION_RANGE))
+    if (!option_given(o->line, "range"))
         return EXIT_FINE;
     p->request.lo = o->camera.range_lo;
     p->request.hi = o->camera.range_hi;
-    return p->all.count > 0 ? range_resolve(o, &p->request.lo, &p->request.hi) : EXIT_FINE;
+    return p->all.count > 0 ? range_resolve(&o->camera, &p->request.lo, &p->request.hi) : EXIT_FINE;
 }
 
 /* A file is for the figures that show requirements or a model. */
-static int check_file_given(const options *o, const figure_row *row) {
+static int check_file_given(const plot_request *o, const figure_row *row) {
     if ((row->takes & FIGURE_MODEL) != 0)
-        return o->operand_count > 1 ? EXIT_FINE : usage_error("plot %s: needs MODEL, a file as of scene", row->name);
+        return o->line->operand_count > 1 ? EXIT_FINE
+                                          : usage_error("plot %s: needs MODEL, a file as of scene", row->name);
     if ((row->takes & FIGURE_FILE) == 0)
-        return o->operand_count == 1 || row->family != NULL
+        return o->line->operand_count == 1 || row->family != NULL
                    ? EXIT_FINE
-                   : usage_error("plot %s: takes no file, got '%s'", row->name, o->operands[1]);
-    return o->operand_count == 2 ? EXIT_FINE
-                                 : usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
+                   : usage_error("plot %s: takes no file, got '%s'", row->name, o->line->operands[1]);
+    return o->line->operand_count == 2
+               ? EXIT_FINE
+               : usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
 }
 
 /* Options that this figure has no use for. */
-static int check_options(const options *o, const figure_row *row) {
+static int check_options(const plot_request *o, const figure_row *row) {
     if (o->camera.znear <= 0.0 && (row->takes & FIGURE_SIGNED) == 0)
-        return option_error(OPTION_NEAR, "must be greater than 0 in the figure %s, got '%s'", row->name,
+        return option_error("near", "must be greater than 0 in the figure %s, got '%s'", row->name,
                             number_full(o->camera.znear).text);
-    if (option_given(o, OPTION_COMPOSITION) && !(o->world.terms.world > 0.0))
-        return option_error(OPTION_COMPOSITION, "needs --from-origin: eye depth is given");
-    if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->camera.model != DP_MODEL_FLOAT)
-        return option_error(OPTION_MODEL, "must be float in the figure %s, got '%s'", row->name,
-                            option_word(OPTION_MODEL, o->camera.model_auto ? DP_MODEL_COUNT : o->camera.model));
-    if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_SLANTED) != 0 && option_given(o, OPTION_MODEL) &&
+    if (option_given(o->line, "composition") && !(o->origin.terms.world > 0.0))
+        return option_error("composition", "needs --from-origin: eye depth is given");
+    if (option_given(o->line, "model") && (row->takes & FIGURE_BINARY32) != 0 && o->camera.model != DP_MODEL_FLOAT)
+        return option_error("model", "must be float in the figure %s, got '%s'", row->name,
+                            option_word("model", o->camera.model_auto ? DP_MODEL_COUNT : o->camera.model));
+    if (option_given(o->line, "viewport") && (row->takes & FIGURE_SLANTED) != 0 && option_given(o->line, "model") &&
         o->camera.model != DP_MODEL_FLOAT)
-        return option_error(OPTION_VIEWPORT, "needs --model float in the figure %s", row->name);
+        return option_error("viewport", "needs --model float in the figure %s", row->name);
     if (!isnan(o->camera.azimuth) && (row->takes & FIGURE_DRAWN) == 0)
-        return option_error(OPTION_SLANT, "must be LO:HI in the figure %s, got '%s'", row->name,
-                            o->given[OPTION_SLANT]);
-    if (option_given(o, OPTION_TOLERANCE) && !o->camera.model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
-        return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
+        return option_error("slant", "must be LO:HI in the figure %s, got '%s'", row->name,
+                            option_text(o->line, "slant"));
+    if (option_given(o->line, "tolerance") && !o->camera.model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
+        return option_error("tolerance", "needs --model auto in the figure %s", row->name);
     return EXIT_FINE;
 }
 
@@ -119,11 +133,11 @@ static int choose_models(plotting *p) {
     figure_range(&p->request, &lo, &hi);
     const depths at = {.kind = DEPTHS_LOG, .lo = lo, .hi = hi, .count = CHOICE_DEPTHS};
     for (size_t i = 0; i < p->all.count; i++)
-        setup_choose(p->o, &at, &p->all.items[i]);
+        setup_choose(&p->o->camera, &at, &p->all.items[i]);
     for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FLOAT) == 0 && !p->request.guaranteed; i++)
         if (p->all.items[i].spec.model == DP_MODEL_FLOAT)
             return option_error(
-                OPTION_MODEL,
+                "model",
                 "float has no cells for the figure %s to show, staged has; interval, error and budget draw what it "
                 "guarantees",
                 p->row->name);
@@ -136,12 +150,12 @@ static void name_setups(plotting *p) {
         char *name = p->text[i];
         p->names[i] = setup_label(&p->all.items[i], false, name);
         if (p->o->camera.model_auto)
-            append(name, SETUP_LABEL_SIZE, ", %s", option_word(OPTION_MODEL, p->all.items[i].spec.model));
+            append(name, SETUP_LABEL_SIZE, ", %s", option_word("model", p->all.items[i].spec.model));
     }
 }
 
 /* What holds for all set-ups: the full label without the name in front. */
-static void subtitle_of(const options *o, const figure_request *request, bool budgeted, char *out, size_t size) {
+static void subtitle_of(const plot_request *o, const figure_request *request, bool budgeted, char *out, size_t size) {
     char full[SETUP_LABEL_SIZE];
     setup_fields fields = setup_fields_of(&request->setups[0], NULL);
     if (budgeted)
@@ -157,7 +171,7 @@ static void subtitle_of(const options *o, const figure_request *request, bool bu
         append(full, sizeof full, " (lattice of codes)");
     const char *rest = strstr(full, ", ");
     const char *one = request->count == 1 ? full : rest != NULL ? rest + 2 : "";
-    const char *unit = options_unit(o);
+    const char *unit = camera_unit(&o->camera);
     if (!isnan(request->at))
         snprintf(out, size, "%s, at depth %s", one, number_full(request->at).text);
     else if (!isnan(request->lo))
@@ -173,23 +187,23 @@ static void subtitle_of(const options *o, const figure_request *request, bool bu
 
 /* Which family and, where it is timed, in which case; the figure measures that and not the set-ups. */
 static int resolve_methods(plotting *p) {
-    const options *o = p->o;
+    const plot_request *o = p->o;
     char machine[192];
-    const char *family = o->operand_count > 1      ? o->operands[1]
-                         : o->judge.mine_count > 0 ? linearize_family.name
-                                                   : p->row->family;
+    const char *family = o->line->operand_count > 1 ? o->line->operands[1]
+                         : o->judge.mine_count > 0  ? linearize_family.name
+                                                    : p->row->family;
     const name_list families = {.get = list_family};
     list_item item;
-    int status = check_operand(o->command, "FAMILY", &families, family, &item);
+    int status = check_operand(o->line->command, "FAMILY", &families, family, &item);
     if (status == EXIT_FINE)
-        status = methods_resolve(o, item.row, &p->asked);
+        status = methods_resolve(&p->judge, item.row, &p->asked);
     if (status == EXIT_FINE && o->judge.mine_count > 0)
-        status = mine_open(o, &p->asked, p->row->build == pareto_build, &p->mine);
+        status = mine_open(&p->judge, &p->asked, p->row->build == pareto_build, &p->mine);
     if (status != EXIT_FINE)
         return status;
     snprintf(p->where, sizeof p->where, "near %s, far %s; %s",
-             number_in(number_full(o->camera.znear), options_unit(o)).text,
-             number_in(number_full(o->camera.zfar), options_unit(o)).text,
+             number_in(number_full(o->camera.znear), camera_unit(&o->camera)).text,
+             number_in(number_full(o->camera.zfar), camera_unit(&o->camera)).text,
              p->mine != NULL ? mine_device(p->mine) : methods_machine(machine, sizeof machine));
     p->request.setups = &p->asked.setup;
     p->request.count = 1;
@@ -201,37 +215,37 @@ static int resolve_methods(plotting *p) {
 
 /* Where none are named and all would be too many: those that the figure shows then, and of a single set-up the first
  * mapping. */
-static void choose_setups(options *o, const figure_row *row) {
+static void choose_setups(plot_request *o, const figure_row *row) {
     const size_t all = o->camera.format_count;
     if (row->formats == NULL)
         return;
-    if (!option_given(o, OPTION_FORMAT) && all * o->camera.mapping_count > row->setups_max) {
+    if (!option_given(o->line, "format") && all * o->camera.mapping_count > row->setups_max) {
         o->camera.format_count = 0;
         for (size_t i = 0; i < all; i++)
             if (strstr(row->formats, o->camera.formats[i].name) != NULL)
                 o->camera.formats[o->camera.format_count++] = o->camera.formats[i];
         o->camera.format_count += o->camera.format_count == 0; /* a rasterizer that has none of them */
     }
-    if (row->setups_max == 1 && !option_given(o, OPTION_MAPPING))
+    if (row->setups_max == 1 && !option_given(o->line, "mapping"))
         o->camera.mapping_count = 1;
 }
 
 /* What a rasterizer draws is at one depth between the planes. */
-static int resolve_drawn(const plotting *p, options *o) {
+static int resolve_drawn(const plotting *p, plot_request *o) {
     depths at;
-    int status = view_drawn(o);
-    if (status == EXIT_FINE && option_given(o, OPTION_AT))
-        status = depths_resolve(p->o, 1, &at);
-    if (status == EXIT_FINE && option_given(o, OPTION_RANGE))
-        status = option_error(OPTION_RANGE, "does not apply to the figure %s; --at says its depth", p->row->name);
+    int status = view_drawn(&o->camera);
+    if (status == EXIT_FINE && option_given(o->line, "at"))
+        status = depths_resolve(&p->o->camera, 1, &at);
+    if (status == EXIT_FINE && option_given(o->line, "range"))
+        status = option_error("range", "does not apply to the figure %s; --at says its depth", p->row->name);
     if (status == EXIT_FINE && isnan(o->camera.azimuth))
-        status = option_error(OPTION_SLANT, "must be SLANT,AZIMUTH in the figure %s, got '%s'", p->row->name,
-                              o->given[OPTION_SLANT]);
+        status = option_error("slant", "must be SLANT,AZIMUTH in the figure %s, got '%s'", p->row->name,
+                              option_text(o->line, "slant"));
     return status;
 }
 
 static int resolve_setups(plotting *p) {
-    options in_model = *p->o;
+    plot_request in_model = *p->o;
     const bool drawn = (p->row->takes & FIGURE_DRAWN) != 0;
     int status = check_options(p->o, p->row);
     if (status == EXIT_FINE && drawn)
@@ -240,13 +254,13 @@ static int resolve_setups(plotting *p) {
     if ((p->row->takes & FIGURE_BINARY32) != 0)
         in_model.camera.model = DP_MODEL_FLOAT;
     for (size_t i = 0; (p->row->takes & FIGURE_STAGED) != 0 && i < in_model.camera.mapping_count; i++)
-        if (!option_given(p->o, OPTION_MODEL) && dp_mapping_get(in_model.camera.mappings[i])->ndc_signed)
+        if (!option_given(p->o->line, "model") && dp_mapping_get(in_model.camera.mappings[i])->ndc_signed)
             in_model.camera.model = DP_MODEL_STAGED;
     in_model.camera.budgeted = (p->row->takes & FIGURE_TERMS) != 0;
     if (status == EXIT_FINE)
-        status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model) : EXIT_FINE;
+        status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model.camera) : EXIT_FINE;
     if (status == EXIT_FINE)
-        status = (drawn ? raster_setups : setups_make)(&in_model, &p->all);
+        status = (drawn ? raster_setups : setups_make)(&in_model.camera, &p->all);
     if (status == EXIT_FINE)
         status = resolve_depths(p);
     if (status == EXIT_FINE && p->all.count > p->row->setups_max)
@@ -256,7 +270,7 @@ static int resolve_setups(plotting *p) {
         return status;
     p->request.setups = p->all.items;
     p->request.count = p->all.count;
-    p->request.guaranteed = (p->row->takes & FIGURE_GUARANTEED) != 0 && !option_given(p->o, OPTION_MODEL);
+    p->request.guaranteed = (p->row->takes & FIGURE_GUARANTEED) != 0 && !option_given(p->o->line, "model");
     for (size_t i = 0; p->request.guaranteed && i < p->all.count; i++)
         p->all.items[i] = dp_setup_guaranteed(&p->all.items[i]);
     if (p->request.guaranteed)
@@ -266,32 +280,42 @@ static int resolve_setups(plotting *p) {
     p->request.azimuth = p->o->camera.azimuth;
     status = choose_models(p);
     name_setups(p);
-    p->chart->unit = options_unit(p->o);
+    p->chart->unit = camera_unit(&p->o->camera);
     subtitle_of(p->o, &p->request, in_model.camera.budgeted, p->chart->subtitle, sizeof p->chart->subtitle);
     return status == EXIT_FINE && p->row->family != NULL ? resolve_methods(p) : status;
 }
 
+/* Neither of a picture nor of the output. */
+static bool is_of_camera(const asked_line *line, const char *name) {
+    static const option_table *const others[] = {&figure_options, &output_options};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        for (const option_row *row = others[i]->rows; row->name != NULL; row++)
+            if (option_find(line->command, name) == row)
+                return false;
+    return true;
+}
+
 /* The camera of --beside, whose options are words of one word; it has no figure of its own. */
-static int parse_beside(const plotting *p, char *text, options *out) {
+static int parse_beside(const plotting *p, char *text, asked_line *out) {
     enum { WORDS = 64 };
-    char *words[WORDS + 1] = {p->o->argv[0], "plot", (char *)p->row->name};
+    char *words[WORDS + 1] = {p->o->line->argv[0], "plot", (char *)p->row->name};
     int count = 3;
     for (char *word = strtok(text, " "); word != NULL && count < WORDS; word = strtok(NULL, " "))
         words[count++] = word;
     int status = options_parse(out, count, words);
-    for (int id = OPTION_TYPE; id < OPTION_COUNT && status == EXIT_FINE; id++)
-        if (option_given(out, (option_id)id))
-            status = option_error(OPTION_BESIDE, "must be options of a camera, got '%s'", p->o->figure.beside);
+    for (size_t i = 0; i < out->given_count && status == EXIT_FINE; i++)
+        if (!is_of_camera(out, out->given[i].name))
+            status = option_error("beside", "must be options of a camera, got '%s'", p->o->figure.beside);
     if (status == EXIT_FINE && out->operand_count != 1)
         status = usage_error("plot %s: --beside takes options, got '%s'", p->row->name, out->operands[1]);
     return status;
 }
 
-static int resolve_beside(plotting *p, char *text, options *o, plotting *q) {
-    const int status = parse_beside(p, text, o);
+static int resolve_beside(plotting *p, char *text, asked_line *line, plotting *q) {
+    const int status = parse_beside(p, text, line);
     if (status != EXIT_FINE)
         return status;
-    *q = plotting_of(o);
+    *q = plotting_of(line->request);
     q->request.columns = p->request.columns;
     q->request.rows = p->request.rows;
     q->request.names = q->names;
@@ -302,23 +326,24 @@ static int resolve_beside(plotting *p, char *text, options *o, plotting *q) {
 static int resolve_file(plotting *p) {
     const int status = resolve_depths(p);
     p->request.file = &p->file;
-    return status == EXIT_FINE ? check_read(p->o->operands[1], &p->file) : status;
+    return status == EXIT_FINE ? check_read(p->o->line->operands[1], &p->file) : status;
 }
 
 /* Shadow maps bring their own cameras. */
 static int resolve_shadow(plotting *p) {
-    const options o = *p->o;
+    const plot_request o = *p->o;
+    p->shadow.shadow.world = o.origin.terms.world; /* the row of that name is one for all figures */
     if (o.camera.format_count * o.camera.mapping_count != 1)
         return usage_error("plot %s: shows one format in one mapping, got %zu: name one with --format and --mapping",
                            p->row->name, o.camera.format_count * o.camera.mapping_count);
-    const int status = shadow_maps_make(&o, &o.camera.formats[0], o.camera.mappings[0], &p->maps);
+    const int status = shadow_maps_make(&p->shadow, &o.camera.formats[0], o.camera.mappings[0], &p->maps);
     p->request.maps = p->maps.items;
     p->request.map_count = p->maps.count;
-    p->chart->unit = options_unit(&o);
+    p->chart->unit = camera_unit(&o.camera);
     char *const subtitle = p->chart->subtitle;
     const size_t size = sizeof p->chart->subtitle;
     snprintf(subtitle, size, "%s %s, %u x %u texels, filter of %u x %u; ", o.camera.formats[0].name,
-             dp_mapping_get(o.camera.mappings[0])->name, o.view.spec.width, o.view.spec.height, o.shadow.kernel,
+             dp_mapping_get(o.camera.mappings[0])->name, o.shadow.size[0], o.shadow.size[1], o.shadow.kernel,
              o.shadow.kernel);
     if (p->maps.view.count > 0)
         append(subtitle, size, "view near %s, far %s", number_full(o.camera.znear).text,
@@ -373,7 +398,8 @@ static int height_of(const plotting *p) {
 
 /* The figure, with the curves of the other camera where there is one: they stay in `room`. */
 static const char *build(plotting *p, bool every, chart *out, chart *room) {
-    const unit_row *own = p->o->camera.unit, *other = p->beside != NULL ? p->beside->o->camera.unit : NULL;
+    const unit_row *own = p->o->camera.lengths.unit,
+                   *other = p->beside != NULL ? p->beside->o->camera.lengths.unit : NULL;
     p->request.every = p->request.every || every;
     const char *wrong = p->row->build(&p->request, out);
     if (p->beside == NULL || wrong != NULL)
@@ -391,10 +417,10 @@ static const char *build(plotting *p, bool every, chart *out, chart *room) {
 
 /* To stdout, where the file is that of the figure. As CSV curves share their places, of which a picture needs few. */
 static int write_numbers(plotting *p) {
-    options beside = *p->o;
+    plot_request beside = *p->o;
     output out;
     beside.out.file = NULL;
-    int status = options_open(&beside, &out);
+    int status = output_start(&beside.out, &beside.camera, &out);
     if (status != EXIT_FINE)
         return status;
     const bool again = beside.out.form == FORM_CSV && p->chart->curves > 0;
@@ -424,11 +450,11 @@ static const char *set_axes(const double ends[4], chart *c) {
 }
 
 static int write_figure(plotting *p) {
-    const options *o = p->o;
-    const bool drawn = figure_file_wanted(o);
+    const plot_request *o = p->o;
+    const bool drawn = figure_file_wanted(o->line, &o->out);
     chart *c = p->chart;
     output out;
-    int status = drawn ? output_open(&out, o->out.file) : options_open(o, &out);
+    int status = drawn ? output_open(&out, o->out.file) : output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)
         return status;
     if ((p->row->takes & FIGURE_MODEL) != 0)
@@ -438,7 +464,7 @@ static int write_figure(plotting *p) {
         return status;
     }
     const char *wrong = build(p, false, c, p->beside != NULL ? p->beside->chart : NULL);
-    if (wrong == NULL && option_given(o, OPTION_AXES))
+    if (wrong == NULL && option_given(o->line, "axes"))
         wrong = set_axes(o->figure.axes, c);
     status = wrong != NULL ? usage_error("%s", wrong) : p->mine != NULL ? p->mine->status : EXIT_FINE;
     if (status != EXIT_FINE) {
@@ -451,7 +477,7 @@ static int write_figure(plotting *p) {
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);
     if (good && drawn)
-        good = figure_file_write(o, o->out.file, c, p->request.columns, height_of(p), &out);
+        good = figure_file_write(o->line, &o->figure, o->out.file, c, p->request.columns, height_of(p), &out);
     else if (good)
         figure_data_write(&out, o->out.form, "plot", p->row->name, c);
     if (good && o->out.full)
@@ -467,22 +493,24 @@ static int write_figure(plotting *p) {
     return EXIT_IO;
 }
 
-static int check_output(const options *o) {
+static int check_output(const plot_request *o) {
     if (o->out.form == FORM_TEXT && o->out.file == NULL)
         return usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
     canvas_format type;
-    return figure_file_wanted(o) ? figure_file_type(o, OPTION_OUTPUT, o->out.file, &type) : EXIT_FINE;
+    return figure_file_wanted(o->line, &o->out) ? figure_file_type(o->line, &o->figure, "output", o->out.file, &type)
+                                                : EXIT_FINE;
 }
 
-int cmd_plot(const options *o) {
+int cmd_plot(void *request) {
+    const plot_request *o = request;
     plotting p = plotting_of(o), q = {.chart = NULL};
-    options other = {.each = NULL};
+    asked_line other = {.request = NULL};
     p.request.names = p.names;
     char *text = strdup(o->figure.beside != NULL ? o->figure.beside : "");
     int status = check_output(o);
     if (status == EXIT_FINE && p.request.far_count > 1 && (p.row->takes & FIGURE_FARS) == 0)
-        status = option_error(OPTION_FAR, "must be one far plane in the figure %s, got '%s'", p.row->name,
-                              o->given[OPTION_FAR]);
+        status = option_error("far", "must be one far plane in the figure %s, got '%s'", p.row->name,
+                              option_text(o->line, "far"));
     if (status == EXIT_FINE)
         status = check_file_given(o, p.row);
     if (status == EXIT_FINE && (p.chart == NULL || text == NULL))
@@ -490,7 +518,7 @@ int cmd_plot(const options *o) {
     if (status == EXIT_FINE) {
         notes_clean(p.chart->title, sizeof p.chart->title, o->figure.title != NULL ? o->figure.title : "");
         status = (p.row->takes & FIGURE_FILE) != 0     ? resolve_file(&p)
-                 : (p.row->takes & FIGURE_MODEL) != 0  ? scene_figure_begin(&p.model, o)
+                 : (p.row->takes & FIGURE_MODEL) != 0  ? scene_figure_begin(&p.model, &p.scene)
                  : (p.row->takes & FIGURE_SHADOW) != 0 ? resolve_shadow(&p)
                                                        : resolve_setups(&p);
     }

@@ -8,6 +8,7 @@
 
 #include "cli/bias_all.h"
 #include "cli/each_setup.h"
+#include "cli/prepass/request.h"
 #include "report/number.h"
 
 enum { DIGITS = 6 };
@@ -30,6 +31,7 @@ typedef struct line {
 /* Below `line`, what belongs to the set-up at hand. */
 typedef struct prepass {
     each_setup each;
+    const prepass_request *o;
     vertex_request request;
     vertex_difference (*results)[VERTEX_OTHERS]; /* one of each set-up */
     const char *program, *vertices;
@@ -41,18 +43,18 @@ typedef struct prepass {
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
 static int check(prepass *a) {
-    const options *o = a->each.o;
+    const prepass_request *o = a->o;
     vertex_request *r = &a->request;
-    int status = setups_make_float(o, &a->each.all);
+    int status = setups_make_float(&o->camera, &a->each.all);
     if (status == EXIT_FINE)
-        status = range_resolve(o, &r->lo, &r->hi);
+        status = range_resolve(&o->camera, &r->lo, &r->hi);
     if (status == EXIT_FINE && isinf(r->hi))
-        status = option_error(OPTION_RANGE, "must be given when far is inf: eye depths of vertices lie in it");
+        status = option_error("range", "must be given when far is inf: eye depths of vertices lie in it");
     if (status == EXIT_FINE && r->hi > most_z)
-        status = option_error(OPTION_RANGE, "must end at 1e38 at most, so that positions are binary32 numbers, got %s",
+        status = option_error("range", "must end at 1e38 at most, so that positions are binary32 numbers, got %s",
                               number_full(r->hi).text);
     if (status == EXIT_FINE && r->spread == VERTEX_EYE_LOG && !(r->lo > 0.0))
-        status = option_error(OPTION_VERTICES, "must be box where depths of 0 or less are drawn, got '%s'",
+        status = option_error("vertices", "must be box where depths of 0 or less are drawn, got '%s'",
                               vertex_spread_name(r->spread));
     return status;
 }
@@ -65,7 +67,7 @@ static void tick(void *context, uint64_t done) {
 static int work(prepass *a) {
     bool fine = true;
     a->results = calloc(a->each.all.count, sizeof *a->results);
-    a->each.progress = progress_start("vertices", a->each.all.count * a->request.count, a->each.o->out.quiet);
+    a->each.progress = progress_start("vertices", a->each.all.count * a->request.count, a->o->out.quiet);
     for (size_t i = 0; i < a->each.all.count && fine; i++) {
         a->request.setup = &a->each.all.items[i];
         fine = a->results != NULL && vertex_compare(&a->request, a->results[i]);
@@ -132,8 +134,8 @@ static void say_answer(page *p, void *item) {
     each_setup_title(p, item);
     page_title(p, "%llu vert%s from z = %s to %s: %s; camera within +-%s; seed %llu",
                (unsigned long long)worst.vertices, worst.vertices == 1 ? "ex" : "ices",
-               options_length(a->each.here, r->lo, 0).text, options_length(a->each.here, r->hi, 0).text,
-               vertex_spread_note(r->spread), options_length(a->each.here, r->world, 0).text,
+               camera_length(a->each.here, r->lo, 0).text, camera_length(a->each.here, r->hi, 0).text,
+               vertex_spread_note(r->spread), camera_length(a->each.here, r->world, 0).text,
                (unsigned long long)r->seed);
     if (worst.vertices == 0)
         page_text(p, "None of the random vertices lies within the range.");
@@ -208,26 +210,28 @@ static const column setup_report[] = {{PART(prepass, each.fields, NULL, setup_co
 
 static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer}, {.kind = COLUMN_END}};
 
-int cmd_prepass(const options *o) {
-    prepass a = {.each.o = o,
-                 .program = o->census.program->name,
-                 .vertices = vertex_spread_name((vertex_spread)o->census.vertices),
-                 .request = {.spread = (vertex_spread)o->census.vertices,
-                             .world = o->world.terms.world,
-                             .count = o->census.sample,
-                             .seed = o->census.seed,
+int cmd_prepass(void *request) {
+    const prepass_request *o = request;
+    prepass a = {.o = o,
+                 .each = {.camera = &o->camera, .how = &o->out},
+                 .program = o->program->name,
+                 .vertices = vertex_spread_name((vertex_spread)o->vertices),
+                 .request = {.spread = (vertex_spread)o->vertices,
+                             .world = o->world,
+                             .count = o->sample,
+                             .seed = o->seed,
                              .threads = o->out.threads,
-                             .base = o->census.program,
-                             .others = o->census.against_count,
+                             .base = o->program,
+                             .others = o->against_count,
                              .progress = tick}};
     a.request.context = &a;
-    for (size_t i = 0; i < o->census.against_count; i++)
-        a.request.other[i] = o->census.against[i];
+    for (size_t i = 0; i < o->against_count; i++)
+        a.request.other[i] = o->against[i];
     int status = check(&a);
     if (status == EXIT_FINE)
         status = work(&a);
     if (status == EXIT_FINE)
-        status = options_open(o, &a.each.out);
+        status = output_start(&o->out, &o->camera, &a.each.out);
     if (status == EXIT_FINE) {
         report_write(&(report_spec){"prepass", columns, &a, .label = 14}, &a.each.out, o->out.form);
         status = output_close(&a.each.out);

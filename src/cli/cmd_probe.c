@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cli/option/options.h"
+#include "cli/probe/request.h"
 #include "core/append.h"
 #include "probe/probe.h"
 #include "report/number.h"
@@ -190,29 +190,29 @@ static int keep(const probe_result *r, const char *path) {
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 /* A device that is not there is the user's to put right; the rest is the machine's. */
-static int refuse(const options *o, probe_result *r, const char *error) {
+static int refuse(const probe_request *o, probe_result *r, const char *error) {
     const shot_machine *m = &r->machine;
     char names[4 * SHOT_NAME_SIZE] = "";
     probe_free(r);
     for (size_t i = 0; i < m->count; i++)
         append(names, sizeof names, "%s%zu (%s)", i > 0 ? ", " : "", i, m->device[i].name);
-    if (o->probe.device != NULL && m->count > 0 && m->chosen == m->count)
-        return option_error(OPTION_DEVICE, "must be a number or a part of a name of %s, got '%s'", names,
-                            o->probe.device);
+    if (o->device != NULL && m->count > 0 && m->chosen == m->count)
+        return option_error("device", "must be a number or a part of a name of %s, got '%s'", names, o->device);
     usage_error("probe: %s", error);
     return EXIT_IO;
 }
 
-int cmd_probe(const options *o) {
+int cmd_probe(void *request) {
+    const probe_request *o = request;
     static probe_result result; /* too large for a stack */
     char error[SHOT_ERROR_SIZE];
     output out;
-    int status = options_open(o, &out);
-    if (status == EXIT_FINE && o->probe.keep != NULL && (status = output_check(o->probe.keep)) != EXIT_FINE)
+    int status = output_start(&o->out, NULL, &out);
+    if (status == EXIT_FINE && o->keep != NULL && (status = output_check(o->keep)) != EXIT_FINE)
         output_abandon(&out);
     if (status != EXIT_FINE)
         return status;
-    if (!probe_run(o->probe.device, o->census.seed, &result, error)) {
+    if (!probe_run(o->device, o->seed, &result, error)) {
         output_abandon(&out);
         return refuse(o, &result, error);
     }
@@ -224,8 +224,8 @@ int cmd_probe(const options *o) {
     report_write(&(report_spec){"probe", text ? no_columns : columns, &p, .label = 12, .head = text ? say_probe : NULL},
                  &out, o->out.form);
     status = output_close(&out);
-    if (status == EXIT_FINE && o->probe.keep != NULL)
-        status = keep(&result, o->probe.keep);
+    if (status == EXIT_FINE && o->keep != NULL)
+        status = keep(&result, o->keep);
     probe_free(&result);
     return status;
 }

@@ -15,6 +15,7 @@
 #include "cli/per_vertex.h"
 #include "cli/resolved.h"
 #include "cli/slant.h"
+#include "cli/table/request.h"
 #include "core/append.h"
 #include "core/engine.h"
 #include "method/ways.h"
@@ -49,6 +50,7 @@ typedef struct guarantee {
 /* What a table is made of; below the range, what belongs to the set-up at hand. */
 typedef struct table {
     each_setup each;
+    const table_request *o;
     double lo, hi;
     way interval;                /* without a row, the exact cell */
     dp_setup setup, exact, full; /* of surfaces that face the camera: as asked for, and in two models */
@@ -123,18 +125,17 @@ static void *next_row(void *of, size_t i) {
     per_vertex_add(&t->written, &r->written, z);
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, &t->setup, z);
-    if (t->each.o->out.form == FORM_TEXT)
+    if (t->o->out.form == FORM_TEXT)
         set_digits(r);
-    if (t->each.o->out.form != FORM_CSV)
+    if (t->o->out.form != FORM_CSV)
         choosing_add(&t->choice, z);
     return r;
 }
 
 static const guarantee *guarantee_over(const table *t, const dp_setup *full, guarantee *g) {
     g->model = dp_model_name(setup_model(full));
-    return option_given(t->each.o, OPTION_RANGE) && dp_separation_over(full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
-               ? g
-               : NULL;
+    return option_given(t->o->line, "range") && dp_separation_over(full, t->lo, t->hi, 0.0, &g->worst) == DP_OK ? g
+                                                                                                                : NULL;
 }
 
 static void *next_setup(void *of, size_t i) {
@@ -142,7 +143,7 @@ static void *next_setup(void *of, size_t i) {
     if (!each_setup_go(&t->each, i))
         return NULL;
     const dp_setup *setup = &t->setup;
-    const options *o = t->each.o;
+    const table_request *o = t->o;
     t->triangles = slant_fields_of(t->each.here, &t->slant);
     t->setup = dp_setup_facing(t->each.setup);
     t->slanted = dp_setup_guaranteed(t->each.setup);
@@ -151,9 +152,9 @@ static void *next_setup(void *of, size_t i) {
     t->full = dp_setup_guaranteed(setup);
     t->uncertain = (double)NAN;
     t->written = per_vertex_none();
-    t->choice = choosing_start(setup, o->wanted.tolerance);
-    if (option_given(o, OPTION_TOLERANCE))
-        t->interval = way_choose(setup, o->wanted.tolerance, has_cut_cells(t, setup));
+    t->choice = choosing_start(setup, o->camera.tolerance);
+    if (option_given(o->line, "tolerance"))
+        t->interval = way_choose(setup, o->camera.tolerance, has_cut_cells(t, setup));
     if (o->out.form == FORM_CSV)
         return t;
     t->worst_case = (dp_worst){0};
@@ -189,7 +190,7 @@ static void say_reach_of(page *p, const dp_setup *full, const unit_row *unit, co
 
 static void say_reach(page *p, void *item) {
     const table *t = item;
-    const unit_row *unit = t->each.here->camera.unit;
+    const unit_row *unit = t->each.here->lengths.unit;
     each_setup_title(p, item);
     slant_say(p, page_title, t->each.here, &t->full);
     if (t->each.all.count > 1)
@@ -265,8 +266,8 @@ static void say_notes(page *p, void *item) {
     say_drawn(p, &t->planes);
     per_vertex_say(p, &t->written, t->slant.triangles.depth);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
-    if (option_given(t->each.o, OPTION_TOLERANCE))
-        say_way(p, &t->interval, t->each.o->wanted.tolerance);
+    if (option_given(t->o->line, "tolerance"))
+        say_way(p, &t->interval, t->o->camera.tolerance);
     if (t->each.all.count == 1)
         setup_say_code(p, &t->each.setup->spec);
 }
@@ -358,9 +359,9 @@ static const column columns[] = {{PART(table, triangles, "triangles", slant_colu
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
-    unsigned when =
-        (option_given(t->each.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) | (t->each.o->out.full ? VERBOSE : 0) |
-        (t->each.o->camera.preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) | (t->triangles != NULL ? WITH_TRIANGLES : 0);
+    unsigned when = (option_given(t->o->line, "tolerance") ? WITH_TOLERANCE : 0) | (t->o->out.full ? VERBOSE : 0) |
+                    (t->o->camera.preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
+                    (t->triangles != NULL ? WITH_TRIANGLES : 0);
     for (size_t i = 0; i < t->each.all.count; i++) {
         when |= t->each.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
         when |= per_vertex_matters(&t->each.all.items[i]) ? PER_VERTEX : 0;
@@ -368,25 +369,26 @@ static unsigned conditions(const table *t) {
     return when;
 }
 
-int cmd_table(const options *o) {
+int cmd_table(void *request) {
+    const table_request *o = request;
     if (levels_wanted(o))
         return levels_write(o);
-    if (o->wanted.constants)
+    if (o->constants)
         return constants_write(o);
     if (lookup_wanted(o))
         return lookup_write(o);
-    table t = {0};
-    t.triangles = slant_fields_of(o, &t.slant);
-    int status = each_setup_start(&t.each, o);
+    table t = {.o = o};
+    t.triangles = slant_fields_of(&o->camera, &t.slant);
+    int status = each_setup_start(&t.each, &o->camera, &o->out);
     for (size_t i = 0; status == EXIT_FINE && each_setup_go(&t.each, i); i++) {
         status = range_resolve(t.each.here, &t.lo, &t.hi);
         if (status == EXIT_FINE && (o->camera.model == DP_MODEL_FLOAT || o->camera.model_auto))
             status = depths_in_binary32(&t.each.at);
         if (status == EXIT_FINE)
-            setup_choose(o, &t.each.at, &t.each.all.items[i]);
+            setup_choose(&o->camera, &t.each.at, &t.each.all.items[i]);
     }
-    if (status == EXIT_FINE && compare_suits(&t.each))
-        return compare_write(&t.each);
+    if (status == EXIT_FINE && compare_suits(&t.each, o))
+        return compare_write(&t.each, o);
     const report_spec spec = {"table", columns, &t, .when = conditions(&t), .label = 16};
     return each_setup_write(&t.each, &spec, status);
 }

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/option/rows.h"
 #include "cli/setups.h"
+#include "cli/world/request.h"
 #include "core/append.h"
 #include "core/elementary.h"
 #include "report/number.h"
@@ -31,7 +31,7 @@ typedef struct line {
 
 /* What is asked. */
 typedef struct world {
-    options o; /* camera, view, gap and depth filled in */
+    world_request o; /* camera, view, gap and depth filled in */
     double wanted, z;
     depths distances; /* count is 0 when not asked about any */
     setups all;
@@ -87,7 +87,7 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     w->setup = &w->all.items[i];
     w->asked.setup = w->setup;
-    w->fields = setup_fields_of(w->setup, options_unit(&w->o));
+    w->fields = setup_fields_of(w->setup, camera_unit(&w->o.camera));
     return w;
 }
 
@@ -97,9 +97,9 @@ static void *next_distance(void *of, size_t i) {
         return NULL;
     w->distance = w->distances.count > 0 ? depths_get(&w->distances, i) : (double)NAN;
     w->least = NULL;
-    for (size_t k = 0; k < w->o.world.scheme_count && w->distances.count > 0 && w->least == NULL; k++)
-        if (is_enough(w, &w->o.world.schemes[k])) {
-            label_of(&w->o.world.schemes[k], w->least_label);
+    for (size_t k = 0; k < w->o.origin.scheme_count && w->distances.count > 0 && w->least == NULL; k++)
+        if (is_enough(w, &w->o.origin.schemes[k])) {
+            label_of(&w->o.origin.schemes[k], w->least_label);
             w->least = w->least_label;
         }
     return w;
@@ -107,9 +107,9 @@ static void *next_distance(void *of, size_t i) {
 
 static void *next_line(void *of, size_t i) {
     world *w = of;
-    if (i == w->o.world.scheme_count)
+    if (i == w->o.origin.scheme_count)
         return NULL;
-    fill_line(w, &w->o.world.schemes[i]);
+    fill_line(w, &w->o.origin.schemes[i]);
     return &w->line;
 }
 
@@ -118,8 +118,8 @@ static void *next_line(void *of, size_t i) {
 static void say_setup(page *p, void *item) {
     world *w = item;
     setup_title(p, w->setup, &w->fields);
-    page_text(p, "%s apart and %s ahead, %s; a view of %dx%d pixels, fov %s", options_length(&w->o, w->wanted, 0).text,
-              options_length(&w->o, w->z, 0).text,
+    page_text(p, "%s apart and %s ahead, %s; a view of %dx%d pixels, fov %s",
+              camera_length(&w->o.camera, w->wanted, 0).text, camera_length(&w->o.camera, w->z, 0).text,
               w->asked.shared_origin ? "meshes with one origin" : "meshes with their own origins", w->width, w->height,
               number_of(w->fov, 4).text);
 }
@@ -129,24 +129,24 @@ static void say_distance(page *p, void *item) {
     if (isnan(w->distance))
         return;
     output_char(p->out, '\n');
-    page_title(p, "%s from the origin: %s%s", options_length(&w->o, w->distance, 0).text,
+    page_title(p, "%s from the origin: %s%s", camera_length(&w->o.camera, w->distance, 0).text,
                w->least != NULL ? w->least : "none", w->least != NULL ? " suffices" : " of them suffices");
 }
 
 /* Of a single scheme, and no distance: the answer is a sentence. */
 static void say_reach(page *p, void *item) {
     world *w = item;
-    if (!isnan(w->distance) || w->o.world.scheme_count != 1)
+    if (!isnan(w->distance) || w->o.origin.scheme_count != 1)
         return;
     const line *l = &w->line;
-    const number_text gap = options_length(&w->o, w->wanted, 0);
+    const number_text gap = camera_length(&w->o.camera, w->wanted, 0);
     if (isinf(l->safe_to))
         page_text(p, "%s: %s is safe everywhere", l->label, gap.text);
     else
         page_text(p, "%s: %s is safe to %s", l->label, gap.text,
                   number_in(number_brief(number_down(l->safe_to, DIGITS)), p->unit).text);
     if (isfinite(l->still_to))
-        page_text(p, "Jitter of a pixel at %s from %s on", options_length(&w->o, w->z, 0).text,
+        page_text(p, "Jitter of a pixel at %s from %s on", camera_length(&w->o.camera, w->z, 0).text,
                   number_in(number_brief(number_down(l->still_to, DIGITS)), p->unit).text);
 }
 
@@ -187,36 +187,36 @@ static const column columns[] = {{FIELD(world, wanted, "gap", "scene")},
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 /* What was not given is as if it had been typed in `unit`; of scene units in metres. */
-static double length_or(bool given, double value, options *o, double standard, const char *name) {
+static double length_or(bool given, double value, world_request *o, double standard, const char *name) {
     const unit_row *unit = unit_find(name);
-    options_camera *c = &o->camera;
+    lengths *in = &o->camera.lengths;
     const double metres = unit_convert(standard, unit, unit_find("m"));
-    if (given || c->unit == NULL)
+    if (given || in->unit == NULL)
         return given ? value : metres;
-    const double length = unit_convert(standard, unit, c->unit);
-    if (c->typed_count < OPTIONS_TYPED_MAX)
-        c->typed[c->typed_count++] = (typed_length){length, standard, unit};
+    const double length = unit_convert(standard, unit, in->unit);
+    if (in->typed_count < LENGTHS_TYPED_MAX)
+        in->typed[in->typed_count++] = (typed_length){length, standard, unit};
     return length;
 }
 
-static int complete(world *w, const options *o) {
-    options *c = &w->o;
+static int complete(world *w, const world_request *o) {
+    world_request *c = &w->o;
     *c = *o;
     c->camera.model = DP_MODEL_FLOAT;
     for (size_t m = 0; m < c->camera.mapping_count; m++)
         if (dp_mapping_get(c->camera.mappings[m])->curve != DP_CURVE_PERSPECTIVE)
-            return option_error(OPTION_MAPPING, "must be one of " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
+            return option_error("mapping", "must be one of " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
                                 dp_mapping_get(c->camera.mappings[m])->name);
     if (o->camera.at.count > 1)
-        return option_error(OPTION_AT, "must be one depth, got %zu", o->camera.at.count);
+        return option_error("at", "must be one depth, got %zu", o->camera.at.count);
     w->z = length_or(o->camera.at.count > 0, o->camera.at.lo, c, 10.0, "m");
-    w->wanted = length_or(option_given(o, OPTION_SEPARATION), o->wanted.separation, c, 1.0, "cm");
-    w->distances = o->world.distances;
+    w->wanted = length_or(option_given(o->line, "separation"), o->separation, c, 1.0, "cm");
+    w->distances = o->distances;
     if (w->distances.count > 0 && !(w->distances.lo >= 0.0 && w->distances.hi <= WORLD_FARTHEST))
-        return option_error(OPTION_FROM_ORIGIN, "must be from 0 to 1e12 scene units, got %s",
+        return option_error("from-origin", "must be from 0 to 1e12 scene units, got %s",
                             number_full(w->distances.lo < 0.0 ? w->distances.lo : w->distances.hi).text);
     if (w->distances.kind == DEPTHS_LOG && w->distances.count > 0 && !(w->distances.lo > 0.0))
-        return option_error(OPTION_FROM_ORIGIN, "log spacing needs LO greater than 0, got %s: lin has equal steps",
+        return option_error("from-origin", "log spacing needs LO greater than 0, got %s: lin has equal steps",
                             number_full(w->distances.lo).text);
     return EXIT_FINE;
 }
@@ -233,31 +233,32 @@ static void take_view(world *w) {
     w->asked = (world_asked){.z = w->z,
                              .ray_ratio = dp_hypot(1.0, half * dp_hypot(1.0, (double)w->width / w->height)),
                              .pixels = 0.5 * w->height / half,
-                             .shared_origin = w->o.world.shared_origin};
+                             .shared_origin = w->o.origin.shared_origin};
 }
 
 /* The default is in metres, near and far may be of scene units: who gave no depth is told both. */
 static int refuse_depth(const world *w) {
-    const number_text z = options_length(&w->o, w->z, 0), lo = options_length(&w->o, w->o.camera.znear, 0);
-    const number_text hi = options_length(&w->o, w->o.camera.zfar, 0);
-    if (option_given(&w->o, OPTION_AT))
-        return option_error(OPTION_AT, "must lie between near and far, %s and %s, got %s", lo.text, hi.text, z.text);
-    return option_error(OPTION_AT, "must be given: 10 m ahead, %s here, is not between near and far, %s and %s",
-                        number_in(number_full(w->z), options_unit(&w->o)).text, lo.text, hi.text);
+    const number_text z = camera_length(&w->o.camera, w->z, 0), lo = camera_length(&w->o.camera, w->o.camera.znear, 0);
+    const number_text hi = camera_length(&w->o.camera, w->o.camera.zfar, 0);
+    if (option_given(w->o.line, "at"))
+        return option_error("at", "must lie between near and far, %s and %s, got %s", lo.text, hi.text, z.text);
+    return option_error("at", "must be given: 10 m ahead, %s here, is not between near and far, %s and %s",
+                        number_in(number_full(w->z), camera_unit(&w->o.camera)).text, lo.text, hi.text);
 }
 
-int cmd_world(const options *o) {
+int cmd_world(void *request) {
+    const world_request *o = request;
     output out;
     world w = {.distance = (double)NAN};
     int status = complete(&w, o);
     if (status != EXIT_FINE)
         return status;
     take_view(&w);
-    status = setups_make(&w.o, &w.all);
+    status = setups_make(&w.o.camera, &w.all);
     if (status == EXIT_FINE && !(w.z >= w.o.camera.znear && w.z <= w.o.camera.zfar))
         status = refuse_depth(&w);
     if (status == EXIT_FINE)
-        status = options_open(o, &out);
+        status = output_start(&o->out, &o->camera, &out);
     if (status == EXIT_FINE) {
         const unsigned when = w.distances.count > 0 ? AT_DISTANCE : 0;
         report_write(&(report_spec){"world", columns, &w, .when = when, .label = 10}, &out, o->out.form);

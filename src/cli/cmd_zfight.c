@@ -8,6 +8,7 @@
 #include "cli/each_setup.h"
 #include "cli/slant.h"
 #include "cli/stop.h"
+#include "cli/zfight/request.h"
 #include "cli/zfight_triangles.h"
 #include "report/message.h"
 #include "report/number.h"
@@ -24,6 +25,7 @@ typedef struct band {
 /* A census, which walks over set-ups alone; below `before`, what belongs to the one at hand. */
 typedef struct zfight {
     each_setup each;
+    const zfight_request *o;
     census_result *results; /* one a set-up */
     const char *method;
     uint64_t seed;
@@ -47,18 +49,18 @@ static int tick(void *context, uint64_t done) {
 }
 
 static uint64_t visits(const zfight *z) {
-    return z->each.o->census.sample > 0 ? z->each.o->census.sample : census_count(z->lo, z->hi);
+    return z->o->sample > 0 ? z->o->sample : census_count(z->lo, z->hi);
 }
 
 static census_status work(zfight *z, const dp_setup *setup, census_result *result) {
     census_sample_request q = {.common = census_of_guarantee(setup, z->lo, z->hi),
-                               .count = z->each.o->census.sample,
-                               .seed = z->each.o->census.seed,
-                               .gap = z->each.o->wanted.separation};
-    q.common.threads = z->each.o->out.threads;
+                               .count = z->o->sample,
+                               .seed = z->o->seed,
+                               .gap = z->o->separation};
+    q.common.threads = z->o->out.threads;
     q.common.progress = tick;
     q.common.context = z;
-    if (z->each.o->census.sample > 0 || z->each.o->wanted.separation > 0.0)
+    if (z->o->sample > 0 || z->o->separation > 0.0)
         return census_sample(&q, result);
     return census_run(&q.common, result);
 }
@@ -104,10 +106,9 @@ static band band_of(const zfight *z, const census_band *b) {
                 .used = b->slack,
                 .clipped = (double)b->clipped,
                 .slanted = slanted_over(z, b->lo, b->hi)};
-    if (z->each.o->wanted.separation > 0.0)
+    if (z->o->separation > 0.0)
         out.longest = out.used = (double)NAN;
-    if (z->each.o->wanted.separation > 0.0 ||
-        z->each.o->census.sample > 0) /* a sample would only count those that it drew */
+    if (z->o->separation > 0.0 || z->o->sample > 0) /* a sample would only count those that it drew */
         out.clipped = (double)NAN;
     return out;
 }
@@ -120,7 +121,7 @@ static void *next_band(void *of, size_t index) {
     while (z->band_index < z->result->band_count && is_empty(&z->result->bands[z->band_index]))
         z->band_index++;
     const int at = z->band_index++;
-    if (at > z->result->band_count || (at == z->result->band_count && z->each.o->out.form != FORM_TEXT))
+    if (at > z->result->band_count || (at == z->result->band_count && z->o->out.form != FORM_TEXT))
         return NULL;
     z->band = band_of(z, at < z->result->band_count ? &z->result->bands[at] : &z->result->all);
     snprintf(z->band.from, sizeof z->band.from, "%s",
@@ -148,13 +149,13 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_gap(page *p, const zfight *z) {
     const census_band *all = &z->result->all;
-    const number_text gap = options_length(z->each.here, z->gap, 0);
+    const number_text gap = camera_length(z->each.here, z->gap, 0);
     const number_text first = number_in(number_down(all->first, DIGITS), p->unit);
     const number_text always = number_in(number_up(z->always, DIGITS), p->unit);
-    const char *drawn = z->each.o->census.sample > 0 ? "Of the pairs tested, surfaces" : "Surfaces";
+    const char *drawn = z->o->sample > 0 ? "Of the pairs tested, surfaces" : "Surfaces";
     if (isnan(all->first))
         page_text(p, "%s %s apart never z-fight from %s to %s.", drawn, gap.text,
-                  options_length(z->each.here, z->lo, 0).text, options_length(z->each.here, z->hi, 0).text);
+                  camera_length(z->each.here, z->lo, 0).text, camera_length(z->each.here, z->hi, 0).text);
     else if (isnan(z->always))
         page_text(p, "%s %s apart first z-fight at z = %s, and at no depth do all of them.", drawn, gap.text,
                   first.text);
@@ -167,7 +168,7 @@ static void say_gap(page *p, const zfight *z) {
 static void say_neighbours(page *p, const zfight *z) {
     const census_band *all = &z->result->all;
     page_text(p, "Neighbouring binary32 depths%s: %s %% tie, %s %% swap. --separation asks about surfaces.",
-              z->each.o->census.sample > 0 ? ", chosen at random" : "", number_of(z->whole.ties, 3).text,
+              z->o->sample > 0 ? ", chosen at random" : "", number_of(z->whole.ties, 3).text,
               number_of(z->whole.swaps, 3).text);
     if (all->longest > 0.0)
         page_line(p, "longest interval %s at z = %s, guaranteed there %s",
@@ -179,7 +180,7 @@ static void say_neighbours(page *p, const zfight *z) {
 static void say_answer(page *p, void *item) {
     const zfight *z = item;
     each_setup_title(p, item);
-    slant_say(p, page_title, z->each.o, z->each.setup);
+    slant_say(p, page_title, &z->o->camera, z->each.setup);
     (z->gap > 0.0 ? say_gap : say_neighbours)(p, z);
 }
 
@@ -191,16 +192,16 @@ static void say_planes(page *p, void *item) {
     if (isnan(r->near_effective))
         page_line(p, "clipping removes everything");
     else
-        page_line(p, "effective clip range%s: %s to %s", option_given(z->each.o, OPTION_RANGE) ? " within --range" : "",
+        page_line(p, "effective clip range%s: %s to %s", option_given(z->o->line, "range") ? " within --range" : "",
                   number_in(number_of(r->near_effective, PLANE_DIGITS), p->unit).text,
                   number_in(number_of(r->far_effective, PLANE_DIGITS), p->unit).text);
 }
 
 enum { WITH_INTERVALS = 1, WITH_CLIPPED = 2, WITH_SAMPLE = 4, WITH_GAP = 8, WITH_TRIANGLES = 16 };
 
-static unsigned conditions(const options *o) {
-    return (o->wanted.separation > 0.0 ? WITH_GAP : WITH_INTERVALS) | (o->census.sample > 0 ? WITH_SAMPLE : 0) |
-           (o->census.sample == 0 && o->wanted.separation <= 0.0 ? WITH_CLIPPED : 0) |
+static unsigned conditions(const zfight_request *o) {
+    return (o->separation > 0.0 ? WITH_GAP : WITH_INTERVALS) | (o->sample > 0 ? WITH_SAMPLE : 0) |
+           (o->sample == 0 && o->separation <= 0.0 ? WITH_CLIPPED : 0) |
            (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
 }
 
@@ -266,7 +267,7 @@ static const column columns[] = {
 
 /* Geometry that the user asked about and the hardware would not draw: worth a line, whatever the form of the data. */
 static void warn(const zfight *z) {
-    for (size_t i = 0; i < z->each.all.count && !z->each.o->out.quiet; i++) {
+    for (size_t i = 0; i < z->each.all.count && !z->o->out.quiet; i++) {
         const census_result *r = &z->results[i];
         const double from = r->near_effective, to = r->far_effective;
         char label[SETUP_LABEL_SIZE];
@@ -280,27 +281,27 @@ static void warn(const zfight *z) {
 }
 
 static int check(zfight *z) {
-    const options *o = z->each.o;
-    if (option_given(o, OPTION_SEED) && o->census.sample == 0)
-        return option_error(OPTION_SEED, "needs --sample");
-    int status = setups_make_float(o, &z->each.all);
+    const zfight_request *o = z->o;
+    if (option_given(o->line, "seed") && o->sample == 0)
+        return option_error("seed", "needs --sample");
+    int status = setups_make_float(&o->camera, &z->each.all);
     if (status == EXIT_FINE)
-        status = range_resolve(o, &z->lo, &z->hi);
+        status = range_resolve(&o->camera, &z->lo, &z->hi);
     if (status == EXIT_FINE && isinf(z->hi))
-        status = option_error(OPTION_RANGE, "must be given when far is inf: there are too many depths up to infinity");
+        status = option_error("range", "must be given when far is inf: there are too many depths up to infinity");
     if (status == EXIT_FINE && isinf((float)z->hi))
-        status = option_error(OPTION_RANGE, "must end at 3.4028235e+38, the largest binary32 number, at most, got %s",
+        status = option_error("range", "must end at 3.4028235e+38, the largest binary32 number, at most, got %s",
                               number_full(z->hi).text);
     if (status == EXIT_FINE && census_count(z->lo, z->hi) < 2)
-        status = option_error(OPTION_RANGE, "must hold at least two binary32 depths");
-    if (status == EXIT_FINE && o->wanted.separation >= z->hi - z->lo)
-        status = option_error(OPTION_SEPARATION, "must be less than the range is wide");
+        status = option_error("range", "must hold at least two binary32 depths");
+    if (status == EXIT_FINE && o->separation >= z->hi - z->lo)
+        status = option_error("separation", "must be less than the range is wide");
     return status;
 }
 
 static int run(zfight *z) {
     stop_watch();
-    z->each.progress = progress_start("depths", z->each.all.count * visits(z), z->each.o->out.quiet);
+    z->each.progress = progress_start("depths", z->each.all.count * visits(z), z->o->out.quiet);
     int status = work_all(z);
     progress_end(&z->each.progress);
     stop_end(&z->each.out);
@@ -308,22 +309,23 @@ static int run(zfight *z) {
         output_abandon(&z->each.out);
         return status;
     }
-    report_write(&(report_spec){"zfight", columns, z, .when = conditions(z->each.o)}, &z->each.out,
-                 z->each.o->out.form);
+    report_write(&(report_spec){"zfight", columns, z, .when = conditions(z->o)}, &z->each.out, z->o->out.form);
     warn(z);
     return output_close(&z->each.out);
 }
 
-int cmd_zfight(const options *o) {
-    if (o->census.drawn)
+int cmd_zfight(void *request) {
+    const zfight_request *o = request;
+    if (o->drawn)
         return zfight_triangles(o);
     if (!isnan(o->camera.azimuth))
-        return option_error(OPTION_SLANT, "must be LO:HI without --rasterize, got '%s'", o->given[OPTION_SLANT]);
-    zfight z = {.each.o = o,
-                .method = o->census.sample > 0 ? "sample" : "census",
-                .seed = o->census.seed,
-                .gap = o->wanted.separation};
-    z.triangles = slant_fields_of(o, &z.slant);
+        return option_error("slant", "must be LO:HI without --rasterize, got '%s'", option_text(o->line, "slant"));
+    zfight z = {.o = o,
+                .each = {.camera = &o->camera, .how = &o->out},
+                .method = o->sample > 0 ? "sample" : "census",
+                .seed = o->seed,
+                .gap = o->separation};
+    z.triangles = slant_fields_of(&o->camera, &z.slant);
     int status = check(&z);
     if (status == EXIT_FINE) {
         z.results = calloc(z.each.all.count, sizeof *z.results);
@@ -331,7 +333,7 @@ int cmd_zfight(const options *o) {
             status = usage_error("no memory for %zu set-ups", z.each.all.count);
     }
     if (status == EXIT_FINE)
-        status = options_open(o, &z.each.out);
+        status = output_start(&o->out, &o->camera, &z.each.out);
     if (status == EXIT_FINE)
         status = run(&z);
     free(z.results);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file commands.h  The commands, one row each. A new one is an enumerator and a function here, its row in commands.c,
- * its options in option/uses.c, and the row of main.c that runs it.
+ * @file commands.h  The commands. Each has its row, command_NAME, beside its options in the file options.c of its
+ * folder, and a function, cmd_NAME, which main() gives the request. Its name in COMMANDS is the one line that makes it
+ * known.
  */
 #ifndef CLI_COMMANDS_H
 #define CLI_COMMANDS_H
@@ -10,32 +11,8 @@
 
 #include "cli/option/names.h"
 
-struct options;
-
+struct option_place;
 struct option_use;
-
-typedef enum command_id {
-    CMD_TABLE,
-    CMD_BUDGET,
-    CMD_SOLVE,
-    CMD_CHECK,
-    CMD_ZFIGHT,
-    CMD_PREPASS,
-    CMD_BIAS,
-    CMD_WORLD,
-    CMD_SCENE,
-    CMD_TEXTURE,
-    CMD_SHADOW,
-    CMD_METHODS,
-    CMD_CODE,
-    CMD_JUDGE,
-    CMD_PROBE,
-    CMD_PLOT,
-    CMD_LIST,
-    CMD_HELP,
-    CMD_COMPLETIONS,
-    CMD_COUNT
-} command_id;
 
 /** What a command does in one of several ways, as each figure is of plot: some options are for some of them. */
 typedef struct command_part {
@@ -45,51 +22,45 @@ typedef struct command_part {
 
 typedef struct command_row {
     const char *name;
-    command_id id;                           /**< its index */
-    const struct option_use *uses;           /**< the options that it takes, see option/uses.h */
-    const char *operand;                     /**< how help writes the operand, "FIGURE"; "" when there is none */
-    int operand_min, operand_max;            /**< how many operands the command takes */
-    const name_list *names;                  /**< what the first operand may be; null when it is no name */
-    const char *summary;                     /**< one line for `depthprec --help` */
-    const char *example;                     /**< command lines for the command's own help, one a line */
-    int files_from;                          /**< operands from this one on are files that it reads, from 1; 0: none */
-    const char *group;                       /**< the heading above this row and those behind it, or null */
-    size_t (*part)(const struct options *o); /**< which part is asked for; null where all is one */
-    const command_part *parts;               /**< null where they are the figures */
-    const char *words;                       /**< of shaders, by which help finds it, one space between; or null */
-    unsigned shown;                          /**< the parts whose options its help describes; 0: all */
+    int (*run)(void *request);           /**< what main() runs. @return a status of report/output.h */
+    size_t request;                      /**< how large what it is given is, which begins with `asked_line *line` */
+    const struct option_place *places;   /**< where the tables of its options put what they read */
+    const struct option_use *uses;       /**< which of them it takes */
+    int (*complete)(void *request);      /**< what follows from several options; or null. @return an exit status */
+    const char *operand;                 /**< how help writes the operand, "FIGURE"; "" when there is none */
+    int operand_min, operand_max;        /**< how many operands the command takes */
+    const name_list *names;              /**< what the first operand may be; null when it is no name */
+    bool open;                           /**< other words than those names may be something, too */
+    const char *summary;                 /**< one line for `depthprec --help` */
+    const char *example;                 /**< command lines for the command's own help, one a line */
+    int files_from;                      /**< operands from this one on are files that it reads, from 1; 0: none */
+    const char *group;                   /**< the heading above this row and those behind it, or null */
+    size_t (*part)(const void *request); /**< which part is asked for; null where all is one */
+    const command_part *parts;           /**< null where part_get() has them */
+    bool (*part_get)(size_t index, command_part *out); /**< part `index`; false behind the last */
+    const char *part_of;                               /**< how a refusal begins the words of a part; or null */
+    const char *words; /**< of shaders, by which help finds it, one space between; or null */
+    unsigned shown;    /**< the parts whose options its help describes; 0: all */
 } command_row;
 
-/** Index: command_id. */
-extern const command_row command_rows[CMD_COUNT];
-enum { command_count = CMD_COUNT };
+/** The commands, in the order of help. */
+#define COMMANDS(one)                                                                                                  \
+    one(table) one(budget) one(solve) one(check) one(zfight) one(prepass) one(bias) one(world) one(scene) one(texture) \
+        one(shadow) one(methods) one(code) one(judge) one(probe) one(plot) one(list) one(help) one(completions)
 
-/* What main() runs: one cmd_....c each, but for help.c and completions.c. Each returns a status of report/output.h. */
-int cmd_table(const struct options *o);
-int cmd_budget(const struct options *o);
-int cmd_bias(const struct options *o);
-int cmd_shadow(const struct options *o);
-int cmd_scene(const struct options *o);
-int cmd_probe(const struct options *o);
-int cmd_code(const struct options *o);
-int cmd_judge(const struct options *o);
-int cmd_list(const struct options *o);
-bool list_knows(const char *word); /**< whether `list WORD` explains it */
-int cmd_plot(const struct options *o);
-int cmd_zfight(const struct options *o);
-int cmd_prepass(const struct options *o);
-int cmd_methods(const struct options *o);
-int cmd_check(const struct options *o);
-int cmd_solve(const struct options *o);
-int cmd_texture(const struct options *o);
-int cmd_world(const struct options *o);
-int cmd_help(const struct options *o);
-int cmd_completions(const struct options *o);
+/** What is run returns a status of report/output.h. */
+#define COMMAND_DECLARED(name)                                                                                         \
+    extern const command_row command_##name;                                                                           \
+    int cmd_##name(void *request);
+COMMANDS(COMMAND_DECLARED)
 
-/** "table, plot, budget": the commands that take the option of that id. @return out */
-const char *command_takers(int id, char out[NAMES_SIZE]);
+/** Command `index`, in the order of help; null behind the last. */
+const command_row *command_get(size_t index);
 
 /** The row of a command name; null when there is none. */
 const command_row *command_find(const char *name);
+
+/** Whether `list WORD` explains it. */
+bool list_knows(const char *word);
 
 #endif

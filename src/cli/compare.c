@@ -4,6 +4,7 @@
  * The set-up that takes the middle one farthest comes first; sentences below say what follows.
  */
 #include "cli/compare.h"
+#include "cli/table/request.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +32,7 @@ enum {
 };
 enum { NAME_WIDTH = 20, COLUMN_WIDTH = 7, BYTES_WIDTH = 3 };
 
-/* Lengths are in the unit of the comparison; the set-up has its own, see options_of(). */
+/* Lengths are in the unit of the comparison; the set-up has its own, see camera_of(). */
 typedef struct compared {
     const dp_setup *setup;
     size_t camera;
@@ -47,6 +48,7 @@ typedef struct compared {
 } compared;
 
 typedef struct comparison {
+    const table_request *o;
     each_setup *each;
     compared *rows;
     size_t bounded; /* rows that have what is asked for; the others stand behind them, and below the table */
@@ -59,7 +61,7 @@ typedef struct comparison {
 /* ---- What is measured -------------------------------------------------------------------------------------------- */
 
 static void compute_row(const comparison *c, compared *r) {
-    const unit_row *unit = c->each->o->camera.unit;
+    const unit_row *unit = c->o->camera.lengths.unit;
     const dp_setup full = dp_setup_guaranteed(r->setup); /* of what is unbounded, for surfaces that face the camera */
     for (size_t i = 0; i < c->depth_count; i++) {
         const double z = unit_convert(c->depths[i], unit, r->unit);
@@ -103,13 +105,13 @@ static void choose_multiples(comparison *c, double near, double far, double most
 
 /* At most five of the depths asked about, else powers of ten: those that a reader looks for. */
 static void choose_depths(comparison *c) {
-    const options *o = c->each->o;
+    const table_request *o = c->o;
     double near = INFINITY, far = -INFINITY;
     for (size_t i = 0; i < c->each->all.count; i++) {
         near = fmin(near, c->rows[i].znear);
         far = fmax(far, isinf(c->rows[i].zfar) ? 1e6 * c->rows[i].znear : c->rows[i].zfar);
     }
-    if (option_given(o, OPTION_AT)) {
+    if (option_given(o->line, "at")) {
         for (c->depth_count = 0; c->depth_count < o->camera.at.count; c->depth_count++)
             c->depths[c->depth_count] = depths_get(&o->camera.at, c->depth_count);
         return;
@@ -134,7 +136,7 @@ static bool to_the_end(const compared *r) {
 }
 
 static number_text at_a_slant(const comparison *c) {
-    const dp_triangles *t = &c->each->o->camera.triangles;
+    const dp_triangles *t = &c->o->camera.triangles;
     number_text out = {""};
     if (t->width > 0)
         append(out.text, sizeof out.text, " at %s", slant_words(t).text);
@@ -157,7 +159,7 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
         page_text(p, "None of these is guaranteed to resolve %s%s, even at the near plane.", limit, slant);
     else if (all == 0)
         page_text(p, "%s reaches farthest: it resolves %s%s up to z = %s.", best->name, limit, slant,
-                  resolved_text(best->zfar, best->up_to[MIDDLE], c->each->o->camera.unit, text));
+                  resolved_text(best->zfar, best->up_to[MIDDLE], c->o->camera.lengths.unit, text));
     else
         page_text(p, "%s resolve%s %s%s all the way to the far plane.", names, all == 1 ? "s" : "", limit, slant);
 }
@@ -182,8 +184,8 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
         const compared *r = &c->rows[i], *other = reversed_of(c, r);
         if (other == NULL || r->cost.buffer == 0 || isnan(r->up_to[MIDDLE]))
             continue;
-        resolved_text(r->zfar, r->up_to[MIDDLE], c->each->o->camera.unit, before);
-        resolved_text(other->zfar, other->up_to[MIDDLE], c->each->o->camera.unit, after);
+        resolved_text(r->zfar, r->up_to[MIDDLE], c->o->camera.lengths.unit, before);
+        resolved_text(other->zfar, other->up_to[MIDDLE], c->o->camera.lengths.unit, after);
         append(gains, sizeof gains, "%s %s", *gains != '\0' ? "," : "", r->name);
         append(gains, sizeof gains, strcmp(before, after) == 0 ? " not at all" : " from %s to %s", before, after);
     }
@@ -197,8 +199,9 @@ static void say_facing(page *p, const comparison *c, const compared *r, const ch
     if (isnan(r->up_to[MIDDLE]))
         page_text(p, "%s guarantees nothing at a slant, nor %s where surfaces face the camera.", r->name, limit);
     else
-        page_text(p, "%s guarantees nothing at a slant; facing the camera it resolves %s up to %s%s.", r->name, limit,
-                  to_the_end(r) ? "" : "z = ", resolved_text(r->zfar, r->up_to[MIDDLE], c->each->o->camera.unit, text));
+        page_text(
+            p, "%s guarantees nothing at a slant; facing the camera it resolves %s up to %s%s.", r->name, limit,
+            to_the_end(r) ? "" : "z = ", resolved_text(r->zfar, r->up_to[MIDDLE], c->o->camera.lengths.unit, text));
 }
 
 /* What a mapping costs in each frame, where the hardware does not compute depth by itself. */
@@ -217,7 +220,7 @@ static void say_costs(page *p, const comparison *c) {
 
 static void say_notes(page *p, void *item) {
     const comparison *c = item;
-    const number_text limit = resolved_limit_text(MIDDLE, c->each->o->camera.unit);
+    const number_text limit = resolved_limit_text(MIDDLE, c->o->camera.lengths.unit);
     bool linear = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
@@ -236,25 +239,25 @@ static void say_notes(page *p, void *item) {
             page_text(p, "No API has %s as a depth buffer.", c->rows[i].setup->spec.format.name);
             break;
         }
-    depth24plus_say(p, c->each->o);
+    depth24plus_say(p, &c->o->camera);
     page_text(p, "%s--full prints codes, errors, intervals, worst cases.",
               c->limit_end - c->limit_begin == LIMITS && c->bounded > 0 ? "B: bytes a pixel. " : "");
 }
 
 /* What the cameras have in common, and where there are several the planes of each. */
 static void say_cameras(page *p, const comparison *c) {
-    const options *o = c->each->o;
+    const table_request *o = c->o;
     char planes[1024] = "", unit[32] = "";
     if (p->unit != NULL)
         snprintf(unit, sizeof unit, ", lengths in %s", p->unit);
     if (o->camera.preset_count < 2) {
         page_title(p, "near %s, far %s, %s%s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
                    o->camera.ortho ? "orthographic" : "perspective", unit);
-        slant_say(p, page_title, o, NULL);
+        slant_say(p, page_title, &o->camera, NULL);
         return;
     }
     page_title(p, "%zu presets, %s%s", o->camera.preset_count, o->camera.ortho ? "orthographic" : "perspective", unit);
-    slant_say(p, page_title, o, NULL);
+    slant_say(p, page_title, &o->camera, NULL);
     for (size_t k = 0; k < o->camera.preset_count; k++)
         for (size_t i = 0; i < c->each->all.count; i++)
             if (c->rows[i].camera == k) {
@@ -275,11 +278,11 @@ static void say_head(page *p, void *item) {
                                                    {"guaranteed at that slant, z", "that slant, at z", "that slant"}};
     const comparison *c = item;
     const int width = COLUMN_WIDTH * (int)c->depth_count, limits = c->limit_end - c->limit_begin;
-    p->unit = options_unit(c->each->o);
+    p->unit = camera_unit(&c->o->camera);
     say_cameras(p, c);
     if (c->bounded == 0)
         return;
-    const dp_triangles *t = &c->each->o->camera.triangles;
+    const dp_triangles *t = &c->o->camera.triangles;
     const char *const *words = above_depths[t->width == 0 ? 0 : t->slant_lo < t->slant_hi ? 1 : 2];
     output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : words[2], width,
                   width > 27   ? words[0]
@@ -318,7 +321,7 @@ static void write(comparison *c) {
     }
     for (int i = c->limit_begin; i < c->limit_end; i++) {
         char *title = c->titles[DEPTHS + i];
-        snprintf(title, NUMBER_SIZE, "%s", resolved_limit_text((size_t)i, c->each->o->camera.unit).text);
+        snprintf(title, NUMBER_SIZE, "%s", resolved_limit_text((size_t)i, c->o->camera.lengths.unit).text);
         rows[n++] = (column){TEXT_FIELD(compared, up_to[0], title, COLUMN_WIDTH, RESOLVED_DIGITS), .downward = true,
                              .brief = true};
         rows[n - 1].offset = offsetof(compared, up_to[i]);
@@ -332,42 +335,42 @@ static void write(comparison *c) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-bool compare_suits(const each_setup *w) {
-    const options *o = w->o;
-    return o->out.form == FORM_TEXT && w->all.count > 1 && !o->out.full && !option_given(o, OPTION_MODEL) &&
-           !option_given(o, OPTION_RANGE) && !option_given(o, OPTION_TOLERANCE) &&
-           (!option_given(o, OPTION_AT) || w->at.count <= DEPTHS);
+bool compare_suits(const each_setup *w, const table_request *o) {
+    return o->out.form == FORM_TEXT && w->all.count > 1 && !o->out.full && !option_given(o->line, "model") &&
+           !option_given(o->line, "range") && !option_given(o->line, "tolerance") &&
+           (!option_given(o->line, "at") || w->at.count <= DEPTHS);
 }
 
 static void compare_setup(comparison *c, size_t i) {
     compared *r = &c->rows[i];
-    const options *o = c->each->o;
+    const table_request *o = c->o;
     const bool slanted = o->camera.triangles.width > 0;
     each_setup_go(c->each, i);
     const dp_mapping mapping = c->each->setup->spec.mapping;
     const char *engine = c->each->fields.preset;
-    *r = (compared){.setup = c->each->setup,
-                    .camera = c->each->all.cameras[i],
-                    .unit = c->each->here->camera.unit,
-                    .znear = unit_convert(c->each->setup->spec.znear, c->each->here->camera.unit, o->camera.unit),
-                    .zfar = unit_convert(c->each->setup->spec.zfar, c->each->here->camera.unit, o->camera.unit),
-                    .fov_y = c->each->here->camera.triangles.fov_y,
-                    .unbounded = slanted && dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE,
-                    .cost = cost_of(&c->each->setup->spec.format, mapping)};
+    *r = (compared){
+        .setup = c->each->setup,
+        .camera = c->each->all.cameras[i],
+        .unit = c->each->here->lengths.unit,
+        .znear = unit_convert(c->each->setup->spec.znear, c->each->here->lengths.unit, o->camera.lengths.unit),
+        .zfar = unit_convert(c->each->setup->spec.zfar, c->each->here->lengths.unit, o->camera.lengths.unit),
+        .fov_y = c->each->here->triangles.fov_y,
+        .unbounded = slanted && dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE,
+        .cost = cost_of(&c->each->setup->spec.format, mapping)};
     char label[SETUP_LABEL_SIZE];
-    const raster_row *raster = c->each->here->camera.raster;
+    const raster_row *raster = c->each->here->raster;
     if (raster != NULL)
         snprintf(r->raster, sizeof r->raster, "%s", raster->name);
     else
-        snprintf(r->raster, sizeof r->raster, "%d subpixel bits", c->each->here->camera.triangles.subpixel);
+        snprintf(r->raster, sizeof r->raster, "%d subpixel bits", c->each->here->triangles.subpixel);
     snprintf(r->name, sizeof r->name, "%s%s%s", engine != NULL ? engine : "", engine != NULL ? " " : "",
              setup_label(r->setup, false, label));
     r->bytes = (uint64_t)r->cost.bytes;
 }
 
-int compare_write(each_setup *w) {
-    comparison c = {.each = w, .rows = calloc(w->all.count, sizeof(compared)), .name_width = NAME_WIDTH};
-    int status = c.rows != NULL ? options_open(w->o, &w->out) : usage_error("table: no memory");
+int compare_write(each_setup *w, const table_request *o) {
+    comparison c = {.o = o, .each = w, .rows = calloc(w->all.count, sizeof(compared)), .name_width = NAME_WIDTH};
+    int status = c.rows != NULL ? output_start(&o->out, &o->camera, &w->out) : usage_error("table: no memory");
     if (status == EXIT_FINE) {
         for (size_t i = 0; i < w->all.count; i++)
             compare_setup(&c, i);

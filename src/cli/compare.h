@@ -4,11 +4,12 @@
 #define CLI_COMPARE_H
 
 #include "cli/each_setup.h"
+#include "cli/table/request.h"
 
 /** Whether that is what was asked for: text, more than one set-up, and nothing that only the tables show. */
-bool compare_suits(const each_setup *w);
+bool compare_suits(const each_setup *w, const table_request *o);
 
 /** Writes the screen in place of the tables of what each_setup_start() began; frees what each_setup_start() made. */
-int compare_write(each_setup *w);
+int compare_write(each_setup *w, const table_request *o);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/constants.h"
+#include "cli/table/request.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,6 +38,7 @@ typedef struct reading {
 
 typedef struct constants {
     each_setup each;
+    const table_request *o;
     vector zbuffer, projection;
     double near_clip;
     texture_camera camera;
@@ -69,14 +71,15 @@ static void keep_one_format(setups *all) {
     all->count = kept;
 }
 
-static int check(const options *o, const setups *all) {
-    for (option_id id = OPTION_FOV; id <= OPTION_VIEWPORT && o->camera.ortho; id++)
-        if (option_given(o, id))
-            return option_error(id, "conflicts with --ortho");
+static int check(const table_request *o, const setups *all) {
+    static const char *const of_perspective[] = {"fov", "hfov", "viewport"};
+    for (size_t i = 0; i < sizeof of_perspective / sizeof of_perspective[0] && o->camera.ortho; i++)
+        if (option_given(o->line, of_perspective[i]))
+            return option_error(of_perspective[i], "conflicts with --ortho");
     for (size_t i = 0; i < all->count; i++) {
         const dp_mapping_row *mapping = dp_mapping_get(all->items[i].spec.mapping);
         if (mapping->curve != DP_CURVE_PERSPECTIVE)
-            return option_error(OPTION_MAPPING,
+            return option_error("mapping",
                                 "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with --constants, got %s, whose depth "
                                 "no projection matrix makes",
                                 mapping->name);
@@ -86,13 +89,14 @@ static int check(const options *o, const setups *all) {
 
 /* An angle that is given, else the preset's. */
 static int take_view(constants *c, size_t i) {
-    const options *o = c->each.o;
-    const int width = (int)o->view.spec.width, height = (int)o->view.spec.height;
-    const bool by_preset = o->camera.preset_count > 0 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV);
-    camera_spec view = o->view.spec;
+    const table_request *o = c->o;
+    const int width = (int)o->camera.spec.width, height = (int)o->camera.spec.height;
+    const bool by_preset =
+        o->camera.preset_count > 0 && !option_given(o->line, "fov") && !option_given(o->line, "hfov");
+    camera_spec view = o->camera.spec;
     if (by_preset)
         view.fov_y = preset_fov_y(o->camera.presets[c->each.all.cameras[i]], width, height);
-    else if (view_vertical(o, width, height, &view.fov_y) != EXIT_FINE)
+    else if (view_vertical(&o->camera, width, height, &view.fov_y) != EXIT_FINE)
         return EXIT_USAGE;
     const char *wrong = camera_init(&c->camera, &c->each.all.items[i], &view);
     if (wrong != NULL)
@@ -334,9 +338,10 @@ static const column setup_report[] = {
 
 static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_camera}, {.kind = COLUMN_END}};
 
-int constants_write(const options *o) {
-    constants c = {0};
-    int status = each_setup_start(&c.each, o);
+int constants_write(const table_request *o) {
+    enum { DEPTHS = 5 };
+    constants c = {.each.rows = DEPTHS, .o = o};
+    int status = each_setup_start(&c.each, &o->camera, &o->out);
     if (status == EXIT_FINE)
         keep_one_format(&c.each.all);
     if (status == EXIT_FINE)

@@ -4,9 +4,9 @@
 #ifndef CLI_CONSTANTS_H
 #define CLI_CONSTANTS_H
 
-#include "cli/option/options.h"
+#include "cli/table/request.h"
 
 /** Writes them. @return an exit status */
-int constants_write(const options *o);
+int constants_write(const table_request *o);
 
 #endif

@@ -27,13 +27,13 @@ static void name_all(const char *given, const char *format, char *out, size_t si
         append(out, size, "%s%s", i == 0 ? "" : i + 1 == count ? " and " : ", ", names[i]);
 }
 
-void depth24plus_say(page *p, const options *o) {
+void depth24plus_say(page *p, const camera_asked *c) {
     static const struct {
         const char *stored, *said;
     } formats[] = {
         {"fp32", "fp32 in"}, {"unorm24", "unorm24 in"}, {with_stencil, "either in"}, {open_name, "either in"}};
-    const char *given = o->given[OPTION_FORMAT];
-    if (given == NULL || o->camera.platform != NULL || strncasecmp(given, open_name, strlen(open_name)) != 0)
+    const char *given = option_text(c->line, "format");
+    if (given == NULL || c->platform != NULL || strncasecmp(given, open_name, strlen(open_name)) != 0)
         return;
     char text[512] = "";
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {

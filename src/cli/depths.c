@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "cli/option/options.h"
+#include "cli/camera/camera.h"
 #include "core/elementary.h"
 #include "report/number.h"
 
@@ -23,22 +23,21 @@ double depths_get(const depths *d, size_t i) {
     return fmin(fmax(z, d->lo), d->hi);
 }
 
-static int check_within(const options *o, option_id id, double lo, double hi) {
-    if (lo >= o->camera.znear && hi <= o->camera.zfar)
+static int check_within(const camera_asked *c, const char *id, double lo, double hi) {
+    if (lo >= c->znear && hi <= c->zfar)
         return EXIT_FINE;
-    return option_error(id, "depths must lie in [near, far] = [%s, %s%c, got %s",
-                        options_length(o, o->camera.znear, 0).text, options_length(o, o->camera.zfar, 0).text,
-                        isinf(o->camera.zfar) ? ')' : ']', options_length(o, lo < o->camera.znear ? lo : hi, 0).text);
+    return option_error(id, "depths must lie in [near, far] = [%s, %s%c, got %s", camera_length(c, c->znear, 0).text,
+                        camera_length(c, c->zfar, 0).text, isinf(c->zfar) ? ')' : ']',
+                        camera_length(c, lo < c->znear ? lo : hi, 0).text);
 }
 
-int depths_resolve(const options *o, size_t count, depths *out) {
-    const double end = isinf(o->camera.zfar) ? o->camera.znear * infinite_far_ratio : o->camera.zfar;
-    const depths_kind kind = o->camera.znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN;
-    *out = o->camera.at.count > 0 ? o->camera.at
-                                  : (depths){.kind = kind, .lo = o->camera.znear, .hi = end, .count = count};
-    const int status = check_within(o, OPTION_AT, out->lo, out->hi);
+int depths_resolve(const camera_asked *c, size_t count, depths *out) {
+    const double end = isinf(c->zfar) ? c->znear * infinite_far_ratio : c->zfar;
+    const depths_kind kind = c->znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN;
+    *out = c->at.count > 0 ? c->at : (depths){.kind = kind, .lo = c->znear, .hi = end, .count = count};
+    const int status = check_within(c, "at", out->lo, out->hi);
     if (status == EXIT_FINE && out->kind == DEPTHS_LOG && out->lo <= 0.0)
-        return option_error(OPTION_AT, "log spacing needs LO greater than 0, got %s: lin has equal steps",
+        return option_error("at", "log spacing needs LO greater than 0, got %s: lin has equal steps",
                             number_full(out->lo).text);
     return status;
 }
@@ -46,13 +45,13 @@ int depths_resolve(const options *o, size_t count, depths *out) {
 int depths_in_binary32(const depths *d) {
     if (!isinf((float)d->hi))
         return EXIT_FINE;
-    return option_error(OPTION_AT, "depths in binary32 must be at most 3.4028235e+38, its largest number, got %s",
+    return option_error("at", "depths in binary32 must be at most 3.4028235e+38, its largest number, got %s",
                         number_full(d->hi).text);
 }
 
-int range_resolve(const options *o, double *lo, double *hi) {
-    bool asked = option_given(o, OPTION_RANGE);
-    *lo = asked ? o->camera.range_lo : o->camera.znear;
-    *hi = asked ? o->camera.range_hi : o->camera.zfar;
-    return check_within(o, OPTION_RANGE, *lo, *hi);
+int range_resolve(const camera_asked *c, double *lo, double *hi) {
+    bool asked = option_given(c->line, "range");
+    *lo = asked ? c->range_lo : c->znear;
+    *hi = asked ? c->range_hi : c->zfar;
+    return check_within(c, "range", *lo, *hi);
 }

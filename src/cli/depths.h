@@ -9,7 +9,7 @@
 
 #include <stddef.h>
 
-struct options;
+struct camera_asked;
 
 enum { DEPTHS_MAX = 1000000 };
 
@@ -32,12 +32,12 @@ double depths_get(const depths *d, size_t i);
  *
  * @return EXIT_FINE, or EXIT_USAGE after one line when a depth lies outside [near, far]
  */
-int depths_resolve(const struct options *o, size_t count, depths *out);
+int depths_resolve(const struct camera_asked *c, size_t count, depths *out);
 
 /** @return EXIT_USAGE after one line where binary32 cannot hold a depth of --at, else EXIT_FINE */
 int depths_in_binary32(const depths *d);
 
 /** The range of a command: that of --range, or [near, far]; *hi may then be INFINITY. Return as depths_resolve(). */
-int range_resolve(const struct options *o, double *lo, double *hi);
+int range_resolve(const struct camera_asked *c, double *lo, double *hi);
 
 #endif

@@ -3,17 +3,18 @@
 
 #include <unistd.h>
 
-enum { DEFAULT_ROWS = 9, CONSTANTS_ROWS = 5 };
+enum { DEFAULT_ROWS = 9 };
 
 /* The depths of set-up i. */
 static int resolve(each_setup *w, size_t i) {
-    w->here = options_of(w->o, w->all.cameras[i]);
-    return depths_resolve(w->here, w->o->wanted.constants ? CONSTANTS_ROWS : DEFAULT_ROWS, &w->at);
+    w->here = camera_of(w->camera, w->all.cameras[i]);
+    return depths_resolve(w->here, w->rows > 0 ? w->rows : DEFAULT_ROWS, &w->at);
 }
 
-int each_setup_start(each_setup *w, const options *o) {
-    w->o = o;
-    int status = setups_make(o, &w->all);
+int each_setup_start(each_setup *w, const camera_asked *camera, const output_asked *how) {
+    w->camera = camera;
+    w->how = how;
+    int status = setups_make(camera, &w->all);
     for (size_t i = w->all.count; i-- > 0 && status == EXIT_FINE;)
         status = resolve(w, i);
     return status;
@@ -21,14 +22,14 @@ int each_setup_start(each_setup *w, const options *o) {
 
 int each_setup_write(each_setup *w, const report_spec *spec, int status) {
     if (status == EXIT_FINE)
-        status = options_open(w->o, &w->out);
+        status = output_start(w->how, w->camera, &w->out);
     if (status == EXIT_FINE) {
-        const bool silent = w->o->out.quiet || isatty(w->out.fd); /* rows on the same terminal are progress enough */
+        const bool silent = w->how->quiet || isatty(w->out.fd); /* rows on the same terminal are progress enough */
         w->progress = progress_start("rows", (uint64_t)w->all.count * w->at.count, silent);
-        report_write(spec, &w->out, w->o->out.form);
+        report_write(spec, &w->out, w->how->form);
         progress_end(&w->progress);
         status = output_close(&w->out);
-        if (status == EXIT_FINE && !w->o->out.quiet)
+        if (status == EXIT_FINE && !w->how->quiet)
             clipping_warn(&w->all);
     }
     setups_release(&w->all);
@@ -40,8 +41,8 @@ bool each_setup_go(each_setup *w, size_t i) {
         return false;
     resolve(w, i);
     w->setup = &w->all.items[i];
-    w->fields = setup_fields_of(w->setup, options_unit(w->here));
-    w->fields.preset = w->o->camera.preset_count > 1 ? w->o->camera.presets[w->all.cameras[i]]->name : NULL;
+    w->fields = setup_fields_of(w->setup, camera_unit(w->here));
+    w->fields.preset = w->camera->preset_count > 1 ? w->camera->presets[w->all.cameras[i]]->name : NULL;
     return true;
 }
 

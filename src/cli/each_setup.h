@@ -3,20 +3,23 @@
  * @file each_setup.h  A report of depths, one after the other, in each set-up: what such commands share.
  *
  *     typedef struct table { each_setup each; row row; } table;  // `each` stands first
- *     int status = each_setup_start(&t.each, o);                 // set-ups and depths
+ *     int status = each_setup_start(&t.each, &o->camera, &o->out);                 // set-ups and depths
  *     each_setup_write(&t.each, &spec, status);                  // its lists ask each_setup_go(), each_setup_depth()
  */
 #ifndef CLI_EACH_SETUP_H
 #define CLI_EACH_SETUP_H
 
+#include "cli/output/output.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
 
 typedef struct each_setup {
-    const options *o;
+    const camera_asked *camera;
+    const output_asked *how;
+    size_t rows; /**< how many depths where --at names none; 0: nine */
     setups all;
-    const options *here; /**< those of the set-up at hand, see options_of() */
-    depths at;           /**< of the set-up at hand, before there is one of the first */
+    const camera_asked *here; /**< that of the set-up at hand, see camera_of() */
+    depths at;                /**< of the set-up at hand, before there is one of the first */
     output out;
     progress progress;
     uint64_t done;
@@ -25,7 +28,7 @@ typedef struct each_setup {
 } each_setup;
 
 /** Resolves set-ups and depths. @return an exit status, after one line on stderr */
-int each_setup_start(each_setup *w, const options *o);
+int each_setup_start(each_setup *w, const camera_asked *camera, const output_asked *how);
 
 /**
  * Writes the report where `status` is EXIT_FINE, says on stderr what binary32 clipping loses, and frees what

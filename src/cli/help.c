@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/option/uses.h"
+#include "cli/help/request.h"
+#include "cli/list/request.h"
 #include "core/append.h"
 #include "report/page.h"
 
@@ -36,13 +37,14 @@ static void list_commands(output *out) {
     page_command(&p, "depthprec --preset unity,unreal --at 100m             two engines side by side");
     output_char(out, '\n');
     page_text(&p, "Commands: depthprec [COMMAND] [options]");
-    for (size_t i = 0; i < command_count; i++) {
+    const command_row *v;
+    for (size_t i = 0; (v = command_get(i)) != NULL; i++) {
         char label[64] = "";
-        if (command_rows[i].group != NULL)
-            page_title(&p, "%s", command_rows[i].group);
-        append(label, sizeof label, "%s%s%.*s", command_rows[i].name, *command_rows[i].operand != '\0' ? " " : "",
-               (int)strcspn(command_rows[i].operand, " "), command_rows[i].operand);
-        page_note(&p, label, "%s%s", command_rows[i].summary, i == 0 ? " (default)" : "");
+        if (v->group != NULL)
+            page_title(&p, "%s", v->group);
+        append(label, sizeof label, "%s%s%.*s", v->name, *v->operand != '\0' ? " " : "", (int)strcspn(v->operand, " "),
+               v->operand);
+        page_note(&p, label, "%s%s", v->summary, i == 0 ? " (default)" : "");
     }
     output_char(out, '\n');
     page_text(&p, "'depthprec help COMMAND' lists its options. Lengths may have a unit: 10cm.");
@@ -52,19 +54,19 @@ static void list_commands(output *out) {
 enum { DESCRIPTION_SIZE = 1024 };
 
 /* "what it does (LEAST to MOST UNIT; default D: what that means)". */
-static const char *describe(const option_use *use, char out[DESCRIPTION_SIZE]) {
-    const option_row *row = &option_rows[use->id];
-    const char *help = use->own->help != NULL ? use->own->help : row->help, *standard, *without;
+static const char *describe(const option_taken *use, char out[DESCRIPTION_SIZE]) {
+    const option_row *row = use->row;
+    const char *help = use->own.help != NULL ? use->own.help : row->help, *standard, *without;
     char text[OPTION_TEXT_SIZE];
     const int before = row->names != NULL ? (int)strcspn(help, "@") : (int)strlen(help);
-    const bool named = help[before] != '\0', limited = row->least < row->most && use->own->parse == NULL;
+    const bool named = help[before] != '\0', limited = row->least < row->most && use->own.parse == NULL;
     option_default(use, &standard, &without);
     out[0] = '\0';
     append(out, DESCRIPTION_SIZE, "%.*s", before, help);
     if (named)
         append(out, DESCRIPTION_SIZE, "%s%s", names_join(row->names, ", ", ", ", text), help + before + 1);
-    if (use->own->also != NULL)
-        append(out, DESCRIPTION_SIZE, "; %s", use->own->also);
+    if (use->own.also != NULL)
+        append(out, DESCRIPTION_SIZE, "; %s", use->own.also);
     if (limited)
         append(out, DESCRIPTION_SIZE, " (%s", option_limits(row, text));
     if (standard != NULL || without != NULL)
@@ -76,8 +78,8 @@ static const char *describe(const option_use *use, char out[DESCRIPTION_SIZE]) {
 }
 
 /* "-n, --near Z". */
-static void label_of(const option_use *use, char label[128]) {
-    const option_row *row = &option_rows[use->id];
+static void label_of(const option_taken *use, char label[128]) {
+    const option_row *row = use->row;
     char argument[OPTION_TEXT_SIZE];
     option_use_argument(use, argument);
     snprintf(label, 128, "    ");
@@ -88,27 +90,45 @@ static void label_of(const option_use *use, char label[128]) {
         append(label, 128, "[=%s]", option_use_optional(use));
 }
 
-/* Those of a command; without one, all, and which commands take them. */
+/* Those of a command; without one, all by their first row, and which commands take them. */
 static void list_options(page *p, const command_row *v) {
+    const option_row *all[OPTIONS_MAX + 1];
     const unsigned parts = v != NULL && v->shown != 0 ? v->shown : ~0U;
-    const char *group = NULL, *shown = NULL;
-    for (int id = 0; id < OPTION_COUNT; id++) {
-        const option_row *row = &option_rows[id];
-        const option_use general = {.id = (option_id)id, .own = &option_plain};
-        const option_use *use = v != NULL ? option_used(v, parts, (option_id)id) : &general;
+    const char *group = NULL, *shown = NULL, *last = "";
+    options_all(all);
+    for (size_t i = 0; all[i] != NULL; i++) {
+        const option_taken use = v != NULL ? option_used(v, parts, all[i]) : (option_taken){.row = all[i]};
         char label[128], text[DESCRIPTION_SIZE], takers[OPTION_TEXT_SIZE];
-        group = row->group != NULL ? row->group : group;
-        if (use == NULL)
+        group = all[i]->group != NULL ? all[i]->group : group;
+        if (use.row == NULL || strcmp(use.row->name, last) == 0)
             continue;
+        last = use.row->name;
         if (group != shown)
             output_format(p->out, "\n%s\n", group);
         shown = group;
-        label_of(use, label);
-        page_wrapped(p, label, describe(use, text));
-        snprintf(text, sizeof text, "Taken by %s.", command_takers(id, takers));
-        if (v == NULL && id != OPTION_HELP && id != OPTION_VERSION)
+        label_of(&use, label);
+        page_wrapped(p, label, describe(&use, text));
+        snprintf(text, sizeof text, "Taken by %s.", option_takers(last, takers));
+        if (v == NULL && all[i]->parse != NULL)
             page_wrapped(p, "", text);
     }
+}
+
+/* The options that a part takes beside those that are shown, and a command which describes the first of them. */
+static const char *others_of(const command_row *v, unsigned part, char text[DESCRIPTION_SIZE],
+                             char takers[OPTION_TEXT_SIZE]) {
+    const option_row *all[OPTIONS_MAX + 1];
+    options_all(all);
+    text[0] = '\0';
+    for (size_t i = 0; all[i] != NULL; i++) {
+        if (option_used(v, part, all[i]).row == NULL || option_used(v, v->shown, all[i]).row != NULL)
+            continue;
+        if (text[0] == '\0')
+            option_takers(all[i]->name, takers);
+        append(text, DESCRIPTION_SIZE, "%s--%s", text[0] != '\0' ? ", " : "", all[i]->name);
+    }
+    takers[strcspn(takers, ",")] = '\0';
+    return text;
 }
 
 /* Options of single parts, which the command that has their name describes, or the first that takes them. */
@@ -116,24 +136,14 @@ static void list_others(page *p, const command_row *v) {
     command_part part;
     bool headed = false;
     for (size_t i = 0; v->shown != 0 && option_part_get(v, i, &part); i++) {
-        char text[DESCRIPTION_SIZE] = "", takers[OPTION_TEXT_SIZE], label[64];
-        const char *like = command_find(part.words) != NULL ? part.words : NULL;
-        for (int id = 0; id < OPTION_COUNT; id++) {
-            if (option_used(v, part.bits, (option_id)id) == NULL || option_used(v, v->shown, (option_id)id) != NULL)
-                continue;
-            append(text, sizeof text, "%s--%s", text[0] != '\0' ? ", " : "", option_rows[id].name);
-            if (like == NULL) {
-                like = command_takers(id, takers);
-                takers[strcspn(takers, ",")] = '\0';
-            }
-        }
-        if (text[0] == '\0')
+        char text[DESCRIPTION_SIZE], takers[OPTION_TEXT_SIZE] = "", label[64];
+        if (*others_of(v, part.bits, text, takers) == '\0')
             continue;
         if (!headed)
             output_format(p->out, "\nOptions of single figures\n");
         headed = true;
         snprintf(label, sizeof label, "  %s %s", v->name, part.words);
-        append(text, sizeof text, ": see 'depthprec help %s'", like);
+        append(text, sizeof text, ": see 'depthprec help %s'", command_find(part.words) != NULL ? part.words : takers);
         page_wrapped(p, label, text);
     }
 }
@@ -146,20 +156,22 @@ static void say_usage(page *p, const command_row *v) {
     page_text(p, "Usage: depthprec %s%s%s [options]", v->name, *v->operand != '\0' ? " " : "", v->operand);
 }
 
-int cmd_help(const options *o) {
-    const command_row *v = o->operand_row;
+int cmd_help(void *request) {
+    const help_request *o = request;
+    const command_row *v = o->line->operand_row;
     output out;
     list_item item;
-    const name_list *names = o->command->names;
-    if (o->command->id == CMD_HELP && o->operand_count > 0 && !names_find(names, o->operands[0], NULL, &item))
-        return list_knows(o->operands[0])
-                   ? cmd_list(o)
-                   : check_operand(o->command, o->command->operand, names, o->operands[0], &item);
+    const name_list *names = o->line->command->names;
+    if (o->line->command == &command_help && o->line->operand_count > 0 &&
+        !names_find(names, o->line->operands[0], NULL, &item))
+        return list_knows(o->line->operands[0])
+                   ? cmd_list(&(list_request){.line = o->line})
+                   : check_operand(o->line->command, o->line->command->operand, names, o->line->operands[0], &item);
     output_open(&out, NULL);
     page p = page_start(&out, 28);
-    if (o->version)
+    if (o->line->version)
         version(&p);
-    else if (v == NULL && o->operand_count == 0)
+    else if (v == NULL && o->line->operand_count == 0)
         list_commands(&out);
     else {
         if (v == NULL)

@@ -9,7 +9,7 @@
 
 /* The lattice, and a depth of --at. */
 typedef struct levels {
-    const options *o;
+    const table_request *o;
     const char *given, *name;
     sensor sensor;
     depths at;
@@ -36,7 +36,7 @@ static void *next_depth(void *of, size_t i) {
 static void say_head(page *p, void *of) {
     const levels *l = of;
     const sensor *s = &l->sensor;
-    p->unit = options_unit(l->o);
+    p->unit = camera_unit(&l->o->camera);
     page_title(p, "%s: levels %s", l->given, s->row->name);
     if (s->row->levels == GRAIN_INVERSE)
         page_note(p, "", "1/z in steps of %s; baseline times focal length over a step %s", number_of(s->step, 6).text,
@@ -55,29 +55,29 @@ static const column columns[] = {{FIELD(levels, given, "lattice", ""), .only = A
                                  {LIST("rows", row_columns, next_depth)},
                                  {.kind = COLUMN_END}};
 
-bool levels_wanted(const options *o) {
-    return o->image.lattice != NULL;
+bool levels_wanted(const table_request *o) {
+    return o->lattice != NULL;
 }
 
-int levels_write(const options *o) {
+int levels_write(const table_request *o) {
     static double usual[] = {1, 2, 5, 10};
-    levels l = {.o = o, .given = o->image.lattice, .at = o->camera.at};
+    levels l = {.o = o, .given = o->lattice, .at = o->camera.at};
     output out;
-    if (o->wanted.constants)
-        return option_error(OPTION_LATTICE, "conflicts with --constants");
-    int status = texture_lattice(o, OPTION_LATTICE, o->image.lattice, &l.sensor);
+    if (o->constants)
+        return option_error("lattice", "conflicts with --constants");
+    int status = texture_lattice(o->camera.lengths.unit, "lattice", o->lattice, &l.sensor);
     if (status != EXIT_FINE)
         return status;
     if (l.at.count == 0)
         l.at = (depths){.kind = DEPTHS_LIST, .lo = usual[0], .hi = usual[3], .count = 4, .list = usual};
     if (l.sensor.row->levels != GRAIN_HALF && isnan(l.sensor.step))
-        return option_error(OPTION_LATTICE, "without a file needs a step, which '%s' does not say", l.given);
+        return option_error("lattice", "without a file needs a step, which '%s' does not say", l.given);
     if (!isnan(l.sensor.again))
-        return option_error(OPTION_LATTICE, "@STEP is of a file, which this table has none of, got '%s'", l.given);
+        return option_error("lattice", "@STEP is of a file, which this table has none of, got '%s'", l.given);
     if (!(l.at.lo > 0))
-        return option_error(OPTION_AT, "must be above 0 with --lattice, got %s", number_full(l.at.lo).text);
+        return option_error("at", "must be above 0 with --lattice, got %s", number_full(l.at.lo).text);
     l.name = l.sensor.row->name;
-    status = options_open(o, &out);
+    status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)
         return status;
     report_write(&(report_spec){"table", columns, &l, .label = 2, .head = say_head}, &out, o->out.form);

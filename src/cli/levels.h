@@ -3,12 +3,12 @@
 #ifndef CLI_LEVELS_H
 #define CLI_LEVELS_H
 
-#include "cli/option/options.h"
+#include "cli/table/request.h"
 
 /** Whether --lattice asks for it. */
-bool levels_wanted(const options *o);
+bool levels_wanted(const table_request *o);
 
 /** Writes them. @return an exit status */
-int levels_write(const options *o);
+int levels_write(const table_request *o);
 
 #endif

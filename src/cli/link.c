@@ -16,25 +16,25 @@ static const name_list figures = {
 
 enum { FRAGMENT_MAX = 4096, TEXT_SIZE = FRAGMENT_MAX + 2 };
 
-static bool is_argument(const options *o, const char *word) {
-    for (int id = 0; id < OPTION_COUNT; id++)
-        if (o->given[id] == word)
-            return true;
-    return false;
+static bool is_argument(const asked_line *line, const char *word) {
+    size_t i = 0;
+    while (i < line->given_count && line->given[i].text != word)
+        i++;
+    return i < line->given_count;
 }
 
-static bool is_link(const options *o, const char *word) {
-    return (strcmp(word, "--link") == 0 || strncmp(word, "--link=", 7) == 0) && !is_argument(o, word);
+static bool is_link(const asked_line *line, const char *word) {
+    return (strcmp(word, "--link") == 0 || strncmp(word, "--link=", 7) == 0) && !is_argument(line, word);
 }
 
 /* The command first, then the figure, then the options in their order; a blank before each. */
-static void command_words(const options *o, char text[TEXT_SIZE]) {
-    const bool named = o->argv[1][0] != '-';
-    append_shell_word(text, TEXT_SIZE, o->command->name);
-    for (int i = 0; i < o->operand_count; i++)
-        append_shell_word(text, TEXT_SIZE, o->operands[i]);
-    for (char **word = o->argv + 1 + named; *word != NULL && word != o->operands; word++)
-        if (strcmp(*word, "--") != 0 && !is_link(o, *word))
+static void command_words(const asked_line *line, char text[TEXT_SIZE]) {
+    const bool named = line->argv[1][0] != '-';
+    append_shell_word(text, TEXT_SIZE, line->command->name);
+    for (int i = 0; i < line->operand_count; i++)
+        append_shell_word(text, TEXT_SIZE, line->operands[i]);
+    for (char **word = line->argv + 1 + named; *word != NULL && word != line->operands; word++)
+        if (strcmp(*word, "--") != 0 && !is_link(line, *word))
             append_shell_word(text, TEXT_SIZE, *word);
 }
 
@@ -53,19 +53,19 @@ static size_t encode(const char *text, char out[TEXT_SIZE]) {
     return strlen(out) <= FRAGMENT_MAX ? strlen(out) : 0;
 }
 
-int link_write(const options *o) {
+int link_write(const asked_line *line) {
     char text[TEXT_SIZE] = "", fragment[TEXT_SIZE];
     list_item found;
+    const char *page = option_text(line, "link");
     output out;
-    if (o->command->id == CMD_PLOT && !names_find(&figures, o->operands[0], NULL, &found))
-        return option_error(OPTION_LINK, "must be of a figure that the page has, %s, got '%s'",
-                            names_join(&figures, ", ", " or ", text), o->operands[0]);
-    command_words(o, text);
+    if (line->command->part_get != NULL && !names_find(&figures, line->operands[0], NULL, &found))
+        return option_error("link", "must be of a figure that the page has, %s, got '%s'",
+                            names_join(&figures, ", ", " or ", text), line->operands[0]);
+    command_words(line, text);
     if (encode(text + 1, fragment) == 0)
-        return option_error(OPTION_LINK, "holds at most %d characters of UTF-8 without control characters",
-                            FRAGMENT_MAX);
+        return option_error("link", "holds at most %d characters of UTF-8 without control characters", FRAGMENT_MAX);
     output_open(&out, NULL);
-    output_format(&out, "%s#", o->out.link);
+    output_format(&out, "%s#", *page != '\0' ? page : "depthprec.html");
     output_text(&out, fragment);
     output_char(&out, '\n');
     return output_close(&out);

@@ -3,9 +3,9 @@
 #ifndef CLI_LINK_H
 #define CLI_LINK_H
 
-#include "cli/option/options.h"
+#include "cli/option/option.h"
 
 /** Prints the link of a command that has been read. @return an exit status, after one line on stderr if not fine */
-int link_write(const options *o);
+int link_write(const asked_line *line);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/lookup.h"
+#include "cli/table/request.h"
 
 #include <math.h>
 
@@ -18,6 +19,7 @@ typedef struct found {
 
 typedef struct lookup {
     each_setup each;
+    const table_request *o;
     bool by_code;
     found row;
     bool empty; /* some code is that of no depth in the range */
@@ -46,7 +48,7 @@ static void *next_setup(void *of, size_t i) {
     l->empty = false;
     if (!each_setup_go(&l->each, i))
         return NULL;
-    l->each.at = l->each.o->wanted.looked_up;
+    l->each.at = l->o->looked_up;
     return l;
 }
 
@@ -74,27 +76,26 @@ static const column setup_report[] = {
 static const column columns[] = {
     {LIST("setups", setup_report, next_setup), .head = each_setup_title, .notes = say_notes}, {.kind = COLUMN_END}};
 
-bool lookup_wanted(const options *o) {
-    return o->wanted.looked_up.count > 0;
+bool lookup_wanted(const table_request *o) {
+    return o->looked_up.count > 0;
 }
 
 /* What is asked is no depth of the scene, and a code must be one of each format. */
-static int check(const options *o, const setups *all) {
-    if (option_given(o, OPTION_DEPTH) && option_given(o, OPTION_CODE))
-        return option_error(OPTION_CODE, "conflicts with --depth");
-    const option_id asked = option_given(o, OPTION_CODE) ? OPTION_CODE : OPTION_DEPTH;
-    for (size_t i = 0; i < all->count && asked == OPTION_CODE; i++) {
+static int check(const table_request *o, const setups *all) {
+    if (option_given(o->line, "depth") && option_given(o->line, "code"))
+        return option_error("code", "conflicts with --depth");
+    for (size_t i = 0; i < all->count && option_given(o->line, "code"); i++) {
         const dp_format *format = &all->items[i].spec.format;
-        if (o->wanted.looked_up.hi > (double)format->code_max)
-            return option_error(OPTION_CODE, "must be from 0 to %u in %s, got %s", format->code_max, format->name,
-                                number_full(o->wanted.looked_up.hi).text);
+        if (o->looked_up.hi > (double)format->code_max)
+            return option_error("code", "must be from 0 to %u in %s, got %s", format->code_max, format->name,
+                                number_full(o->looked_up.hi).text);
     }
     return EXIT_FINE;
 }
 
-int lookup_write(const options *o) {
-    lookup l = {.by_code = option_given(o, OPTION_CODE)};
-    int status = each_setup_start(&l.each, o);
+int lookup_write(const table_request *o) {
+    lookup l = {.o = o, .by_code = option_given(o->line, "code")};
+    int status = each_setup_start(&l.each, &o->camera, &o->out);
     if (status == EXIT_FINE)
         status = check(o, &l.each.all);
     const report_spec spec = {"table", columns, &l, .label = 16};

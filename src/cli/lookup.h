@@ -3,12 +3,12 @@
 #ifndef CLI_LOOKUP_H
 #define CLI_LOOKUP_H
 
-#include "cli/option/options.h"
+#include "cli/table/request.h"
 
 /** Whether --depth or --code asks for it. */
-bool lookup_wanted(const options *o);
+bool lookup_wanted(const table_request *o);
 
 /** Writes them. @return an exit status */
-int lookup_write(const options *o);
+int lookup_write(const table_request *o);
 
 #endif

@@ -3,67 +3,54 @@
 #include <string.h>
 
 #include "cli/link.h"
+#include "cli/option/option.h"
 #include "method/method.h"
+#include "report/output.h"
 #include "system/input.h"
 
-static int (*const commands[CMD_COUNT])(const options *) = {
-    [CMD_TABLE] = cmd_table,
-    [CMD_PLOT] = cmd_plot,
-    [CMD_ZFIGHT] = cmd_zfight,
-    [CMD_PREPASS] = cmd_prepass,
-    [CMD_BUDGET] = cmd_budget,
-    [CMD_TEXTURE] = cmd_texture,
-    [CMD_METHODS] = cmd_methods,
-    [CMD_CHECK] = cmd_check,
-    [CMD_SOLVE] = cmd_solve,
-    [CMD_BIAS] = cmd_bias,
-    [CMD_SHADOW] = cmd_shadow,
-    [CMD_SCENE] = cmd_scene,
-    [CMD_PROBE] = cmd_probe,
-    [CMD_JUDGE] = cmd_judge,
-    [CMD_WORLD] = cmd_world,
-    [CMD_CODE] = cmd_code,
-    [CMD_LIST] = cmd_list,
-    [CMD_HELP] = cmd_help,
-    [CMD_COMPLETIONS] = cmd_completions,
-};
+/* In the order of command_get(). */
+#define COMMAND_RUN(name) cmd_##name,
+static int (*const runs[])(void *request) = {COMMANDS(COMMAND_RUN)};
 
-static int run(const options *o) {
-    if (option_given(o, OPTION_LINK))
-        return link_write(o);
-    return commands[o->command->id](o);
+static int run(const asked_line *line) {
+    size_t i = 0;
+    while (command_get(i) != line->command)
+        i++;
+    return option_given(line, "link") ? link_write(line) : runs[i](line->request);
 }
 
 /* An option's file is written: it may be no other option's and none that the command reads. "-" is no file. */
-static int refuse_overwriting(const options *o) {
-    for (int k = o->command->files_from; k > 0 && k <= o->operand_count; k++)
-        input_expect(o->operands[k - 1]);
-    for (int id = 0; id < OPTION_COUNT; id++) {
-        const char *path = option_written(o, (option_id)id);
+static int refuse_overwriting(const asked_line *line) {
+    const option_row *all[OPTIONS_MAX + 1];
+    for (int k = line->command->files_from; k > 0 && k <= line->operand_count; k++)
+        input_expect(line->operands[k - 1]);
+    options_all(all);
+    for (size_t i = 0; all[i] != NULL; i++) {
+        const char *name = all[i]->name, *path = option_written(line, name);
         if (path == NULL || strcmp(path, "-") == 0)
             continue;
         if (input_is_read(path))
-            return option_error((option_id)id, "must not be a file that is read, got '%s'", path);
-        for (int other = 0; other < id; other++) {
-            const char *also = option_written(o, (option_id)other);
-            const bool beside = id == OPTION_OUTPUT; /* the file beside the output is at fault */
-            if (also != NULL && output_same_file(path, also))
-                return option_error((option_id)(beside ? other : id), "must not be the file of --%s, got '%s'",
-                                    option_name((option_id)(beside ? id : other)), beside ? also : path);
+            return option_error(name, "must not be a file that is read, got '%s'", path);
+        for (size_t k = 0; k < i; k++) {
+            const char *other = all[k]->name, *also = option_written(line, other);
+            const bool beside = strcmp(name, "output") == 0; /* the file beside the output is at fault */
+            if (also != NULL && strcmp(other, name) != 0 && output_same_file(path, also))
+                return option_error(beside ? other : name, "must not be the file of --%s, got '%s'",
+                                    beside ? name : other, beside ? also : path);
         }
     }
     return EXIT_FINE;
 }
 
 int main(int argc, char **argv) {
-    options o;
+    asked_line line;
     output_reserve_streams();
     method_start();
-    int status = options_parse(&o, argc, argv);
+    int status = options_parse(&line, argc, argv);
     if (status == EXIT_FINE)
-        status = refuse_overwriting(&o);
+        status = refuse_overwriting(&line);
     if (status == EXIT_FINE)
-        status = run(&o);
-    options_release(&o);
+        status = run(&line);
+    options_release(&line);
     return status;
 }

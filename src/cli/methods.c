@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/methods.h"
+#include "cli/judge/request.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,23 +12,21 @@
 #include "method/choose.h"
 
 /* The lattice and the pipeline are two questions, each with its choice. */
-void list_method_choice(const options *o, size_t index, char chosen[LIST_TEXT_SIZE]) {
+void list_method_choice(size_t index, double tolerance, char chosen[LIST_TEXT_SIZE]) {
     const method_row *row = method_get(index);
     const method_family_row *family = method_family_get(row->family);
-    const double ratio = o->camera.zfar / o->camera.znear;
-    const method_wish wish = {.tolerance = o->wanted.tolerance,
-                              .ratio_lo = ratio,
-                              .ratio_hi = ratio,
-                              .pipeline = (row->domain & METHOD_PIPELINE) != 0};
+    const double ratio = 1000.0 / 0.1;
+    const method_wish wish = {
+        .tolerance = tolerance, .ratio_lo = ratio, .ratio_hi = ratio, .pipeline = (row->domain & METHOD_PIPELINE) != 0};
     chosen[0] = '\0';
     for (size_t i = 0; i < family->case_count; i++)
         if (method_choose(family, i, &wish) == row)
             append(chosen, LIST_TEXT_SIZE, "%s%s", *chosen != '\0' ? ", " : "", family->cases[i].name);
 }
 
-static bool wanted(const options *o, const method_case *c) {
+static bool wanted(const judge_request *o, const method_case *c) {
     dp_format format[2];
-    bool formatted = !option_given(o, OPTION_FORMAT), mapped = !option_given(o, OPTION_MAPPING);
+    bool formatted = !option_given(o->line, "format"), mapped = !option_given(o->line, "mapping");
     dp_format_parse(c->format, format);
     for (size_t i = 0; i < o->camera.format_count; i++)
         formatted = formatted || strcmp(o->camera.formats[i].name, format[0].name) == 0;
@@ -36,13 +35,13 @@ static bool wanted(const options *o, const method_case *c) {
     return formatted && mapped;
 }
 
-int methods_resolve(const options *o, const method_family_row *family, methods_asked *out) {
-    static const option_id of_mine[] = {OPTION_DEFINE, OPTION_DEVICE};
+int methods_resolve(const judge_request *o, const method_family_row *family, methods_asked *out) {
+    static const char *const of_mine[] = {"define", "device"};
     for (size_t i = 0; i < 2; i++)
-        if (option_given(o, of_mine[i]) && o->judge.mine_count == 0)
+        if (option_given(o->line, of_mine[i]) && o->judge.mine_count == 0)
             return option_error(of_mine[i], "needs --mine, a function of yours");
     if (o->judge.mine_count > 0 && family != &linearize_family)
-        return option_error(OPTION_MINE, "is for the family linearize, got %s", family->name);
+        return option_error("mine", "is for the family linearize, got %s", family->name);
     out->family = family;
     char all[NAMES_SIZE] = "";
     for (size_t i = 0; i < out->family->case_count; i++) {
@@ -50,12 +49,12 @@ int methods_resolve(const options *o, const method_family_row *family, methods_a
             out->which = i;
             dp_status wrong = method_setup(out->family, i, o->camera.znear, o->camera.zfar, false, &out->setup);
             if (wrong != DP_OK)
-                return option_error(wrong == DP_ERROR_NEAR ? OPTION_NEAR : OPTION_FAR, "%s", dp_status_text(wrong));
+                return option_error(wrong == DP_ERROR_NEAR ? "near" : "far", "%s", dp_status_text(wrong));
             return EXIT_FINE;
         }
         append(all, sizeof all, "%s%s", i > 0 ? ", " : "", out->family->cases[i].name);
     }
-    return option_error(option_given(o, OPTION_FORMAT) ? OPTION_FORMAT : OPTION_MAPPING, "the family %s covers only %s",
+    return option_error(option_given(o->line, "format") ? "format" : "mapping", "the family %s covers only %s",
                         out->family->name, all);
 }
 

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "cli/option/options.h"
+#include "cli/judge/request.h"
 #include "method/bench.h"
 #include "method/stability.h"
 
@@ -17,10 +17,10 @@ typedef struct methods_asked {
 } methods_asked;
 
 /** @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-int methods_resolve(const options *o, const method_family_row *family, methods_asked *out);
+int methods_resolve(const judge_request *o, const method_family_row *family, methods_asked *out);
 
 /** The cases for which method `index` is the cheapest within --tolerance, at the default camera's far/near. */
-void list_method_choice(const options *o, size_t index, char chosen[LIST_TEXT_SIZE]);
+void list_method_choice(size_t index, double tolerance, char chosen[LIST_TEXT_SIZE]);
 
 /** Processor and, unless SOURCE_DATE_EPOCH names another, today's date. @return out */
 const char *methods_machine(char *out, size_t size);

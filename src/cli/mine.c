@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/methods/request.h"
 #include "code/code.h"
 
 /* What a function gave for the windows of a camera. */
@@ -70,7 +71,7 @@ static void run(const method_call *c) {
 static void name_it(mine *m, mine_row *f, method_row *row) {
     const char *colon = strrchr(f->operand, ':'), *slash = strrchr(f->operand, '/');
     const char *name = colon != NULL ? colon + 1 : slash != NULL ? slash + 1 : f->operand;
-    const bool told = m->o->command->id == CMD_PLOT && f->judged.verdict != JUDGE_RIGHT;
+    const bool told = m->o->line->command != &command_methods && f->judged.verdict != JUDGE_RIGHT;
     for (size_t i = 0; i < m->count; i++)
         if (strcmp(m->rows[i].name, name) == 0)
             name = f->operand;
@@ -113,7 +114,7 @@ static int open_mine(mine *m, const char *operand, size_t which) {
                         .run = run,
                         .expect = expect,
                         .known = (double)NAN,
-                        .asked = option_given(m->o, OPTION_TOLERANCE) ? m->o->wanted.tolerance : 0.5};
+                        .asked = option_given(m->o->line, "tolerance") ? m->o->camera.tolerance : 0.5};
     row->claims[which] = (method_claim)UNCLAIMED;
     name_it(m, f, row);
     m->count++;
@@ -137,7 +138,7 @@ static int time_all(mine *m, bool on_device) {
     return status;
 }
 
-int mine_open(const options *o, methods_asked *asked, bool on_device, mine **out) {
+int mine_open(const judge_request *o, methods_asked *asked, bool on_device, mine **out) {
     mine *m = *out = calloc(1, sizeof *m);
     int status = m != NULL ? EXIT_FINE : usage_error("no memory");
     if (status != EXIT_FINE)

@@ -23,7 +23,7 @@ typedef struct mine_row {
 
 /** What they are among. */
 typedef struct mine {
-    const options *o;
+    const judge_request *o;
     dp_setup setup;
     int status; /**< of what was run */
     method_family_row family;
@@ -37,7 +37,7 @@ typedef struct mine {
  * @param on_device  ours are those that GLSL has, and run there, too
  * @return EXIT_FINE, or as a command does; *out is for mine_close() in any case
  */
-int mine_open(const options *o, methods_asked *asked, bool on_device, mine **out);
+int mine_open(const judge_request *o, methods_asked *asked, bool on_device, mine **out);
 
 /** "llvmpipe (LLVM 15.0.6, 256 bits); llvmpipe, Mesa 22.3.6" */
 const char *mine_device(const mine *m);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "cli/option/options.h"
+#include "cli/texture/request.h"
 #include "core/append.h"
 #include "report/number.h"
 
@@ -94,7 +94,7 @@ static const name_list normals = {.get = list_normal};
 static const name_list packings = {.get = list_packing};
 static const name_list effects = {.get = list_effect};
 
-#define METHOD(among, field, usual) .methods = &(among), .place = offsetof(options, field), .standard = (usual)
+#define METHOD(among, field, usual) .methods = &(among), .place = offsetof(texture_asked, field), .standard = (usual)
 
 static const product_row rows[] = {
     {"eye", "eye depth", FRAME_EYE, .by = "eye depth", .unit = "scene units", .unit_of_error = "scene units"},
@@ -103,17 +103,16 @@ static const product_row rows[] = {
     {"linear01", "eye depth over far, as Unity's Linear01Depth", FRAME_LINEAR01, .by = "eye depth over far", .unit = "",
      .unit_of_error = ""},
     {"raw", "window depth, of sky too", FRAME_RAW, .by = "window depth", .unit = "", .unit_of_error = ""},
-    {"position", "world positions, by default exact: the truth", FRAME_POSITION,
-     METHOD(positions, image.position, "exact"), .by = "positions by ", .unit = "scene units",
-     .unit_of_error = "scene units"},
-    {"normal", "normals, by default projective", FRAME_NORMAL, METHOD(normals, image.normal, "projective"),
+    {"position", "world positions, by default exact: the truth", FRAME_POSITION, METHOD(positions, position, "exact"),
+     .by = "positions by ", .unit = "scene units", .unit_of_error = "scene units"},
+    {"normal", "normals, by default projective", FRAME_NORMAL, METHOD(normals, normal, "projective"),
      .by = "normals by ", .unit = "", .unit_of_error = "degrees"},
     {"packed-normal", "the normals that --packing depth-normals or camera-normals holds, in view space", FRAME_NORMAL,
      .packed = true, .by = "", .unit = "", .unit_of_error = ""},
     {"pack", "the depths in several channels of 8 bits, a PNG or NPY, as --packing reads them back", FRAME_EYE,
-     METHOD(packings, image.pack, NULL), .by = "", .unit = "", .unit_of_error = ""},
+     METHOD(packings, pack, NULL), .by = "", .unit = "", .unit_of_error = ""},
     {"effect", "an effect that reads depth; without an image, the usable values of its parameter", FRAME_EFFECT,
-     METHOD(effects, image.effect, NULL), .by = "", .unit = "", .unit_of_error = "levels of 1/255"},
+     METHOD(effects, effect, NULL), .by = "", .unit = "", .unit_of_error = "levels of 1/255"},
 };
 
 const product_row *product_get(size_t index) {

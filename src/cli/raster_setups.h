@@ -6,6 +6,6 @@
 #include "cli/setups.h"
 
 /** As setups_make(), of the model float in the rasterizer's own arithmetic; view and rasterizer are complete. */
-int raster_setups(const options *o, setups *out);
+int raster_setups(const camera_asked *c, setups *out);
 
 #endif

@@ -3,7 +3,7 @@
 #ifndef CLI_RESOLVED_H
 #define CLI_RESOLVED_H
 
-#include "cli/option/options.h"
+#include "cli/setups.h"
 #include "report/number.h"
 
 enum { RESOLVED_LIMITS = 3, RESOLVED_MIDDLE = 1, RESOLVED_DIGITS = 3, RESOLVED_TEXT_SIZE = 256 };

@@ -11,99 +11,99 @@
 #include "report/number.h"
 
 /* Depth that a shader writes goes through no pipeline; where table is asked, what is counted of that shader is said. */
-static int refuse_float(const options *o, dp_mapping mapping) {
+static int refuse_float(const camera_asked *c, dp_mapping mapping) {
     const dp_mapping_row *row = dp_mapping_get(mapping);
-    const bool counted = o->command->id == CMD_TABLE && row->curve == DP_CURVE_LOG;
-    if (option_given(o, OPTION_MODEL))
-        return option_error(OPTION_MODEL,
+    const bool counted = c->use.counted && row->curve == DP_CURVE_LOG;
+    if (option_given(c->line, "model"))
+        return option_error("model",
                             "float is a pipeline's arithmetic, and a shader writes the depth of %s: leave it out%s, or "
                             "take one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
                             row->name, counted ? " ('guaranteed' counts that shader's log2)" : "");
-    return option_error(OPTION_MAPPING,
+    return option_error("mapping",
                         "must be one of " DP_MAPPING_NAMES_PERSPECTIVE
                         ", which have a pipeline's arithmetic, got %s, whose depth a shader writes",
                         row->name);
 }
 
-int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
+int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status) {
     const char *mapping = dp_mapping_get(spec->mapping)->name;
     if (status == DP_ERROR_MODEL) /* of the models that have a name, float alone is not for all */
-        return refuse_float(o, spec->mapping);
+        return refuse_float(c, spec->mapping);
     /* "--far: must be ..." rather than "--far: far must be ...". */
     const char *text = dp_status_text(status);
     if (strncmp(text, "far ", 4) == 0)
         text += 4;
     if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
-        return option_error(status == DP_ERROR_ORTHO ? OPTION_ORTHO : OPTION_FAR, "%s, got %s, %s", text,
+        return option_error(status == DP_ERROR_ORTHO ? "ortho" : "far", "%s, got %s, %s", text,
                             spec->ortho ? "orthographic" : "perspective", mapping);
-    return option_error(OPTION_FAR, "%s, got near %s, far %s", text, number_full(spec->znear).text,
+    return option_error("far", "%s, got near %s, far %s", text, number_full(spec->znear).text,
                         number_full(spec->zfar).text);
 }
 
-int setup_undrawn(const options *o, const dp_format *format) {
-    if (o->camera.raster == NULL || raster_bounded(o->camera.raster, format))
+int setup_undrawn(const camera_asked *c, const dp_format *format) {
+    if (c->raster == NULL || raster_bounded(c->raster, format))
         return EXIT_FINE;
-    return option_error(OPTION_RASTER,
+    return option_error("raster",
                         "%s steps the codes of %s from pixel to pixel, which has no bound: name other formats with "
                         "--format",
-                        o->camera.raster->name, format->name);
+                        c->raster->name, format->name);
 }
 
 /* What has a budget: a logarithmic mapping without the terms that its shader has not. */
-static int check_budget(const options *o, const dp_spec *spec) {
+static int check_budget(const camera_asked *c, const dp_spec *spec) {
     static const struct {
-        option_id id;
+        const char *id;
         const char *why;
-    } others[] = {{OPTION_FROM_ORIGIN, "budget begins with eye depth"},
-                  {OPTION_LINEARIZE, "budget ends with the code"},
-                  {OPTION_VIEWPORT, "budget is of surfaces that face the camera"}};
+    } others[] = {{"from-origin", "budget begins with eye depth"},
+                  {"linearize", "budget ends with the code"},
+                  {"viewport", "budget is of surfaces that face the camera"}};
     static const char leave[] = "leave it out, or take one of " DP_MAPPING_NAMES_PERSPECTIVE;
     const dp_mapping_row *row = dp_mapping_get(spec->mapping);
     if (row->curve == DP_CURVE_LINEAR)
-        return option_error(OPTION_MAPPING,
+        return option_error("mapping",
                             "a budget needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG
                             ", got %s",
                             row->name);
     for (size_t i = 0; i < sizeof others / sizeof others[0] && row->curve == DP_CURVE_LOG; i++)
-        if (option_given(o, others[i].id))
+        if (option_given(c->line, others[i].id))
             return option_error(others[i].id, "does not apply to the logarithmic mapping %s, whose %s: %s", row->name,
                                 others[i].why, leave);
     return EXIT_FINE;
 }
 
-int setup_decided(const options *o) {
-    if (o->camera.platform == NULL || option_given(o, OPTION_FORMAT) || o->camera.format_count < 2)
+int setup_decided(const camera_asked *c) {
+    if (c->platform == NULL || option_given(c->line, "format") || c->format_count < 2)
         return EXIT_FINE;
-    return option_error(OPTION_PLATFORM, "stores unorm24 or fp32 on %s, as the device has it: -F says for which",
-                        o->camera.platform->name);
+    return option_error("platform", "stores unorm24 or fp32 on %s, as the device has it: -F says for which",
+                        c->platform->name);
 }
 
-static int add_setups(const options *o, size_t camera, setups *out) {
-    dp_spec spec = {.znear = o->camera.znear,
-                    .zfar = o->camera.zfar,
-                    .ortho = o->camera.ortho,
-                    .rounding = o->camera.rounding,
-                    .model = o->camera.model,
-                    .arith = o->camera.arith,
-                    .log_c = o->camera.log_c,
-                    .triangles = o->camera.triangles};
-    for (size_t f = 0; f < o->camera.format_count; f++)
-        for (size_t m = 0; m < o->camera.mapping_count; m++) {
-            const bool rg = dp_format_is_rg(&o->camera.formats[f]); /* linear, whatever the camera's buffer is */
+static int add_setups(const camera_asked *c, size_t camera, setups *out) {
+    dp_spec spec = {.znear = c->znear,
+                    .zfar = c->zfar,
+                    .ortho = c->ortho,
+                    .rounding = c->rounding,
+                    .model = c->model,
+                    .arith = c->arith,
+                    .log_c = c->log_c,
+                    .triangles = c->triangles};
+    for (size_t f = 0; f < c->format_count; f++)
+        for (size_t m = 0; m < c->mapping_count; m++) {
+            const bool rg = dp_format_is_rg(&c->formats[f]); /* linear, whatever the camera's buffer is */
             if (rg && m > 0)
                 break;
-            spec.format = o->camera.formats[f];
-            spec.mapping = rg ? DP_MAPPING_LINEAR : o->camera.mappings[m];
+            spec.format = c->formats[f];
+            spec.mapping = rg ? DP_MAPPING_LINEAR : c->mappings[m];
             const bool shader = dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG;
-            spec.model = o->camera.budgeted && shader ? DP_MODEL_EXACT : o->camera.model;
-            if (o->camera.budgeted && check_budget(o, &spec) != EXIT_FINE)
+            spec.model = c->budgeted && shader ? DP_MODEL_EXACT : c->model;
+            if (c->budgeted && check_budget(c, &spec) != EXIT_FINE)
                 return EXIT_USAGE;
-            if (options_check_stored(o, &spec.format) != EXIT_FINE || setup_undrawn(o, &spec.format) != EXIT_FINE)
+            if (camera_check_stored(c, &spec.format) != EXIT_FINE || setup_undrawn(c, &spec.format) != EXIT_FINE)
                 return EXIT_USAGE;
             out->cameras[out->count] = camera;
             const dp_status status = dp_setup_init(&out->items[out->count++], &spec);
             if (status != DP_OK)
-                return setup_refused(o, &spec, status);
+                return setup_refused(c, &spec, status);
         }
     return EXIT_FINE;
 }
@@ -115,26 +115,26 @@ bool setups_have_log(const setups *all) {
     return false;
 }
 
-int setups_make(const options *o, setups *out) {
-    const size_t cameras = options_cameras(o), most = cameras * OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT;
+int setups_make(const camera_asked *c, setups *out) {
+    const size_t cameras = camera_count(c), most = cameras * CAMERA_FORMATS_MAX * DP_MAPPING_COUNT;
     int status = EXIT_FINE;
     *out = (setups){.items = malloc(most * sizeof *out->items), .cameras = malloc(most * sizeof *out->cameras)};
     if (out->items == NULL || out->cameras == NULL)
         status = usage_error("no memory for %zu set-ups", most);
     for (size_t i = 0; i < cameras && status == EXIT_FINE; i++)
-        status = add_setups(options_of(o, i), i, out);
-    if (status == EXIT_FINE && o->camera.budgeted && option_given(o, OPTION_LOG2) && !setups_have_log(out))
-        status = option_error(OPTION_LOG2, "needs one of the mappings " DP_MAPPING_NAMES_LOG);
-    if (status == EXIT_FINE && option_given(o, OPTION_LOG_C) && !setups_have_log(out))
-        status = option_error(OPTION_LOG_C, "needs one of the mappings " DP_MAPPING_NAMES_LOG);
+        status = add_setups(camera_of(c, i), i, out);
+    if (status == EXIT_FINE && c->budgeted && option_given(c->line, "log2") && !setups_have_log(out))
+        status = option_error("log2", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
+    if (status == EXIT_FINE && option_given(c->line, "log-c") && !setups_have_log(out))
+        status = option_error("log-c", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
     if (status != EXIT_FINE)
         setups_release(out);
     return status;
 }
 
-int setups_make_float(const options *o, setups *out) {
-    options in_float = *o;
-    in_float.camera.model = DP_MODEL_FLOAT;
+int setups_make_float(const camera_asked *c, setups *out) {
+    camera_asked in_float = *c;
+    in_float.model = DP_MODEL_FLOAT;
     return setups_make(&in_float, out);
 }
 
@@ -188,7 +188,7 @@ const char *setup_label_as(const dp_setup *setup, const setup_fields *f, char ou
     snprintf(out, SETUP_LABEL_SIZE, "%s %s%s%s, near %s, far %s, %s, %s, %s%s%s", f->format, f->mapping,
              has_log_c ? " C " : "", has_log_c ? number_full(f->log_c).text : "", number_full(f->znear).text,
              number_full(f->zfar).text, f->projection, f->rounding,
-             option_word(OPTION_MODEL, has_arith ? DP_MODEL_FLOAT : setup->spec.model), has_arith ? " " : "",
+             option_word("model", has_arith ? DP_MODEL_FLOAT : setup->spec.model), has_arith ? " " : "",
              has_arith ? f->arith : "");
     return out;
 }

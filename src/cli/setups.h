@@ -5,12 +5,12 @@
 
 #include <stddef.h>
 
-#include "cli/option/options.h"
+#include "cli/camera/camera.h"
 #include "report/report.h"
 
 typedef struct setups {
     dp_setup *items;
-    size_t *cameras; /**< the camera of each, see options_of() */
+    size_t *cameras; /**< the camera of each, see camera_of() */
     size_t count;
 } setups;
 
@@ -22,10 +22,10 @@ typedef struct setups {
  *
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr that names the option at fault
  */
-int setups_make(const options *o, setups *out);
+int setups_make(const camera_asked *c, setups *out);
 
 /** The same in the model float, whatever --model is. */
-int setups_make_float(const options *o, setups *out);
+int setups_make_float(const camera_asked *c, setups *out);
 
 void setups_release(setups *s);
 
@@ -34,16 +34,16 @@ bool setups_have_log(const setups *all);
 
 /** Says why a set-up cannot be made, by the option at fault; near and the like are in their ranges. @return EXIT_USAGE
  */
-int setup_refused(const options *o, const dp_spec *spec, dp_status status);
+int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status);
 
 /** The same where the rasterizer that was named draws a format without a bound. @return EXIT_FINE or EXIT_USAGE */
-int setup_undrawn(const options *o, const dp_format *format);
+int setup_undrawn(const camera_asked *c, const dp_format *format);
 
 /**
  * Refuses a platform that stores one of two formats, as the device has it, where neither was named and one is wanted.
  * @return EXIT_FINE or EXIT_USAGE
  */
-int setup_decided(const options *o);
+int setup_decided(const camera_asked *c);
 
 /** The room that setup_label() needs, with the terminating null. */
 enum { SETUP_LABEL_SIZE = 160 };

@@ -19,10 +19,10 @@ static void say_rasterizer(page *p, slant_line *line, const raster_row *row, int
          anchor != NULL ? "anchor " : "any anchor: the worst is counted", anchor != NULL ? anchor->name : "", arith);
 }
 
-void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setup) {
-    const dp_triangles *t = &o->camera.triangles;
-    const bool theirs = setup == NULL && o->camera.preset_count > 1; /* each has its own view and rasterizer */
-    const char *const arith = dp_arith_get(setup != NULL ? setup->spec.arith : o->camera.arith)->name;
+void slant_say(page *p, slant_line *line, const camera_asked *c, const dp_setup *setup) {
+    const dp_triangles *t = &c->triangles;
+    const bool theirs = setup == NULL && c->preset_count > 1; /* each has its own view and rasterizer */
+    const char *const arith = dp_arith_get(setup != NULL ? setup->spec.arith : c->arith)->name;
     char view[128] = "";
     if (t->width == 0)
         return;
@@ -32,15 +32,15 @@ void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setu
     }
     if (!theirs)
         append(view, sizeof view, " fov %s,", number_of(t->fov_y, DIGITS).text);
-    if (!theirs && o->camera.raster == NULL)
+    if (!theirs && c->raster == NULL)
         append(view, sizeof view, " %d subpixel bits,", t->subpixel);
     append(view, sizeof view, " slant %s", number_full(t->slant_lo).text);
     if (t->slant_lo < t->slant_hi)
         append(view, sizeof view, " to %s", number_full(t->slant_hi).text);
-    line(p, "viewport %dx%d,%s degrees%s%s", t->width, t->height, view, o->camera.raster == NULL ? ", " : "",
-         o->camera.raster == NULL ? arith : "");
-    if (!theirs && o->camera.raster != NULL)
-        say_rasterizer(p, line, o->camera.raster, t->subpixel, arith);
+    line(p, "viewport %dx%d,%s degrees%s%s", t->width, t->height, view, c->raster == NULL ? ", " : "",
+         c->raster == NULL ? arith : "");
+    if (!theirs && c->raster != NULL)
+        say_rasterizer(p, line, c->raster, t->subpixel, arith);
     line(p, "triangles from z/%s to %s z, at most %s pixels, aspect ratio at most %s:1", number_full(t->depth).text,
          number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
 }
@@ -52,11 +52,10 @@ number_text slant_words(const dp_triangles *t) {
     return out;
 }
 
-const slant_fields *slant_fields_of(const options *o, slant_fields *out) {
-    if (o->camera.triangles.width == 0)
+const slant_fields *slant_fields_of(const camera_asked *c, slant_fields *out) {
+    if (c->triangles.width == 0)
         return NULL;
-    *out = (slant_fields){o->camera.triangles, o->camera.raster != NULL ? o->camera.raster->name : NULL,
-                          dp_arith_get(o->camera.arith)->name};
+    *out = (slant_fields){c->triangles, c->raster != NULL ? c->raster->name : NULL, dp_arith_get(c->arith)->name};
     return out;
 }
 

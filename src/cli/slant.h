@@ -3,7 +3,7 @@
 #ifndef CLI_SLANT_H
 #define CLI_SLANT_H
 
-#include "cli/option/options.h"
+#include "cli/camera/camera.h"
 #include "report/number.h"
 #include "report/report.h"
 
@@ -20,7 +20,7 @@ extern const column slant_columns[];
 number_text slant_words(const dp_triangles *t);
 
 /** Of options that have a viewport; null of others. @return out */
-const slant_fields *slant_fields_of(const options *o, slant_fields *out);
+const slant_fields *slant_fields_of(const camera_asked *c, slant_fields *out);
 
 /** page_title() or page_line(). */
 typedef void slant_line(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -29,6 +29,6 @@ typedef void slant_line(page *p, const char *format, ...) __attribute__((format(
  * What text says above a set-up, or above several where it is null: view, grid and class, or why there is no guarantee;
  * nothing without a viewport.
  */
-void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setup);
+void slant_say(page *p, slant_line *line, const camera_asked *c, const dp_setup *setup);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/zfight_triangles.h"
+#include "cli/zfight/request.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,6 +18,7 @@ enum { DIGITS = 4, SHARE_DIGITS = 3, PAIRS = 500 };
 /* Walks over set-ups alone; below `before`, what belongs to the one at hand. */
 typedef struct drawn {
     each_setup each;
+    const zfight_request *o;
     draw_fight_result *results; /* one a set-up */
     const char *method;
     uint64_t pairs, seed; /* pairs: of a set-up */
@@ -37,14 +39,14 @@ static int tick(void *context, uint64_t done) {
 }
 
 static draw_fight_request request_of(drawn *d, const dp_setup *setup, const draw_camera *camera) {
-    const options *o = d->each.o;
+    const zfight_request *o = d->o;
     return (draw_fight_request){.camera = camera,
                                 .setup = setup,
                                 .azimuth = o->camera.azimuth,
                                 .lo = d->lo,
                                 .hi = d->hi,
-                                .count = o->census.sample > 0 ? o->census.sample : PAIRS,
-                                .seed = o->census.seed,
+                                .count = o->sample > 0 ? o->sample : PAIRS,
+                                .seed = o->seed,
                                 .threads = o->out.threads,
                                 .progress = tick,
                                 .context = d};
@@ -54,9 +56,9 @@ static int work(drawn *d) {
     for (size_t i = 0; i < d->each.all.count; i++) {
         const dp_setup *setup = &d->each.all.items[i];
         draw_camera camera;
-        const raster_status status = draw_camera_init(&camera, d->each.o->camera.raster, setup);
+        const raster_status status = draw_camera_init(&camera, d->o->camera.raster, setup);
         if (status != RASTER_OK)
-            return option_error(OPTION_VIEWPORT, "%s", raster_status_text(status));
+            return option_error("viewport", "%s", raster_status_text(status));
         const draw_fight_request request = request_of(d, setup, &camera);
         const draw_fight_status end = draw_fight(&request, &d->results[i]);
         if (end == DRAW_FIGHT_NO_MEMORY)
@@ -94,7 +96,7 @@ static void say_answer(page *p, void *item) {
     const drawn *d = item;
     const draw_fight_band *w = &d->whole;
     each_setup_title(p, item);
-    slant_say(p, page_title, d->each.o, d->each.setup);
+    slant_say(p, page_title, &d->o->camera, d->each.setup);
     if (w->pixels == 0)
         page_text(p, "Nothing was drawn: no separation is guaranteed in this range, or no triangle fits.");
     else if (isnan(w->used))
@@ -146,16 +148,16 @@ static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns)
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 static int check(drawn *d) {
-    const options *o = d->each.o;
-    if (option_given(o, OPTION_SEPARATION))
-        return option_error(OPTION_SEPARATION, "conflicts with --rasterize, which looks for the separation");
-    int status = raster_setups(o, &d->each.all);
+    const zfight_request *o = d->o;
+    if (option_given(o->line, "separation"))
+        return option_error("separation", "conflicts with --rasterize, which looks for the separation");
+    int status = raster_setups(&o->camera, &d->each.all);
     if (status == EXIT_FINE)
-        status = range_resolve(o, &d->lo, &d->hi);
+        status = range_resolve(&o->camera, &d->lo, &d->hi);
     if (status == EXIT_FINE && isinf(d->hi))
-        status = option_error(OPTION_RANGE, "must be given when far is inf");
+        status = option_error("range", "must be given when far is inf");
     if (status == EXIT_FINE && isinf((float)d->hi))
-        status = option_error(OPTION_RANGE, "must end at 3.4028235e+38, the largest binary32 number, at most, got %s",
+        status = option_error("range", "must end at 3.4028235e+38, the largest binary32 number, at most, got %s",
                               number_full(d->hi).text);
     return status;
 }
@@ -164,7 +166,7 @@ static int run(drawn *d) {
     const draw_fight_request request = request_of(d, NULL, NULL);
     d->pairs = draw_fight_count(&request);
     stop_watch();
-    d->each.progress = progress_start("pairs", d->each.all.count * d->pairs, d->each.o->out.quiet);
+    d->each.progress = progress_start("pairs", d->each.all.count * d->pairs, d->o->out.quiet);
     const int status = work(d);
     progress_end(&d->each.progress);
     stop_end(&d->each.out);
@@ -172,21 +174,25 @@ static int run(drawn *d) {
         output_abandon(&d->each.out);
         return status;
     }
-    report_write(&(report_spec){"zfight", columns, d, .when = 0}, &d->each.out, d->each.o->out.form);
+    report_write(&(report_spec){"zfight", columns, d, .when = 0}, &d->each.out, d->o->out.form);
     return output_close(&d->each.out);
 }
 
-int zfight_triangles(const options *o) {
-    drawn d = {.each.o = o, .method = "triangles", .seed = o->census.seed, .azimuth = o->camera.azimuth};
+int zfight_triangles(const zfight_request *o) {
+    drawn d = {.o = o,
+               .each = {.camera = &o->camera, .how = &o->out},
+               .method = "triangles",
+               .seed = o->seed,
+               .azimuth = o->camera.azimuth};
     int status = check(&d);
-    slant_fields_of(o, &d.slant);
+    slant_fields_of(&o->camera, &d.slant);
     if (status == EXIT_FINE) {
         d.results = calloc(d.each.all.count, sizeof *d.results);
         if (d.results == NULL)
             status = usage_error("no memory for %zu set-ups", d.each.all.count);
     }
     if (status == EXIT_FINE)
-        status = options_open(o, &d.each.out);
+        status = output_start(&o->out, &o->camera, &d.each.out);
     if (status == EXIT_FINE)
         status = run(&d);
     free(d.results);

@@ -3,9 +3,9 @@
 #ifndef CLI_ZFIGHT_TRIANGLES_H
 #define CLI_ZFIGHT_TRIANGLES_H
 
-#include "cli/option/options.h"
+#include "cli/zfight/request.h"
 
 /** @return an exit status, after one line on stderr where it is not fine */
-int zfight_triangles(const options *o);
+int zfight_triangles(const zfight_request *o);
 
 #endif

@@ -21,7 +21,6 @@
 #include <unistd.h>
 
 #include "cli/commands.h"
-#include "cli/option/options.h"
 #include "frame/strips.h"
 #include "image/kind.h"
 #include "npm/standin.h"
@@ -40,8 +39,8 @@ _Noreturn static void missing(const char *what) {
     exit(EXIT_USAGE);
 }
 
-int cmd_methods(const options *o) {
-    (void)o;
+int cmd_methods(void *request) {
+    (void)request;
     missing("methods, which times this processor, is");
 }
 

@@ -7,24 +7,25 @@
 
 #include "cli/check_report.h"
 #include "cli/constants.h"
+#include "cli/judge/request.h"
 #include "cli/link.h"
 #include "cli/mine.h"
-#include "cli/option/rows.h"
 #include "cli/scene/figure.h"
 #include "cli/shadow/maps.h"
+#include "cli/texture/request.h"
 #include "judge/pairs.h"
 #include "plot/figure.h"
 #include "requirement/check.h"
 #include "scene/find.h"
 #include "shader/pack.h"
 
-static int absent(const options *o) {
-    return usage_error("%s is not in the page: the program has it", o->command->name);
+static int absent(const asked_line *line) {
+    return usage_error("%s is not in the page: the program has it", line->command->name);
 }
 
 #define ABSENT(name)                                                                                                   \
-    int name(const options *o) {                                                                                       \
-        return absent(o);                                                                                              \
+    int name(void *request) {                                                                                          \
+        return absent(*(asked_line *const *)request);                                                                  \
     }
 
 ABSENT(cmd_check)
@@ -35,8 +36,14 @@ ABSENT(cmd_scene)
 ABSENT(cmd_shadow)
 ABSENT(cmd_texture)
 ABSENT(cmd_world)
-ABSENT(constants_write)
-ABSENT(link_write)
+
+int constants_write(const table_request *o) {
+    return absent(o->line);
+}
+
+int link_write(const asked_line *line) {
+    return absent(line);
+}
 
 #define ABSENT_FIGURE(name)                                                                                            \
     const char *name(const figure_request *request, chart *out) {                                                      \
@@ -87,11 +94,11 @@ const method_family_row linearize_family = {.method_count = &none}, encode_famil
 
 void method_start(void) {}
 
-int mine_open(const options *o, methods_asked *asked, bool on_device, mine **out) {
+int mine_open(const judge_request *o, methods_asked *asked, bool on_device, mine **out) {
     (void)asked;
     (void)on_device;
     (void)out;
-    return absent(o);
+    return absent(o->line);
 }
 
 const char *mine_device(const mine *m) {
@@ -119,20 +126,20 @@ int judge_pairs_read(const char *path, judge_pairs *out, char error[PAIRS_ERROR_
     return -1;
 }
 
-int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
+int shadow_maps_make(const shadow_request *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
     (void)format;
     (void)mapping;
     (void)out;
-    return absent(o);
+    return absent(o->line);
 }
 
 void need_release(need_file *file) {
     (void)file;
 }
 
-int scene_figure_begin(scene *s, const options *o) {
+int scene_figure_begin(scene *s, const scene_request *o) {
     (void)s;
-    return absent(o);
+    return absent(o->line);
 }
 
 int scene_look(scene *s, output *out) {
@@ -159,27 +166,26 @@ void scene_end(scene *s) {
 
 /* ---- Names alone, where the program reads the profile of a GPU too --------------------------------------------- */
 
-int parse_arith(options *o, const option_row *row, const char *value) {
-    return parse_word(o, row, value);
+int parse_arith(asked_line *line, const option_row *row, const char *value, void *group) {
+    return parse_word(line, row, value, group);
 }
 
-int parse_raster(options *o, const option_row *row, const char *value) {
-    return parse_row(o, row, value);
+int parse_raster(asked_line *line, const option_row *row, const char *value, void *group) {
+    return parse_row(line, row, value, group);
 }
 
 /* ---- Of commands that are not here ------------------------------------------------------------------------------- */
 
 #define ABSENT_PARSER(name)                                                                                            \
-    int name(options *o, const option_row *row, const char *value) {                                                   \
+    int name(asked_line *line, const option_row *row, const char *value, void *group) {                                \
         (void)row;                                                                                                     \
         (void)value;                                                                                                   \
-        return absent(o);                                                                                              \
+        (void)group;                                                                                                   \
+        return absent(line);                                                                                           \
     }
 
-ABSENT_PARSER(parse_camera_depth)
 ABSENT_PARSER(parse_error_map)
 ABSENT_PARSER(parse_hi_z)
 ABSENT_PARSER(parse_parameter)
 ABSENT_PARSER(parse_define)
-ABSENT_PARSER(parse_mine)
 ABSENT_PARSER(parse_product)

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/option/uses.h"
+#include "cli/option/option.h"
+#include "report/output.h"
 #include "web/page.h"
 
 enum { WORDS_MAX = 1024 };
@@ -57,35 +58,41 @@ static void say(const char *word) {
  * each option that was given and its argument, "" of none, as the option table has them in order. @return exit status
  */
 PAGE_EXPORT("parse") int parse_words(int count) {
-    static options o;
+    asked_line line;
     const int argc = split_words(count);
-    const int status = argc > 0 ? options_parse(&o, argc, words) : usage_error("at most %d words", WORDS_MAX);
+    const int status = argc > 0 ? options_parse(&line, argc, words) : usage_error("at most %d words", WORDS_MAX);
     if (status == EXIT_FINE) {
+        const option_row *all[OPTIONS_MAX + 1];
         char number[16];
-        snprintf(number, sizeof number, "%d", o.operand_count);
-        say(o.command->name);
+        snprintf(number, sizeof number, "%d", line.operand_count);
+        say(line.command->name);
         say(number);
-        for (int i = 0; i < o.operand_count; i++)
-            say(o.operands[i]);
-        for (int id = 0; id < OPTION_COUNT; id++)
-            if (option_given(&o, (option_id)id)) {
-                say(option_rows[id].name);
-                say(o.given[id]);
+        for (int i = 0; i < line.operand_count; i++)
+            say(line.operands[i]);
+        options_all(all);
+        for (size_t i = 0; all[i] != NULL; i++)
+            if (option_find(line.command, all[i]->name) == all[i] && option_given(&line, all[i]->name)) {
+                say(all[i]->name);
+                say(option_text(&line, all[i]->name));
             }
     }
+    if (argc > 0)
+        options_release(&line);
     fflush(NULL);
     return status;
 }
 
 /** The options of the command that is the first word: name and argument ("" of none) of each. @return exit status */
 PAGE_EXPORT("takes") int taken_by_words(int count) {
+    const option_row *all[OPTIONS_MAX + 1];
     char argument[OPTION_TEXT_SIZE];
     const command_row *v = split_words(count) > 1 ? command_find(words[1]) : NULL;
-    for (int id = 0; v != NULL && id < OPTION_COUNT; id++) {
-        const option_use *use = option_used(v, ~0U, (option_id)id);
-        if (use != NULL) {
-            say(option_rows[id].name);
-            say(option_use_argument(use, argument));
+    options_all(all);
+    for (size_t i = 0; v != NULL && all[i] != NULL; i++) {
+        const option_taken use = option_used(v, ~0U, all[i]);
+        if (use.row != NULL) {
+            say(use.row->name);
+            say(option_use_argument(&use, argument));
         }
     }
     fflush(NULL);

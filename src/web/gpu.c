@@ -131,7 +131,7 @@ void probe_free(probe_result *r) {
 /* ---- Functions --------------------------------------------------------------------------------------------------- */
 
 /* The operand is the source itself: no file is in the page. */
-int shader_open(const options *o, const dp_setup *setup, const char *operand, bool timed, shader *out) {
+int shader_open(const judge_request *o, const dp_setup *setup, const char *operand, bool timed, shader *out) {
     char text[GPU_TEXT_SIZE];
     gpu_request r = {
         .what = GPU_COMPILE, .source = operand, .a = (float)setup->spec.znear, .b = (float)setup->spec.zfar};

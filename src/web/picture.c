@@ -30,9 +30,8 @@ static void let_go(void) {
 }
 
 /* Of several cameras, mappings and depths the first; of formats the first that the rasterizer draws. */
-static int make(const options *all) {
-    const options *o = options_of(all, 0);
-    const options_camera *c = &o->camera;
+static int make(const camera_asked *all) {
+    const camera_asked *c = camera_of(all, 0);
     size_t format = 0;
     const raster_row *row = c->raster != NULL ? c->raster : raster_find("llvmpipe");
     while (format + 1 < c->format_count && !raster_draws(row, &c->formats[format]))
@@ -46,19 +45,25 @@ static int make(const options *all) {
                           .log_c = c->log_c};
     const double z = c->at.count > 0 ? depths_get(&c->at, 0) : (double)NAN;
     const char *wrong = draw_picture_open(&picture, &spec, row, z);
-    unit = options_unit(o);
+    unit = camera_unit(c);
     return wrong == NULL ? EXIT_FINE : usage_error("%s: %s", row->name, wrong);
 }
 
+/* The camera of whatever command takes one. */
+static int make_of(const asked_line *line) {
+    const camera_asked *all = option_group(line, option_find(line->command, "near"));
+    return all != NULL ? make(all) : usage_error("%s has no camera", line->command->name);
+}
+
 static int picture_of(int argc, char **words) {
-    static options o;
+    asked_line line;
     let_go();
     pixels = pixels != NULL ? pixels : malloc(PIXELS * sizeof *pixels);
-    int status = argc > 0 ? options_parse(&o, argc, words) : usage_error("too many words");
+    int status = argc > 0 ? options_parse(&line, argc, words) : usage_error("too many words");
     if (status == EXIT_FINE)
-        status = pixels != NULL ? make(&o) : usage_error("no memory for a picture");
+        status = pixels != NULL ? make_of(&line) : usage_error("no memory for a picture");
     if (argc > 0)
-        options_release(&o);
+        options_release(&line);
     fflush(NULL);
     return status;
 }

@@ -28,17 +28,17 @@ static void demand(int truth) {
         abort();
 }
 
-static void use(const options *o) {
+static void use(const camera_asked *c) {
     setups all;
     depths at;
     double lo;
     double hi;
-    if (setups_make(o, &all) != EXIT_FINE)
+    if (setups_make(c, &all) != EXIT_FINE)
         return;
-    demand(all.count == o->camera.format_count * o->camera.mapping_count);
-    if (range_resolve(o, &lo, &hi) == EXIT_FINE)
-        demand(o->camera.znear <= lo && lo < hi && hi <= o->camera.zfar);
-    if (depths_resolve(o, 9, &at) == EXIT_FINE) {
+    demand(all.count == c->format_count * c->mapping_count);
+    if (range_resolve(c, &lo, &hi) == EXIT_FINE)
+        demand(c->znear <= lo && lo < hi && hi <= c->zfar);
+    if (depths_resolve(c, 9, &at) == EXIT_FINE) {
         demand(at.count >= 1 && at.count <= DEPTHS_MAX);
         size_t step = at.count / 16 + 1;
         for (size_t i = 0; i < at.count; i += step) {
@@ -68,10 +68,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         line = end;
     }
     argv[argc] = NULL;
-    options o;
-    if (options_parse(&o, argc, argv) == EXIT_FINE)
-        use(&o);
-    options_release(&o);
+    asked_line line;
+    const camera_asked *c;
+    if (options_parse(&line, argc, argv) == EXIT_FINE &&
+        (c = option_group(&line, option_find(line.command, "near"))) != NULL)
+        use(c);
+    options_release(&line);
     free(text);
     return 0;
 }

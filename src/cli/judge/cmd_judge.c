@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/judge/request.h"
 #include "cli/judge/shader.h"
 #include "cli/setups.h"
 #include "judge/judge.h"
@@ -20,7 +21,7 @@ typedef struct named {
 } named;
 
 typedef struct report {
-    const options *o;
+    const judge_request *o;
     judge_pairs pairs;
     judgement found;
     const char *verdict, *precision;
@@ -39,7 +40,7 @@ static const char *called(const judge_candidate *c) {
     return own != NULL ? own : c->output->called[JUDGE_PERSPECTIVE];
 }
 
-static void name(const options *o, const judge_candidate *c, named *out) {
+static void name(const judge_request *o, const judge_candidate *c, named *out) {
     *out = (named){.computes = c->output->name,
                    .formula = c->trap != NULL ? c->trap->formula : c->output->formula,
                    .called = called(c),
@@ -48,7 +49,7 @@ static void name(const options *o, const judge_candidate *c, named *out) {
                    .trap = c->trap != NULL ? c->trap->name : NULL,
                    .right = c->trap != NULL ? c->trap->right : NULL,
                    .source = c->trap != NULL ? c->trap->source : c->output->source,
-                   .fields = setup_fields_of(&c->setup, options_unit(o))};
+                   .fields = setup_fields_of(&c->setup, camera_unit(&o->camera))};
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
@@ -71,7 +72,7 @@ static void say_losses(page *p, const report *r) {
     if (!isnan(j->intervals))
         page_note(p, "buffer", "up to %s z-fighting intervals of %s, at z = %s",
                   number_brief(number_of(j->intervals, SHORT)).text, j->found.setup.spec.format.name,
-                  options_length(r->o, j->z, ENOUGH).text);
+                  camera_length(&r->o->camera, j->z, ENOUGH).text);
 }
 
 static void say_all(page *p, void *item) {
@@ -189,7 +190,7 @@ static int judge_shader(report *r, const setups *all, bool open) {
         j->verdict = JUDGE_UNKNOWN;
         j->because = "what fits many depths does not fit all";
     }
-    r->function = r->o->operands[0];
+    r->function = r->o->line->operands[0];
     r->device = r->code.device;
     r->defines = r->code.defines;
     return status;
@@ -197,7 +198,7 @@ static int judge_shader(report *r, const setups *all, bool open) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-static int read_pairs(const options *o, judge_pairs *pairs) {
+static int read_pairs(const judge_request *o, judge_pairs *pairs) {
     char error[PAIRS_ERROR_SIZE];
     const int status = judge_pairs_read(o->judge.pairs, pairs, error);
     if (status > 0) {
@@ -208,8 +209,8 @@ static int read_pairs(const options *o, judge_pairs *pairs) {
 }
 
 static int run(report *r, const setups *all, output *out) {
-    const options *o = r->o;
-    const bool open = !option_given(o, OPTION_NEAR) && !option_given(o, OPTION_FAR) && o->camera.preset_count == 0;
+    const judge_request *o = r->o;
+    const bool open = !option_given(o->line, "near") && !option_given(o->line, "far") && o->camera.preset_count == 0;
     int status = EXIT_FINE;
     if (o->judge.pairs == NULL) {
         status = judge_shader(r, all, open);
@@ -230,23 +231,24 @@ static int run(report *r, const setups *all, output *out) {
     return output_close(out);
 }
 
-int cmd_judge(const options *o) {
+int cmd_judge(void *request) {
+    const judge_request *o = request;
     output out;
     setups all = {0};
     report r = {.o = o};
-    const bool for_depths = o->judge.depths > 0, shaded = o->operand_count > 0;
+    const bool for_depths = o->judge.depths > 0, shaded = o->line->operand_count > 0;
     if ((o->judge.pairs != NULL) + for_depths + shaded != 1)
         return usage_error("judge needs FILE:FUNCTION, or --pairs FILE, or --pairs-for N, which prints depths to ask a "
                            "function for");
     if (!for_depths && o->camera.format_count > 1)
-        return option_error(OPTION_FORMAT, "must be one format, got %zu", o->camera.format_count);
-    int status = for_depths ? EXIT_FINE : setups_make(o, &all);
+        return option_error("format", "must be one format, got %zu", o->camera.format_count);
+    int status = for_depths ? EXIT_FINE : setups_make(&o->camera, &all);
     if (status == EXIT_FINE && o->judge.pairs != NULL)
         status = read_pairs(o, &r.pairs);
     if (status == EXIT_FINE && shaded)
-        status = shader_open(o, &all.items[0], o->operands[0], false, &r.code);
+        status = shader_open(o, &all.items[0], o->line->operands[0], false, &r.code);
     if (status == EXIT_FINE)
-        status = options_open(o, &out);
+        status = output_start(&o->out, &o->camera, &out);
     if (status == EXIT_FINE && for_depths) {
         write_depths(&out, o->out.form, o->judge.depths);
         status = output_close(&out);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/judge/shader.h"
+#include "cli/judge/request.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -9,6 +10,20 @@
 #include "probe/compute.h"
 #include "report/number.h"
 #include "system/input.h"
+
+int parse_define(asked_line *line, const option_row *row, const char *value, void *group) {
+    judge_asked *o = group;
+    (void)line;
+    if (!written_define_known(value))
+        return option_refuse(row,
+                             "must be NAME=near, far, z_buffer_params, projection or another word of the help, or a "
+                             "number, got '%s'",
+                             value);
+    if (o->define_count == JUDGE_DEFINES_MAX)
+        return option_refuse(row, "must not be more than %d, got '%s' too", JUDGE_DEFINES_MAX, value);
+    o->defines[o->define_count++] = value;
+    return EXIT_FINE;
+}
 
 enum { FILE_MOST = 1 << 24, ALL_MOST = 1 << 26, TURNS = 8 };
 
@@ -50,7 +65,7 @@ static int compile(shader *s, const dp_setup *setup, const char *path, unsigned 
     char error[COMPUTE_ERROR_SIZE];
     unsigned line = 0;
     int status = EXIT_FINE;
-    const options_judge *j = &s->o->judge;
+    const judge_asked *j = &s->o->judge;
     const size_t defines = s->given ? j->define_count : 0;
     s->hlsl = is_hlsl(path);
     run->turns = turns * WRITTEN_CALLS;
@@ -71,7 +86,7 @@ static int compile(shader *s, const dp_setup *setup, const char *path, unsigned 
     return status;
 }
 
-int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, bool asked,
+int shader_write(const judge_request *o, const dp_setup *setup, const char *text, const char *function, bool asked,
                  shader *out) {
     *out = (shader){.o = o,
                     .run = calloc(1, sizeof(compute_run)),
@@ -84,7 +99,7 @@ int shader_write(const options *o, const dp_setup *setup, const char *text, cons
     return status == EXIT_FINE ? compile(out, setup, function, TURNS) : status;
 }
 
-int shader_open(const options *o, const dp_setup *setup, const char *operand, bool timed, shader *out) {
+int shader_open(const judge_request *o, const dp_setup *setup, const char *operand, bool timed, shader *out) {
     const char *colon = strrchr(operand, ':');
     const bool spirv = ends_with(operand, ".spv");
     char *text = NULL, *path = strdup(operand), error[COMPUTE_ERROR_SIZE];
@@ -95,7 +110,7 @@ int shader_open(const options *o, const dp_setup *setup, const char *operand, bo
         status = usage_error("%s: must be FILE:FUNCTION, or FILE.spv, got '%s'",
                              o->judge.mine_count > 0 ? "--mine" : "judge", operand);
     if (status == EXIT_FINE && spirv && o->judge.define_count > 0)
-        status = option_error(OPTION_DEFINE, "is not for SPIR-V, which has its constants in it");
+        status = option_error("define", "is not for SPIR-V, which has its constants in it");
     if (status == EXIT_FINE && !spirv)
         path[colon - operand] = '\0';
     if (status == EXIT_FINE)

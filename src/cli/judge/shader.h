@@ -3,13 +3,14 @@
 #ifndef CLI_JUDGE_SHADER_H
 #define CLI_JUDGE_SHADER_H
 
+#include "cli/judge/request.h"
 #include "cli/setups.h"
 #include "judge/judge.h"
 
 enum { SHADER_TEXT_SIZE = 1024 };
 
 typedef struct shader {
-    const options *o;
+    const judge_request *o;
     void *run, *timed; /**< what is run for its values, and to be timed */
     char *text;        /**< of the file; null: SPIR-V */
     const char *function;
@@ -24,10 +25,10 @@ typedef struct shader {
 } shader;
 
 /** Reads and compiles FILE:FUNCTION or FILE.spv, which must last. @return EXIT_FINE, or as a command does */
-int shader_open(const options *o, const dp_setup *setup, const char *operand, bool timed, shader *out);
+int shader_open(const judge_request *o, const dp_setup *setup, const char *operand, bool timed, shader *out);
 
 /** The same of GLSL of ours, to be timed. @param asked  for values, too */
-int shader_write(const options *o, const dp_setup *setup, const char *text, const char *function, bool asked,
+int shader_write(const judge_request *o, const dp_setup *setup, const char *text, const char *function, bool asked,
                  shader *out);
 
 /** Number i of `count` window depths that part what is known: the ends, powers of two beside either, even steps. */
@@ -37,7 +38,7 @@ double shader_asked(unsigned i, unsigned count);
 int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *pairs, judgement *out);
 
 /** "minus eye depth from window depth: d3d, near 0.1, far 1000" */
-void shader_say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]);
+void shader_say(const judge_request *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]);
 
 /** Values for `each` depths with what it is given of one camera after another. */
 int shader_values(shader *s, const dp_setup *cameras, size_t count, const float *in, size_t each, float *out);

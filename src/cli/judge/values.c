@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/judge/request.h"
 #include "cli/judge/shader.h"
 #include "core/elementary.h"
 #include "judge/written.h"
@@ -16,7 +17,7 @@ enum { PORTION = 1 << 20, ASKED = 512, FACTOR_DIGITS = 6 };
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
 
 static int fail_io(const shader *s, const char *error) {
-    usage_error("%s: %s", s->o->command->name, error);
+    usage_error("%s: %s", s->o->line->command->name, error);
     return EXIT_IO;
 }
 
@@ -28,7 +29,7 @@ static int start(shader *s, FILE **values) {
     shot_machine machine = {0};
     char error[COMPUTE_ERROR_SIZE];
     const bool few = s->device[0] == '\0'; /* the first time */
-    if (!compute_values(s->o->probe.device, s->run, 0, &machine, values, &s->too_long, error))
+    if (!compute_values(s->o->judge.device, s->run, 0, &machine, values, &s->too_long, error))
         return s->too_long && !few ? EXIT_FINE : fail_io(s, error);
     const shot_device *d = &machine.device[machine.chosen];
     snprintf(s->device, sizeof s->device, "%s; %s", d->name, d->driver);
@@ -137,7 +138,7 @@ int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judg
     return status;
 }
 
-void shader_say(const options *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
+void shader_say(const judge_request *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]) {
     const dp_spec *s = &c->setup.spec;
     const bool planes = c->output->planes != JUDGE_PLANES_NONE || c->input->window == NULL || c->output->window == NULL;
     int used = snprintf(out, SETUP_LABEL_SIZE, "%s%s%s", c->trap != NULL ? c->trap->name : "",
@@ -150,8 +151,8 @@ void shader_say(const options *o, const judge_candidate *c, char out[SETUP_LABEL
                      s->ortho ? ", orthographic" : "");
     if (planes)
         snprintf(out + used, SETUP_LABEL_SIZE - (size_t)used, ", near %s, far %s",
-                 number_in(number_full(s->znear), options_unit(o)).text,
-                 number_in(number_full(s->zfar), options_unit(o)).text);
+                 number_in(number_full(s->znear), camera_unit(&o->camera)).text,
+                 number_in(number_full(s->zfar), camera_unit(&o->camera)).text);
 }
 
 /* ---- In the chart ------------------------------------------------------------------------------------------------ */
@@ -163,7 +164,7 @@ int shader_values(shader *s, const dp_setup *cameras, size_t count, const float 
     FILE *values = NULL;
     int status = constants != NULL ? EXIT_FINE : EXIT_IO;
     for (size_t i = 0; i < count && status == EXIT_FINE; i++) {
-        const options_judge *j = &s->o->judge;
+        const judge_asked *j = &s->o->judge;
         written w = {0};
         if (s->camera &&
             written_make(s->text, s->function, s->hlsl, &cameras[i], j->defines, j->define_count, 0, &w, error))
@@ -189,7 +190,7 @@ int shader_values(shader *s, const dp_setup *cameras, size_t count, const float 
 }
 
 int shader_times(shader *const *all, size_t count, double *out) {
-    const options *o = all[0]->o;
+    const judge_request *o = all[0]->o;
     compute_run runs[COMPUTE_TIMED_MOST] = {{0}};
     shot_machine machine = {0};
     char error[COMPUTE_ERROR_SIZE];
@@ -200,7 +201,7 @@ int shader_times(shader *const *all, size_t count, double *out) {
         runs[i] = *(const compute_run *)all[i]->timed;
         out[i] = (double)INFINITY;
     }
-    if (!compute_values(o->probe.device, runs, count, &machine, &times, &endless, error))
+    if (!compute_values(o->judge.device, runs, count, &machine, &times, &endless, error))
         return fail_io(all[0], error);
     for (size_t k = 0; k < COMPUTE_TIMES * count && good; k++) {
         good = fread(&ns, sizeof ns, 1, times) == 1;

@@ -1,54 +1,61 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What options are called, and how one is refused: who did not name what is refused is told where it comes from. */
+/* How an option is refused: who did not name what is refused is told where it comes from. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/option/rows.h"
-
-const char *option_name(option_id id) {
-    return option_rows[id].name;
-}
-
-const char *option_word(option_id id, size_t index) {
-    list_item item = {0};
-    names_get(option_rows[id].names, index, &item);
-    return item.name;
-}
+#include "cli/option/option.h"
 
 /* What gave an option its value in place of the user: a preset or a platform; its own option and name. */
-static struct chooser {
-    option_id by;
-    const char *name; /* null where the user or the default did */
-} choosers[OPTION_COUNT];
+enum { CHOOSERS_MAX = 8 };
+static struct chooser { const char *option, *by, *name; } choosers[CHOOSERS_MAX];
+static size_t chooser_count;
 
 void option_forget_choosers(void) {
-    memset(choosers, 0, sizeof choosers);
+    chooser_count = 0;
 }
 
-static int error_of(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static int error_of(option_id id, const char *format, ...) {
+static struct chooser *chooser_of(const char *option) {
+    for (size_t i = 0; i < chooser_count; i++)
+        if (strcmp(choosers[i].option, option) == 0)
+            return &choosers[i];
+    return NULL;
+}
+
+void option_chosen(const asked_line *line, const char *by, const char *name, const char *const options[]) {
+    for (size_t i = 0; options[i] != NULL; i++) {
+        struct chooser *c = chooser_of(options[i]);
+        if (option_given(line, options[i]) || (c == NULL && chooser_count == CHOOSERS_MAX))
+            continue;
+        if (c == NULL)
+            c = &choosers[chooser_count++];
+        *c = (struct chooser){options[i], by, name};
+    }
+}
+
+static int refuse(const char *option, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static int refuse(const char *option, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    int status = named_error(option_name(id), format, arguments);
+    const int status = named_error(option, format, arguments);
     va_end(arguments);
     return status;
 }
 
-/* Who did not name what is refused is told where it comes from. */
-int option_error(option_id id, const char *format, ...) {
-    const struct chooser *c = &choosers[id];
+int option_error(const char *name, const char *format, ...) {
+    const struct chooser *c = chooser_of(name);
     char text[1024];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return c->name != NULL ? error_of(id, "%s; --%s %s chose it", text, option_name(c->by), c->name)
-                           : error_of(id, "%s", text);
+    return c != NULL ? refuse(name, "%s; --%s %s chose it", text, c->by, c->name) : refuse(name, "%s", text);
 }
 
-void option_chosen(const options *o, option_id by, const char *name, const option_id *ids, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (!option_given(o, ids[i]))
-            choosers[ids[i]] = (struct chooser){by, name};
+int option_refuse(const option_row *row, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    const int status = named_error(row->name, format, arguments);
+    va_end(arguments);
+    return status;
 }

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/option/rows.h"
 #include "cli/progress.h"
 #include "cli/resolved.h"
+#include "cli/scene/request.h"
 #include "cli/scene/scene.h"
 #include "cli/setups.h"
 #include "cli/stop.h"
@@ -24,15 +24,15 @@ enum { STEPS = 1000, DIGITS = 6, AT_ONCE = 128 /* findings that a thread judges 
 
 /* The report is on stdout without -o; that the files beside it can be written is known before the search. */
 static int check_files(const scene *s) {
-    static const option_id files[] = {OPTION_RENDER, OPTION_EMIT_NEED};
-    const options *o = &s->o;
-    option_id on_stdout = o->out.file == NULL || strcmp(o->out.file, "-") == 0 ? OPTION_OUTPUT : OPTION_COUNT;
+    static const char *const files[] = {"render", "emit-need"};
+    const scene_request *o = &s->o;
+    const char *on_stdout = o->out.file == NULL || strcmp(o->out.file, "-") == 0 ? "output" : NULL;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        const char *path = option_written(o, files[i]);
+        const char *path = option_written(o->line, files[i]);
         if (path == NULL)
             continue;
-        if (strcmp(path, "-") == 0 && on_stdout != OPTION_COUNT)
-            return option_error(files[i], "must not be the file of --%s, got '-'", option_name(on_stdout));
+        if (strcmp(path, "-") == 0 && on_stdout != NULL)
+            return option_error(files[i], "must not be the file of --%s, got '-'", on_stdout);
         if (strcmp(path, "-") == 0)
             on_stdout = files[i];
         const int status = output_check(path);
@@ -45,20 +45,20 @@ static int check_files(const scene *s) {
 /* One camera: its fullest model. */
 static int take_setup(scene *s) {
     setups all;
-    if (option_given(&s->o, OPTION_SEPARATION) && s->o.wanted.separation > FINDER_COORDINATE_MAX)
-        return option_error(OPTION_SEPARATION, "must be at most %g here, got '%s'", FINDER_COORDINATE_MAX,
-                            number_full(s->o.wanted.separation).text);
-    if (s->o.angle > FINDER_ANGLE_MAX)
-        return option_error(OPTION_ANGLE, "must be at most %g degrees here, got '%s'", FINDER_ANGLE_MAX,
-                            number_full(s->o.angle).text);
-    const int status = setups_make(&s->o, &all);
+    if (option_given(s->o.line, "separation") && s->o.scene.separation > FINDER_COORDINATE_MAX)
+        return option_error("separation", "must be at most %g here, got '%s'", FINDER_COORDINATE_MAX,
+                            number_full(s->o.scene.separation).text);
+    if (s->o.scene.angle > FINDER_ANGLE_MAX)
+        return option_error("angle", "must be at most %g degrees here, got '%s'", FINDER_ANGLE_MAX,
+                            number_full(s->o.scene.angle).text);
+    const int status = setups_make(&s->o.camera, &all);
     if (status != EXIT_FINE)
         return status;
     const size_t count = all.count;
     s->setup = dp_setup_guaranteed(&all.items[0]);
     setups_release(&all);
     if (count != 1)
-        return option_error(OPTION_FORMAT, "and --mapping must name one camera here, got %zu", count);
+        return option_error("format", "and --mapping must name one camera here, got %zu", count);
     s->fields = setup_fields_of(&s->setup, s->unit);
     return EXIT_FINE;
 }
@@ -66,10 +66,10 @@ static int take_setup(scene *s) {
 /* Where nobody says what a scene unit is, the model may. */
 static void take_unit(scene *s) {
     const unit_row *unit;
-    for (size_t i = 0; (unit = unit_get(i)) != NULL && s->o.camera.unit == NULL; i++)
+    for (size_t i = 0; (unit = unit_get(i)) != NULL && s->o.camera.lengths.unit == NULL; i++)
         if (fabs(s->model.metres * 1e9 - unit->nanometres) <= 1e-9 * unit->nanometres)
-            s->o.camera.unit = unit;
-    s->unit = options_unit(&s->o);
+            s->o.camera.lengths.unit = unit;
+    s->unit = camera_unit(&s->o.camera);
     s->fields = setup_fields_of(&s->setup, s->unit);
 }
 
@@ -77,10 +77,10 @@ static int read_model(scene *s) {
     const model_asked asked = {.transforms = s->o.scene.transforms == 0 ? MODEL_EXACT : MODEL_BINARY32};
     model_error error;
     if (model_read(s->file, &asked, &s->model, &error)) {
-        if (s->o.camera.unit == NULL)
+        if (s->o.camera.lengths.unit == NULL)
             take_unit(s);
-        if (s->model.metres > 0.0 && s->o.camera.unit != NULL) /* both say what theirs is */
-            model_scale(&s->model, s->model.metres * 1e9 / s->o.camera.unit->nanometres);
+        if (s->model.metres > 0.0 && s->o.camera.lengths.unit != NULL) /* both say what theirs is */
+            model_scale(&s->model, s->model.metres * 1e9 / s->o.camera.lengths.unit->nanometres);
         return EXIT_FINE;
     }
     const int status = usage_error("%s: %s", s->file, error.text);
@@ -117,12 +117,12 @@ static int take_limits(scene *s) {
     const model_box b = model_box_of(&s->model);
     dp_separation_worst worst = {.bound = HUGE_VAL};
     s->extent = model_box_diagonal(&b);
-    s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.scene.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
+    s->within = option_given(s->o.line, "within") ? s->o.scene.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
     if (!(s->within >= znear && s->within <= zfar))
-        return option_error(OPTION_WITHIN, "must lie between near and far, got '%s'", number_full(s->within).text);
+        return option_error("within", "must lie between near and far, got '%s'", number_full(s->within).text);
     dp_separation_over(&s->setup, znear, s->within, 0.0, &worst);
-    s->gap = option_given(&s->o, OPTION_SEPARATION) ? s->o.wanted.separation : worst.bound;
-    if (!option_given(&s->o, OPTION_SEPARATION) && !option_given(&s->o, OPTION_WITHIN) && s->eyes.count == 0)
+    s->gap = option_given(s->o.line, "separation") ? s->o.scene.separation : worst.bound;
+    if (!option_given(s->o.line, "separation") && !option_given(s->o.line, "within") && s->eyes.count == 0)
         shorten(s, COARSEST * s->extent);
     return EXIT_FINE;
 }
@@ -232,7 +232,7 @@ static int judge_findings(scene *s) {
     for (size_t i = 0; i < s->found.findings; i++) /* once each distance is judged */
         s->findings[i].verdict.lift = scene_lift(&s->model, &s->found, s->findings[i].of, s->findings[i].verdict.lift);
     const int status = s->eyes.count > 0 ? scene_eyes_judge(s) : EXIT_FINE;
-    s->required = option_given(&s->o, OPTION_WITHIN);
+    s->required = option_given(s->o.line, "within");
     s->passed = true;
     for (size_t i = 0; i < s->found.findings; i++)
         s->passed = s->passed && !s->findings[i].fights;
@@ -245,15 +245,15 @@ static int judge_findings(scene *s) {
 
 /* The camera, for all that asks of it. */
 static int take_camera(scene *s) {
-    s->triangles = slant_fields_of(&s->o, &s->slant);
+    s->triangles = slant_fields_of(&s->o.camera, &s->slant);
     const int status = take_setup(s);
     return status == EXIT_FINE ? scene_render_check(s) : status;
 }
 
-int scene_begin(scene *s, const options *given, const char *file) {
-    *s = (scene){.o = *given, .file = file, .unit = options_unit(given)};
-    s->angle = s->o.angle;
-    s->transforms = option_word(OPTION_TRANSFORMS, s->o.scene.transforms);
+int scene_begin(scene *s, const scene_request *given, const char *file) {
+    *s = (scene){.o = *given, .file = file, .unit = camera_unit(&given->camera)};
+    s->angle = s->o.scene.angle;
+    s->transforms = option_word("transforms", s->o.scene.transforms);
     const int status = scene_eyes_check(&s->o);
     return status == EXIT_FINE && s->o.scene.camera == NULL ? take_camera(s) : status;
 }
@@ -286,16 +286,16 @@ void scene_end(scene *s) {
 
 /* What is asked of this command alone. */
 static int check_asked(const scene *s) {
-    const options *o = &s->o;
+    const scene_request *o = &s->o;
     if (o->out.report != REPORT_TEXT && o->out.form != FORM_TEXT)
-        return option_error(OPTION_REPORT, "conflicts with --json or --csv");
-    if (o->out.report == REPORT_JUNIT && !option_given(o, OPTION_WITHIN))
-        return option_error(OPTION_REPORT, "junit needs --within: surfaces that may z-fight nearer fail");
-    if (o->scene.emit_need != NULL && option_given(o, OPTION_SEPARATION) && o->wanted.separation == 0.0)
-        return option_error(OPTION_EMIT_NEED, "needs a --separation above 0: no camera resolves coplanar surfaces");
+        return option_error("report", "conflicts with --json or --csv");
+    if (o->out.report == REPORT_JUNIT && !option_given(o->line, "within"))
+        return option_error("report", "junit needs --within: surfaces that may z-fight nearer fail");
+    if (o->scene.emit_need != NULL && option_given(o->line, "separation") && o->scene.separation == 0.0)
+        return option_error("emit-need", "needs a --separation above 0: no camera resolves coplanar surfaces");
     if (o->bias.api == NULL)
-        return option_error(OPTION_API, "must name one here, got '%s'", o->given[OPTION_API]);
-    const int status = setup_decided(o);
+        return option_error("api", "must name one here, got '%s'", option_text(o->line, "api"));
+    const int status = setup_decided(&o->camera);
     return status == EXIT_FINE ? check_files(s) : status;
 }
 
@@ -324,14 +324,15 @@ static int write_report(scene *s, output *out) {
     return output_close(out);
 }
 
-int cmd_scene(const options *given) {
+int cmd_scene(void *request) {
+    const scene_request *given = request;
     output out;
     scene s;
-    int status = scene_begin(&s, given, given->operands[0]);
+    int status = scene_begin(&s, given, given->line->operands[0]);
     if (status == EXIT_FINE)
         status = check_asked(&s);
     if (status == EXIT_FINE)
-        status = options_open(&s.o, &out);
+        status = output_start(&s.o.out, &s.o.camera, &out);
     if (status != EXIT_FINE)
         return status;
     status = scene_look(&s, &out);

@@ -8,6 +8,7 @@
 
 #include "cli/errors.h"
 #include "cli/progress.h"
+#include "cli/scene/request.h"
 #include "cli/scene/scene.h"
 #include "cli/stop.h"
 #include "frame/strips.h"
@@ -28,10 +29,9 @@ static int take_look(scene *s) {
     s->eyes.eye = malloc(sizeof *s->eyes.eye);
     if (s->eyes.eye == NULL)
         return usage_error("%s: no memory for an eye", s->file);
-    if (!scene_eye_look(s->o.view.eye, s->o.view.look, upwards, s->eyes.eye))
-        return option_error(OPTION_LOOK, "must differ from --eye; both are %s,%s,%s",
-                            number_full(s->o.view.eye[0]).text, number_full(s->o.view.eye[1]).text,
-                            number_full(s->o.view.eye[2]).text);
+    if (!scene_eye_look(s->o.scene.eye, s->o.scene.look, upwards, s->eyes.eye))
+        return option_error("look", "must differ from --eye; both are %s,%s,%s", number_full(s->o.scene.eye[0]).text,
+                            number_full(s->o.scene.eye[1]).text, number_full(s->o.scene.eye[2]).text);
     s->eyes.count = 1;
     return EXIT_FINE;
 }
@@ -40,24 +40,24 @@ static int take_look(scene *s) {
 
 /* What it says of the view, where nothing was given. */
 static int take_view(scene *s, const model_camera *camera) {
-    options *o = &s->o;
+    scene_request *o = &s->o;
     const char *name = o->scene.camera;
     const bool by_preset = o->camera.preset_count > 0;
     if (camera->ortho)
-        return option_error(OPTION_CAMERA, "must be a perspective one, and '%s' is orthographic", name);
-    if (!option_given(o, OPTION_NEAR) && !by_preset)
+        return option_error("camera", "must be a perspective one, and '%s' is orthographic", name);
+    if (!option_given(o->line, "near") && !by_preset)
         o->camera.znear = camera->znear;
-    if (!option_given(o, OPTION_FAR) && !by_preset)
+    if (!option_given(o->line, "far") && !by_preset)
         o->camera.zfar = camera->zfar;
     if (!(o->camera.znear >= 1e-12 && o->camera.znear <= 1e12))
-        return option_error(OPTION_CAMERA, "'%s' has its near plane at %s, which must be from 1e-12 to 1e12", name,
+        return option_error("camera", "'%s' has its near plane at %s, which must be from 1e-12 to 1e12", name,
                             number_full(o->camera.znear).text);
-    if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV) && !by_preset) {
+    if (!option_given(o->line, "fov") && !option_given(o->line, "hfov") && !by_preset) {
         if (!(camera->fov_y >= 0.01 && camera->fov_y <= 179.0)) /* as --fov has it */
-            return option_error(OPTION_CAMERA,
+            return option_error("camera",
                                 "'%s' has a vertical field of view of %s degrees, which must be from 0.01 to 179", name,
                                 number_of(camera->fov_y, 6).text);
-        o->view.spec.fov_y = o->camera.triangles.fov_y = camera->fov_y;
+        o->camera.spec.fov_y = o->camera.triangles.fov_y = camera->fov_y;
     }
     return EXIT_FINE;
 }
@@ -81,8 +81,8 @@ static int find_camera(const scene *s, const char **names, camera_name *numbered
         if (strcmp(names[*found], s->o.scene.camera) == 0)
             return EXIT_FINE;
     if (m->cameras == 0)
-        return option_error(OPTION_CAMERA, "%s has no camera, got '%s'", s->file, s->o.scene.camera);
-    return option_error(OPTION_CAMERA, "%s", names_refuse(&all, s->o.scene.camera, text));
+        return option_error("camera", "%s has no camera, got '%s'", s->file, s->o.scene.camera);
+    return option_error("camera", "%s", names_refuse(&all, s->o.scene.camera, text));
 }
 
 static int take_camera(scene *s) {
@@ -96,7 +96,7 @@ static int take_camera(scene *s) {
     free(names);
     free(numbered);
     if (status == EXIT_FINE && !scene_eye_of(&m->camera[found], s->eyes.eye))
-        status = option_error(OPTION_CAMERA, "'%s' looks nowhere: its node has no extent along z", s->o.scene.camera);
+        status = option_error("camera", "'%s' looks nowhere: its node has no extent along z", s->o.scene.camera);
     if (status != EXIT_FINE)
         return status;
     s->eyes.count = 1;
@@ -125,23 +125,21 @@ static int read_line(scene *s, const char *text, size_t length, size_t line) {
             word++;
         double *const to = count < NUMBERS ? &number[count] : &extra;
         if (!number_parse_part(text + at, word, NUMBER_FINITE, to) || !(fabs(*to) <= 1e12))
-            return option_error(OPTION_PATH, "%s: line %zu: must be numbers from -1e12 to 1e12, got '%s'",
-                                s->o.scene.path, line, error_word(text + at, word, shown));
+            return option_error("path", "%s: line %zu: must be numbers from -1e12 to 1e12, got '%s'", s->o.scene.path,
+                                line, error_word(text + at, word, shown));
         count++;
         at += word;
     }
     if (count == 0)
         return EXIT_FINE;
     if (count != NUMBERS)
-        return option_error(OPTION_PATH,
-                            "%s: line %zu: must be six numbers, the eye and the point it looks at, got %zu",
+        return option_error("path", "%s: line %zu: must be six numbers, the eye and the point it looks at, got %zu",
                             s->o.scene.path, line, count);
     if (s->eyes.count == EYES_MOST)
-        return option_error(OPTION_PATH, "%s: line %zu: must be at most %d eyes", s->o.scene.path, line, EYES_MOST);
+        return option_error("path", "%s: line %zu: must be at most %d eyes", s->o.scene.path, line, EYES_MOST);
     scene_eye *eye = &s->eyes.eye[s->eyes.count];
     if (!scene_eye_look(number, number + 3, upwards, eye))
-        return option_error(OPTION_PATH, "%s: line %zu: must look at a point other than the eye", s->o.scene.path,
-                            line);
+        return option_error("path", "%s: line %zu: must look at a point other than the eye", s->o.scene.path, line);
     eye->line = line;
     s->eyes.count++;
     return EXIT_FINE;
@@ -162,7 +160,7 @@ static int read_lines(scene *s, const char *text, size_t size) {
         at += length + 1;
     }
     if (status == EXIT_FINE && s->eyes.count == 0)
-        status = option_error(OPTION_PATH, "%s: has no line of six numbers", s->o.scene.path);
+        status = option_error("path", "%s: has no line of six numbers", s->o.scene.path);
     return status;
 }
 
@@ -175,10 +173,10 @@ static int take_path(scene *s) {
     const int error = errno;
     int status = EXIT_FINE;
     if (in == NULL || ferror(in)) {
-        option_error(OPTION_PATH, "%s: %s", s->o.scene.path, strerror(error));
+        option_error("path", "%s: %s", s->o.scene.path, strerror(error));
         status = EXIT_IO;
     } else if (size > FILE_MOST) {
-        status = option_error(OPTION_PATH, "%s: must be at most %d bytes", s->o.scene.path, FILE_MOST);
+        status = option_error("path", "%s: must be at most %d bytes", s->o.scene.path, FILE_MOST);
     }
     input_close(in);
     if (status == EXIT_FINE)
@@ -189,17 +187,17 @@ static int take_path(scene *s) {
 
 /* ---- All ways ---------------------------------------------------------------------------------------------------- */
 
-int scene_eyes_check(const options *o) {
-    const bool eye = option_given(o, OPTION_EYE), path = option_given(o, OPTION_PATH);
-    const bool camera = option_given(o, OPTION_CAMERA);
-    if (eye != option_given(o, OPTION_LOOK))
-        return option_error(eye ? OPTION_EYE : OPTION_LOOK, "needs --%s", eye ? "look" : "eye");
+int scene_eyes_check(const scene_request *o) {
+    const bool eye = option_given(o->line, "eye"), path = option_given(o->line, "path");
+    const bool camera = option_given(o->line, "camera");
+    if (eye != option_given(o->line, "look"))
+        return option_error(eye ? "eye" : "look", "needs --%s", eye ? "look" : "eye");
     if (path && (eye || camera))
-        return option_error(OPTION_PATH, "conflicts with --%s", eye ? "eye" : "camera");
+        return option_error("path", "conflicts with --%s", eye ? "eye" : "camera");
     if (camera && eye)
-        return option_error(OPTION_CAMERA, "conflicts with --eye");
-    if ((eye || path || camera) && option_given(o, OPTION_SLANT))
-        return option_error(OPTION_SLANT, "does not apply from an eye: the model says how its surfaces slant");
+        return option_error("camera", "conflicts with --eye");
+    if ((eye || path || camera) && option_given(o->line, "slant"))
+        return option_error("slant", "does not apply from an eye: the model says how its surfaces slant");
     return EXIT_FINE;
 }
 
@@ -218,10 +216,10 @@ static void describe(scene *s) {
 }
 
 int scene_eyes_take(scene *s) {
-    const int status = option_given(&s->o, OPTION_EYE)    ? take_look(s)
-                       : option_given(&s->o, OPTION_PATH) ? take_path(s)
-                       : s->o.scene.camera != NULL        ? take_camera(s)
-                                                          : EXIT_FINE;
+    const int status = option_given(s->o.line, "eye")    ? take_look(s)
+                       : option_given(s->o.line, "path") ? take_path(s)
+                       : s->o.scene.camera != NULL       ? take_camera(s)
+                                                         : EXIT_FINE;
     if (status == EXIT_FINE)
         describe(s);
     return status;
@@ -240,7 +238,7 @@ int scene_eyes_judge(scene *s) {
                                .eye = s->eyes.eye,
                                .eyes = s->eyes.count,
                                .stop = stop_asked};
-    const double nearer_than = option_given(&s->o, OPTION_WITHIN) ? s->within : HUGE_VAL;
+    const double nearer_than = option_given(s->o.line, "within") ? s->within : HUGE_VAL;
     const int threads = strips_threads(s->o.out.threads);
     scene_sight *room = malloc((size_t)threads * s->eyes.count * sizeof *room), *next = room;
     if (room == NULL)

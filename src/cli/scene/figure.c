@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* plot scene: the figure of what scene finds. */
 #include "cli/scene/figure.h"
+#include "cli/scene/request.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,10 +15,10 @@
 
 enum { WITHIN_DIGITS = 4 };
 
-int scene_figure_begin(scene *s, const options *o) {
-    options view = *o;
-    const int status = slant_view(&view);
-    return status == EXIT_FINE ? scene_begin(s, &view, o->operands[1]) : status;
+int scene_figure_begin(scene *s, const scene_request *o) {
+    scene_request view = *o;
+    const int status = slant_view(&view.camera);
+    return status == EXIT_FINE ? scene_begin(s, &view, o->line->operands[1]) : status;
 }
 
 /* The depth from which a pair can fight; NaN: at every one. */

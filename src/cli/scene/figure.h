@@ -8,7 +8,7 @@
 #include "plot/scene.h"
 
 /** As scene_begin(), of the figure's options. */
-int scene_figure_begin(scene *s, const options *o);
+int scene_figure_begin(scene *s, const scene_request *o);
 
 /** What the figure is made of, and the chart's subtitle and unit. @return false when out of memory */
 bool scene_figure_take(const scene *s, fights_asked *out, chart *c);

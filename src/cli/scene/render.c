@@ -6,6 +6,7 @@
 
 #include "cli/progress.h"
 #include "cli/raster_setups.h"
+#include "cli/scene/request.h"
 #include "cli/scene/scene.h"
 #include "cli/stop.h"
 #include "plot/canvas.h"
@@ -24,19 +25,19 @@ static int advance(void *context, double share) {
 /* ---- The camera -------------------------------------------------------------------------------------------------- */
 
 static int take_camera(scene *s, draw_camera *camera) {
-    options o = s->o;
+    scene_request o = s->o;
     setups all;
-    int status = view_drawn(&o);
+    int status = view_drawn(&o.camera);
     if (status == EXIT_FINE)
-        status = raster_setups(&o, &all);
+        status = raster_setups(&o.camera, &all);
     if (status != EXIT_FINE)
         return status;
     if ((double)o.camera.triangles.width * o.camera.triangles.height > RENDER_PIXELS_MAX)
-        status = option_error(OPTION_VIEWPORT, "must be of at most %d pixels with --render, got %dx%d",
-                              RENDER_PIXELS_MAX, o.camera.triangles.width, o.camera.triangles.height);
+        status = option_error("viewport", "must be of at most %d pixels with --render, got %dx%d", RENDER_PIXELS_MAX,
+                              o.camera.triangles.width, o.camera.triangles.height);
     if (status == EXIT_FINE && draw_camera_init(camera, o.camera.raster, &all.items[0]) != RASTER_OK)
-        status = option_error(OPTION_RENDER, "cannot be drawn by %s in %s", o.camera.raster->name,
-                              all.items[0].spec.format.name);
+        status =
+            option_error("render", "cannot be drawn by %s in %s", o.camera.raster->name, all.items[0].spec.format.name);
     s->rendered = (scene_rendered){.file = s->o.scene.render,
                                    .raster = o.camera.raster->name,
                                    .width = o.camera.triangles.width,
@@ -51,9 +52,9 @@ int scene_render_check(scene *s) {
     if (s->o.scene.render == NULL)
         return EXIT_FINE;
     if (canvas_format_of(s->o.scene.render) != CANVAS_PNG)
-        return option_error(OPTION_RENDER, "must end in .png, got '%s'", s->o.scene.render);
+        return option_error("render", "must end in .png, got '%s'", s->o.scene.render);
     if (s->o.scene.path != NULL)
-        return option_error(OPTION_RENDER, "conflicts with --path: a picture has one eye");
+        return option_error("render", "conflicts with --path: a picture has one eye");
     return take_camera(s, &camera);
 }
 

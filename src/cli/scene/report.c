@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What `scene` prints: the findings as text, JSON and CSV. */
+#include "cli/scene/request.h"
 #include "cli/scene/scene.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@ static number_text length(const page *p, double value) {
 
 /* Of one that was typed, as it was. */
 static number_text asked(const page *p, const scene *s, double value) {
-    const number_text typed = options_length(&s->o, value, DIGITS),
+    const number_text typed = camera_length(&s->o.camera, value, DIGITS),
                       plain = number_in(number_of(value, DIGITS), p->unit);
     return strcmp(typed.text, plain.text) == 0 ? length(p, value) : typed;
 }
@@ -105,7 +106,7 @@ static void say_head(page *p, void *of) {
                s->model.triangles == 1 ? "" : "s", s->model.surfaces, s->model.surfaces == 1 ? "" : "s",
                length(p, s->extent).text, asked(p, s, s->within).text);
     setup_title(p, &s->setup, &s->fields);
-    slant_say(p, page_title, &s->o, &s->setup);
+    slant_say(p, page_title, &s->o.camera, &s->setup);
     say_eyes(p, s);
     if (n->skinned + n->morphed + n->animated > 0)
         page_title(p, "in the rest pose: %zu skinned and %zu morphed meshes, %zu animated nodes", n->skinned,

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "cli/option/options.h"
+#include "cli/scene/request.h"
 #include "cli/setups.h"
 #include "cli/slant.h"
 #include "model/model.h"
@@ -63,7 +63,7 @@ typedef struct scene_eyes {
 } scene_eyes;
 
 typedef struct scene {
-    options o; /* with what stands for options that were not given */
+    scene_request o; /* with what stands for options that were not given */
     dp_setup setup;
     setup_fields fields;
     slant_fields slant;
@@ -82,7 +82,7 @@ typedef struct scene {
 } scene;
 
 /** Takes what was asked of the model in a file. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-int scene_begin(scene *s, const options *given, const char *file);
+int scene_begin(scene *s, const scene_request *given, const char *file);
 
 /** Reads, searches and judges it; `out` is for an interrupt to abandon. @return EXIT_FINE, or another after one line */
 int scene_look(scene *s, output *out);
@@ -94,7 +94,7 @@ void scene_end(scene *s);
 size_t scene_fighting(const scene *s);
 
 /** Whether --eye, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
-int scene_eyes_check(const options *o);
+int scene_eyes_check(const scene_request *o);
 
 /**
  * Takes the eyes that they ask for, and of a camera of the model its planes and field of view where they were not

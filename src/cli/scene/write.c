@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cli/junit.h"
-#include "cli/option/rows.h"
+#include "cli/scene/request.h"
 #include "cli/scene/scene.h"
 #include "core/append.h"
 #include "report/number.h"
@@ -35,7 +35,7 @@ void scene_junit(const scene *s, output *out) {
                                      .detail = full});
     }
     if (count == 0) {
-        snprintf(name, sizeof name, "no surfaces within %s of each other", options_length(&s->o, s->gap, 0).text);
+        snprintf(name, sizeof name, "no surfaces within %s of each other", camera_length(&s->o.camera, s->gap, 0).text);
         junit_case(out, &(junit_row){.classname = label, .name = name, .file = s->file});
     }
     junit_suite_end(out);
@@ -92,7 +92,7 @@ static void put_camera(output *out, const scene *s, const dp_triangles *t) {
     put_word(out, "mapping", dp_mapping_get(spec->mapping)->name);
     put_word(out, "format", spec->format.name);
     output_text(out, "\n           ");
-    put_word(out, "model", option_word(OPTION_MODEL, s->setup.shader ? DP_MODEL_FLOAT : spec->model));
+    put_word(out, "model", option_word("model", s->setup.shader ? DP_MODEL_FLOAT : spec->model));
     put_word(out, "arith", dp_arith_get(spec->arith)->name);
     put_word(out, "rounding", dp_rounding_name(spec->rounding));
     if (s->setup.curve == DP_CURVE_LOG && s->setup.log_by > 0)

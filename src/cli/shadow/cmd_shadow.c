@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/shadow/request.h"
 #include "cli/shadow/rows.h"
 #include "core/append.h"
 #include "report/number.h"
@@ -14,9 +15,9 @@
 enum { DIGITS_GAP = 3, DIGITS = 4, DIGITS_Z = 6 };
 
 typedef struct shadow {
-    options o;           /* with what stands for options that were not given */
+    shadow_request o;    /* with what stands for options that were not given */
     const bias_api *api; /* null for several */
-    const char *api_name, *unit;
+    const char *api_name, *unit, *camera_depth;
     const shadow_split *view; /* null where there is a box */
     size_t setup_count;
     struct {
@@ -32,7 +33,7 @@ typedef struct shadow {
 
 static size_t api_count(const shadow *s) {
     size_t count = 0;
-    while (options_api(&s->o, count) != NULL)
+    while (bias_asked_api(&s->o.bias, count) != NULL)
         count++;
     return count;
 }
@@ -42,13 +43,13 @@ static void *next_row(void *of, size_t i) {
     const size_t apis = api_count(s);
     if (i / apis >= s->maps.count)
         return NULL;
-    s->row = shadow_row_of(&s->maps, i / apis, options_api(&s->o, i % apis));
+    s->row = shadow_row_of(&s->maps, i / apis, bias_asked_api(&s->o.bias, i % apis));
     return &s->row;
 }
 
 static void *next_whole(void *of, size_t i) {
     shadow *s = of;
-    const bias_api *api = options_api(&s->o, i);
+    const bias_api *api = bias_asked_api(&s->o.bias, i);
     if (api == NULL)
         return NULL;
     s->whole = shadow_whole_of(&s->maps, api);
@@ -57,7 +58,7 @@ static void *next_whole(void *of, size_t i) {
 
 static void *next_setup(void *of, size_t i) {
     shadow *s = of;
-    const options *o = &s->o;
+    const shadow_request *o = &s->o;
     if (i == s->setup_count)
         return NULL;
     const dp_format *format = &o->camera.formats[i / o->camera.mapping_count];
@@ -75,34 +76,34 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_maps(page *p, void *item) {
     const shadow *s = item;
-    const options *o = &s->o;
+    const shadow_request *o = &s->o;
     const shadow_split *v = &s->maps.view;
     const dp_triangles *t = &o->camera.triangles;
     p->unit = s->unit;
     page_title(p, "%s %s, %ux%u texels, filter %ux%u, angles up to %s degrees%s%s", s->format, s->mapping,
-               o->view.spec.width, o->view.spec.height, o->shadow.kernel, o->shadow.kernel, number_full(o->angle).text,
-               p->unit != NULL ? ", in " : "", p->unit != NULL ? p->unit : "");
+               o->shadow.size[0], o->shadow.size[1], o->shadow.kernel, o->shadow.kernel,
+               number_full(o->shadow.angle).text, p->unit != NULL ? ", in " : "", p->unit != NULL ? p->unit : "");
     if (v->count > 0) {
         page_title(p, "view near %s, far %s, fov %s, %dx%d", number_full(v->znear).text, number_full(v->zfar).text,
                    number_of(v->fov_y, DIGITS).text, t->width, t->height);
         page_title(p, "%d cascade%s, lambda %s, casters up to %s towards the light", v->count, v->count == 1 ? "" : "s",
                    number_full(v->lambda).text, number_full(v->casters).text);
-        if (option_given(o, OPTION_CAMERA_DEPTH))
-            page_title(p, "receivers rebuilt from the camera's depth, %s", o->given[OPTION_CAMERA_DEPTH]);
+        if (option_given(o->line, "camera-depth"))
+            page_title(p, "receivers rebuilt from the camera's depth, %s", option_text(o->line, "camera-depth"));
     } else {
         const double texel =
-            fmax(o->shadow.light_box[0] / o->view.spec.width, o->shadow.light_box[1] / o->view.spec.height);
+            fmax(o->shadow.light_box[0] / o->shadow.size[0], o->shadow.light_box[1] / o->shadow.size[1]);
         page_title(p, "box %s x %s, %s deep along the light, texel %s", number_full(o->shadow.light_box[0]).text,
                    number_full(o->shadow.light_box[1]).text, number_full(o->shadow.light_box[2]).text,
                    number_of(texel, DIGITS).text);
         if (s->lit.lo > 0.0 || s->lit.hi < o->shadow.light_box[2])
             page_title(p, "receivers from %s to %s along the light%s", number_up(s->lit.lo, DIGITS).text,
                        number_down(s->lit.hi, DIGITS).text,
-                       option_given(o, OPTION_RANGE) ? "" : ": units have no effect at depth 0");
+                       option_given(o->line, "range") ? "" : ": units have no effect at depth 0");
     }
     page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, aspect ratio at most %s:1, %s", t->subpixel,
                t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text, s->arith);
-    if (option_given(o, OPTION_CURVATURE))
+    if (option_given(o->line, "curvature"))
         page_title(p, "receivers curve away with a radius of at least %s, triangles of circumradius %s",
                    number_full(o->shadow.curvature).text, number_full(o->shadow.facet).text);
 }
@@ -142,9 +143,9 @@ static void say_heads(page *p, void *item) {
 /* Of the map where the least share of the constant bias is needed by any reckoning. */
 static void say_causes(page *p, const shadow *s) {
     char text[256] = "";
-    shadow_row least = shadow_row_of(&s->maps, 0, options_api(&s->o, 0));
+    shadow_row least = shadow_row_of(&s->maps, 0, bias_asked_api(&s->o.bias, 0));
     for (size_t i = 1; i < s->maps.count; i++) {
-        const shadow_row r = shadow_row_of(&s->maps, i, options_api(&s->o, 0));
+        const shadow_row r = shadow_row_of(&s->maps, i, bias_asked_api(&s->o.bias, 0));
         if (r.way[SHADOW_CONSTANT].share < least.way[SHADOW_CONSTANT].share)
             least = r;
     }
@@ -199,7 +200,7 @@ static void say_notes(page *p, void *item) {
                   number_up(wide, 2).text);
     if (w.hidden)
         page_note(p, "far plane", "a bias is as large as the box is deep: nothing is in shadow");
-    else if (option_given(&s->o, OPTION_RANGE) && w.limited)
+    else if (option_given(s->o.line, "range") && w.limited)
         page_note(p, "far plane", "a gap reaches beyond it: casters there cast no shadow");
 }
 
@@ -208,7 +209,7 @@ static void say_calls(page *p, void *item) {
     output_char(p->out, '\n');
     const shadow *s = item;
     const bias_api *api;
-    for (size_t i = 0; (api = options_api(&s->o, i)) != NULL; i++)
+    for (size_t i = 0; (api = bias_asked_api(&s->o.bias, i)) != NULL; i++)
         page_note(p, api->name, "%s%s", api->call, api->sloped);
 }
 
@@ -306,8 +307,8 @@ static const column setup_report[] = {
     {LIST(NULL, row_columns, next_row), .only = AS_TEXT, .when = ONE_API, .head = say_heads, .notes = say_notes},
     {.kind = COLUMN_END}};
 
-static const column size_columns[] = {{FIELD(shadow, o.view.spec.width, "width", "")},
-                                      {FIELD(shadow, o.view.spec.height, "height", "")},
+static const column size_columns[] = {{FIELD(shadow, o.shadow.size[0], "width", "")},
+                                      {FIELD(shadow, o.shadow.size[1], "height", "")},
                                       {.kind = COLUMN_END}};
 
 static const column view_columns[] = {
@@ -319,36 +320,38 @@ static const column view_columns[] = {
 static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS_JSON},
                                  {GROUP("size", size_columns), .only = AS_JSON},
                                  {FIELD(shadow, o.shadow.kernel, "kernel", "texels"), .only = AS_JSON},
-                                 {FIELD(shadow, o.angle, "angle", "degrees"), .only = AS_JSON},
+                                 {FIELD(shadow, o.shadow.angle, "angle", "degrees"), .only = AS_JSON},
                                  {FIELD(shadow, o.camera.triangles.subpixel, "subpixel", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.camera.triangles.pixels, "pixels", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.camera.triangles.slim, "slim", ""), .only = AS_JSON},
                                  {FIELD(shadow, arith, "arith", ""), .only = AS_JSON},
-                                 {FIELD(shadow, o.world.terms.world, "from_origin", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.shadow.world, "from_origin", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, o.shadow.curvature, "curvature", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, o.shadow.facet, "facet", "scene"), .only = AS_JSON},
-                                 {FIELD(shadow, o.given[OPTION_CAMERA_DEPTH], "camera_depth", ""), .only = AS_JSON},
+                                 {FIELD(shadow, camera_depth, "camera_depth", ""), .only = AS_JSON},
                                  {PART(shadow, view, "view", view_columns), .only = AS_JSON, .pointed = true},
                                  {LIST("setups", setup_report, next_setup), .head = say_answer},
                                  {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-int cmd_shadow(const options *given) {
+int cmd_shadow(void *request) {
+    const shadow_request *given = request;
     output out;
     shadow s = {.o = *given,
                 .api = given->bias.api,
-                .unit = options_unit(given),
+                .unit = camera_unit(&given->camera),
                 .arith = dp_arith_get(given->camera.arith)->name};
-    const options *o = &s.o;
-    s.api_name = s.api != NULL ? s.api->name : o->given[OPTION_API];
+    const shadow_request *o = &s.o;
+    s.api_name = s.api != NULL ? s.api->name : option_text(o->line, "api");
+    s.camera_depth = option_text(o->line, "camera-depth");
     s.setup_count = o->camera.format_count * o->camera.mapping_count;
     int status = EXIT_FINE;
     for (size_t i = 0; i < s.setup_count && status == EXIT_FINE; i++)
         status = shadow_maps_make(o, &o->camera.formats[i / o->camera.mapping_count],
                                   o->camera.mappings[i % o->camera.mapping_count], &s.maps);
     if (status == EXIT_FINE)
-        status = options_open(o, &out);
+        status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)
         return status;
     s.view = s.maps.view.count > 0 ? &s.maps.view : NULL;

@@ -3,18 +3,18 @@
 
 #include <math.h>
 
-#include "cli/option/uses.h"
 #include "cli/setups.h"
+#include "cli/shadow/request.h"
 #include "report/number.h"
 
 enum { SIDE_MAX = 32768 };
 
 /* A box has no view, and the depths of cascades follow from it: for the figure, too. */
-static int check_together(const options *o) {
-    if (o->view.spec.width > SIDE_MAX || o->view.spec.height > SIDE_MAX)
-        return option_error(OPTION_SIZE, "must be at most %d texels a side, got '%ux%u'", SIDE_MAX, o->view.spec.width,
-                            o->view.spec.height);
-    return option_check_parts(o, &command_rows[CMD_SHADOW]);
+static int check_together(const shadow_request *o) {
+    if (o->shadow.size[0] > SIDE_MAX || o->shadow.size[1] > SIDE_MAX)
+        return option_error("size", "must be at most %d texels a side, got '%ux%u'", SIDE_MAX, o->shadow.size[0],
+                            o->shadow.size[1]);
+    return option_check_parts(o->line, &command_shadow, option_given(o->line, "light-box"));
 }
 
 /*
@@ -39,8 +39,8 @@ static void keep_off_zero(shadow_light *light, const bias_api *api) {
 }
 
 /* What all maps share; of a box, also its sides and planes. */
-static shadow_light light_of(const options *o, const dp_format *format, dp_mapping mapping) {
-    const bool box = option_given(o, OPTION_LIGHT_BOX);
+static shadow_light light_of(const shadow_request *o, const dp_format *format, dp_mapping mapping) {
+    const bool box = option_given(o->line, "light-box");
     dp_spec spec = {.zfar = box ? o->shadow.light_box[2] : 1.0,
                     .ortho = true,
                     .format = *format,
@@ -48,13 +48,13 @@ static shadow_light light_of(const options *o, const dp_format *format, dp_mappi
                     .arith = o->camera.arith};
     shadow_light light = shadow_light_default();
     light.triangles = o->camera.triangles;
-    light.triangles.width = (int)o->view.spec.width;
-    light.triangles.height = (int)o->view.spec.height;
+    light.triangles.width = (int)o->shadow.size[0];
+    light.triangles.height = (int)o->shadow.size[1];
     light.triangles.slant_lo = 0.0;
-    light.triangles.slant_hi = o->angle;
+    light.triangles.slant_hi = o->shadow.angle;
     light.kernel = 0.5 * o->shadow.kernel;
-    light.world = o->world.terms.world;
-    if (option_given(o, OPTION_CURVATURE))
+    light.world = o->shadow.world;
+    if (option_given(o->line, "curvature"))
         light.radius = o->shadow.curvature;
     light.facet = o->shadow.facet;
     light.receiver_lo = 0.0;
@@ -63,17 +63,17 @@ static shadow_light light_of(const options *o, const dp_format *format, dp_mappi
         light.width = o->shadow.light_box[0];
         light.height = o->shadow.light_box[1];
     }
-    if (option_given(o, OPTION_RANGE)) {
+    if (option_given(o->line, "range")) {
         light.receiver_lo = o->camera.range_lo;
         light.receiver_hi = o->camera.range_hi;
     }
     dp_setup_init(&light.setup, &spec); /* cannot fail: mapping and depth have been checked */
-    if (box && !option_given(o, OPTION_RANGE) && shadow_light_check(&light) == SHADOW_OK)
-        keep_off_zero(&light, options_api(o, 0));
+    if (box && !option_given(o->line, "range") && shadow_light_check(&light) == SHADOW_OK)
+        keep_off_zero(&light, bias_asked_api(&o->bias, 0));
     return light;
 }
 
-static int split_of(const options *o, shadow_split *out) {
+static int split_of(const shadow_request *o, shadow_split *out) {
     const dp_triangles *t = &o->camera.triangles;
     shadow_split s = shadow_split_default();
     s.znear = o->camera.znear;
@@ -83,11 +83,11 @@ static int split_of(const options *o, shadow_split *out) {
     s.lambda = o->shadow.lambda;
     s.casters = o->shadow.casters;
     *out = s;
-    return view_vertical(o, t->width, t->height, &out->fov_y);
+    return view_vertical(&o->camera, t->width, t->height, &out->fov_y);
 }
 
 /* The depth texture of --camera-depth: planes, picture and triangles of the view. */
-static int camera_of(const options *o, shadow_maps *out) {
+static int read_depth_of(const shadow_request *o, shadow_maps *out) {
     dp_spec spec = dp_spec_default();
     spec.format = o->shadow.camera.format;
     spec.mapping = o->shadow.camera.mapping;
@@ -98,52 +98,52 @@ static int camera_of(const options *o, shadow_maps *out) {
     spec.triangles.slant_lo = 0.0;
     spec.triangles.slant_hi = 90.0;
     if (!(spec.zfar >= o->camera.zfar) || dp_setup_init(&out->camera, &spec) != DP_OK)
-        return option_error(OPTION_CAMERA_DEPTH, "FAR must be at least --far and beyond --near, got '%s'",
-                            o->given[OPTION_CAMERA_DEPTH]);
+        return option_error("camera-depth", "FAR must be at least --far and beyond --near, got '%s'",
+                            option_text(o->line, "camera-depth"));
     out->view.camera = &out->camera;
     return EXIT_FINE;
 }
 
 /* What the options could not see one by one. */
-static int refused(const options *o, shadow_status status) {
-    const uint32_t side = o->view.spec.width < o->view.spec.height ? o->view.spec.width : o->view.spec.height;
+static int refused(const shadow_request *o, shadow_status status) {
+    const uint32_t side = o->shadow.size[0] < o->shadow.size[1] ? o->shadow.size[0] : o->shadow.size[1];
     const uint32_t least = (5 * o->shadow.kernel + 6) / 2 + 1; /* a texel wider than both margins of a cascade */
     if (status == SHADOW_RECEIVERS)
-        return option_error(OPTION_RANGE, "must lie in the box, from 0 to %s, got '%s:%s'",
+        return option_error("range", "must lie in the box, from 0 to %s, got '%s:%s'",
                             number_full(o->shadow.light_box[2]).text, number_full(o->camera.range_lo).text,
                             number_full(o->camera.range_hi).text);
     if (status == SHADOW_CASCADES && !(o->camera.zfar > o->camera.znear && o->camera.zfar <= 1e12))
-        return option_error(OPTION_FAR, "must be greater than near and at most 1e12, got '%s'",
+        return option_error("far", "must be greater than near and at most 1e12, got '%s'",
                             number_full(o->camera.zfar).text);
     if (status == SHADOW_CASCADES)
-        return option_error(OPTION_VIEWPORT, "must be from 0.001 to 1000 times as wide as high, got '%dx%d'",
+        return option_error("viewport", "must be from 0.001 to 1000 times as wide as high, got '%dx%d'",
                             o->camera.triangles.width, o->camera.triangles.height);
     if (status == SHADOW_BOX && side < least)
-        return option_error(OPTION_SIZE, "must be at least %u texels a side for a filter of %ux%u, got '%ux%u'", least,
-                            o->shadow.kernel, o->shadow.kernel, o->view.spec.width, o->view.spec.height);
-    if (status == SHADOW_POSITION && option_given(o, OPTION_CAMERA_DEPTH))
-        return option_error(OPTION_CAMERA_DEPTH, "leaves nothing of a receiver's position at the far end, got '%s'",
-                            o->given[OPTION_CAMERA_DEPTH]);
-    return option_error(OPTION_FAR, "makes a map too large or too small: %s", shadow_status_text(status));
+        return option_error("size", "must be at least %u texels a side for a filter of %ux%u, got '%ux%u'", least,
+                            o->shadow.kernel, o->shadow.kernel, o->shadow.size[0], o->shadow.size[1]);
+    if (status == SHADOW_POSITION && option_given(o->line, "camera-depth"))
+        return option_error("camera-depth", "leaves nothing of a receiver's position at the far end, got '%s'",
+                            option_text(o->line, "camera-depth"));
+    return option_error("far", "makes a map too large or too small: %s", shadow_status_text(status));
 }
 
-int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
-    const bool box = option_given(o, OPTION_LIGHT_BOX);
+int shadow_maps_make(const shadow_request *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
+    const bool box = option_given(o->line, "light-box");
     int status = check_together(o);
     if (status == EXIT_FINE)
-        status = setup_undrawn(o, format);
+        status = setup_undrawn(&o->camera, format);
     *out = (shadow_maps){.count = box ? 1 : o->shadow.cascades};
     if (status != EXIT_FINE)
         return status;
     if (dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE)
-        return option_error(OPTION_MAPPING,
+        return option_error("mapping",
                             "must be one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE " for a shadow map, got '%s'",
                             dp_mapping_get(mapping)->name);
     const shadow_light light = light_of(o, format, mapping);
     if (!box)
         status = split_of(o, &out->view);
-    if (status == EXIT_FINE && option_given(o, OPTION_CAMERA_DEPTH))
-        status = camera_of(o, out);
+    if (status == EXIT_FINE && option_given(o->line, "camera-depth"))
+        status = read_depth_of(o, out);
     if (status != EXIT_FINE)
         return status;
     shadow_status made = shadow_light_check(&light);

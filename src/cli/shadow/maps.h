@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "cli/option/options.h"
+#include "cli/shadow/request.h"
 #include "shadow/shadow.h"
 
 typedef struct shadow_maps {
@@ -19,6 +19,6 @@ typedef struct shadow_maps {
  * The maps in that format and mapping.
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr that names the option at fault
  */
-int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out);
+int shadow_maps_make(const shadow_request *o, const dp_format *format, dp_mapping mapping, shadow_maps *out);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/shadow/rows.h"
+#include "cli/shadow/request.h"
 
 #include <math.h>
 #include <stdio.h>

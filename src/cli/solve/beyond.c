@@ -5,19 +5,20 @@
 
 #include "census/census.h"
 #include "cli/solve/report.h"
+#include "cli/solve/request.h"
 #include "core/bits.h"
 
 /* The first stretch is short, since most fights are near, and each that follows is twice as long. */
 enum { FIRST_STRETCH = 1 << 14, DEPTHS_MOST = 1 << 24, AGAIN_SHOWN = 3 };
 
-int solve_check_apart(const options *o, solve_target target) {
-    const bool known = option_given(o, OPTION_FAR) || o->camera.preset_count > 0;
+int solve_check_apart(const solve_request *o, solve_target target) {
+    const bool known = option_given(o->line, "far") || o->camera.preset_count > 0;
     const double near = target == SOLVE_FOR_NEAR ? 0.0 : o->camera.znear;
     const double most = target == SOLVE_FOR_FAR || !known ? HUGE_VAL : o->camera.zfar - near;
-    if (!option_given(o, OPTION_SEPARATION) || o->wanted.separation <= most)
+    if (!option_given(o->line, "separation") || o->separation <= most)
         return EXIT_FINE;
-    return option_error(OPTION_SEPARATION, "must be at most %s, all that lies between near and far, got %s",
-                        options_length(o, most, 0).text, options_length(o, o->wanted.separation, 0).text);
+    return option_error("separation", "must be at most %s, all that lies between near and far, got %s",
+                        camera_length(&o->camera, most, 0).text, camera_length(&o->camera, o->separation, 0).text);
 }
 
 static double depth_behind(double z, uint32_t count, double hi) {
@@ -58,8 +59,8 @@ void solve_look_beyond(solve_report *r) {
 void solve_say_beyond(page *p, const solve_report *r) {
     for (size_t i = 0; i < r->again_count && i < AGAIN_SHOWN; i++)
         page_note(p, i == 0 ? "holds again" : "", "from z = %s to %s",
-                  number_in(number_up(r->again[i].lo, SOLVE_DIGITS), options_unit(r->o)).text,
-                  number_in(number_down(r->again[i].hi, SOLVE_DIGITS), options_unit(r->o)).text);
+                  number_in(number_up(r->again[i].lo, SOLVE_DIGITS), camera_unit(&r->o->camera)).text,
+                  number_in(number_down(r->again[i].hi, SOLVE_DIGITS), camera_unit(&r->o->camera)).text);
     if (r->again_count > AGAIN_SHOWN)
         page_note(p, "", "and farther; --json lists %zu ranges", r->again_count);
 }

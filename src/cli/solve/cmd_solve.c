@@ -9,6 +9,7 @@
 
 #include "cli/setups.h"
 #include "cli/solve/report.h"
+#include "cli/solve/request.h"
 #include "report/number.h"
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
@@ -21,34 +22,34 @@ static bool is_logarithm(dp_mapping mapping) {
     return dp_mapping_get(mapping)->curve == DP_CURVE_LOG;
 }
 
-static bool is_known(const options *o, option_id id) {
-    return option_given(o, id) || o->camera.preset_count > 0;
+static bool is_known(const solve_request *o, const char *id) {
+    return option_given(o->line, id) || o->camera.preset_count > 0;
 }
 
 /* At a slant there is a guarantee of separations, and only of what is affine on the screen. */
-static int check_slanted(const options *o, const solve_report *r) {
+static int check_slanted(const solve_request *o, const solve_report *r) {
     if (r->kind == MEASURE_ERROR)
-        return option_error(OPTION_ERROR, "is that at a point, and conflicts with --viewport");
-    if (option_given(o, OPTION_MODEL) && !o->camera.model_auto && o->camera.model != DP_MODEL_FLOAT)
-        return option_error(OPTION_MODEL, "must be float or auto with --viewport, got '%s', which knows no slant",
-                            option_word(OPTION_MODEL, o->camera.model));
+        return option_error("error", "is that at a point, and conflicts with --viewport");
+    if (option_given(o->line, "model") && !o->camera.model_auto && o->camera.model != DP_MODEL_FLOAT)
+        return option_error("model", "must be float or auto with --viewport, got '%s', which knows no slant",
+                            option_word("model", o->camera.model));
     for (size_t m = 0; m < o->camera.mapping_count; m++)
         if (!has_pipeline(o->camera.mappings[m]))
-            return option_error(OPTION_MAPPING,
+            return option_error("mapping",
                                 "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with --viewport, got %s, which is not "
                                 "affine on the screen",
                                 dp_mapping_get(o->camera.mappings[m])->name);
     return EXIT_FINE;
 }
 
-static int check_target(const options *o, solve_report *r) {
-    static const option_id givens[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING};
-    const bool limited = option_given(o, OPTION_SEPARATION) || option_given(o, OPTION_ERROR);
-    if (option_given(o, OPTION_SEPARATION) && option_given(o, OPTION_ERROR))
-        return option_error(OPTION_ERROR, "conflicts with --separation");
-    r->kind = option_given(o, OPTION_ERROR) ? MEASURE_ERROR : MEASURE_SEPARATION;
-    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted.error : o->wanted.separation;
-    r->target = o->wanted.target;
+static int check_target(const solve_request *o, solve_report *r) {
+    static const char *const givens[] = {"near", "far", "format", "mapping"};
+    const bool limited = option_given(o->line, "separation") || option_given(o->line, "error");
+    if (option_given(o->line, "separation") && option_given(o->line, "error"))
+        return option_error("error", "conflicts with --separation");
+    r->kind = option_given(o->line, "error") ? MEASURE_ERROR : MEASURE_SEPARATION;
+    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->error : o->separation;
+    r->target = o->target;
     if (r->target == SOLVE_FOR_ANY && !limited)
         r->target = SOLVE_FOR_SEPARATION;
     for (int i = 0; i < 4 && r->target == SOLVE_FOR_ANY; i++)
@@ -58,43 +59,41 @@ static int check_target(const options *o, solve_report *r) {
         return usage_error("solve: nothing is left to solve for: leave out --near, --far, --format, --mapping or "
                            "--separation, or name one with --for");
     if (r->target == SOLVE_FOR_SEPARATION && limited)
-        return option_error(OPTION_FOR, "solves for separation: leave out --%s",
-                            option_name(r->kind == MEASURE_ERROR ? OPTION_ERROR : OPTION_SEPARATION));
-    if (r->target == SOLVE_FOR_DISTANCE && option_given(o, OPTION_AT))
-        return option_error(OPTION_AT, "does not apply to --for distance: --range LO:HI says from where");
+        return option_error("for", "solves for separation: leave out --%s",
+                            r->kind == MEASURE_ERROR ? "error" : "separation");
+    if (r->target == SOLVE_FOR_DISTANCE && option_given(o->line, "at"))
+        return option_error("at", "does not apply to --for distance: --range LO:HI says from where");
     if (r->target != SOLVE_FOR_SEPARATION && !limited)
-        return option_error(OPTION_SEPARATION, "must be given (or --error), to solve for %s",
-                            option_word(OPTION_FOR, r->target));
-    if (r->target <= SOLVE_FOR_FAR && option_given(o, givens[r->target - SOLVE_FOR_NEAR]))
-        return option_error(OPTION_FOR, "solves for %s: leave out --%s", option_word(OPTION_FOR, r->target),
-                            option_word(OPTION_FOR, r->target));
+        return option_error("separation", "must be given (or --error), to solve for %s", option_word("for", r->target));
+    if (r->target <= SOLVE_FOR_FAR && option_given(o->line, givens[r->target - SOLVE_FOR_NEAR]))
+        return option_error("for", "solves for %s: leave out --%s", option_word("for", r->target),
+                            option_word("for", r->target));
     for (size_t m = 0; m < o->camera.mapping_count; m++)
-        if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->camera.model == DP_MODEL_FLOAT &&
+        if (r->kind == MEASURE_ERROR && option_given(o->line, "model") && o->camera.model == DP_MODEL_FLOAT &&
             !is_logarithm(o->camera.mappings[m]))
-            return option_error(OPTION_MODEL,
-                                "must be exact or staged for an error of %s, got 'float', which has no cells",
+            return option_error("model", "must be exact or staged for an error of %s, got 'float', which has no cells",
                                 dp_mapping_get(o->camera.mappings[m])->name);
     return o->camera.triangles.width > 0 ? check_slanted(o, r) : EXIT_FINE;
 }
 
-static int check_depths(const options *o, solve_report *r) {
-    const bool range = option_given(o, OPTION_RANGE);
+static int check_depths(const solve_request *o, solve_report *r) {
+    const bool range = option_given(o->line, "range");
     if (range && o->camera.at.count > 0)
-        return option_error(OPTION_RANGE, "conflicts with --at");
+        return option_error("range", "conflicts with --at");
     if (!range && r->target == SOLVE_FOR_DISTANCE) {
         r->lo = o->camera.znear;
-        r->hi = is_known(o, OPTION_FAR) ? o->camera.zfar : (double)HUGE_VAL;
+        r->hi = is_known(o, "far") ? o->camera.zfar : (double)HUGE_VAL;
         return EXIT_FINE;
     }
     if (!range && o->camera.at.count == 0)
-        return option_error(OPTION_AT, "must be given, or --range LO:HI");
+        return option_error("at", "must be given, or --range LO:HI");
     if (o->camera.at.count > 1)
-        return option_error(OPTION_AT, "solve takes one depth, or --range LO:HI, got %zu depths", o->camera.at.count);
+        return option_error("at", "solve takes one depth, or --range LO:HI, got %zu depths", o->camera.at.count);
     r->lo = range ? o->camera.range_lo : o->camera.at.lo;
     r->hi = range ? o->camera.range_hi : o->camera.at.lo;
-    const option_id id = range ? OPTION_RANGE : OPTION_AT;
+    const char *id = range ? "range" : "at";
     const bool free_near = r->target == SOLVE_FOR_NEAR;
-    const bool free_far = r->target == SOLVE_FOR_FAR || !is_known(o, OPTION_FAR);
+    const bool free_far = r->target == SOLVE_FOR_FAR || !is_known(o, "far");
     const double least = free_near ? 1e-12 : o->camera.znear;
     const double most = free_far ? 1e18 : o->camera.zfar;
     if (r->target == SOLVE_FOR_FAR && !(r->hi > 0.0) && o->camera.znear <= 0.0)
@@ -114,8 +113,8 @@ static bool asks_for_choice(solve_target target) {
 
 /* The model asked for, or the fullest that there is: what a user can trust. */
 static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) {
-    const options *o = r->o;
-    const bool given = option_given(o, OPTION_MODEL) && !o->camera.model_auto;
+    const solve_request *o = r->o;
+    const bool given = option_given(o->line, "model") && !o->camera.model_auto;
     const bool has_fp32 = is_logarithm(mapping) || (r->kind == MEASURE_SEPARATION && has_pipeline(mapping));
     if (given && (asked || o->camera.model != DP_MODEL_FLOAT))
         return o->camera.model;
@@ -194,9 +193,9 @@ static bool listed(const solve_report *r, const dp_spec *spec) {
     return false;
 }
 
-static dp_spec spec_of(const options *o) {
+static dp_spec spec_of(const solve_request *o) {
     return (dp_spec){.znear = o->camera.znear,
-                     .zfar = is_known(o, OPTION_FAR) ? o->camera.zfar : (double)HUGE_VAL,
+                     .zfar = is_known(o, "far") ? o->camera.zfar : (double)HUGE_VAL,
                      .ortho = o->camera.ortho,
                      .rounding = o->camera.rounding,
                      .arith = o->camera.arith,
@@ -205,10 +204,10 @@ static dp_spec spec_of(const options *o) {
 }
 
 static int refused(const solve_report *r, const solve_candidate *c, dp_status status) {
-    if (status == DP_ERROR_INFINITE && !is_known(r->o, OPTION_FAR))
-        return option_error(OPTION_FAR, "must be given: %s has no infinite far",
+    if (status == DP_ERROR_INFINITE && !is_known(r->o, "far"))
+        return option_error("far", "must be given: %s has no infinite far",
                             c->spec.ortho ? "an orthographic projection" : dp_mapping_get(c->spec.mapping)->name);
-    return setup_refused(r->o, &c->spec, status);
+    return setup_refused(&r->o->camera, &c->spec, status);
 }
 
 static solve_candidate *add_candidate(solve_report *r, const dp_spec *spec, bool asked) {
@@ -218,14 +217,14 @@ static solve_candidate *add_candidate(solve_report *r, const dp_spec *spec, bool
 }
 
 static int add_asked(solve_report *r) {
-    const options *o = r->o;
+    const solve_request *o = r->o;
     dp_spec spec = spec_of(o);
     for (size_t f = 0; f < o->camera.format_count; f++)
         for (size_t m = 0; m < o->camera.mapping_count; m++) {
             spec.format = o->camera.formats[f];
             spec.mapping = o->camera.mappings[m];
-            spec.model = model_of(r, spec.mapping, is_known(o, OPTION_MAPPING));
-            if (setup_undrawn(o, &spec.format) != EXIT_FINE)
+            spec.model = model_of(r, spec.mapping, is_known(o, "mapping"));
+            if (setup_undrawn(&o->camera, &spec.format) != EXIT_FINE)
                 return EXIT_USAGE;
             solve_candidate *c = add_candidate(r, &spec, true);
             const dp_status status = try_candidate(r, c);
@@ -249,7 +248,7 @@ static bool leaves_open(const solve_report *r, const dp_format *format) {
     bool asked = false;
     for (size_t f = 0; f < r->o->camera.format_count; f++)
         asked = asked || strcmp(r->o->camera.formats[f].name, format->name) == 0;
-    return asked && r->target == SOLVE_FOR_MAPPING && !option_given(r->o, OPTION_MAPPING);
+    return asked && r->target == SOLVE_FOR_MAPPING && !option_given(r->o->line, "mapping");
 }
 
 /*
@@ -333,13 +332,14 @@ static void arrange(solve_report *r) {
         qsort(r->items + 1, r->count - 1, sizeof r->items[0], compare_alternatives);
 }
 
-int cmd_solve(const options *o) {
+int cmd_solve(void *request) {
+    const solve_request *o = request;
     output out;
     solve_candidate items[SOLVE_CANDIDATES_MAX];
     solve_report r = {.o = o, .items = items};
-    if (o->wanted.target == SOLVE_FOR_FRUSTA)
+    if (o->target == SOLVE_FOR_FRUSTA)
         return solve_frusta(o);
-    int status = setup_decided(o);
+    int status = setup_decided(&o->camera);
     if (status == EXIT_FINE)
         status = check_target(o, &r);
     if (status == EXIT_FINE)
@@ -354,7 +354,7 @@ int cmd_solve(const options *o) {
         add_others(&r);
     arrange(&r);
     solve_look_beyond(&r);
-    status = options_open(o, &out);
+    status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)
         return status;
     solve_report_write(&r, &out);

@@ -6,6 +6,7 @@
 #include "cli/setups.h"
 #include "cli/slant.h"
 #include "cli/solve/report.h"
+#include "cli/solve/request.h"
 
 /* All from the answer to `until` pass. */
 typedef struct plane_fields {
@@ -51,8 +52,8 @@ static void take_candidate(solving *s, const solve_candidate *c) {
     x->plane = c->solved ? &x->fields : NULL;
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
     s->setup = (dp_setup){.spec = c->spec};
-    x->setup = setup_fields_of(&s->setup, options_unit(s->report.o));
-    x->model = option_word(OPTION_MODEL, c->spec.model);
+    x->setup = setup_fields_of(&s->setup, camera_unit(&s->report.o->camera));
+    x->model = option_word("model", c->spec.model);
 }
 
 /* ---- The table of alternatives ----------------------------------------------------------------------------------- */
@@ -89,9 +90,10 @@ static void *next_alternative(void *of, size_t i) {
 static void say_others(page *p, void *item) {
     const solve_report *r = item;
     if (r->count > 1)
-        output_format(
-            p->out, "\n%s%s%s\n", r->target == SOLVE_FOR_SEPARATION ? "Others" : "Alternatives, cheapest first",
-            r->o->camera.unit != NULL ? ", lengths in " : "", r->o->camera.unit != NULL ? r->o->camera.unit->name : "");
+        output_format(p->out, "\n%s%s%s\n",
+                      r->target == SOLVE_FOR_SEPARATION ? "Others" : "Alternatives, cheapest first",
+                      r->o->camera.lengths.unit != NULL ? ", lengths in " : "",
+                      r->o->camera.lengths.unit != NULL ? r->o->camera.lengths.unit->name : "");
 }
 
 /* The first possible alternative with its format, so that a caution is said once. */
@@ -183,7 +185,7 @@ static unsigned conditions(const solve_report *r) {
 /* What is measured names a column, and what is solved for another. */
 void solve_report_write(const solve_report *r, output *out) {
     static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
-    solving s = {.report = *r, .target = option_word(OPTION_FOR, r->target), .measure = solve_measure_name(r)};
+    solving s = {.report = *r, .target = option_word("for", r->target), .measure = solve_measure_name(r)};
     const column lattice[] = {{FIELD(candidate, found.lattice.possible, "possible", "")},
                               {FIELD(candidate, lattice_near, "near", "scene"), .optional = true},
                               {FIELD(candidate, lattice_far, "far", "scene"), .optional = true},
@@ -236,7 +238,7 @@ void solve_report_write(const solve_report *r, output *out) {
         {LIST(NULL, line_columns, next_line), .only = AS_CSV},
         {.kind = COLUMN_END}};
     const report_spec spec = {"solve", columns, &s, .when = conditions(r), .label = 15, .head = solve_report_answer};
-    s.triangles = slant_fields_of(r->o, &s.slant);
+    s.triangles = slant_fields_of(&r->o->camera, &s.slant);
     take_candidate(&s, &r->items[0]);
     report_write(&spec, out, r->o->out.form);
 }

@@ -5,6 +5,7 @@
 
 #include "cli/setups.h"
 #include "cli/solve/report.h"
+#include "cli/solve/request.h"
 #include "requirement/frusta.h"
 
 static const double fixed_ratio = 1000.0; /* CesiumJS, updateFrustums() of View.js; without logarithmic depth */
@@ -15,7 +16,7 @@ typedef struct frustum_line {
 } frustum_line;
 
 typedef struct planning {
-    const options *o;
+    const solve_request *o;
     dp_setup setup;
     setup_fields fields;
     frusta_plan plan, fixed;
@@ -28,22 +29,20 @@ typedef struct planning {
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
-static int check_frusta(const options *o) {
-    if (!option_given(o, OPTION_SEPARATION))
-        return option_error(OPTION_SEPARATION, "must be given, to solve for frusta");
-    if (!(option_given(o, OPTION_FAR) || o->camera.preset_count > 0) || isinf(o->camera.zfar))
-        return option_error(OPTION_FAR,
-                            "must be finite, to solve for frusta: nothing is resolved at an infinite far plane");
+static int check_frusta(const solve_request *o) {
+    if (!option_given(o->line, "separation"))
+        return option_error("separation", "must be given, to solve for frusta");
+    if (!(option_given(o->line, "far") || o->camera.preset_count > 0) || isinf(o->camera.zfar))
+        return option_error("far", "must be finite, to solve for frusta: nothing is resolved at an infinite far plane");
     if (o->camera.format_count != 1)
-        return option_error(OPTION_FORMAT, "must be one format, to solve for frusta, got %zu", o->camera.format_count);
+        return option_error("format", "must be one format, to solve for frusta, got %zu", o->camera.format_count);
     if (o->camera.mapping_count != 1)
-        return option_error(OPTION_MAPPING, "must be one mapping, to solve for frusta, got %zu",
-                            o->camera.mapping_count);
+        return option_error("mapping", "must be one mapping, to solve for frusta, got %zu", o->camera.mapping_count);
     return EXIT_FINE;
 }
 
-static dp_spec spec_of(const options *o) {
-    const bool chosen = option_given(o, OPTION_MODEL) && !o->camera.model_auto;
+static dp_spec spec_of(const solve_request *o) {
+    const bool chosen = option_given(o->line, "model") && !o->camera.model_auto;
     const bool linear = dp_mapping_get(o->camera.mappings[0])->curve == DP_CURVE_LINEAR;
     return (dp_spec){.znear = o->camera.znear,
                      .zfar = o->camera.zfar,
@@ -74,9 +73,10 @@ static void *next_frustum(void *of, size_t i) {
 static void say_plan(page *p, void *item) {
     const planning *x = item;
     const dp_spec *spec = &x->setup.spec;
-    const char *unit = options_unit(x->o);
-    const number_text limit = options_length(x->o, x->limit, 0), near = options_length(x->o, spec->znear, 0),
-                      far = options_length(x->o, spec->zfar, 0);
+    const char *unit = camera_unit(&x->o->camera);
+    const number_text limit = camera_length(&x->o->camera, x->limit, 0),
+                      near = camera_length(&x->o->camera, spec->znear, 0),
+                      far = camera_length(&x->o->camera, spec->zfar, 0);
     const char *format = spec->format.name, *mapping = dp_mapping_get(spec->mapping)->name;
     const unsigned long long count = x->count, at_least = x->at_least;
     if (!x->possible && x->plan.count == FRUSTA_MAX)
@@ -98,7 +98,7 @@ static void say_plan(page *p, void *item) {
                   x->fixed_count == 1 ? "frustum" : "frusta",
                   number_in(number_up(x->fixed_value, SOLVE_DIGITS), unit).text,
                   number_in(number_of(x->fixed_z, SOLVE_DIGITS), unit).text);
-    page_note(p, "model", "%s", option_word(OPTION_MODEL, spec->model));
+    page_note(p, "model", "%s", option_word("model", spec->model));
     if (x->plan.count > 0)
         output_text(p->out, "\n");
 }
@@ -131,13 +131,10 @@ static void write_plan(planning *x, output *out) {
     report_write(&(report_spec){"solve", columns, x, .label = 15, .head = say_plan}, out, x->o->out.form);
 }
 
-int solve_frusta(const options *o) {
+int solve_frusta(const solve_request *o) {
     output out;
-    planning x = {.o = o,
-                  .limit = o->wanted.separation,
-                  .ratio = fixed_ratio,
-                  .fixed_value = (double)NAN,
-                  .fixed_z = (double)NAN};
+    planning x = {
+        .o = o, .limit = o->separation, .ratio = fixed_ratio, .fixed_value = (double)NAN, .fixed_z = (double)NAN};
     int status = check_frusta(o);
     if (status == EXIT_FINE)
         status = solve_check_apart(o, SOLVE_FOR_FRUSTA);
@@ -146,10 +143,10 @@ int solve_frusta(const options *o) {
     const dp_spec spec = spec_of(o);
     const dp_status solved = frusta_solve(&spec, x.limit, &x.plan);
     if (solved != DP_OK)
-        return setup_refused(o, &spec, solved);
+        return setup_refused(&o->camera, &spec, solved);
     x.setup = (dp_setup){.spec = spec};
-    x.fields = setup_fields_of(&x.setup, options_unit(o));
-    x.target = option_word(OPTION_FOR, SOLVE_FOR_FRUSTA);
+    x.fields = setup_fields_of(&x.setup, camera_unit(&o->camera));
+    x.target = option_word("for", SOLVE_FOR_FRUSTA);
     x.possible = x.plan.possible;
     x.count = x.plan.count;
     x.stuck = x.plan.stuck;
@@ -160,7 +157,7 @@ int solve_frusta(const options *o) {
         x.fixed_value = worst->reached.value;
         x.fixed_z = worst->reached.z;
     }
-    status = options_open(o, &out);
+    status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)
         return status;
     write_plan(&x, &out);

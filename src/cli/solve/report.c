@@ -8,6 +8,7 @@
 #include "cli/setups.h"
 #include "cli/slant.h"
 #include "cli/solve/report.h"
+#include "cli/solve/request.h"
 #include "core/append.h"
 #include "core/elementary.h"
 
@@ -43,20 +44,20 @@ static bool is_near(const solve_candidate *c) {
 }
 
 static const char *target_name(const solve_report *r) {
-    return option_word(OPTION_FOR, r->target);
+    return option_word("for", r->target);
 }
 
 /* Lengths, with the unit where it is known. */
 static number_text in_unit(const solve_report *r, number_text number) {
-    return number_in(number, options_unit(r->o));
+    return number_in(number, camera_unit(&r->o->camera));
 }
 
 static number_text whole(const solve_report *r, double value) {
-    return options_length(r->o, value, 0);
+    return camera_length(&r->o->camera, value, 0);
 }
 
 static number_text digits(const solve_report *r, double value) {
-    return options_length(r->o, value, SOLVE_DIGITS);
+    return camera_length(&r->o->camera, value, SOLVE_DIGITS);
 }
 
 static number_text up(const solve_report *r, double value) {
@@ -69,11 +70,11 @@ static number_text bound(const solve_report *r, double value, bool upward) {
 
 /* What is measured, in the unit of what is wanted, and that beside it. */
 static number_two against_wanted(const solve_report *r, double value) {
-    const options *o = r->o;
-    const unit_row *unit = options_unit_of(o, r->kind == MEASURE_ERROR ? OPTION_ERROR : OPTION_SEPARATION);
+    const solve_request *o = r->o;
+    const unit_row *unit = option_unit(o->line, r->kind == MEASURE_ERROR ? "error" : "separation");
     const char *name = unit != NULL ? unit->name : NULL;
-    const number_two out = number_compared(unit_convert(value, o->camera.unit, unit),
-                                           unit_convert(r->limit, o->camera.unit, unit), SOLVE_DIGITS);
+    const number_two out = number_compared(unit_convert(value, o->camera.lengths.unit, unit),
+                                           unit_convert(r->limit, o->camera.lengths.unit, unit), SOLVE_DIGITS);
     return (number_two){number_in(out.value, name), number_in(out.limit, name)};
 }
 
@@ -260,7 +261,7 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
         [DP_MODEL_STAGED] = "staged: NDC and window depth each rounded to binary32",
         [DP_MODEL_FLOAT] = "float: guaranteed in binary32 arithmetic, ",
     };
-    const bool chosen = r->o->camera.model_auto || !option_given(r->o, OPTION_MODEL);
+    const bool chosen = r->o->camera.model_auto || !option_given(r->o->line, "model");
     const char *more = "";
     if (c->spec.model == DP_MODEL_FLOAT)
         more = dp_arith_get(c->spec.arith)->name;
@@ -304,8 +305,9 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
 /* The planes that nobody gave. */
 static void say_assumed(const solve_report *r, page *p) {
     const bool no_near =
-        !option_given(r->o, OPTION_NEAR) && r->o->camera.preset_count == 0 && r->target != SOLVE_FOR_NEAR;
-    const bool no_far = !option_given(r->o, OPTION_FAR) && r->o->camera.preset_count == 0 && r->target != SOLVE_FOR_FAR;
+        !option_given(r->o->line, "near") && r->o->camera.preset_count == 0 && r->target != SOLVE_FOR_NEAR;
+    const bool no_far =
+        !option_given(r->o->line, "far") && r->o->camera.preset_count == 0 && r->target != SOLVE_FOR_FAR;
     const number_text near = whole(r, r->items[0].spec.znear), far = whole(r, r->items[0].spec.zfar);
     if (no_near && no_far)
         page_note(p, "assumed", "near %s, far %s: not given", near.text, far.text);
@@ -334,7 +336,7 @@ void solve_report_answer(page *p, void *item) {
     if (dp_mapping_get(c->spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
         page_note(p, "cost", "%s", c->price.effort);
     say_beside(r, c, p);
-    slant_say(p, page_line, r->o, &(dp_setup){.spec = c->spec});
+    slant_say(p, page_line, &r->o->camera, &(dp_setup){.spec = c->spec});
     if (c->possible)
         setup_say_code(p, &c->spec);
 }

@@ -4,7 +4,7 @@
 #define CLI_SOLVE_REPORT_H
 
 #include "api/cost.h"
-#include "cli/option/options.h"
+#include "cli/solve/request.h"
 #include "report/number.h"
 #include "report/report.h"
 #include "requirement/distance.h"
@@ -40,10 +40,10 @@ typedef struct solve_fight {
 } solve_fight;
 
 enum { SOLVE_AGAIN_MAX = 32 };
-enum { SOLVE_CANDIDATES_MAX = OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT + 16 };
+enum { SOLVE_CANDIDATES_MAX = CAMERA_FORMATS_MAX * DP_MAPPING_COUNT + 16 };
 
 typedef struct solve_report {
-    const options *o;
+    const solve_request *o;
     solve_target target; /**< never SOLVE_FOR_ANY */
     measure_kind kind;
     double limit; /**< NaN when what is reached is asked */
@@ -56,11 +56,11 @@ typedef struct solve_report {
 } solve_report;
 
 /** solve --for frusta, all of it. @return an exit status */
-int solve_frusta(const options *o);
+int solve_frusta(const solve_request *o);
 
 /** That the view is as deep as the separation: else there is no pair of surfaces to ask about. @return EXIT_FINE, or
  * EXIT_USAGE after one line on stderr */
-int solve_check_apart(const options *o, solve_target target);
+int solve_check_apart(const solve_request *o, solve_target target);
 
 /** Fills in `fight` and `again` of the answer. */
 void solve_look_beyond(solve_report *r);

@@ -3,10 +3,11 @@
 #include <string.h>
 
 #include "cli/option/names.h"
+#include "cli/texture/request.h"
 #include "cli/texture/texture.h"
 #include "core/append.h"
 
-static const option_id last_options[] = {OPTION_LAST_EYE, OPTION_LAST_LOOK};
+static const char *const last_options[] = {"last-eye", "last-look"};
 enum { LAST_OPTIONS = sizeof last_options / sizeof last_options[0] };
 
 static bool needs_last_frame(const effect_row *row) {
@@ -22,46 +23,47 @@ static const char *names_of_those(char out[NAMES_SIZE]) {
     return out;
 }
 
-int texture_camera_check(const options *o) {
+int texture_camera_check(const texture_request *o) {
     const bool looks_back = needs_last_frame(o->image.effect);
     char names[NAMES_SIZE];
     bool any = false;
     int angles = 0;
-    for (option_id id = OPTION_FOV; id <= OPTION_INTRINSICS; id++) {
-        if (o->camera.ortho && option_given(o, id))
-            return option_error(id, "conflicts with --ortho; --ortho=H says half the height of the view");
-        angles += option_given(o, id);
+    static const char *const of_view[] = {"fov", "hfov", "intrinsics"};
+    for (size_t i = 0; i < sizeof of_view / sizeof of_view[0]; i++) {
+        if (o->camera.ortho && option_given(o->line, of_view[i]))
+            return option_error(of_view[i], "conflicts with --ortho; --ortho=H says half the height of the view");
+        angles += option_given(o->line, of_view[i]);
     }
-    if (angles > 1 && option_given(o, OPTION_INTRINSICS))
-        return option_error(OPTION_INTRINSICS, "conflicts with --fov and --hfov");
+    if (angles > 1 && option_given(o->line, "intrinsics"))
+        return option_error("intrinsics", "conflicts with --fov and --hfov");
     if (o->image.radial && angles == 0)
-        return option_error(OPTION_RADIAL, "needs the rays: --fov, --hfov or --intrinsics");
+        return option_error("radial", "needs the rays: --fov, --hfov or --intrinsics");
     for (int i = 0; i < LAST_OPTIONS; i++) {
-        any = any || option_given(o, last_options[i]);
-        if (option_given(o, last_options[i]) && !looks_back)
+        any = any || option_given(o->line, last_options[i]);
+        if (option_given(o->line, last_options[i]) && !looks_back)
             return option_error(last_options[i], "is for effects that need last frame's camera: %s",
                                 names_of_those(names));
     }
     if (looks_back && !any)
-        return option_error(OPTION_PRODUCT, "effect:%s needs last frame's camera: --last-eye or --last-look",
+        return option_error("product", "effect:%s needs last frame's camera: --last-eye or --last-look",
                             o->image.effect->name);
     return EXIT_FINE;
 }
 
-int texture_camera_place(const options *o, camera_spec *spec) {
-    memcpy(spec->origin, o->view.eye, sizeof spec->origin);
-    return option_given(o, OPTION_LOOK) && !camera_look(spec, o->view.look)
-               ? option_error(OPTION_LOOK, "must differ from --eye, got '%s'", o->given[OPTION_LOOK])
+int texture_camera_place(const texture_request *o, camera_spec *spec) {
+    memcpy(spec->origin, o->image.eye, sizeof spec->origin);
+    return option_given(o->line, "look") && !camera_look(spec, o->image.look)
+               ? option_error("look", "must differ from --eye, got '%s'", option_text(o->line, "look"))
                : EXIT_FINE;
 }
 
-int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out) {
+int texture_last_camera(const texture_request *o, const dp_setup *setup, const camera_spec *now, texture_camera *out) {
     camera_spec spec = *now;
-    if (option_given(o, OPTION_LAST_EYE))
-        memcpy(spec.origin, o->view.last_eye, sizeof spec.origin);
-    if (option_given(o, OPTION_LAST_LOOK) && !camera_look(&spec, o->view.last_look))
-        return option_error(OPTION_LAST_LOOK, "must differ from last frame's eye, got '%s'",
-                            o->given[OPTION_LAST_LOOK]);
+    if (option_given(o->line, "last-eye"))
+        memcpy(spec.origin, o->image.last_eye, sizeof spec.origin);
+    if (option_given(o->line, "last-look") && !camera_look(&spec, o->image.last_look))
+        return option_error("last-look", "must differ from last frame's eye, got '%s'",
+                            option_text(o->line, "last-look"));
     const char *wrong = camera_init(out, setup, &spec);
     return wrong != NULL ? usage_error("texture: last frame: %s", wrong) : EXIT_FINE;
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cli/each_setup.h"
+#include "cli/texture/request.h"
 #include "cli/texture/texture.h"
 #include "core/append.h"
 #include "report/number.h"
@@ -19,7 +20,8 @@ static const double ONE_LEVEL = 1;
 
 /* ---- Which effect ------------------------------------------------------------------------------------------------ */
 
-int texture_effect_resolve(const options *o, bool pictured, const effect_row **row, double parameters[PARAMETERS_MAX]) {
+int texture_effect_resolve(const texture_request *o, bool pictured, const effect_row **row,
+                           double parameters[PARAMETERS_MAX]) {
     const parameter_use unused = pictured ? PARAMETER_TABLE : PARAMETER_IMAGE;
     int status = EXIT_FINE;
     *row = o->image.effect;
@@ -29,7 +31,7 @@ int texture_effect_resolve(const options *o, bool pictured, const effect_row **r
         for (size_t k = 0; k < i && status == EXIT_FINE; k++)
             if (parameter_find((*row)->parameters, o->image.parameters[k].name) ==
                 parameter_find((*row)->parameters, o->image.parameters[i].name))
-                status = option_error(OPTION_PARAMETER, "must not be given twice for '%s', got '%s' too",
+                status = option_error("parameter", "must not be given twice for '%s', got '%s' too",
                                       o->image.parameters[k].name, o->image.parameters[i].name);
     }
     return status;
@@ -45,6 +47,7 @@ typedef struct row {
 /* Below `row`, what is usable at all depths shown, and the depth that decides; NaN when at one of them nothing is. */
 typedef struct table {
     each_setup each;
+    const texture_request *o;
     const effect_row *effect;
     const texture_parameter *wanted;
     const char *name, *wanted_name, *direction;
@@ -73,7 +76,7 @@ static bool needs(const table *t, unsigned what) {
 
 /* The pixel of --pixel, or the middle of the lowest row, which sees the ground. */
 static int make_view(table *t, const dp_setup *setup) {
-    const options *o = t->each.o;
+    const texture_request *o = t->o;
     const char *wrong = camera_init(&t->camera, setup, &t->spec);
     int status = wrong != NULL ? usage_error("texture: %s", wrong) : EXIT_FINE;
     if (status == EXIT_FINE && needs(t, EFFECT_LAST_FRAME))
@@ -84,17 +87,17 @@ static int make_view(table *t, const dp_setup *setup) {
     return status;
 }
 
-static int choose_pixel(table *t, const options *o) {
-    t->spec = o->view.spec;
+static int choose_pixel(table *t, const texture_request *o) {
+    t->spec = o->camera.spec;
     t->column = t->spec.width / 2;
     t->line = t->spec.height - 1;
-    int status = view_vertical(o, (int)t->spec.width, (int)t->spec.height, &t->spec.fov_y);
+    int status = view_vertical(&o->camera, (int)t->spec.width, (int)t->spec.height, &t->spec.fov_y);
     if (status == EXIT_FINE)
         status = texture_camera_place(o, &t->spec);
-    if (status != EXIT_FINE || !option_given(o, OPTION_PIXEL))
+    if (status != EXIT_FINE || !option_given(o->line, "pixel"))
         return status;
     if (o->image.pixels.count != 2)
-        return option_error(OPTION_PIXEL, "must be one pixel with an effect alone, got %zu", o->image.pixels.count / 2);
+        return option_error("pixel", "must be one pixel with an effect alone, got %zu", o->image.pixels.count / 2);
     t->column = (uint32_t)depths_get(&o->image.pixels, 0);
     t->line = (uint32_t)depths_get(&o->image.pixels, 1);
     return texture_pixels_check(o, t->spec.width, t->spec.height);
@@ -104,7 +107,7 @@ static int choose_pixel(table *t, const options *o) {
  * comes and goes.
  */
 static bool is_asked_of_all(const table *t) {
-    return !option_given(t->each.o, OPTION_AT) && effect_is_steady(t->effect);
+    return !option_given(t->o->line, "at") && effect_is_steady(t->effect);
 }
 
 /* The depths that are shown without --at end there, too. */
@@ -322,8 +325,8 @@ static void *next_beside(void *of, size_t i) {
 
 static void say_beside(page *p, void *item) {
     table *t = item;
-    const options *o = t->each.o;
-    p->unit = options_unit(o);
+    const texture_request *o = t->o;
+    p->unit = camera_unit(&o->camera);
     page_title(p, "near %s, far %s, %s%s%s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
                o->camera.ortho ? "orthographic" : "perspective", p->unit != NULL ? ", lengths in " : "",
                p->unit != NULL ? p->unit : "");
@@ -362,17 +365,17 @@ static int write_beside(table *t, int status) {
         status);
 }
 
-int texture_effect_table(const options *o) {
-    table t = {.each = {.o = o}};
+int texture_effect_table(const texture_request *o) {
+    table t = {.o = o};
     int status = texture_effect_resolve(o, false, &t.effect, t.parameters);
     if (status == EXIT_FINE)
         status = texture_camera_check(o);
     if (status == EXIT_FINE)
         status = choose_pixel(&t, o);
     if (status == EXIT_FINE && t.effect->eye01 && isinf(o->camera.zfar))
-        status = option_error(OPTION_FAR, "must be finite for %s, which uses z/far, got inf", t.effect->name);
+        status = option_error("far", "must be finite for %s, which uses z/far, got inf", t.effect->name);
     if (status == EXIT_FINE)
-        status = each_setup_start(&t.each, o);
+        status = each_setup_start(&t.each, &o->camera, &o->out);
     if (status == EXIT_FINE)
         status = make_view(&t, &t.each.all.items[0]);
     t.name = t.effect->name;

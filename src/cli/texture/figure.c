@@ -7,6 +7,7 @@
 #include "cli/figure_file.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
+#include "cli/texture/request.h"
 #include "cli/texture/texture.h"
 #include "core/append.h"
 #include "frame/survey.h"
@@ -45,7 +46,7 @@ static bool draw_both(void *context, uint32_t row, uint32_t count, const float *
 }
 
 /* The product, and what stands on it or beside it. */
-static bool run(const options *o, const texture_source *s, const texture_product *p, drawing *d) {
+static bool run(const texture_request *o, const texture_source *s, const texture_product *p, drawing *d) {
     const frame_product error = {.kind = FRAME_EYE, .error = true, .radial = p->made.radial};
     const frame_product linear01 = {.kind = FRAME_LINEAR01}, both[] = {p->made, d->beside ? linear01 : error};
     d->bar = progress_start("rows", s->camera.height, o->out.quiet);
@@ -56,7 +57,7 @@ static bool run(const options *o, const texture_source *s, const texture_product
 }
 
 /* What is grey, and what is in colour. */
-static void build(const options *o, drawing *d, chart *c) {
+static void build(const texture_request *o, drawing *d, chart *c) {
     if (!(o->image.overlay > 0)) {
         picture_build(&d->shown, c);
         if (d->beside)
@@ -74,9 +75,9 @@ static void build(const options *o, drawing *d, chart *c) {
 }
 
 /* Title and subtitle: what holds for all of a source, and more. */
-static void words_of(const options *o, const texture_source *s, const char *title, const char *more, chart *c) {
+static void words_of(const texture_request *o, const texture_source *s, const char *title, const char *more, chart *c) {
     char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle];
-    const char *unit = options_unit(o);
+    const char *unit = camera_unit(&o->camera);
     c->unit = unit;
     const dp_setup shown = texture_matrix_shown(&s->matrix, &s->setup);
     setup_label(&shown, true, label);
@@ -105,11 +106,12 @@ static void name_quantity(const char *name, char *out, size_t size) {
         append(out, size, ", method %.*s", length - base - 4, by + 4);
 }
 
-static void describe(const options *o, const texture_source *s, const texture_product *p, const drawing *d, chart *c) {
+static void describe(const texture_request *o, const texture_source *s, const texture_product *p, const drawing *d,
+                     chart *c) {
     const picture *shown = &d->shown;
     const uint64_t missing = d->beside ? d->second.missing : shown->missing;
     char title[sizeof c->title], more[160] = "";
-    const char *unit = options_unit(o);
+    const char *unit = camera_unit(&o->camera);
     name_quantity(p->name, title, sizeof title);
     if (d->beside)
         append(title, sizeof title, " beside eye depth over far, Linear01Depth");
@@ -145,7 +147,7 @@ static void mark_ties(const frame *f, chart *c) {
 }
 
 /* Fills the page: the picture in its shape, words above, axes around. */
-static int height_of(const options *o, const texture_source *s, int width, int panels) {
+static int height_of(const texture_request *o, const texture_source *s, int width, int panels) {
     static const double shares[] = {1, 0.53, 0.37}; /* of the width, for each panel */
     if (o->figure.height > 0)
         return o->figure.height;
@@ -155,20 +157,20 @@ static int height_of(const options *o, const texture_source *s, int width, int p
 }
 
 /* From 0 to 1 by nature. Grey under errors is no picture of its own: there it tells the depths apart. */
-static bool is_share(const options *o, const texture_product *p) {
+static bool is_share(const texture_request *o, const texture_product *p) {
     const frame_kind kind = p->made.kind;
     return !p->made.error && ((kind == FRAME_EFFECT && p->made.effect->kind != EFFECT_GAIN) ||
                               ((kind == FRAME_RAW || kind == FRAME_LINEAR01) && !(o->image.overlay > 0)));
 }
 
 /* As articles show them: window depth beside eye depth over far, where there is a far plane. */
-static bool has_beside(const options *o, const texture_source *s, const texture_product *p) {
+static bool has_beside(const texture_request *o, const texture_source *s, const texture_product *p) {
     const frame_product linear = {.kind = FRAME_LINEAR01};
     return p->made.kind == FRAME_RAW && is_share(o, p) && s->setup.spec.mapping != DP_MAPPING_LINEAR &&
            frame_refuses(&s->frame, &linear) == NULL;
 }
 
-int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p) {
+int texture_figure_draw(const texture_request *o, const texture_source *s, const texture_product *p) {
     static const char *const axes[][3] = {{"x (world)", "y (world)", "z (world)"}, {"to the right", "up", "length"}};
     static const char *const raw[] = {"window depth"};
     const int width = o->figure.width > 0 ? o->figure.width : WIDTH;
@@ -216,8 +218,8 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
         describe(o, s, p, &d, c);
         build(o, &d, c);
         mark_ties(&s->frame, c);
-        good =
-            !chart_failed(c) && figure_file_write(o, o->image.figure, c, width, height_of(o, s, width, panels), &out);
+        good = !chart_failed(c) &&
+               figure_file_write(o->line, &o->figure, o->image.figure, c, width, height_of(o, s, width, panels), &out);
     }
     chart_free(c);
     if (good)
@@ -227,16 +229,16 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
 }
 
 /* The figure and, with --json or --csv, its numbers. */
-static int write_histogram(const options *o, const chart *c, output *out) {
+static int write_histogram(const texture_request *o, const chart *c, output *out) {
     output numbers;
     int status = EXIT_FINE;
-    if (!figure_file_write(o, o->image.histogram, c, o->figure.width > 0 ? o->figure.width : WIDTH,
+    if (!figure_file_write(o->line, &o->figure, o->image.histogram, c, o->figure.width > 0 ? o->figure.width : WIDTH,
                            o->figure.height > 0 ? o->figure.height : HISTOGRAM_HEIGHT, out)) {
         output_abandon(out);
         return usage_error("texture: no memory for the figure");
     }
     if (o->out.form != FORM_TEXT) {
-        status = options_open(o, &numbers);
+        status = output_start(&o->out, &o->camera, &numbers);
         if (status == EXIT_FINE) {
             figure_data_write(&numbers, o->out.form, "texture", "histogram", c);
             status = output_close(&numbers);
@@ -248,16 +250,15 @@ static int write_histogram(const options *o, const chart *c, output *out) {
     return status;
 }
 
-int texture_histogram_draw(const options *o, const texture_source *s) {
+int texture_histogram_draw(const texture_request *o, const texture_source *s) {
     const uint64_t pixels = (uint64_t)s->camera.width * s->camera.height;
     uint64_t counted = 0;
     char more[96] = "";
     output out;
     canvas_format type;
     if (s->camera.oblique.on)
-        return option_error(OPTION_HISTOGRAM, "needs planes that all pixels share, which %s does not have",
-                            s->matrix.path);
-    int status = figure_file_type(o, OPTION_HISTOGRAM, o->image.histogram, &type);
+        return option_error("histogram", "needs planes that all pixels share, which %s does not have", s->matrix.path);
+    int status = figure_file_type(o->line, &o->figure, "histogram", o->image.histogram, &type);
     if (status == EXIT_FINE)
         status = output_open(&out, o->image.histogram);
     if (status != EXIT_FINE)

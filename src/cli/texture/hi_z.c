@@ -3,18 +3,19 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "cli/texture/request.h"
 #include "cli/texture/texture.h"
 #include "frame/pyramid.h"
 #include "report/message.h"
 #include "report/number.h"
 
-int texture_hi_z_check(const options *o) {
-    static const option_id others[] = {OPTION_PRODUCT, OPTION_FIGURE, OPTION_HISTOGRAM, OPTION_PIXEL, OPTION_METRIC,
-                                       OPTION_STEREO,  OPTION_RADIAL, OPTION_CSV,       OPTION_AS,    OPTION_ERROR_MAP};
+int texture_hi_z_check(const texture_request *o) {
+    static const char *const others[] = {"product", "figure", "histogram", "pixel", "metric",
+                                         "stereo",  "radial", "csv",       "as",    "error-map"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]))
+        if (option_given(o->line, others[i]))
             return option_error(others[i], "conflicts with --hi-z, which keeps window depth");
-    return o->out.file != NULL ? EXIT_FINE : option_error(OPTION_HI_Z, "needs -o FILE");
+    return o->out.file != NULL ? EXIT_FINE : option_error("hi-z", "needs -o FILE");
 }
 
 /* What JSON and messages say of a level. */
@@ -38,7 +39,7 @@ static const column columns[] = {{FIELD(hi_z, file, "file", "")},
                                  {FIELD(hi_z, p.off_z, "off_z", "scene")},
                                  {.kind = COLUMN_END}};
 
-static int say(const options *o, const texture_source *s, hi_z *h) {
+static int say(const texture_request *o, const texture_source *s, hi_z *h) {
     const pyramid *p = &h->p;
     output out;
     if (o->out.form == FORM_JSON) {
@@ -62,7 +63,7 @@ static int say(const options *o, const texture_source *s, hi_z *h) {
     return EXIT_FINE;
 }
 
-int texture_hi_z_write(const options *o, texture_source *s) {
+int texture_hi_z_write(const texture_request *o, texture_source *s) {
     const bool largest = s->setup.reversed == o->image.hi_z_nearest;
     hi_z h = {.p = {.level = o->image.hi_z,
                     .nearest = o->image.hi_z_nearest,
@@ -73,10 +74,10 @@ int texture_hi_z_write(const options *o, texture_source *s) {
               .mapping = dp_mapping_get(s->setup.spec.mapping)->name};
     const uint32_t levels = pyramid_levels(s->camera.width, s->camera.height);
     if (!camera_is_shared(&s->camera))
-        return option_error(OPTION_HI_Z, "needs planes that all pixels share, which %s does not have", s->matrix.path);
+        return option_error("hi-z", "needs planes that all pixels share, which %s does not have", s->matrix.path);
     if (h.p.level > levels)
-        return option_error(OPTION_HI_Z, "must be at most level %u in an image of %u x %u, got %u", levels,
-                            s->camera.width, s->camera.height, h.p.level);
+        return option_error("hi-z", "must be at most level %u in an image of %u x %u, got %u", levels, s->camera.width,
+                            s->camera.height, h.p.level);
     if (!pyramid_make(&s->frame, &h.p))
         return usage_error("texture: no memory for the pyramid");
     s->camera.width = h.p.width; /* of what is written */

@@ -70,37 +70,37 @@ static bool read_numbers(const char *text, const struct way *way, double out[NUM
 }
 
 /* What the levels were rounded to before the file was written stands behind a sign. @return whether it is well said */
-static bool read_again(char *text, option_id id, sensor *out) {
+static bool read_again(char *text, const char *id, sensor *out) {
     char *const at = strchr(text, '@');
     if (at == NULL)
         return true;
     *at = '\0';
-    return id == OPTION_LATTICE && number_parse(at + 1, NUMBER_FINITE, &out->again) && out->again >= 0 &&
+    return option_is(id, "lattice") && number_parse(at + 1, NUMBER_FINITE, &out->again) && out->again >= 0 &&
            out->again <= 1e12;
 }
 
 /* Of a data sheet. @return whether there is one of that name */
-static bool find_device(const options *o, const char *text, sensor *out) {
+static bool find_device(const unit_row *unit, const char *text, sensor *out) {
     const name_list devices = {.get = list_device};
     const double again = out->again;
     list_item item;
     if (!names_find(&devices, text, NULL, &item))
         return false;
     *out = device_sensor(item.row);
-    const double metres = o->camera.unit != NULL ? o->camera.unit->nanometres / 1e9 : 1;
+    const double metres = unit != NULL ? unit->nanometres / 1e9 : 1;
     const double per = out->row->levels == GRAIN_INVERSE ? metres : 1 / metres;
     out->step *= per;
     out->again = again;
     return true;
 }
 
-int texture_lattice(const options *o, option_id id, const char *given, sensor *out) {
+int texture_lattice(const unit_row *unit, const char *id, const char *given, sensor *out) {
     const double none = (double)NAN;
     char room[LATTICE_SIZE], *const text = given != NULL ? room : NULL;
     *out = (sensor){.step = none, .offset = none, .levels = none, .again = none};
     snprintf(room, sizeof room, "%s", given != NULL ? given : "");
     const bool good_again = read_again(room, id, out) && (given == NULL || strlen(given) < sizeof room);
-    if (good_again && find_device(o, room, out))
+    if (good_again && find_device(unit, room, out))
         return out->row->levels != GRAIN_FINE
                    ? EXIT_FINE
                    : option_error(id, "%s has no lattice that is published; 'depthprec list sensors' has its sheet",
@@ -133,10 +133,10 @@ int texture_lattice(const options *o, option_id id, const char *given, sensor *o
                ways[i].name, ways[i].numbers);
     return text == NULL ? EXIT_FINE
                         : option_error(id, "must be %s, of numbers above 0%s, got '%s'", known,
-                                       id == OPTION_LATTICE ? ", and @STEP behind it" : "", given);
+                                       option_is(id, "lattice") ? ", and @STEP behind it" : "", given);
 }
 
-void texture_lattice_warn(const options *o, const texture_source *s) {
+void texture_lattice_warn(const texture_request *o, const texture_source *s) {
     const sensor *given = &s->metric.sensor, *seen = &s->metric.seen;
     const double all = s->metric.depths;
     if (o->out.quiet || o->image.lattice == NULL)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cli/errors.h"
+#include "cli/texture/request.h"
 #include "cli/texture/texture.h"
 #include "core/elementary.h"
 #include "report/number.h"
@@ -64,7 +65,7 @@ static int parse_entries(const char *path, const char *text, size_t size, entrie
         while (at + length < size && !is_between(text[at + length]) && text[at + length] != '#')
             length++;
         if (!number_parse_part(text + at, length, NUMBER_FINITE, count < ENTRIES ? &e->m[count] : &extra))
-            return option_error(OPTION_MATRIX, "%s: line %zu: must be a finite number, got '%s'", path, line,
+            return option_error("matrix", "%s: line %zu: must be a finite number, got '%s'", path, line,
                                 error_word(text + at, length, shown));
         if (count < ENTRIES)
             count_digits(text + at, length, e, count);
@@ -72,7 +73,7 @@ static int parse_entries(const char *path, const char *text, size_t size, entrie
         at += length;
     }
     return count == ENTRIES ? EXIT_FINE
-                            : option_error(OPTION_MATRIX, "%s: must hold 16 numbers, row by row, got %zu", path, count);
+                            : option_error("matrix", "%s: must hold 16 numbers, row by row, got %zu", path, count);
 }
 
 static int read_entries(const char *path, entries *e) {
@@ -83,11 +84,11 @@ static int read_entries(const char *path, entries *e) {
     const bool failed = in == NULL || ferror(in) != 0;
     input_close(in);
     if (failed) {
-        option_error(OPTION_MATRIX, "%s: %s", path, strerror(error));
+        option_error("matrix", "%s: %s", path, strerror(error));
         return EXIT_IO;
     }
     if (size > FILE_MOST)
-        return option_error(OPTION_MATRIX, "%s: must have at most %d bytes: 16 numbers, row by row", path, FILE_MOST);
+        return option_error("matrix", "%s: must have at most %d bytes: 16 numbers, row by row", path, FILE_MOST);
     text[size] = '\0';
     return parse_entries(path, text, size, e);
 }
@@ -174,19 +175,19 @@ void texture_matrix_say_planes(const texture_matrix *t, page *p) {
 /* ---- What it says ------------------------------------------------------------------------------------------------ */
 
 /* It says what these would, or is of window depth. */
-static int check_others(const options *o) {
-    static const option_id others[] = {OPTION_NEAR,       OPTION_FAR,   OPTION_ORTHO,  OPTION_FOV,   OPTION_HFOV,
-                                       OPTION_INTRINSICS, OPTION_LOG_C, OPTION_PRESET, OPTION_METRIC};
+static int check_others(const texture_request *o) {
+    static const char *const others[] = {"near",       "far",   "ortho",  "fov",   "hfov",
+                                         "intrinsics", "log-c", "preset", "metric"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]))
-            return option_error(OPTION_MATRIX, "conflicts with --%s", option_name(others[i]));
+        if (option_given(o->line, others[i]))
+            return option_error("matrix", "conflicts with --%s", others[i]);
     return EXIT_FINE;
 }
 
-static int check_mapping(const options *o, dp_mapping given) {
+static int check_mapping(const texture_request *o, dp_mapping given) {
     const dp_mapping_row *row = dp_mapping_get(given);
-    if (option_given(o, OPTION_MAPPING) && (o->camera.mapping_count > 1 || row->curve != DP_CURVE_PERSPECTIVE))
-        return option_error(OPTION_MAPPING, "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with --matrix, got %s",
+    if (option_given(o->line, "mapping") && (o->camera.mapping_count > 1 || row->curve != DP_CURVE_PERSPECTIVE))
+        return option_error("mapping", "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with --matrix, got %s",
                             o->camera.mapping_count > 1 ? "several" : row->name);
     return EXIT_FINE;
 }
@@ -211,8 +212,8 @@ void texture_intrinsics_take(const double intrinsics[4], const double size[2], t
     name_edges(t);
 }
 
-int texture_matrix_open(const options *o, texture_source *s, options *with) {
-    const bool given = option_given(o, OPTION_MAPPING);
+int texture_matrix_open(const texture_request *o, texture_source *s, texture_request *with) {
+    const bool given = option_given(o->line, "mapping");
     const dp_mapping asked = given ? o->camera.mappings[0] : DP_MAPPING_D3D;
     const dp_mapping_row *row = dp_mapping_get(asked);
     entries e = {.m = {0}};
@@ -226,15 +227,14 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
         return status;
     dp_projection *p = &s->matrix.taken;
     if (dp_projection_init(p, e.m, row->ndc_signed, row->reversed, &why) != DP_OK)
-        return option_error(OPTION_MATRIX, "%s: %s, got %.9g %.9g %.9g %.9g", o->image.matrix, why.rule, why.got[0],
+        return option_error("matrix", "%s: %s, got %.9g %.9g %.9g %.9g", o->image.matrix, why.rule, why.got[0],
                             why.got[1], why.got[2], why.got[3]);
     if (given && p->mapping != asked)
-        return option_error(OPTION_MAPPING, "must be %s: window depth %s with distance in %s, got %s",
+        return option_error("mapping", "must be %s: window depth %s with distance in %s, got %s",
                             dp_mapping_get(p->mapping)->name, p->reversed ? "falls" : "grows", o->image.matrix,
                             row->name);
     if (p->oblique && o->image.synthetic != NULL)
-        return option_error(OPTION_MATRIX,
-                            "%s: has planes that differ from pixel to pixel, which --synthetic cannot draw",
+        return option_error("matrix", "%s: has planes that differ from pixel to pixel, which --synthetic cannot draw",
                             o->image.matrix);
     s->matrix.path = o->image.matrix;
     name_edges(&s->matrix);
@@ -252,7 +252,7 @@ int texture_matrix_open(const options *o, texture_source *s, options *with) {
                           .format = with->camera.formats[0]};
     const dp_status planes = dp_setup_init(&s->setup, &spec);
     if (planes != DP_OK)
-        return option_error(OPTION_MATRIX, "%s: its near plane is %s and its far plane %s: %s", o->image.matrix,
+        return option_error("matrix", "%s: its near plane is %s and its far plane %s: %s", o->image.matrix,
                             number_full(p->znear).text, number_full(p->zfar).text, dp_status_text(planes));
     return EXIT_FINE;
 }

@@ -5,29 +5,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/texture/request.h"
 #include "cli/texture/writing.h"
 #include "core/bits.h"
 #include "frame/image_depths.h"
 #include "report/message.h"
 #include "report/number.h"
 
-int texture_pack_check(const options *o) {
-    static const option_id others[] = {
-        OPTION_ERROR_MAP,   OPTION_AS,    OPTION_FIGURE,  OPTION_OVERLAY,   OPTION_HISTOGRAM, OPTION_PIXEL,
-        OPTION_AT,          OPTION_JSON,  OPTION_CSV,     OPTION_PARAMETER, OPTION_TYPE,      OPTION_THEME,
-        OPTION_FIGURE_SIZE, OPTION_TITLE, OPTION_PICTURE, OPTION_TINT,      OPTION_RANGE};
+int texture_pack_check(const texture_request *o) {
+    static const char *const others[] = {"error-map",   "as",    "figure",  "overlay",   "histogram", "pixel",
+                                         "at",          "json",  "csv",     "parameter", "type",      "theme",
+                                         "figure-size", "title", "picture", "tint",      "range"};
     const char *name = o->image.pack != NULL ? "pack" : "packed-normal";
     image_file file;
     for (size_t i = o->image.pack == NULL && o->image.error_map; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->image.synthetic == NULL))
+        if (option_given(o->line, others[i]) && (!option_is(others[i], "parameter") || o->image.synthetic == NULL))
             return option_error(others[i], "conflicts with --product %s", name);
     if (o->out.file == NULL)
         return usage_error("texture: --product %s needs -o FILE", name);
     if (!image_file_of(o->out.file, &file) || (o->image.pack != NULL && file == IMAGE_PFM))
-        return option_error(OPTION_OUTPUT, "must end in .png%s or .npy for --product %s, got '%s'",
+        return option_error("output", "must end in .png%s or .npy for --product %s, got '%s'",
                             o->image.pack != NULL ? "" : ", .pfm", name, o->out.file);
     if (o->image.error_map && file == IMAGE_PNG)
-        return option_error(OPTION_OUTPUT, "must end in .pfm or .npy for the bounds of packed normals, got '%s'",
+        return option_error("output", "must end in .pfm or .npy for the bounds of packed normals, got '%s'",
                             o->out.file);
     return EXIT_FINE;
 }
@@ -131,7 +131,7 @@ static bool take_packed(void *context, uint32_t row, uint32_t count, const float
 }
 
 /* What reading it back takes. */
-static void note_of_packing(const options *o, const texture_source *s, char note[IMAGE_NOTE_SIZE]) {
+static void note_of_packing(const texture_request *o, const texture_source *s, char note[IMAGE_NOTE_SIZE]) {
     const dp_spec *planes = &frame_planes(&s->frame)->spec;
     snprintf(note, IMAGE_NOTE_SIZE, "product=depth packing=%s near=%s far=%s%s%s%s", o->image.pack->name,
              number_full(planes->znear).text, number_full(planes->zfar).text, o->image.pack->linear ? "" : " mapping=",
@@ -139,7 +139,7 @@ static void note_of_packing(const options *o, const texture_source *s, char note
              planes->ortho && !o->image.pack->linear ? " ortho" : "");
 }
 
-int texture_pack_write(const options *o, const texture_source *s) {
+int texture_pack_write(const texture_request *o, const texture_source *s) {
     const bool held = o->image.normals_by == NULL && s->unpacked.normals != NULL;
     packing_on on = {.p = o->image.pack, .from = held ? o->image.packing : NULL};
     frame_product product = {.kind = o->image.pack->encoded != NULL ? FRAME_NORMAL : FRAME_EYE,
@@ -148,13 +148,13 @@ int texture_pack_write(const options *o, const texture_source *s) {
     const dp_spec *planes = &frame_planes(&s->frame)->spec;
     char note[IMAGE_NOTE_SIZE];
     if (!camera_is_shared(&s->camera))
-        return option_error(OPTION_PRODUCT, "pack needs planes that all pixels share, which %s does not have%s",
+        return option_error("product", "pack needs planes that all pixels share, which %s does not have%s",
                             s->camera.radial ? "--radial" : s->matrix.path,
                             s->camera.radial ? "; --product eye writes a file of depths that has them" : "");
     if (!o->image.pack->linear && !texture_is_window(o))
-        return option_error(OPTION_PRODUCT, "%s holds window depth, which %s is not", o->image.pack->name, s->path);
+        return option_error("product", "%s holds window depth, which %s is not", o->image.pack->name, s->path);
     if (o->image.pack->linear && o->image.pack->steps > 0 && (isinf(planes->zfar) || planes->znear < 0))
-        return option_error(OPTION_PRODUCT, "%s holds eye depth over far: it needs %s", o->image.pack->name,
+        return option_error("product", "%s holds eye depth over far: it needs %s", o->image.pack->name,
                             planes->znear < 0 ? "near not less than 0" : "a finite far plane");
     note_of_packing(o, s, note);
     image_file_of(o->out.file, &on.w.file);
@@ -180,7 +180,7 @@ int texture_pack_write(const options *o, const texture_source *s) {
     return writing_close(&on.w, 1, good);
 }
 
-int texture_packed_normal_write(const options *o, const texture_source *s) {
+int texture_packed_normal_write(const texture_request *o, const texture_source *s) {
     const uint32_t width = s->camera.width, height = s->camera.height, values = o->image.error_map ? 1 : 3;
     const bool zero = s->unpacked.grain.rounding == GRAIN_ZERO;
     const texture_product p = {
@@ -188,7 +188,7 @@ int texture_packed_normal_write(const options *o, const texture_source *s) {
     writing w = {.down = o->image.normal_format != 0};
     char note[IMAGE_NOTE_SIZE];
     if (s->unpacked.normals == NULL)
-        return option_error(OPTION_PRODUCT, "packed-normal needs FILE with --packing depth-normals or camera-normals");
+        return option_error("product", "packed-normal needs FILE with --packing depth-normals or camera-normals");
     image_file_of(o->out.file, &w.file);
     const bool png = w.file == IMAGE_PNG;
     w.directions = png;

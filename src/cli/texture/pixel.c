@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "cli/setups.h"
+#include "cli/texture/request.h"
 #include "cli/texture/texture.h"
 #include "frame/image_depths.h"
 #include "report/number.h"
@@ -34,7 +35,7 @@ typedef struct pixel {
 } pixel;
 
 typedef struct pixels {
-    const options *o;
+    const texture_request *o;
     const texture_source *source;
     const frame_product *effect; /* null: none */
     const char *effect_name;
@@ -63,7 +64,7 @@ static double depth_at(const frame *f, const pixel *p, uint32_t code) {
     return d;
 }
 
-static void describe_pixel(const options *o, const texture_source *s, pixel *p, uint32_t *codes) {
+static void describe_pixel(const texture_request *o, const texture_source *s, pixel *p, uint32_t *codes) {
     static const int steps[NEIGHBOURS][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     const frame *f = &s->frame;
     const dp_setup *setup = &s->camera.setup;
@@ -166,9 +167,9 @@ static bool find(pixels *all) {
 
 /* Where the camera is known: of an image it is what the user says it was. */
 static bool has_camera(const pixels *all) {
-    return all->source->path == NULL || all->o->image.matrix != NULL || option_given(all->o, OPTION_FOV) ||
-           option_given(all->o, OPTION_HFOV) || option_given(all->o, OPTION_INTRINSICS) ||
-           (option_given(all->o, OPTION_ORTHO) && *all->o->given[OPTION_ORTHO] != '\0');
+    return all->source->path == NULL || all->o->image.matrix != NULL || option_given(all->o->line, "fov") ||
+           option_given(all->o->line, "hfov") || option_given(all->o->line, "intrinsics") ||
+           (option_given(all->o->line, "ortho") && *option_text(all->o->line, "ortho") != '\0');
 }
 
 /* Of a synthetic image how much it is, of an image at most. */
@@ -238,7 +239,7 @@ static void say_head(page *p, void *item) {
     const pixels *all = item;
     const texture_source *s = all->source;
     char label[SETUP_LABEL_SIZE];
-    p->unit = options_unit(all->o);
+    p->unit = camera_unit(&all->o->camera);
     const dp_setup shown = texture_matrix_shown(&s->matrix, &s->setup);
     page_text(p, "%s: %u x %u pixels, %s", all->synthetic != NULL ? all->synthetic : s->path, s->camera.width,
               s->camera.height,
@@ -322,23 +323,23 @@ static const column columns[] = {{FIELD(pixels, source_path, "file", ""), .only 
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-int texture_pixels_check(const options *o, uint32_t width, uint32_t height) {
+int texture_pixels_check(const texture_request *o, uint32_t width, uint32_t height) {
     for (size_t i = 0; i < o->image.pixels.count; i += 2) {
         const double x = depths_get(&o->image.pixels, i), y = depths_get(&o->image.pixels, i + 1);
         if (x >= width || y >= height)
-            return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f", width,
+            return option_error("pixel", "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f", width,
                                 height, width - 1, height - 1, x, y);
     }
     return EXIT_FINE;
 }
 
-int texture_pixel_write(const options *o, const texture_source *source, const frame_product *effect) {
+int texture_pixel_write(const texture_request *o, const texture_source *source, const frame_product *effect) {
     output out;
     pixels all = {.o = o,
                   .source = source,
                   .effect = effect,
                   .effect_name = effect != NULL ? effect->effect->name : NULL,
-                  .setup = setup_fields_of(&source->setup, options_unit(o)),
+                  .setup = setup_fields_of(&source->setup, camera_unit(&o->camera)),
                   .source_path = source->path,
                   .synthetic = source->frame.synthetic != NULL ? source->frame.synthetic->name : NULL,
                   .format_from = texture_origin_name(source->format_from),
@@ -350,7 +351,7 @@ int texture_pixel_write(const options *o, const texture_source *source, const fr
     if (status == EXIT_FINE && wrong != NULL)
         status = usage_error("texture: %s: %s", effect->effect->name, wrong);
     if (status == EXIT_FINE)
-        status = options_open(o, &out);
+        status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)
         return status;
     all.items = calloc(all.count, sizeof *all.items);

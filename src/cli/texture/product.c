@@ -3,17 +3,18 @@
 #include <stdio.h>
 
 #include "cli/figure_file.h"
+#include "cli/texture/request.h"
 #include "cli/texture/texture.h"
 #include "core/append.h"
 #include "frame/normals.h"
 
-bool texture_product_wanted(const options *o) {
-    const bool described = o->image.effect != NULL && option_given(o, OPTION_PIXEL);
+bool texture_product_wanted(const texture_request *o) {
+    const bool described = o->image.effect != NULL && option_given(o->line, "pixel");
     return (o->image.product != NULL && !o->image.product->packed && o->image.pack == NULL && !described) ||
            o->image.figure != NULL;
 }
 
-int texture_effect_normals(const options *o, texture_source *s) {
+int texture_effect_normals(const texture_request *o, texture_source *s) {
     if (o->image.effect == NULL || (o->image.effect->needs & EFFECT_NORMALS) == 0 ||
         (s->path == NULL && o->image.normals_by == NULL))
         return EXIT_FINE;
@@ -22,13 +23,13 @@ int texture_effect_normals(const options *o, texture_source *s) {
             (frame_normals){.texels = s->unpacked.normals, .truncated = s->unpacked.grain.rounding == GRAIN_ZERO};
     else if (!frame_normals_make(&s->frame,
                                  o->image.normals_by != NULL ? o->image.normals_by : normal_get(NORMAL_PROJECTIVE),
-                                 option_given(o, OPTION_ERROR_MAP) || option_given(o, OPTION_PIXEL), &s->normals))
+                                 option_given(o->line, "error-map") || option_given(o->line, "pixel"), &s->normals))
         return usage_error("texture: no memory");
     s->frame.normals = &s->normals;
     return EXIT_FINE;
 }
 
-int texture_picture_open(const options *o, texture_source *s) {
+int texture_picture_open(const texture_request *o, texture_source *s) {
     const image *p = &s->colours;
     image_error error;
     if (o->image.picture == NULL)
@@ -38,17 +39,17 @@ int texture_picture_open(const options *o, texture_source *s) {
         return error.unreadable ? EXIT_IO : EXIT_USAGE;
     }
     if (p->file != IMAGE_PNG || p->channels < 3)
-        return option_error(OPTION_PICTURE, "must be a PNG with three channels, or four, got %s of %u",
+        return option_error("picture", "must be a PNG with three channels, or four, got %s of %u",
                             image_file_name(p->file), p->channels);
     if (p->width != s->camera.width || p->height != s->camera.height)
-        return option_error(OPTION_PICTURE, "must be as large as the depths, %u x %u pixels, got %u x %u",
-                            s->camera.width, s->camera.height, p->width, p->height);
+        return option_error("picture", "must be as large as the depths, %u x %u pixels, got %u x %u", s->camera.width,
+                            s->camera.height, p->width, p->height);
     return EXIT_FINE;
 }
 
 /* The parameters that are not the synthetic image's are the effect's. */
-int texture_product_effect(const options *o, texture_product *p) {
-    options rest = *o;
+int texture_product_effect(const texture_request *o, texture_product *p) {
+    texture_request rest = *o;
     rest.image.parameter_count = 0;
     for (size_t i = 0; i < o->image.parameter_count; i++)
         if (!texture_scene_takes(o, o->image.parameters[i].name))
@@ -61,47 +62,47 @@ int texture_product_effect(const options *o, texture_product *p) {
     p->made.effect_settings = p->settings;
     const int at = parameter_find(row->parameters, "reference"), share = parameter_find(row->parameters, "reference01");
     if (share >= 0 && !isnan(p->settings[at]) && !isnan(p->settings[share]))
-        return option_error(OPTION_PARAMETER, "reference01 conflicts with reference");
+        return option_error("parameter", "reference01 conflicts with reference");
     if (row->given && !o->image.error_map && isnan(effect_reference(row, p->settings, 1)))
-        return option_error(OPTION_PARAMETER, "%s needs reference=Z, the %s%s; it was not given", row->name,
+        return option_error("parameter", "%s needs reference=Z, the %s%s; it was not given", row->name,
                             row->parameters[at].note, row->eye01 ? ", or reference01=V, the same over far" : "");
     return EXIT_FINE;
 }
 
-static int check_files(const options *o) {
+static int check_files(const texture_request *o) {
     image_file file = IMAGE_FILE_COUNT, other;
     if (o->out.file == NULL && o->image.figure == NULL)
         return usage_error("texture: a product needs -o FILE that ends in .png, .pfm or .npy, or --figure FILE");
     if (o->out.file != NULL && !image_file_of(o->out.file, &file))
-        return option_error(OPTION_OUTPUT, "must end in .png, .pfm or .npy for a product, got '%s'", o->out.file);
+        return option_error("output", "must end in .png, .pfm or .npy for a product, got '%s'", o->out.file);
     if (o->image.error_file != NULL && !image_file_of(o->image.error_file, &other))
-        return option_error(OPTION_ERROR_MAP, "must end in .png, .pfm or .npy, got '%s'", o->image.error_file);
+        return option_error("error-map", "must end in .png, .pfm or .npy, got '%s'", o->image.error_file);
     if (o->image.error_file != NULL && o->out.file == NULL)
-        return option_error(OPTION_ERROR_MAP, "needs -o FILE for the product beside it, got '%s'", o->image.error_file);
+        return option_error("error-map", "needs -o FILE for the product beside it, got '%s'", o->image.error_file);
     canvas_format type;
-    if (o->image.figure != NULL && figure_file_type(o, OPTION_FIGURE, o->image.figure, &type) != EXIT_FINE)
+    if (o->image.figure != NULL && figure_file_type(o->line, &o->figure, "figure", o->image.figure, &type) != EXIT_FINE)
         return EXIT_USAGE;
     if (o->out.form == FORM_CSV || (o->out.form == FORM_JSON && o->out.file == NULL))
-        return option_error(o->out.form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
+        return option_error(o->out.form == FORM_JSON ? "json" : "csv",
                             "is for statistics, which a product does not have%s",
                             o->out.form == FORM_JSON ? "; with -o FILE it says what the numbers in FILE are" : "");
     if (o->image.picture != NULL && (o->out.file == NULL || file != IMAGE_PNG || o->image.effect == NULL ||
-                                     o->image.error_map || o->image.figure != NULL || option_given(o, OPTION_RANGE)))
-        return option_error(OPTION_PICTURE, "is for --product effect and a PNG of -o, without --error-map, --figure "
-                                            "and --range; --error-map=FILE says what the effect is off by");
-    if (option_given(o, OPTION_RANGE) &&
+                                     o->image.error_map || o->image.figure != NULL || option_given(o->line, "range")))
+        return option_error("picture", "is for --product effect and a PNG of -o, without --error-map, --figure "
+                                       "and --range; --error-map=FILE says what the effect is off by");
+    if (option_given(o->line, "range") &&
         (o->out.file == NULL || file != IMAGE_PNG || o->image.error_map || o->image.effect == NULL))
-        return option_error(OPTION_RANGE, "is for the values of an effect in a PNG");
-    if (option_given(o, OPTION_NORMAL_FORMAT) && (o->out.file == NULL || file != IMAGE_PNG || o->image.error_map))
-        return option_error(OPTION_NORMAL_FORMAT, "is for the normals in a PNG");
+        return option_error("range", "is for the values of an effect in a PNG");
+    if (option_given(o->line, "normal-format") && (o->out.file == NULL || file != IMAGE_PNG || o->image.error_map))
+        return option_error("normal-format", "is for the normals in a PNG");
     return EXIT_FINE;
 }
 
-static const char *method_of(const options *o) {
+static const char *method_of(const texture_request *o) {
     return o->image.effect != NULL ? o->image.effect->name : o->image.normal != NULL ? o->image.normal->name : "exact";
 }
 
-int texture_product_resolve(const options *o, texture_product *p) {
+int texture_product_resolve(const texture_request *o, texture_product *p) {
     const product_row *row =
         o->image.product != NULL ? o->image.product : product_get(0); /* where --figure is all that was said */
     int status = EXIT_FINE;
@@ -118,17 +119,16 @@ int texture_product_resolve(const options *o, texture_product *p) {
              : o->image.position != NULL ? o->image.position->name
                                          : method_of(o));
     if (o->image.overlay > 0 && (o->image.error_map || row->kind >= FRAME_POSITION))
-        return option_error(OPTION_OVERLAY,
-                            "does not apply with --%s%s, only with --product eye, radial, linear01 and raw",
+        return option_error("overlay", "does not apply with --%s%s, only with --product eye, radial, linear01 and raw",
                             o->image.error_map ? "error-map" : "product ", o->image.error_map ? "" : row->name);
     if (row->kind == FRAME_EFFECT)
         status = texture_product_effect(o, p);
     p->made.vector = status == EXIT_FINE && row->kind == FRAME_EFFECT &&
                      (p->made.effect->wide || (o->image.picture != NULL && p->made.effect->mix == EFFECT_SMEARS));
     if (o->image.as != NULL && (row->kind != FRAME_EYE || row->radial))
-        return option_error(OPTION_AS, "is for --product eye");
+        return option_error("as", "is for --product eye");
     if (status == EXIT_FINE)
-        status = texture_lattice(o, OPTION_AS, o->image.as, &p->as);
+        status = texture_lattice(o->camera.lengths.unit, "as", o->image.as, &p->as);
     if (o->image.as != NULL)
         p->made.as = &p->as;
     p->made.hides = o->image.picture != NULL && row->kind == FRAME_EFFECT && p->made.effect->surface;
@@ -148,7 +148,7 @@ static bool find_levels(const texture_source *s, texture_product *p) {
     return true;
 }
 
-int texture_product_check(const options *o, const texture_source *s, texture_product *p) {
+int texture_product_check(const texture_request *o, const texture_source *s, texture_product *p) {
     static const char *const truths[][2] = {
         [FRAME_EYE] = {"half of each cell", "error"},
         [FRAME_LINEAR01] = {"half of each cell", "error"},
@@ -158,7 +158,7 @@ int texture_product_check(const options *o, const texture_source *s, texture_pro
         [FRAME_EFFECT] = {"largest possible error", "largest possible error"},
     };
     if (p->made.kind == FRAME_LINEAR01 && !texture_far_known(o))
-        return option_error(OPTION_PRODUCT, "linear01 needs --far with --metric and --stereo, which have none");
+        return option_error("product", "linear01 needs --far with --metric and --stereo, which have none");
     if (o->image.as != NULL && !find_levels(s, p))
         return usage_error("texture: no memory for the levels of --as");
     const char *wrong = frame_refuses(&s->frame, o->image.error_file != NULL ? &p->error : &p->made);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/texture/request.h"
 #include "cli/texture/texture.h"
 #include "core/append.h"
 #include "frame/image_depths.h"
@@ -46,8 +47,8 @@ static bool may_be_words(const texture_source *s) {
     return true;
 }
 
-static grain_rounding rounding_of(const options *o) {
-    return !option_given(o, OPTION_ROUNDING)     ? GRAIN_ANY
+static grain_rounding rounding_of(const texture_request *o) {
+    return !option_given(o->line, "rounding")    ? GRAIN_ANY
            : o->camera.rounding == DP_ROUND_ZERO ? GRAIN_ZERO
                                                  : GRAIN_NEAREST;
 }
@@ -97,7 +98,7 @@ static grain steps_grain(const texture_source *s, double found, double own) {
                    .least = are_halves(s) ? 0x1p-24 : 0x1p-149};
 }
 
-static void find_grain(const options *o, texture_source *s) {
+static void find_grain(const texture_request *o, texture_source *s) {
     const dp_format *format = &s->setup.spec.format;
     const image_type type = s->picture.type;
     const double own = type_steps(s), found = o->image.metric > 0 ? 0 : found_steps(s);
@@ -119,7 +120,7 @@ static void find_grain(const options *o, texture_source *s) {
                            .least = 0x1p-24};
     else if (type >= IMAGE_F32 && format->kind == DP_FORMAT_UNORM)
         s->grain = (grain){.kind = GRAIN_FLOATS, .buffer = true, .bits = number_bits(s), .least = 0x1p-149};
-    if (option_given(o, OPTION_ROUNDING))
+    if (option_given(o->line, "rounding"))
         s->grain.rounding = rounding_of(o);
 }
 
@@ -202,7 +203,7 @@ static void formats_of(texture_source *s) {
         s->reading_count--; /* no choice */
 }
 
-static void find_readings(const options *o, texture_source *s) {
+static void find_readings(const texture_request *o, texture_source *s) {
     double d;
     s->reading_count = 0;
     if (o->image.metric > 0 || !find_pixel(s, &d))
@@ -234,14 +235,14 @@ static void warn_of(const texture_source *s, const char *what) {
         message("depthprec: %s: the %s is assumed: pixel %s; --%s sets it", s->path, what, text, what);
 }
 
-const char *texture_zeros_of(const options *o, const texture_source *s, char out[READINGS_SIZE]) {
+const char *texture_zeros_of(const texture_request *o, const texture_source *s, char out[READINGS_SIZE]) {
     const dp_spec *planes = &s->setup.spec;
     const double half = s->grain.rounding == GRAIN_ZERO ? 1 : 0.5;
     const double end = planes->zfar * (half / s->grain.steps + s->grain.margin);
     snprintf(out, READINGS_SIZE, "%llu pixels hold 0, a clear to black or the far plane after frac",
              (unsigned long long)s->unpacked.zeros);
     if (planes->znear < end)
-        append(out, READINGS_SIZE, ", or depths up to %s", number_in(number_up(end, 3), options_unit(o)).text);
+        append(out, READINGS_SIZE, ", or depths up to %s", number_in(number_up(end, 3), camera_unit(&o->camera)).text);
     append(out, READINGS_SIZE,
            o->image.sky > 0   ? ": they count as sky; --sky 0 makes them holes"
            : o->image.sky < 0 ? ": they lie at the far plane"
@@ -257,7 +258,7 @@ bool texture_may_be_metric(const texture_source *s) {
            (open && s->type == IMAGE_U16 && s->channels == 1 && r->at_one == 0 && r->at_zero > r->samples / 1000);
 }
 
-static void warn(const options *o, const texture_source *s) {
+static void warn(const texture_request *o, const texture_source *s) {
     char text[READINGS_SIZE], units[UNITS_TEXT_SIZE];
     if (o->out.quiet)
         return;
@@ -272,7 +273,7 @@ static void warn(const options *o, const texture_source *s) {
                 units_say(&s->picture, units));
 }
 
-void texture_read_on(const options *o, texture_source *s) {
+void texture_read_on(const texture_request *o, texture_source *s) {
     find_grain(o, s);
     find_readings(o, s);
     warn(o, s);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "cli/progress.h"
+#include "cli/texture/request.h"
 #include "cli/texture/statistics.h"
 #include "report/number.h"
 #include "report/report.h"
@@ -233,7 +234,7 @@ static void name_all(statistics *r) {
     const grain *g = &s->grain;
     const bool is_metric = r->o->image.metric > 0, has_steps = g->kind == GRAIN_STEPS;
     const double none = (double)NAN;
-    r->setup = setup_fields_of(&s->setup, options_unit(r->o));
+    r->setup = setup_fields_of(&s->setup, camera_unit(&r->o->camera));
     r->named.synthetic = statistics_of_image(r) ? NULL : s->frame.synthetic->name;
     r->named.truth = statistics_of_image(r) ? NULL : "synthetic";
     r->named.packing = r->o->image.packing != NULL ? r->o->image.packing->name : NULL;
@@ -323,14 +324,14 @@ static bool gather_statistics(statistics *r) {
     return good;
 }
 
-int texture_report_write(const options *o, const texture_source *source) {
+int texture_report_write(const texture_request *o, const texture_source *source) {
     output out;
     statistics r = {.o = o,
                     .source = *source,
                     .stereo = o->image.stereo,
                     .condition =
                         camera_is_centred(&source->camera) ? position_condition(&source->camera) : (double)NAN};
-    const int status = options_open(o, &out);
+    const int status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)
         return status;
     if (!gather_statistics(&r)) {

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "cli/option/names.h"
-#include "cli/option/rows.h"
 #include "cli/setups.h"
+#include "cli/texture/request.h"
 #include "cli/texture/texture.h"
 #include "frame/normals.h"
 #include "frame/units.h"
@@ -21,7 +21,7 @@ const char *texture_origin_name(texture_origin origin) {
     return names[origin];
 }
 
-bool texture_scene_takes(const options *o, const char *name) {
+bool texture_scene_takes(const texture_request *o, const char *name) {
     return o->image.synthetic != NULL && parameter_find(o->image.synthetic->parameters, name) >= 0;
 }
 
@@ -37,10 +37,10 @@ int texture_parameter_set(const char *whose, const texture_parameter *list, cons
             words[count++] = list[i].name;
     words[count] = NULL;
     if (index < 0 || (list[index].use != PARAMETER_ALWAYS && list[index].use == unused))
-        return option_error(OPTION_PARAMETER, "of %s %s", whose, names_refuse(&known, given->name, text));
+        return option_error("parameter", "of %s %s", whose, names_refuse(&known, given->name, text));
     const texture_parameter *p = &list[index];
     if (!(given->value >= p->lo && given->value <= p->hi) || (p->whole && given->value != floor(given->value)))
-        return option_error(OPTION_PARAMETER, "%s must be %sfrom %s to %s, got %s", p->name,
+        return option_error("parameter", "%s must be %sfrom %s to %s, got %s", p->name,
                             p->whole ? "a whole number " : "", number_of(p->lo, 6).text, number_of(p->hi, 6).text,
                             number_full(given->value).text);
     out[index] = given->value;
@@ -48,7 +48,7 @@ int texture_parameter_set(const char *whose, const texture_parameter *list, cons
 }
 
 /* What is not the synthetic image's may be the effect's. */
-static int synthetic_parameters(const options *o, const synthetic_row *synthetic, double *out) {
+static int synthetic_parameters(const texture_request *o, const synthetic_row *synthetic, double *out) {
     int status = EXIT_FINE;
     parameter_defaults(synthetic->parameters, out);
     for (size_t i = 0; i < o->image.parameter_count && status == EXIT_FINE; i++)
@@ -58,23 +58,23 @@ static int synthetic_parameters(const options *o, const synthetic_row *synthetic
     return status;
 }
 
-bool texture_far_known(const options *o) {
-    return o->image.metric == 0 || option_given(o, OPTION_FAR) || o->camera.preset_count > 0;
+bool texture_far_known(const texture_request *o) {
+    return o->image.metric == 0 || option_given(o->line, "far") || o->camera.preset_count > 0;
 }
 
-bool texture_is_window(const options *o) {
+bool texture_is_window(const texture_request *o) {
     return o->image.metric == 0 && (o->image.packing == NULL || !o->image.packing->linear);
 }
 
 /* Options of window depth: again when a file has said what its samples are. */
-static int check_window(const options *o) {
-    static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_PRODUCT, OPTION_SKY};
+static int check_window(const texture_request *o) {
+    static const char *const window[] = {"format", "mapping", "log-c", "product", "sky"};
     const bool raw = o->image.product != NULL && o->image.product->kind == FRAME_RAW;
     for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
-        if (option_given(o, window[i]) && (o->image.metric > 0 || window[i] != OPTION_SKY) &&
-            (raw || window[i] != OPTION_PRODUCT))
+        if (option_given(o->line, window[i]) && (o->image.metric > 0 || !option_is(window[i], "sky")) &&
+            (raw || !option_is(window[i], "product")))
             return option_error(window[i], "%sdoes not apply with --%s%s, which is not window depth",
-                                window[i] == OPTION_PRODUCT ? "raw " : "",
+                                option_is(window[i], "product") ? "raw " : "",
                                 o->image.stereo.focal > 0 ? "stereo"
                                 : o->image.metric > 0     ? "metric"
                                                           : "packing ",
@@ -84,65 +84,64 @@ static int check_window(const options *o) {
 
 /* The focal length is the camera's, too: what says another one, or none, is refused, and so are planes without a use.
  */
-static int check_stereo(const options *o) {
+static int check_stereo(const texture_request *o) {
     static const struct {
-        option_id id;
+        const char *id;
         const char *why;
-    } others[] = {
-        {OPTION_METRIC, "conflicts with --stereo, which makes depths of disparities"},
-        {OPTION_PACKING, "conflicts with --stereo"},
-        {OPTION_LATTICE, "conflicts with --stereo, whose step it is"},
-        {OPTION_RADIAL, "conflicts with --stereo, which gives depths along the view axis"},
-        {OPTION_ORTHO, "conflicts with --stereo, whose camera is a perspective one"},
-        {OPTION_MATRIX, "conflicts with --stereo, whose focal length says the angle; --intrinsics says the rest"},
-        {OPTION_FOV, "conflicts with --stereo, whose focal length says it"},
-        {OPTION_HFOV, "conflicts with --stereo, whose focal length says it"}};
-    static const option_id planes[] = {OPTION_NEAR, OPTION_FAR, OPTION_PRESET, OPTION_PLATFORM};
+    } others[] = {{"metric", "conflicts with --stereo, which makes depths of disparities"},
+                  {"packing", "conflicts with --stereo"},
+                  {"lattice", "conflicts with --stereo, whose step it is"},
+                  {"radial", "conflicts with --stereo, which gives depths along the view axis"},
+                  {"ortho", "conflicts with --stereo, whose camera is a perspective one"},
+                  {"matrix", "conflicts with --stereo, whose focal length says the angle; --intrinsics says the rest"},
+                  {"fov", "conflicts with --stereo, whose focal length says it"},
+                  {"hfov", "conflicts with --stereo, whose focal length says it"}};
+    static const char *const planes[] = {"near", "far", "preset", "platform"};
     if (o->image.stereo.focal == 0)
         return EXIT_FINE;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i].id))
+        if (option_given(o->line, others[i].id))
             return option_error(others[i].id, "%s", others[i].why);
     for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
-        if (option_given(o, planes[i]) && o->image.product == NULL && !option_given(o, OPTION_PIXEL))
+        if (option_given(o->line, planes[i]) && o->image.product == NULL && !option_given(o->line, "pixel"))
             return option_error(planes[i], "is for --product and --pixel beside --stereo, whose depths have no planes");
-    if (option_given(o, OPTION_INTRINSICS) && o->view.intrinsics[0] != o->image.stereo.focal)
-        return option_error(OPTION_INTRINSICS, "FX must be the focal length of --stereo, %s, got %s",
-                            number_full(o->image.stereo.focal).text, number_full(o->view.intrinsics[0]).text);
+    if (option_given(o->line, "intrinsics") && o->camera.intrinsics[0] != o->image.stereo.focal)
+        return option_error("intrinsics", "FX must be the focal length of --stereo, %s, got %s",
+                            number_full(o->image.stereo.focal).text, number_full(o->camera.intrinsics[0]).text);
     return EXIT_FINE;
 }
 
 /* Options that need another one, or have no meaning beside it. */
-static int check_together(const options *o) {
-    const bool file = o->operand_count > 0;
+static int check_together(const texture_request *o) {
+    const bool file = o->line->operand_count > 0;
     if (file && o->image.synthetic != NULL)
-        return option_error(OPTION_SYNTHETIC, "replaces FILE, got '%s' too", o->operands[0]);
+        return option_error("synthetic", "replaces FILE, got '%s' too", o->line->operands[0]);
     if (!file && o->image.synthetic == NULL)
         return usage_error(
             "texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF, PGM or raw image, or --synthetic NAME");
     if (file && o->image.effect == NULL && o->image.parameter_count > 0)
-        return option_error(OPTION_PARAMETER, "needs --synthetic or --product effect");
+        return option_error("parameter", "needs --synthetic or --product effect");
     const bool disparity = o->image.stereo.focal > 0;
     if (o->image.metric > 0 && !file)
-        return option_error(disparity ? OPTION_STEREO : OPTION_METRIC, "needs FILE");
+        return option_error(disparity ? "stereo" : "metric", "needs FILE");
     if (check_stereo(o) != EXIT_FINE)
         return EXIT_USAGE;
     if (o->image.radial && o->image.metric == 0)
-        return option_error(OPTION_RADIAL, "needs --metric");
+        return option_error("radial", "needs --metric");
     if (o->image.lattice != NULL && o->image.metric == 0)
-        return option_error(OPTION_LATTICE, "needs --metric");
+        return option_error("lattice", "needs --metric");
     if (o->image.channel != NULL && !file)
-        return option_error(OPTION_CHANNEL, "needs FILE");
+        return option_error("channel", "needs FILE");
     if (o->image.packing != NULL && !file)
-        return option_error(OPTION_PACKING, "needs FILE");
+        return option_error("packing", "needs FILE");
     if (o->image.packing != NULL && o->image.metric > 0)
-        return option_error(OPTION_METRIC, "conflicts with --packing");
+        return option_error("metric", "conflicts with --packing");
     const int status = check_window(o);
     return status == EXIT_FINE ? texture_camera_check(o) : status;
 }
 
 /* What would change the samples in a program that obeys it. */
-static void warn_of_colours(const options *o, const texture_source *s) {
+static void warn_of_colours(const texture_request *o, const texture_source *s) {
     static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};
     for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->out.quiet; i++)
         if ((s->picture.colours >> i & 1U) != 0)
@@ -163,7 +162,7 @@ static bool is_grey(const image *p) {
 }
 
 /* A byte is less than any depth has; colours that are not grey may be the channels of one, or a picture. */
-static void warn_of_channels(const options *o, const texture_source *s) {
+static void warn_of_channels(const texture_request *o, const texture_source *s) {
     const image *p = &s->picture;
     if (o->out.quiet || o->image.channel != NULL)
         return;
@@ -182,7 +181,7 @@ static void warn_of_channels(const options *o, const texture_source *s) {
 /* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
 
 /* What a codec has changed is known to nobody, so no error has it. */
-static void warn_of_compression(const options *o, const texture_source *s) {
+static void warn_of_compression(const texture_request *o, const texture_source *s) {
     if (s->picture.lossy != NULL && !o->out.quiet)
         message("depthprec: %s: its compression, %s, may have changed the depths, which no error here counts; save it "
                 "without loss",
@@ -190,24 +189,24 @@ static void warn_of_compression(const options *o, const texture_source *s) {
 }
 
 /* Whether the command line says what the samples are. */
-static bool is_asked(const options *o) {
-    return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_STEREO) ||
-           option_given(o, OPTION_FORMAT);
+static bool is_asked(const texture_request *o) {
+    return option_given(o->line, "packing") || option_given(o->line, "metric") || option_given(o->line, "stereo") ||
+           option_given(o->line, "format");
 }
 
 /* Whether a word of the note is an option that nothing on the command line stands against. */
-static bool is_open(const options *o, option_id id) {
-    const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC;
-    const bool of_lattice = option_given(o, OPTION_PACKING) || option_given(o, OPTION_FORMAT);
-    return !option_given(o, id) && !(of_samples             ? is_asked(o)
-                                     : id == OPTION_LATTICE ? of_lattice
-                                                            : o->camera.preset_count > 0 || o->image.matrix != NULL);
+static bool is_open(const texture_request *o, const char *id) {
+    const bool of_samples = option_is(id, "packing") || option_is(id, "metric");
+    const bool of_lattice = option_given(o->line, "packing") || option_given(o->line, "format");
+    return !option_given(o->line, id) &&
+           !(of_samples                 ? is_asked(o)
+             : option_is(id, "lattice") ? of_lattice
+                                        : o->camera.preset_count > 0 || o->image.matrix != NULL);
 }
 
 /* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
-static int take_note(options *o, texture_source *s) {
-    static const option_id known[] = {OPTION_PACKING, OPTION_METRIC, OPTION_LATTICE, OPTION_NEAR,
-                                      OPTION_FAR,     OPTION_ORTHO,  OPTION_MAPPING};
+static int take_note(texture_request *o, texture_source *s) {
+    static const char *const known[] = {"packing", "metric", "lattice", "near", "far", "ortho", "mapping"};
     char *rest = NULL;
     const bool asked = is_asked(o);
     bool open[sizeof known / sizeof known[0]];
@@ -223,15 +222,14 @@ static int take_note(options *o, texture_source *s) {
                 "%s: holds %s, as depthprec wrote them, and no depth; --format NAME reads it all the same", s->path,
                 value);
         for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-            const option_row *row = &option_rows[known[i]];
-            if (!open[i] || strcmp(word, row->name) != 0 || (value == NULL) != (known[i] == OPTION_ORTHO))
+            if (!open[i] || strcmp(word, known[i]) != 0 || (value == NULL) != (option_is(known[i], "ortho")))
                 continue;
-            const int status = row->parse(o, row, value);
+            const int status = option_set(o->line, known[i], value);
             if (status != EXIT_FINE)
                 return status;
-            o->given[known[i]] = "";
-            s->noted = s->noted || known[i] == OPTION_MAPPING;
-            if (known[i] == OPTION_METRIC)
+            option_give(o->line, known[i], "");
+            s->noted = s->noted || option_is(known[i], "mapping");
+            if (option_is(known[i], "metric"))
                 s->metric_from = s->picture.file == IMAGE_ROS && s->type == IMAGE_U16 ? ORIGIN_ASSUMED : ORIGIN_FOUND;
         }
     }
@@ -241,13 +239,12 @@ static int take_note(options *o, texture_source *s) {
 /* ---- The image --------------------------------------------------------------------------------------------------- */
 
 /* The depths of a packed texture; what else is known of them is the packing's. */
-static int unpack(const options *o, texture_source *s) {
+static int unpack(const texture_request *o, texture_source *s) {
     const packing *p = o->image.packing;
-    const bool zero = option_given(o, OPTION_ROUNDING) && o->camera.rounding == DP_ROUND_ZERO;
+    const bool zero = option_given(o->line, "rounding") && o->camera.rounding == DP_ROUND_ZERO;
     dp_format formats[2];
     if (p->steps == 0 && (o->image.product == NULL || !o->image.product->packed))
-        return option_error(OPTION_PACKING, "%s holds normals and no depth: --product packed-normal writes them",
-                            p->name);
+        return option_error("packing", "%s holds normals and no depth: --product packed-normal writes them", p->name);
     if (!packing_convert(p, zero, &s->picture, &s->unpacked))
         return usage_error("%s: %s", s->path, s->unpacked.wrong);
     warn_of_colours(o, s);
@@ -278,23 +275,22 @@ void texture_source_close(texture_source *s) {
 }
 
 /* Whether anything says that the samples are window depth, or of which camera. */
-static bool is_said(const options *o) {
-    static const option_id window[] = {OPTION_NEAR,   OPTION_FAR,    OPTION_MAPPING,  OPTION_LOG_C, OPTION_ORTHO,
-                                       OPTION_MATRIX, OPTION_PRESET, OPTION_PLATFORM, OPTION_SKY,   OPTION_ROUNDING};
+static bool is_said(const texture_request *o) {
+    static const char *const window[] = {"near",   "far",    "mapping",  "log-c", "ortho",
+                                         "matrix", "preset", "platform", "sky",   "rounding"};
     bool said = is_asked(o) || o->image.metric > 0 || o->image.packing != NULL;
     for (size_t i = 0; i < sizeof window / sizeof window[0]; i++)
-        said = said || option_given(o, window[i]);
+        said = said || option_given(o->line, window[i]);
     return said || o->image.pack != NULL || (o->image.product != NULL && o->image.product->kind == FRAME_RAW);
 }
 
 /* Metric depth where nothing is said and the samples can be nothing else. */
-static int guess(options *o, texture_source *s) {
+static int guess(texture_request *o, texture_source *s) {
     const char *why = NULL, *unit = is_said(o) ? NULL : units_guess(&s->picture, &why);
-    const option_row *row = &option_rows[OPTION_METRIC];
     int status = EXIT_FINE;
     if (unit != NULL) {
-        status = row->parse(o, row, unit);
-        o->given[OPTION_METRIC] = "";
+        status = option_set(o->line, "metric", unit);
+        option_give(o->line, "metric", "");
         s->metric_from = ORIGIN_ASSUMED;
     }
     if (o->image.metric > 0 && s->metric_from == ORIGIN_ASSUMED && !o->out.quiet)
@@ -303,20 +299,20 @@ static int guess(options *o, texture_source *s) {
     return status;
 }
 
-static int read_stereo(const options *o, texture_source *s) {
+static int read_stereo(const texture_request *o, texture_source *s) {
     const char *wrong = stereo_convert(&s->picture, &o->image.stereo, &s->metric);
     return wrong == NULL ? EXIT_FINE : usage_error("%s: no disparity: %s", s->path, wrong);
 }
 
 /* What was said of the samples' bits is undone; what they show is said. */
-static int move_bits(options *o, texture_source *s) {
+static int move_bits(texture_request *o, texture_source *s) {
     const moved_row *said = o->image.metric > 0 ? o->image.moved : NULL;
     if (said != NULL && !moved_undo(said, &s->picture))
         return usage_error("%s: --metric %s needs samples of 16 bits that were moved so, got %s", s->path,
-                           o->given[OPTION_METRIC], image_type_name(s->type));
+                           option_text(o->line, "metric"), image_type_name(s->type));
     if (said != NULL && said->lattice != NULL && o->image.lattice == NULL) {
         o->image.lattice = said->lattice;
-        o->given[OPTION_LATTICE] = "";
+        option_give(o->line, "lattice", "");
     }
     if (said != NULL || o->image.packing != NULL || o->image.stereo.focal > 0)
         return EXIT_FINE;
@@ -330,14 +326,14 @@ static int move_bits(options *o, texture_source *s) {
     return EXIT_FINE;
 }
 
-static int read_metric(const options *o, texture_source *s) {
+static int read_metric(const texture_request *o, texture_source *s) {
     sensor given;
-    int status = texture_lattice(o, OPTION_LATTICE, o->image.lattice, &given);
+    int status = texture_lattice(o->camera.lengths.unit, "lattice", o->image.lattice, &given);
     if (status != EXIT_FINE)
         return status;
-    if (given.row != NULL && o->given[OPTION_LATTICE][0] == '\0')
+    if (given.row != NULL && option_text(o->line, "lattice")[0] == '\0')
         sensor_scale(&given, o->image.metric); /* a note's is of samples, whatever unit these have */
-    const double zfar = option_given(o, OPTION_FAR) ? o->camera.zfar : (double)INFINITY;
+    const double zfar = option_given(o->line, "far") ? o->camera.zfar : (double)INFINITY;
     const char *wrong =
         metric_convert(&s->picture, o->image.metric, zfar, given.row != NULL ? &given : NULL, &s->metric);
     if (wrong != NULL)
@@ -348,20 +344,20 @@ static int read_metric(const options *o, texture_source *s) {
     return EXIT_FINE;
 }
 
-static int read_image(options *o, texture_source *s) {
+static int read_image(texture_request *o, texture_source *s) {
     image_error error;
-    s->path = o->operands[0];
+    s->path = o->line->operands[0];
     image_asked asked = {.channel = o->image.channel};
-    if (option_given(o, OPTION_SIZE)) {
-        asked.width = o->view.spec.width;
-        asked.height = o->view.spec.height;
+    if (option_given(o->line, "size")) {
+        asked.width = o->image.size[0];
+        asked.height = o->image.size[1];
     }
     if (!image_read_as(s->path, &asked, &s->picture, &error)) {
         usage_error("%s: %s", s->path, error.text);
         return error.unreadable ? EXIT_IO : EXIT_USAGE;
     }
     if (asked.width > 0 && s->picture.file != IMAGE_RAW)
-        return option_error(OPTION_SIZE, "is for --synthetic and raw files: %s has its own", s->path);
+        return option_error("size", "is for --synthetic and raw files: %s has its own", s->path);
     if (s->picture.size_assumed && !o->out.quiet)
         message("depthprec: %s: %u x %u pixels are assumed, by its length; --size sets them", s->path, s->picture.width,
                 s->picture.height);
@@ -389,14 +385,14 @@ static int read_image(options *o, texture_source *s) {
     return EXIT_FINE;
 }
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
-static int choose_format(const options *o, texture_source *s, dp_format *out) {
+static int choose_format(const texture_request *o, texture_source *s, dp_format *out) {
     const bool chosen = o->camera.preset_count > 0 || o->camera.platform != NULL;
-    const bool given = texture_is_window(o) && (option_given(o, OPTION_FORMAT) || chosen);
+    const bool given = texture_is_window(o) && (option_given(o->line, "format") || chosen);
     s->format_from = given ? ORIGIN_GIVEN : s->path != NULL && s->found.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED;
     if (!given && s->path != NULL && !s->found.depth)
         return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path, s->why);
-    if (given && o->camera.format_count > 1 && option_given(o, OPTION_FORMAT))
-        return option_error(OPTION_FORMAT, "must be one format, got %zu", o->camera.format_count);
+    if (given && o->camera.format_count > 1 && option_given(o->line, "format"))
+        return option_error("format", "must be one format, got %zu", o->camera.format_count);
     dp_format usual[2];
     dp_format_parse("unorm24", usual);
     *out = given ? o->camera.formats[0] : s->path != NULL ? s->found.format : usual[0];
@@ -406,22 +402,22 @@ static int choose_format(const options *o, texture_source *s, dp_format *out) {
             *out = o->camera.formats[i];
             told = s->found.certain;
         }
-    if (given && !told && setup_decided(o) != EXIT_FINE)
+    if (given && !told && setup_decided(&o->camera) != EXIT_FINE)
         return EXIT_USAGE;
     if (out->bits > BITS_MAX)
-        return option_error(OPTION_FORMAT, "must have at most %d bits in an image, got %s", BITS_MAX, out->name);
+        return option_error("format", "must have at most %d bits in an image, got %s", BITS_MAX, out->name);
     return EXIT_FINE;
 }
 
-static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) {
-    const bool given = option_given(o, OPTION_MAPPING) || o->camera.preset_count > 0;
+static int choose_mapping(const texture_request *o, texture_source *s, dp_mapping *out) {
+    const bool given = option_given(o->line, "mapping") || o->camera.preset_count > 0;
     if (!texture_is_window(o)) { /* a packing that says so */
         *out = DP_MAPPING_LINEAR;
         s->mapping_from = s->direction_from = ORIGIN_FOUND;
         return EXIT_FINE;
     }
     if (given && o->camera.mapping_count > 1)
-        return option_error(OPTION_MAPPING, "must be one mapping, got %zu", o->camera.mapping_count);
+        return option_error("mapping", "must be one mapping, got %zu", o->camera.mapping_count);
     /* Nothing in an image tells the curve; what is usual in perspective pictures tells nothing of orthographic ones. */
     const bool told = s->path != NULL && s->found.reversed >= 0 && !o->camera.ortho;
     s->mapping_from = s->noted ? ORIGIN_FOUND : given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
@@ -432,26 +428,25 @@ static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) 
     const dp_mapping usual = o->camera.platform != NULL ? o->camera.mappings[0] : DP_MAPPING_D3D;
     *out = given ? o->camera.mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : usual;
     if (dp_mapping_get(*out)->log_from_near)
-        return option_error(option_given(o, OPTION_MAPPING) ? OPTION_MAPPING : OPTION_PRESET,
+        return option_error(option_given(o->line, "mapping") ? "mapping" : "preset",
                             "texture reads logarithms that begin at the eye (log, three-webgl, osgearth), none that "
                             "begins at near; got %s",
                             dp_mapping_get(*out)->name);
     return EXIT_FINE;
 }
 
-static int make_setup(const options *o, texture_source *s, dp_setup *out) {
-    options one = *o;
+static int make_setup(const texture_request *o, texture_source *s, dp_setup *out) {
+    texture_request one = *o;
     setups all = {0};
     if (o->image.matrix != NULL && o->image.packing != NULL && o->image.packing->linear)
-        return option_error(OPTION_MATRIX, "is for window depth, and %s holds eye depth: --fov says its camera",
-                            s->path);
+        return option_error("matrix", "is for window depth, and %s holds eye depth: --fov says its camera", s->path);
     int status = o->image.metric > 0 ? EXIT_FINE : choose_format(o, s, &one.camera.formats[0]);
     if (status == EXIT_FINE && (o->image.metric == 0 || o->image.matrix != NULL))
         status =
             o->image.matrix != NULL ? texture_matrix_open(o, s, &one) : choose_mapping(o, s, &one.camera.mappings[0]);
     one.camera.format_count = one.camera.mapping_count = 1;
     if (status == EXIT_FINE)
-        status = setups_make(&one, &all);
+        status = setups_make(&one.camera, &all);
     if (status != EXIT_FINE)
         return status;
     *out = all.items[0];
@@ -460,29 +455,29 @@ static int make_setup(const options *o, texture_source *s, dp_setup *out) {
 }
 
 /* Metric depth lies on a lattice of its own; the planes that were given are for effects alone. */
-static int make_camera(const options *o, texture_source *s) {
+static int make_camera(const texture_request *o, texture_source *s) {
     const bool is_metric = o->image.metric > 0;
     int status = make_setup(o, s, is_metric ? &s->planes : &s->setup);
-    camera_spec spec = o->view.spec;
+    camera_spec spec = o->camera.spec;
     if (s->path != NULL) {
         spec.width = s->picture.width;
         spec.height = s->picture.height;
     }
     if (status == EXIT_FINE)
-        status = view_vertical(o, (int)spec.width, (int)spec.height, &spec.fov_y);
+        status = view_vertical(&o->camera, (int)spec.width, (int)spec.height, &spec.fov_y);
     if (status == EXIT_FINE)
         status = texture_camera_place(o, &spec);
     if (status != EXIT_FINE)
         return status;
     const double focal = o->image.stereo.focal, middle[] = {focal, focal, 0.5 * spec.width, 0.5 * spec.height};
-    const bool said = option_given(o, OPTION_INTRINSICS), says_angle = s->matrix.path != NULL || said || focal > 0;
+    const bool said = option_given(o->line, "intrinsics"), says_angle = s->matrix.path != NULL || said || focal > 0;
     if (said || focal > 0)
-        texture_intrinsics_take(said ? o->view.intrinsics : middle, (double[]){spec.width, spec.height}, &s->matrix);
+        texture_intrinsics_take(said ? o->camera.intrinsics : middle, (double[]){spec.width, spec.height}, &s->matrix);
     s->fov_y = says_angle ? s->matrix.fov[1] : spec.fov_y;
     spec.matrix = says_angle ? &s->matrix.taken : NULL;
     spec.radial = o->image.radial;
     if (o->image.radial && o->camera.ortho)
-        return option_error(OPTION_RADIAL, "does not apply to an orthographic camera, whose rays are parallel");
+        return option_error("radial", "does not apply to an orthographic camera, whose rays are parallel");
     const char *wrong = camera_init(&s->camera, is_metric ? &s->planes : &s->setup, &spec);
     if (wrong != NULL)
         return usage_error("texture: %s", wrong);
@@ -501,7 +496,7 @@ static int make_camera(const options *o, texture_source *s) {
     return moves ? texture_last_camera(o, &s->setup, &spec, &s->last) : EXIT_FINE;
 }
 
-int texture_source_open(options *o, texture_source *s) {
+int texture_source_open(texture_request *o, texture_source *s) {
     int status = check_together(o);
     if (status == EXIT_FINE && o->image.synthetic != NULL)
         status = synthetic_parameters(o, o->image.synthetic, s->parameters);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/texture/request.h"
 #include "cli/texture/statistics.h"
 #include "core/append.h"
 #include "report/number.h"
@@ -176,7 +177,7 @@ static void say_source(statistics *r, page *p) {
     char parameters[512] = "";
     char packed[48] = "";
     char channels[IMAGE_NAMES_SIZE + 16];
-    p->unit = options_unit(r->o);
+    p->unit = camera_unit(&r->o->camera);
     if (r->o->image.packing != NULL)
         snprintf(packed, sizeof packed, ", packed as %s", r->o->image.packing->name);
     else if (s->channels > 1)

@@ -34,7 +34,7 @@ typedef struct lattice_gap {
 
 /** The statistics; what does not exist is null or NaN. Below `named`, the items of lists at hand. */
 typedef struct statistics {
-    const options *o;
+    const texture_request *o;
     texture_source source;
     survey survey;
     survey_pairs pairs;

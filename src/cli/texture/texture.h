@@ -3,7 +3,7 @@
 #ifndef CLI_TEXTURE_TEXTURE_H
 #define CLI_TEXTURE_TEXTURE_H
 
-#include "cli/option/options.h"
+#include "cli/texture/request.h"
 #include "frame/frame.h"
 #include "frame/metric.h"
 #include "frame/recognise.h"
@@ -69,27 +69,27 @@ const char *texture_origin_name(texture_origin origin);
  * Reads the image, or prepares a synthetic one; texture_source_close() frees it. What a file of ours says of itself and
  * was not given is filled into the options. @return an exit status, after one line on stderr
  */
-int texture_source_open(options *o, texture_source *out);
+int texture_source_open(texture_request *o, texture_source *out);
 void texture_source_close(texture_source *s);
 
 /** What the text of --lattice or --as says, of a sensor by name in the unit of a scene, metres where that is open; NaN
  * where it does not, no row where the text is null. @return an exit status, after one line on stderr */
-int texture_lattice(const options *o, option_id id, const char *text, sensor *out);
+int texture_lattice(const unit_row *unit, const char *id, const char *text, sensor *out);
 
 /** One line on stderr where the image contradicts it. */
-void texture_lattice_warn(const options *o, const texture_source *s);
+void texture_lattice_warn(const texture_request *o, const texture_source *s);
 
 /** Whether something says where far is, which metric depth does not need. */
-bool texture_far_known(const options *o);
+bool texture_far_known(const texture_request *o);
 
 /** Whether the image holds window depths, which have a format and a mapping. */
-bool texture_is_window(const options *o);
+bool texture_is_window(const texture_request *o);
 
 /**
  * Of an image, what it does not say: fills in grain, how the samples were rounded, which is said in `why` of what was
  * found, and the readings of a pixel. One line on stderr about what is assumed, if anything is.
  */
-void texture_read_on(const options *o, texture_source *s);
+void texture_read_on(const texture_request *o, texture_source *s);
 
 /** Whether the samples are coarser than the format, and not by its own steps. */
 bool texture_coarser(const texture_source *s);
@@ -98,7 +98,7 @@ bool texture_coarser(const texture_source *s);
 bool texture_may_be_metric(const texture_source *s);
 
 /** What is said of the pixels of a packing that wraps which hold 0. @return out */
-const char *texture_zeros_of(const options *o, const texture_source *s, char out[READINGS_SIZE]);
+const char *texture_zeros_of(const texture_request *o, const texture_source *s, char out[READINGS_SIZE]);
 
 /** "320,180 is at z = 4.2 as d3d, 0.4 as reversed", of "mapping" or "format"; "" where it has none. @return out */
 const char *texture_readings_of(const texture_source *s, const char *what, char out[READINGS_SIZE]);
@@ -112,18 +112,18 @@ int texture_parameter_set(const char *whose, const texture_parameter *list, cons
                           parameter_use unused, double *out);
 
 /** Options of cameras that have no meaning beside others. @return an exit status, after one line on stderr */
-int texture_camera_check(const options *o);
+int texture_camera_check(const texture_request *o);
 
 /** Puts it at --eye, and turns it to --look. @return as texture_camera_check() */
-int texture_camera_place(const options *o, camera_spec *spec);
+int texture_camera_place(const texture_request *o, camera_spec *spec);
 
 /** Last frame's camera: as `now`, but for what --last-eye and --last-look say. @return as texture_camera_check() */
-int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
+int texture_last_camera(const texture_request *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
 
 /** Reads the file of --matrix into s->matrix, and what it says of planes and mapping into `with`, whose format is
  * there.
  *  @return an exit status, after one line on stderr */
-int texture_matrix_open(const options *o, texture_source *s, options *with);
+int texture_matrix_open(const texture_request *o, texture_source *s, texture_request *with);
 
 /** The frustum of --intrinsics, in a picture of such a size; planes are not its matter. */
 void texture_intrinsics_take(const double intrinsics[4], const double size[2], texture_matrix *t);
@@ -138,7 +138,7 @@ void texture_matrix_say(const texture_matrix *t, page *p);
 extern const column texture_matrix_columns[];
 
 /** Does the synthetic image have a parameter of this name? Then parameters not taken are the effect's. */
-bool texture_scene_takes(const options *o, const char *name);
+bool texture_scene_takes(const texture_request *o, const char *name);
 
 /* ---- What --product makes: an image of numbers, or a figure ------------------------ */
 
@@ -154,68 +154,70 @@ typedef struct texture_product {
 } texture_product;
 
 /** Is one asked for? --pixel describes an effect instead. */
-bool texture_product_wanted(const options *o);
+bool texture_product_wanted(const texture_request *o);
 
 /** The normals of an effect that needs some: of --product, those of the packing, else by projective.
  *  @return an exit status, after one line on stderr */
-int texture_effect_normals(const options *o, texture_source *s);
+int texture_effect_normals(const texture_request *o, texture_source *s);
 
 /** Reads the picture that an effect is composed on: PNG, of the image's size. @return as above */
-int texture_picture_open(const options *o, texture_source *s);
+int texture_picture_open(const texture_request *o, texture_source *s);
 
 /** The effect of --product, its parameters and reference, as above. */
-int texture_product_effect(const options *o, texture_product *out);
+int texture_product_effect(const texture_request *o, texture_product *out);
 
 /** Names and combinations, before anything is read. @return an exit status, after one line on stderr */
-int texture_product_resolve(const options *o, texture_product *out);
+int texture_product_resolve(const texture_request *o, texture_product *out);
 
 /** Whether it can be made of this source, likewise. */
-int texture_product_check(const options *o, const texture_source *s, texture_product *p);
+int texture_product_check(const texture_request *o, const texture_source *s, texture_product *p);
 
 /** Writes the file of -o. */
-int texture_product_write(const options *o, const texture_source *s, const texture_product *p);
+int texture_product_write(const texture_request *o, const texture_source *s, const texture_product *p);
 
 /** Options that have no meaning beside --product pack and packed-normal are refused. @return an exit status */
-int texture_pack_check(const options *o);
+int texture_pack_check(const texture_request *o);
 
 /** Writes the depths to the file of -o as --product pack:NAME says. */
-int texture_pack_write(const options *o, const texture_source *s);
+int texture_pack_write(const texture_request *o, const texture_source *s);
 
 /** Writes the normals that the image holds beside its depths. */
-int texture_packed_normal_write(const options *o, const texture_source *s);
+int texture_packed_normal_write(const texture_request *o, const texture_source *s);
 
 /** Codes of a format as a depth image of the camera's size, to the file of -o: integers or floats as the format has
  *  them. Null: those of a synthetic image, of its format. */
-int texture_depth_write(const options *o, const texture_source *s, const dp_format *format, const uint32_t *codes);
+int texture_depth_write(const texture_request *o, const texture_source *s, const dp_format *format,
+                        const uint32_t *codes);
 
 /** --hi-z: what has no meaning beside it; and the level, to the file of -o, whose size the source then has.
  *  @return an exit status */
-int texture_hi_z_check(const options *o);
-int texture_hi_z_write(const options *o, texture_source *s);
+int texture_hi_z_check(const texture_request *o);
+int texture_hi_z_write(const texture_request *o, texture_source *s);
 
 /** Draws the file of --figure. */
-int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p);
+int texture_figure_draw(const texture_request *o, const texture_source *s, const texture_product *p);
 
 /** Draws the file of --histogram. */
-int texture_histogram_draw(const options *o, const texture_source *s);
+int texture_histogram_draw(const texture_request *o, const texture_source *s);
 
 /* ---- Reports ----------------------------------------------------------------------------------------------------- */
 
 /** The statistics of a depth image: text, JSON, CSV. @return an exit status */
-int texture_report_write(const options *o, const texture_source *source);
+int texture_report_write(const texture_request *o, const texture_source *source);
 
 /** Whether the pixels of --pixel lie in so many. @return an exit status, after one line on stderr */
-int texture_pixels_check(const options *o, uint32_t width, uint32_t height);
+int texture_pixels_check(const texture_request *o, uint32_t width, uint32_t height);
 
 /** What --pixel asks about, likewise; `effect` is the effect of --product beside it, or null. */
-int texture_pixel_write(const options *o, const texture_source *source, const frame_product *effect);
+int texture_pixel_write(const texture_request *o, const texture_source *source, const frame_product *effect);
 
 /** The effect that --product names, and its parameters, in an image or not. @return EXIT_FINE, or EXIT_USAGE after one
  *  line on stderr */
-int texture_effect_resolve(const options *o, bool pictured, const effect_row **row, double parameters[PARAMETERS_MAX]);
+int texture_effect_resolve(const texture_request *o, bool pictured, const effect_row **row,
+                           double parameters[PARAMETERS_MAX]);
 
 /** An effect without an image: for each set-up and depth, the error in levels and the usable values of the wanted
  *  parameter. @return an exit status */
-int texture_effect_table(const options *o);
+int texture_effect_table(const texture_request *o);
 
 #endif

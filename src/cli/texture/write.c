@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/texture/request.h"
 #include "cli/texture/writing.h"
 #include "core/append.h"
 #include "report/message.h"
@@ -13,7 +14,7 @@
 
 enum { STREAM_BUFFER = 1 << 16 };
 
-int writing_open(const options *o, writing *w, const char *path, const texture_source *s, image_type type,
+int writing_open(const texture_request *o, writing *w, const char *path, const texture_source *s, image_type type,
                  uint32_t channels) {
     int status = output_open(&w->out, path);
     if (status != EXIT_FINE)
@@ -120,8 +121,8 @@ static bool in_units(const frame_product *made, const frame_summary *sum) {
 }
 
 /* What a PNG spreads over its samples: of an effect what is asked for, or that of a colour; else what is there. */
-static bool range_of(const options *o, const texture_source *s, const frame_product *made, frame_summary *sum) {
-    const bool asked = option_given(o, OPTION_RANGE), wide = made->kind == FRAME_NORMAL || made->vector;
+static bool range_of(const texture_request *o, const texture_source *s, const frame_product *made, frame_summary *sum) {
+    const bool asked = option_given(o->line, "range"), wide = made->kind == FRAME_NORMAL || made->vector;
     *sum = (frame_summary){.lo = asked  ? o->camera.range_lo
                                  : wide ? -1
                                         : 0,
@@ -134,7 +135,8 @@ static bool range_of(const options *o, const texture_source *s, const frame_prod
  * The product in 16 bits is off by half a grey more; a place in all three coordinates, and a normal by the angle that
  * three such differences of a unit vector can make.
  */
-static bool rounding_of_product(const options *o, const texture_source *s, const frame_product *made, double *more) {
+static bool rounding_of_product(const texture_request *o, const texture_source *s, const frame_product *made,
+                                double *more) {
     static const double factors[FRAME_KINDS] = {[FRAME_EYE] = 1,
                                                 [FRAME_LINEAR01] = 1,
                                                 [FRAME_RAW] = 1,
@@ -156,7 +158,7 @@ static bool rounding_of_product(const options *o, const texture_source *s, const
 }
 
 /* What the samples of a PNG mean. */
-static bool scale_of(const options *o, const texture_source *s, const frame_product *made, writing *w) {
+static bool scale_of(const texture_request *o, const texture_source *s, const frame_product *made, writing *w) {
     frame_summary sum;
     if (w->type != IMAGE_U16 || w->on.picture != NULL)
         return true;
@@ -175,7 +177,7 @@ static bool scale_of(const options *o, const texture_source *s, const frame_prod
 
 static const char *const axes[] = {"x right, y up, z towards the camera", "x right, y down, z towards the camera"};
 
-meaning writing_meaning(const options *o, const texture_product *p, const writing *w) {
+meaning writing_meaning(const texture_request *o, const texture_product *p, const writing *w) {
     meaning m = {.file = o->out.file,
                  .product = p->name,
                  .unit = *p->unit != '\0' ? p->unit : NULL,
@@ -229,7 +231,7 @@ static const column meaning_columns[] = {{FIELD(meaning, file, "file", "")},
                                          {PART(meaning, error_map, "error_map", map_columns), .pointed = true},
                                          {.kind = COLUMN_END}};
 
-int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m) {
+int writing_say(const texture_request *o, const texture_product *p, const writing *w, meaning *m) {
     output out;
     if (o->out.form == FORM_JSON) {
         const int status = output_open(&out, NULL);
@@ -262,7 +264,7 @@ static bool make_all(const texture_source *s, const texture_product *p, writing 
            (count < 2 || frame_run(&s->frame, &made[1], writing_bottom_up(&w[1]), writing_take, &w[1]));
 }
 
-static void say_levels(const options *o, const texture_source *s, const texture_product *p, const writing *w) {
+static void say_levels(const texture_request *o, const texture_source *s, const texture_product *p, const writing *w) {
     if (w->levels && w->pixels > 0 && !o->out.quiet)
         message("depthprec: %s: %s %% of the pixels %s off by more than one level", o->out.file,
                 number_of(100.0 * (double)w->beyond / (double)w->pixels, 3).text,
@@ -271,15 +273,15 @@ static void say_levels(const options *o, const texture_source *s, const texture_
                     : "are");
 }
 
-static void take_picture(const options *o, const texture_source *s, const frame_product *made, compose *on) {
-    const double *tint = option_given(o, OPTION_TINT) ? o->image.tint : made->effect->tint;
+static void take_picture(const texture_request *o, const texture_source *s, const frame_product *made, compose *on) {
+    const double *tint = option_given(o->line, "tint") ? o->image.tint : made->effect->tint;
     *on = (compose){.row = made->effect, .parameters = made->effect_settings, .picture = &s->colours};
     memcpy(on->tint, tint, sizeof on->tint);
 }
 
 /* The product, and beside it the error as a product of its own. */
-int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
-    options each[2] = {*o, *o};
+int texture_product_write(const texture_request *o, const texture_source *s, const texture_product *p) {
+    texture_request each[2] = {*o, *o};
     texture_product product[2] = {*p, *p};
     writing w[2] = {{.down = o->image.normal_format != 0}, {.down = false}};
     meaning m[2];
@@ -360,17 +362,18 @@ static void depth_row(const writing *w, const dp_format *format, const uint32_t 
             ((uint16_t *)w->row)[i] = (uint16_t)codes[i]; /* of fp16 the code is the bits */
 }
 
-int texture_depth_write(const options *o, const texture_source *s, const dp_format *format, const uint32_t *codes) {
+int texture_depth_write(const texture_request *o, const texture_source *s, const dp_format *format,
+                        const uint32_t *codes) {
     image_type type;
     writing w = {0};
     if (!image_file_of(o->out.file, &w.file))
-        return option_error(OPTION_OUTPUT,
+        return option_error("output",
                             "must end in .png, .pfm or .npy for the depths, got '%s'; --json or --csv writes "
                             "statistics",
                             o->out.file);
     if (!depth_type(format, w.file, &type))
-        return option_error(OPTION_OUTPUT, "%s does not hold %s: .npy does, got '%s'", image_file_name(w.file),
-                            format->name, o->out.file);
+        return option_error("output", "%s does not hold %s: .npy does, got '%s'", image_file_name(w.file), format->name,
+                            o->out.file);
     const int status = writing_open(o, &w, o->out.file, s, type, 1);
     if (status != EXIT_FINE)
         return status;

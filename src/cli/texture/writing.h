@@ -35,7 +35,7 @@ typedef struct writing {
 } writing;
 
 /** Opens the output and makes room. @return an exit status, after one line on stderr */
-int writing_open(const options *o, writing *w, const char *path, const texture_source *s, image_type type,
+int writing_open(const texture_request *o, writing *w, const char *path, const texture_source *s, image_type type,
                  uint32_t channels);
 
 /** The header, with what a file says of itself; null: nothing. */
@@ -58,12 +58,12 @@ typedef struct meaning {
     const struct meaning *error_map; /**< of the error map beside it; null: there is none */
 } meaning;
 
-meaning writing_meaning(const options *o, const texture_product *p, const writing *w);
+meaning writing_meaning(const texture_request *o, const texture_product *p, const writing *w);
 
 /** For the file itself. Eye depths are read back by it. */
 void writing_note(const writing *w, const texture_product *p, const meaning *m, char note[IMAGE_NOTE_SIZE]);
 
 /** What the numbers in the file are: JSON on stdout; or, of a PNG, a line on stderr. @return an exit status */
-int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m);
+int writing_say(const texture_request *o, const texture_product *p, const writing *w, meaning *m);
 
 #endif

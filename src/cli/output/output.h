@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file output.h  Where a command writes, in which form, and how much it says. */
+#ifndef CLI_OUTPUT_OUTPUT_H
+#define CLI_OUTPUT_OUTPUT_H
+
+#include "cli/camera/camera.h"
+#include "cli/option/option.h"
+#include "report/output.h"
+
+/** Values of --report. */
+typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
+
+typedef struct output_asked {
+    const char *link; /**< where the page is that the link opens; null when none is asked for */
+    report_form report;
+    output_form form;
+    const char *file; /**< the argument of -o; null when not given. "-" is stdout: see output_start() */
+    bool quiet, full;
+    unsigned colour; /**< --color: an output_colour */
+    int threads;     /**< 0 when not given: as many as there are cores */
+} output_asked;
+
+extern const option_table output_options;
+
+/** What a report takes. */
+extern const option_use output_written[];
+
+/** Opens what --output names, which is no picture's, for text, JSON or CSV, as wide as --full makes it, as --color
+ * wants it dressed; the camera, which may be null, says whose measurements they are. @return EXIT_FINE, or EXIT_USAGE
+ * or EXIT_IO after one line on stderr */
+int output_start(const output_asked *o, const camera_asked *camera, output *out);
+
+#endif

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file request.h  What world is asked. */
+#ifndef CLI_WORLD_REQUEST_H
+#define CLI_WORLD_REQUEST_H
+
+#include "cli/camera/camera.h"
+#include "cli/output/output.h"
+#include "cli/world/origin.h"
+
+typedef struct world_request {
+    asked_line *line;
+    camera_asked camera;
+    output_asked out;
+    origin_asked origin;
+    depths distances;  /**< of the camera from the world's origin; count is 0 when not given */
+    double separation; /**< scene units; 0 when not given */
+} world_request;
+
+extern const option_table world_options;
+
+#endif
