@@ -52,6 +52,7 @@ static const struct {
 } besides[] = {
     {BIT(plot), IDS("interpolation", "from-origin"), "plot budget -F d24 -m d3d --csv", ""},
     {BIT(code), IDS("fov", "viewport"), "code --what projection", ""},
+    {BIT(code), IDS("rounding"), "code --what encode -F d24", ""},
     {BIT(plot), IDS("composition"), "plot budget -F d24 -m d3d --csv", "--from-origin 100"},
     {BIT(plot), IDS("log2"), "plot budget -F d24 -m log --csv", ""},
     {BIT(budget), IDS("log2"), "budget -F d24 -m log", ""},
@@ -72,7 +73,7 @@ static const struct {
     {BIT(texture), IDS("size"), "texture --synthetic plane", ""},
     {BIT(table), IDS("model"), "table -F d24 -m d3d", ""},
     {BIT(table), IDS("arith"), NULL, "--model float"},
-    {BIT(table) | BIT(plot) | BIT(texture) | BIT(bias) | BIT(scene), IDS("log-c"), NULL, "-m log"},
+    {ALL & ~BIT(solve), IDS("log-c"), NULL, "-m log"},
     {BIT(solve), IDS("log-c"), "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
 };
 
@@ -245,17 +246,75 @@ static void keep_setup(char *text) {
     json_decref(root);
 }
 
-static void same_with(tally *t, const command_row *v, const char *line, const option_row *row, const char *value) {
-    printed without = print_of("%s", line), with = print_of("%s --%s %s", line, row->name, value);
-    if (bit_of(v) == BIT(methods)) {
-        keep_setup(without.out);
+/* A default that is told, in the line where it holds. */
+typedef struct trial {
+    const command_row *v;
+    const option_row *row;
+    const char *value;
+    char line[256];
+    bool grouped;
+} trial;
+
+enum { TRIALS_MAX = 1024, GROUP_MAX = 64 };
+static trial trials[TRIALS_MAX];
+static size_t trial_count;
+
+static void try_in(const command_row *v, const char *line, const option_row *row, const char *value) {
+    assert_true(trial_count < TRIALS_MAX);
+    trial *t = &trials[trial_count++];
+    *t = (trial){.v = v, .row = row, .value = value};
+    snprintf(t->line, sizeof t->line, "%s", line);
+}
+
+/* With all of a group given at once a command prints what it prints without; if not, half of them may tell more. Some
+ * may not stand beside each other, but every one of them beside what the line has. */
+static void same_with(tally *t, const trial *const *group, size_t count, const printed *without) {
+    char line[4096];
+    const trial *first = group[0];
+    size_t used = (size_t)snprintf(line, sizeof line, "%s", first->line);
+    for (size_t i = 0; i < count; i++)
+        used += (size_t)snprintf(line + used, sizeof line - used, " --%s %s", group[i]->row->name, group[i]->value);
+    assert_true(used < sizeof line);
+    printed with = print_of("%s", line);
+    if (bit_of(first->v) == BIT(methods) && with.status == 0)
         keep_setup(with.out);
+    const bool same = with.status == without->status && strcmp(with.out, without->out) == 0;
+    if (count > 1 && !same) {
+        same_with(t, group, count / 2, without);
+        same_with(t, group + count / 2, count - count / 2, without);
+    } else {
+        t->cases += count - 1;
+        TALLY(t, same, "%s: exit status %d, not as without the option: %s%s", line, with.status, without->errors,
+              with.errors);
     }
-    TALLY(t, without.status <= 1 && with.status == without.status && without.out[0] != '\0', "%s --%s %s: %s%s", line,
-          row->name, value, without.errors, with.errors);
-    TALLY(t, strcmp(with.out, without.out) == 0, "%s: --%s %s is not the default", line, row->name, value);
-    printed_free(&without);
     printed_free(&with);
+}
+
+/* Those of one line and of different options, a group at a time. */
+static void try_all(tally *t) {
+    for (size_t i = 0; i < trial_count; i++) {
+        const trial *group[GROUP_MAX];
+        size_t count = 0;
+        for (size_t k = i; k < trial_count; k++) {
+            bool fits = count < GROUP_MAX && !trials[k].grouped && trials[k].v == trials[i].v &&
+                        strcmp(trials[k].line, trials[i].line) == 0;
+            for (size_t g = 0; g < count; g++)
+                fits = fits && group[g]->row != trials[k].row;
+            if (!fits)
+                continue;
+            trials[k].grouped = true;
+            group[count++] = &trials[k];
+        }
+        if (count == 0)
+            continue;
+        printed without = print_of("%s", trials[i].line);
+        TALLY(t, without.status <= 1 && without.out[0] != '\0', "%s: %s", trials[i].line, without.errors);
+        if (bit_of(trials[i].v) == BIT(methods))
+            keep_setup(without.out);
+        same_with(t, group, count, &without);
+        printed_free(&without);
+    }
+    trial_count = 0;
 }
 
 /* As its help shows it, or as one of its parts has it. */
@@ -286,10 +345,11 @@ TEST(test_spelled_out) {
             line_of(v, row->name, line);
             TALLY(&t, strcmp(standard, value) == 0, "%s --%s: help says %s, not %s", v->name, row->name, standard,
                   value);
-            same_with(&t, v, line, row, value);
+            try_in(v, line, row, value);
             tried++;
         }
     assert_true(tried >= 60);
+    try_all(&t);
     tally_end(&t);
 }
 
@@ -317,10 +377,11 @@ TEST(test_in_words) {
                     continue;
                 snprintf(line, sizeof line, "%s %s", meant[k].line != NULL ? meant[k].line : line_of_verb(v),
                          meant[k].more);
-                same_with(&t, v, line, row, meant[k].value);
+                try_in(v, line, row, meant[k].value);
             }
             TALLY(&t, found > 0 || !told, "%s --%s: '%s' is not tried here", v->name, row->name, without);
         }
+    try_all(&t);
     TALLY(&t, t.cases > 300, "few cases");
     tally_end(&t);
 }
