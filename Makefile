@@ -58,6 +58,8 @@ FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(B)/%,$(FUZZ))
 CFLAGS ?= $(or $(OPTIMIZE_$(CONF)),-O1 -g)
 OPTIMIZE_release := -O3
 OPTIMIZE_asan := -O2 -g
+# A test is compiled more often than it runs long.
+CFLAGS_TESTS := $(if $(filter file,$(origin CFLAGS)),-O1 $(filter -g,$(CFLAGS)),$(CFLAGS))
 
 SANITIZE := address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 # No loop with sanitizers in it becomes vectors. That they are there gcc says by this macro, clang by another word.
@@ -118,6 +120,7 @@ $(B)/obj/%.o: %.c Makefile
 $(ROOMS_O): EXTRA = @$(B)/build.cflags
 $(ROOMS_O): | $(B)/build.cflags
 $(TESTS_O) $(SUPPORT_O): EXTRA = @$(B)/check.cflags
+$(TESTS_O) $(SUPPORT_O): CFLAGS := $(CFLAGS_TESTS)
 $(TESTS_O) $(SUPPORT_O): | $(B)/check.cflags
 
 # pkg-config is asked when a recipe runs, because it may have been installed a moment ago. Not every clang has OpenMP.
@@ -533,7 +536,7 @@ bench: all $(BENCH_PROGRAMS)
 	@! command -v python3 >/dev/null || $(MAKE) --no-print-directory wheel
 	@sh tests/bench.sh $(foreach b,$(filter-out %/bench_empty,$(BENCH_PROGRAMS)),'$b $(B)/depthprec') \
 	    $(foreach f,$(BENCHED),'echo && $(B)/depthprec methods $f') \
-	    'sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize' \
+	    'mkdir -p $(B)/bench && sh plots/draw.sh $(B)/depthprec $(B)/bench pareto-interval pareto-linearize' \
 	    $(if $(shell command -v python3),"echo && B=$(B) CC='$(CC)' python3 tests/python/bench.py")
 
 clean distclean:
@@ -565,7 +568,8 @@ help:
 ## make coverage    the lines that the tests reach, per file
 ## make lint        format, warnings of clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
-## make bench       measure the speed of the engine and the methods, redraw the charts of both; last, which aims are met
+## make bench       measure the speed of the engine and the methods, charts of the latter in build/bench; last, which aims
+##                  are met
 ## make check-web       the page in Chromium, which it installs: a minute of it: what it shows against the program, bad
 ##                  addresses; DEPTHPREC_FULL=1 adds keyboard, speed and more
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm

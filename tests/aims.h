@@ -45,4 +45,7 @@ typedef enum aim_id {
  */
 void aim_judge(aim_id id, const char *what, double value);
 
+/** In its place: prints, and notes, why it was not measured; one line. */
+void aim_missing(aim_id id, const char *what, const char *why);
+
 #endif

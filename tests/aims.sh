@@ -30,12 +30,15 @@ root=$PWD
 check "all are met" last 0 '2 aims met, 0 missed' ./quick
 check "those that are missed are named" last 0 \
     '3 aims met, 2 missed: census (1.07 x, aim >= 10); table at any slant (10 x, aim <= 8)' ./quick ./slow
+stub bare 0 'met\ttable\t7 x, aim <= 8' 'unmeasured\tjudge\tthere is no driver'
+check "what was not measured is named, with what is missing" last 0 \
+    '1 aims met, 0 missed; 1 not measured: judge (there is no driver)' ./bare
 check "a benchmark that fails is named, the others run" last 1 '2 aims met, 0 missed; failed: ./torn' ./torn ./quick
 check "what a benchmark prints is shown" grep -q 'a table of quick' "$scratch/said"
 
 runs() {
     make -n --no-print-directory bench B="$B" 2>/dev/null | sed -n ':a;/\\$/{N;s/\\\n//;ba};$p' >"$scratch/recipe" &&
-        grep -q '^sh tests/bench.sh ' "$scratch/recipe"
+        grep -q '^sh tests/bench.sh ' "$scratch/recipe" && grep -q "draw.sh $B/depthprec $B/bench pareto" "$scratch/recipe"
 }
 check "make bench ends with it" runs
 each() { # every benchmark is in the recipe

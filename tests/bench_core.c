@@ -313,6 +313,23 @@ static void bench_table(char *program, char *empty, char *viewport) {
           viewport == NULL ? AIM_TABLE : AIM_TABLE_SLANTED, "");
 }
 
+/* The first line that a program says of what it lacks. */
+static const char *said_by(char *const command[], char out[256]) {
+    char line[1024];
+    size_t used = 0;
+    for (int i = 0; command[i] != NULL; i++)
+        used += (size_t)snprintf(line + used, sizeof line - used, "'%s' ", command[i]);
+    snprintf(line + used, sizeof line - used, "2>&1 >/dev/null");
+    FILE *in = popen(line, "r");
+    strcpy(out, "it does not run");
+    if (in == NULL)
+        return out;
+    if (fgets(out, 256, in) != NULL)
+        out[strcspn(out, "\n")] = '\0';
+    pclose(in);
+    return out;
+}
+
 /* In a folder of its own the program runs with a file that it reads, or writes. */
 static void bench_file(char *program, const char *what, aim_id aim, const char *text, char *const words[]) {
     enum { RUNS = 5, WORDS = 16 };
@@ -333,15 +350,16 @@ static void bench_file(char *program, const char *what, aim_id aim, const char *
         seconds = run(command);
         timing_add(&t, seconds);
     }
+    char label[80], why[256];
+    snprintf(label, sizeof label, "whole process, %s", what);
+    if (isnan(seconds)) {
+        printf("%s: ", label);
+        aim_missing(aim, "", said_by(command, why));
+    } else {
+        aimed(label, timing_least(&t), "s", timing_spread(&t), aim, "");
+    }
     unlink(file);
     rmdir(folder);
-    if (isnan(seconds))
-        printf("whole process, %s: not measured: it fails\n", what);
-    else
-        seconds = timing_least(&t);
-    char label[80];
-    snprintf(label, sizeof label, "whole process, %s", what);
-    aimed(label, seconds, "s", timing_spread(&t), aim, "");
 }
 
 static void bench_files(char *program) {
