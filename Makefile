@@ -58,7 +58,7 @@ FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(B)/%,$(FUZZ))
 CFLAGS ?= $(or $(OPTIMIZE_$(CONF)),-O1 -g)
 OPTIMIZE_release := -O3
 OPTIMIZE_asan := -O2 -g
-# A test is compiled more often than it runs long.
+# A test program is compiled more often than it runs long; what tests compute for long stands in their other files.
 CFLAGS_TESTS := $(if $(filter file,$(origin CFLAGS)),-O1 $(filter -g,$(CFLAGS)),$(CFLAGS))
 
 SANITIZE := address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
@@ -120,7 +120,7 @@ $(B)/obj/%.o: %.c Makefile
 $(ROOMS_O): EXTRA = @$(B)/build.cflags
 $(ROOMS_O): | $(B)/build.cflags
 $(TESTS_O) $(SUPPORT_O): EXTRA = @$(B)/check.cflags
-$(TESTS_O) $(SUPPORT_O): CFLAGS := $(CFLAGS_TESTS)
+$(call objects,$(TESTS)): CFLAGS := $(CFLAGS_TESTS)
 $(TESTS_O) $(SUPPORT_O): | $(B)/check.cflags
 
 # pkg-config is asked when a recipe runs, because it may have been installed a moment ago. Not every clang has OpenMP.
