@@ -168,6 +168,16 @@ misnamed() {
 }
 check "comments name files as they are called" empty misnamed
 
+# An option is known by its name: one that no row has is never given.
+unnamed_options() {
+    find src/cli src/web -name '*.[ch]' | xargs grep -hoE '^ *\{"[a-z0-9-]+", (0|'"'.'"'),' | grep -oE '[a-z0-9-]{2,}' |
+        sort -u >"$scratch/named" && grep -q '^near$' "$scratch/named" || return
+    find src/cli src/web -name '*.[ch]' |
+        xargs grep -hoE '\<(option_(given|text|error|give|unit|word|set|find|written)\([^,()"]*,? *|TAKE\(|OWN\(|NEEDS\(|CONFLICTS\()"[a-z0-9-]+"' |
+        sed 's/.*"\(.*\)"/\1/' | sort -u | comm -23 - "$scratch/named"
+}
+check "options are named as their rows are" empty unnamed_options
+
 # ---- Lines and functions -----------------------------------------------------------------------------------------
 
 long_lines() { lines -rnE --include='*.[ch]' '^.{121,}' src include tests; }

@@ -932,6 +932,29 @@ TEST(test_all) {
     tally_end(&t);
 }
 
+/* What a rule names has a row, and is refused beside the other, or without one. */
+static void check_rules(tally *t, const command_row *v, const option_rule *rule) {
+    for (; rule != NULL && rule->option != NULL; rule++) {
+        asked_line o = {.command = v, .parts = ~0U};
+        char first[64], expected[256], said[1024] = "";
+        snprintf(first, sizeof first, "%.*s", (int)strcspn(rule->others, " "), rule->others);
+        const bool needs = rule->relation == RULE_NEEDS;
+        TALLY(t, option_find(v, rule->option) != NULL && option_find(v, first) != NULL, "%s: --%s beside --%s", v->name,
+              rule->option, first);
+        option_give(&o, rule->option, "");
+        if (!needs)
+            option_give(&o, first, "");
+        snprintf(expected, sizeof expected, "depthprec: --%s: %s --%s%s\n", rule->option,
+                 needs ? "needs" : "conflicts with", first, rule->more != NULL ? rule->more : "");
+        FILE *const terminal = stderr;
+        stderr = fmemopen(said, sizeof said, "w");
+        const int status = option_check_rules(&o);
+        fclose(stderr);
+        stderr = terminal;
+        TALLY(t, status == EXIT_USAGE && strcmp(said, expected) == 0, "%s: '%s', not '%s'", v->name, said, expected);
+    }
+}
+
 /* What a command takes is in its tables; a name is in one of them, or the first is meant; there is room for all. */
 TEST(test_tables) {
     tally t = {.name = "tables"};
@@ -947,6 +970,9 @@ TEST(test_tables) {
         for (const option_use *use = v->uses; use->name != NULL || use->rows != NULL || use->group != NULL; use++)
             TALLY(&t, use->name == NULL || option_find(v, use->name) != NULL, "%s: --%s has no row", v->name,
                   use->name);
+        check_rules(&t, v, v->rules);
+        for (const option_place *p = v->places; p->table != NULL; p++)
+            check_rules(&t, v, p->table->rules);
     }
     tally_end(&t);
 }

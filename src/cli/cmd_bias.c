@@ -381,10 +381,6 @@ static const column columns[] = {
 
 static int check_states(const bias_request *o, const bias_api *api) {
     const bool given = option_given(o->line, "units");
-    if (given && option_given(o->line, "viewport"))
-        return option_error("viewport", "conflicts with --units: it says how many suffice");
-    if (given && option_given(o->line, "separation"))
-        return option_error("units", "conflicts with --separation, which solves for them");
     if (given && api->whole && !isinf(o->bias.units) &&
         !(o->bias.units == nearbyint(o->bias.units) && fabs(o->bias.units) <= 0x1.fffffffcp30) &&
         (o->camera.platform == NULL || !o->camera.platform->cuts))

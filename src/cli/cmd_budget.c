@@ -389,8 +389,6 @@ int cmd_budget(void *request) {
     b.triangles = slant_fields_of(&o->camera, &b.slant);
     if (option_given(o->line, "scheme"))
         status = take_scheme(&b, o);
-    else if (option_given(o->line, "share"))
-        status = option_error("share", "needs --scheme: without one no mesh has an origin");
     if (status != EXIT_FINE)
         return status;
     if (o->origin.terms.world > 0.0 && b.scheme == NULL)

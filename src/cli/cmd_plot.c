@@ -79,8 +79,6 @@ static int resolve_depths(plotting *p) {
     if (option_given(o->line, "at")) {
         if (o->camera.at.count != 1)
             return option_error("at", "must be one depth in the figure %s, got %zu", p->row->name, o->camera.at.count);
-        if (option_given(o->line, "range"))
-            return option_error("at", "conflicts with --range");
         p->request.at = o->camera.at.lo;
     }
     if (!option_given(o->line, "range"))

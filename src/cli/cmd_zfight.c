@@ -282,8 +282,6 @@ static void warn(const zfight *z) {
 
 static int check(zfight *z) {
     const zfight_request *o = z->o;
-    if (option_given(o->line, "seed") && o->sample == 0)
-        return option_error("seed", "needs --sample");
     int status = setups_make_float(&o->camera, &z->each.all);
     if (status == EXIT_FINE)
         status = range_resolve(&o->camera, &z->lo, &z->hi);

@@ -12,6 +12,7 @@
 #include "cli/option/names.h"
 
 struct option_place;
+struct option_rule;
 struct option_use;
 
 /** What a command does in one of several ways, as each figure is of plot: some options are for some of them. */
@@ -26,6 +27,7 @@ typedef struct command_row {
     size_t request;                      /**< how large what it is given is, which begins with `asked_line *line` */
     const struct option_place *places;   /**< where the tables of its options put what they read */
     const struct option_use *uses;       /**< which of them it takes */
+    const struct option_rule *rules;     /**< what relates two of them; or null */
     int (*complete)(void *request);      /**< what follows from several options; or null. @return an exit status */
     const char *operand;                 /**< how help writes the operand, "FIGURE"; "" when there is none */
     int operand_min, operand_max;        /**< how many operands the command takes */

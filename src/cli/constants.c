@@ -71,11 +71,7 @@ static void keep_one_format(setups *all) {
     all->count = kept;
 }
 
-static int check(const table_request *o, const setups *all) {
-    static const char *const of_perspective[] = {"fov", "hfov", "viewport"};
-    for (size_t i = 0; i < sizeof of_perspective / sizeof of_perspective[0] && o->camera.ortho; i++)
-        if (option_given(o->line, of_perspective[i]))
-            return option_error(of_perspective[i], "conflicts with --ortho");
+static int check(const setups *all) {
     for (size_t i = 0; i < all->count; i++) {
         const dp_mapping_row *mapping = dp_mapping_get(all->items[i].spec.mapping);
         if (mapping->curve != DP_CURVE_PERSPECTIVE)
@@ -345,7 +341,7 @@ int constants_write(const table_request *o) {
     if (status == EXIT_FINE)
         keep_one_format(&c.each.all);
     if (status == EXIT_FINE)
-        status = check(o, &c.each.all);
+        status = check(&c.each.all);
     if (status == EXIT_FINE)
         status = depths_in_binary32(&c.each.at);
     for (size_t i = 0; i < c.each.all.count && status == EXIT_FINE; i++)

@@ -63,8 +63,6 @@ int levels_write(const table_request *o) {
     static double usual[] = {1, 2, 5, 10};
     levels l = {.o = o, .given = o->lattice, .at = o->camera.at};
     output out;
-    if (o->constants)
-        return option_error("lattice", "conflicts with --constants");
     int status = texture_lattice(o->camera.lengths.unit, "lattice", o->lattice, &l.sensor);
     if (status != EXIT_FINE)
         return status;

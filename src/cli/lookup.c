@@ -82,8 +82,6 @@ bool lookup_wanted(const table_request *o) {
 
 /* What is asked is no depth of the scene, and a code must be one of each format. */
 static int check(const table_request *o, const setups *all) {
-    if (option_given(o->line, "depth") && option_given(o->line, "code"))
-        return option_error("code", "conflicts with --depth");
     for (size_t i = 0; i < all->count && option_given(o->line, "code"); i++) {
         const dp_format *format = &all->items[i].spec.format;
         if (o->looked_up.hi > (double)format->code_max)

@@ -36,10 +36,6 @@ static bool wanted(const judge_request *o, const method_case *c) {
 }
 
 int methods_resolve(const judge_request *o, const method_family_row *family, methods_asked *out) {
-    static const char *const of_mine[] = {"define", "device"};
-    for (size_t i = 0; i < 2; i++)
-        if (option_given(o->line, of_mine[i]) && o->judge.mine_count == 0)
-            return option_error(of_mine[i], "needs --mine, a function of yours");
     if (o->judge.mine_count > 0 && family != &linearize_family)
         return option_error("mine", "is for the family linearize, got %s", family->name);
     out->family = family;

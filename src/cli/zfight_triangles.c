@@ -149,8 +149,6 @@ static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns)
 
 static int check(drawn *d) {
     const zfight_request *o = d->o;
-    if (option_given(o->line, "separation"))
-        return option_error("separation", "conflicts with --rasterize, which looks for the separation");
     int status = raster_setups(&o->camera, &d->each.all);
     if (status == EXIT_FINE)
         status = range_resolve(&o->camera, &d->lo, &d->hi);

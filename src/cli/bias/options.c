@@ -91,6 +91,13 @@ static const option_use uses[] = {
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    CONFLICTS("viewport", "units", ": it says how many suffice"),
+    CONFLICTS("units", "separation", ", which solves for them"),
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {CAMERA_PLACES(bias_request, camera),
                                       PLACE(bias_request, out, output_options),
                                       PLACE(bias_request, bias, bias_options),
@@ -104,7 +111,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_bias = {
-    .name = "bias", .request = sizeof(bias_request), .places = places, .uses = uses,
+    .name = "bias", .request = sizeof(bias_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete,
     .operand = "", .operand_min = 0, .operand_max = 0,
     .summary = "what a depth bias does and how much is needed, per API",

@@ -19,6 +19,12 @@ static const option_use uses[] = {
     GROUP_OF(output_written), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    NEEDS("share", "scheme", ": without one no mesh has an origin"),
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {CAMERA_PLACES(budget_request, camera),
                                       PLACE(budget_request, out, output_options),
                                       PLACE(budget_request, origin, origin_options),
@@ -32,7 +38,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_budget = {
-    .name = "budget", .request = sizeof(budget_request), .places = places, .uses = uses,
+    .name = "budget", .request = sizeof(budget_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete,
     .operand = "", .operand_min = 0, .operand_max = 0,
     .summary = "how much of the separation each cause takes",

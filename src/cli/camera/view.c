@@ -27,8 +27,6 @@ int view_vertical(const camera_asked *c, int width, int height, double *fov_y) {
     *fov_y = c->spec.fov_y;
     if (!option_given(c->line, "hfov"))
         return EXIT_FINE;
-    if (option_given(c->line, "fov"))
-        return option_error("hfov", "conflicts with --fov");
     *fov_y = dp_fov_vertical(c->fov_x, width, height);
     if (!(*fov_y >= 0.001 && *fov_y <= 179.9)) /* as dp_triangles has it */
         return option_error("hfov", "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",

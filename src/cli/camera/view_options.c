@@ -138,4 +138,6 @@ static const option_row view_rows[] = {
     END};
 /* clang-format on */
 
-const option_table view_options = {.rows = view_rows};
+static const option_rule rules[] = {CONFLICTS("hfov", "fov", NULL), {.option = NULL}};
+
+const option_table view_options = {.rows = view_rows, .rules = rules};

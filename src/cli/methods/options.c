@@ -19,6 +19,13 @@ static const option_use uses[] = {
     GROUP_OF(camera_planes), GROUP_OF(output_written), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    NEEDS("define", "mine", ", a function of yours"),
+    NEEDS("device", "mine", ", a function of yours"),
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {CAMERA_PLACES(methods_request, camera),
                                       PLACE(methods_request, out, output_options),
                                       PLACE(methods_request, judge, judge_options),
@@ -31,7 +38,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_methods = {
-    .name = "methods", .request = sizeof(methods_request), .places = places, .uses = uses,
+    .name = "methods", .request = sizeof(methods_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete,
     .operand = "FAMILY", .operand_min = 0, .operand_max = 1, .names = &families,
     .summary = "methods compared: time, worst error, where each fails",

@@ -123,11 +123,26 @@ typedef struct option_row {
     const char *group;      /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
 
+/** What relates two options, whatever their values. */
+typedef struct option_rule {
+    const char *option; /**< who is refused; null behind the last rule */
+    enum { RULE_NEEDS, RULE_CONFLICTS } relation;
+    const char *others; /**< one space between: it needs one of these, or conflicts with each */
+    const char *more;   /**< how the sentence goes on behind the other's name: ": a picture has one eye"; or null */
+    unsigned parts;     /**< of the command, in which it holds; 0: in all */
+} option_rule;
+
+#define NEEDS(name, names, why)                                                                                        \
+    { .option = (name), .relation = RULE_NEEDS, .others = (names), .more = (why) }
+#define CONFLICTS(name, names, why)                                                                                    \
+    { .option = (name), .relation = RULE_CONFLICTS, .others = (names), .more = (why) }
+
 /** Rows that fill one struct. */
 typedef struct option_table {
     const option_row *rows;
     void (*begin)(asked_line *line, void *group); /**< gives fields values that no row says; or null */
     void (*early)(asked_line *line, void *group); /**< once the early ones are read; or null */
+    const option_rule *rules;                     /**< between them; or null */
 } option_table;
 
 /** Where the struct of a table lies in a request. */
@@ -238,6 +253,9 @@ unsigned option_parts(const asked_line *line);
 /** Refuses an option of that command which the part of it that is asked for does not take. @return EXIT_FINE, or
  * EXIT_USAGE after one line on stderr */
 int option_check_parts(const asked_line *line, const command_row *v, size_t part);
+
+/** Refuses an option by the rules of its command and of the tables that it has. @return as option_check_parts() */
+int option_check_rules(const asked_line *line);
 
 /** The default of an option for a command, and what holds without it, each null where there is none. */
 void option_default(const option_taken *use, const char **standard, const char **without);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which command takes which rows, and where it puts what they read. */
+#include <stdio.h>
 #include <string.h>
 
 #include "cli/option/option.h"
@@ -112,6 +113,39 @@ int option_check_parts(const asked_line *line, const command_row *v, size_t part
     for (size_t i = 0; i < line->given_count && status == EXIT_FINE; i++)
         if (option_used(v, now.bits, option_find(v, line->given[i].name)).row == NULL)
             status = refuse_part(option_find(line->command, line->given[i].name), v, &now);
+    return status;
+}
+
+/* The first of `names` that is given, or the first, where none is wanted; null. @return out, or null */
+static const char *name_among(const asked_line *line, const char *names, bool given, char out[OPTION_TEXT_SIZE]) {
+    for (size_t length; *names != '\0'; names += length + (names[length] == ' ')) {
+        length = strcspn(names, " ");
+        snprintf(out, OPTION_TEXT_SIZE, "%.*s", (int)length, names);
+        if (!given || option_given(line, out))
+            return out;
+    }
+    return NULL;
+}
+
+static int check_rules(const asked_line *line, const option_rule *rule) {
+    char other[OPTION_TEXT_SIZE];
+    for (; rule != NULL && rule->option != NULL; rule++) {
+        const bool holds = rule->parts == 0 || (rule->parts & line->parts) != 0;
+        const char *found = name_among(line, rule->others, true, other);
+        const char *more = rule->more != NULL ? rule->more : "";
+        if (!holds || !option_given(line, rule->option) || (found != NULL) == (rule->relation == RULE_NEEDS))
+            continue;
+        if (rule->relation == RULE_CONFLICTS)
+            return option_error(rule->option, "conflicts with --%s%s", found, more);
+        return option_error(rule->option, "needs --%s%s", name_among(line, rule->others, false, other), more);
+    }
+    return EXIT_FINE;
+}
+
+int option_check_rules(const asked_line *line) {
+    int status = check_rules(line, line->command->rules);
+    for (const option_place *p = line->command->places; p->table != NULL && status == EXIT_FINE; p++)
+        status = check_rules(line, p->table->rules);
     return status;
 }
 

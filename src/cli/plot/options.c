@@ -64,6 +64,14 @@ static const option_use uses[] = {
     OWN("full", HELP("also say how many values were computed")), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    NEEDS("define", "mine", ", a function of yours"),
+    NEEDS("device", "mine", ", a function of yours"),
+    CONFLICTS("at", "range", NULL),
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {CAMERA_PLACES(plot_request, camera),
                                       PLACE(plot_request, out, output_options),
                                       PLACE(plot_request, figure, figure_options),
@@ -102,7 +110,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_plot = {
-    .name = "plot", .request = sizeof(plot_request), .places = places, .uses = uses,
+    .name = "plot", .request = sizeof(plot_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete, .part_get = part_get, .part_of = "to the figure ",
     .operand = "FIGURE [FILE|FAMILY]", .operand_min = 1, .operand_max = 2, .names = &figures,
     .summary = "a figure: SVG, PDF or PNG by the ending of -o, or --type",

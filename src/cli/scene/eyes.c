@@ -188,15 +188,7 @@ static int take_path(scene *s) {
 /* ---- All ways ---------------------------------------------------------------------------------------------------- */
 
 int scene_eyes_check(const scene_request *o) {
-    const bool eye = option_given(o->line, "eye"), path = option_given(o->line, "path");
-    const bool camera = option_given(o->line, "camera");
-    if (eye != option_given(o->line, "look"))
-        return option_error(eye ? "eye" : "look", "needs --%s", eye ? "look" : "eye");
-    if (path && (eye || camera))
-        return option_error("path", "conflicts with --%s", eye ? "eye" : "camera");
-    if (camera && eye)
-        return option_error("camera", "conflicts with --eye");
-    if ((eye || path || camera) && option_given(o->line, "slant"))
+    if (scene_is_seen(o->line) && option_given(o->line, "slant"))
         return option_error("slant", "does not apply from an eye: the model says how its surfaces slant");
     return EXIT_FINE;
 }

@@ -74,7 +74,16 @@ static const option_row scene_eye_rows[] = {
     END};
 /* clang-format on */
 
-const option_table scene_eye_options = {.rows = scene_eye_rows};
+/* clang-format off */
+static const option_rule eye_rules[] = {
+    CONFLICTS("path", "eye camera", NULL),
+    CONFLICTS("camera", "eye", NULL),
+    NEEDS("eye", "look", NULL),
+    NEEDS("look", "eye", NULL),
+    {.option = NULL}};
+/* clang-format on */
+
+const option_table scene_eye_options = {.rows = scene_eye_rows, .rules = eye_rules};
 
 /* clang-format off */
 const option_use scene_model[] = {
@@ -93,6 +102,12 @@ static const option_use uses[] = {
     GROUP_OF(camera_slanted), GROUP_OF(camera_uses), GROUP_OF(output_written), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    CONFLICTS("render", "path", ": a picture has one eye"),
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {
     CAMERA_PLACES(scene_request, camera),           PLACE(scene_request, out, output_options),
     PLACE(scene_request, scene, scene_eye_options), PLACE(scene_request, scene, scene_options),
@@ -107,7 +122,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_scene = {
-    .name = "scene", .request = sizeof(scene_request), .places = places, .uses = uses,
+    .name = "scene", .request = sizeof(scene_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete,
     .operand = "MODEL", .operand_min = 1, .operand_max = 1,
     .summary = "surfaces of a 3D model that z-fight, and from where on",

@@ -53,8 +53,6 @@ int scene_render_check(scene *s) {
         return EXIT_FINE;
     if (canvas_format_of(s->o.scene.render) != CANVAS_PNG)
         return option_error("render", "must end in .png, got '%s'", s->o.scene.render);
-    if (s->o.scene.path != NULL)
-        return option_error("render", "conflicts with --path: a picture has one eye");
     return take_camera(s, &camera);
 }
 

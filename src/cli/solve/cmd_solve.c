@@ -45,8 +45,6 @@ static int check_slanted(const solve_request *o, const solve_report *r) {
 static int check_target(const solve_request *o, solve_report *r) {
     static const char *const givens[] = {"near", "far", "format", "mapping"};
     const bool limited = option_given(o->line, "separation") || option_given(o->line, "error");
-    if (option_given(o->line, "separation") && option_given(o->line, "error"))
-        return option_error("error", "conflicts with --separation");
     r->kind = option_given(o->line, "error") ? MEASURE_ERROR : MEASURE_SEPARATION;
     r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->error : o->separation;
     r->target = o->target;
@@ -78,8 +76,6 @@ static int check_target(const solve_request *o, solve_report *r) {
 
 static int check_depths(const solve_request *o, solve_report *r) {
     const bool range = option_given(o->line, "range");
-    if (range && o->camera.at.count > 0)
-        return option_error("range", "conflicts with --at");
     if (!range && r->target == SOLVE_FOR_DISTANCE) {
         r->lo = o->camera.znear;
         r->hi = is_known(o, "far") ? o->camera.zfar : (double)HUGE_VAL;

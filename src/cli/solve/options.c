@@ -54,6 +54,13 @@ static const option_use uses[] = {
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    CONFLICTS("error", "separation", NULL),
+    CONFLICTS("range", "at", NULL),
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {CAMERA_PLACES(solve_request, camera),
                                       PLACE(solve_request, out, output_options),
                                       OWN_PLACE(solve_options),
@@ -74,7 +81,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_solve = {
-    .name = "solve", .request = sizeof(solve_request), .places = places, .uses = uses,
+    .name = "solve", .request = sizeof(solve_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete,
     .operand = "", .operand_min = 0, .operand_max = 0,
     .summary = "near, far, format, mapping or distance for a separation",

@@ -70,6 +70,16 @@ static const option_use uses[] = {
     GROUP_OF(output_written), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    CONFLICTS("code", "depth", NULL),
+    CONFLICTS("lattice", "constants", NULL),
+    {.option = "fov", .relation = RULE_CONFLICTS, .others = "ortho", .parts = TABLE_OF_CONSTANTS},
+    {.option = "hfov", .relation = RULE_CONFLICTS, .others = "ortho", .parts = TABLE_OF_CONSTANTS},
+    {.option = "viewport", .relation = RULE_CONFLICTS, .others = "ortho", .parts = TABLE_OF_CONSTANTS},
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {CAMERA_PLACES(table_request, camera),
                                       PLACE(table_request, out, output_options),
                                       OWN_PLACE(table_options),
@@ -94,7 +104,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_table = {
-    .name = "table", .request = sizeof(table_request), .places = places, .uses = uses,
+    .name = "table", .request = sizeof(table_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete,
     .operand = "", .operand_min = 0, .operand_max = 0,
     .summary = "codes, errors, and how far surfaces are resolved",

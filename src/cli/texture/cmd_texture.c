@@ -20,8 +20,6 @@ static int check_alone(const texture_request *o) {
         return option_error("range", "needs --product effect");
     if (o->image.picture != NULL && !texture_product_wanted(o))
         return option_error("picture", "needs --product effect");
-    if (option_given(o->line, "tint") && o->image.picture == NULL)
-        return option_error("tint", "needs --picture");
     if (o->image.sky < 0 && !texture_product_wanted(o) && !option_given(o->line, "pixel"))
         return option_error("sky", "none is for --product and --pixel");
     if (option_given(o->line, "normal-format") && o->image.normal == NULL)
@@ -32,8 +30,6 @@ static int check_alone(const texture_request *o) {
         if (option_given(o->line, drawn[i]) && o->image.figure == NULL &&
             (o->image.histogram == NULL || option_is(drawn[i], "overlay")))
             return option_error(drawn[i], "needs --figure%s", option_is(drawn[i], "overlay") ? "" : " or --histogram");
-    if (option_given(o->line, "histogram") && option_given(o->line, "pixel"))
-        return option_error("histogram", "conflicts with --pixel");
     if (option_given(o->line, "histogram") && o->out.file != NULL && o->out.form == FORM_TEXT)
         return option_error("histogram", "conflicts with --output");
     if (option_given(o->line, "histogram") && o->out.form != FORM_TEXT && strcmp(o->image.histogram, "-") == 0)

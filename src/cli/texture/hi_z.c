@@ -10,11 +10,6 @@
 #include "report/number.h"
 
 int texture_hi_z_check(const texture_request *o) {
-    static const char *const others[] = {"product", "figure", "histogram", "pixel", "metric",
-                                         "stereo",  "radial", "csv",       "as",    "error-map"};
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o->line, others[i]))
-            return option_error(others[i], "conflicts with --hi-z, which keeps window depth");
     return o->out.file != NULL ? EXIT_FINE : option_error("hi-z", "needs -o FILE");
 }
 

@@ -174,16 +174,6 @@ void texture_matrix_say_planes(const texture_matrix *t, page *p) {
 
 /* ---- What it says ------------------------------------------------------------------------------------------------ */
 
-/* It says what these would, or is of window depth. */
-static int check_others(const texture_request *o) {
-    static const char *const others[] = {"near",       "far",   "ortho",  "fov",   "hfov",
-                                         "intrinsics", "log-c", "preset", "metric"};
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o->line, others[i]))
-            return option_error("matrix", "conflicts with --%s", others[i]);
-    return EXIT_FINE;
-}
-
 static int check_mapping(const texture_request *o, dp_mapping given) {
     const dp_mapping_row *row = dp_mapping_get(given);
     if (option_given(o->line, "mapping") && (o->camera.mapping_count > 1 || row->curve != DP_CURVE_PERSPECTIVE))
@@ -218,9 +208,7 @@ int texture_matrix_open(const texture_request *o, texture_source *s, texture_req
     const dp_mapping_row *row = dp_mapping_get(asked);
     entries e = {.m = {0}};
     dp_matrix_fault why;
-    int status = check_others(o);
-    if (status == EXIT_FINE)
-        status = check_mapping(o, asked);
+    int status = check_mapping(o, asked);
     if (status == EXIT_FINE)
         status = read_entries(o->image.matrix, &e);
     if (status != EXIT_FINE)

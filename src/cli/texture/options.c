@@ -302,6 +302,35 @@ static const option_use uses[] = {
     GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    CONFLICTS("product", "hi-z", ", which keeps window depth"),
+    CONFLICTS("figure", "hi-z", ", which keeps window depth"),
+    CONFLICTS("histogram", "hi-z", ", which keeps window depth"),
+    CONFLICTS("pixel", "hi-z", ", which keeps window depth"),
+    CONFLICTS("metric", "hi-z", ", which keeps window depth"),
+    CONFLICTS("stereo", "hi-z", ", which keeps window depth"),
+    CONFLICTS("radial", "hi-z", ", which keeps window depth"),
+    CONFLICTS("csv", "hi-z", ", which keeps window depth"),
+    CONFLICTS("as", "hi-z", ", which keeps window depth"),
+    CONFLICTS("error-map", "hi-z", ", which keeps window depth"),
+    CONFLICTS("metric", "stereo", ", which makes depths of disparities"),
+    CONFLICTS("packing", "stereo", NULL),
+    CONFLICTS("lattice", "stereo", ", whose step it is"),
+    CONFLICTS("radial", "stereo", ", which gives depths along the view axis"),
+    CONFLICTS("ortho", "stereo", ", whose camera is a perspective one"),
+    CONFLICTS("matrix", "stereo", ", whose focal length says the angle; --intrinsics says the rest"),
+    CONFLICTS("fov", "stereo", ", whose focal length says it"),
+    CONFLICTS("hfov", "stereo", ", whose focal length says it"),
+    NEEDS("radial", "metric", NULL),
+    NEEDS("lattice", "metric", NULL),
+    CONFLICTS("metric", "packing", NULL),
+    NEEDS("tint", "picture", NULL),
+    CONFLICTS("histogram", "pixel", NULL),
+    CONFLICTS("matrix", "near far ortho fov hfov intrinsics log-c preset metric", NULL),
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {CAMERA_PLACES(texture_request, camera),
                                       PLACE(texture_request, out, output_options),
                                       PLACE(texture_request, figure, figure_options),
@@ -336,7 +365,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_texture = {
-    .name = "texture", .request = sizeof(texture_request), .places = places, .uses = uses,
+    .name = "texture", .request = sizeof(texture_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete,
     .operand = "[FILE]", .operand_min = 0, .operand_max = 1,
     .summary = "a depth image: depths, positions, normals, effects, errors",

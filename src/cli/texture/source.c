@@ -82,26 +82,11 @@ static int check_window(const texture_request *o) {
     return EXIT_FINE;
 }
 
-/* The focal length is the camera's, too: what says another one, or none, is refused, and so are planes without a use.
- */
+/* The focal length is the camera's, too: another one is refused, and so are planes without a use. */
 static int check_stereo(const texture_request *o) {
-    static const struct {
-        const char *id;
-        const char *why;
-    } others[] = {{"metric", "conflicts with --stereo, which makes depths of disparities"},
-                  {"packing", "conflicts with --stereo"},
-                  {"lattice", "conflicts with --stereo, whose step it is"},
-                  {"radial", "conflicts with --stereo, which gives depths along the view axis"},
-                  {"ortho", "conflicts with --stereo, whose camera is a perspective one"},
-                  {"matrix", "conflicts with --stereo, whose focal length says the angle; --intrinsics says the rest"},
-                  {"fov", "conflicts with --stereo, whose focal length says it"},
-                  {"hfov", "conflicts with --stereo, whose focal length says it"}};
     static const char *const planes[] = {"near", "far", "preset", "platform"};
     if (o->image.stereo.focal == 0)
         return EXIT_FINE;
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o->line, others[i].id))
-            return option_error(others[i].id, "%s", others[i].why);
     for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
         if (option_given(o->line, planes[i]) && o->image.product == NULL && !option_given(o->line, "pixel"))
             return option_error(planes[i], "is for --product and --pixel beside --stereo, whose depths have no planes");
@@ -126,16 +111,10 @@ static int check_together(const texture_request *o) {
         return option_error(disparity ? "stereo" : "metric", "needs FILE");
     if (check_stereo(o) != EXIT_FINE)
         return EXIT_USAGE;
-    if (o->image.radial && o->image.metric == 0)
-        return option_error("radial", "needs --metric");
-    if (o->image.lattice != NULL && o->image.metric == 0)
-        return option_error("lattice", "needs --metric");
     if (o->image.channel != NULL && !file)
         return option_error("channel", "needs FILE");
     if (o->image.packing != NULL && !file)
         return option_error("packing", "needs FILE");
-    if (o->image.packing != NULL && o->image.metric > 0)
-        return option_error("metric", "conflicts with --packing");
     const int status = check_window(o);
     return status == EXIT_FINE ? texture_camera_check(o) : status;
 }

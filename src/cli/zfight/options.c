@@ -41,6 +41,13 @@ static const option_use uses[] = {
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    NEEDS("seed", "sample rasterize", NULL),
+    CONFLICTS("separation", "rasterize", ", which looks for the separation"),
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {CAMERA_PLACES(zfight_request, camera),
                                       PLACE(zfight_request, out, output_options),
                                       OWN_PLACE(zfight_options),
@@ -53,7 +60,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_zfight = {
-    .name = "zfight", .request = sizeof(zfight_request), .places = places, .uses = uses,
+    .name = "zfight", .request = sizeof(zfight_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete,
     .operand = "", .operand_min = 0, .operand_max = 0,
     .summary = "where surfaces start to z-fight, by a census of every depth",
