@@ -124,7 +124,7 @@ int main(void) {
     printf("\n%-12s %8s %9s %9s %9s %7s %9s\n", "triangles", "pixels", "L, M px/s", dp_path_name(dp_path_best()),
            "baseline", "of L", "M tri/s");
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++)
-        for (size_t i = 0; i < raster_count(); i++)
+        for (size_t i = 0; i < raster_table.count; i++)
             if (raster_get(i)->model != NULL)
                 row(i, sizes[s], format);
     return 0;

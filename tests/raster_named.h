@@ -13,7 +13,7 @@ static inline raster_target target_of(const char *name, const char *format, int 
     raster_target target;
     dp_format formats[2];
     size_t row = 0;
-    while (row < raster_count() && strcmp(raster_get(row)->name, name) != 0)
+    while (row < raster_table.count && strcmp(raster_get(row)->name, name) != 0)
         row++;
     assert_int_equal(dp_format_parse(format, formats), 1);
     assert_int_equal(raster_target_init(&target, row, width, height, formats, path), RASTER_OK);

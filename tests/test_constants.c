@@ -185,7 +185,7 @@ TEST(traps_are_listed) {
         double reads = NAN;
         at = strstr(at, row->name);
         assert_non_null(at);
-        assert_non_null(strstr(at, row->formula));
+        assert_non_null(strstr(at, row->note));
         at = strstr(at, "  reads       ");
         assert_true(at != NULL && sscanf(at, " reads %lf", &reads) == 1);
         assert_relative(reads, (double)trapped(row->name, 0.3L, 1000, sqrtl(3) / 3, 10, row->ortho, false), 1e-5);

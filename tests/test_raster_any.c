@@ -116,7 +116,7 @@ TEST(other_targets) {
     rng r = rng_make("other targets");
     double used[4] = {0};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
-        for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++) {
+        for (size_t row = 0; row < raster_table.count && raster_get(row)->model != NULL; row++) {
             const int width = sizes[i][0], height = sizes[i][1];
             const raster_target target = target_of(raster_get(row)->name, "fp32", width, height, dp_path_best());
             for (uint64_t n = test_cases(100, 600, 6000); n > 0; n--) {
@@ -167,7 +167,7 @@ static float random_slope(rng *r) {
 TEST(every_path) {
     tally depths = {.name = "depths of each path"};
     rng r = rng_make("paths");
-    for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++)
+    for (size_t row = 0; row < raster_table.count && raster_get(row)->model != NULL; row++)
         for (int path = 0; path < DP_PATH_COUNT; path++) {
             if (!dp_path_available((dp_path)path))
                 continue;

@@ -28,7 +28,7 @@ TEST(what_cannot_be_drawn) {
         {"between centres", {{0, 0, 0.5F, 1}, {1e-4F, 0, 0.5F, 1}, {0, 1e-4F, 0.5F, 1}}, RASTER_EMPTY},
     };
     raster_triangle drawn;
-    for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++) {
+    for (size_t row = 0; row < raster_table.count && raster_get(row)->model != NULL; row++) {
         const char *name = raster_get(row)->name;
         for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
             const raster_status status = status_of(name, cases[i].v, &drawn);
@@ -54,7 +54,7 @@ TEST(what_cannot_be_a_target) {
     static const char *const names[] = {"fp32", "unorm24", "fp16", "unorm8"};
     for (int i = 0; i < 4; i++)
         assert_int_equal(dp_format_parse(names[i], format[i]), 1);
-    for (size_t row = 0; row <= raster_count(); row++) {
+    for (size_t row = 0; row <= raster_table.count; row++) {
         const raster_row *r = raster_get(row);
         if (r == NULL || r->model == NULL) {
             assert_int_equal(raster_target_init(&target, row, 64, 64, format[0], DP_PATH_BASELINE), RASTER_MODEL);
@@ -84,7 +84,7 @@ TEST(any_bits) {
     tally spans = {.name = "spans of any bits"};
     rng r = rng_make("any bits");
     unsigned long of[RASTER_STATUS_COUNT] = {0};
-    for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++) {
+    for (size_t row = 0; row < raster_table.count && raster_get(row)->model != NULL; row++) {
         const raster_target target = target_of(raster_get(row)->name, "unorm16", 300, 200, dp_path_best());
         const bool softpipe = strcmp(target.row->name, "softpipe") == 0;
         for (uint64_t n = test_cases(3000, 10000, 100000); n > 0; n--) {
@@ -203,7 +203,7 @@ static void judge_all(const raster_target *target, const raster_vertex v[3], jud
  */
 TEST(behind_the_eye) {
     rng r = rng_make("behind the eye");
-    for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++) {
+    for (size_t row = 0; row < raster_table.count && raster_get(row)->model != NULL; row++) {
         const raster_target target = target_of(raster_get(row)->name, "fp32", 128, 96, dp_path_best());
         judged j = {0};
         for (uint64_t n = test_cases(12, 60, 6000); n > 0; n--) {
@@ -227,7 +227,7 @@ TEST(behind_the_eye) {
  * says so. */
 TEST(far_off) {
     static const double offs[] = {1e3, 1e5, 1e7, 6.6e7, 6.8e7, 1e8};
-    for (size_t row = 0; row < raster_count() && raster_get(row)->model != NULL; row++)
+    for (size_t row = 0; row < raster_table.count && raster_get(row)->model != NULL; row++)
         for (size_t n = 0; n < sizeof offs / sizeof offs[0]; n++) {
             const raster_target target = target_of(raster_get(row)->name, "fp32", SIZE, SIZE, dp_path_best());
             const float far_x = (float)(offs[n] / (SIZE / 2));

@@ -44,7 +44,7 @@ TEST(test_listed) {
         double percent;
         at = strstr(at, upscaler_get(k)->name);
         assert_non_null(at);
-        assert_non_null(strstr(at, upscaler_get(k)->formula));
+        assert_non_null(strstr(at, upscaler_get(k)->note));
         at = strstr(at, "share ");
         assert_non_null(at);
         assert_int_equal(sscanf(at, "share %lf %% of z", &percent), 1);

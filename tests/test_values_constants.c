@@ -182,7 +182,7 @@ static size_t want_traps(values *v, const camera *c, const char *under) {
         if (isnan(trap_reads(t, &setup, half, c->z[0])))
             continue;
         values_under(v, "%straps[%zu].", under, count);
-        want(v, "name=%s formula=%s right=%s source=%s", t->name, t->formula, t->right, t->source);
+        want(v, "name=%s formula=%s right=%s source=%s", t->name, t->note, t->right, t->source);
         for (int k = 0; k < DEPTHS; k++) {
             const double reads = trap_reads(t, &setup, half, c->z[k]);
             values_under(v, "%straps[%zu].rows[%d].", under, count, k);
@@ -376,7 +376,7 @@ TEST(words_lead_there) {
     printed p = print_of("list constants --full");
     for (size_t i = 0; constant_get(i) != NULL; i++) {
         assert_non_null(strstr(p.out, constant_get(i)->name));
-        assert_non_null(strstr(p.out, constant_get(i)->formula));
+        assert_non_null(strstr(p.out, constant_get(i)->note));
     }
     printed_free(&p);
 }

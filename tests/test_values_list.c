@@ -78,7 +78,7 @@ static bool cause(size_t i, listed *l) {
 static bool figure(size_t i, listed *l) {
     const figure_row *r = figure_get(i);
     if (r != NULL)
-        *l = (listed){r->name, "", r->summary, NULL, {0}, 0};
+        *l = (listed){r->name, "", r->note, NULL, {0}, 0};
     return r != NULL;
 }
 
@@ -271,7 +271,7 @@ static void check_item(const json_t *o, const listed *l, const char *bound) {
 /* A rasterizer that is measured says where its plane is anchored and what clipping does; a specification does not. */
 static void check_rasterizers(const json_t *items) {
     static const char *const clippings[] = {"", "each piece with its own plane", "the plane of the unclipped vertices"};
-    for (size_t i = 0; i < raster_count(); i++) {
+    for (size_t i = 0; i < raster_table.count; i++) {
         const raster_row *r = raster_get(i);
         const char *text = text_at(items, "[%zu].arithmetic", i);
         assert_int_equal(strncmp(text, "at least ", 9) == 0, r->at_least);

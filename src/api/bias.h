@@ -25,6 +25,7 @@
 
 #include <stdbool.h>
 
+#include "core/named.h"
 #include "depthprec/depthprec.h"
 
 typedef enum bias_rule {
@@ -45,8 +46,7 @@ typedef enum bias_exponent {
 } bias_exponent;
 
 typedef struct bias_api {
-    const char *name;
-    const char *aliases;    /**< other accepted spellings, separated by one space */
+    NAMED_FIELDS;
     bias_rule unorm;        /**< r of an integer buffer */
     bias_rule real;         /**< r of a float buffer */
     bias_exponent exponent; /**< of EXPONENT */
@@ -56,8 +56,6 @@ typedef struct bias_api {
     bool guaranteed;        /**< r is by definition a difference that polygons with the same vertices keep apart */
     const char *call;       /**< how a program sets it: U stands for the units, F for the factor */
     const char *sloped;     /**< what follows where there is a factor, likewise; "" where `call` has it */
-    const char *note;
-    const char *source;
     double scale_least, scale_most; /**< what the units are multiplied by on the way, at least and at most; 0, 0: 1 */
 } bias_api;
 
@@ -67,8 +65,7 @@ bool bias_is_open(const bias_api *api, const dp_format *format);
 /** The same row where the convention is n + 1. */
 bias_api bias_next(const bias_api *api);
 
-/** The rows in order; null for an index that is not below their number. */
-const bias_api *bias_api_get(size_t index);
+NAMED_ROWS(bias_api, bias_api);
 
 /** The worth of one unit, in window depth. */
 typedef struct bias_unit {

@@ -12,6 +12,7 @@
 #include <stddef.h>
 
 #include "api/bias.h"
+#include "core/named.h"
 
 /** What a browser's vertex shader does to clip z before it leaves. */
 typedef enum platform_remap {
@@ -23,17 +24,15 @@ typedef enum platform_remap {
 } platform_remap;
 
 typedef struct platform {
-    const char *name;
-    const char *asks;     /**< what the page asks for */
-    const char *stored;   /**< for dp_format_parse(): depth24plus where the device decides between two formats */
-    const char *stencil;  /**< likewise, where a stencil of 8 bits is asked for too */
-    platform_remap remap; /**< unless the page asks for zero to one, where it can */
-    const char *api;      /**< a name of `list apis`: what the program writes its bias for, */
-    const char *below;    /**< and whose r is added in the end */
-    const char *raster;   /**< a name of `list rasterizers`: what the API below promises at least; Metal: as Vulkan */
-    const char *note;     /**< one line */
-    const char *source;
-    bias_exponent exponent;         /**< of a float buffer's bias */
+    NAMED_FIELDS;
+    const char *asks;       /**< what the page asks for */
+    const char *stored;     /**< for dp_format_parse(): depth24plus where the device decides between two formats */
+    const char *stencil;    /**< likewise, where a stencil of 8 bits is asked for too */
+    platform_remap remap;   /**< unless the page asks for zero to one, where it can */
+    const char *api;        /**< a name of `list apis`: what the program writes its bias for, */
+    const char *below;      /**< and whose r is added in the end */
+    const char *raster;     /**< a name of `list rasterizers`: what the API below promises at least; Metal: as Vulkan */
+    bias_exponent exponent; /**< of a float buffer's bias */
     double scale_least, scale_most; /**< what the browser multiplies a bias by; 0, 0: nothing */
     bool cuts;                      /**< fractions of a constant bias are cut: 0.5 becomes 0 */
     bool drops_clamp;
@@ -41,8 +40,7 @@ typedef struct platform {
     const char *newest; /**< year and month of the newest source, ISO 8601, and whether it was old when it was read */
 } platform;
 
-/** The rows in order; null for an index that is not below their number. */
-const platform *platform_get(size_t index);
+NAMED_ROWS(platform, platform);
 
 /** A bias of that API as it arrives there: its own API's row as the platform has it; any other, and null, unchanged. */
 bias_api platform_bias(const platform *p, const bias_api *api);

@@ -8,13 +8,14 @@
 #ifndef API_PRESETS_H
 #define API_PRESETS_H
 
+#include "core/named.h"
 #include "depthprec/depthprec.h"
 
 /** Which angle an engine's field of view is. */
 typedef enum preset_axis { PRESET_VERTICAL = 0, PRESET_HORIZONTAL, PRESET_LARGER } preset_axis;
 
 typedef struct preset {
-    const char *name;
+    NAMED_FIELDS;
     double znear; /**< in `unit` */
     double zfar;  /**< in `unit`, or INFINITY */
     dp_mapping mapping;
@@ -24,14 +25,11 @@ typedef struct preset {
     preset_axis axis;        /**< of `fov` */
     const char *raster;      /**< a name of `list rasterizers`: what the APIs it runs on promise at least */
     const char *api;         /**< a name of `list apis`: what its users, or the engine itself, write a bias for */
-    const char *note;        /**< one line */
     const char *unconfirmed; /**< the values without a source of first hand, "near, fov"; "" when there are none */
-    const char *source;
-    const char *checked; /**< the day on which source and values were compared, ISO 8601 */
+    const char *checked;     /**< the day on which source and values were compared, ISO 8601 */
 } preset;
 
-/** The rows in order; null for an index that is not below their number. */
-const preset *preset_get(size_t index);
+NAMED_ROWS(preset, preset);
 
 /** The vertical field of view in a viewport, degrees. */
 double preset_fov_y(const preset *p, int width, int height);

@@ -4,16 +4,17 @@
 #include <math.h>
 #include <string.h>
 
-static const unit_row rows[] = {{"nm", "", 1.0},    {"um", "\302\265m", 1e3}, {"mm", "", 1e6}, {"cm", "", 1e7},
-                                {"in", "", 25.4e6}, {"ft", "", 304.8e6},      {"m", "", 1e9},  {"km", "", 1e12}};
+static const unit_row rows[] = {
+    {"nm", NULL, NULL, NULL, 1.0}, {"um", "\302\265m", NULL, NULL, 1e3}, {"mm", NULL, NULL, NULL, 1e6},
+    {"cm", NULL, NULL, NULL, 1e7}, {"in", NULL, NULL, NULL, 25.4e6},     {"ft", NULL, NULL, NULL, 304.8e6},
+    {"m", NULL, NULL, NULL, 1e9},  {"km", NULL, NULL, NULL, 1e12},
+};
 
-const unit_row *unit_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
+NAMED_TABLE(unit, rows);
 
 const unit_row *unit_find(const char *name) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcmp(rows[i].name, name) == 0 || (*name != '\0' && strcmp(rows[i].alias, name) == 0))
+        if (strcmp(rows[i].name, name) == 0 || (rows[i].aliases != NULL && strcmp(rows[i].aliases, name) == 0))
             return &rows[i];
     return NULL;
 }

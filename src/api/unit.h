@@ -5,17 +5,21 @@
 
 #include <stddef.h>
 
+#include "core/named.h"
+
 typedef struct unit_row {
-    const char *name;
-    const char *alias; /**< another spelling; "" when there is none */
+    NAMED_FIELDS;
     double nanometres; /**< in one; a whole number */
 } unit_row;
 
 /** The names, for messages. */
 #define UNIT_NAMES "nm, um, mm, cm, m, km, in or ft"
 
-/** The rows, the shortest first; null for an index that is not below their number. */
-const unit_row *unit_get(size_t index);
+/** The rows, the shortest first; null beyond the last. */
+extern const named_table unit_table;
+static inline const unit_row *unit_get(size_t index) {
+    return named_at(&unit_table, index);
+}
 
 /** The row of that name, letter by letter: m is never milli, nor is M a metre. @return null when there is none */
 const unit_row *unit_find(const char *name);

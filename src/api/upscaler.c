@@ -27,14 +27,12 @@ static double by_diagonal(const upscaler_view *v) {
 
 /* clang-format off */
 static const upscaler_row rows[UPSCALER_ROWS] = {
-    {"tangent", "1.37e-5 z tan(hfov/2) W/2", by_tangent,
+    {"tangent", NULL, "1.37e-5 z tan(hfov/2) W/2",
      "FidelityFX Super Resolution 2, first releases, depth clip, marked as for reversed infinite depth alone; "
-     "attributed there to Akeley and Su 2006"},
-    {"diagonal", "1.37e-5 z |corner|/|centre| length(W, H)", by_diagonal,
-     "FidelityFX Super Resolution 2, later releases, and 3, depth clip"},
+     "attributed there to Akeley and Su 2006", by_tangent},
+    {"diagonal", NULL, "1.37e-5 z |corner|/|centre| length(W, H)",
+     "FidelityFX Super Resolution 2, later releases, and 3, depth clip", by_diagonal},
 };
 /* clang-format on */
 
-const upscaler_row *upscaler_get(size_t index) {
-    return index < UPSCALER_ROWS ? &rows[index] : NULL;
-}
+NAMED_TABLE(upscaler, rows);

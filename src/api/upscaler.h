@@ -11,6 +11,8 @@
 
 #include <stddef.h>
 
+#include "core/named.h"
+
 /** Pixels and vertical angle of a view with square pixels. */
 typedef struct upscaler_view {
     int width, height; /**< pixels */
@@ -18,15 +20,12 @@ typedef struct upscaler_view {
 } upscaler_view;
 
 typedef struct upscaler_row {
-    const char *name;
-    const char *formula;                        /**< of the separation, scene units */
+    NAMED_FIELDS;                               /**< the note is the formula of the separation, scene units */
     double (*share)(const upscaler_view *view); /**< the separation over the eye depth */
-    const char *source;
 } upscaler_row;
 
 enum { UPSCALER_ROWS = 2 };
 
-/** The rows; null for an index that is not below UPSCALER_ROWS. */
-const upscaler_row *upscaler_get(size_t index);
+NAMED_ROWS(upscaler_row, upscaler);
 
 #endif

@@ -227,13 +227,6 @@ static void say_setup(page *p, void *item) {
 
 static const char *const chosen_by_drivers[] = {"vulkan", "gl"};
 
-static const bias_api *api_named(const char *name) {
-    size_t i = 0;
-    while (strcmp(bias_api_get(i)->name, name) != 0)
-        i++;
-    return bias_api_get(i);
-}
-
 static bool is_asked(const bias_request *o, const char *name) {
     size_t i = 0;
     while (bias_asked_api(&o->bias, i) != NULL && strcmp(bias_asked_api(&o->bias, i)->name, name) != 0)
@@ -249,7 +242,7 @@ static const char *say_measured(page *p, const bias_request *o, const dp_format 
         const char *const name = chosen_by_drivers[i];
         if (!is_asked(o, name))
             continue;
-        if (format != NULL && bias_of_gpu(o, api_named(name), format, text)[0] != '\0')
+        if (format != NULL && bias_of_gpu(o, bias_api_find(name), format, text)[0] != '\0')
             page_line(p, "%s: %s", name, text);
         else
             append(out, BIAS_CALL_SIZE, "%s%s", *out != '\0' ? " and " : "", name);

@@ -3,12 +3,13 @@
  * list: the rows of the tables that the program works from, with what is claimed of each and where it comes from: those
  * of a topic, or whatever in any of them is called by a word.
  */
+#include "cli/list.h"
 #include "cli/list/request.h"
 #include "cli/methods.h"
 #include "report/report.h"
 
 static const name_list topics = {.get = list_topic};
-static const topic all_topics = {"topics", "", list_topic, .bound = "bound"};
+static const topic all_topics = {"topics", "", {.get = list_topic}, .bound = "bound"};
 
 /* What is listed, and the thing at hand. */
 typedef struct listing {
@@ -24,10 +25,10 @@ static void *next_item(void *of, size_t i) {
     listing *l = of;
     list_item *item = &l->item;
     size_t index = 0;
-    for (size_t left = i; l->topic->get(index, item); index++)
-        if ((l->word == NULL || names_is(item, l->word)) && left-- == 0)
+    for (size_t left = i; names_get(&l->topic->of, index, item); index++)
+        if ((l->word == NULL || named_is(item->name, item->aliases, l->word)) && left-- == 0)
             break;
-    if (!l->topic->get(index, item))
+    if (!names_get(&l->topic->of, index, item))
         return NULL;
     if (item->source != NULL && *item->source == '\0')
         item->source = NULL;
@@ -89,7 +90,7 @@ static void write_list(listing *l, output *out) {
         {.kind = COLUMN_END}};
     report_write(&(report_spec){"list", columns, l, .when = option_given(l->o->line, "tolerance") ? WITH_CHOICES : 0,
                                 .label = 12, .head = topics_alone ? say_topics : NULL,
-                                .notes = l->topic->get == list_format && l->word == NULL ? say_other_formats : NULL},
+                                .notes = l->topic->of.get == list_format && l->word == NULL ? say_other_formats : NULL},
                  out, l->o->out.form);
 }
 
@@ -99,8 +100,7 @@ static bool write_word(listing *l, output *out) {
     list_item here, item;
     for (size_t i = 0; list_topic(i, &here); i++) {
         l->topic = here.row;
-        const name_list named = {.get = l->topic->get};
-        if (!names_find(&named, l->word, NULL, &item))
+        if (!names_find(&l->topic->of, l->word, NULL, &item))
             continue;
         if (out != NULL && found)
             output_char(out, '\n');
@@ -125,7 +125,7 @@ int cmd_list(void *request) {
     if (l.word != NULL && (o->out.form != FORM_TEXT || !write_word(&l, NULL)))
         status = check_operand(o->line->command, "WHAT", &topics, l.word, &asked);
     l.topic = asked.row;
-    if (status == EXIT_FINE && option_given(o->line, "tolerance") && l.topic->get != list_method)
+    if (status == EXIT_FINE && option_given(o->line, "tolerance") && l.topic->of.get != list_method)
         return option_error("tolerance", "applies to list methods only");
     output out;
     if (status == EXIT_FINE)

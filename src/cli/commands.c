@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/help/request.h"
+#include "cli/list.h"
 #include "cli/option/option.h"
 
 #define COMMAND_LISTED(name) &command_##name,

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/help/request.h"
+#include "cli/list.h"
 #include "report/output.h"
 
 static bool takes(const command_row *v, const char *name) {

@@ -250,7 +250,7 @@ static void say_stored(page *p, void *item) {
 
 static void say_trap(page *p, void *item) {
     const trap_row *t = &((const constants *)item)->trap;
-    page_title(p, "%s: %s", t->name, t->formula);
+    page_title(p, "%s: %s", t->name, t->note);
     page_line(p, "%s; right: %s", t->source, t->right);
 }
 
@@ -304,7 +304,7 @@ static const column reading_columns[] = {
     {.kind = COLUMN_END}};
 
 static const column trap_columns[] = {
-    {FIELD(constants, trap.name, "name", "")},     {FIELD(constants, trap.formula, "formula", "")},
+    {FIELD(constants, trap.name, "name", "")},     {FIELD(constants, trap.note, "formula", "")},
     {FIELD(constants, trap.right, "right", "")},   {FIELD(constants, trap.source, "source", "")},
     {LIST("rows", reading_columns, next_reading)}, {.kind = COLUMN_END}};
 

@@ -9,6 +9,7 @@
 #include "api/presets.h"
 #include "api/unit.h"
 #include "api/upscaler.h"
+#include "cli/product.h"
 #include "code/language.h"
 #include "core/append.h"
 #include "frame/device.h"
@@ -95,20 +96,16 @@ static bool list_cause(size_t index, list_item *item) {
            list_fill(item, (list_item){.name = dp_cause_name((dp_cause)index), .note = notes[index]});
 }
 
-bool list_preset(size_t index, list_item *item) {
+static void tell_preset(const void *of, list_item *item) {
     static const char *const axes[] = {
         [PRESET_VERTICAL] = "vertical", [PRESET_HORIZONTAL] = "horizontal", [PRESET_LARGER] = "of the larger side"};
-    const preset *row = preset_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    const preset *row = of;
     const bool confirmed = row->unconfirmed[0] == '\0';
     snprintf(item->bound, sizeof item->bound,
              "near %s, far %s, %s, %s, fov %s %s, %s, bias of %s, scene in %s; checked %s, %s%s",
              number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
              number_full(row->fov).text, axes[row->axis], row->raster, row->api, row->unit, row->checked,
              confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
-    return true;
 }
 
 /* A format that the device decides on, as it is shown: "unorm24 or fp32". */
@@ -120,28 +117,19 @@ static void append_stored(list_item *item, const char *asked, const char *name) 
         append(item->bound, sizeof item->bound, "%s%s", i > 0 ? " or " : "", formats[i].name);
 }
 
-bool list_platform(size_t index, list_item *item) {
+static void tell_platform(const void *of, list_item *item) {
     static const char *const remaps[] = {[PLATFORM_REMAPS_NOT] = "",
                                          [PLATFORM_REMAPS] = "; [-1, 1] remapped in the vertex shader",
                                          [PLATFORM_MAY_REMAP] = "; [-1, 1] may be remapped in the vertex shader",
                                          [PLATFORM_SPREADS] = "; [0, 1] spread to [-1, 1] in the vertex shader"};
-    const platform *row = platform_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    const platform *row = of;
     append_stored(item, row->asks, row->stored);
     append_stored(item, "; with stencil", row->stencil);
     append(item->bound, sizeof item->bound, "%s; %s%s%s; sources up to %s", remaps[row->remap], row->raster,
            row->bias[0] != '\0' ? "; " : "", row->bias, row->newest);
-    return true;
 }
 
-bool list_unit(size_t index, list_item *item) {
-    const unit_row *row = unit_get(index);
-    return row != NULL && list_fill(item, (list_item){.name = row->name, .row = row});
-}
-
-bool list_api(size_t index, list_item *item) {
+static void tell_api(const void *of, list_item *item) {
     static const char *const rules[] = {
         [BIAS_ONE] = "1",
         [BIAS_CODE] = "1/(2^N - 1) as binary32",
@@ -151,71 +139,43 @@ bool list_api(size_t index, list_item *item) {
         [BIAS_EXPONENT] = "2^(e - 23), e of the greatest depth",
         [BIAS_MANTISSA] = "2^-24",
     };
-    const bias_api *row = bias_api_get(index);
-    if (row == NULL)
-        return false;
-    *item =
-        (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
+    const bias_api *row = of;
     snprintf(item->bound, sizeof item->bound, "unorm: r = %s; fp32: r = %s", rules[row->unorm], rules[row->real]);
     if (row->real == BIAS_EXPONENT)
         append(item->bound, sizeof item->bound, "; in [2^n, 2^(n+1)) e is %s",
                row->exponent == BIAS_EXPONENT_N ? "n" : "n or n+1, which is open");
-    return true;
 }
 
-bool list_rasterizer(size_t index, list_item *item) {
+static void tell_rasterizer(const void *of, list_item *item) {
     static const char *const clippings[] = {
         [RASTER_CLIP_PIECES] = "new vertices, each piece with its own plane",
         [RASTER_CLIP_KEEPS] = "the plane of the unclipped vertices",
     };
-    const raster_row *row = raster_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    const raster_row *row = of;
     append(item->bound, sizeof item->bound, "%s%d subpixel bits", row->at_least ? "at least " : "", row->subpixel_bits);
     if (row->model == NULL)
-        return true;
+        return;
     const dp_anchor_row *anchor = dp_anchor_get(row->anchor);
     const dp_plane_error *e = &anchor->plane;
     append(item->bound, sizeof item->bound,
            ", depth %s; anchor %s: value %g, box %g, range %g, origin %g; clipped: %s; %s",
            row->plane_bits > 0 ? "snapped too" : "not snapped", anchor->name, e->value, e->box, e->range, e->origin,
            clippings[row->clipping], row->operations);
-    return true;
 }
 
-bool list_filter(size_t index, list_item *item) {
-    const finder_filter_row *row = finder_filter_get(index);
-    return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->note, .row = row});
-}
-
-static bool list_upscaler(size_t index, list_item *item) {
+static void tell_upscaler(const void *of, list_item *item) {
     static const upscaler_view view = {1920, 1080, 60.0};
-    const upscaler_row *row = upscaler_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->formula, .source = row->source, .row = row};
+    const upscaler_row *row = of;
     append(item->bound, sizeof item->bound, "%s %% of z at %dx%d, fov %g", number_of(100.0 * row->share(&view), 3).text,
            view.width, view.height, view.fov_y);
-    return true;
 }
 
-bool list_program(size_t index, list_item *item) {
-    const vertex_program *row = vertex_program_get(index);
-    return row != NULL &&
-           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
-}
-
-bool list_scheme(size_t index, list_item *item) {
-    const world_row *row = world_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+static void tell_scheme(const void *of, list_item *item) {
+    const world_row *row = of;
     if (row->size != NULL)
         append(item->bound, sizeof item->bound, "%s: %s%s unless %s:SIZE says another, scene units%s", row->size,
                number_full(row->standard).text, row->metres ? " m" : "", row->name,
                row->power2 ? ", a power of two" : "");
-    return true;
 }
 
 bool list_vertices(size_t index, list_item *item) {
@@ -223,41 +183,30 @@ bool list_vertices(size_t index, list_item *item) {
     return name != NULL && list_fill(item, (list_item){.name = name, .note = vertex_spread_note((vertex_spread)index)});
 }
 
-static bool list_encoding(size_t index, list_item *item) {
-    const pack_row *row = pack_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
+static void tell_encoding(const void *of, list_item *item) {
+    const pack_row *row = of;
     if (row->kind != PACK_DEPTH)
         append(item->bound, sizeof item->bound, "angle: mean %g, at most %g degrees%s", row->normal.mean,
                row->normal.max, row->kind == PACK_DEPTH_NORMAL ? "; " : "");
     if (row->kind != PACK_NORMAL)
         append(item->bound, sizeof item->bound, "depth: mean %g, at most %g of far", row->depth.mean, row->depth.max);
-    return true;
 }
 
-static bool list_constant(size_t index, list_item *item) {
-    const constant_row *row = constant_get(index);
-    return row != NULL && list_fill(item, (list_item){.name = row->name,
-                                                      .note = row->formula,
-                                                      .bound = "depthprec table --constants",
-                                                      .source = row->source});
+static void tell_constant(const void *of, list_item *item) {
+    (void)of;
+    append(item->bound, sizeof item->bound, "depthprec table --constants");
 }
 
-static bool list_trap(size_t index, list_item *item) {
-    const trap_row *row = trap_get(index);
+static void tell_trap(const void *of, list_item *item) {
+    const trap_row *row = of;
     dp_spec spec = dp_spec_default();
     dp_setup setup;
-    if (row == NULL)
-        return false;
     spec.znear = 0.3;
     spec.ortho = row->ortho;
     spec.mapping = row->ndc_signed ? DP_MAPPING_GL : DP_MAPPING_D3D;
-    *item = (list_item){.name = row->name, .note = row->formula, .source = row->source, .row = row};
     if (dp_setup_init(&setup, &spec) == DP_OK)
         append(item->bound, sizeof item->bound, "%s at 10, between %g and %g; right: %s",
                number_of(trap_reads(row, &setup, sqrt(3) / 3, 10), 6).text, spec.znear, spec.zfar, row->right);
-    return true;
 }
 
 bool list_lattice(size_t index, list_item *item) {
@@ -291,30 +240,17 @@ bool list_device(size_t index, list_item *item) {
     return true;
 }
 
-bool list_figure(size_t index, list_item *item) {
-    const figure_row *row = figure_get(index);
-    return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
-}
-
-bool list_synthetic(size_t index, list_item *item) {
-    const synthetic_row *row = synthetic_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .row = row};
+static void tell_synthetic(const void *of, list_item *item) {
+    const synthetic_row *row = of;
     for (size_t i = 0; row->parameters[i].name != NULL; i++)
         append(item->bound, sizeof item->bound, "%s%s=%g", i > 0 ? ", " : "", row->parameters[i].name,
                row->parameters[i].value);
-    return true;
 }
 
-bool list_language(size_t index, list_item *item) {
-    const code_language *row = code_language_get(index);
+static void tell_language(const void *of, list_item *item) {
+    const code_language *row = of;
     char rules[CODE_RULES_SIZE];
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     append(item->bound, sizeof item->bound, "%s", code_language_rules(row, rules));
-    return true;
 }
 
 bool list_family(size_t index, list_item *item) {
@@ -347,44 +283,99 @@ bool list_method(size_t index, list_item *item) {
 
 /* What can be listed. */
 static const topic topics[] = {
-    {"formats", "depth formats and the bounds of their rounding", list_format, .bound = "bound"},
-    {"mappings", "how an eye depth becomes a window depth", list_mapping, .bound = "bound"},
-    {"models", "how much of the arithmetic before the buffer is modelled", list_model, .bound = "bound"},
-    {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, .bound = "bound"},
-    {"transforms", "how world positions become clip coordinates", list_composition, .bound = "bound"},
-    {"causes", "the parts of the separation, for budget", list_cause, .bound = "bound"},
-    {"presets", "cameras as engines set them, for --preset", list_preset, .bound = "camera"},
-    {"platforms", "what browsers and APIs store when asked for 24 bits", list_platform, .bound = "stored"},
-    {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
-    {"rasterizers", "how rasterizers snap vertices and step depth across triangles", list_rasterizer,
+    {"formats", "depth formats and the bounds of their rounding", {.get = list_format}, .bound = "bound"},
+    {"mappings", "how an eye depth becomes a window depth", {.get = list_mapping}, .bound = "bound"},
+    {"models", "how much of the arithmetic before the buffer is modelled", {.get = list_model}, .bound = "bound"},
+    {"arithmetic", "variants of binary32 arithmetic, for --arith", {.get = list_arith}, .bound = "bound"},
+    {"transforms", "how world positions become clip coordinates", {.get = list_composition}, .bound = "bound"},
+    {"causes", "the parts of the separation, for budget", {.get = list_cause}, .bound = "bound"},
+    {"presets",
+     "cameras as engines set them, for --preset",
+     {.rows = &preset_table, .tell = tell_preset},
+     .bound = "camera"},
+    {"platforms",
+     "what browsers and APIs store when asked for 24 bits",
+     {.rows = &platform_table, .tell = tell_platform},
+     .bound = "stored"},
+    {"apis",
+     "what one unit of depth bias is, for bias --api",
+     {.rows = &bias_api_table, .tell = tell_api},
+     .bound = "rule"},
+    {"rasterizers",
+     "how rasterizers snap vertices and step depth across triangles",
+     {.rows = &raster_table, .tell = tell_rasterizer},
      .bound = "arithmetic"},
-    {"programs", "how a vertex program makes clip coordinates, for prepass", list_program, .bound = "bound"},
-    {"upscalers", "how far apart along z upscalers take two samples as separate surfaces", list_upscaler,
-     .bound = "share"},
-    {"schemes", "world-to-view schemes, for world --scheme", list_scheme, .bound = "size"},
-    {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
+    {"programs",
+     "how a vertex program makes clip coordinates, for prepass",
+     {.rows = &vertex_program_table},
      .bound = "bound"},
-    {"packings", "textures with depth or normals in several channels, for texture --packing and --product pack",
-     list_packing, .bound = "bound"},
-    {"constants", "what a shader is given of a camera, and makes of a depth: _ZBufferParams and its kin", list_constant,
-     .bound = "values", .names = LIST_CONSTANTS},
-    {"traps", "depth formulas found in shaders that are wrong", list_trap, .bound = "reads"},
-    {"lattices", "what metric depth was rounded to, for texture --metric", list_lattice, .bound = "gap"},
-    {"sensors", "data sheets of depth cameras and data sets, for texture --stereo and --lattice", list_device,
-     .bound = "sheet", .names = "datasets cameras"},
-    {"products", "what texture makes of the depths, for --product", list_product, .bound = "methods"},
-    {"effects", "effects for texture --product effect: formulas and parameters", list_effect, .bound = "parameters"},
-    {"figures", "figures, for plot", list_figure, .bound = "bound"},
-    {"parameters", "parameters of effects, for texture --parameter: default, unit and range", list_parameter,
+    {"upscalers",
+     "how far apart along z upscalers take two samples as separate surfaces",
+     {.rows = &upscaler_table, .tell = tell_upscaler},
+     .bound = "share"},
+    {"schemes",
+     "world-to-view schemes, for world --scheme",
+     {.rows = &world_table, .tell = tell_scheme},
+     .bound = "size"},
+    {"encodings",
+     "depth and normals in the channels of a texture, and their error bounds",
+     {.rows = &pack_table, .tell = tell_encoding},
+     .bound = "bound"},
+    {"packings",
+     "textures with depth or normals in several channels, for texture --packing and --product pack",
+     {.rows = &packing_table, .tell = packing_tell},
+     .bound = "bound"},
+    {"constants",
+     "what a shader is given of a camera, and makes of a depth: _ZBufferParams and its kin",
+     {.rows = &constant_table, .tell = tell_constant},
+     .bound = "values",
+     .names = LIST_CONSTANTS},
+    {"traps",
+     "depth formulas found in shaders that are wrong",
+     {.rows = &trap_table, .tell = tell_trap},
+     .bound = "reads"},
+    {"lattices", "what metric depth was rounded to, for texture --metric", {.get = list_lattice}, .bound = "gap"},
+    {"sensors",
+     "data sheets of depth cameras and data sets, for texture --stereo and --lattice",
+     {.get = list_device},
+     .bound = "sheet",
+     .names = "datasets cameras"},
+    {"products",
+     "what texture makes of the depths, for --product",
+     {.rows = &product_table, .tell = product_tell},
+     .bound = "methods"},
+    {"effects",
+     "effects for texture --product effect: formulas and parameters",
+     {.rows = &effect_table, .tell = effect_tell},
+     .bound = "parameters"},
+    {"figures", "figures, for plot", {.rows = &figure_table}, .bound = "bound"},
+    {"parameters",
+     "parameters of effects, for texture --parameter: default, unit and range",
+     {.get = list_parameter},
      .bound = "range"},
-    {"synthetic", "synthetic depth images, for texture --synthetic", list_synthetic, .bound = "bound",
+    {"synthetic",
+     "synthetic depth images, for texture --synthetic",
+     {.rows = &synthetic_table, .tell = tell_synthetic},
+     .bound = "bound",
      .shown = "parameters"},
-    {"positions", "positions from window depth, for texture --product position", list_position, .bound = "bound",
+    {"positions",
+     "positions from window depth, for texture --product position",
+     {.rows = &position_table},
+     .bound = "bound",
      .names = "ReconstructViewPos ViewSpacePosAtScreenUV ComputeWorldSpacePosition"},
-    {"normals", "normals from depth, for texture --product normal", list_normal, .bound = "bound",
+    {"normals",
+     "normals from depth, for texture --product normal",
+     {.rows = &normal_table},
+     .bound = "bound",
      .names = "ReconstructNormal"},
-    {"languages", "languages of code, and what each promises of its arithmetic", list_language, .bound = "arithmetic"},
-    {"methods", "methods by family: what each claims, for which set-up and far/near", list_method, .bound = "bound"},
+    {"languages",
+     "languages of code, and what each promises of its arithmetic",
+     {.rows = &code_language_table, .tell = tell_language},
+     .bound = "arithmetic"},
+    {"methods",
+     "methods by family: what each claims, for which set-up and far/near",
+     {.get = list_method},
+     .bound = "bound"},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/product.h"
+#include "cli/list.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -18,7 +19,7 @@ static void append_parameter(list_item *item, const char *before, const char *na
     append(item->bound, sizeof item->bound, " [%s], %g to %g", p->unit, p->lo, p->hi);
 }
 
-bool list_effect(size_t index, list_item *item) {
+void effect_tell(const void *of, list_item *item) {
     static const struct {
         unsigned bit;
         const char *name;
@@ -26,11 +27,7 @@ bool list_effect(size_t index, list_item *item) {
                  {EFFECT_LAST_FRAME, "last frame's camera"},
                  {EFFECT_SECOND_DEPTH, "a second depth"},
                  {EFFECT_NORMALS, "normals"}};
-    const effect_row *row = effect_get(index);
-    if (row == NULL)
-        return false;
-    *item =
-        (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
+    const effect_row *row = of;
     for (int i = 0; row->parameters[i].name != NULL; i++) {
         const texture_parameter *p = &row->parameters[i];
         append_parameter(item, i > 0 ? "; " : "", p->name, p);
@@ -43,7 +40,6 @@ bool list_effect(size_t index, list_item *item) {
     for (size_t i = 0, count = 0; i < sizeof needs / sizeof needs[0]; i++)
         if ((row->needs & needs[i].bit) != 0)
             append(item->bound, sizeof item->bound, "%s%s", count++ == 0 ? "; needs " : ", ", needs[i].name);
-    return true;
 }
 
 /* Of each effect, so names come again. */
@@ -59,74 +55,53 @@ bool list_parameter(size_t index, list_item *item) {
     return false;
 }
 
-bool list_position(size_t index, list_item *item) {
-    const position_row *row = position_get(index);
-    return row != NULL &&
-           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
-}
-
-bool list_normal(size_t index, list_item *item) {
-    const normal_row *row = normal_get(index);
-    return row != NULL &&
-           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
-}
-
-bool list_packing(size_t index, list_item *item) {
-    const packing *row = packing_get(index);
-    if (row == NULL)
-        return false;
+void packing_tell(const void *of, list_item *item) {
+    const packing *row = of;
     const pack_row *encoded = packing_normals(row);
-    *item =
-        (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
     if (row->steps > 0)
         append(item->bound, sizeof item->bound, "depth: at most %s%s", number_up(0.5 / row->steps + row->off, 3).text,
                row->linear ? " of far" : "");
     if (encoded != NULL)
         append(item->bound, sizeof item->bound, "%snormal: at most %s degrees%s", row->steps > 0 ? "; " : "",
                number_up(encoded->normal.max, 3).text, encoded->sphere ? "" : " where it faces the camera");
-    return true;
 }
 
 /* ---- Kinds ---------------------------------------------------------------------------------------------------- */
 
-static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
-static const name_list normals = {.get = list_normal};
-static const name_list packings = {.get = list_packing};
-static const name_list effects = {.get = list_effect};
+static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .rows = &position_table};
+static const name_list normals = {.rows = &normal_table};
+static const name_list packings = {.rows = &packing_table};
+static const name_list effects = {.rows = &effect_table};
 
 #define METHOD(among, field, usual) .methods = &(among), .place = offsetof(texture_asked, field), .standard = (usual)
 
 static const product_row rows[] = {
-    {"eye", "eye depth", FRAME_EYE, .by = "eye depth", .unit = "scene units", .unit_of_error = "scene units"},
-    {"radial", "distance from the camera", FRAME_EYE, .radial = true, .by = "distance from the camera",
+    {"eye", NULL, "eye depth", NULL, FRAME_EYE, .by = "eye depth", .unit = "scene units",
+     .unit_of_error = "scene units"},
+    {"radial", NULL, "distance from the camera", NULL, FRAME_EYE, .radial = true, .by = "distance from the camera",
      .unit = "scene units", .unit_of_error = "scene units"},
-    {"linear01", "eye depth over far, as Unity's Linear01Depth", FRAME_LINEAR01, .by = "eye depth over far", .unit = "",
-     .unit_of_error = ""},
-    {"raw", "window depth, of sky too", FRAME_RAW, .by = "window depth", .unit = "", .unit_of_error = ""},
-    {"position", "world positions, by default exact: the truth", FRAME_POSITION, METHOD(positions, position, "exact"),
-     .by = "positions by ", .unit = "scene units", .unit_of_error = "scene units"},
-    {"normal", "normals, by default projective", FRAME_NORMAL, METHOD(normals, normal, "projective"),
+    {"linear01", NULL, "eye depth over far, as Unity's Linear01Depth", NULL, FRAME_LINEAR01, .by = "eye depth over far",
+     .unit = "", .unit_of_error = ""},
+    {"raw", NULL, "window depth, of sky too", NULL, FRAME_RAW, .by = "window depth", .unit = "", .unit_of_error = ""},
+    {"position", NULL, "world positions, by default exact: the truth", NULL, FRAME_POSITION,
+     METHOD(positions, position, "exact"), .by = "positions by ", .unit = "scene units",
+     .unit_of_error = "scene units"},
+    {"normal", NULL, "normals, by default projective", NULL, FRAME_NORMAL, METHOD(normals, normal, "projective"),
      .by = "normals by ", .unit = "", .unit_of_error = "degrees"},
-    {"packed-normal", "the normals that --packing depth-normals or camera-normals holds, in view space", FRAME_NORMAL,
-     .packed = true, .by = "", .unit = "", .unit_of_error = ""},
-    {"pack", "the depths in several channels of 8 bits, a PNG or NPY, as --packing reads them back", FRAME_EYE,
-     METHOD(packings, pack, NULL), .by = "", .unit = "", .unit_of_error = ""},
-    {"effect", "an effect that reads depth; without an image, the usable values of its parameter", FRAME_EFFECT,
-     METHOD(effects, effect, NULL), .by = "", .unit = "", .unit_of_error = "levels of 1/255"},
+    {"packed-normal", NULL, "the normals that --packing depth-normals or camera-normals holds, in view space", NULL,
+     FRAME_NORMAL, .packed = true, .by = "", .unit = "", .unit_of_error = ""},
+    {"pack", NULL, "the depths in several channels of 8 bits, a PNG or NPY, as --packing reads them back", NULL,
+     FRAME_EYE, METHOD(packings, pack, NULL), .by = "", .unit = "", .unit_of_error = ""},
+    {"effect", NULL, "an effect that reads depth; without an image, the usable values of its parameter", NULL,
+     FRAME_EFFECT, METHOD(effects, effect, NULL), .by = "", .unit = "", .unit_of_error = "levels of 1/255"},
 };
 
-const product_row *product_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
+NAMED_TABLE(product, rows);
 
-bool list_product(size_t index, list_item *item) {
-    const product_row *row = product_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .row = row};
+void product_tell(const void *of, list_item *item) {
+    const product_row *row = of;
     if (row->methods != NULL) {
         char text[NAMES_SIZE];
         append(item->bound, sizeof item->bound, "%s", names_join(row->methods, ", ", ", ", text));
     }
-    return true;
 }

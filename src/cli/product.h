@@ -8,7 +8,7 @@
 #include "frame/frame.h"
 
 typedef struct product_row {
-    const char *name, *note;
+    NAMED_FIELDS;
     frame_kind kind;
     bool radial;              /**< FRAME_EYE: along the ray */
     bool packed;              /**< the image holds it beside its depths, of which it is not made */
@@ -19,7 +19,13 @@ typedef struct product_row {
     const char *unit, *unit_of_error;
 } product_row;
 
-/** Row `index`, eye depth first; null behind the last. */
-const product_row *product_get(size_t index);
+/** The rows, eye depth first. */
+NAMED_ROWS(product_row, product);
+
+/** Write what is claimed of a row, as name_list has it: methods of a product, parameters and needs of an effect, errors
+ * of a packing. */
+void product_tell(const void *of, list_item *item);
+void effect_tell(const void *of, list_item *item);
+void packing_tell(const void *of, list_item *item);
 
 #endif

@@ -100,9 +100,7 @@ static const code_language rows[] = {
 };
 /* clang-format on */
 
-const code_language *code_language_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
+NAMED_TABLE(code_language, rows);
 
 const char *code_language_rules(const code_language *l, char out[CODE_RULES_SIZE]) {
     const bound_arithmetic *how = &l->how;

@@ -6,6 +6,7 @@
 
 #include <stddef.h>
 
+#include "core/named.h"
 #include "method/bound.h"
 
 /** How operations are written: between their operands, in parentheses before them, or as lines for Gappa. */
@@ -17,7 +18,7 @@ typedef enum code_type { CODE_REAL = 0, CODE_COUNT, CODE_VECTOR, CODE_TYPES } co
 /** '@' and '$' stand for what is filled in. Pairs are for binary32, then for binary64; a null is what the language
  * lacks. */
 typedef struct code_language {
-    const char *name, *note;
+    NAMED_FIELDS;
     code_form form;
     const char *comment;          /**< what a line of comment begins with */
     const char *advice;           /**< how it is compiled, or null */
@@ -39,12 +40,11 @@ typedef struct code_language {
     const char *matrix, *end;     /**< what stands before and behind 16 numbers */
     bool by_rows;                 /**< the order of those */
     bound_arithmetic how;
-    const char *powers;         /**< what it promises of exp2 and log2, or null */
-    const char *rules, *source; /**< who says so, and where */
+    const char *powers; /**< what it promises of exp2 and log2, or null */
+    const char *rules;  /**< who says so */
 } code_language;
 
-/** The rows in order; null beyond the last. */
-const code_language *code_language_get(size_t index);
+NAMED_ROWS(code_language, code_language);
 
 /** "sums and products within 1 ulp, quotients within 2.5" @return out */
 enum { CODE_RULES_SIZE = 80 };

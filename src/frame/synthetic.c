@@ -111,32 +111,30 @@ static bool decals_pair(const double *p, size_t index, synthetic_pair *out) {
 
 /* clang-format off */
 const synthetic_row synthetic_rows[] = {
-    [SYNTHETIC_PLANE] = {"plane", "a plane, seen head-on or slanted", plane_hit, NULL, {
-        {"distance", "eye depth in the middle of the image", LENGTH, 10, .whole = false},
-        {"tilt", "the upper side leans back; 90 would be a floor", "degrees", -89.9, 89.9, 0, .whole = false},
-        {"turn", "the right side leans back", "degrees", -89.9, 89.9, 0, .whole = false}}},
-    [SYNTHETIC_SPHERE] = {"sphere", "a sphere on the view axis, before a wall or the sky", sphere_hit, NULL, {
-        {"distance", "eye depth of the centre, more than the radius", LENGTH, 10, .whole = false},
-        {"radius", "of the sphere", LENGTH, 3, .whole = false},
-        {"wall", "eye depth of the wall; 0: sky", "scene units", 0, 1e15, 0, .whole = false}}},
-    [SYNTHETIC_STEPS] = {"steps", "upright stairs that face the camera", steps_hit,
-                         steps_pair, {
-        {"from", "eye depth of the leftmost", LENGTH, 1, .whole = false},
-        {"to", "eye depth of the rightmost", LENGTH, 300, .whole = false},
-        {"count", "how many", "steps", 2, 65536, 16, .whole = true},
-        {"even", "0: in equal ratios of depth; 1: at equal distances", "", 0, 1, 0, .whole = true}}},
-    [SYNTHETIC_DECALS] = {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth",
-        decals_hit, decals_pair, {
-        {"gap", "from a decal to the wall behind it", LENGTH, 0.01, .whole = false},
-        {"from", "eye depth of the first tile, top left", LENGTH, 1, .whole = false},
-        {"to", "eye depth of the last tile, bottom right", LENGTH, 300, .whole = false},
-        {"count", "in a row, and rows", "decals", 2, 1024, 8, .whole = true}}},
+    [SYNTHETIC_PLANE] = {"plane", NULL, "a plane, seen head-on or slanted", NULL, plane_hit, NULL, {
+     {"distance", "eye depth in the middle of the image", LENGTH, 10, .whole = false},
+     {"tilt", "the upper side leans back; 90 would be a floor", "degrees", -89.9, 89.9, 0, .whole = false},
+     {"turn", "the right side leans back", "degrees", -89.9, 89.9, 0, .whole = false}}},
+    [SYNTHETIC_SPHERE] = {"sphere", NULL, "a sphere on the view axis, before a wall or the sky", NULL, sphere_hit,
+     NULL, {
+     {"distance", "eye depth of the centre, more than the radius", LENGTH, 10, .whole = false},
+     {"radius", "of the sphere", LENGTH, 3, .whole = false},
+     {"wall", "eye depth of the wall; 0: sky", "scene units", 0, 1e15, 0, .whole = false}}},
+    [SYNTHETIC_STEPS] = {"steps", NULL, "upright stairs that face the camera", NULL, steps_hit, steps_pair, {
+     {"from", "eye depth of the leftmost", LENGTH, 1, .whole = false},
+     {"to", "eye depth of the rightmost", LENGTH, 300, .whole = false},
+     {"count", "how many", "steps", 2, 65536, 16, .whole = true},
+     {"even", "0: in equal ratios of depth; 1: at equal distances", "", 0, 1, 0, .whole = true}}},
+    [SYNTHETIC_DECALS] = {"decals", NULL, "a decal before each tile of a wall, the tiles in equal ratios of depth",
+     NULL, decals_hit, decals_pair, {
+     {"gap", "from a decal to the wall behind it", LENGTH, 0.01, .whole = false},
+     {"from", "eye depth of the first tile, top left", LENGTH, 1, .whole = false},
+     {"to", "eye depth of the last tile, bottom right", LENGTH, 300, .whole = false},
+     {"count", "in a row, and rows", "decals", 2, 1024, 8, .whole = true}}},
 };
 /* clang-format on */
 
-const synthetic_row *synthetic_get(size_t index) {
-    return index < SYNTHETIC_ROWS ? &synthetic_rows[index] : NULL;
-}
+NAMED_TABLE(synthetic, synthetic_rows);
 
 void synthetic_codes(const synthetic_row *synthetic, const texture_camera *camera, const double *parameters,
                      uint32_t row, uint32_t *codes) {

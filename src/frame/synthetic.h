@@ -8,6 +8,7 @@
 #ifndef FRAME_SYNTHETIC_H
 #define FRAME_SYNTHETIC_H
 
+#include "core/named.h"
 #include "shader/camera.h"
 #include "shader/parameter.h"
 
@@ -25,8 +26,7 @@ typedef struct synthetic_pair {
 } synthetic_pair;
 
 typedef struct synthetic_row {
-    const char *name; /**< "plane", "sphere", "steps", "decals" */
-    const char *note;
+    NAMED_FIELDS;
     /** The nearest hit at a pixel's centre (or between: column and row need not be whole). */
     void (*hit)(const texture_camera *camera, const double *parameters, double column, double row, synthetic_hit *out);
     /** Pair `index` of surfaces, one behind the other, that a depth buffer should tell apart. Null where there are
@@ -38,7 +38,7 @@ typedef struct synthetic_row {
 enum { SYNTHETIC_PLANE = 0, SYNTHETIC_SPHERE, SYNTHETIC_STEPS, SYNTHETIC_DECALS, SYNTHETIC_ROWS };
 extern const synthetic_row synthetic_rows[SYNTHETIC_ROWS];
 
-const synthetic_row *synthetic_get(size_t index); /**< null beyond the last */
+NAMED_ROWS(synthetic_row, synthetic);
 
 /** The codes that a row of pixels stores: dp_code() of each hit, the far plane's code for sky. */
 void synthetic_codes(const synthetic_row *synthetic, const texture_camera *camera, const double *parameters,

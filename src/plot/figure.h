@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/named.h"
 #include "depthprec/depthprec.h"
 #include "method/bench.h"
 #include "method/stability.h"
@@ -72,9 +73,8 @@ enum {
 typedef const char *figure_build(const figure_request *request, chart *out);
 
 typedef struct figure_row {
-    const char *name;
+    NAMED_FIELDS;
     const char *title;
-    const char *summary; /**< one line for `depthprec list figures` */
     size_t setups_max;   /**< most set-ups that stay legible */
     unsigned takes;      /**< FIGURE_... bits */
     const char *family;  /**< of methods, shown when none is named; null: the figure shows no methods */
@@ -82,8 +82,7 @@ typedef struct figure_row {
     figure_build *build;
 } figure_row;
 
-/** Figures by index; null beyond the last. */
-const figure_row *figure_get(size_t index);
+NAMED_ROWS(figure_row, figure);
 
 /** Colour, stroke and marker of set-up i: the format decides the colour and the marker, the mapping the stroke;
  *  where all share the one or the other, each set-up has its own of all three. */

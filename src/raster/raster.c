@@ -49,51 +49,32 @@ static const raster_model swiftshader = {
 
 /* clang-format off */
 static const raster_row rows[] = {
-    {"llvmpipe", 8, false, 0, DP_ANCHOR_ORIGIN, RASTER_CLIP_PIECES,
-     "d = fma(B, y, fma(A, x, C)), clamped; unorm to nearest even",
-     "Mesa's OpenGL in software: coverage on 1/256 pixel, the plane of the unsnapped vertices",
-     MESA_SOURCE, &llvmpipe, "mesa", "mesa-remap"},
-    {"lavapipe", 8, false, 0, DP_ANCHOR_ORIGIN, RASTER_CLIP_PIECES,
-     "as llvmpipe; clockwise triangles and pieces in another order of vertices",
-     "Mesa's Vulkan in software",
-     MESA_SOURCE, &lavapipe, "mesa", "mesa-remap"},
-    {"softpipe", 4, false, 0, DP_ANCHOR_ORIGIN_STEPPED, RASTER_CLIP_PIECES,
+    {"llvmpipe", NULL, "Mesa's OpenGL in software: coverage on 1/256 pixel, the plane of the unsnapped vertices",
+     MESA_SOURCE, 8, false, 0, DP_ANCHOR_ORIGIN, RASTER_CLIP_PIECES,
+     "d = fma(B, y, fma(A, x, C)), clamped; unorm to nearest even", &llvmpipe, "mesa", "mesa-remap"},
+    {"lavapipe", NULL, "Mesa's Vulkan in software", MESA_SOURCE, 8, false, 0, DP_ANCHOR_ORIGIN, RASTER_CLIP_PIECES,
+     "as llvmpipe; clockwise triangles and pieces in another order of vertices", &lavapipe, "mesa", "mesa-remap"},
+    {"softpipe", NULL, "Mesa's reference rasterizer: nothing is snapped, whatever it reports", MESA_SOURCE, 4, false,
+     0, DP_ANCHOR_ORIGIN_STEPPED, RASTER_CLIP_PIECES,
      "d = C + A x + B y of a quad's corner, + A, + B, not clamped; unorm truncated; unorm16 in steps of trunc(65535 A)",
-     "Mesa's reference rasterizer: nothing is snapped, whatever it reports",
-     MESA_SOURCE, &softpipe, "softpipe", NULL},
-    {"swiftshader", 4, false, 4, DP_ANCHOR_VERTEX, RASTER_CLIP_KEEPS,
-     "d = (Z0 + (y - Y0) B) + (x - X0) A, clamped; unorm to nearest even",
+     &softpipe, "softpipe", NULL},
+    {"swiftshader", NULL,
      "Vulkan in software, as Chromium has it: coverage and plane on 1/16 pixel, from the vertex of "
      "the largest w; beyond 6.7e7 pixels its 32-bit positions wrap",
-     "stored codes of SwiftShader 5.0.0 (Chromium 156), slanted triangles", &swiftshader, "mesa", "mesa-remap"},
-    {"spec-d3d", 8, false, 8, DP_ANCHOR_COUNT, RASTER_CLIP_ANY, "",
-     "what Direct3D asks for: vertices on exactly 1/256 pixel",
-     "D3D 11.3 functional specification 3.4.1", NULL, NULL, NULL},
-    {"spec-vulkan", 4, true, 4, DP_ANCHOR_COUNT, RASTER_CLIP_ANY, "",
-     "what Vulkan asks for: at least 4 bits, see subPixelPrecisionBits",
-     "Vulkan specification, Required Limits", NULL, NULL, NULL},
-    {"spec-gl", 4, true, 4, DP_ANCHOR_COUNT, RASTER_CLIP_ANY, "",
-     "what OpenGL asks for: at least 4 bits, see GL_SUBPIXEL_BITS",
-     "OpenGL 4.6 core profile, table of implementation dependent values", NULL, NULL, NULL},
+     "stored codes of SwiftShader 5.0.0 (Chromium 156), slanted triangles", 4, false, 4, DP_ANCHOR_VERTEX,
+     RASTER_CLIP_KEEPS, "d = (Z0 + (y - Y0) B) + (x - X0) A, clamped; unorm to nearest even", &swiftshader, "mesa",
+     "mesa-remap"},
+    {"spec-d3d", NULL, "what Direct3D asks for: vertices on exactly 1/256 pixel",
+     "D3D 11.3 functional specification 3.4.1", 8, false, 8, DP_ANCHOR_COUNT, RASTER_CLIP_ANY, "", NULL, NULL, NULL},
+    {"spec-vulkan", NULL, "what Vulkan asks for: at least 4 bits, see subPixelPrecisionBits",
+     "Vulkan specification, Required Limits", 4, true, 4, DP_ANCHOR_COUNT, RASTER_CLIP_ANY, "", NULL, NULL, NULL},
+    {"spec-gl", NULL, "what OpenGL asks for: at least 4 bits, see GL_SUBPIXEL_BITS",
+     "OpenGL 4.6 core profile, table of implementation dependent values", 4, true, 4, DP_ANCHOR_COUNT,
+     RASTER_CLIP_ANY, "", NULL, NULL, NULL},
 };
 /* clang-format on */
 
-enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
-
-size_t raster_count(void) {
-    return ROW_COUNT;
-}
-
-const raster_row *raster_get(size_t index) {
-    return index < ROW_COUNT ? &rows[index] : NULL;
-}
-
-const raster_row *raster_find(const char *name) {
-    for (size_t i = 0; i < ROW_COUNT; i++)
-        if (strcasecmp(rows[i].name, name) == 0)
-            return &rows[i];
-    return NULL;
-}
+NAMED_TABLE(raster, rows);
 
 bool raster_arith(const raster_row *row, bool remapped, dp_arith *out) {
     return dp_arith_parse(remapped ? row->remapped : row->arith, out) == DP_OK;

@@ -25,6 +25,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/named.h"
 #include "depthprec/arith.h"
 #include "depthprec/batch.h"
 #include "depthprec/format.h"
@@ -60,27 +61,20 @@ typedef enum raster_clipping {
 
 /** One rasterizer, or what a specification asks of all. */
 typedef struct raster_row {
-    const char *name;
+    NAMED_FIELDS;
     int subpixel_bits; /**< of coverage, as reported; of a specification: the least that it allows */
     bool at_least;     /**< the implementation may have more */
     int plane_bits;    /**< subpixel bits of the plane of depth; 0: its vertices are not snapped */
     dp_anchor anchor;  /**< and with it the most that the set-up adds; of a specification DP_ANCHOR_COUNT, free */
     raster_clipping clipping;
-    const char *operations; /**< of the depth of a pixel */
-    const char *note;
-    const char *source;
+    const char *operations;           /**< of the depth of a pixel */
     const struct raster_model *model; /**< null of a specification */
     /** The arithmetic of its vertices and conversions, for dp_arith_parse(), and the same with [-1, 1] remapped in the
      *  vertex shader; null where none is known. */
     const char *arith, *remapped;
 } raster_row;
 
-/** The rows; index below raster_count(), else null. */
-size_t raster_count(void);
-const raster_row *raster_get(size_t index);
-
-/** The row of a name in either case; null where there is none. */
-const raster_row *raster_find(const char *name);
+NAMED_ROWS(raster_row, raster);
 
 /**
  * Fills in `subpixel` and `plane`, what is known of a rasterizer: of a row whose anchor is free each term is that of

@@ -5,30 +5,27 @@
 
 /* clang-format off */
 static const vertex_program rows[] = {
-    {"once", VERTEX_ONCE, VERTEX_LEFT, false,
-     "(P V) x: one matrix, formed in double and rounded; multiply and add from x to the constant",
-     "engines that upload view-projection"},
-    {"products", VERTEX_PRODUCTS, VERTEX_LEFT, false, "(P V) x: as once, the matrix formed in binary32",
-     "shaders and math libraries that multiply float matrices"},
-    {"separate", VERTEX_SEPARATE, VERTEX_LEFT, false, "P (V x): two matrices, multiply and add from x to the constant",
-     "shaders that need the view position too"},
-    {"right", VERTEX_ONCE, VERTEX_RIGHT, false, "as once, summed from the constant to x", "order left to the compiler"},
-    {"pairs", VERTEX_ONCE, VERTEX_PAIRS, false, "as once, summed in pairs: x and y, z and the constant",
-     "vector units with a horizontal add"},
-    {"fma", VERTEX_ONCE, VERTEX_LEFT, true, "as once, by fused multiply-add", "GLSL without precise; HLSL mad"},
-    {"fma-right", VERTEX_ONCE, VERTEX_RIGHT, true, "as right, by fused multiply-add",
-     "a sum of columns, the constant first"},
-    {"fma-pairs", VERTEX_ONCE, VERTEX_PAIRS, true, "as pairs, by fused multiply-add", "order left to the compiler"},
-    {"separate-fma", VERTEX_SEPARATE, VERTEX_LEFT, true, "as separate, by fused multiply-add",
-     "GLSL without precise; HLSL mad"},
+    {"once", NULL, "(P V) x: one matrix, formed in double and rounded; multiply and add from x to the constant",
+     "engines that upload view-projection", VERTEX_ONCE, VERTEX_LEFT, false},
+    {"products", NULL, "(P V) x: as once, the matrix formed in binary32",
+     "shaders and math libraries that multiply float matrices", VERTEX_PRODUCTS, VERTEX_LEFT, false},
+    {"separate", NULL, "P (V x): two matrices, multiply and add from x to the constant",
+     "shaders that need the view position too", VERTEX_SEPARATE, VERTEX_LEFT, false},
+    {"right", NULL, "as once, summed from the constant to x", "order left to the compiler", VERTEX_ONCE,
+     VERTEX_RIGHT, false},
+    {"pairs", NULL, "as once, summed in pairs: x and y, z and the constant", "vector units with a horizontal add",
+     VERTEX_ONCE, VERTEX_PAIRS, false},
+    {"fma", NULL, "as once, by fused multiply-add", "GLSL without precise; HLSL mad", VERTEX_ONCE, VERTEX_LEFT, true},
+    {"fma-right", NULL, "as right, by fused multiply-add", "a sum of columns, the constant first", VERTEX_ONCE,
+     VERTEX_RIGHT, true},
+    {"fma-pairs", NULL, "as pairs, by fused multiply-add", "order left to the compiler", VERTEX_ONCE, VERTEX_PAIRS,
+     true},
+    {"separate-fma", NULL, "as separate, by fused multiply-add", "GLSL without precise; HLSL mad", VERTEX_SEPARATE,
+     VERTEX_LEFT, true},
 };
 /* clang-format on */
 
-enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
-
-const vertex_program *vertex_program_get(size_t index) {
-    return index < ROW_COUNT ? &rows[index] : NULL;
-}
+NAMED_TABLE(vertex_program, rows);
 
 /* ---- A camera ---------------------------------------------------------------------------------------------------- */
 

@@ -12,6 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/named.h"
 #include "depthprec/pipeline.h"
 
 /** Which matrices a position meets: P is the projection, V the view. */
@@ -29,16 +30,14 @@ typedef enum vertex_order {
 } vertex_order;
 
 typedef struct vertex_program {
-    const char *name;
+    NAMED_FIELDS;
     vertex_matrices matrices;
     vertex_order order;
     bool fused; /**< each product but the first is fused into a sum */
-    const char *note;
-    const char *source;
 } vertex_program;
 
-/** The rows, the first being the default `once`; null for an index that is not below their number. */
-const vertex_program *vertex_program_get(size_t index);
+/** The rows, the first being the default `once`. */
+NAMED_ROWS(vertex_program, vertex_program);
 
 /** A camera and a projection as a shader has them: in each matrix the row that matters. */
 typedef struct vertex_camera {

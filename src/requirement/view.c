@@ -98,7 +98,7 @@ static bool read_raster(reader *r, config_setting_t *s, const config_setting_t *
         return false;
     out->raster = raster_find(name);
     if (out->raster == NULL) {
-        for (size_t i = 0; i < raster_count(); i++)
+        for (size_t i = 0; i < raster_table.count; i++)
             reader_known(r, name, raster_get(i)->name);
         return reader_fail(r, s, "raster: must be a rasterizer as 'depthprec list rasterizers' names them, got '%.40s'",
                            name);

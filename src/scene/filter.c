@@ -2,12 +2,10 @@
 #include "scene/find.h"
 
 static const finder_filter_row rows[FINDER_FILTERS] = {
-    [FINDER_FACING] = {"facing", "that are never seen from one side"},
-    [FINDER_BLENDED] = {"blended", "with a blended material"},
-    [FINDER_THIN] = {"thin", "that touch along an edge"},
-    [FINDER_HIDDEN] = {"hidden", "inside closed bodies"},
+    [FINDER_FACING] = {"facing", NULL, "that are never seen from one side"},
+    [FINDER_BLENDED] = {"blended", NULL, "with a blended material"},
+    [FINDER_THIN] = {"thin", NULL, "that touch along an edge"},
+    [FINDER_HIDDEN] = {"hidden", NULL, "inside closed bodies"},
 };
 
-const finder_filter_row *finder_filter_get(size_t filter) {
-    return filter < FINDER_FILTERS ? &rows[filter] : NULL;
-}
+NAMED_TABLE(finder_filter, rows);

@@ -28,6 +28,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/named.h"
 #include "model/model.h"
 
 /**
@@ -54,12 +55,11 @@ typedef enum finder_filter {
 } finder_filter;
 
 typedef struct finder_filter_row {
-    const char *name; /**< "facing" */
-    const char *note; /**< of pairs: "that are never seen from one side" */
+    NAMED_FIELDS; /**< of pairs: "that are never seen from one side" */
 } finder_filter_row;
 
-/** Index: finder_filter; null when out of range. */
-const finder_filter_row *finder_filter_get(size_t filter);
+/** Index: finder_filter. */
+NAMED_ROWS(finder_filter_row, finder_filter);
 
 typedef struct finder_asked {
     double gap;       /**< scene units, from 0, finite */

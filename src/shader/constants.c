@@ -21,20 +21,20 @@ static const char unity[] = "UnityShaderVariables.cginc", common[] = "the Core p
 
 /* clang-format off */
 static const constant_row constants[] = {
-    {"_ZBufferParams", "(1 - far/near, far/near, x/far, y/far); reversed (far/near - 1, 1, x/far, 1/far)", unity},
-    {"_ProjectionParams", "(1, or -1 where the target is flipped; near; far; 1/far)", unity},
-    {"UNITY_NEAR_CLIP_VALUE", "NDC depth of the near plane: 0, of OpenGL -1, reversed 1",
+    {"_ZBufferParams", NULL, "(1 - far/near, far/near, x/far, y/far); reversed (far/near - 1, 1, x/far, 1/far)",
+     unity},
+    {"_ProjectionParams", NULL, "(1, or -1 where the target is flipped; near; far; 1/far)", unity},
+    {"UNITY_NEAR_CLIP_VALUE", NULL, "NDC depth of the near plane: 0, of OpenGL -1, reversed 1",
      "the Core package's API headers"},
-    {"LinearEyeDepth", "1/(z d + w) of _ZBufferParams: eye depth in perspective", common},
-    {"Linear01Depth", "1/(x d + y): eye depth over far, 0 at the camera", common},
-    {"Linear01DepthFromNear", "d/(x d + y), reversed (1 - d)/(x d + y): 0 at near, 1 at far", common},
-    {"LinearDepthToEyeDepth", "near + (far - near) d, reversed far - (far - near) d: orthographic eye depth", common},
+    {"LinearEyeDepth", NULL, "1/(z d + w) of _ZBufferParams: eye depth in perspective", common},
+    {"Linear01Depth", NULL, "1/(x d + y): eye depth over far, 0 at the camera", common},
+    {"Linear01DepthFromNear", NULL, "d/(x d + y), reversed (1 - d)/(x d + y): 0 at near, 1 at far", common},
+    {"LinearDepthToEyeDepth", NULL, "near + (far - near) d, reversed far - (far - near) d: orthographic eye depth",
+     common},
 };
 /* clang-format on */
 
-const constant_row *constant_get(size_t index) {
-    return index < sizeof constants / sizeof constants[0] ? &constants[index] : NULL;
-}
+NAMED_TABLE(constant, constants);
 
 static float decoded(const dp_setup *setup, const decode_row *row, float d) {
     float out = NAN;
@@ -66,10 +66,7 @@ float shader_stored_eye(const dp_setup *setup, const dp_format *format, float wi
 
 float shader_depth_normals_eye(const dp_setup *setup, double z) {
     const float far = (float)setup->spec.zfar, share = (float)z * (float)(1 / setup->spec.zfar);
-    size_t i = 0;
-    while (strcmp(packing_get(i)->name, "rg") != 0)
-        i++;
-    const packing *rg = packing_get(i);
+    const packing *rg = packing_find("rg");
     const uint64_t number = share < 1 || !rg->wraps ? packing_nearest(rg, (double)share) : 0;
     return isinf(far) ? NAN : (float)packing_depth(rg, number) * far;
 }
@@ -135,34 +132,32 @@ static const char slip[] = "an article's slip";
 
 /* clang-format off */
 static const trap_row traps[] = {
-    {.name = "inverted-x", .formula = "_ZBufferParams.x = 1 - near/far", .right = "1 - far/near", .source = slip,
+    {.name = "inverted-x", .note = "_ZBufferParams.x = 1 - near/far", .right = "1 - far/near", .source = slip,
      .standard = true, .reads = inverted_x},
-    {.name = "doubled-product", .formula = "d = f/(f - n) - 2 f n/((f - n) z)", .right = "f n in place of 2 f n",
+    {.name = "doubled-product", .note = "d = f/(f - n) - 2 f n/((f - n) z)", .right = "f n in place of 2 f n",
      .source = slip, .standard = true, .far_infinite = true, .reads = doubled_product},
-    {.name = "ndc-as-depth", .formula = "LinearEyeDepth(lerp(UNITY_NEAR_CLIP_VALUE, 1, d))",
+    {.name = "ndc-as-depth", .note = "LinearEyeDepth(lerp(UNITY_NEAR_CLIP_VALUE, 1, d))",
      .right = "LinearEyeDepth(d)",
      .source = "shaders that need NDC for a position, and go on with it", .standard = true, .ndc_signed = true,
      .far_infinite = true, .reads = ndc_as_depth},
-    {.name = "other-direction", .formula = "LinearEyeDepth(1 - d)", .right = "LinearEyeDepth(d)",
+    {.name = "other-direction", .note = "LinearEyeDepth(1 - d)", .right = "LinearEyeDepth(d)",
      .source = "constants or a depth of the other direction, UNITY_REVERSED_Z mixed up",
      .standard = true, .reversed = true, .far_infinite = true, .reads = other_direction},
-    {.name = "perspective-of-ortho", .formula = "LinearEyeDepth(d)", .right = "LinearDepthToEyeDepth(d)",
+    {.name = "perspective-of-ortho", .note = "LinearEyeDepth(d)", .right = "LinearDepthToEyeDepth(d)",
      .source = "Common.hlsl: does not work with orthographic projection", .ortho = true, .reads = perspective_of_ortho},
-    {.name = "linear-of-perspective", .formula = "near + (far - near) d, reversed far - (far - near) d",
+    {.name = "linear-of-perspective", .note = "near + (far - near) d, reversed far - (far - near) d",
      .right = "LinearEyeDepth(d)", .source = "a raw depth taken for a linear one", .standard = true, .reversed = true,
      .reads = linear_of_perspective},
-    {.name = "perspective-of-oblique", .formula = "LinearEyeDepth(d), mid-picture, near plane tilted by 45 degrees",
+    {.name = "perspective-of-oblique", .note = "LinearEyeDepth(d), mid-picture, near plane tilted by 45 degrees",
      .right = "the inverse projection matrix", .source = "Common.hlsl: does not handle oblique view frustums",
      .standard = true, .reversed = true, .far_infinite = true, .reads = perspective_of_oblique},
-    {.name = "normal-as-depth", .formula = "DecodeFloatRG(enc.xy) of DepthNormals, of a surface that faces the camera",
+    {.name = "normal-as-depth", .note = "DecodeFloatRG(enc.xy) of DepthNormals, of a surface that faces the camera",
      .right = "enc.zw: the normal is in xy", .source = slip, .standard = true, .reversed = true,
      .reads = normal_as_depth},
 };
 /* clang-format on */
 
-const trap_row *trap_get(size_t index) {
-    return index < sizeof traps / sizeof traps[0] ? &traps[index] : NULL;
-}
+NAMED_TABLE(trap, traps);
 
 double trap_reads_at(const trap_row *row, const dp_setup *setup, const trap_depth *at) {
     const dp_mapping_row *mapping = dp_mapping_get(setup->spec.mapping);

@@ -5,6 +5,7 @@
 #ifndef SHADER_CONSTANTS_H
 #define SHADER_CONSTANTS_H
 
+#include "core/named.h"
 #include "shader/camera.h"
 #include "shader/decode.h"
 
@@ -21,10 +22,10 @@ shader_constants shader_constants_of(const dp_setup *setup);
 
 /** A constant or function by the name that shaders have for it. */
 typedef struct constant_row {
-    const char *name, *formula, *source;
+    NAMED_FIELDS; /**< the note is the formula */
 } constant_row;
 
-const constant_row *constant_get(size_t index); /**< null beyond the last */
+NAMED_ROWS(constant_row, constant);
 
 /** A depth on its way into the buffer and back, each in binary32. */
 typedef struct shader_depth {
@@ -59,13 +60,14 @@ typedef struct trap_depth {
 
 /** A formula that is found in articles and shaders, and is not right: what it reads is an eye depth. */
 typedef struct trap_row {
-    const char *name, *formula, *right, *source;
+    NAMED_FIELDS;                   /**< the note is the formula, */
+    const char *right;              /**< and this is what is right */
     bool standard, reversed, ortho; /**< which set-ups it is a trap of */
     bool ndc_signed, far_infinite;  /**< of OpenGL's NDC alone; of an infinite far plane, too */
     double (*reads)(const dp_setup *setup, const trap_depth *at);
 } trap_row;
 
-const trap_row *trap_get(size_t index); /**< null beyond the last */
+NAMED_ROWS(trap_row, trap);
 
 /** What it takes a surface at z for, within 2^-40 of exactly; NaN where it is no trap of the set-up. Between the
  * planes, near above 0; `half` is the tangent of half the vertical field of view, INFINITY what has no depth left. */

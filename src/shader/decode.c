@@ -106,9 +106,7 @@ const decode_row decode_rows[] = {
 };
 /* clang-format on */
 
-const decode_row *decode_get(size_t index) {
-    return index < DECODE_ROWS ? &decode_rows[index] : NULL;
-}
+NAMED_TABLE(decode, decode_rows);
 
 bool decode_applies(const decode_row *row, const dp_setup *setup) {
     const bool curve = setup->spec.ortho                      ? row->ortho

@@ -10,6 +10,7 @@
 
 #include <stdbool.h>
 
+#include "core/named.h"
 #include "depthprec/depthprec.h"
 
 /** What a decoding gives. */
@@ -43,12 +44,10 @@ typedef struct decode_constants {
 } decode_constants;
 
 typedef struct decode_row {
-    const char *name; /**< "linear-eye", "linear-01", "linear-01-near", "ortho-eye", "w-eye", "log-eye", "complement" */
-    const char *note; /**< the formula */
+    NAMED_FIELDS; /**< the note is the formula */
     decode_quantity quantity;
     bool perspective, ortho, w, log; /**< for which curves: W-buffer, logarithmic */
     bool far_infinite;
-    const char *source;
     decode_constants (*constants)(const dp_setup *setup);
 } decode_row;
 
@@ -65,7 +64,7 @@ enum {
 };
 extern const decode_row decode_rows[DECODE_ROWS];
 
-const decode_row *decode_get(size_t index); /**< null beyond the last */
+NAMED_ROWS(decode_row, decode);
 
 /** Does the row apply to the set-up's curve, projection and far plane? */
 bool decode_applies(const decode_row *row, const dp_setup *setup);

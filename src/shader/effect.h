@@ -17,6 +17,7 @@
 #ifndef SHADER_EFFECT_H
 #define SHADER_EFFECT_H
 
+#include "core/named.h"
 #include "shader/camera.h"
 #include "shader/parameter.h"
 
@@ -102,9 +103,7 @@ typedef void effect_critical(const effect_view *view, const double *parameters, 
                              double out[2]);
 
 typedef struct effect_row {
-    const char *name;    /**< "intersection", "fog", ... */
-    const char *aliases; /**< what articles and shaders call it, separated by one space; or null */
-    const char *note;    /**< the formula */
+    NAMED_FIELDS; /**< the note is the formula, the aliases what articles and shaders call it */
     texture_parameter parameters[PARAMETERS_MAX + 1];
     int wanted;     /**< the parameter whose usable values are looked for */
     bool smallest;  /**< it is usable from some value up; else from some value down */
@@ -115,7 +114,6 @@ typedef struct effect_row {
     unsigned needs; /**< EFFECT_POSITION and the like */
     const char *reference; /**< what the depth is compared with; null when with nothing */
     bool given;            /**< the reference is a parameter, which the user gives with an image */
-    const char *source;
     effect_kind kind;
     effect_taps taps;
     bool alone; /**< EFFECT_STEP: the difference is that of a depth to the stored one of its own cell, else that of the
@@ -135,8 +133,7 @@ typedef struct effect_row {
     double tint[4]; /**< by default: red, green, blue, alpha */
 } effect_row;
 
-/** The rows in order; null beyond the last. */
-const effect_row *effect_get(size_t index);
+NAMED_ROWS(effect_row, effect);
 
 /** The eye depth of a row that is `given`, by its parameters `reference`, or `reference01` times far; NaN where neither
  *  is. */

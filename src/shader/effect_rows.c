@@ -233,9 +233,7 @@ static const effect_row rows[] = {
 };
 /* clang-format on */
 
-const effect_row *effect_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
+NAMED_TABLE(effect, rows);
 
 double effect_reference(const effect_row *row, const double *parameters, double zfar) {
     const int at = parameter_find(row->parameters, "reference"), share = parameter_find(row->parameters, "reference01");

@@ -288,29 +288,28 @@ static const char urp[] = "Universal RP, SSAO.hlsl, ReconstructNormal";
 
 /* clang-format off */
 const normal_row normal_methods[] = {
-    [NORMAL_LOW] = {"low", "the 2 x 2 quad of the pixel, as ddx and ddy; sky is at far", 1, 1, urp, low_run, low_sides,
-     .sees_sky = true},
-    [NORMAL_MEDIUM] = {"medium", "on each axis the farther of the pixels 2 away, sky at far before all others",
-     2, 2, urp, medium_run, medium_sides, .sees_sky = true},
-    [NORMAL_MEDIUM_1] = {"medium-1", "of the pixels next to it the farther on each axis, but sky last",
-     1, 1, "", medium_1_run, medium_1_sides, .half = false},
-    [NORMAL_HIGH] = {"high", "on each axis the side, 2 pixels away, whose line through two pixels meets the depth "
-     "best; sky is at far",
-     2, 4, urp, high_run, high_sides, .sees_sky = true},
-    [NORMAL_HIGH_1] = {"high-1", "the same with the pixels next to it, but sky last",
-     1, 2, "", high_1_run, high_1_sides, .half = false},
-    [NORMAL_PROJECTIVE] = {"projective",
-     "as high-1, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
-     1, 2, "depthprec(7)", projective_run, projective_sides, .half = false},
-    [NORMAL_LOW_HALF] = {"low-half", "low of places in binary16, as half3 is; so is the normal",
-     1, 1, urp, low_half_run, low_half_sides, .half = true, .sees_sky = true},
-    [NORMAL_MEDIUM_HALF] = {"medium-half", "medium likewise, of neighbours whose uv and depth were half3 before",
-     2, 2, urp, medium_half_run, medium_half_sides, .half = true, .half_uv = true, .sees_sky = true},
-    [NORMAL_HIGH_HALF] = {"high-half", "high likewise, of neighbours whose uv and depth were half3 before",
-     2, 4, urp, high_half_run, high_half_sides, .half = true, .half_uv = true, .sees_sky = true},
+    [NORMAL_LOW] = {"low", NULL, "the 2 x 2 quad of the pixel, as ddx and ddy; sky is at far", urp, 1, 1, low_run,
+     low_sides, .sees_sky = true},
+    [NORMAL_MEDIUM] = {"medium", NULL, "on each axis the farther of the pixels 2 away, sky at far before all others",
+     urp, 2, 2, medium_run, medium_sides, .sees_sky = true},
+    [NORMAL_MEDIUM_1] = {"medium-1", NULL, "of the pixels next to it the farther on each axis, but sky last", "", 1,
+     1, medium_1_run, medium_1_sides, .half = false},
+    [NORMAL_HIGH] = {"high", NULL,
+     "on each axis the side, 2 pixels away, whose line through two pixels meets the depth "
+     "best; sky is at far", urp, 2, 4, high_run, high_sides, .sees_sky = true},
+    [NORMAL_HIGH_1] = {"high-1", NULL, "the same with the pixels next to it, but sky last", "", 1, 2, high_1_run,
+     high_1_sides, .half = false},
+    [NORMAL_PROJECTIVE] = {"projective", NULL,
+     "as high-1, lines in 1/z, and the normal from the differences of 1/z: exact on planes", "depthprec(7)", 1, 2,
+     projective_run, projective_sides, .half = false},
+    [NORMAL_LOW_HALF] = {"low-half", NULL, "low of places in binary16, as half3 is; so is the normal", urp, 1, 1,
+     low_half_run, low_half_sides, .half = true, .sees_sky = true},
+    [NORMAL_MEDIUM_HALF] = {"medium-half", NULL,
+     "medium likewise, of neighbours whose uv and depth were half3 before", urp, 2, 2, medium_half_run,
+     medium_half_sides, .half = true, .half_uv = true, .sees_sky = true},
+    [NORMAL_HIGH_HALF] = {"high-half", NULL, "high likewise, of neighbours whose uv and depth were half3 before",
+     urp, 2, 4, high_half_run, high_half_sides, .half = true, .half_uv = true, .sees_sky = true},
 };
 /* clang-format on */
 
-const normal_row *normal_get(size_t index) {
-    return index < NORMAL_METHODS ? &normal_methods[index] : NULL;
-}
+NAMED_TABLE(normal, normal_methods);

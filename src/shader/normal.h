@@ -10,6 +10,7 @@
 #ifndef SHADER_NORMAL_H
 #define SHADER_NORMAL_H
 
+#include "core/named.h"
 #include "shader/camera.h"
 #include "shader/sample_rounding.h"
 
@@ -30,11 +31,9 @@ typedef struct normal_rows {
 enum { NORMAL_LEFT = 1, NORMAL_BELOW = 2 };
 
 typedef struct normal_row {
-    const char *name; /**< "low", "medium", "high", "medium-1", "high-1", "projective", "low-half", ... */
-    const char *note;
+    NAMED_FIELDS;
     int step;  /**< pixels to the neighbours */
     int reach; /**< pixels that are looked at in each direction */
-    const char *source;
     /** View-space unit normals that face the camera, `count` in each plane. The same bits on every processor. Those in
      *  binary16 are of places in binary16, along the camera's axes: NaN where these coincide or are beyond 65504. */
     void (*run)(const normal_rows *in, float *nx, float *ny, float *nz);
@@ -59,7 +58,7 @@ enum {
 };
 extern const normal_row normal_methods[NORMAL_METHODS];
 
-const normal_row *normal_get(size_t index); /**< null beyond the last */
+NAMED_ROWS(normal_row, normal);
 
 /** The angle between two vectors, radians in [0, pi], of any length and without cancellation; NaN for a null vector. */
 double normal_angle(const double a[3], const double b[3]);

@@ -222,9 +222,7 @@ static const pack_row rows[] = {
 };
 /* clang-format on */
 
-const pack_row *pack_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
+NAMED_TABLE(pack, rows);
 
 const pack_row *pack_stereo(void) {
     return &rows[STEREO_8];

@@ -13,6 +13,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/named.h"
+
 typedef enum pack_kind { PACK_DEPTH = 0, PACK_NORMAL, PACK_DEPTH_NORMAL, PACK_KINDS } pack_kind;
 
 /** kScale of EncodeViewNormalStereo: channels from 0 to 1 span this far to both sides of the pole. */
@@ -29,8 +31,7 @@ typedef struct pack_bound {
 } pack_bound;
 
 typedef struct pack_row {
-    const char *name; /**< "rg-depth", "stereo-8", "oct-8", "xyz-8", "depth-normal", ... */
-    const char *note;
+    NAMED_FIELDS;
     pack_kind kind;
     pack_layout layout;
     int channels, bits; /**< bits of each channel */
@@ -39,7 +40,6 @@ typedef struct pack_row {
     bool truncates;     /**< channels are stored truncated, else to the nearest code */
     pack_bound depth;   /**< claims: shares of the range */
     pack_bound normal;  /**< claims: degrees */
-    const char *source;
     /**
      * The codes of the channels.
      * @param in  depth: a number in [0, 1); normal: a unit vector of the row's domain; both: the normal, then the depth
@@ -50,8 +50,7 @@ typedef struct pack_row {
     void (*decode)(const struct pack_row *row, const uint32_t codes[], double *out);
 } pack_row;
 
-/** The rows in order; null beyond the last. */
-const pack_row *pack_get(size_t index);
+NAMED_ROWS(pack_row, pack);
 
 /** The row "stereo-8". */
 const pack_row *pack_stereo(void);

@@ -62,9 +62,7 @@ static const packing rows[] = {
 };
 /* clang-format on */
 
-const packing *packing_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
+NAMED_TABLE(packing, rows);
 
 /* ---- One texel --------------------------------------------------------------------------------------------------- */
 
@@ -106,10 +104,7 @@ void packing_texel(const packing *p, uint64_t number, uint8_t *texel) {
 }
 
 const pack_row *packing_normals(const packing *p) {
-    size_t i = 0;
-    while (p->encoded != NULL && strcmp(pack_get(i)->name, p->encoded) != 0)
-        i++;
-    return p->encoded != NULL ? pack_get(i) : NULL;
+    return p->encoded != NULL ? pack_find(p->encoded) : NULL;
 }
 
 void packing_normal(const uint8_t *texel, double normal[3]) {

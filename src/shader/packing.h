@@ -9,14 +9,13 @@
 #ifndef SHADER_PACKING_H
 #define SHADER_PACKING_H
 
+#include "core/named.h"
 #include "image/image.h"
 #include "shader/pack.h"
 #include "shader/sample_rounding.h"
 
 typedef struct packing {
-    const char *name;    /**< "depth-normals", "rg", ... */
-    const char *aliases; /**< as list_item has them */
-    const char *note, *source;
+    NAMED_FIELDS;
     uint32_t channels;                   /**< of the texture; a file may have more */
     uint32_t weight[IMAGE_CHANNELS_MAX]; /**< 0: holds no depth */
     double steps;                        /**< 0: it holds no depth, but normals alone */
@@ -29,8 +28,7 @@ typedef struct packing {
     double cut; /**< what truncated channels may lose, a share of 1, because x - y/255 came out just below a code */
 } packing;
 
-/** The rows in order; null beyond the last. */
-const packing *packing_get(size_t index);
+NAMED_ROWS(packing, packing);
 
 /** The whole number of a texel, and its depth, at most 1. */
 uint64_t packing_number(const packing *p, const uint8_t *texel);

@@ -9,6 +9,7 @@
 #define SHADER_POSITION_H
 
 #include "core/engine.h"
+#include "core/named.h"
 #include "shader/camera.h"
 #include "shader/decode.h"
 
@@ -32,12 +33,10 @@ typedef struct position_state {
 typedef double position_bound_of(const texture_camera *camera, uint32_t row, uint32_t column, double d);
 
 typedef struct position_row {
-    const char *name; /**< "matrix", "rays", "extents", "extents-half", "view" */
-    const char *note;
+    NAMED_FIELDS;
     bool perspective, ortho; /**< has such a form */
     bool curved;             /**< needs no projection matrix: takes linear and logarithmic depth, too */
     bool by_far;             /**< orthographic: divides by the far plane, which must not be 0 */
-    const char *source;
     /** Places of `count` pixels of a row from `column` on: three planes, world coordinates. The planes do not overlap
      *  each other or d. NaN depths give NaN. */
     void (*run)(const position_state *s, uint32_t row, uint32_t column, const float *d, size_t count, float *x,
@@ -50,7 +49,7 @@ position_bound_of matrix_bound, rays_bound, extents_bound, half_bound, view_boun
 enum { POSITION_MATRIX = 0, POSITION_RAYS, POSITION_EXTENTS, POSITION_EXTENTS_HALF, POSITION_VIEW, POSITION_ROWS };
 extern const position_row position_rows[POSITION_ROWS];
 
-const position_row *position_get(size_t index); /**< null beyond the last */
+NAMED_ROWS(position_row, position);
 
 /** Does the row have a form for the camera's projection and mapping? */
 bool position_applies(const position_row *row, const texture_camera *camera);

@@ -206,6 +206,4 @@ const position_row position_rows[] = {
 };
 /* clang-format on */
 
-const position_row *position_get(size_t index) {
-    return index < POSITION_ROWS ? &position_rows[index] : NULL;
-}
+NAMED_TABLE(position, position_rows);

@@ -122,32 +122,32 @@ static world_error of_cell(const world_scheme *s, const world_where *at) {
 
 /* clang-format off */
 static const world_row rows[WORLD_ROWS] = {
-    {"absolute",
+    {"absolute", NULL,
      "vertices in the world through a view matrix; of a reversed infinite projection through one of both, too",
-     NULL, 0.0,
-     false, false, "common", arithmetic_world, of_world},
-    {"local", "vertices about an origin, whose matrix and the view's are multiplied in binary32", NULL, 0.0,
-     false, false, "common", arithmetic_local, of_local},
-    {"camera-float", "vertices less the camera, both in binary32, then a view without translation", NULL, 0.0,
-     false, false, "deck.gl before 64-bit shaders; Filament, issue 913", arithmetic_camera_float, of_camera_float},
-    {"split", "each coordinate a multiple of the size and a rest, subtracted part by part", "the multiples",
-     65536.0, true, false, "Cesium, EncodedCartesian3.js and translateRelativeToEye.glsl", arithmetic_split, of_split},
-    {"tile", "tile and offset of each mesh's origin, subtracted part by part", "the edge of a tile",
-     20971.52, false, true, "Unreal Engine 5.0 manual, Large World Coordinates: 2097152 units of 1 cm",
-     arithmetic_tile, of_tile},
-    {"cell", "cell and offset of each mesh's origin, about the camera's cell; there as absolute", "the edge of a cell",
-     2000.0, false, false, "big_space, src/grid/cell.rs: edge 2000, threshold 100", arithmetic_cell, of_cell},
-    {"two-sum", "origins of meshes and camera as two binary32 numbers each, added without loss", NULL, 0.0,
-     false, false, "Godot with double precision, scene_forward_clustered.glsl, PR 66178",
+     "common", NULL, 0.0, false, false, arithmetic_world, of_world},
+    {"local", NULL, "vertices about an origin, whose matrix and the view's are multiplied in binary32", "common",
+     NULL, 0.0, false, false, arithmetic_local, of_local},
+    {"camera-float", NULL, "vertices less the camera, both in binary32, then a view without translation",
+     "deck.gl before 64-bit shaders; Filament, issue 913", NULL, 0.0, false, false, arithmetic_camera_float,
+     of_camera_float},
+    {"split", NULL, "each coordinate a multiple of the size and a rest, subtracted part by part",
+     "Cesium, EncodedCartesian3.js and translateRelativeToEye.glsl", "the multiples", 65536.0, true, false,
+     arithmetic_split, of_split},
+    {"tile", NULL, "tile and offset of each mesh's origin, subtracted part by part",
+     "Unreal Engine 5.0 manual, Large World Coordinates: 2097152 units of 1 cm", "the edge of a tile", 20971.52,
+     false, true, arithmetic_tile, of_tile},
+    {"cell", NULL, "cell and offset of each mesh's origin, about the camera's cell; there as absolute",
+     "big_space, src/grid/cell.rs: edge 2000, threshold 100", "the edge of a cell", 2000.0, false, false,
+     arithmetic_cell, of_cell},
+    {"two-sum", NULL, "origins of meshes and camera as two binary32 numbers each, added without loss",
+     "Godot with double precision, scene_forward_clustered.glsl, PR 66178", NULL, 0.0, false, false,
      arithmetic_two_sum, of_two_sum},
-    {"camera-double", "vertices less the camera in double, then rounded", NULL, 0.0,
-     false, false, "common; Filament, issue 913", arithmetic_camera_double, of_camera_double},
+    {"camera-double", NULL, "vertices less the camera in double, then rounded", "common; Filament, issue 913", NULL,
+     0.0, false, false, arithmetic_camera_double, of_camera_double},
 };
 /* clang-format on */
 
-const world_row *world_get(size_t index) {
-    return index < WORLD_ROWS ? &rows[index] : NULL;
-}
+NAMED_TABLE(world, rows);
 
 bool world_size_fits(const world_row *row, double size) {
     int exponent;

@@ -13,6 +13,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/named.h"
+
 typedef struct world_row world_row;
 
 /** A scheme and its size. */
@@ -52,13 +54,11 @@ typedef struct world_where {
 } world_where;
 
 struct world_row {
-    const char *name;   /**< "split" */
-    const char *note;   /**< what it does, a clause */
-    const char *size;   /**< what the number behind the name is; null where there is none */
-    double standard;    /**< the size where none is given */
-    bool power2;        /**< the size is a power of two */
-    bool metres;        /**< `standard` is of metres; else of scene units, whatever they are */
-    const char *source; /**< who does so */
+    NAMED_FIELDS;
+    const char *size; /**< what the number behind the name is; null where there is none */
+    double standard;  /**< the size where none is given */
+    bool power2;      /**< the size is a power of two */
+    bool metres;      /**< `standard` is of metres; else of scene units, whatever they are */
     void (*view)(const world_scheme *s, const world_camera *camera, const world_place *place, float out[3]);
     world_error (*bound)(const world_scheme *s, const world_where *at);
 };
@@ -68,8 +68,8 @@ enum { WORLD_ROWS = 8 };
 /** By how much less than what lies between two places their part of `camera` may differ, as a share of it. */
 #define WORLD_TURN 0x1.bb68p-25 /* sqrt(3)/2 2^-24, rounded up */
 
-/** The rows, those that suffice least first; null for an index that is not below WORLD_ROWS. */
-const world_row *world_get(size_t index);
+/** The rows, those that suffice least first. */
+NAMED_ROWS(world_row, world);
 
 /** Is it a size of the row: from 1e-3 to 1e12, a power of two where it must be. */
 bool world_size_fits(const world_row *row, double size);

@@ -7,7 +7,7 @@
 #include "cli/option/kinds.h"
 #include "report/output.h"
 
-static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
+static const name_list apis = {.words = (const char *const[]){"all", NULL}, .rows = &bias_api_table};
 
 const bias_api *bias_asked_api(const bias_asked *b, size_t index) {
     size_t i = 0;

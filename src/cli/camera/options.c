@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/camera/camera.h"
+#include "cli/list.h"
 #include "cli/option/kinds.h"
 #include "report/output.h"
 
@@ -13,9 +14,9 @@ static const name_list formats = {.words = (const char *const[]){"all", "depth24
 static const name_list mappings = {.words = (const char *const[]){"all", NULL},
                                    .get = list_mapping,
                                    .more = " (or a name from 'depthprec list mappings')"};
-static const name_list presets = {.get = list_preset};
-static const name_list platforms = {.get = list_platform};
-static const name_list units = {.get = list_unit};
+static const name_list presets = {.rows = &preset_table};
+static const name_list platforms = {.rows = &platform_table};
+static const name_list units = {.rows = &unit_table};
 static const name_list roundings = {.get = list_rounding};
 static const name_list models = {.get = list_model};
 static const name_list ariths = {.get = list_arith};

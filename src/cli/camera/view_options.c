@@ -6,7 +6,7 @@
 #include "cli/option/kinds.h"
 #include "report/output.h"
 
-static const name_list rasters = {.get = list_rasterizer};
+static const name_list rasters = {.rows = &raster_table};
 
 enum { VIEWPORT_MAX = 32768 };
 

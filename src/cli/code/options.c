@@ -5,7 +5,7 @@
 #include "cli/option/kinds.h"
 #include "report/output.h"
 
-static const name_list languages = {.get = list_language};
+static const name_list languages = {.rows = &code_language_table};
 static const name_list code_parts = {
     .words = (const char *const[]){"linearize", "projection", "encode", "position", "pack", "normal", NULL}};
 

@@ -42,7 +42,7 @@ static const char *called(const judge_candidate *c) {
 
 static void name(const judge_request *o, const judge_candidate *c, named *out) {
     *out = (named){.computes = c->output->name,
-                   .formula = c->trap != NULL ? c->trap->formula : c->output->formula,
+                   .formula = c->trap != NULL ? c->trap->note : c->output->formula,
                    .called = called(c),
                    .from = c->input->name,
                    .factor = c->factor,

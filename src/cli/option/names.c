@@ -3,7 +3,6 @@
 
 #include <ctype.h>
 #include <string.h>
-#include <strings.h>
 
 #include "core/append.h"
 
@@ -16,27 +15,22 @@ bool names_get(const name_list *n, size_t index, list_item *item) {
             *item = (list_item){.name = n->words[index]};
             return true;
         }
-    return n->get != NULL && n->get(index - words, item);
-}
-
-/* Whether `text` is one of the words of `list`, which are separated by one space. */
-static bool among(const char *text, const char *list) {
-    for (const size_t length = strlen(text); list != NULL && length > 0; list = strchr(list, ' ')) {
-        list += *list == ' ';
-        if (strcspn(list, " ") == length && strncasecmp(list, text, length) == 0)
-            return true;
-    }
-    return false;
-}
-
-bool names_is(const list_item *item, const char *text) {
-    return strcasecmp(item->name, text) == 0 || among(text, item->aliases);
+    if (n->get != NULL)
+        return n->get(index - words, item);
+    const named_row *row = n->rows != NULL ? named_at(n->rows, index - words) : NULL;
+    if (row == NULL)
+        return false;
+    *item =
+        (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
+    if (n->tell != NULL)
+        n->tell(row, item);
+    return true;
 }
 
 bool names_find(const name_list *n, const char *text, size_t *index, list_item *item) {
     list_item tried;
     for (size_t i = 0; names_get(n, i, &tried); i++)
-        if (names_is(&tried, text)) {
+        if (named_is(tried.name, tried.aliases, text)) {
             if (index != NULL)
                 *index = i;
             if (item != NULL)

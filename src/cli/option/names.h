@@ -9,21 +9,44 @@
 #ifndef CLI_OPTION_NAMES_H
 #define CLI_OPTION_NAMES_H
 
-#include "cli/list.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "core/named.h"
+
+enum { LIST_TEXT_SIZE = 768 };
+
+/** One listed thing. Texts are static, except `bound`, which is written in place. */
+typedef struct list_item {
+    const char *name;
+    const char *aliases;        /**< separated by one space; null or "" when there are none */
+    const char *note;           /**< what it is, one line */
+    char bound[LIST_TEXT_SIZE]; /**< the claim, "" when nothing is claimed */
+    const char *source;         /**< null or "" when there is none */
+    const void *row;            /**< the row itself; null where it has no pointer */
+} list_item;
+
+/** Writes what there is. @return true */
+static inline bool list_fill(list_item *item, list_item what) {
+    *item = what;
+    return true;
+}
+
+/** Fills in thing `index`; false when there is none. */
+typedef bool (*list_get)(size_t index, list_item *item);
 
 typedef struct name_list {
     const char *const *words; /**< before the rows, null behind the last; or null when there are none */
-    list_get get;             /**< the rows, with their other spellings; or null when there are none */
-    const char *more;         /**< what else is allowed, added to the list in a refusal; or null */
+    const named_table *rows;  /**< or null when there are none, */
+    list_get get;             /**< or when they are no table: this gives them */
+    void (*tell)(const void *row, list_item *item); /**< writes what is claimed of a row; null where nothing is */
+    const char *more; /**< what else is allowed, added to the list in a refusal; or null */
 } name_list;
 
 enum { NAMES_SIZE = 512 };
 
 /** Name `index`, words first; false behind the last. A word has no row. */
 bool names_get(const name_list *n, size_t index, list_item *item);
-
-/** Is it called so, in any case? */
-bool names_is(const list_item *item, const char *text);
 
 /** Letter case does not matter. `index` and `item` may be null. */
 bool names_find(const name_list *n, const char *text, size_t *index, list_item *item);

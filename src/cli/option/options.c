@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/list.h"
 #include "cli/option/option.h"
 #include "core/append.h"
 #include "depthprec/mapping.h"

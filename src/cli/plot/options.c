@@ -6,7 +6,7 @@
 #include "plot/figure.h"
 #include "report/output.h"
 
-static const name_list figures = {.get = list_figure};
+static const name_list figures = {.rows = &figure_table};
 
 /* clang-format off */
 /* The figures: those of set-ups, and those of a model, of shadow maps and of a requirement file, whose options are

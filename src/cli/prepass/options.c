@@ -5,8 +5,8 @@
 #include "cli/prepass/request.h"
 #include "report/output.h"
 
-static const name_list programs = {.get = list_program};
-static const name_list programs_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_program};
+static const name_list programs = {.rows = &vertex_program_table};
+static const name_list programs_or_all = {.words = (const char *const[]){"all", NULL}, .rows = &vertex_program_table};
 static const name_list spreads = {.get = list_vertices};
 
 static int add_program(asked_line *line, const option_row *row, const char *name, void *group) {

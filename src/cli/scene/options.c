@@ -7,7 +7,7 @@
 #include "scene/find.h"
 #include "shadow/shadow.h"
 
-static const name_list filters_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_filter};
+static const name_list filters_or_all = {.words = (const char *const[]){"all", NULL}, .rows = &finder_filter_table};
 static const name_list transforms = {.words = (const char *const[]){"exact", "binary32", NULL}};
 
 static int add_filter(asked_line *line, const option_row *row, const char *name, void *group) {

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/list.h"
 #include "cli/option/names.h"
 #include "cli/texture/texture.h"
 #include "core/append.h"

@@ -14,12 +14,12 @@
 #include "image/image.h"
 #include "report/output.h"
 
-static const name_list synthetics = {.get = list_synthetic};
-static const name_list products = {.get = list_product};
+static const name_list synthetics = {.rows = &synthetic_table};
+static const name_list products = {.rows = &product_table};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
 static const name_list samples = {.get = list_samples};
 static const name_list stereos = {.get = list_stereo};
-static const name_list packings = {.get = list_packing};
+static const name_list packings = {.rows = &packing_table};
 
 /* What 1 in a sample of metric depth is. */
 static const struct sample_unit {

@@ -30,7 +30,7 @@ int parse_parameter(asked_line *line, const option_row *row, const char *value, 
 
 /* The method of normals that a product compares or holds, behind a second colon. */
 static int read_normals(texture_asked *o, const option_row *row, const char *value) {
-    static const name_list normals = {.get = list_normal};
+    static const name_list normals = {.rows = &normal_table};
     const bool packed = o->pack != NULL && o->pack->encoded != NULL;
     const bool compared = o->effect != NULL && (o->effect->needs & EFFECT_NORMALS) != 0;
     char text[NAMES_SIZE];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/world/origin.h"
+#include "cli/list.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +10,7 @@
 
 static const name_list log2_rules = {.get = list_log2};
 static const name_list compositions = {.get = list_composition};
-static const name_list schemes_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_scheme};
+static const name_list schemes_or_all = {.words = (const char *const[]){"all", NULL}, .rows = &world_table};
 
 /* NAME, or NAME:SIZE. */
 static int add_scheme(asked_line *line, const option_row *row, const char *text, void *group) {
