@@ -10,13 +10,6 @@
 #include "cli/option/names.h"
 #include "support.h"
 
-/* The row that --api takes for a name or another spelling. */
-static const bias_api *called(const char *name) {
-    const name_list apis = {.get = list_api};
-    list_item item;
-    return names_find(&apis, name, NULL, &item) ? item.row : NULL;
-}
-
 static dp_format format_of(const char *name) {
     dp_format found[2];
     assert_true(dp_format_parse(name, found) >= 1);
@@ -59,7 +52,7 @@ TEST(test_webgpu_rows) {
     const dp_format fp32 = format_of("depth32float");
     for (size_t a = 0; a < sizeof apis / sizeof apis[0]; a++)
         for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-            const bias_state s = {called(apis[a]), rows[i].units, rows[i].factor, rows[i].clamp};
+            const bias_state s = {bias_api_find(apis[a]), rows[i].units, rows[i].factor, rows[i].clamp};
             const double o = bias_offset(&s, bias_unit_at(s.api, &fp32, rows[i].most).least, rows[i].m);
             assert_codes(dp_format_encode(&fp32, DP_ROUND_NEAREST, biased(rows[i].d, o)),
                          dp_format_encode(&fp32, DP_ROUND_NEAREST, rows[i].want));
@@ -76,7 +69,7 @@ TEST(test_webgpu_depth24plus) {
     assert_int_equal(dp_format_parse("depth24plus", both), 2);
     for (size_t f = 0; f < 2; f++)
         for (size_t i = 0; i < 3; i++) {
-            const bias_state s = {called("webgpu"), 0.25 * (1 << 25), rows[i].factor, rows[i].clamp};
+            const bias_state s = {bias_api_find("webgpu"), 0.25 * (1 << 25), rows[i].factor, rows[i].clamp};
             const double o = bias_offset(&s, bias_unit_at(s.api, &both[f], rows[i].most).least, rows[i].m);
             assert_int_equal(biased(0.25, o) > 0.4, rows[i].drawn);
         }
@@ -109,7 +102,7 @@ TEST(test_units) {
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const dp_format format = format_of(rows[i].format);
-        const bias_unit unit = bias_unit_at(called(rows[i].api), &format, rows[i].d);
+        const bias_unit unit = bias_unit_at(bias_api_find(rows[i].api), &format, rows[i].d);
         assert_ulp(unit.least, rows[i].least, 0.0);
         assert_true(unit.most == rows[i].most);
     }
@@ -117,10 +110,10 @@ TEST(test_units) {
 
 TEST(test_names) {
     const dp_setup fp32 = setup_of(1e-7, 1e9, DP_MAPPING_REVERSED, "fp32"); /* more units than 2^24 */
-    assert_true(bias_needed(&fp32, &(bias_goal){.api = called("metal"), .gap = 4.9}, 5.0) > 0x1p24);
+    assert_true(bias_needed(&fp32, &(bias_goal){.api = bias_api_find("metal"), .gap = 4.9}, 5.0) > 0x1p24);
     for (size_t i = 0; bias_api_get(i) != NULL; i++) {
         const bias_api *row = bias_api_get(i);
-        assert_true(called(row->name) == row);
+        assert_true(bias_api_find(row->name) == row);
         assert_true(row->note[0] != '\0' && row->source[0] != '\0' && row->call[0] != '\0');
         for (int k = 0; k < 2; k++) {
             const double units = bias_needed(&fp32, &(bias_goal){.api = row, .gap = k == 0 ? 1.0 / 3 : 4.9}, 5.0);
@@ -129,16 +122,17 @@ TEST(test_names) {
         char names[128];
         strcpy(names, row->aliases);
         for (char *name = strtok(names, " "); name != NULL; name = strtok(NULL, " "))
-            assert_true(called(name) == row);
+            assert_true(bias_api_find(name) == row);
     }
-    assert_true(called("Direct3D12") == called("d3d12") && called("D3D10") == called("d3d11"));
-    assert_null(called("metal2"));
-    assert_null(called(""));
-    assert_null(called("d3d1"));
+    assert_true(bias_api_find("Direct3D12") == bias_api_find("d3d12") &&
+                bias_api_find("D3D10") == bias_api_find("d3d11"));
+    assert_null(bias_api_find("metal2"));
+    assert_null(bias_api_find(""));
+    assert_null(bias_api_find("d3d1"));
 }
 
 TEST(test_clamp) {
-    const bias_api *d3d11 = called("d3d11");
+    const bias_api *d3d11 = bias_api_find("d3d11");
     const bias_state up = {d3d11, 100.0, 2.0, 0x1p-20};
     const bias_state down = {d3d11, -100.0, -2.0, -0x1p-20};
     const bias_state other = {d3d11, -100.0, -2.0, 0x1p-20}; /* a positive clamp does not hold a negative bias */
@@ -147,7 +141,7 @@ TEST(test_clamp) {
     assert_true(bias_offset(&other, 0x1p-24, 0.5) < -1.0);
     /* All in binary32: the small term is lost beside the large one. */
     const bias_state lost = {d3d11, 1.0, 1.0, 0.0};
-    const bias_state kept = {called("webgpu"), 1.0, 1.0, 0.0};
+    const bias_state kept = {bias_api_find("webgpu"), 1.0, 1.0, 0.0};
     assert_true(bias_offset(&lost, 0x1p-24, 4.0) == 4.0);
     assert_true(bias_offset(&kept, 0x1p-24, 4.0) > 4.0);
 }
@@ -198,7 +192,7 @@ TEST(test_shift) {
     for (uint64_t i = 0; i < test_cases(2000, 100000, 1000000); i++) {
         double lo, hi;
         const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
-        const bias_state s = {called("vulkan-float"), 0.0, 0.0, 0.0};
+        const bias_state s = {bias_api_find("vulkan-float"), 0.0, 0.0, 0.0};
         bias_state one = s;
         const double z = rng_log(&r, lo, hi);
         const double d = dp_window(&setup, z);
@@ -228,7 +222,7 @@ TEST(test_slope) {
         const double z = rng_log(&r, lo, hi);
         const double m = bias_window_slope(&setup, z, 3.0);
         const double o = 1e-7 * m; /* three tenths of a millionth of a scene unit */
-        const bias_state s = {called("d3d9"), o, 0.0, 0.0};
+        const bias_state s = {bias_api_find("d3d9"), o, 0.0, 0.0};
         const double shift = bias_at(&setup, &s, 0.0, z).shift;
         if (bias_at(&setup, &s, 0.0, z).limited) {
             t.skipped++;
@@ -242,8 +236,8 @@ TEST(test_slope) {
 TEST(test_limited) {
     const dp_setup d3d = setup_of(0.1, INFINITY, DP_MAPPING_D3D, "fp32");
     const dp_setup reversed = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, "unorm24");
-    const bias_state plus = {called("d3d9"), 0.5, 0.0, 0.0};
-    const bias_state minus = {called("d3d9"), -0.5, 0.0, 0.0};
+    const bias_state plus = {bias_api_find("d3d9"), 0.5, 0.0, 0.0};
+    const bias_state minus = {bias_api_find("d3d9"), -0.5, 0.0, 0.0};
     bias_effect e = bias_at(&d3d, &plus, 0.0, 100.0);
     assert_true(e.limited && isinf(e.to) && isinf(e.shift) && e.moved == d3d.spec.format.code_max);
     e = bias_at(&d3d, &minus, 0.0, 0.11);
@@ -272,7 +266,7 @@ static uint32_t stored(const dp_setup *setup, double d) {
 /* One unit of r = code 1 is not always enough for an integer buffer: 0.5 and the next number store the same code. */
 TEST(test_one_unit_can_fail) {
     static const char *const formats[] = {"unorm16", "unorm24"};
-    const bias_api *api = called("d3d11");
+    const bias_api *api = bias_api_find("d3d11");
     for (size_t i = 0; i < 2; i++) {
         const dp_setup setup = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, formats[i]);
         const double r = bias_unit_at(api, &setup.spec.format, 0.5).least;
@@ -438,7 +432,7 @@ TEST(test_enough_over) {
     spec.zfar = 50.0;
     spec.format = format_of("fp32");
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    const bias_goal goal = {.api = called("metal"), .slope = 0.01};
+    const bias_goal goal = {.api = bias_api_find("metal"), .slope = 0.01};
     bias_enough_over(&setup, &goal, -5.0, 50.0, &from, &to);
     assert_true(from > -5.0 && from < -4.99 && to == 50.0);
     assert_true(isfinite(bias_needed(&setup, &goal, from)) && isinf(bias_needed(&setup, &goal, from - 1e-9)));
@@ -467,7 +461,7 @@ TEST(test_sampled_apart) {
         const dp_setup setup = flat_setup(i & 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, formats[i >> 1 & 1]);
         for (int eighths = 1; eighths <= 40; eighths++) { /* of a step of binary32 below 1 */
             const double m = eighths * 0x1p-27;
-            const bias_goal goal = {.api = called(apis[i >> 2]), .slope = m};
+            const bias_goal goal = {.api = bias_api_find(apis[i >> 2]), .slope = m};
             double most = 0.0, needed = 0.0;
             for (int k = -64; k <= 64; k++) {
                 const double d = 0.5 + k * 0x1p-27, front = d - bias_sign(&setup) * m;
@@ -495,7 +489,7 @@ TEST(test_longest_cells) {
         const int reversed = i & 1;
         const dp_setup setup = flat_setup(reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, "unorm16");
         const double u = 0x1p-24, m = (i & 2 ? 3.0 : 1.0) * u, sign = bias_sign(&setup);
-        const bias_goal goal = {.api = called("d3d9"), .slope = m};
+        const bias_goal goal = {.api = bias_api_find("d3d9"), .slope = m};
         for (uint32_t code = 33000; code < 65000; code++) {
             const double middle = floor(dp_format_value(&setup.spec.format, code) / u) * u;
             double end = middle - sign * 127.0 * u; /* the last number of the cell away from the camera's side */
@@ -516,7 +510,7 @@ TEST(test_longest_cells) {
 
 TEST(test_impossible) {
     const dp_setup setup = setup_of(1.0, 1000.0, DP_MAPPING_D3D, "unorm24");
-    const bias_goal past = {.api = called("d3d11"), .gap = 2.0};
+    const bias_goal past = {.api = bias_api_find("d3d11"), .gap = 2.0};
     double worst;
     assert_true(isinf(bias_needed(&setup, &past, 2.5)));
     assert_true(isfinite(bias_needed(&setup, &past, 3.0)));
@@ -527,8 +521,8 @@ TEST(test_impossible) {
 /* An orthographic bias is as long everywhere, on both sides of 0, and ends at a plane behind the camera. */
 TEST(test_either_sign) {
     static const double places[] = {-99.0, -1.0, 0.0, 1.0, 400.0};
-    const bias_state three = {.api = called("d3d11"), .units = -3.0};
-    const bias_goal goal = {.api = called("d3d11"), .gap = 0.5};
+    const bias_state three = {.api = bias_api_find("d3d11"), .units = -3.0};
+    const bias_goal goal = {.api = bias_api_find("d3d11"), .gap = 0.5};
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     spec.ortho = 1;

@@ -91,14 +91,6 @@ TEST(corners_are_those_of_the_picture) {
 
 /* ---- Traps ------------------------------------------------------------------------------------------------------- */
 
-static const trap_row *trap_find(const char *name) {
-    size_t i = 0;
-    while (trap_get(i) != NULL && strcmp(trap_get(i)->name, name) != 0)
-        i++;
-    assert_non_null(trap_get(i));
-    return trap_get(i);
-}
-
 /* The depth that is stored of z, and LinearEyeDepth, both of the direction that is asked for. */
 static long double stored(long double n, long double f, long double z, bool ortho, bool reversed) {
     const long double d = ortho ? (z - n) / (f - n) : (1 - n / z) / (1 - n / f);

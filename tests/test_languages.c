@@ -27,13 +27,6 @@ static const method_row *method(const char *called) {
     return &linearize_family.methods[i];
 }
 
-static const code_language *language(const char *called) {
-    size_t i = 0;
-    while (strcmp(code_language_get(i)->name, called) != 0)
-        i++;
-    return code_language_get(i);
-}
-
 /* Every third camera has no far plane, and planes of every fourth are of few bits: then sums can be exact. */
 static dp_setup camera_of(rng *r, uint64_t k) {
     dp_setup setup;
@@ -134,7 +127,7 @@ static void *load_c(output *out, const char *path) {
 
 TEST(c_has_the_bits_of_the_library) {
     char path[512], symbol[32];
-    const code_language *c = language("c");
+    const code_language *c = code_language_find("c");
     rng r = rng_make("code");
     tally t = {.name = "bits"};
     dp_setup setups[CAMERAS_MAX];
@@ -220,9 +213,9 @@ static void print_packed(output *out, int id, const packing *p, const pack_row *
     for (int i = 2; i <= 4; i++)
         output_format(out, "#undef vector%d\n#define vector%d vector%d_%d\n", i, i, i, id);
     if (p != NULL)
-        code_packing(out, language("c"), p);
+        code_packing(out, code_language_find("c"), p);
     else
-        code_normal(out, language("c"), row);
+        code_normal(out, code_language_find("c"), row);
     for (int back = 0; back < 2; back++)
         output_format(out,
                       "void %s_%d(const float *at, float *to) { __typeof__(%spack_%s(%s)) v = %spack_%s(%s); "
@@ -400,7 +393,7 @@ static void perturb(tally *t, rng *r, size_t p, size_t m, const hardest *near, h
     const method_row *row = method(formulas[m].name);
     if (isinf(f) && (row->domain & METHOD_INFINITE) == 0)
         return;
-    const double bound = code_bound(language(promises[p].name), row, s);
+    const double bound = code_bound(code_language_find(promises[p].name), row, s);
     float d[DEPTHS];
     windows(r, d);
     for (int i = 0; i < DEPTHS; i++) {
@@ -469,7 +462,7 @@ TEST(no_claim_falls_without_a_proof) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         dp_setup setup;
         assert_int_equal(method_setup(&linearize_family, 0, rows[i].near, rows[i].far, false, &setup), DP_OK);
-        const double bound = code_bound(language(rows[i].language), method(rows[i].method), &setup) * 0x1p24;
+        const double bound = code_bound(code_language_find(rows[i].language), method(rows[i].method), &setup) * 0x1p24;
         if (!(bound >= rows[i].least))
             fail_msg("%s in %s, near %g, far %g: %g", rows[i].method, rows[i].language, rows[i].near, rows[i].far,
                      bound);
@@ -482,7 +475,7 @@ TEST(no_claim_falls_without_a_proof) {
 static void perturb_code(tally *t, rng *r, const dp_setup *s, size_t p, int way, double *most) {
     static const char *const names[] = {"floor", "rint", "truncate"};
     const method_row *row = way == 2 ? &code_encoders(DP_ROUND_ZERO)->methods[0] : &encode_family.methods[2 + way];
-    const double bound = code_bound(language(promises[p].name), row, s), m = s->spec.format.code_max;
+    const double bound = code_bound(code_language_find(promises[p].name), row, s), m = s->spec.format.code_max;
     float d[DEPTHS];
     assert_string_equal(row->name, names[way]);
     windows(r, d);
@@ -520,10 +513,10 @@ static void perturb_place(tally *t, rng *r, size_t p, double *most) {
     const double n = rng_log(r, 1e-6, 1e6), f = n * rng_log(r, 2, 1e6), half = rng_log(r, 1e-3, 100);
     dp_setup s;
     assert_int_equal(method_setup(&linearize_family, 0, n, f, false, &s), DP_OK);
-    const double bound = code_place_bound(language(promises[p].name), method("complement"), &s);
+    const double bound = code_place_bound(code_language_find(promises[p].name), method("complement"), &s);
     /* two products, each so many half units off, and a constant that is rounded to nearest */
     const double each = 1 + 2 * promises[p].sums * 0x1p-24;
-    const double depths = code_bound(language(promises[p].name), method("complement"), &s);
+    const double depths = code_bound(code_language_find(promises[p].name), method("complement"), &s);
     const double want = (1 + depths) * (1 + 0x1p-24) * each * each - 1;
     TALLY(t, fabs(bound / want - 1) < 1e-9, "%s: bound %.17g, not %.17g", promises[p].name, bound, want);
     for (int i = 0; i < DEPTHS; i++) {
@@ -559,7 +552,7 @@ TEST(no_place_is_off_by_more_than_its_bound) {
 
 /* Whole numbers of 24 bits are exact; `parts` of one may stand in a channel more. */
 static void perturb_packing(tally *t, rng *r, const packing *p, size_t which, double *most) {
-    const bound_arithmetic *how = &language(promises[which].name)->how;
+    const bound_arithmetic *how = &code_language_find(promises[which].name)->how;
     const long double parts = p->steps > 0x1p24 ? p->steps / 0x1p24 : 1, whole = p->steps / parts;
     const double bound = code_unpack_bound(p, how);
     float d[DEPTHS];
@@ -618,7 +611,7 @@ static void perturb_normal(tally *t, rng *r, bool stereo, size_t which, double *
     row.layout = stereo ? PACK_STEREO : PACK_OCT;
     row.sphere = !stereo;
     row.normal.max = 0; /* what is left are the roundings */
-    const double bound = code_normal_bound(&row, &language(promises[which].name)->how);
+    const double bound = code_normal_bound(&row, &code_language_find(promises[which].name)->how);
     for (int i = 0; i < DEPTHS; i++) {
         const device v = device_of(r, which, i);
         float n[3], to[3];
@@ -727,7 +720,7 @@ static void perturb_curve(tally *t, rng *r, dp_mapping mapping, int kind, size_t
     spec.log_c = one->c;
     if (dp_setup_init(&setup, &spec) != DP_OK)
         return;
-    const bound_arithmetic *how = &language(promises[p].name)->how;
+    const bound_arithmetic *how = &code_language_find(promises[p].name)->how;
     const long double n = kind == 0 ? 0 : spec.znear, f = spec.zfar, c = kind == 2 ? 1 / n : spec.log_c;
     const curve s = {kind, spec.znear, spec.zfar, (double)c, kind < 3 ? log2l(c * (f - n) + 1) : 0};
     const double back = code_curve_back(&setup, how), there = kind < 3 ? code_curve_there(&setup, how) : 1;
@@ -829,11 +822,11 @@ static void run_glsl(const char *expression) {
 
 static void run_method(tally *t, const method_row *row, const dp_setup *s) {
     float own[DEPTHS];
-    const double n = s->spec.znear, f = s->spec.zfar, bound = code_bound(language("glsl"), row, s);
+    const double n = s->spec.znear, f = s->spec.zfar, bound = code_bound(code_language_find("glsl"), row, s);
     const method_inputs in = {.count = DEPTHS, .d = depths};
     const method_outputs out = {.eye = own};
     int equal = 0;
-    code_function(&functions, language("glsl"), row, s, false);
+    code_function(&functions, code_language_find("glsl"), row, s, false);
     run_glsl("eye_depth(d)");
     row->run(&(method_call){row, s, NULL, &in, &out});
     for (int i = 0; i < DEPTHS; i++) {
@@ -851,7 +844,7 @@ static void run_codes(tally *t, const method_row *row, const dp_setup *s) {
     uint32_t own[DEPTHS];
     const method_inputs in = {.count = DEPTHS, .d = depths};
     const method_outputs out = {.code = own};
-    code_function(&functions, language("glsl"), row, s, false);
+    code_function(&functions, code_language_find("glsl"), row, s, false);
     run_glsl("float(depth_code(d))");
     row->run(&(method_call){row, s, NULL, &in, &out});
     for (int i = 0; i < DEPTHS; i++)
@@ -859,11 +852,11 @@ static void run_codes(tally *t, const method_row *row, const dp_setup *s) {
 }
 
 static void run_packing(tally *t, const packing *p) {
-    const bound_arithmetic *how = &language("glsl")->how;
+    const bound_arithmetic *how = &code_language_find("glsl")->how;
     const double bound = code_pack_bound(p, how) / p->steps + code_unpack_bound(p, how);
     int channel[4];
     const int count = channels_of(p, channel);
-    code_packing(&functions, language("glsl"), p);
+    code_packing(&functions, code_language_find("glsl"), p);
     output_format(&functions, "float again(vec4 v) { return unpack_depth(v.r%s); }\n",
                   count == 4   ? ", v.g, v.b, v.a"
                   : count == 3 ? ", v.g, v.b"
@@ -883,7 +876,7 @@ static void run_normal(tally *t, const pack_row *row) {
     static const char *const members[] = {"again(d).x", "again(d).y", "again(d).z"};
     static float n[DEPTHS][3];
     for (int k = 0; k < 3; k++) {
-        code_normal(&functions, language("glsl"), row);
+        code_normal(&functions, code_language_find("glsl"), row);
         output_format(&functions, "vec3 again(float d) { vec2 v = pack_normal(d - 0.5, 0.25, d - 0.75); "
                                   "v = roundEven(v * 127.0) / 127.0; return unpack_normal(v.x, v.y); }\n");
         run_glsl(members[k]);
@@ -892,7 +885,7 @@ static void run_normal(tally *t, const pack_row *row) {
     }
     for (int i = 0; i < DEPTHS; i++) {
         const double off = degrees_between(n[i], (const float[]){depths[i] - 0.5f, 0.25f, depths[i] - 0.75f});
-        TALLY(t, off <= code_normal_bound(row, &language("glsl")->how), "%s, d %a: %g degrees", row->name,
+        TALLY(t, off <= code_normal_bound(row, &code_language_find("glsl")->how), "%s, d %a: %g degrees", row->name,
               (double)depths[i], off);
     }
 }
@@ -902,9 +895,9 @@ static void run_logarithm(tally *t, dp_mapping mapping) {
     dp_setup s;
     spec.mapping = mapping;
     assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
-    const bound_arithmetic *how = &language("glsl")->how;
-    code_curve(&functions, language("glsl"), &s, false, false);
-    code_curve(&functions, language("glsl"), &s, true, false);
+    const bound_arithmetic *how = &code_language_find("glsl")->how;
+    code_curve(&functions, code_language_find("glsl"), &s, false, false);
+    code_curve(&functions, code_language_find("glsl"), &s, true, false);
     run_glsl("window_depth(eye_depth(d))");
     for (int i = 0; i < DEPTHS; i++) { /* z + 1 is off by a share: its logarithm by so many parts of that of far + 1 */
         const double bound = code_curve_there(&s, how) + code_curve_back(&s, how) / log(spec.zfar + 1) * 1.001;
@@ -922,7 +915,7 @@ TEST(a_device_has_what_is_said_of_glsl) {
     for (uint64_t k = 1; k < 4; k++) {
         const dp_setup s = camera_of(&r, k);
         for (size_t i = 0; i < *linearize_family.method_count; i++)
-            if (code_lacks(language("glsl"), &linearize_family.methods[i], &s) == NULL)
+            if (code_lacks(code_language_find("glsl"), &linearize_family.methods[i], &s) == NULL)
                 run_method(&t, &linearize_family.methods[i], &s);
     }
     for (int k = 0; k < 4; k++)

@@ -9,14 +9,6 @@
 #include "support.h"
 #include "truth.h"
 
-static const packing *row_of(const char *name) {
-    size_t i = 0;
-    while (packing_get(i) != NULL && strcmp(packing_get(i)->name, name) != 0)
-        i++;
-    assert_non_null(packing_get(i));
-    return packing_get(i);
-}
-
 /* ---- Every code ---------------------------------------------------------------------------------------------------*/
 
 /* What each texel stands for, written apart from the table. */
@@ -80,7 +72,7 @@ TEST(every_code) {
     tally t = {.name = "every code"};
     rng r = rng_make("every code");
     for (size_t i = 0; i < ALL; i++) {
-        const packing *p = row_of(all[i].name);
+        const packing *p = packing_find(all[i].name);
         const int bytes = all[i].count < 3 ? all[i].count : 3;
         const uint64_t step = test_cases(bytes < 3 ? 1 : 251, 1, 1);
         for (uint64_t code = 0; code < UINT64_C(1) << 8 * bytes; code += step) {
@@ -99,7 +91,7 @@ TEST(every_code) {
 TEST(every_code_in_images) {
     enum { SIDE = 256 };
     for (size_t i = 0; i < ALL; i++) {
-        const packing *p = row_of(all[i].name);
+        const packing *p = packing_find(all[i].name);
         image img = {.width = SIDE, .height = SIDE, .channels = p->channels, .type = IMAGE_U8};
         uint8_t *given = malloc(SIDE * SIDE * 4);
         unpacked out;
@@ -203,7 +195,7 @@ TEST(shaders_of_others) {
     rng r = rng_make("shaders of others");
     const uint64_t cases = test_cases(2000, 300000, 5000000);
     for (size_t i = 0; i < sizeof shaders / sizeof shaders[0]; i++) {
-        const packing *p = row_of(shaders[i].name);
+        const packing *p = packing_find(shaders[i].name);
         const double most = 0.5 / p->steps + p->off;
         double worst = 0;
         for (uint64_t k = 0; k < cases; k++) {
@@ -252,7 +244,7 @@ TEST(ranges_of_others) {
     rng r = rng_make("ranges of others");
     const uint64_t cases = test_cases(50000, 100000, 1000000);
     for (size_t i = 0; i < 2 * sizeof shaders / sizeof shaders[0]; i++) {
-        const packing *p = row_of(shaders[i / 2].name);
+        const packing *p = packing_find(shaders[i / 2].name);
         double used = 0;
         truncates = i % 2 == 1;
         for (uint64_t k = 0; k < cases; k++) {
@@ -279,7 +271,7 @@ TEST(ranges_of_all_bits) {
     tally t = {.name = "ranges of all bits"};
     rng r = rng_make("ranges of all bits");
     for (uint64_t i = 0; i < test_cases(2000, 100000, 1000000); i++) {
-        const packing *p = row_of(names[i % 2]);
+        const packing *p = packing_find(names[i % 2]);
         uint8_t texel[4];
         double depth;
         for (int k = 0; k < 4; k++)
@@ -318,7 +310,7 @@ enum { SIDE = 64 };
 
 /* A slope through many coarse codes, or noise; packed as rg. */
 static void draw(uint8_t *texels, int side, bool noise, double slope) {
-    const packing *p = row_of("rg");
+    const packing *p = packing_find("rg");
     rng r = rng_make("a slope");
     for (int y = 0; y < side; y++)
         for (int x = 0; x < side; x++) {
@@ -330,7 +322,7 @@ static void draw(uint8_t *texels, int side, bool noise, double slope) {
 static bool accepted(const uint8_t *texels, uint32_t side, unpacked *out) {
     image img = {.width = side, .height = side, .channels = 2, .type = IMAGE_U8, .data = malloc(2 * side * side)};
     memcpy(img.data, texels, 2 * side * side);
-    const bool good = packing_convert(row_of("rg"), false, &img, out);
+    const bool good = packing_convert(packing_find("rg"), false, &img, out);
     assert_true(good || (img.type == IMAGE_U8 && memcmp(img.data, texels, 2 * side * side) == 0));
     image_free(&img);
     return good;
@@ -404,7 +396,7 @@ TEST(thin_things) {
                                       : kind == 4 ? (x + y) % 4 == 0
                                                   : steps;
                     const double away = kind == 3 ? rng_unit(&r) * by : by;
-                    packing_texel(row_of("rg"), packing_nearest(row_of("rg"), behind - (thin ? away : 0)),
+                    packing_texel(packing_find("rg"), packing_nearest(packing_find("rg"), behind - (thin ? away : 0)),
                                   given + 2 * (y * SIDE + x));
                 }
             if (!accepted(given, SIDE, &out))
@@ -417,7 +409,7 @@ TEST(thin_things) {
 
 /* A truncated fine channel is full where the coarse one is a step short: that is counted. */
 TEST(truncated) {
-    const packing *p = row_of("rg");
+    const packing *p = packing_find("rg");
     uint8_t given[SIDE * SIDE * 2];
     unpacked out;
     rng r = rng_make("truncated texels");
@@ -452,7 +444,7 @@ TEST(truncation_tears) {
             ((uint8_t *)img.data)[2 * i] = (uint8_t)floorf(coarse * 255);
             ((uint8_t *)img.data)[2 * i + 1] = (uint8_t)floorf(fine * 255);
         }
-        assert_int_equal(packing_convert(row_of("rg"), truncated != 0, &img, &out), truncated);
+        assert_int_equal(packing_convert(packing_find("rg"), truncated != 0, &img, &out), truncated);
         assert_true(truncated || strncmp(out.wrong, "was resampled", 13) == 0);
         image_free(&img);
     }
@@ -469,7 +461,7 @@ TEST(wider_samples) {
                 const double code = 31.0 * (double)k + (between && k == 6 ? 0.01 : 0);
                 truth_store(img.data, types[i], k, types[i] == IMAGE_U16 ? rint(code * 257) : code / 255);
             }
-            assert_int_equal(packing_convert(row_of("rg"), false, &img, &out), !between);
+            assert_int_equal(packing_convert(packing_find("rg"), false, &img, &out), !between);
             if (between)
                 assert_string_equal(
                     out.wrong, "pixel 1,1 lies between the codes of 8 bits: it was resampled, or is not of 8 bits");
@@ -481,10 +473,10 @@ TEST(wider_samples) {
         }
     image img = {.width = 1, .height = 1, .channels = 2, .type = IMAGE_U8, .data = calloc(8, 1)};
     unpacked out;
-    assert_false(packing_convert(row_of("rgb24"), false, &img, &out));
+    assert_false(packing_convert(packing_find("rgb24"), false, &img, &out));
     assert_string_equal(out.wrong, "the packing rgb24 takes 3 channels, got 2");
     img.type = IMAGE_U32;
-    assert_false(packing_convert(row_of("rg"), false, &img, &out));
+    assert_false(packing_convert(packing_find("rg"), false, &img, &out));
     assert_string_equal(out.wrong,
                         "the packing rg takes samples of u1, or of u2, f4 or f8 that were of 8 bits, got u4");
     image_free(&img);
@@ -500,7 +492,7 @@ TEST(premultiplied) {
             texels[k] = (uint8_t)rng_below(&r, 256);
         for (size_t k = 0; k < 4096 && times == 1; k++)
             texels[k] = k % 4 == 3 ? texels[k] : (uint8_t)(texels[k] * texels[k / 4 * 4 + 3] / 255);
-        assert_true(packing_convert(row_of("rgba"), false, &img, &out));
+        assert_true(packing_convert(packing_find("rgba"), false, &img, &out));
         assert_int_equal(out.premultiplied, times);
         image_free(&img);
     }
@@ -620,8 +612,8 @@ TEST(the_far_plane_wraps) {
     for (int k = 0; k < 100000; k++) {
         const float v = 1 - (float)(k + 1) * 0x1p-24F;
         shader_rg(v, shader);
-        packing_texel(row_of("rg"), packing_nearest(row_of("rg"), (double)v), ours);
-        const double exact = 65025 * (double)v, off = 65025 * row_of("rg")->off;
+        packing_texel(packing_find("rg"), packing_nearest(packing_find("rg"), (double)v), ours);
+        const double exact = 65025 * (double)v, off = 65025 * packing_find("rg")->off;
         assert_true(fabs(exact - (255 * shader[0] + shader[1])) <= 0.5 + off);
         assert_true(fabs(exact - (255 * ours[0] + ours[1])) <= 0.5);
     }
@@ -677,7 +669,7 @@ TEST(cleared_to_black) {
         float eyes[PIXELS], fog[PIXELS];
         const char *const in = truth_path("in.npy");
         const bool depth = rows[i].said == NULL;
-        write_cleared(row_of(rows[i].packing), 7);
+        write_cleared(packing_find(rows[i].packing), 7);
         assert_int_equal(
             run((const char *const[]){in, "-n", rows[i].znear, "-f", "40", "--packing", rows[i].packing, "--sky",
                                       rows[i].sky, "--json", "-o", truth_path("said.json"), NULL}),

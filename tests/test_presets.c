@@ -21,7 +21,7 @@ TEST(test_required) {
                                         "three", "three-webgpu", "bevy",   "cesium",        "mujoco"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_non_null(preset_find(names[i]));
-    const name_list presets = {.get = list_preset};
+    const name_list presets = {.rows = &preset_table};
     list_item item;
     assert_true(names_find(&presets, "BEVY", NULL, &item) && item.row == preset_find("bevy"));
     assert_null(preset_find("quake"));

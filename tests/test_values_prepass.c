@@ -14,13 +14,6 @@ static const char *const lines[] = {
     "--program pairs --vertices box --from-origin 20",
 };
 
-static const vertex_program *program_of(const char *name) {
-    size_t i = 0;
-    while (strcmp(vertex_program_get(i)->name, name) != 0)
-        i++;
-    return vertex_program_get(i);
-}
-
 /* "ALL" are all of them, in their order. */
 static vertex_request request_of(const char *line, const dp_setup *setup) {
     static const char all[] = "once,products,separate,right,pairs,fma,fma-right,fma-pairs,separate-fma";
@@ -35,10 +28,10 @@ static vertex_request request_of(const char *line, const dp_setup *setup) {
                         .world = number_behind(line, "--from-origin", 100),
                         .count = (uint64_t)number_behind(line, "--sample", 0),
                         .seed = (uint64_t)number_behind(line, "--seed", 0),
-                        .base = program_of(program != NULL ? program : "once")};
+                        .base = vertex_program_find(program != NULL ? program : "once")};
     snprintf(names, sizeof names, "%s", strcmp(against, "ALL") == 0 ? all : against);
     for (char *name = strtok(names, ","); name != NULL; name = strtok(NULL, ","))
-        r.other[r.others++] = program_of(name);
+        r.other[r.others++] = vertex_program_find(name);
     return r;
 }
 

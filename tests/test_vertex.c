@@ -13,14 +13,6 @@ static dp_setup setup_of(dp_mapping mapping, const char *format, double n, doubl
     return SETUP(format, .mapping = mapping, .znear = n, .zfar = f, .ortho = ortho);
 }
 
-static const vertex_program *program_of(const char *name) {
-    for (size_t i = 0; vertex_program_get(i) != NULL; i++)
-        if (strcmp(vertex_program_get(i)->name, name) == 0)
-            return vertex_program_get(i);
-    fail_msg("no program %s", name);
-    return NULL;
-}
-
 /* ---- Operations -------------------------------------------------------------------------------------------------- */
 
 /* What each name stands for, written down again: F fused. */
@@ -117,7 +109,7 @@ TEST(test_operations) {
             const vertex_camera c = vertex_camera_of(&setup, &p, v.axis, v.place);
             check_camera(&t, &setup, &c, &v);
             for (size_t m = 0; m < count; m++) {
-                const vertex_clip got = vertex_run(program_of(meant[m].name), &c, v.position);
+                const vertex_clip got = vertex_run(vertex_program_find(meant[m].name), &c, v.position);
                 const bool fused = meant[m].fused;
                 const float eye = row_of(meant[m].order, fused, c.view, v.position);
                 const float *row = meant[m].matrices == '1' ? c.once : c.products;
@@ -303,8 +295,8 @@ TEST(test_differences) {
                             .world = rows[k].world,
                             .count = draws,
                             .seed = 11,
-                            .base = program_of(rows[k].base),
-                            .other = {program_of("fma-pairs"), program_of(rows[k].other)},
+                            .base = vertex_program_find(rows[k].base),
+                            .other = {vertex_program_find("fma-pairs"), vertex_program_find(rows[k].other)},
                             .others = 2,
                             .threads = 1};
         vertex_difference found[VERTEX_OTHERS], again[VERTEX_OTHERS];
@@ -357,8 +349,8 @@ TEST(test_published) {
                                   .hi = 1000,
                                   .world = 100,
                                   .count = 100000,
-                                  .base = program_of("once"),
-                                  .other = {program_of(rows[k].other)},
+                                  .base = vertex_program_find("once"),
+                                  .other = {vertex_program_find(rows[k].other)},
                                   .others = 1};
         vertex_difference d[VERTEX_OTHERS];
         assert_true(vertex_compare(&r, d));
