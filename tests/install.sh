@@ -110,6 +110,34 @@ lacking() { # without the libraries `make` names them, and the command
 }
 check "without the libraries make names them and the command" lacking
 
+# On a machine with nothing but its shell: each command that the rules of a target call is among the packages that its job
+# names, the package of a compiler's linker, too. What is called is looked for in the rows of packages.sh.
+bare() { # bare JOB: what is missing there
+    PATH=$scratch/bare sh src/packages.sh --missing "$1" 2>&1
+}
+named() { # named TARGET JOB LEAST
+    mkdir -p "$scratch/bare" && for tool in sh sed cut tr sort paste awk id grep cat; do
+        ln -sf "$(command -v $tool)" "$scratch/bare/$tool"
+    done
+    printf '#!/bin/sh\n' >"$scratch/bare/apt-get" && chmod +x "$scratch/bare/apt-get"
+    (unset MAKEFLAGS MAKELEVEL MFLAGS && make -n --no-print-directory B="$scratch/none" "$1") 2>&1 |
+        grep -v packages.sh >"$scratch/rules"
+    bare "$2" >"$scratch/missing"
+    sed -n 's/^[a-z]* *| command \([^ ]*\) *| \([^ ]*\) .*/\1 \2/p' src/packages.sh | grep -v '^\(gcc\|g++\|make\) ' |
+        while read -r command package; do
+            grep -qE "(^|[ \"';|&(])$command( |$)" "$scratch/rules" || continue
+            echo "$command"
+            grep -qwF -e "$package" "$scratch/missing" || echo "missing in the job $2: $package, for $command" >&2
+        done 2>"$scratch/lacking" | sort -u >"$scratch/called"
+    cat "$scratch/lacking"
+    [ ! -s "$scratch/lacking" ] && [ "$(wc -l <"$scratch/called")" -ge "$3" ] || { cat "$scratch/called" && return 1; }
+    case $1 in web | npm) grep -qw lld "$scratch/missing" && grep -qw wasi-libc "$scratch/missing" ;; esac
+}
+check "a fresh machine gets what make web calls" named web web 3
+check "a fresh machine gets what make npm calls" named npm npm 1
+check "a fresh machine gets what make lint calls" named lint lint 5
+check "a fresh machine gets what make windows calls" named windows windows 1
+
 check "make uninstall" install_to uninstall
 nothing_left() { [ -d "$stage" ] && empty find "$stage" ! -type d; }
 check "nothing is left" nothing_left

@@ -70,6 +70,26 @@ controls() {
 }
 check "each control of the page is an option of its command" empty controls
 
+flickers() {
+    cp src/web/picture.js "$scratch/picture.mjs" && node tests/web/picture.mjs "$scratch/picture.mjs"
+}
+units() { # where a slider stands for a text: each unit that the program knows is as long there as here
+    "$DEPTHPREC" table -n 1parsec 2>&1 | sed -n 's/.* nm,/nm,/p' | tr -cs 'a-z' '\n' | grep -xE 'nm|um|mm|cm|m|km|in|ft' >"$scratch/units"
+    [ "$(wc -l <"$scratch/units")" -eq 8 ] || return
+    while read -r unit; do
+        here=$("$DEPTHPREC" table -n "1$unit" -f 10km --unit m --json | sed -n 's/.*"near": *\([-+.e0-9]*\),.*/\1/p' | head -n 1)
+        there=$(sed -n 's/^const METRES = {.*[{ ]'"$unit"': \([-+.e0-9]*\)[, }].*/\1/p' src/web/page.js)
+        awk -v a="$here" -v b="$there" -v unit="$unit" 'BEGIN {
+            if (a == "" || b == "" || a - b > 1e-12 * a || b - a > 1e-12 * a) { print unit " is " a ", of the page " b; exit 1 } }' || return
+    done <"$scratch/units"
+}
+check "each unit is as long for the page's sliders" units
+if command -v node >"$scratch/log" 2>&1; then
+    check "when a picture is said to flicker" flickers
+else
+    skip "when a picture is said to flicker" "there is no node"
+fi
+
 missing=$(lacking | paste -sd ';')
 if [ -n "$missing" ]; then
     skip "the core as WebAssembly" "missing: $missing"

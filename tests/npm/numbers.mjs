@@ -137,6 +137,24 @@ test("arrays: of any type, of any length, each element as by itself", () => {
     assert.deepEqual([...c.encode([NaN, Infinity, -Infinity])], [0, c.codeMax, 0]);
 });
 
+// What a camera was asked for before, and in which types, is forgotten: each call after each other, beside a camera that is asked for nothing else.
+test("a camera is as a fresh one, whatever it made before", () => {
+    const fresh = () => new Camera({ near: 0.5, far: 800, format: "unorm16", mapping: "reversed" }), z = [0.5, 3, 70, 800], codes = [65535, 9000, 12, 0];
+    const from = [Float64Array.from(z), Float32Array.from(z)], stored = [Uint32Array.from(codes), Uint16Array.from(codes), Uint8Array.from([9, 8, 7, 0])];
+    const calls = [(c) => c.encode(3), (c) => c.decode(9000), (c) => c.decode(9000, { bounds: true }), (c) => c.separation(3), (c) => c.lattice(3), (c) => c.interval(3), (c) => c.worst(1, 5),
+        ...from.flatMap((given) => [Uint32Array, Uint16Array].map((of) => (c) => c.encode(given, { out: new of(4) }))),
+        ...stored.flatMap((given) => [Float64Array, Float32Array].map((of) => (c) => c.decode(given, { out: new of(4) }))), ...stored.map((given) => (c) => c.decode(given, { bounds: true })),
+        ...from.flatMap((given) => ["windowDepth", "separation", "lattice", "interval"].map((method) => (c) => c[method](given))), (c) => c.decode(from[0].map((x) => x / 1000), { window: true })];
+    const want = calls.map((call) => call(fresh())), other = new Camera({ near: 1, far: 2, format: "unorm2" });
+    calls.forEach((before, i) => calls.forEach((call, k) => {
+        const c = fresh();
+        before(c);
+        assert.deepEqual(call(c), want[k], `call ${k} after ${i}`);
+        other.encode(from[0], { out: new Uint32Array(4) });
+        assert.deepEqual(call(c), want[k], `call ${k} after ${i} and another camera`);
+    }));
+});
+
 test("arrays of the caller's", () => {
     const c = new Camera({ near: 0.1, far: 1000, format: "unorm24" }), z = Float64Array.of(1, 2, 3), codes = Uint32Array.of(5, 100), whole = new Float64Array(6);
     const out = new Float32Array(2);

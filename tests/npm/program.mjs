@@ -77,6 +77,28 @@ test("files are those of the fs that is given, and whole or not there", async ()
     assert.deepEqual(fs.readFileSync("made.npy"), fs.readFileSync("native.npy"));
 });
 
+// As the program does: the mode stays, and whatever fails on the way leaves the old file and nothing beside it.
+test("a file that is written anew", async () => {
+    for (const mode of [0o600, 0o640, 0o755]) {
+        fs.writeFileSync("mode.csv", "old");
+        fs.chmodSync("mode.csv", mode);
+        await run("table --csv -o mode.csv", { fs });
+        assert.equal(fs.statSync("mode.csv").mode & 0o777, mode);
+        assert.match(fs.readFileSync("mode.csv", "utf8"), /^near/);
+    }
+    for (const failing of ["writeFileSync", "chmodSync", "renameSync"]) {
+        fs.writeFileSync("mode.csv", "old");
+        const fails = (...given) => {
+            if (failing === "writeFileSync") fs.writeFileSync(given[0], "half");
+            throw Object.assign(new Error("no space"), { code: "ENOSPC" });
+        };
+        const before = fs.readdirSync(".").sort();
+        await assert.rejects(() => run("table --csv -o mode.csv", { fs: { ...fs, [failing]: fails } }), /mode\.csv|no space|No space/, failing);
+        assert.equal(fs.readFileSync("mode.csv", "utf8"), "old", failing);
+        assert.deepEqual(fs.readdirSync(".").sort(), before, failing);
+    }
+});
+
 test("refusals", async () => {
     fs.writeFileSync("made.png", Uint8Array.of(0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 13));
     fs.writeFileSync("made.gltf", "{}");

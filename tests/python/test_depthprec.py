@@ -238,6 +238,36 @@ class Program(unittest.TestCase):
         for words in (["table", "-n", "0.3"], ["help"], ["list", "presets"], ["budget", "--csv"]):
             self.assertEqual(depthprec.run(words).encode(), program(*words))
 
+    def test_each_key(self):
+        """Each key of a camera off its default, by itself, is that of the program in every command that takes a camera."""
+        usual = Camera.__init__.__kwdefaults__
+        view = {"viewport": (1280, 720)}
+        keys = [({}, []), ({"ortho": True}, ["--ortho"]), ({"rounding": "zero"}, ["--rounding=zero"]),
+                ({"mapping": "cesium", "log_c": 2.0}, ["--mapping=cesium", "--log-c=2"]),
+                *(({"arith": arith}, ["--arith=" + arith]) for arith in ("fused", "mesa", "nvidia")),
+                (view, []), ({**view, "fov": 35.0}, ["--fov=35"]), ({**view, "subpixel": 4}, ["--subpixel=4"]),
+                ({**view, "slant": (10, 70)}, ["--slant=10:70"]),
+                ({**view, "triangle_class": (3, 64, 8)}, ["--triangle-class=depth=3,pixels=64,slim=8"])]
+        self.assertEqual(set(usual) - {"model"}, {key for given, _ in keys for key in given} - {"mapping"})
+        commands = [(depthprec.bias, {"api": "vulkan", "separation": 0.5, "at": 300.0}, ["bias"]),
+                    (depthprec.solve, {"for_": "separation", "at": 100.0}, ["solve"])]
+        answers = []
+        for call, asked, words in commands:
+            words = [*words, *("--%s=%s" % (key.strip("_"), value) for key, value in asked.items())]
+            for given, options in keys:
+                mapping = given.get("mapping", "d3d")
+                own = {key: value for key, value in given.items() if key != "mapping"}
+                line = [*words, "--near=0.2", "--far=3000", "--format=unorm24", *options]
+                line += ["--viewport=1280x720"] * ("viewport" in given) + ["--mapping=d3d"] * (mapping == "d3d")
+                camera, want = Camera(0.2, 3000, "unorm24", mapping, **own), program(*line, "--json")
+                if not want:
+                    self.assertRaises(Error, call, camera, **asked)
+                    continue
+                got = call(camera, **asked)
+                self.assertEqual(got, json.loads(want), line)
+                answers.append(json.dumps(got, sort_keys=True))
+        self.assertGreater(len(set(answers)), len(answers) - 4, "keys that change nothing")
+
     def test_check(self):
         fine = Camera(0.1, math.inf, "fp32", "reversed")
         needs = {"unit": "m", "cameras": {"world": fine, "web": {"near": "50 cm", "far": 2000, "format": "unorm24",
