@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files that are written anew, by each kind of writer: whole or not at all, with the mode that they had, and not where
+ * their owner has said that nobody may. */
+#include <grp.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "printed.h"
+#include "report/output.h"
+
+/* Each writes more than half a block of 512 bytes. */
+static const char *const writers[] = {"table -F d24 -m d3d --at 0.1:1000:log:500 --csv",
+                                      "table -F d24 -m d3d --at 0.1:1000:log:500",
+                                      "table -F d24 -m d3d --at 0.1:1000:log:500 --json",
+                                      "plot share -F d24 -m d3d",
+                                      "plot share -F d24 -m d3d --type png",
+                                      "texture --synthetic plane --size 64x36 -F unorm16"};
+enum { WRITERS = sizeof writers / sizeof writers[0] };
+
+static const char *target_of(size_t writer) {
+    static const char *const names[WRITERS] = {"kept.csv", "kept.txt", "kept.json", "kept.svg", "kept.png", "kept.npy"};
+    return scratch_text(names[writer], "old");
+}
+
+/* What lies beside a file in its folder. */
+static int neighbours(const char *path) {
+    char line[600];
+    int count = -1;
+    snprintf(line, sizeof line, "ls -A \"$(dirname '%s')\" | grep -c depthprec-", path);
+    FILE *in = popen(line, "r");
+    assert_non_null(in);
+    assert_int_equal(fscanf(in, "%d", &count), 1);
+    pclose(in);
+    return count;
+}
+
+static void content_is(const char *path, const char *want, const char *line) {
+    char *text = text_of_file(path);
+    if (strcmp(text, want) != 0)
+        fail_msg("%s: the old file is not what it was", line);
+    free(text);
+}
+
+TEST(modes_are_kept) {
+    static const mode_t modes[] = {0600, 0640, 0644, 0755};
+    for (size_t w = 0; w < WRITERS; w++)
+        for (size_t k = 0; k < sizeof modes / sizeof modes[0]; k++) {
+            const char *path = target_of(w);
+            struct stat s;
+            assert_int_equal(chmod(path, modes[k]), 0);
+            printed p = print_of("%s -q -o '%s'", writers[w], path);
+            assert_int_equal(p.status, 0);
+            assert_int_equal(stat(path, &s), 0);
+            if ((s.st_mode & 0777) != modes[k] || s.st_size < 300)
+                fail_msg("%s: mode %o, not %o", writers[w], s.st_mode & 0777, modes[k]);
+            printed_free(&p);
+        }
+}
+
+/* A write that ends half-way, because a file may be no larger than that. */
+TEST(half_a_file_is_none) {
+    for (size_t w = 0; w < WRITERS; w++) {
+        const char *path = target_of(w);
+        const char *limited = scratch_text("limited", "ulimit -f 0; exec \"$@\"\n");
+        const char *program = getenv("DEPTHPREC");
+        char line[2048];
+        if (program == NULL)
+            skip();
+        snprintf(line, sizeof line, "sh '%s' '%s' %s -q -o '%s' 2>/dev/null >/dev/null </dev/null", limited, program,
+                 writers[w], path);
+        const int status = system(line);
+        if (!WIFEXITED(status) || WEXITSTATUS(status) != EXIT_IO)
+            fail_msg("%s: ends with %d", writers[w], status);
+        content_is(path, "old", writers[w]);
+        assert_int_equal(neighbours(path), 0);
+    }
+}
+
+/* As somebody who is not root, in a folder of theirs. */
+static int opened_as_somebody(const char *path, bool checks) {
+    enum { SOMEBODY = 65534 };
+    const pid_t child = fork();
+    if (child == 0) {
+        output out;
+        if (getuid() == 0 && (setgroups(0, NULL) != 0 || setgid(SOMEBODY) != 0 || setuid(SOMEBODY) != 0))
+            _exit(99);
+        if (freopen("/dev/null", "w", stderr) == NULL)
+            _exit(98);
+        if (checks)
+            _exit(output_check(path));
+        const int status = output_open(&out, path);
+        _exit(status == EXIT_FINE ? output_close(&out) : status);
+    }
+    int status;
+    assert_true(child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+TEST(read_only_is_respected) {
+    char folder[] = "/tmp/depthprec-owned-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    if (getuid() == 0)
+        assert_int_equal(chown(folder, 65534, 65534), 0);
+    snprintf(path, sizeof path, "%s/file", folder);
+    for (int checks = 0; checks < 2; checks++)
+        for (int writable = 0; writable < 2; writable++) {
+            FILE *out = fopen(path, "w");
+            assert_true(out != NULL && fputs("old", out) >= 0 && fclose(out) == 0);
+            if (getuid() == 0)
+                assert_int_equal(chown(path, 65534, 65534), 0);
+            assert_int_equal(chmod(path, writable ? 0644 : 0444), 0);
+            assert_int_equal(opened_as_somebody(path, checks != 0), writable ? EXIT_FINE : EXIT_IO);
+            content_is(path, writable && !checks ? "" : "old", "read-only");
+            unlink(path);
+        }
+    rmdir(folder);
+}
