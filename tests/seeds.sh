@@ -41,13 +41,13 @@ rows() {
         END { exit bad > 0 || !seen }"
 }
 
-# ---- The words of articles, in depthprec-texture(1) ----
+# ---- The words of articles, in depthprec-questions(7) ----
 
 mkdir "$scratch/work"
-awk '/^\.Ss Words of articles/ { on = 1 }
+awk '/^\.Sh WORDS OF ARTICLES/ { on = 1 }
     /^\.Ed/ { on = 0 }
     on && !/^[.A].* .*:$|^\./ { line = $0; more = sub(/ *\\e$/, " ", line); printf "%s%s", line, more ? "" : "\n" }' \
-    man/depthprec-texture.1 >"$scratch/words"
+    man/depthprec-questions.7 >"$scratch/words"
 runs() { # runs COMMAND: as it stands there, one after the other in a folder
     # Words without quotes or patterns.
     # shellcheck disable=SC2086
