@@ -21,8 +21,9 @@ case $B in
 esac
 compiler=$(command -v "${CC%% *}") # its path, because the name may be cc
 case $CC in *' '*) compiler="$compiler ${CC#* }" ;; esac
-printf '#!/bin/sh\nexec %s %s -I"%s/include" "$@" -L"%s/%s" -lm\n' "$compiler" "$extra" "$root" "$root" "$B" \
-    >"$scratch/bin/cc"
+# With the PATH of now, where this one is not: ccache, called as cc, runs the next cc that it finds there.
+printf '#!/bin/sh\nPATH="%s" exec %s %s -I"%s/include" "$@" -L"%s/%s" -lm\n' \
+    "$PATH" "$compiler" "$extra" "$root" "$root" "$B" >"$scratch/bin/cc"
 chmod +x "$scratch/bin/cc"
 sed -e "s|@libdir@|$root/$B|; s|@includedir@|$root/include|" src/depthprec.pc.in >"$scratch/depthprec.pc"
 export PKG_CONFIG_PATH="$scratch"
