@@ -351,4 +351,28 @@ check "channels that are none" refused "METHOD must be one of depth-normals, .*,
 check "normals that are none" refused "METHOD must be one of stereo-8, .*, got 'rg-depth'" rg-depth --what normal
 check "several cameras" refused 'must be one' -m d3d,reversed
 check "a method of a matrix" refused 'has no METHOD' unity --what projection
+# What stands beside a constant is what it is: each formula evaluated, of near 0.5, far 800 and C 3.
+formulas() {
+    for what in linearize encode; do
+        for line in '-m d3d' '-m reversed' '-m gl' '-m gl-reversed' '-m log --log-c 3' '-m cesium --log-c 3' '-m three-webgpu' \
+            '--ortho -m d3d' '--ortho -m reversed' 'textbook -m d3d' 'unity -m d3d' 'linear-01 -m reversed' 'complement -m reversed'; do
+            code $line --what $what -n 0.5 -f 800 2>/dev/null | sed -n 's|^ *const float \([A-Z]\) = \([^;]*\); // \(.*\)$|\1 \2 \3|p' |
+                sed 's/ of the mapping$//'
+        done
+    done | sort -u >"$scratch/constants"
+    {
+        echo 'function log2(x) { return log(x)/log(2) }'
+        echo 'function judge(name, is, want, said) { n++; if (is - want > 1e-6*a(want) || want - is > 1e-6*a(want)) print name, is, "is not", said }'
+        echo 'function a(x) { return x < 0 ? -x : x }'
+        echo 'BEGIN { near = 0.5; far = 800'
+        while read -r constant value formula; do
+            # C is 3 where it is asked for; of three-webgpu it is 1/near, which its formulas do not name.
+            echo "C = 3; judge(\"$constant\", $value, $formula, \"$formula\")"
+        done <"$scratch/constants"
+        echo 'if (n < 12) print "only", n, "constants" }'
+    } >"$scratch/constants.awk"
+    awk -f "$scratch/constants.awk"
+}
+check "the formula beside each constant gives it" empty formulas
+
 finish

@@ -12,6 +12,8 @@ typedef struct map_case {
     const drawn_theme *look;
 } map_case;
 
+static int borders; /* at which lines were seen to end */
+
 /* What the map says of one camera; NaN where it does not see what is asked about, or is none. */
 static double true_value(const dp_setup *like, const map_case *q, double znear, double zfar) {
     dp_spec spec = like->spec;
@@ -127,6 +129,39 @@ static bool is_crossed(const drawn *d, const svg_mark *image, double level_px) {
     return above && below;
 }
 
+/* A line goes on to the outermost row and column where their fields lie on either side of its value: to the middle of
+ * one of them. */
+static void check_ends(const drawn *d, const svg_mark *line, const svg_mark *image, double level_px) {
+    const double dx = (image->box.x1 - image->box.x0) / image->columns,
+                 dy = (image->box.y1 - image->box.y0) / image->rows;
+    for (int side = 0; side < 4; side++) { /* top, bottom, left, right */
+        const int count = side < 2 ? image->columns : image->rows,
+                  far = side < 2 ? image->rows - 1 : image->columns - 1;
+        bool above = false, below = false, holes = false;
+        for (int i = 0; i < count; i++) {
+            const int across = side % 2 != 0 ? far : 0;
+            const uint32_t pixel = image->pixels[side < 2 ? across * image->columns + i : i * image->columns + across];
+            const double px = pixel >> 24 != 0 ? drawn_bar_px(d, pixel) : level_px;
+            holes = holes || pixel >> 24 == 0;
+            above = above || px < level_px - 6;
+            below = below || px > level_px + 6;
+        }
+        if (holes || !above || !below)
+            continue;
+        double nearest = INFINITY;
+        for (size_t i = 0; i < line->count; i++) {
+            const svg_point p = line->points[i];
+            nearest = fmin(nearest, side == 0   ? (p.y - image->box.y0) / dy
+                                    : side == 1 ? (image->box.y1 - p.y) / dy
+                                    : side == 2 ? (p.x - image->box.x0) / dx
+                                                : (image->box.x1 - p.x) / dx);
+        }
+        if (fabs(nearest - 0.5) > 0.3)
+            fail_msg("a line ends %g fields before side %d", nearest, side);
+        borders++;
+    }
+}
+
 /* Lines at the labelled values, white on the dark half and black on the light; each is named once, on the line. */
 static void check_contours(const drawn *d, const drawn_panel *p, const svg_mark *image, const dp_setup *like,
                            const map_case *q) {
@@ -147,6 +182,7 @@ static void check_contours(const drawn *d, const drawn_panel *p, const svg_mark 
         const double share = (d->bar->box.y1 - d->value.px[level]) / height;
         assert_false(drawn_level[level]);
         drawn_level[level] = true;
+        check_ends(d, m, image, d->value.px[level]);
         if (fabs(share - 0.6) > 0.01)
             assert_int_equal(rgb, share < 0.6 ? 0xFFFFFF : 0);
         lines++;
@@ -264,4 +300,5 @@ TEST(colours_are_values) {
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         check_figure(&cases[i]);
+    assert_true(borders >= 8);
 }

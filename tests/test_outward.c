@@ -74,7 +74,7 @@ TEST(zfight) {
     int both = 0;
     for (uint64_t i = test_cases(6, 12, 100); i > 0; i--) {
         char line[256];
-        snprintf(line, sizeof line, "zfight -n 1 -f 30 -F unorm16 -m d3d --separation %.5g",
+        snprintf(line, sizeof line, "zfight -n 1 -f 30 -F unorm16 -m d3d --sample 20000 --separation %.5g",
                  rng_log(&r, 0.0005, 0.003));
         char *text = output_of(0, line, "");
         json_t *root = json_printed(0, "%s", line);
