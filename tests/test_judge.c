@@ -148,7 +148,7 @@ TEST(test_right) {
         const judge_pairs p = asked(&r, w, n, f);
         dp_setup setup = camera(n, f, mapping_of(w, w->reversed));
         judgement j;
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         TALLY(&own, j.verdict == JUDGE_RIGHT && is_named(&j, w),
               "%s from %s, near %g, far %g: %s %s, and %s from %s of %s, %g", w->computes, w->from, n, f,
               judge_verdict_name(j.verdict), j.named ? j.found.output->name : j.because,
@@ -162,12 +162,12 @@ TEST(test_right) {
         } else {
             setup = camera(n, 1000 * n, DP_MAPPING_D3D);
         }
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         TALLY(&other, j.verdict == JUDGE_OTHER || j.verdict == JUDGE_UNKNOWN, "%s from %s, near %g, far %g: %s",
               w->computes, w->from, n, f, judge_verdict_name(j.verdict));
         if (strcmp(w->computes, "eye depth") != 0 && strcmp(w->from, "minus eye depth") != 0)
             continue;
-        judge_function(&p, &setup, 1, true, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN, &j);
         TALLY(&found,
               j.named && fabs(j.found.setup.spec.znear / n - 1) < 1e-4 &&
                   (w->far_infinite || fabs(1 / j.found.setup.spec.zfar - 1 / f) < 1e-5 / n),
@@ -177,6 +177,33 @@ TEST(test_right) {
     tally_end(&own);
     tally_end(&other);
     tally_end(&found);
+}
+
+/* One plane is given: what agrees with it is right and has the other plane; a plane that does not agree is another. */
+TEST(test_one_plane_given) {
+    tally t = {.name = "one plane given"};
+    rng r = rng_make("one plane");
+    for (int i = 0; i < 60; i++) {
+        const int far_open = i % 2, k = i % 3 == 0 ? 7 : i % 3 == 1 ? 0 : VIEW; /* of a ratio, of eye depth, encoded */
+        const double n = (double)(float)rng_log(&r, 0.01, 10), f = (double)(float)(n * rng_log(&r, 50, 5e3));
+        const judge_pairs p = asked(&r, &functions[k], n, f);
+        const double wrong = rng_log(&r, 1.5, 20);
+        for (int agrees = 0; agrees < 2; agrees++) {
+            const double near = far_open ? n * (agrees ? 1 : wrong) : n / 30, far = far_open ? 1e6 * n
+                                                                                    : agrees ? f
+                                                                                             : f * wrong;
+            const dp_setup setup = camera(near, far, DP_MAPPING_D3D);
+            judgement j;
+            judge_function(&p, &setup, 1, far_open ? JUDGE_OPEN_FAR : JUDGE_OPEN_NEAR, &j);
+            const dp_spec *found = &j.found.setup.spec;
+            const bool ratio = k == 7, kept = j.named && (far_open ? found->znear == near : found->zfar == far);
+            const bool fits = j.named && fabs(found->zfar / found->znear / (f / n) - 1) < 1e-2;
+            TALLY(&t, agrees || ratio ? j.verdict == JUDGE_RIGHT && kept && fits : j.verdict != JUDGE_RIGHT,
+                  "%s, near %.9g, far %.9g, given %.9g, %.9g: %s, near %.9g, far %.9g", functions[k].computes, n, f,
+                  near, far, judge_verdict_name(j.verdict), found->znear, found->zfar);
+        }
+    }
+    tally_end(&t);
 }
 
 /* Far is 10^4 times near and went in: a line that fits may have it a little nearer. */
@@ -189,7 +216,7 @@ TEST(test_far_plane_asked) {
         const dp_setup setup = camera(3 * n, 7 * n * 40, DP_MAPPING_D3D);
         judgement j;
         p.pairs[0] = (judge_pair){-f, (double)stored_view((float)-f, (float)n, (float)f)};
-        judge_function(&p, &setup, 1, true, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN, &j);
         TALLY(&t, j.named && fabs(j.found.setup.spec.znear / n - 1) < 1e-4 && j.found.setup.spec.zfar >= f * (1 - 1e-6),
               "near %g, far %g: %g %g", n, f, j.named ? j.found.setup.spec.znear : 0,
               j.named ? j.found.setup.spec.zfar : 0);
@@ -205,14 +232,14 @@ TEST(test_other) {
         judge_pairs p = asked(&r, &functions[9], n, f);
         dp_setup setup = camera(n, f, DP_MAPPING_D3D);
         judgement j;
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         assert_int_equal(j.verdict, JUDGE_OTHER);
         assert_true(j.found.setup.reversed && j.found.setup.spec.znear == n && !j.also);
         p = asked(&r, &functions[0], n, f);
         const double factor = rng_log(&r, 1e-3, 1e3);
         for (int k = 0; k < PAIRS; k++)
             p.pairs[k].out = (double)(float)(p.pairs[k].out * factor);
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         assert_int_equal(j.verdict, JUDGE_OTHER);
         assert_true(fabs(j.found.factor / factor - 1) < 1e-6 || j.found.setup.spec.znear != n);
     }
@@ -228,12 +255,12 @@ TEST(test_wrong) {
         judgement j;
         for (int k = 0; k < PAIRS; k++)
             p.pairs[k].out = f / ((1 - n / f) * p.pairs[k].in + f / n);
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         assert_int_equal(j.verdict, JUDGE_WRONG);
         assert_string_equal(j.found.trap->name, "inverted-x");
         for (int k = 0; k < PAIRS; k++)
             p.pairs[k].out = n * f / (f - (2 * p.pairs[k].in - 1) * (f - n));
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         assert_int_equal(j.verdict, JUDGE_WRONG);
         assert_string_equal(j.found.trap->name, "ndc-as-depth");
     }
@@ -246,15 +273,15 @@ TEST(test_unknown) {
     judge_pairs p = asked(&r, &functions[0], 0.1, 1000);
     judgement j;
     p.distinct = p.count = 2;
-    judge_function(&p, &setup, 1, false, &j);
+    judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
     assert_true(j.verdict == JUDGE_UNKNOWN && !j.named && strstr(j.because, "too few") != NULL);
     p.distinct = p.count = 4;
-    judge_function(&p, &setup, 1, true, &j);
+    judge_function(&p, &setup, 1, JUDGE_OPEN, &j);
     assert_true(j.verdict == JUDGE_UNKNOWN && strstr(j.because, "too few") != NULL);
     p.distinct = p.count = PAIRS;
     for (int k = 0; k < PAIRS; k++)
         p.pairs[k].out = 0.5;
-    judge_function(&p, &setup, 1, false, &j);
+    judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
     assert_true(j.verdict == JUDGE_UNKNOWN && strstr(j.because, "the same") != NULL);
     for (int i = 0; i < 300; i++) {
         const double power = rng_log(&r, 1.01, 8), add = rng_unit(&r);
@@ -262,7 +289,7 @@ TEST(test_unknown) {
             p.pairs[k].out = i % 3 == 0   ? pow(p.pairs[k].in, power) + add
                              : i % 3 == 1 ? sqrt(p.pairs[k].in) * power
                                           : rng_unit(&r);
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         assert_true(j.verdict == JUDGE_UNKNOWN && !j.named);
         assert_true((strstr(j.because, "neither") != NULL) == (i % 3 == 2));
     }
@@ -315,7 +342,7 @@ TEST(test_none_accused) {
         }
         p.distinct = 0;
         judge_pairs_look(&p);
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         TALLY(&accused, j.verdict != JUDGE_OTHER && j.verdict != JUDGE_WRONG,
               "%s from %s, near %g, far %g, kept as %d: %s: %s from %s, %s, near %g", w->computes, w->from, n, f, kind,
               judge_verdict_name(j.verdict), j.found.output->name, j.found.input->name,
@@ -359,7 +386,7 @@ TEST(test_precision) {
         fclose(out);
         assert_int_equal(judge_pairs_read(path, &p, error), 0);
         assert_true(p.count == 65 && p.distinct == 65 && p.nan_count == 0);
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         assert_int_equal(j.verdict, JUDGE_RIGHT);
         assert_int_equal(j.precision, i < 3 ? prints[i].precision : i == 3 ? JUDGE_BINARY16 : JUDGE_BYTES);
         if (i == 3) {
@@ -381,7 +408,7 @@ TEST(test_decides) {
         const double share = fmin((252.2 + k) / 255, 1);
         p.pairs[k] = (judge_pair){(1 - n / (share * f)) / (1 - n / f), (252 + k) / 255.0};
     }
-    judge_function(&p, &setup, 1, false, &j);
+    judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
     assert_true(j.verdict == JUDGE_RIGHT && j.also && j.precision == JUDGE_BYTES);
     assert_string_equal(j.found.output->name, "eye depth over far");
     assert_string_equal(j.other.output->name, "the way from near to far");
@@ -430,7 +457,7 @@ TEST(test_factor_of_one) {
     judgement j;
     for (int k = 0; k < 9; k++)
         p.pairs[k] = (judge_pair){k / 8.0, n * f / (f - k / 8.0 * (f - n)) * (1 + 20 * 0x1p-24)};
-    judge_function(&p, &setup, 1, false, &j);
+    judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
     assert_int_equal(j.verdict, JUDGE_RIGHT);
     assert_int_equal(j.precision, JUDGE_DIFFERENCE);
 }
@@ -443,7 +470,7 @@ TEST(test_ratio) {
         const judge_pairs p = asked(&r, &functions[7], n, f);
         const dp_setup setup = camera(n, 777 * n, DP_MAPPING_D3D);
         judgement j;
-        judge_function(&p, &setup, 1, true, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN, &j);
         assert_true(j.verdict == JUDGE_RIGHT && is_named(&j, &functions[7]));
         assert_relative(j.found.setup.spec.zfar / j.found.setup.spec.znear, f / n, 1e-3);
     }
@@ -468,7 +495,7 @@ TEST(test_intervals) {
         for (int k = 0; k < 9; k++)
             p.pairs[k] = (judge_pair){k / 8.0, n * f / (f - k / 8.0 * (f - n)) / unit};
         p.pairs[6].out += 2e-3 * step / unit;
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         assert_int_equal(j.verdict, JUDGE_RIGHT);
         assert_relative(j.intervals, 2e-3, 1e-3);
         assert_relative(j.z, z, 1e-12);
@@ -497,7 +524,7 @@ TEST(test_same) {
         judgement j;
         for (int k = 0; k < 33; k++)
             p.pairs[k] = (judge_pair){k / 32.0, n + (f - n) * (k / 32.0)};
-        judge_function(&p, &setup, 1, false, &j);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         assert_int_equal(j.verdict, cases[i].verdict);
         assert_true(j.same_count >= 1 && !j.also);
         assert_string_equal(j.found.output->name, cases[i].first);
@@ -518,7 +545,7 @@ TEST(test_exact_references) {
         const long double q = 1 - (long double)d;
         p.pairs[k] = (judge_pair){d, (double)(q / (((long double)f / (long double)n - 1) * (long double)d + 1))};
     }
-    judge_function(&p, &setup, 1, false, &j);
+    judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
     assert_int_equal(j.verdict, JUDGE_RIGHT);
     assert_string_equal(j.found.output->name, "the way from near to far");
     assert_true(j.error < 1e-15);
@@ -545,7 +572,7 @@ TEST(test_nearly_constant) {
     for (int k = 0; k < 32; k++)
         p.pairs[k] = (judge_pair){k / 31.0, (128 + k % 2) / 255.0};
     judge_pairs_look(&p);
-    judge_function(&p, &setup, 1, false, &j);
+    judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
     assert_true(j.verdict == JUDGE_UNKNOWN && !j.named && strstr(j.because, "differ by") != NULL);
 }
 
@@ -573,7 +600,7 @@ TEST(test_digits) {
                 off = fmax(off, fabs(v - d));
             }
             judge_pairs_look(&p);
-            judge_function(&p, &setup, 1, false, &j);
+            judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
             assert_int_equal(j.verdict, JUDGE_RIGHT);
             assert_string_equal(j.found.output->name, "window depth");
             assert_string_equal(judge_precision_name(j.precision), "digits k/256 in bytes n/255");

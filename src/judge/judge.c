@@ -195,6 +195,7 @@ typedef struct search {
     judgement *out;
     judge_verdict as; /* what those are that are tried */
     bool others;      /* of set-ups whose planes are open: those that nobody asked about */
+    judge_open open;
 } search;
 
 /* One that fits is the answer where there is none yet; else whatever differs from the answer fits besides. */
@@ -261,6 +262,19 @@ static void try_other(search *s, const dp_setup *setup) {
         try_functions(s, setup);
 }
 
+/* A plane that was given stays; where their ratio alone is told, the other one moves with it. */
+static bool keep_given(const search *s, judge_candidate *c) {
+    const dp_spec *given = &s->setups[0].spec;
+    dp_spec spec = c->setup.spec;
+    if (s->as != JUDGE_RIGHT || s->open == JUDGE_OPEN)
+        return true;
+    const bool ratio = c->output->planes == JUDGE_PLANES_RATIO, near_open = s->open == JUDGE_OPEN_NEAR;
+    const double scale = !ratio ? 1 : near_open ? given->zfar / spec.zfar : given->znear / spec.znear;
+    spec.znear = near_open ? spec.znear * scale : given->znear;
+    spec.zfar = near_open ? given->zfar : spec.zfar * scale;
+    return dp_setup_init(&c->setup, &spec) == DP_OK;
+}
+
 /* Planes that fit, with the fewest digits that do. */
 static void try_planes(search *s, const dp_setup *setup) {
     judge_candidate c = {.setup = *setup, .factor = 1};
@@ -273,11 +287,15 @@ static void try_planes(search *s, const dp_setup *setup) {
             double znear, zfar;
             if (!judge_planes_of(s->pairs, setup, c.input, c.output, s->precision > JUDGE_BINARY32, &znear, &zfar))
                 continue;
+            if (c.output->planes == JUDGE_PLANES_RATIO && as == JUDGE_RIGHT && s->open == JUDGE_OPEN_FAR) {
+                zfar *= setup->spec.znear / znear;
+                znear = setup->spec.znear;
+            }
             const bool fit_far = zfar > 0 && zfar < 1e6 * znear;
             for (int n = 0; n < 2 * DIGITS; n++) {
                 c.setup = *setup;
                 if (!judge_planes_set(&c.setup, znear, zfar, 1 + n % DIGITS, fit_far != (n < DIGITS)) ||
-                    !fits(&c, s->pairs, s->precision))
+                    !keep_given(s, &c) || !fits(&c, s->pairs, s->precision))
                     continue;
                 try(s, &c);
                 break;
@@ -387,9 +405,11 @@ static void try_rest(search *s) {
         try_factor(s);
     s->as = JUDGE_WRONG;
     try_traps(s);
-    s->as = JUDGE_OTHER;
-    if (!s->out->named && s->pairs->distinct >= JUDGE_FITTED_LEAST)
-        each_set_up(s, try_planes);
+    for (int other = s->open == JUDGE_OPEN_NONE; other < 2; other++) {
+        s->as = other ? JUDGE_OTHER : JUDGE_RIGHT;
+        if (!s->out->named && s->pairs->distinct >= JUDGE_FITTED_LEAST)
+            each_set_up(s, try_planes);
+    }
 }
 
 /* Where few digits are printed nothing tells how values were stored in bytes. */
@@ -455,7 +475,7 @@ static void try_windows(search *s) {
     }
 }
 
-static void judge_open(search *s) {
+static void judge_any_planes(search *s) {
     s->as = JUDGE_RIGHT;
     for (int k = 0; k < 2 * JUDGE_DIGITS && !s->out->named; k++) {
         s->precision = s->out->precision = (judge_precision)(k % JUDGE_DIGITS);
@@ -468,7 +488,7 @@ static void judge_open(search *s) {
     }
 }
 
-void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t count, bool planes_open, judgement *out) {
+void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t count, judge_open open, judgement *out) {
     *out = (judgement){.verdict = JUDGE_UNKNOWN,
                        .decides = (double)NAN,
                        .error = (double)NAN,
@@ -478,11 +498,11 @@ void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t cou
                        .z = (double)NAN,
                        .stray = (double)NAN,
                        .because = cannot(pairs)};
-    if (out->because == NULL && planes_open && pairs->distinct < JUDGE_FITTED_LEAST)
+    if (out->because == NULL && open == JUDGE_OPEN && pairs->distinct < JUDGE_FITTED_LEAST)
         out->because = "too few pairs where near and far are not given: five different ones are the least";
-    search s = {.pairs = pairs, .setups = setups, .count = count, .out = out};
+    search s = {.pairs = pairs, .setups = setups, .count = count, .out = out, .open = open};
     if (out->because == NULL)
-        (planes_open ? judge_open : judge_given)(&s);
+        (open == JUDGE_OPEN ? judge_any_planes : judge_given)(&s);
     if (out->precision == JUDGE_BINARY32 && is_printed(pairs))
         out->precision = JUDGE_PRINTED;
     out->error = out->off = out->named ? 0 : (double)NAN;

@@ -118,13 +118,21 @@ typedef struct judgement {
     double stray;        /**< the first */
 } judgement;
 
+/** Planes that nobody gave: a set of bits. */
+typedef enum judge_open {
+    JUDGE_OPEN_NONE = 0,
+    JUDGE_OPEN_NEAR = 1,
+    JUDGE_OPEN_FAR = 2,
+    JUDGE_OPEN = JUDGE_OPEN_NEAR | JUDGE_OPEN_FAR
+} judge_open;
+
 enum { JUDGE_LEAST = 3, JUDGE_FITTED_LEAST = 5 }; /* different pairs, without and with planes that are to be found */
 
 /**
  * @param setups      those that are asked about, at least one, of the same planes
- * @param planes_open whether near and far are not known: those that fit are right then
+ * @param open  which planes are not known: those that fit are right then; of one, what fits that of the set-ups first
  */
-void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t count, bool planes_open, judgement *out);
+void judge_function(const judge_pairs *pairs, const dp_setup *setups, size_t count, judge_open open, judgement *out);
 
 /** Looks at more pairs of a function that is named: what it loses is the most of both, and what does not fit counts. */
 void judge_more(const judge_pairs *pairs, judgement *out);

@@ -178,7 +178,7 @@ static void write_depths(output *out, output_form form, unsigned count) {
 
 /* ---- A shader ---------------------------------------------------------------------------------------------------- */
 
-static int judge_shader(report *r, const setups *all, bool open) {
+static int judge_shader(report *r, const setups *all, judge_open open) {
     judgement *j = &r->found;
     int status = shader_judge(&r->code, all->items, all->count, open, &r->pairs, j);
     r->count = r->pairs.count;
@@ -210,7 +210,9 @@ static int read_pairs(const judge_request *o, judge_pairs *pairs) {
 
 static int run(report *r, const setups *all, output *out) {
     const judge_request *o = r->o;
-    const bool open = !option_given(o->line, "near") && !option_given(o->line, "far") && o->camera.preset_count == 0;
+    const bool near = option_given(o->line, "near"), far = option_given(o->line, "far");
+    const judge_open open =
+        o->camera.preset_count > 0 ? JUDGE_OPEN_NONE : (near ? 0 : JUDGE_OPEN_NEAR) | (far ? 0 : JUDGE_OPEN_FAR);
     int status = EXIT_FINE;
     if (o->judge.pairs == NULL) {
         status = judge_shader(r, all, open);

@@ -52,8 +52,8 @@ static const option_use of_device[] = {
         HELP("the GPU that runs FILE: its number among the Vulkan devices, or part of its name")), END};
 static const option_use of_camera[] = {
     OWN("near", ALSO("with --ortho also 0 or negative"),
-        WITHOUT("with no --far either: the planes that fit; else 0.1")),
-    OWN("far", WITHOUT("with no --near either: the planes that fit; else 1000")),
+        WITHOUT("with no --far either: the planes that fit; else 0.1, or what fits")),
+    OWN("far", WITHOUT("with no --near either: the planes that fit; else 1000, or what fits")),
     OWN("format", DEFAULT("fp32")),
     OWN("mapping", HELP("what is right: @; all means d3d and reversed")),
     TAKE("log-c"), TAKE("ortho"), TAKE("platform"), GROUP_OF(camera_planes), TAKE("preset"), END};

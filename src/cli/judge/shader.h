@@ -35,7 +35,7 @@ int shader_write(const judge_request *o, const dp_setup *setup, const char *text
 double shader_asked(unsigned i, unsigned count);
 
 /** Asks it for such depths, and judges what it gives, NaN left out. @param open as of judge_function() */
-int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *pairs, judgement *out);
+int shader_judge(shader *s, const dp_setup *asked, size_t count, judge_open open, judge_pairs *pairs, judgement *out);
 
 /** "minus eye depth from window depth: d3d, near 0.1, far 1000" */
 void shader_say(const judge_request *o, const judge_candidate *c, char out[SETUP_LABEL_SIZE]);

@@ -89,7 +89,7 @@ double shader_asked(unsigned i, unsigned count) {
 /* Window depths, eye depths and view z go in. Nobody is accused by what they do not take: the first that is right
  * counts, else the first that has a name, else what is right but at an end, where packed depths wrap: all depths will
  * show it. */
-static int ask(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *out, judgement *best) {
+static int ask(shader *s, const dp_setup *asked, size_t count, judge_open open, judge_pairs *out, judgement *best) {
     static const size_t kinds[] = {JUDGE_WINDOW, JUDGE_EYE, JUDGE_VIEW};
     enum { KINDS = sizeof kinds / sizeof kinds[0] };
     const dp_spec *spec = &asked[0].spec;
@@ -101,7 +101,7 @@ static int ask(shader *s, const dp_setup *asked, size_t count, bool open, judge_
         const double metric = judge_input_get(kinds[i / ASKED])->metric, t = shader_asked(i % ASKED, ASKED);
         depth[i] = (float)(metric != 0 ? metric * fmin(far, spec->znear + (far - spec->znear) * t * t * t) : t);
     }
-    const size_t tried = open ? 1 : KINDS;
+    const size_t tried = open == JUDGE_OPEN ? 1 : KINDS;
     const int status = shader_pairs(s, depth, ASKED, tried, pairs);
     for (size_t i = 0; i < 2 * tried && status == EXIT_FINE && !(i >= tried && best->named); i++) {
         const bool inside = i >= tried && pairs[i % tried].count > 2;
@@ -131,8 +131,8 @@ static void excuse(const shader *s, judgement *out) {
     }
 }
 
-int shader_judge(shader *s, const dp_setup *asked, size_t count, bool open, judge_pairs *pairs, judgement *out) {
-    const int status = ask(s, asked, count, open && !s->camera, pairs, out);
+int shader_judge(shader *s, const dp_setup *asked, size_t count, judge_open open, judge_pairs *pairs, judgement *out) {
+    const int status = ask(s, asked, count, s->camera ? JUDGE_OPEN_NONE : open, pairs, out);
     if (status == EXIT_FINE)
         excuse(s, out);
     return status;
