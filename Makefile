@@ -251,7 +251,7 @@ WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval lim
 WEB_NOT := report/output_file report/terminal requirement/camera requirement/reader requirement/requirement requirement/view requirement/check \
     plot/canvas plot/fight plot/linear01 plot/scene plot/shadow plot/world plot/normals plot/pareto plot/stability plot/needs plot/pixels \
     cli/cmd_methods cli/mine cli/cmd_check cli/check_report cli/cmd_code cli/cmd_world \
-    cli/constants cli/link cli/completions cli/stop cli/junit cli/camera/profile \
+    cli/constants cli/levels cli/link cli/completions cli/stop cli/junit cli/camera/profile \
     api/profile_file web/plain probe/opengl probe/vulkan probe/vulkan_compute probe/compile probe/probe judge/read_pairs judge/listing judge/written cli/judge/shader
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 

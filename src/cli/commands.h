@@ -46,9 +46,28 @@ typedef struct command_row {
 } command_row;
 
 /** The commands, in the order of help. */
-#define COMMANDS(one)                                                                                                  \
-    one(table) one(budget) one(solve) one(check) one(zfight) one(prepass) one(bias) one(world) one(scene) one(texture) \
-        one(shadow) one(methods) one(code) one(judge) one(probe) one(plot) one(list) one(help) one(completions)
+/* clang-format off */
+#define COMMANDS(one) \
+    one(table) \
+    one(budget) \
+    one(solve) \
+    one(check) \
+    one(zfight) \
+    one(prepass) \
+    one(bias) \
+    one(world) \
+    one(scene) \
+    one(texture) \
+    one(shadow) \
+    one(methods) \
+    one(code) \
+    one(judge) \
+    one(probe) \
+    one(plot) \
+    one(list) \
+    one(help) \
+    one(completions)
+/* clang-format on */
 
 /** What is run returns a status of report/output.h. */
 #define COMMAND_DECLARED(name)                                                                                         \

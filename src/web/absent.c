@@ -8,11 +8,14 @@
 #include "cli/check_report.h"
 #include "cli/constants.h"
 #include "cli/judge/request.h"
+#include "cli/levels.h"
 #include "cli/link.h"
 #include "cli/mine.h"
 #include "cli/scene/figure.h"
 #include "cli/shadow/maps.h"
 #include "cli/texture/request.h"
+#include "frame/device.h"
+#include "frame/units.h"
 #include "judge/pairs.h"
 #include "plot/figure.h"
 #include "requirement/check.h"
@@ -38,6 +41,14 @@ ABSENT(cmd_texture)
 ABSENT(cmd_world)
 
 int constants_write(const table_request *o) {
+    return absent(o->line);
+}
+
+bool levels_wanted(const table_request *o) {
+    return o->lattice != NULL;
+}
+
+int levels_write(const table_request *o) {
     return absent(o->line);
 }
 
@@ -71,11 +82,29 @@ ABSENT_FIGURE(world_build)
         return NULL;                                                                                                   \
     }
 
+ABSENT_ROWS(device_row, device_get)
 ABSENT_ROWS(effect_row, effect_get)
 ABSENT_ROWS(finder_filter_row, finder_filter_get)
+ABSENT_ROWS(moved_row, moved_get)
 ABSENT_ROWS(normal_row, normal_get)
 ABSENT_ROWS(pack_row, pack_get)
 ABSENT_ROWS(packing, packing_get)
+
+sensor device_sensor(const device_row *row) {
+    (void)row;
+    return (sensor){.row = NULL};
+}
+
+const char *units_say(const image *img, char out[UNITS_TEXT_SIZE]) {
+    (void)img;
+    out[0] = '\0';
+    return out;
+}
+
+double sensor_gap(const sensor *s, double z) {
+    (void)s;
+    return z;
+}
 
 const pack_row *packing_normals(const packing *p) {
     (void)p;

@@ -52,12 +52,12 @@ static int parse_units(asked_line *line, const option_row *row, const char *valu
 static const option_row bias_rows[] = {
     {"api", 0, "NAME[,NAME...]",
         "the API whose depth-bias rule applies: @; several, or all, are compared, each with its call",
-        .parse = parse_apis, FIELD(unsigned, apis), .names = &apis, .standard = "d3d11",
+        .parse = parse_apis, INTO(unsigned, apis), .names = &apis, .standard = "d3d11",
         .group = "The bias"},
     {"units", 0, "U",
         "constant bias in units of r, a whole number for d3d11, d3d12 and webgpu; in window depth for d3d9 and "
         "vulkan-float; inf or -inf as a program sets it that casts it",
-        .parse = parse_units, FIELD(double, units), LIMITS(-1e12, 1e12, NULL),
+        .parse = parse_units, INTO(double, units), LIMITS(-1e12, 1e12, NULL),
         .without = "the units needed"},
     {"factor", 0, "F",
         "bias in units of the window slope", NUMBER(factor, -1e12, 1e12, NULL), .standard = "0"},

@@ -185,7 +185,7 @@ static void early(asked_line *line, void *group) {
 /* clang-format off */
 static const option_row camera_rows[] = {
     {"near", 'n', "Z",
-        "near plane", .parse = parse_near, FIELD(double, znear),
+        "near plane", .parse = parse_near, INTO(double, znear),
         LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1",
         .group = "The camera"},
     {"far", 'f', "Z|inf",
@@ -227,10 +227,10 @@ static const option_row camera_rows[] = {
         SIZED(arith), .names = &ariths, .standard = "ieee"},
     {"tolerance", 0, "SHARE",
         "the relative error allowed, 0.05 or 5%: a model suffices if it neglects no more of the separation, and "
-        "the cheapest method whose bound is no larger is used", parse_share, FIELD(double, tolerance),
+        "the cheapest method whose bound is no larger is used", parse_share, INTO(double, tolerance),
         .standard = "5%"},
     {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT",
-        "the depths to evaluate, at most 1000000, within [near, far]", parse_depths, FIELD(depths, at),
+        "the depths to evaluate, at most 1000000, within [near, far]", parse_depths, INTO(depths, at),
         .without = "nine, log-spaced from near to far, or to 1e6 times near; linear if near is 0 or negative",
         .group = "The depths"},
     {"range", 0, "LO:HI",

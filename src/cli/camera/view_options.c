@@ -114,7 +114,7 @@ static const option_row view_rows[] = {
     {"intrinsics", 0, "FX,FY,CX,CY",
         "in place of --fov: focal lengths and where the view axis meets the picture, pixels from its left and upper "
         "edge; add 0.5 to CX and CY that count from the middle of the first pixel",
-        .parse = parse_intrinsics, FIELD(double, intrinsics[0]), .without = "as --fov says"},
+        .parse = parse_intrinsics, INTO(double, intrinsics[0]), .without = "as --fov says"},
     {"viewport", 0, "WxH",
         "include what a rasterizer does to slanted triangles in a viewport of W by H pixels; z is then the depth of "
         "the farther surface, and the separation is along the normal",
@@ -122,7 +122,7 @@ static const option_row view_rows[] = {
     {"raster", 0, "NAME|FILE",
         "the rasterizer, its subpixel grid and how it interpolates depth: @; spec-...: the worst that the "
         "specification allows; see 'depthprec list rasterizers'; or as 'depthprec probe --json -o FILE' found it",
-        .parse = parse_raster, FIELD(const raster_row *, raster), .names = &rasters,
+        .parse = parse_raster, INTO(const raster_row *, raster), .names = &rasters,
         .without = "--subpixel, and a depth plane anchored at a vertex"},
     {"subpixel", 0, "BITS",
         "instead: bits of the subpixel grid that vertices snap to; Direct3D has 8, Vulkan and OpenGL at least 4; "

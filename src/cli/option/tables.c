@@ -30,10 +30,10 @@ void options_all(const option_row *out[OPTIONS_MAX + 1]) {
     size_t count = 0;
     for (size_t i = 0; option_order[i] != NULL; i++)
         count = add_rows(out, count, option_order[i]->rows);
+    count = add_rows(out, count, option_always);
     for (size_t i = 0; command_get(i) != NULL; i++)
         for (const option_place *p = command_get(i)->places; p->table != NULL; p++)
             count = add_rows(out, count, p->table->rows);
-    count = add_rows(out, count, option_always);
     out[count] = NULL;
 }
 

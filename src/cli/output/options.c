@@ -35,7 +35,7 @@ static int parse_form(asked_line *line, const option_row *row, const char *value
 static const option_row output_rows[] = {
     {"link", 0, NULL,
         "print a link that opens this command in the page depthprec.html, or in the copy of it at URL",
-        .parse = parse_link, FIELD(const char *, link), .optional = "URL", .group = "Output"},
+        .parse = parse_link, INTO(const char *, link), .optional = "URL", .group = "Output"},
     {"report", 0, NULL,
         "format of the verdicts: text, JSON, or JUnit XML",
         WORD(report, reports), .standard = "text"},

@@ -50,7 +50,7 @@ static const option_row scene_rows[] = {
         FILE_WRITTEN(emit_need)},
     {"separation", 0, "S",
         "judge surfaces at most S scene units apart; 0: exactly coplanar", .parse = parse_length_or_0,
-        FIELD(double, separation), .without = "what the camera does not resolve as far as is judged"},
+        INTO(double, separation), .without = "what the camera does not resolve as far as is judged"},
     {"angle", 0, "DEG",
         SCENE_ANGLE, NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "1"},
     END};

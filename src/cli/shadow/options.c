@@ -81,7 +81,7 @@ static const option_row shadow_rows[] = {
         .parse = parse_cascades, SIZED(cascades), .standard = "4:0.5", .group = "The shadow map"},
     {"light-box", 0, "WxHxD",
         "one shadow map of a box: width, height, and depth along the light", .parse = parse_box,
-        FIELD(double, light_box[0]),
+        INTO(double, light_box[0]),
         .without = "cascades of the view"},
     {"casters", 0, "Z",
         "how far towards the light from a cascade casters are included",
@@ -94,10 +94,10 @@ static const option_row shadow_rows[] = {
         NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75"},
     {"curvature", 0, "Z[:FACET]",
         "receivers curve away from the light with a radius of at least Z; tessellated into triangles of circumradius "
-        "FACET or less, or smooth", .parse = parse_curvature, FIELD(double, curvature), .without = "flat"},
+        "FACET or less, or smooth", .parse = parse_curvature, INTO(double, curvature), .without = "flat"},
     {"camera-depth", 0, "FORMAT:MAPPING[:FAR]",
         "screen-space shadows: receivers are rebuilt from the camera's depth texture in this format and mapping, of "
-        "the view's near plane and FAR, else --far", .parse = parse_camera_depth, FIELD(dp_spec, camera)},
+        "the view's near plane and FAR, else --far", .parse = parse_camera_depth, INTO(dp_spec, camera)},
     {"from-origin", 0, "R",
         SHADOW_FROM_ORIGIN, LENGTH(world, 0, 1e18, "scene units"), .standard = "0", .without = SHADOW_FROM_ORIGIN_OUT},
     END};
@@ -108,7 +108,7 @@ const option_table shadow_options = {.rows = shadow_rows, .begin = begin};
 /* clang-format off */
 static const option_row size_rows[] = {
     {"size", 0, "WxH|N",
-        "texels of each shadow map; N is NxN", .parse = parse_size_or_n, FIELD(uint32_t, size[0]),
+        "texels of each shadow map; N is NxN", .parse = parse_size_or_n, INTO(uint32_t, size[0]),
         .standard = "2048x2048", .instead = "; a figure's size is --figure-size"},
     END};
 /* clang-format on */

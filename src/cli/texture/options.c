@@ -195,19 +195,19 @@ static const option_row texture_rows[] = {
     {"sky", 0, "T|none",
         "window depths within T of the far plane are sky, which no product has; 0: only the far plane itself; none: "
         "sky lies at the far plane, as shaders read it, and fog covers it",
-        .parse = parse_sky, FIELD(double, sky), LIMITS(0, 0.5, NULL), .standard = "0.0001",
+        .parse = parse_sky, INTO(double, sky), LIMITS(0, 0.5, NULL), .standard = "0.0001",
         .without = "as in Unity's shaders"},
     {"metric", 0, "SCALE|mm|tum|kitti|sun3d|nyu-raw",
         "the samples are eye depths in units of SCALE, 1 of COMPUTE_EYEDEPTH; of TUM there are 5000 to the metre, of "
         "KITTI 256; of SUN3D and NYU's raw files the bits are moved back, of others behind a comma: rotated, swapped, "
         "halves; 0, negative numbers, NaN and infinity are holes",
-        .parse = parse_metric, .names = &samples, FIELD(double, metric),
+        .parse = parse_metric, .names = &samples, INTO(double, metric),
         LIMITS(METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     {"stereo", 0, "focal=F,baseline=B[,offset=O][,step=S]|NAME",
         "the samples are disparities: O + S x sample is that in pixels, of a focal length of F pixels and a baseline "
         "B, a length; S may be a quotient, 1/256, and is below 0 where larger samples are farther; NAME is one of "
         "'depthprec list sensors', of which others of these may follow; 0 and what is not finite are holes",
-        .parse = parse_stereo, .names = &stereos, FIELD(stereo_spec, stereo)},
+        .parse = parse_stereo, .names = &stereos, INTO(stereo_spec, stereo)},
     {"lattice", 0, "NAME[:NUMBERS]",
         "what metric depth was rounded to before, in place of what the image shows: stereo:FOCAL,BASELINE[,PIXELS] "
         "with the step of disparity in pixels, inverse:A[,B] with steps of 1/A in 1/z, even:STEP[,FROM] in z, "
@@ -231,7 +231,7 @@ static const option_row texture_rows[] = {
         "NORMALS is the method of those that effect:outline compares and pack:depth-normals holds, else those that "
         "FILE holds or, for effect:outline, the scene has, else projective; see 'depthprec list products'. An effect "
         "without an image: the usable values of its parameter",
-        .parse = parse_product, FIELD(const product_row *, product), .names = &products},
+        .parse = parse_product, INTO(const product_row *, product), .names = &products},
     {"as", 0, "NAME[:NUMBERS]",
         "eye depths as another sensor or format would have stored them: the nearest levels of what --lattice has names "
         "for, which begin at 0 where nothing else is said", TEXT(as), .without = "not rounded"},
@@ -240,17 +240,17 @@ static const option_row texture_rows[] = {
         "the far plane unless --sky is given", FILE_READ(picture)},
     {"tint", 0, "R,G,B[,A]",
         "with --picture: the colour of the fog, line, water, ..., each part from 0 to 1", .parse = parse_tint,
-        FIELD(double, tint[0]), .without = "that of the effect"},
+        INTO(double, tint[0]), .without = "that of the effect"},
     {"hi-z", 0, "LEVEL[:nearest][:FORMAT]",
         "write a level of the conservative pyramid of the farthest depths, or of the nearest, as window depth: 0 is "
         "the image, each further one half as wide and high; in FORMAT rounded to the safe side",
-        .parse = parse_hi_z, FIELD(unsigned, hi_z)},
+        .parse = parse_hi_z, INTO(unsigned, hi_z)},
     {"normal-format", 0, NULL,
         "direction of y in a PNG of normals: up, or down", WORD(normal_format, normal_formats),
         .standard = "opengl"},
     {"error-map", 0, NULL,
         "write the error of the product instead; with =FILE, beside the product in the same pass",
-        .parse = parse_error_map, FIELD(const char *, error_file), .written = true, .optional = "FILE"},
+        .parse = parse_error_map, INTO(const char *, error_file), .written = true, .optional = "FILE"},
     {"figure", 0, "FILE",
         "draw the product: SVG, PDF or PNG; up to 256 surfaces of a synthetic image that share a code with what is "
         "behind are marked", FILE_WRITTEN(figure)},

@@ -14,7 +14,7 @@ static const option_row world_rows[] = {
         "separation of the surfaces along the view axis", POSITIVE(separation), .without = "1 cm, or 0.01"},
     {"from-origin", 0, "R[,R...]|LO:HI:log|lin:COUNT",
         "distance of the camera from the world's origin, at most 1e12 scene units",
-        .parse = parse_depths, FIELD(depths, distances), .without = "print how far each scheme is safe"},
+        .parse = parse_depths, INTO(depths, distances), .without = "print how far each scheme is safe"},
     END};
 /* clang-format on */
 
