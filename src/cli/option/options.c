@@ -63,13 +63,13 @@ static bool takes_argument(const option_row *row) {
     return row->argument != NULL || row->names != NULL;
 }
 
-static void know(known *k, const char *mode) {
+/* The letters begin with the sign by which words come in order, as arguments of an option 1. */
+static void know(known *k) {
     const option_row *all[OPTIONS_MAX + 1];
     char *letters = k->letters;
     options_all(all);
     k->count = 0;
-    while (*mode != '\0')
-        *letters++ = *mode++;
+    *letters++ = '-';
     *letters++ = ':'; /* a missing argument is told apart from an unknown option */
     for (size_t i = 0; all[i] != NULL; i++) {
         const option_row *row = all[i];
@@ -202,19 +202,17 @@ static int ask_for_help(asked_line *line, const option_row *row, const command_r
  * Those that are early, or the others; what is wrong with the line is told with the others. argv[0] is the program, or
  * the command in its place.
  */
-static int read_words(asked_line *line, int argc, char **argv, const command_row *about, bool early) {
-    known k;
-    know(&k, "");
+static int read_words(asked_line *line, const known *k, int argc, char **argv, const command_row *about, bool early) {
     optind = 0; /* start anew, also when an earlier call stopped half-way */
-    for (int value; (value = getopt_long(argc, argv, k.letters, k.longs, NULL)) != -1;) {
-        const option_row *row = row_of_value(&k, value == ':' ? optopt : value, line->command);
+    for (int value; (value = getopt_long(argc, argv, k->letters + 1, k->longs, NULL)) != -1;) {
+        const option_row *row = row_of_value(k, value == ':' ? optopt : value, line->command);
         /* An argument that is missing behind a word: musl's getopt returns the option itself, without one. */
         const bool lacks = value == ':' || (value != '?' && takes_argument(row) && optarg == NULL);
         const bool ends = value == '?' || lacks || row->parse == NULL;
         if (early && ends)
             return EXIT_FINE;
         if (value == '?')
-            return unknown_option(line, &k, optopt, argv[optind > 1 ? optind - 1 : 1]);
+            return unknown_option(line, k, optopt, argv[optind > 1 ? optind - 1 : 1]);
         if (lacks)
             return needs_argument(line, row);
         if (ends)
@@ -230,13 +228,13 @@ static int read_words(asked_line *line, int argc, char **argv, const command_row
 
 /* getopt puts words into another order, and C libraries differ in when: of a line that ends half-way, too. So the pass
  * for the early ones has words of its own. */
-static int read_options(asked_line *line, int argc, char **argv, const command_row *about, bool early) {
+static int read_options(asked_line *line, const known *k, int argc, char **argv, const command_row *about, bool early) {
     char **words = early ? malloc(((size_t)argc + 1) * sizeof *words) : argv;
     if (words == NULL)
         return usage_error("no memory for %d words", argc);
     if (early)
         memcpy(words, argv, ((size_t)argc + 1) * sizeof *words);
-    const int status = read_words(line, argc, words, about, early);
+    const int status = read_words(line, k, argc, words, about, early);
     if (early)
         free(words);
     for (const option_place *p = line->command->places; early && p->table != NULL; p++)
@@ -246,14 +244,12 @@ static int read_options(asked_line *line, int argc, char **argv, const command_r
 }
 
 /* Puts the command before all options where the first word that belongs to no option is one. */
-static void put_command_first(int argc, char **argv) {
-    known k;
+static void put_command_first(const known *k, int argc, char **argv) {
     int value;
-    know(&k, "-"); /* words come in order, as arguments of an option 1 */
     opterr = 0;
     optind = 0;
     do
-        value = getopt_long(argc, argv, k.letters, k.longs, NULL);
+        value = getopt_long(argc, argv, k->letters, k->longs, NULL);
     while (value != -1 && value != '?' && value != ':' && value != 1);
     if (value != 1 || command_find(argv[optind - 1]) == NULL)
         return;
@@ -278,12 +274,14 @@ static int finish(asked_line *line) {
 int options_parse(asked_line *line, int argc, char **argv) {
     const command_row *command = command_find("table");
     char text[NAMES_SIZE];
+    known k;
     input_forget();
     option_forget_choosers();
     *line = (asked_line){.argv = argv};
     if (argc < 1)
         return usage_error("no program name was given");
-    put_command_first(argc, argv);
+    know(&k);
+    put_command_first(&k, argc, argv);
     const bool named = argc > 1 && argv[1][0] != '-';
     if (named)
         command = command_find(argv[1]);
@@ -294,9 +292,9 @@ int options_parse(asked_line *line, int argc, char **argv) {
     }
     int status = begin(line, command);
     if (status == EXIT_FINE)
-        status = read_options(line, argc - named, argv + named, named ? command : NULL, true);
+        status = read_options(line, &k, argc - named, argv + named, named ? command : NULL, true);
     if (status == EXIT_FINE)
-        status = read_options(line, argc - named, argv + named, named ? command : NULL, false);
+        status = read_options(line, &k, argc - named, argv + named, named ? command : NULL, false);
     const bool helped = option_given(line, "help") || option_given(line, "version");
     return status == EXIT_FINE && !helped ? finish(line) : status;
 }

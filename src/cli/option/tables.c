@@ -8,10 +8,8 @@
 /* Behind the last of its name, which says under which heading it stands; else behind all. */
 static size_t add_row(const option_row *out[OPTIONS_MAX + 1], size_t count, const option_row *row) {
     size_t at = count;
-    for (size_t i = 0; i < count; i++)
-        if (out[i] == row)
-            return count;
-        else if (strcmp(out[i]->name, row->name) == 0)
+    for (size_t i = count; i-- > 0 && at == count;)
+        if (out[i]->name[0] == row->name[0] && strcmp(out[i]->name, row->name) == 0)
             at = i + 1;
     if (count == OPTIONS_MAX)
         return count;
@@ -20,7 +18,11 @@ static size_t add_row(const option_row *out[OPTIONS_MAX + 1], size_t count, cons
     return count + 1;
 }
 
+/* Those of a table, once. */
 static size_t add_rows(const option_row *out[OPTIONS_MAX + 1], size_t count, const option_row *rows) {
+    for (size_t i = 0; i < count; i++)
+        if (out[i] == rows)
+            return count;
     for (const option_row *row = rows; row->name != NULL; row++)
         count = add_row(out, count, row);
     return count;
