@@ -60,7 +60,7 @@ read_elsewhere() {
 
 core_inside() {
     includes core/ src >"$scratch/core" && grep -q '^src/core/' "$scratch/core" || return
-    lines -vE '^src/core/|"core/(append|bits|clones|curve|elementary|engine|expansion|named|reading|recognise_lattice)\.h"' "$scratch/core"
+    lines -vE '^src/core/|"core/(append|bits|clones|curve|elementary|engine|expansion|named|outward|reading|recognise_lattice|search)\.h"' "$scratch/core"
 }
 
 objects() { # those of the program: stand-ins (src/web, src/npm, src/windows) have the names of what they stand in for

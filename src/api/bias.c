@@ -5,6 +5,7 @@
 
 #include "core/bits.h"
 #include "core/elementary.h"
+#include "core/search.h"
 
 #define UNSCALED 0.0, 0.0
 
@@ -379,22 +380,14 @@ static bool enough_between(const dp_setup *setup, const bias_goal *goal, double 
     return isfinite(bias_needed_over(setup, goal, fmin(a, b), fmax(a, b), &worst));
 }
 
-/* Halfway, on a logarithmic scale where there is one: depths of an orthographic camera may be 0 or negative. */
-static double halfway(double a, double b) {
-    return a > 0.0 && b > 0.0 ? sqrt(a) * sqrt(b) : 0.5 * a + 0.5 * b;
-}
-
 /* The depth farthest from `start` towards `end` up to which a bias is enough. */
 static double enough_towards(const dp_setup *setup, const bias_goal *goal, double start, double end) {
-    enum { STEPS = 256 };
     if (start == end || enough_between(setup, goal, start, end))
         return end;
-    double good = start, bad = isinf(end) ? 1e300 : end;
-    for (int i = 0; i < STEPS && fabs(bad - good) > 0x1p-48 * fmax(fabs(good), fabs(bad)); i++) {
-        const double middle = halfway(good, bad);
-        *(enough_between(setup, goal, start, middle) ? &good : &bad) = middle;
-    }
-    return good;
+    dp_edge e = {.holds = start, .fails = isinf(end) ? 1e300 : end, .apart = 0x1p-48};
+    for (double z; dp_edge_between(&e, &z);)
+        *(enough_between(setup, goal, start, z) ? &e.holds : &e.fails) = z;
+    return e.holds;
 }
 
 void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *from, double *to) {

@@ -6,6 +6,7 @@
 
 #include "core/elementary.h"
 #include "core/extremes.h"
+#include "core/search.h"
 
 static const double most_depth = 1e6, least_beyond = 0x1p-48;
 
@@ -51,20 +52,17 @@ dp_status dp_vertex_error_at(const dp_setup *setup, double z, double depth, dp_v
     return DP_OK;
 }
 
-/* The error rises with the depth, so what it is beyond 1 is halved on a logarithmic scale. */
+/* The error rises with the depth. What it is beyond 1 is looked for, as small as that may be. */
 dp_status dp_vertex_depth_at(const dp_setup *setup, double z, double eye, double *depth) {
-    enum { STEPS = 64 };
     if (setup == NULL || depth == NULL)
         return DP_ERROR_NULL;
     if (!is_inside(setup, z) || !(eye >= 0.0))
         return DP_ERROR_DEPTH;
-    double good = 0.0, bad = most_depth - 1.0;
+    dp_edge beyond = {.holds = least_beyond, .fails = most_depth - 1.0};
     if (error_of(setup, z, most_depth).eye <= eye)
-        good = bad;
-    for (int i = 0; i < STEPS && good < bad; i++) {
-        const double middle = sqrt(larger(good, least_beyond)) * sqrt(bad);
-        *(error_of(setup, z, 1.0 + middle).eye <= eye ? &good : &bad) = middle;
-    }
-    *depth = 1.0 + good;
+        beyond.holds = beyond.fails;
+    for (double x; dp_edge_between(&beyond, &x);)
+        *(error_of(setup, z, 1.0 + x).eye <= eye ? &beyond.holds : &beyond.fails) = x;
+    *depth = beyond.holds > least_beyond ? 1.0 + beyond.holds : 1.0;
     return DP_OK;
 }

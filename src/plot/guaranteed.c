@@ -6,6 +6,7 @@
 
 #include "core/append.h"
 #include "core/engine.h"
+#include "core/search.h"
 #include "plot/ticks.h"
 
 bool guaranteed_has(const figure_request *request, size_t i) {
@@ -56,14 +57,13 @@ static void say_end(const refine_request *q, chart_series *s) {
         k++;
     if (k == s->count)
         return;
-    double lo = k > 0 ? s->x[k - 1] : q->lo, hi = k + 1 < s->count ? s->x[k + 1] : q->hi;
-    for (int i = 0; i < 60; i++) {
-        const double middle = lo > 0 ? sqrt(lo) * sqrt(hi) : lo + (hi - lo) / 2;
+    dp_edge e = {.holds = k > 0 ? s->x[k - 1] : q->lo, .fails = k + 1 < s->count ? s->x[k + 1] : q->hi};
+    for (double x; dp_edge_between(&e, &x);) {
         refine_sample at;
-        q->sample(q->context, middle, middle, &at);
-        *(isinf(at.y[0]) ? &hi : &lo) = middle;
+        q->sample(q->context, x, x, &at);
+        *(isinf(at.y[0]) ? &e.fails : &e.holds) = x;
     }
-    ticks_about(hi, text);
+    ticks_about(e.fails, text);
     snprintf(s->note, sizeof s->note, " (ends at %s)", text);
 }
 

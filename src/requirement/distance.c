@@ -6,8 +6,7 @@
 
 #include "core/elementary.h"
 #include "core/engine.h"
-
-enum { STEPS = 400 };
+#include "core/search.h"
 
 static const double farthest = 1e18;
 
@@ -16,25 +15,19 @@ typedef struct ruler {
     const dp_setup *setup;
     dp_guarantee guarantee;
     double limit;
-    bool whole; /* binary32 depths alone are of interest */
     double lo;
-    double holds, fails; /* it holds from lo to the one, and does not at the other */
+    dp_edge edge; /* it holds from lo to the one, and does not at the other */
 } ruler;
 
-/* A depth between the two ends, or NaN when there is none to try. */
-static double between(const ruler *r) {
-    const bool far_apart = r->holds > 0.0 && r->holds < 0.5 * r->fails;
-    double middle = far_apart ? sqrt(r->holds) * sqrt(r->fails) : 0.5 * r->holds + 0.5 * r->fails;
-    if (r->whole) {
-        middle = (double)(float)middle;
-        if (middle <= r->holds)
-            middle = (double)nextafterf((float)r->holds, HUGE_VALF);
-        if (middle <= r->holds)
-            middle = (double)nextafterf((float)middle, HUGE_VALF);
-    } else if (r->fails <= r->holds + fabs(r->holds) * 0x1p-48) {
-        return (double)NAN;
-    }
-    return middle > r->holds && middle < r->fails ? middle : (double)NAN;
+/* Of set-ups whose depths are computed binary32 depths alone are of interest. */
+static dp_edge edge_of(const dp_setup *setup, double holds, double fails) {
+    return (dp_edge){holds, fails, .straight = 2.0, .single = dp_is_computed(setup)};
+}
+
+/* Other depths are not told apart as finely as doubles are. */
+static bool between(const dp_edge *e, double *z) {
+    const double lo = fmin(e->holds, e->fails), hi = fmax(e->holds, e->fails);
+    return (e->single || hi > lo + fabs(lo) * 0x1p-48) && dp_edge_between(e, z);
 }
 
 /*
@@ -42,25 +35,26 @@ static double between(const ruler *r) {
  * where that is too much nothing beyond it counts. Of an error the whole range is judged: cells end where it does.
  */
 static void extend(ruler *r, double end) {
-    const double begin = r->kind == MEASURE_ERROR ? r->lo : r->holds;
+    dp_edge *e = &r->edge;
+    const double begin = r->kind == MEASURE_ERROR ? r->lo : e->holds;
     if (r->kind == MEASURE_SEPARATION &&
         dp_guarantee_at(&r->guarantee, end) > r->limit) { /* cheaper than to judge them all */
-        r->fails = end;
+        e->fails = end;
         return;
     }
     const judgement j = judge(r->kind, r->setup, begin, end, r->limit);
     if (j.passed)
-        r->holds = end;
-    else if (r->kind == MEASURE_SEPARATION && j.z > r->holds && dp_guarantee_at(&r->guarantee, j.z) > r->limit)
-        r->fails = j.z;
+        e->holds = end;
+    else if (r->kind == MEASURE_SEPARATION && j.z > e->holds && dp_guarantee_at(&r->guarantee, j.z) > r->limit)
+        e->fails = j.z;
     else
-        r->fails = end;
+        e->fails = end;
 }
 
 /* Whether every depth from the one to just before the other is the same, rounded down to that many digits. */
-static bool is_settled(double holds, double fails, int digits) {
-    const double unit = dp_pow(10.0, floor(dp_log10(fmin(fabs(holds), fabs(fails)))) + 1.0 - digits);
-    return floor(holds / unit) == ceil(fails / unit) - 1.0;
+static bool is_settled(const dp_edge *e, int digits) {
+    const double unit = dp_pow(10.0, floor(dp_log10(fmin(fabs(e->holds), fabs(e->fails)))) + 1.0 - digits);
+    return floor(e->holds / unit) == ceil(e->fails / unit) - 1.0;
 }
 
 /*
@@ -68,31 +62,23 @@ static bool is_settled(double holds, double fails, int digits) {
  * depth nothing else is left to judge.
  */
 static void aim(ruler *r, int digits) {
-    ruler by_depths = *r;
-    for (int i = 0; i < STEPS && !is_settled(by_depths.holds, by_depths.fails, digits); i++) {
-        const double middle = between(&by_depths);
-        if (isnan(middle))
-            break;
-        *(dp_guarantee_at(&r->guarantee, middle) > r->limit ? &by_depths.fails : &by_depths.holds) = middle;
-    }
-    r->fails = by_depths.fails;
-    if (by_depths.holds > r->holds)
-        extend(r, by_depths.holds);
+    dp_edge e = r->edge;
+    for (double z; !is_settled(&e, digits) && between(&e, &z);)
+        *(dp_guarantee_at(&r->guarantee, z) > r->limit ? &e.fails : &e.holds) = z;
+    r->edge.fails = e.fails;
+    if (e.holds > r->edge.holds)
+        extend(r, e.holds);
 }
 
 /* Until the ends are neighbours, or agree in so many digits if that is not 0. */
 static void search(ruler *r, int digits) {
-    const double end = r->fails;
-    if (r->lo < end)
-        extend(r, end);
-    if (digits > 0 && r->holds < r->fails)
+    dp_edge *e = &r->edge;
+    if (r->lo < e->fails)
+        extend(r, e->fails);
+    if (digits > 0 && e->holds < e->fails)
         aim(r, digits);
-    for (int i = 0; i < STEPS && r->holds < end && !(digits > 0 && is_settled(r->holds, r->fails, digits)); i++) {
-        const double middle = between(r);
-        if (isnan(middle))
-            break;
-        extend(r, middle);
-    }
+    for (double z; !(digits > 0 && is_settled(e, digits)) && between(e, &z);)
+        extend(r, z);
 }
 
 static ruler ruler_of(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit) {
@@ -100,10 +86,8 @@ static ruler ruler_of(measure_kind kind, const dp_setup *setup, double lo, doubl
                    .setup = setup,
                    .guarantee = dp_guarantee_make(setup),
                    .limit = limit,
-                   .whole = dp_is_computed(setup),
                    .lo = lo,
-                   .holds = lo,
-                   .fails = fmin(hi, farthest)};
+                   .edge = edge_of(setup, lo, fmin(hi, farthest))};
 }
 
 double distance_about(const dp_setup *setup, double lo, double hi, double limit, int digits) {
@@ -111,20 +95,20 @@ double distance_about(const dp_setup *setup, double lo, double hi, double limit,
     if (!(dp_guarantee_at(&r.guarantee, lo) <= limit))
         return (double)NAN;
     search(&r, digits);
-    return r.holds;
+    return r.edge.holds;
 }
 
 /* As `check` would judge it, in one piece: where that stops refining too early, a little less, at last the beginning,
  * which holds. */
-static void confirm(ruler *r, distance_answer *out) {
-    const double reach = r->holds;
+static void confirm(const ruler *r, distance_answer *out) {
+    const double reach = r->edge.holds;
+    out->value = reach;
     for (double share = 0x1p-48;; share *= 2.0) {
-        out->reached = judge(r->kind, r->setup, r->lo, r->holds, r->limit);
-        if (out->reached.passed || r->holds == r->lo)
-            break;
-        r->holds = share < 1.0 ? fmax(reach - fabs(reach) * share, r->lo) : r->lo;
+        out->reached = judge(r->kind, r->setup, r->lo, out->value, r->limit);
+        if (out->reached.passed || out->value == r->lo)
+            return;
+        out->value = share < 1.0 ? fmax(reach - fabs(reach) * share, r->lo) : r->lo;
     }
-    out->value = r->holds;
 }
 
 dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit,
@@ -136,7 +120,7 @@ dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, do
     if (!(limit > 0.0 && lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || lo > farthest)
         return DP_ERROR_RANGE;
     ruler r = ruler_of(kind, setup, lo, hi, limit);
-    const double end = r.fails;
+    const double end = r.edge.fails;
     *out = (distance_answer){.value = lo, .fails = lo};
     out->reached = judge(kind, setup, lo, lo, limit);
     out->possible = out->reached.passed;
@@ -145,7 +129,7 @@ dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, do
     search(&r, 0);
     confirm(&r, out);
     out->throughout = out->value == end;
-    out->fails = out->throughout ? (double)NAN : r.fails;
+    out->fails = out->throughout ? (double)NAN : r.edge.fails;
     return DP_OK;
 }
 
@@ -201,18 +185,18 @@ size_t distance_again(const dp_setup *setup, double after, double hi, double lim
             fails = t.z[i];
             continue;
         }
-        ruler r = {.whole = dp_is_computed(setup), .holds = fails, .fails = t.z[i]};
-        for (double middle = between(&r); !isnan(middle); middle = between(&r))
-            *(judge(MEASURE_SEPARATION, setup, middle, middle, limit).passed ? &r.fails : &r.holds) = middle;
+        dp_edge e = edge_of(setup, t.z[i], fails);
+        for (double z; between(&e, &z);)
+            *(judge(MEASURE_SEPARATION, setup, z, z, limit).passed ? &e.holds : &e.fails) = z;
         distance_answer answer;
-        fails = r.fails;
-        if (distance_solve(MEASURE_SEPARATION, setup, r.fails, t.end, limit, &answer) != DP_OK || !answer.possible)
+        fails = e.holds;
+        if (distance_solve(MEASURE_SEPARATION, setup, e.holds, t.end, limit, &answer) != DP_OK || !answer.possible)
             continue;
         fails = answer.value;
-        const bool is_point = answer.value <= r.fails * (1.0 + SHORTEST); /* which passes by how it was rounded */
+        const bool is_point = answer.value <= e.holds * (1.0 + SHORTEST); /* which passes by how it was rounded */
         points = is_point ? points + 1 : 0;
         if (!is_point)
-            out[count++] = (distance_span){r.fails, answer.value};
+            out[count++] = (distance_span){e.holds, answer.value};
     }
     return count;
 }

@@ -6,8 +6,9 @@
 #include <stdlib.h>
 
 #include "core/elementary.h"
+#include "core/search.h"
 
-enum { HALVINGS = 48, BISECTIONS = 2200, DIGITS = 6, DIGITS_MOST = 17, TEXT_SIZE = 32 };
+enum { HALVINGS = 48, DIGITS = 6, DIGITS_MOST = 17, TEXT_SIZE = 32 };
 
 static judgement judged(const dp_spec *whole, double znear, double zfar, double limit) {
     dp_spec spec = *whole;
@@ -33,21 +34,14 @@ static double nearer(const dp_spec *whole, double zfar, int k) {
 static double least_near(const dp_spec *whole, double zfar, double limit) {
     if (passes(whole, whole->znear, zfar, limit))
         return whole->znear;
-    double bad = whole->znear, good = (double)NAN;
-    for (int k = 1; k <= HALVINGS && isnan(good); k++) {
+    dp_edge e = {.holds = (double)NAN, .fails = whole->znear, .straight = (double)INFINITY};
+    for (int k = 1; k <= HALVINGS && isnan(e.holds); k++) {
         const double x = nearer(whole, zfar, k);
-        if (passes(whole, x, zfar, limit))
-            good = x;
-        else
-            bad = x;
+        *(passes(whole, x, zfar, limit) ? &e.holds : &e.fails) = x;
     }
-    for (int i = 0; i < BISECTIONS && !isnan(good); i++) {
-        const double middle = bad + 0.5 * (good - bad);
-        if (middle == bad || middle == good)
-            break;
-        *(passes(whole, middle, zfar, limit) ? &good : &bad) = middle;
-    }
-    return good;
+    for (double x; dp_edge_between(&e, &x);)
+        *(passes(whole, x, zfar, limit) ? &e.holds : &e.fails) = x;
+    return e.holds;
 }
 
 /* The plane with the fewest digits, six or more, not nearer than `least`, that still passes. */

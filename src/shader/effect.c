@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/elementary.h"
+#include "core/search.h"
 
 /* ---- The pixel --------------------------------------------------------------------------------------------------- */
 
@@ -151,15 +152,16 @@ static double difference_at(const cell_case *at, double z) {
  * beyond. NaN where there is none. */
 static void differences_beside(const cell_case *at, double slope, double value, bool included, double out[2]) {
     const double past = included ? nextafter(value, HUGE_VAL) : value;
-    double lo = at->first + slope, hi = fmin(at->last + slope, at->view->setup->spec.zfar);
+    const double lo = at->first + slope, hi = fmin(at->last + slope, at->view->setup->spec.zfar);
     out[0] = difference_at(at, hi) < past ? difference_at(at, hi) : (double)NAN;
     out[1] = difference_at(at, lo) < past ? (double)NAN : difference_at(at, lo);
     if (!isnan(out[0]) || !isnan(out[1]))
         return;
-    for (double middle = lo + (hi - lo) / 2; middle > lo && middle < hi; middle = lo + (hi - lo) / 2)
-        *(difference_at(at, middle) < past ? &lo : &hi) = middle;
-    out[0] = difference_at(at, lo);
-    out[1] = difference_at(at, hi);
+    dp_edge below = {.holds = lo, .fails = hi};
+    for (double z; dp_edge_between(&below, &z);)
+        *(difference_at(at, z) < past ? &below.holds : &below.fails) = z;
+    out[0] = difference_at(at, below.holds);
+    out[1] = difference_at(at, below.fails);
 }
 
 /* Below which values of the wanted parameter the output is 1: as it should be, and at least and at most. */

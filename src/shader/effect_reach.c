@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "core/elementary.h"
+#include "core/search.h"
 #include "shader/effect.h"
 
 typedef struct search {
@@ -17,21 +18,15 @@ static bool holds(const search *s, double z) {
     return (s->steps ? effect_step : effect_error)(s->row, s->view, s->parameters, z) <= s->levels;
 }
 
-static double halfway(double a, double b) {
-    return a > 0.0 ? sqrt(a) * sqrt(b) : 0.5 * a + 0.5 * b;
-}
-
 /* Between a depth where it holds and one where it does not. */
 static double last_between(const search *s, double good, double bad) {
-    enum { STEPS = 96 };
-    for (int i = 0; i < STEPS && bad - good > 0x1p-40 * fmax(fabs(good), fabs(bad)); i++) {
-        const double middle = halfway(good, bad);
-        *(holds(s, middle) ? &good : &bad) = middle;
-    }
-    return good;
+    dp_edge e = {.holds = good, .fails = bad, .apart = 0x1p-40};
+    for (double z; dp_edge_between(&e, &z);)
+        *(holds(s, z) ? &e.holds : &e.fails) = z;
+    return e.holds;
 }
 
-/* Part `i` of so many, even on the scale that halfway() halves. */
+/* Part `i` of so many, even on the scale on which the search halves. */
 static double part_of(double lo, double hi, int i, int count) {
     const double share = (double)i / count;
     return i == count ? hi : lo > 0.0 ? lo * dp_pow(hi / lo, share) : lo + (hi - lo) * share;
