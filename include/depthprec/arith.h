@@ -51,8 +51,8 @@ DP_API const dp_arith_row *dp_arith_get(dp_arith index);
 DP_API dp_status dp_arith_parse(const char *name, dp_arith *out);
 
 /**
- * What a shader's log2 of x may be off by: `inside` where x is in [0.5, 2] and that is not 0; else `ulps` units in the
- * last place of log2(x) and `relative` of its size, together. The index of a row is its dp_log2_rule.
+ * The largest error of a shader's log2 of x: `inside` where x is in [0.5, 2] and that is not 0; else `ulps` units in
+ * the last place of log2(x) and `relative` of its size, together. The index of a row is its dp_log2_rule.
  */
 typedef struct dp_log2_row {
     const char *name;

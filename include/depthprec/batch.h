@@ -21,7 +21,7 @@
 
 DP_BEGIN
 
-/** What is done to each element. Codes above code_max count as code_max in every task that reads codes. */
+/** The operation on each element. Codes above code_max count as code_max in every task that reads codes. */
 typedef enum dp_task {
     DP_TASK_CODE = 0, /**< eye depth to code, as dp_code(); outside [near, far] clamped, NaN as near */
     DP_TASK_EYE,      /**< code to eye depth: double as dp_stored(), bit for bit; float within DP_BATCH_EYE_ERROR,
@@ -63,7 +63,7 @@ DP_API int dp_path_available(dp_path path);
 /** The fastest path that is available. */
 DP_API dp_path dp_path_best(void);
 
-/** A prepared task. Made by dp_batch_init(); may be copied, and used by many threads at once. */
+/** A prepared task. Made by dp_batch_init() and only read; may be copied, and used by many threads at once. */
 typedef struct dp_batch {
     dp_setup setup;
     dp_task task;
@@ -71,7 +71,7 @@ typedef struct dp_batch {
     dp_word word;
     dp_path path;
     size_t in_size, out_size; /**< bytes of an element read and of one written */
-    uint64_t opaque[48];      /**< the library's own */
+    uint64_t opaque[48];      /* private to the library */
 } dp_batch;
 
 /**

@@ -6,7 +6,7 @@
  * enters the pipeline is each depth rounded to binary32. Forward error analysis of the operations in pipeline.h;
  * depthprec(7) derives each term. Never below the separation of DP_MODEL_EXACT.
  *
- * Of a logarithmic mapping, which a shader writes, the codes are in order for every log2 that the language allows; what
+ * Where a shader writes a logarithmic depth, the codes are in order for every log2 that the language allows; what
  * enters is the eye depth w in binary32 as a fragment has it.
  *
  * This speaks of depths computed at a point, and so of surfaces that face the camera. Across a slanted triangle a
@@ -56,7 +56,7 @@ typedef struct dp_composition_row {
 /** The row of a way from world to clip coordinates; null when out of range. */
 DP_API const dp_composition_row *dp_composition_get(dp_composition composition);
 
-/** What view z of a place may be off by before the projection, scene units; found for all places that are asked about.
+/** The largest error of a place's view z before the projection, scene units; found for all places asked about.
  */
 typedef struct dp_displaced {
     double own;    /**< by itself, and so each coordinate of view space */
@@ -64,7 +64,7 @@ typedef struct dp_displaced {
     double turn;   /**< below 1 */
 } dp_displaced;
 
-/** What may be added to the pipeline. All zero: what the separation of DP_MODEL_FLOAT counts. */
+/** Causes that may be added to the pipeline. All zero: those that the separation of DP_MODEL_FLOAT counts. */
 typedef struct dp_budget_terms {
     double interpolation; /**< error of an interpolated window depth, in units of 2^-24 of d; at least 0 */
     double world;         /**< largest |coordinate| of world positions and camera, scene units; 0: eye depth is given */
@@ -142,7 +142,7 @@ DP_API dp_status dp_coplanar_over(const dp_setup *setup, double lo, double hi, d
  */
 DP_API dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint32_t *highest);
 
-/** What the choice of a model rests on. */
+/** The chosen model, and the shares on which the choice rests. */
 typedef struct dp_choice {
     dp_model model;                 /**< the simplest whose neglected share stays within the tolerance */
     double share[DP_MODEL_COUNT];   /**< largest share that each model neglects; NaN for one the set-up lacks */

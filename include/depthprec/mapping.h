@@ -43,7 +43,7 @@ typedef enum dp_mapping {
 /** The curve that a mapping follows under a perspective projection. */
 typedef enum dp_curve { DP_CURVE_PERSPECTIVE = 0, DP_CURVE_LINEAR, DP_CURVE_LOG } dp_curve;
 
-/** What is known of a mapping. The index of its row is its dp_mapping. */
+/** A mapping and its properties. The index of its row is its dp_mapping. */
 typedef struct dp_mapping_row {
     const char *name;
     const char *aliases; /**< other accepted spellings, separated by one space */

@@ -37,7 +37,7 @@ typedef struct dp_projection {
     double pull;        /**< and e, of window depth in [0, 1] */
 } dp_projection;
 
-/** What is wrong with a matrix. */
+/** Why a matrix is refused. */
 typedef struct dp_matrix_fault {
     const char *rule; /**< one sentence without a full stop, what must be; static */
     double got[4];    /**< the row that is not so */

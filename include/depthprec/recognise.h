@@ -56,7 +56,7 @@ typedef struct dp_image {
     size_t stride;        /**< samples from one to the next: how many channels are interleaved */
 } dp_image;
 
-/** What shows the format, or that there is no depth; with it the fields that have more of it. */
+/** The evidence for the format, or that there is no depth, and the fields that say more of it. */
 typedef enum dp_reason {
     DP_REASON_EMPTY = 0,    /**< no depth: no sample is finite, or there is none */
     DP_REASON_OUTSIDE,      /**< no depth: `invalid` samples are not in [0, 1] or not codes, see `least`, `greatest` */
@@ -78,7 +78,7 @@ typedef enum dp_reason {
     DP_REASON_COUNT
 } dp_reason;
 
-/** What was found. */
+/** What dp_recognise() found in an image. */
 typedef struct dp_recognised {
     int depth;         /**< finite samples, all in [0, 1] or codes of a format: it can be window depth. Holes, which are
                             not finite, are no hindrance */

@@ -15,7 +15,7 @@
 
 DP_BEGIN
 
-/** What is modelled of the arithmetic between the eye depth and the buffer. */
+/** The roundings between the eye depth and the buffer that are modelled. */
 typedef enum dp_model {
     DP_MODEL_EXACT = 0, /**< real arithmetic and one rounding into the format: the lattice of codes */
     DP_MODEL_STAGED,    /**< NDC depth, then window depth, each rounded once to binary32, then the format */
@@ -23,7 +23,7 @@ typedef enum dp_model {
     DP_MODEL_COUNT
 } dp_model;
 
-/** What is asked for. Start from dp_spec_default() and change what differs. */
+/** The camera and buffer asked for. Start from dp_spec_default() and change what differs. */
 typedef struct dp_spec {
     double
         znear; /**< near plane, scene units, in [1e-12, 1e12]; orthographic: 0, or of that magnitude, of either sign */
@@ -45,25 +45,26 @@ typedef struct dp_spec {
  *  camera. */
 DP_API dp_spec dp_spec_default(void);
 
-/** A checked set-up. Everything after `spec` is derived from it by dp_setup_init() and private to the library. */
+/** A checked set-up. What follows `spec` is derived from it by dp_setup_init() and private: it may change. */
 typedef struct dp_setup {
     dp_spec spec;
-    dp_curve curve; /**< the curve in force: an orthographic projection turns PERSPECTIVE into LINEAR */
+    /* private to the library: */
+    dp_curve curve;
     int reversed;
-    int shader;     /**< LOG: the separation is that of the shader, see dp_setup_guaranteed() */
-    double anchor;  /**< the depth that a LINEAR or LOG curve sends to its near end: near or 0 */
-    double log_c;   /**< LOG: C, or 1/n, rounded, where the logarithm is that of z/n */
-    double log_by;  /**< LOG: C, or 0 where the logarithm is that of z/n */
-    int spans_zero; /**< depth 0 lies between the planes: eye depths are differences, and take the exact way */
-    double kappa;   /**< PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: the logarithm at far */
-    double scale;   /**< d is this times (z - n)/z, (f - z)/z, z - n, f - z, z or the logarithm */
-    double den;     /**< lattice points and rounding boundaries are num/den: UNORM 2 (2^N - 1); FLOAT 1 */
-    double log_hi;  /**< LOG: the logarithm at far as an unevaluated sum of two doubles */
+    int shader;
+    double anchor;
+    double log_c;
+    double log_by;
+    int spans_zero;
+    double kappa;
+    double scale;
+    double den;
+    double log_hi;
     double log_lo;
-    uint32_t code_near; /**< the codes of the two planes */
+    uint32_t code_near;
     uint32_t code_far;
-    float matrix[2]; /**< where a pipeline computes depth: z_clip = matrix[0] z + matrix[1], see pipeline.h */
-    float inside[2]; /**< and the binary32 depths nearest to the planes from inside */
+    float matrix[2];
+    float inside[2];
 } dp_setup;
 
 /**
@@ -79,7 +80,7 @@ DP_API dp_setup dp_setup_facing(const dp_setup *setup);
  * A set-up in the model in which dp_separation() and dp_separation_over() promise most: float where a pipeline computes
  * depth; in staged for the others, and where a shader writes a logarithm these two functions, and only they, then give
  * the guarantee of dp_budget_at(), for every log2 that Vulkan, GLSL and WGSL allow, of surfaces that face the camera.
- * Of linear it is still a lattice.
+ * A linear depth that a shader writes is still a lattice.
  */
 DP_API dp_setup dp_setup_guaranteed(const dp_setup *setup);
 

@@ -7,7 +7,7 @@
  * its specification the guarantee of a set-up, DP_MODEL_FLOAT, is one of parallel planes at any slant of a range.
  * depthprec(7), "Slanted triangles", derives it.
  *
- * What is promised: two parallel planes, drawn as any triangles of the class below, their normal n (|n| = 1) at an
+ * The promise: two parallel planes are drawn as any triangles of the class below, their normal n (|n| = 1) at an
  * angle of slant_lo to slant_hi to the view axis; in a pixel inside a triangle of each, z is the eye depth of the
  * farther plane. If they are `separation` or more apart along n, their codes are strictly in order there. That holds up
  * to edge-on. It covers a perspective with square pixels, eye space given in real numbers and rounded to binary32, and
@@ -54,12 +54,12 @@ typedef struct dp_anchor_row {
 } dp_anchor_row;
 
 /**
- * What a way of setting up the plane of a triangle adds to its depth; null when out of range. Anchored at a vertex: for
- * vertices on a grid, `subpixel` 1 to 8; at the origin: for boxes at least a pixel wide and high.
+ * The error that a way of setting up a triangle's plane adds to its depth; null when out of range. Anchored at a
+ * vertex: for vertices on a grid, `subpixel` 1 to 8; at the origin: for boxes at least a pixel wide and high.
  */
 DP_API const dp_anchor_row *dp_anchor_get(dp_anchor anchor);
 
-/** What is known of view, rasterizer and triangles. Start from dp_triangles_default() and change what differs. */
+/** A view, a rasterizer and a class of triangles. Start from dp_triangles_default() and change what differs. */
 typedef struct dp_triangles {
     int width, height;         /**< of the viewport, pixels, 1 to 32768 */
     double fov_y;              /**< vertical field of view, degrees, 0.001 to 179.9 */

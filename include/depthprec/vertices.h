@@ -16,7 +16,7 @@
 
 DP_BEGIN
 
-/** How much farther than the surface an interpolated depth is at most. */
+/** How much farther than the surface an interpolated depth lies at most. */
 typedef struct dp_vertex_error {
     double window; /**< window depth */
     double eye;    /**< scene units of eye depth */

@@ -24,7 +24,7 @@ static int always(void) {
 }
 
 #ifdef ASK_PROCESSOR
-/* What the compiler's own table says costs nothing; asking the processor costs tens of microseconds in a virtual
+/* The compiler's own table costs nothing; asking the processor costs tens of microseconds in a virtual
  * machine. But not every compiler has a name for F16C. */
 static int has_f16c(void) {
 #ifdef __clang__
@@ -154,7 +154,7 @@ static int enter(const dp_batch *b, double *z) {
     return *z >= s->znear && *z <= s->zfar;
 }
 
-/* What a task makes of an eye depth that is no code; of a prepared guarantee. */
+/* The number of a task whose result is no code, at an eye depth; `g` is prepared. */
 static double number_at(const dp_batch *b, const dp_guarantee *g, double z) {
     const dp_setup *s = &b->setup;
     if (!enter(b, &z))

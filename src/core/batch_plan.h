@@ -35,7 +35,7 @@
 #define DP_BATCH_NAME(K) DP_KERNEL_##K,
 enum { DP_BATCH_KERNELS(DP_BATCH_NAME) DP_KERNEL_COUNT, DP_KERNEL_NONE = DP_KERNEL_COUNT };
 
-/* What a task is prepared with. It stands in the public struct's opaque words, as if it had been declared there. */
+/* The constants of a prepared task. They stand in the public struct's opaque words, as if declared there. */
 #define DP_BATCH_ALIAS __attribute__((may_alias))
 typedef struct DP_BATCH_ALIAS dp_batch_numbers {
     double lo, hi, from, slope, scale, magic;

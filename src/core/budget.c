@@ -62,7 +62,7 @@ static double moved(double z, double share) {
     return isinf(z) ? z : z + fabs(z) * share;
 }
 
-/* What the lattice alone asks for: no arithmetic before it makes two surfaces easier to tell apart. */
+/* At least what the lattice alone needs: no arithmetic before it makes two surfaces easier to tell apart. */
 static double with_lattice(const dp_setup *setup, double z, double needs) {
     if (dp_lattice_above(setup, z) <= needs)
         return needs;
@@ -98,7 +98,7 @@ static dp_composing composing_of(const dp_setup *setup, const dp_chain *c, const
                           .remap = p->ndc_signed && p->arith->remap};
 }
 
-/* What a composition does to the vertices of pixels at a depth. */
+/* The error by which a composition moves the vertices of pixels at a depth. */
 static dp_composed_vertex composed_vertex(const dp_guarantee *g, double z, double shared,
                                           const dp_budget_terms *terms) {
     const dp_setup *setup = g->setup;
@@ -144,7 +144,7 @@ static int is_moved(const dp_budget_terms *terms) {
     return terms->world > 0.0 || terms->displaced.own > 0.0 || terms->displaced.shared > 0.0;
 }
 
-/* What view z is off by, where that is known already. */
+/* A composition whose errors of view z are known already. */
 static dp_composed displaced_by(const dp_displaced *d) {
     return (dp_composed){.own = d->own, .shared = d->shared, .loss = d->turn, .reach = d->own + d->shared};
 }
@@ -188,7 +188,7 @@ static void add_composition(const dp_guarantee *g, double z, const dp_budget_ter
     out->cause[DP_CAUSE_COMPOSITION] = part > 0.0 ? part : 0.0; /* infinity less infinity too */
 }
 
-/* What of the terms has no budget. */
+/* Refuses terms that have no budget, or none with this set-up. */
 static dp_status check_terms(const dp_setup *setup, const dp_budget_terms *terms) {
     const int logarithmic = setup->curve == DP_CURVE_LOG;
     if (logarithmic && setup->spec.triangles.width != 0)
@@ -253,7 +253,7 @@ static void log_budget(const dp_guarantee *g, double z, const dp_budget_terms *t
     share_out(g, z, longest, d.window, part, out);
 }
 
-/* Of a mapping that computes depth. */
+/* The guarantee of a mapping whose depth is computed. */
 static dp_guarantee guarantee_of(const dp_setup *setup, const dp_log2_row *log2) {
     dp_guarantee g;
     g.setup = setup;

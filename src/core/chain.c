@@ -31,7 +31,7 @@ double dp_chain_window_more(const dp_chain *c, double z) {
     return c->half * clip_more(c, z) / w_of(c, z);
 }
 
-/* What is divided by w: the clip depth, or what the shader's remap makes of it. A sum of the same shape, a z + b. */
+/* The dividend over w: the clip depth, or what the shader's remap makes of it. A sum of the same shape, a z + b. */
 static double dividend(const dp_chain *c, double z) {
     return c->remap ? 0.5 * (clip_of(c, z) + w_of(c, z)) : clip_of(c, z);
 }
@@ -140,7 +140,7 @@ static magnitude magnitude_of(double v1, double v2, double error) {
                        .least = (v1 < 0.0) != (v2 < 0.0) ? 0.0 : larger(small, 0.0)};
 }
 
-/* Of the depths of a span. */
+/* The least and the greatest magnitude of the depths of a span. */
 static magnitude size_of(dp_span r) {
     const double least = r.lo < 0.0 && r.hi > 0.0 ? 0.0 : smaller(fabs(r.lo), fabs(r.hi));
     return (magnitude){.most = larger(fabs(r.lo), fabs(r.hi)), .least = least};
@@ -178,7 +178,7 @@ static magnitude clip_over(const dp_chain *c, dp_span r, double error) {
     return magnitude_of(clip_of(c, r.lo), clip_of(c, r.hi), error + clip_more_over(c, r));
 }
 
-/* What all computed products of a span, and with B all sums, are multiples of. */
+/* A number that all computed products of a span, and with B all sums, are multiples of. */
 static double product_granule(const dp_chain *c, dp_span r) {
     const double least = size_of(r).least;
     return c->a_exact ? c->a_granule * 2.0 * dp_half_ulp(least) : 2.0 * dp_half_ulp(fabs(c->a) * least);
@@ -230,7 +230,7 @@ static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, doub
     return (dp_step){0.0, 0.0};
 }
 
-/* What all computed clip depths of a span are multiples of; 0 when unknown. */
+/* A number that all computed clip depths of a span are multiples of; 0 when unknown. */
 static double clip_granule(const dp_chain *c, dp_span r, magnitude clip) {
     const double common = smaller(product_granule(c, r), c->b_granule);
     const double exact = !has_product(c) ? c->b_granule : clip.most < 0x1p24 * common && !c->fused ? common : 0.0;
@@ -277,7 +277,7 @@ static void divide(const dp_chain *c, dp_span r, double q1, double q2, double er
         const double by_w = r.hi * larger(most.half_ulps * s->inverse.error, r.hi < 0x1p125 ? 0.0 : most.subnormal);
         s->inverse.error = q.most * (r.hi < 0x1p125 ? smaller(by_w, most.units * DP_UNIT) : by_w);
     }
-    /* What comes out above 1 is clamped, and demand.c counts that; the rest has the last place of 1 at most. */
+    /* Quotients above 1 are clamped, and demand.c counts that; the rest have the last place of 1 at most. */
     const magnitude result = {smaller(q.most + s->inverse.error, 1.0 - DP_UNIT_BELOW_ONE),
                               larger(q.least - s->inverse.error, 0.0)};
     s->quotient = step_of(result);
@@ -373,7 +373,8 @@ static double product_lag(const dp_chain *c, double hi) {
     return ulp <= fabs(c->a) * u ? 0.0 : ulp - u;
 }
 
-/* What adding B may take from the growth of the clip depth: the sums round alike, or, fused, there is no product. */
+/* The most that adding B may take from the growth of the clip depth: the sums round alike, or, fused, there is no
+ * product. */
 static double sum_lag(const dp_chain *c, dp_span r, magnitude clip, double kept) {
     const double most = dp_half_ulp(clip.most);
     const double least = dp_half_ulp(clip.least);

@@ -48,8 +48,8 @@ typedef struct dp_chain {
 dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline);
 
 /*
- * Of all cameras whose planes lie between those of two set-ups that are alike but for near or far. Every demand made of
- * it is at least that made of each camera's own, in one of which A or B may not be 0 unless it is in all.
+ * The chain of all cameras whose planes lie between those of two set-ups, alike but for near or far. Every demand made
+ * of it is at least that made of each camera's own, in one of which A or B may not be 0 unless it is in all.
  */
 dp_chain dp_chain_between(const dp_setup *one, const dp_setup *other, const dp_pipeline *pipeline);
 

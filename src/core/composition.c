@@ -147,7 +147,7 @@ static dp_composed orthographic(dp_composed m, const dp_composing *in, double z,
 }
 
 /*
- * What clip z is off by beside A times what w is. A rounded coordinate moves both along the line. Where both rows have
+ * The error of clip z beside A times that of w. A rounded coordinate moves both along the line. Where both rows have
  * the same entries, but for a power of two, so do their roundings, and those of the products.
  */
 static dp_composed perspective(dp_composed m, const dp_composing *in, double z, double until) {

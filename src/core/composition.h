@@ -12,7 +12,7 @@
 
 #include "depthprec/budget.h"
 
-/* What is composed. */
+/* How matrices are composed, and how far places and camera reach. */
 typedef struct dp_composing {
     dp_composition composition;
     double world;     /* largest |coordinate| of positions and camera; positive */
@@ -26,7 +26,7 @@ typedef struct dp_composing {
     int remap;        /* (clip z + w)/2 in the shader */
 } dp_composing;
 
-/* What one row of the matrix is off by at most at an eye depth, in units of its value. */
+/* The largest errors of one row of the matrix at an eye depth, in units of the row's value. */
 typedef struct dp_row_off {
     double position, products, sums; /* one point's own: its coordinates rounded, four products, three sums */
     double entries, constant;        /* of the matrix: alike for all points, but for `turn` */
@@ -35,7 +35,7 @@ typedef struct dp_row_off {
     double late;                     /* the share of `sums` that the constant takes part in */
 } dp_row_off;
 
-/* What the eye depth of a point at z is off by at most: e + E moves it, t + T stretches it. */
+/* The largest error of the eye depth of a point at z: e + E moves it, t + T stretches it. */
 typedef struct dp_composed {
     dp_row_off clip, w;
     double own, shared;           /* e and E, scene units */
@@ -65,7 +65,7 @@ typedef struct dp_composed_view {
     double scale[2], ray[2];
 } dp_composed_view;
 
-/* What a vertex up to some depth is off by, beside what the matrix does to all. */
+/* The error of one vertex up to some depth, beside that of the matrix, which all share. */
 typedef struct dp_composed_vertex {
     double position;  /* in any direction, scene units: its place in the world */
     double across[2]; /* along x and y, scene units */

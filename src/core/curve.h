@@ -7,6 +7,21 @@
  *     PERSPECTIVE   1/z = s/n + t/f
  *     LINEAR        z = s anchor + t f
  *     LOG           C (z - anchor) + 1 = (C (f - anchor) + 1)^t, C = 1/n where that is z/n = (f/n)^t
+ *
+ * The private fields of dp_setup:
+ *     curve       the curve in force: an orthographic projection turns PERSPECTIVE into LINEAR
+ *     shader      LOG: the separation is that of the shader, see dp_setup_guaranteed()
+ *     anchor      the depth that a LINEAR or LOG curve sends to its near end: near or 0
+ *     log_c       LOG: C, or 1/n, rounded, where the logarithm is that of z/n
+ *     log_by      LOG: C, or 0 where the logarithm is that of z/n
+ *     spans_zero  depth 0 lies between the planes: eye depths are differences, and take the exact way
+ *     kappa       PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: the logarithm at far
+ *     scale       d is this times (z - n)/z, (f - z)/z, z - n, f - z, z or the logarithm
+ *     den         lattice points and rounding boundaries are num/den: UNORM 2 (2^N - 1); FLOAT 1
+ *     log_hi, log_lo        LOG: the logarithm at far as an unevaluated sum of two doubles
+ *     code_near, code_far   the codes of the two planes
+ *     matrix      where a pipeline computes depth: z_clip = matrix[0] z + matrix[1], see pipeline.h
+ *     inside      and the binary32 depths nearest to the planes from inside
  */
 #ifndef CORE_CURVE_H
 #define CORE_CURVE_H

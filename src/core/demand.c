@@ -118,8 +118,8 @@ static void clamp_either(const dp_chain *c, dp_demand *d, double full1, double f
 }
 
 /*
- * What two numbers must differ by for their roundings to differ by more than `rest`. All roundings lie on the finer of
- * two lattices, so they differ by more than `rest` once they differ by more than the whole steps in it.
+ * The difference from which on the roundings of two numbers differ by more than `rest`. All roundings lie on the finer
+ * of two lattices, so they differ by more than `rest` once they differ by more than the whole steps in it.
  */
 static double before_rounding(dp_step s1, dp_step s2, double rest) {
     const double errors = s1.error + s2.error;
@@ -128,7 +128,7 @@ static double before_rounding(dp_step s1, dp_step s2, double rest) {
 }
 
 /*
- * What cameras of a run lose whose sums are rounded alike, though not those of all: nothing where every sum has one
+ * The loss where each camera of a run rounds its sums alike, though not all cameras do: nothing where every sum has one
  * last place, else the difference of two roundings of one B.
  */
 static double run_loss(const dp_steps *s1, const dp_steps *s2, double loss) {
@@ -173,7 +173,7 @@ static dp_demand demand_falling(const dp_chain *c, double nearest, dp_numerator 
     return (dp_demand){.projection = projection, .window = window, .slope = t.least};
 }
 
-/* What the format loses of two depths of a span. Where the viewport is exact, it meets only NDC's own lattice. */
+/* The format's loss between two depths of a span. Where the viewport is exact, it meets only NDC's own lattice. */
 static double format_of(const dp_chain *c, const windows *w, const dp_steps *s1, const dp_steps *s2) {
     const double error = larger(s1->full, s2->full) + larger(w->near_more, w->far_more);
     const int exact = c->two_stage && s1->viewport.error == 0.0 && s2->viewport.error == 0.0;

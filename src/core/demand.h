@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What two depths must differ by in the binary32 pipeline to be stored in order; depthprec(7) has the proof. */
+/* The distance from which on the binary32 pipeline stores two depths in order; depthprec(7) has the proof. */
 #ifndef CORE_DEMAND_H
 #define CORE_DEMAND_H
 

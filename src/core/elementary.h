@@ -37,7 +37,7 @@ double dp_asin(double x);
 /* 0.51 units */
 double dp_hypot(double x, double y);
 
-/* Of binary32: 0.501 units */
+/* In binary32, within 0.501 units: */
 float dp_expf(float x);
 float dp_expm1f(float x);
 float dp_exp2f(float x);

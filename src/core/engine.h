@@ -44,13 +44,13 @@ double dp_lattice_above(const dp_setup *setup, double z);
 /*
  * How far from itself any depth of lo..hi can lie at most once it was computed in binary32, stored and decoded: by a
  * pipeline, decoded by the exact curve, or by the shader of a logarithm, whatever its log2, decoded with its constants.
- * Scene units; *z is where. Of a set-up whose depths are computed.
+ * Scene units; *z is where. Only for a set-up whose depths are computed.
  */
 double dp_computed_error_over(const dp_setup *setup, double lo, double hi, double *z);
 double dp_shader_error_between(const dp_setup *outer, const dp_setup *inner, double lo,
                                double hi); /* of a run, below */
 
-/* What rounding A and B to binary32 changed them by, good to 2^-50 of them. */
+/* The changes of A and B by their rounding to binary32, good to 2^-50 of them. */
 void dp_pipeline_rounded(const dp_setup *setup, double *a, double *b);
 
 /*
@@ -69,7 +69,7 @@ int dp_separation_within(const dp_setup *outer, const dp_setup *inner, double lo
  */
 int dp_error_within(const dp_setup *outer, const dp_setup *inner, double lo, double hi, double limit);
 
-/* What the model exact needs at a depth in every camera of a run at least, as a separation or as such an error. */
+/* The least that the model exact needs at a depth in any camera of a run: a separation or, `half`, an error. */
 double dp_lattice_least(const dp_setup *outer, const dp_setup *inner, double z, int half);
 
 /* The step of d, as a share of one of the format, at which the depth lies whose distance from z is that error. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a depth that is computed in binary32 is off by once it was stored and decoded. */
+/* The largest error of a depth that is computed in binary32, stored and decoded. */
 #include "core/demand.h"
 #include "core/engine.h"
 #include "core/extremes.h"
@@ -45,7 +45,7 @@ static double window_error(const computed *m, dp_span r) {
     return (full + c->half * (entries + unknown) + dp_stored_error(&c->pipeline, high)) * outward;
 }
 
-/* What is decoded lies between the planes, and nearer to the eye by no more than behind. */
+/* The decoded depth lies between the planes, and is nearer to the eye by no more than it may lie behind. */
 static double pipeline_error(const computed *m, dp_span r) {
     const double error = window_error(m, r);
     const double ahead = dp_curve_ahead(m->setup, error, 1.0, r.hi);

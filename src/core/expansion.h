@@ -33,7 +33,7 @@ static inline dp_pair dp_two_product(double a, double b) {
     return (dp_pair){p, fma(a, b, -p)};
 }
 
-/* Of pairs, good to 2^-102; a sum relative to its terms' magnitudes. */
+/* Arithmetic of pairs, good to 2^-102; a sum relative to its terms' magnitudes. */
 static inline dp_pair dp_pair_sum(dp_pair a, dp_pair b) {
     const dp_pair high = dp_two_sum(a.hi, b.hi);
     const dp_pair low = dp_two_sum(a.lo, b.lo);

@@ -201,7 +201,7 @@ uint32_t dp_format_encode(const dp_format *format, dp_rounding rounding, double 
     if (d >= 1.0)
         return format->code_max;
     dp_scaled s = dp_scale_depth(format, d);
-    /* What the product lost: nothing for FLOAT, whose scale is a power of two. */
+    /* The product's rounding error: 0 for FLOAT, whose scale is a power of two. */
     double lost = format->kind == DP_FORMAT_UNORM ? fma(d, s.scale, -s.t) : 0.0;
     double whole = floor(s.t);
     double part = s.t - whole;

@@ -19,7 +19,7 @@ typedef struct dp_guarantee {
 dp_guarantee dp_guarantee_make(const dp_setup *setup);
 
 /*
- * Of all cameras between two set-ups that are alike but for one plane: at every depth and over every run it is at least
+ * A guarantee for all cameras between two set-ups, alike but for one plane: at every depth and run it is at least
  * each camera's own, but for what the lattice alone asks for. `outer` has the smaller near or the larger far. 0:
  * nothing is known of them together.
  */
@@ -30,8 +30,8 @@ int dp_guarantee_between(const dp_setup *outer, const dp_setup *inner, dp_guaran
 double dp_guarantee_at(const dp_guarantee *g, double z);
 
 /*
- * Of computed depths: a separation that is guaranteed at every binary32 depth from `nearest` to `farthest`, two depths
- * of one binade: as good as the worst of them when the run is short. INFINITY where there is none.
+ * Where depths are computed: a separation that is guaranteed at every binary32 depth from `nearest` to `farthest`, two
+ * depths of one binade: as good as the worst of them when the run is short. INFINITY where there is none.
  */
 double dp_guarantee_bound(const dp_guarantee *g, float nearest, float farthest);
 

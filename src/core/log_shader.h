@@ -31,11 +31,11 @@ typedef struct dp_log_shader {
     int run;             /* of cameras */
 } dp_log_shader;
 
-/* Of a set-up with a logarithmic curve. */
+/* The shader of a set-up with a logarithmic curve. */
 dp_log_shader dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2);
 
 /*
- * Of all cameras whose planes lie between those of two set-ups that are alike but for near or far: `outer` has the
+ * A bound over all cameras with planes between those of two set-ups, alike but for near or far: `outer` has the
  * smaller near or the larger far. Every distance that follows is at least that of each camera's own.
  */
 dp_log_shader dp_log_shader_between(const dp_setup *outer, const dp_setup *inner, const dp_log2_row *log2);
@@ -60,7 +60,7 @@ typedef struct dp_log_demand {
  */
 double dp_log_longest(const dp_log_shader *s, dp_span run, double extra, dp_log_demand *out);
 
-/* What any depth of a span can be off by at most once it is decoded with the shader's constants, scene units. */
+/* The largest error of any depth of a span once it is decoded with the shader's constants, scene units. */
 double dp_log_shader_error(const dp_log_shader *s, dp_span span);
 
 #endif

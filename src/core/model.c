@@ -24,7 +24,7 @@ static double rounding_of(const dp_spec *spec, double z) {
     return dp_half_ulp(fabs(z) < least ? least : fabs(z));
 }
 
-/* What is missing from `part`, in units of it, or of the rounding of the depths where that is larger. */
+/* The share by which `part` falls short of `whole`: of itself, or of the depths' rounding where that is larger. */
 static double missing_share(double part, double rounding, double whole) {
     part = part < rounding ? rounding : part;
     return isinf(part) || whole <= part ? 0.0 : whole / part - 1.0;

@@ -21,7 +21,7 @@
     const char *note;    /* what it is, one line; null when the name says it */                                        \
     const char *source   /* where that is written; null when nowhere else */
 
-/* What each row of a table begins with. */
+/* The beginning of every row of a table. */
 typedef struct named_row {
     NAMED_FIELDS;
 } named_row;

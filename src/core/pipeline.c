@@ -102,8 +102,8 @@ float dp_pipeline_window(const dp_pipeline *p, float z) {
 }
 
 /*
- * Of 16 bits 2^20 d and 16 d are cut to whole numbers, sixteenths of a code, and 7 of them round the difference. Of 24
- * bits nothing is taken off below 1/16; from there on depths of binary32 are too coarse to show how 16 d is cut, and
+ * For 16 bits 2^20 d and 16 d are cut to whole numbers, sixteenths of a code, and 7 of them round the difference. For
+ * 24 bits nothing is taken off below 1/16; from there on depths of binary32 are too coarse to show how 16 d is cut, and
  * the exact product gives the same codes.
  */
 static uint32_t convert_sixteenths(const dp_format *format, double d) {

@@ -96,7 +96,7 @@ static int add_ray(dp_projection *p, double c, double e, double least, int *beyo
     return seen;
 }
 
-/* What is linear over the picture has its extremes in the corners. */
+/* The depths of the planes change linearly over the picture, so their extremes lie in its corners. */
 static dp_status take_perspective(dp_projection *p, const double row[4], double least, dp_matrix_fault *why) {
     const double c = p->backwards ? -row[2] : row[2], share = (1 - least) == 2 ? 0.5 : 1;
     const dp_pair moved = dp_two_sum(c, -least);
@@ -140,7 +140,7 @@ dp_status dp_projection_init(dp_projection *out, const double m[16], int ndc_sig
 
 /* ---- The convention ---------------------------------------------------------------------------------------------- */
 
-/* What is tried, and what came of it: the cameras that fit, of which the first is kept, and what was wrong last. */
+/* A search for the cameras of a matrix: those that fit, of which the first is kept, and what was wrong last. */
 typedef struct search {
     dp_mapping mapping; /* asked for, or DP_MAPPING_COUNT */
     int count;

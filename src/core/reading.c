@@ -181,7 +181,7 @@ void dp_reading_depths(const dp_reading *r, size_t first, size_t count, double *
     }
 }
 
-/* What is no code becomes the nearest one, from binary32 where the samples have no more bits. */
+/* A sample that is no code becomes the nearest one, from binary32 where samples have no more bits. */
 static void encoded(const dp_batch *encode, const dp_reading *r, const void *at, size_t count, uint32_t *codes) {
     block d;
     block_depths(r, at, count, &d);

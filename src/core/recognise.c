@@ -19,7 +19,7 @@ enum { BLOCK = 2048, FP16_ONE = 0x3C00, WIDENED = 257 };
 #define FP32_LEAST  UINT32_C(0x2F800000) /* bits of 2^-32: images of fp32 have something nearer */
 #define UNORM24_MAX UINT32_C(0xFFFFFF)
 
-/* What the bits say. */
+/* The lattice that the samples' bits show. */
 typedef struct finding {
     dp_lattice which;
     bool single; /* all samples are binary32, or codes */
@@ -29,7 +29,7 @@ typedef struct finding {
 
 /* ---- Samples as they are ----------------------------------------------------------------------------------------- */
 
-/* Of finite ones. */
+/* The extent of the finite samples. */
 typedef struct extent {
     double least, greatest;
     size_t outside;  /* of [0, 1] */
@@ -132,7 +132,7 @@ static dp_reason judge(const dp_image *image, const extent *e, finding *f, dp_re
 
 /* ---- Window depths ------------------------------------------------------------------------------------------------*/
 
-/* What is counted besides what dp_recognised has. */
+/* Counts that are needed besides those of dp_recognised. */
 typedef struct tally {
     dp_distinct seen;
     size_t telling;          /* different numbers that say something about the lattice */
@@ -149,7 +149,7 @@ static void count_new(tally *s, const finding *f, double d) {
     s->bits -= dp_log2(chance);
 }
 
-/* Of at most BLOCK depths, which are NaN or in [0, 1] and so are ordered as their bits are. */
+/* Counts over at most BLOCK depths, which are NaN or in [0, 1] and so are ordered as their bits are. */
 typedef struct counts {
     int64_t lo, hi;
     int32_t invalid, at_zero, at_one, low, high;
@@ -215,7 +215,7 @@ static void count_all(const dp_image *image, const finding *f, tally *s, dp_reco
 /* ---- Direction ----------------------------------------------------------------------------------------------------*/
 
 /* The sky is the end that far more samples have, where they are not a few; the mass is where nine of ten others are.
- * What may be the holes of metric depth is no sky. */
+ * Depths that may be the holes of metric depth are no sky. */
 static void direct(const tally *s, dp_recognised *out) {
     const size_t most = out->at_zero > out->at_one ? out->at_zero : out->at_one;
     const size_t other = out->at_zero + out->at_one - most;
@@ -247,7 +247,7 @@ static void suspect(const dp_image *image, const tally *s, dp_recognised *out) {
     out->metric = least * 65535 >= LEAST && most * 65535 <= MOST;
 }
 
-/* What is coarser than the lattice. Bytes are, whatever is in them. */
+/* Looks for a grid coarser than the lattice. Bytes are one, whatever is in them. */
 static void find_steps(const dp_image *image, const finding *f, const tally *s, dp_recognised *out) {
     const bool codes = image->type < DP_IMAGE_F16 && f->which != DP_LATTICE_FP32;
     const double tops[] = {[DP_LATTICE_FP16] = (double)INFINITY, 65535, 16777215, (double)INFINITY};

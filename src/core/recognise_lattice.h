@@ -45,7 +45,7 @@ void dp_distinct_init(dp_distinct *set, uint64_t *slots, size_t most);
 /** @return whether d, not a NaN, is new, and was counted */
 bool dp_distinct_add(dp_distinct *set, double d);
 
-/** What grids are looked for among. */
+/** The kind of samples among which grids are sought. */
 typedef struct dp_grid_source {
     int bits;      /**< numbers: significant bits */
     double finest; /**< steps of the lattice itself, INFINITY for none: a grid has fewer */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What rounding a number to binary32 may do to it. */
+/* The errors of rounding to binary32. */
 #ifndef CORE_ROUNDING_H
 #define CORE_ROUNDING_H
 
@@ -38,7 +38,7 @@ static inline double dp_eye_rounding(double z1, double z2) {
 }
 
 /*
- * Of surfaces from lo to hi and others at most `apart` behind them: the most that lies between, with what rounding the
+ * The most that lies between surfaces from lo to hi and others at most `apart` behind them, with what rounding the
  * eye depths adds. Where the others are nearer to 0, more is added only to those that are not as far behind, as to
  * those that may be flushed to 0.
  */

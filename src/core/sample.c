@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is said of one depth in any model. */
+/* One depth in any model: its code, error, cell and separation. */
 #include <math.h>
 
 #include "core/engine.h"

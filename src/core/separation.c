@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What must lie between two surfaces for their codes to differ, however they meet the lattice: exact and staged. */
+/* The distance from which on two surfaces' codes differ, however they meet the lattice: exact and staged. */
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"

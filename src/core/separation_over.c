@@ -37,7 +37,7 @@ typedef struct search {
 } search;
 
 /*
- * What lies ahead at any depth from lo to hi, with what rounding the eye depths adds: most at one of the two. As
+ * `ahead` with what rounding the eye depths adds, at any depth from lo to hi: it adds most at one of the two. As
  * dp_lattice_separation() has it, a little larger.
  */
 static double with_eye(const dp_setup *setup, double lo, double hi, double ahead) {
@@ -251,7 +251,7 @@ static void over_binades(const search *s) {
     }
 }
 
-/* What its bounds are of: the model exact, where depths are computed. */
+/* The set-up whose lattice bounds a search: where depths are computed, that of the model exact. */
 static dp_setup lattice_of(const dp_setup *setup) {
     dp_setup lattice = *setup;
     if (dp_is_computed(setup)) {

@@ -13,7 +13,7 @@ static const double degree = 0x1.1df46a2529d39p-6;
 static const double outward = 1.0 + 0x1p-40;
 static const double second_order = 1.0 + 0x1p-10;
 
-/* What is flushed to zero below 2^-126 on the way, of triangles of any size; and the least window depth beside it. */
+/* A bound on what is flushed to zero on the way, for triangles of any size; the least window depth beside it. */
 static const double underflow = 0x1p-90;
 static const double least_window = 0x1p-60;
 
@@ -154,9 +154,9 @@ typedef struct loss {
 } loss;
 
 /*
- * Of vertices at these depths. The range of a triangle's window depths follows from the depths of the class or,
- * `by_slope`, from the plane's slope and the width of the box: then it acts as if the plane were displaced. `stray` is
- * what a composition moves a vertex by in window depth.
+ * The loss of triangles with vertices at these depths. The range of a triangle's window depths follows from the depths
+ * of the class or, `by_slope`, from the plane's slope and the width of the box: then it acts as if the plane were
+ * displaced. `stray` is what a composition moves a vertex by in window depth.
  */
 static loss loss_of(const dp_chain *c, dp_span at, own_error own, const dp_triangles *t, const dp_slant *slant,
                     const double asked[DP_CAUSE_COUNT], double stray, int by_slope) {

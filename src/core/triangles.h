@@ -7,7 +7,7 @@
 #include "core/composition.h"
 #include "depthprec/budget.h"
 
-/* What view, rasterizer and class are at every depth. */
+/* The constants of view, rasterizer and class of triangles that hold at every depth. */
 typedef struct dp_slant {
     double pixel, ray, vertex_ray; /* scene units a pixel at z = 1; how far beside the axis rays lie there, of pixels
                                       and of vertices */

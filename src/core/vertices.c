@@ -10,7 +10,7 @@
 
 static const double most_depth = 1e6, least_beyond = 0x1p-48;
 
-/* What is left of the sum of two terms of opposite signs, and what rounding it may have lost. */
+/* The sum of two terms of opposite signs, at least 0, rounded up by what it may have lost. */
 static double rounded_up(double nearer, double farther) {
     return larger(nearer + farther + 0x1p-50 * (fabs(nearer) + fabs(farther)), 0.0);
 }

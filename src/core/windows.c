@@ -25,7 +25,7 @@ static int has_none(dp_real real, const unsigned char *from, size_t count) {
     return any;
 }
 
-/* What is no number stays none: its code says nothing. */
+/* NaN stays NaN: the code it was given says nothing. */
 static void keep_none(dp_real real, const unsigned char *from, unsigned char *to, size_t count) {
     const size_t size = size_of(real);
     for (size_t i = 0; i < count; i++)
