@@ -56,8 +56,7 @@ typedef struct dp_composition_row {
 /** The row of a way from world to clip coordinates; null when out of range. */
 DP_API const dp_composition_row *dp_composition_get(dp_composition composition);
 
-/** The largest error of a place's view z before the projection, scene units; found for all places asked about.
- */
+/** The largest error of a place's view z before the projection, scene units; found for all places asked about. */
 typedef struct dp_displaced {
     double own;    /**< by itself, and so each coordinate of view space */
     double shared; /**< as all others, but for `turn` of what lies between two places, a share of it */

@@ -267,7 +267,7 @@ double bias_factor_least(const dp_setup *setup) {
     return ceil(apart.pixels / (1.0 - apart.lost) * spare * 0x1p12) * 0x1p-12;
 }
 
-/* What the slope adds to what is needed, in window depth: at m, or at any. */
+/* The part of the need that the slope adds, in window depth: at m, or at any. */
 static double taken_by_slope(const bias_goal *goal, const dp_coplanar *apart, double m) {
     if (goal->slope == 0.0)
         return goal->factor * apart->lost_window;

@@ -38,7 +38,7 @@ typedef enum bias_rule {
     BIAS_MANTISSA
 } bias_rule;
 
-/** What specification and drivers call the exponent of a depth in [2^n, 2^(n+1)). */
+/** The exponent of a depth in [2^n, 2^(n+1)), as specifications and drivers count it. */
 typedef enum bias_exponent {
     BIAS_EXPONENT_OPEN = 0, /**< n or n + 1: r is at least that of n, and twice that at most */
     BIAS_EXPONENT_N,
@@ -80,7 +80,7 @@ typedef struct bias_unit {
  */
 bias_unit bias_unit_at(const bias_api *api, const dp_format *format, double d);
 
-/** What a program sets. */
+/** The bias as a program sets it. */
 typedef struct bias_state {
     const bias_api *api;
     double units;  /**< GL units, D3D DepthBias, Vulkan depthBiasConstantFactor */
@@ -98,7 +98,7 @@ double bias_offset(const bias_state *state, double r, double m);
 /** m of a surface at z whose eye depth changes by `slope` scene units from one pixel to the next. z in [near, far]. */
 double bias_window_slope(const dp_setup *setup, double z, double slope);
 
-/** What a bias does to a depth. */
+/** The effect of a bias on a depth. */
 typedef struct bias_effect {
     double z;       /**< eye depth, scene units */
     bias_unit r;    /**< of a primitive whose greatest window depth is that of z */
@@ -115,7 +115,7 @@ typedef struct bias_effect {
 /** `slope` as bias_window_slope(). The set-up's model is taken to be exact. z in [near, far]. */
 bias_effect bias_at(const dp_setup *setup, const bias_state *state, double slope, double z);
 
-/** What is asked of a bias. */
+/** The separation that a bias has to reach. */
 typedef struct bias_goal {
     const bias_api *api;
     double factor; /**< of the slope's bias: positive brings the layer nearer, whatever the mapping */

@@ -14,7 +14,7 @@
 #include "api/bias.h"
 #include "core/named.h"
 
-/** What a browser's vertex shader does to clip z before it leaves. */
+/** The change that a browser makes to clip z at the end of a vertex shader. */
 typedef enum platform_remap {
     PLATFORM_REMAPS_NOT = 0,
     PLATFORM_REMAPS,    /**< from [-1, 1] to [0, 1], by (z + w)/2 */

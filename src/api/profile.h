@@ -33,7 +33,7 @@ typedef struct profile_format {
     bool cuts; /**< fractions of a constant are cut: 0.5 becomes 0 */
 } profile_format;
 
-/** What holds on each of the GPUs whose profiles were added; all zero: no profile. */
+/** Properties that hold on each GPU whose profile was added; all zero: no profile. */
 typedef struct profile {
     char measured[PROFILE_MEASURED_SIZE];       /**< "NAME, driver DRIVER", each once; "" without a profile */
     profile_format stored[PROFILE_FORMATS_MAX]; /**< what all of them store; see profile_stores() */

@@ -51,7 +51,7 @@ static const json_t *finding_of(const json_t *root, const char *key, const dp_fo
 #define N_OF(what) ", 2^n the power of two at or below " what
 
 /*
- * What a probe finds of r, against the exponent n of the depth at a pixel: that of the largest depth is no less. Where
+ * The r that a probe finds, by the exponent n of the depth at a pixel: that of the largest depth is no less. Where
  * it is that of the anchor's depth a and the others' differences from it, these are at least g - a of the largest
  * depth g, and max(a, g - a) >= g/2.
  */
@@ -96,7 +96,7 @@ static profile_format either(profile_format a, profile_format b) {
     return (profile_format){a.format, fmin(a.least, b.least), fmax(a.most, b.most), a.cuts || b.cuts};
 }
 
-/* Of the first GPU what it stores; of others what is stored by both. */
+/* The formats that the first GPU stores; a further GPU leaves those that both store. */
 static void add_formats(profile *to, const json_t *root) {
     const bool first = to->measured[0] == '\0';
     size_t kept = 0;

@@ -75,7 +75,7 @@ typedef struct census_request {
     uint32_t segment; /**< depths swept as one, at most 2^18; 0: that many. Tests take fewer, to have more borders */
 } census_request;
 
-/** What zfight asks of a set-up: its guaranteed separation, which is calm. */
+/** The request of zfight: the guaranteed separation of a set-up, which is calm. */
 census_request census_of_guarantee(const dp_setup *setup, double lo, double hi);
 
 /** How many depths the census will visit. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the guarantee of a request is not below over many depths, so that it need not be asked for each block. */
+/* A floor under the guarantee of a request over many depths, so that it need not be asked for each block. */
 #ifndef CENSUS_GROUND_H
 #define CENSUS_GROUND_H
 
@@ -18,7 +18,7 @@ double census_bound_at(const census_request *request, uint32_t rank);
 
 census_ground census_ground_make(const census_request *request, uint32_t first, uint32_t last);
 
-/* Of a depth and the others of its part; 0 where nothing is known. */
+/* The floor at a depth and the others of its part; 0 where nothing is known. */
 double census_ground_at(census_ground *ground, uint32_t rank);
 
 #endif

@@ -48,7 +48,7 @@ static inline int32_t census_key(const census_plan *plan, float z) {
     return (int32_t)(dp_pipeline_code(&plan->pipeline, z) ^ plan->flip);
 }
 
-/** What a block holds. Runs are counted from the far end. */
+/** Findings in a block. Runs are counted from the far end. */
 typedef struct census_sight {
     uint32_t ties, swaps; /**< among neighbours inside the block */
     uint32_t clipped;     /**< depths that clipping would lose */

@@ -73,7 +73,7 @@ census_status census_open(const census_request *request, census_plan *plan, cens
     return CENSUS_DONE;
 }
 
-/* Of the guarantee: surfaces are real, and each may be half a step away from the depth that stands for it. */
+/* Compares with the guarantee: surfaces are real, each up to half a step away from the depth that stands for it. */
 static void note_used(const census_request *request, census_band *band, float z1, float z2) {
     const double half1 = 0.5 * census_ulp(z1);
     const double half2 = 0.5 * census_ulp(z2);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the census and the sample share: the depths of a range, its bands, and how findings are put together. */
+/* Shared by census and sample: the depths of a range, its bands, and how findings are put together. */
 #ifndef CENSUS_RANGE_H
 #define CENSUS_RANGE_H
 

@@ -34,7 +34,7 @@ const char *code_lacks(const code_language *l, const method_row *row, const dp_s
     return calls(row, setup, "fma(") && l->fused == NULL ? "needs a product and a sum that are rounded once" : NULL;
 }
 
-/* What is claimed of a format, whose part above half a step, or a truncated code's above one, is of roundings to
+/* The claim of a format, whose part above half a step, or a truncated code's above one, is of roundings to
  * nearest: see depthprec-code(1). */
 static double encode_bound(const bound_arithmetic *how, const method_row *row, const dp_setup *setup) {
     size_t i = 0;

@@ -9,7 +9,7 @@
 #include "shader/camera.h"
 #include "shader/packing.h"
 
-/** What is said of a function that has been written: it is off by at most `bound`, of what it gives or in what is
+/** The claim of a function that has been written: it is off by at most `bound`, of what it gives or in what is
  * named, and by `nearest` where all operations are rounded to nearest; NaN or INFINITY where nothing is. */
 typedef struct code_claim {
     const char *function;

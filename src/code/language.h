@@ -12,7 +12,7 @@
 /** How operations are written: between their operands, in parentheses before them, or as lines for Gappa. */
 typedef enum code_form { CODE_INFIX = 0, CODE_PREFIX, CODE_PROOF } code_form;
 
-/** What a function gives: a number, a whole number, several numbers. */
+/** The result of a function: a number, a whole number, several numbers. */
 typedef enum code_type { CODE_REAL = 0, CODE_COUNT, CODE_VECTOR, CODE_TYPES } code_type;
 
 /** '@' and '$' stand for what is filled in. Pairs are for binary32, then for binary64; a null is what the language

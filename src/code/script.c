@@ -54,7 +54,7 @@ static void put_pieces(output *out) {
     output_text(out, "16777215b-24);\n");
 }
 
-/* What is 0 at an infinite far plane has no f. */
+/* Writes a step in exact arithmetic; at an infinite far plane one that is 0 has no f. */
 static void put_exact(output *out, const steps *s, int i, bool infinite, bool zero) {
     char text[CODE_TEXT_SIZE] = "";
     code_expression(&(code_writer){.steps = s, .exact = infinite ? EXACT_INFINITE : EXACT}, s->step[i].is, 0, text);

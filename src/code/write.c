@@ -78,7 +78,7 @@ static const struct {
 
 enum { CALL_SIZE = 32 };
 
-/* Of what all have the names are those of shaders, but for what C and numpy put around them. */
+/* Functions that all languages have are named as in shaders, but for what C and numpy put around them. */
 static const char *template_of(const code_language *l, const char *name, char common[CALL_SIZE]) {
     const struct {
         const char *name, *template;

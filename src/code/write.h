@@ -21,7 +21,7 @@ void code_put(output *out, const char *template, const char *a, const char *b, c
 /** A comment, in lines that a terminal holds. */
 void code_say(output *out, const code_language *l, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-/** What is written: a row's steps in a language; without one a formula for people, in near and far, or the same steps
+/** Steps of a row to be written in a language; without one a formula for people, in near and far, or the same steps
  * in exact arithmetic for Gappa. */
 typedef struct code_writer {
     const code_language *l;
@@ -53,7 +53,7 @@ const char *code_type_name(const code_language *l, code_type type, int members, 
 void code_say_camera(output *out, const code_language *l, const dp_setup *setup, const char *what);
 void code_say_depth(output *out, const code_language *l, const dp_setup *setup);
 
-/** What stands before all of a file and, in comments, what the language promises of its operations. */
+/** Write the first lines of a file and, in comments, the language's promises about its operations. */
 void code_import(output *out, const code_language *l);
 void code_say_rules(output *out, const code_language *l, bool powers);
 
@@ -61,7 +61,7 @@ void code_constant(const code_body *f, int i, char value[CODE_TEXT_SIZE], char f
 void code_infix(output *out, const code_body *f);
 /** The same behind how it is compiled; as a script of an eye depth between these planes. */
 void code_function_of(output *out, const code_body *f, const dp_setup *setup);
-/** What stands between two functions. */
+/** Writes what separates two functions. */
 void code_part(output *out, const code_language *l);
 
 #endif

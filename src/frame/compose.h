@@ -5,7 +5,7 @@
 
 #include "frame/frame.h"
 
-/** What is composed. Colours are taken as they are stored, from 0 to 1. */
+/** An effect and the picture on which it is composed. Colours are taken as they are stored, from 0 to 1. */
 typedef struct compose {
     const effect_row *row;
     const double *parameters;

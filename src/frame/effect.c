@@ -10,7 +10,7 @@
 
 static const double LEVELS = 255;
 
-/* What a row of pixels has in common. */
+/* The constants of a row of pixels. */
 typedef struct work {
     const frame_row *in;
     const effect_row *row;
@@ -105,7 +105,7 @@ static void places(const work *w) {
 /* A pixel and the corners of a square around it: 0 and 3 are opposite, and 1 and 2. */
 enum { CORNERS = 4, MIDDLE = CORNERS, TAPS };
 
-/* What is compared, and how many outputs of it make one. */
+/* The pairs of taps that are compared, and how many outputs make one. */
 static const struct {
     int count, first[CORNERS], second[CORNERS];
 } compared[] = {
@@ -215,8 +215,7 @@ static double normal_reach(const work *w, const tap *at) {
     return packing_normal_reach(normals->texels + 2 * pixel, normals->truncated) + M_SQRT2 * 2 * dp_sin(off / 2);
 }
 
-/* What of |x| + |y| between two normals an image leaves open, as views whose normals differ by the least and the most.
- */
+/* The span of |x| + |y| between two normals that an image leaves open: views whose normals differ least and most. */
 static void views_between(const work *w, const tap *a, const tap *b, effect_view views[2]) {
     double one[3], two[3];
     views[0] = views[1] = (effect_view){.setup = w->planes};
@@ -263,7 +262,7 @@ static void outputs_of(const work *w, const tap *a, const tap *b, double out[2])
     out[0] = out[1] = w->row->output(&view, w->parameters, hits[0].z, hits[1].z);
 }
 
-/* Of a synthetic image what is wrong; of an image what could be. */
+/* The error of an effect of corners: in a synthetic image the true one, in an image the largest possible. */
 static double corners_error(const work *w, uint32_t x) {
     tap at[TAPS];
     const bool around = w->row->taps == EFFECT_AROUND;
@@ -282,7 +281,7 @@ static double corners_error(const work *w, uint32_t x) {
 
 /* ---- One pixel --------------------------------------------------------------------------------------------------- */
 
-/* What binary32 adds at most: a few roundings of an output of 1, and one of each depth. */
+/* The most that binary32 adds: a few roundings of an output of 1, and one of each depth. */
 static double rounding_error(const work *w, const effect_view *view, double seen) {
     const double p = w->parameters[w->row->wanted], depth = w->row->apart(view, w->parameters, seen, 0);
     return LEVELS * DP_UNIT * (8 + 4 * (w->row->kind == EFFECT_FADE ? depth / p : depth * p));
@@ -365,7 +364,7 @@ static double true_output(const work *w, const effect_view *view, uint32_t x) {
     return w->row->output(view, w->parameters, beside >= w->reference ? beside : own, w->reference);
 }
 
-/* How far from what is seen the truth may be: beside the pixel if what is there lies no nearer than the surface. */
+/* The largest error of a refracted pixel: it looks beside itself if the depth there is no nearer than the surface. */
 static double refracted_error(const work *w, const effect_view *view, double seen, double surface,
                               const grain_range ranges[2]) {
     const grain_range *own = &ranges[0], *beside = &ranges[1];
@@ -376,9 +375,8 @@ static double refracted_error(const work *w, const effect_view *view, double see
     return error;
 }
 
-/* Of a pixel that looks through the one beside it. Where the surface is not known it may lie where the choice between
- * the two turns, or where the error of one is largest: at an end of what either may be, at what is seen, or next to it.
- */
+/* The error of a pixel that looks through the one beside it. An unknown surface may lie where the choice between the
+ * two turns, or where the error of one is largest: at an end of what either may be, at what is seen, or next to it. */
 static double through_error(const work *w, const effect_view *view, uint32_t x, uint32_t beside) {
     frame_ranges last = frame_no_range();
     grain_range ranges[2];
@@ -398,7 +396,7 @@ static double through_error(const work *w, const effect_view *view, uint32_t x, 
     return error + rounding_error(w, view, fmax(seen[0], seen[1]));
 }
 
-/* Of a vector, which may turn without growing: in parts. */
+/* The error of a vector: by components, as it may turn without growing. */
 static double vector_off(const work *w, const effect_view *view, uint32_t x, double z) {
     const effect_pixel pixel = pixel_at(w, x);
     float seen[2];

@@ -60,7 +60,7 @@ int frame_channels(const frame_product *product) {
     return vector && !product->error ? 3 : 1;
 }
 
-/* What is made from planes that all pixels share, or for a view axis in the middle of the picture. */
+/* Refuses products made from planes that all pixels share, or with the view axis in the middle of the picture. */
 static const char *camera_refuses(const frame *f, const frame_product *product) {
     const bool oblique = f->camera->oblique.on, centred = camera_is_centred(f->camera);
     const bool shared = camera_is_shared(f->camera), aside = f->camera->centre[0] != 0 || f->camera->centre[1] != 0;
@@ -249,7 +249,7 @@ static float *rows_of(const run *r, size_t slot, size_t product) {
     return r->out + (slot * r->values + before) * pixels;
 }
 
-/* Of places and normals, which are kept until the next product is made. */
+/* Whether a product is the error of the last one: places and normals are kept until the next product is made. */
 static bool is_error_of(const frame_product *product, const frame_product *last) {
     return product->error && !last->error && product->kind == last->kind &&
            (product->kind == FRAME_POSITION || product->kind == FRAME_NORMAL) && product->position == last->position &&
@@ -285,7 +285,7 @@ static void make_row(const run *r, const desk *d, uint32_t first, uint32_t i, si
     }
 }
 
-/* Of the strip that is made at that turn. */
+/* The first row of the strip that is made at turn number `turn`. */
 static uint32_t first_row(const run *r, size_t turn) {
     return (uint32_t)(r->bottom_up ? r->count - 1 - turn : turn) * r->strip;
 }

@@ -84,8 +84,8 @@ typedef enum frame_kind {
     FRAME_KINDS
 } frame_kind;
 
-/** What is made of the depths. Sky and invalid pixels are NaN in all of them, but sky has edges, EFFECT_STEP, and a
- *  window depth. */
+/** A product that is made of the depths. Sky and invalid pixels are NaN in all of them, but sky has edges, EFFECT_STEP,
+ * and a window depth. */
 typedef struct frame_product {
     frame_kind kind;
     /**
@@ -155,8 +155,8 @@ typedef struct frame_summary {
 bool frame_summarise(const frame *f, const frame_product *product, frame_summary *out);
 
 /**
- * What a decoding in binary32 adds to what is stored: relative, over the pixels that are not sky; p99 is NaN. What is
- * no number counts as infinite. @return false when out of memory
+ * The error that a decoding in binary32 adds to stored depths: relative, over the pixels that are not sky; p99 is NaN.
+ * An error that is NaN counts as infinite. @return false when out of memory
  */
 bool frame_summarise_decoding(const frame *f, const decode_row *row, frame_summary *out);
 

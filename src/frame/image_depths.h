@@ -21,7 +21,7 @@ static inline bool image_are_codes(const image *img, const dp_format *format) {
     return dp_image_holds_codes((dp_image_type)img->type, format);
 }
 
-/** Of `count` pixels of a row from x on. */
+/** Reads the depths of `count` pixels of a row, from x on. */
 static inline void image_depths(const image *img, const dp_format *format, uint32_t row, uint32_t x, uint32_t count,
                                 double *d) {
     const dp_image channel = image_channel(img);

@@ -15,7 +15,7 @@ static bool is_depth(double x) {
     return x > 0 && isfinite(x);
 }
 
-/* What is looked at before anything is changed. */
+/* Properties of the samples, found before anything is changed. */
 typedef struct look {
     double least, most;
     uint32_t divisor;      /* integers: of all */

@@ -42,7 +42,7 @@ typedef struct metric {
  */
 const char *metric_convert(image *img, double scale, double zfar, const sensor *given, metric *out);
 
-/** Of numbers: what all are multiples of, as parts of a metre that files are written in; 0: nothing. */
+/** Numbers: the part of a metre, of those in which files are written, that all are multiples of; 0: none. */
 double metric_step(const image *img);
 
 /** A sample that is no depth, metric.top; with _clear_ it becomes 0. */

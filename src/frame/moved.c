@@ -58,7 +58,7 @@ static bool is_sample(uint32_t x) {
     return x != 0 && x != HOLE;
 }
 
-/* What a sample between two neighbours says, above 0 for it: where the bits that came from above differ, neighbours are
+/* The vote of a sample between two neighbours, above 0 for moved bits: where those from above differ, neighbours are
  * near each other once these are above again. */
 static int is_rotated(const uint32_t x[3], int bits) {
     int vote = 0;
@@ -219,7 +219,7 @@ static bool join(image *img) {
 
 /* ---- Together ---------------------------------------------------------------------------------------------------- */
 
-/* Of 16 bits whose values fit in 8, and of bytes. */
+/* Finds what was lost in 16 bits whose values fit in 8, and in bytes. */
 static moved find_bytes(const image *img, const values *v) {
     enum { MOST_USED = 224, MANY = 8 };
     if (v->different >= MOST_USED && is_wrapped(img))

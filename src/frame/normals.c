@@ -11,7 +11,7 @@ typedef struct making {
     uint32_t width;
 } making;
 
-/* Of a pixel: eye depth, which sky has none of, the normal, and its bound. */
+/* Packs the normals of rows. A pixel has an eye depth, unless it is sky, a normal, and the bound of that. */
 static bool pack_rows(void *context, uint32_t row, uint32_t count, const float *const *values) {
     static const double to_camera[3] = {0, 0, 1};
     const making *m = context;

@@ -7,7 +7,7 @@
 #include "frame/image_depths.h"
 #include "frame/units.h"
 
-/* Of numbers; of others that there are some outside is all. */
+/* Numbers outside [0, 1] are described; of integers only their count is said. */
 static void say_outside(const image *img, const dp_recognised *r, char *why) {
     char units[UNITS_TEXT_SIZE];
     append(why, RECOGNISE_WHY_SIZE, "no window depth: %zu of %zu samples are not in [0, 1]", r->invalid, r->samples);

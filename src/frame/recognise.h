@@ -12,7 +12,7 @@ enum { RECOGNISE_WHY_SIZE = 480 };
  *  @param why  one sentence: how it was told, or why it is no window depth, and recognise_towards() */
 void recognise(const image *image, dp_recognised *out, char why[RECOGNISE_WHY_SIZE]);
 
-/** What shows the direction, or that nothing does; null without depth. */
+/** The evidence for the direction, or that there is none; null without depth. */
 const char *recognise_towards(const dp_recognised *found);
 
 #endif

@@ -65,7 +65,7 @@ static void make_raw(const frame_row *in) {
         in->out[x] = in->codes[x] == UINT32_MAX ? NAN : in->depth[x];
 }
 
-/* What the codes of a row stand for, in the room for numbers; the rest of that is free. */
+/* The ranges of the codes of a row, in the room for numbers; the rest of that is free. */
 static grain_rows ranges_in(const frame_row *in) {
     const size_t width = camera_of(in)->width;
     const grain_rows out = {in->numbers, in->numbers + width, in->numbers + 2 * width, in->numbers + 3 * width};
@@ -81,8 +81,8 @@ static const double *along_in(const frame_row *in) {
     return along;
 }
 
-/* What doubles lose of the place at an eye depth, 27 units of 2^-53: 8 of the stored depth, 7 of slopes, 12 of turning
- * them and of the difference from the place. */
+/* The error of doubles in the place at an eye depth, 27 units of 2^-53: 8 of the stored depth, 7 of slopes, 12 of
+ * turning them and of the difference from the place. */
 DP_INLINE double places_lose(const texture_camera *c, double z) {
     const double most = c->half[0] * (1 + fabs(c->centre[0])) + c->half[1] * (1 + fabs(c->centre[1]));
     return 0x1p-48 * (fabs(z) + most * (c->ortho ? 1 : fabs(z)));
@@ -112,7 +112,7 @@ CLONES static void linear01_errors(const float *restrict eyes, const grain_rows 
     }
 }
 
-/* Of a synthetic image, whose depths are known: how far the row of the product is off from them, times a factor. */
+/* Replaces the row of a product by its error: a synthetic image knows the true depths, which count `factor` times. */
 static void replace_by_errors(const frame_row *in, double factor) {
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double along = in->product->radial ? stretch(in, x) : factor, truth = frame_truth(in, x).z * along;
@@ -120,7 +120,7 @@ static void replace_by_errors(const frame_row *in, double factor) {
     }
 }
 
-/* What the product has lost in binary32, and how far what is stored is off. */
+/* The product's error in binary32 together with that of the stored depth. */
 static void make_eye_error(const frame_row *in) {
     if (in->frame->synthetic != NULL) {
         make_eye(in);
@@ -190,7 +190,7 @@ static void make_position(const frame_row *in) {
     interleave(in);
 }
 
-/* Of what is stored; the depth's own error lies along the ray. */
+/* The error of places from stored depths; the depth's own error lies along the ray. */
 DP_INLINE void position_loop(const texture_camera *camera, bool ortho, uint32_t row, const float *restrict x,
                              const float *restrict y, const float *restrict z, const double *restrict stored,
                              const double *restrict reach, double *restrict error) {
@@ -248,7 +248,7 @@ static void make_position_error(const frame_row *in) {
     }
 }
 
-/* What the method looks at. */
+/* The rows of depths that the method reads. */
 static normal_rows rows_around(const frame_row *in) {
     normal_rows rows = {.camera = camera_of(in), .row = in->row, .count = camera_of(in)->width, .slope_x = in->slope_x};
     memcpy(rows.rows, in->product->normal->sees_sky ? in->seen : in->eyes, sizeof rows.rows);
@@ -269,8 +269,7 @@ static void make_normal(const frame_row *in) {
     interleave(in);
 }
 
-/* What the codes of the row and of those a step above and below stand for: all that taps need. lo and hi are used up.
- */
+/* The ranges of the codes of the row and of those a step above and below: all that taps need. lo and hi are used up. */
 static void ranges_around(const frame_row *in, int step, grain_rows out[3]) {
     const texture_camera *c = camera_of(in);
     const size_t width = c->width;
@@ -284,7 +283,7 @@ static void ranges_around(const frame_row *in, int step, grain_rows out[3]) {
     }
 }
 
-/* Of an image the bound for a plane through the three pixels that were taken. */
+/* In an image: the error bound for a plane through the three pixels that were taken. */
 static void corner_bounds(const frame_row *in) {
     const texture_camera *c = camera_of(in);
     const normal_row *method = in->product->normal;
@@ -310,7 +309,7 @@ static void corner_bounds(const frame_row *in) {
     }
 }
 
-/* Of an image the bound for a plane through the pixel's place with the normal that was found. */
+/* In an image: the error bound for a plane through the pixel's place with the normal that was found. */
 static void normal_bounds(const frame_row *in) {
     const texture_camera *c = camera_of(in);
     double *const z = in->numbers, *const bounds = z + c->width;

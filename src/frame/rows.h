@@ -11,7 +11,7 @@
 
 enum { FRAME_NUMBERS = 8 };
 
-/** What a row is made of. */
+/** The inputs from which a row of a product is made. */
 typedef struct frame_row {
     const frame *frame;
     const frame_product *product;
@@ -32,7 +32,7 @@ typedef struct frame_row {
 
 typedef void frame_make(const frame_row *in);
 
-/** What the pixel of a synthetic image truly sees; z is NaN where it is sky, or counts as such. */
+/** The true surface in a pixel of a synthetic image; z is NaN where it is sky, or counts as such. */
 static inline synthetic_hit frame_truth(const frame_row *in, uint32_t x) {
     synthetic_hit hit;
     in->frame->synthetic->hit(in->frame->camera, in->frame->parameters, x, in->row, &hit);
@@ -43,7 +43,7 @@ static inline synthetic_hit frame_truth(const frame_row *in, uint32_t x) {
     return hit;
 }
 
-/** What a code says of the depth. Neighbours often share one. */
+/** The depths that a code stands for, kept because neighbours often share one. */
 typedef struct frame_ranges {
     uint32_t code;
     grain_range range;

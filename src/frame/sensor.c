@@ -407,7 +407,7 @@ static bool count_all(const image *img, const sensor_file *file, sensor *s) {
     return on >= SENSOR_SHARE * (on + s->off_pixels);
 }
 
-/* What chance leaves near a level, of averages, is not counted: each value that tells lies on one. */
+/* Averages that lie near a level by chance are not counted: each value that tells lies on one. */
 static double residual_of(const depths *d, const sensor_file *file, const sensor *s) {
     double below = (double)INFINITY, above = -(double)INFINITY;
     for (size_t i = 0; i < d->count; i++)
@@ -437,7 +437,7 @@ static double common_step(const depths *d, double *bits) {
     return divisor;
 }
 
-/* Of the samples' own step, which all of them may be multiples of by more than chance. */
+/* The lattice of the file: the samples' own step, or a multiple of it that they share by more than chance. */
 static sensor of_file(const image *img, const sensor_file *file, const depths *d) {
     double bits = 0;
     const double divisor = file->digits == 0 && d->count > 0 ? common_step(d, &bits) : 0;
@@ -454,7 +454,7 @@ static sensor of_file(const image *img, const sensor_file *file, const depths *d
     return count_all(img, &units, &s) && !is_surface(img, &s, file->scale) ? s : of_file(img, file, &(depths){0});
 }
 
-/* What was chosen; the next row, where it explains the values nearly as well. */
+/* The chosen row, and the next one where it explains the values nearly as well. */
 typedef struct choice {
     const sensor_row *row, *other; /* null: none does */
     fit fit;
@@ -491,7 +491,7 @@ static void choose(const depths *d, const sensor_file *file, choice *c) {
         c->other = NULL;
 }
 
-/* What is too fine to be seen as multiples may be such steps of the file, nearly its own where depths were scaled, or
+/* A step too fine to show as multiples may be so many of the file's, nearly its own where depths were scaled, or
  * of numbers 2^-14 of the farthest depth. */
 static const double before[] = {1.25, 2.5, 5};
 enum { BEFORE = sizeof before / sizeof before[0] };

@@ -33,7 +33,7 @@ typedef struct sensor_file {
     double again; /**< what was rounded to before that, scene units: multiples of it; 0: nothing was */
 } sensor_file;
 
-/** What was found. What there is not is NaN. */
+/** The lattice that was found or given. Numbers that it does not have are NaN. */
 typedef struct sensor {
     const sensor_row *row;
     bool given;                /**< by somebody who knows */
@@ -56,9 +56,9 @@ typedef struct sensor {
 void sensor_find(const image *img, const sensor_file *file, sensor *out);
 
 /**
- * What somebody knows: a row, and of its levels the step and the offset, or how many there are from lo to hi. NaN
+ * Completes what a user knows: a row, and of its levels the step and the offset, or how many are from lo to hi. NaN
  * stands for what is not known; an offset is then where most values are, and what they were rounded to between lattice
- * and file is what leaves few of them on no level. Fills in the rest.
+ * and file is what leaves few of them on no level.
  * @param seen  what sensor_find() found
  */
 void sensor_complete(const image *img, const sensor_file *file, const double ends[2], const sensor *seen, sensor *s);
@@ -69,7 +69,7 @@ void sensor_scale(sensor *s, double scale);
 /** Where it is known how many levels there are from lo to hi: their step and offset. */
 void sensor_between(double lo, double hi, sensor *s);
 
-/** What is known to have such a step, in metres; null: nothing. */
+/** The name of a known device or file with such a step, in metres; null: none. */
 const char *sensor_like(grain_levels levels, double step);
 
 /** From a level at z to the next farther one, scene units, INFINITY where there is none; NaN where the row is "file"
@@ -85,7 +85,7 @@ double sensor_round(const sensor *s, double z);
 /** Beyond which nothing lies that was rounded to a depth up to z; z where that has no end. */
 double sensor_end(const sensor *s, double z);
 
-/** What ranges are made of: for window depths of a linear mapping that ends at zfar. */
+/** Sets the levels of `g`, from which ranges are made: for window depths of a linear mapping that ends at zfar. */
 void sensor_into(const sensor *s, double zfar, grain *g);
 
 #endif

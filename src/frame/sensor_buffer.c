@@ -11,7 +11,7 @@ static const double RARE = 0x1p-20; /* one in a million */
 
 static const int all_bits[] = {16, 24};
 
-/* Of one number of digits. */
+/* A search for planes that have at most so many digits. */
 typedef struct attempt {
     const sensor *s;
     double lo;

@@ -28,7 +28,7 @@ enum {
     ROUNDS = 64
 };
 
-/* What of an `off` a cover of all lattices may shift each of step and offset by, and log2 of the octaves of steps. */
+/* The share of an `off` that a cover of all lattices may shift step and offset by; log2 of the octaves of steps. */
 static const double COVER = 0.25, OCTAVES = 6;
 
 /* ---- The chance -------------------------------------------------------------------------------------------------- */

@@ -11,8 +11,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/** What makes a lattice found: fewer than 2^-FIT_BITS random sets of values fit as well, fewer than 2^-FIT_WHOLE were
- * its step half as large, and so many levels. */
+/** A lattice counts as found when fewer than 2^-FIT_BITS random sets of values fit as well, fewer than 2^-FIT_WHOLE
+ * were its step half as large, and so many levels. */
 enum { FIT_BITS = 32, FIT_WHOLE = 20, FIT_LEVELS = 24 };
 
 /** A value whose true one lies within `off` of it, and how many pixels have it. */
@@ -44,7 +44,7 @@ double fit_chance(const double *probabilities, size_t count, size_t on);
 /** The lattice that says most. @param values  by `at`, upwards, all different @return false when none extends to all */
 bool fit_find(const fit_value *values, size_t count, fit *out);
 
-/** What any lattice that explains the same values by the same levels may differ by. */
+/** Sets step_off and offset_off: a bound over every lattice that explains the same values by the same levels. */
 void fit_bound(const fit_value *values, size_t count, fit *f);
 
 #endif

@@ -18,7 +18,7 @@ static bool is_sample(double x) {
     return x != 0 && isfinite(x);
 }
 
-/* What samples are multiples of: the largest power of two, unless a number makes use of all its digits; 0 then. */
+/* The largest power of two that all samples are multiples of; 0 where a number makes use of all its digits. */
 static double find_step(const image *img) {
     static const int digits_of[] = {[IMAGE_F16] = 11, [IMAGE_F32] = 24, [IMAGE_F64] = 53};
     int lowest = INT_MAX, highest = INT_MIN;

@@ -16,7 +16,7 @@ int strips_threads(int wanted) {
 #endif
 }
 
-/* What the threads share, under the lock. */
+/* The state that the threads share, under the lock. */
 typedef struct queue {
     const strips *s;
     pthread_mutex_t lock;

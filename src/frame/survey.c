@@ -96,7 +96,7 @@ static void mark(uint64_t *used, uint32_t rank) {
         __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
 }
 
-/* What one row adds. Neighbours often share a code, and nearly always a band. */
+/* Adds one row to the survey. Neighbours often share a code, and nearly always a band. */
 static void visit_row(surveying *s, uint32_t row, uint32_t *codes, surveying *mine) {
     const uint32_t width = s->f->camera->width;
     uint32_t last = UINT32_MAX;
@@ -191,7 +191,7 @@ static double span(const dp_setup *setup, uint32_t from, uint32_t to) {
                          dp_point_of_code(&setup->spec.format, frame_code(setup, to)));
 }
 
-/* Of metric depth on a lattice the file's codes are not what tells depths apart. */
+/* Counts levels: in metric depth on a lattice it is these, not the file's codes, that tell depths apart. */
 static void of_levels(const sensor *lattice, survey_band *out) {
     out->available = (uint64_t)fmax(sensor_levels(lattice, out->lo, out->hi), 0);
     if (isnan(out->gap))

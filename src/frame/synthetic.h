@@ -12,7 +12,7 @@
 #include "shader/camera.h"
 #include "shader/parameter.h"
 
-/** What a pixel sees. */
+/** The surface that a pixel sees. */
 typedef struct synthetic_hit {
     double z;         /**< eye depth; INFINITY for sky */
     double normal[3]; /**< view space, unit, towards the camera; zero for sky */

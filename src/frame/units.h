@@ -25,7 +25,7 @@ typedef struct unit_reading {
  */
 const char *units_guess(const image *img, const char **why);
 
-/** Of samples above 0. @return how many, 0 where there is no sample */
+/** Reads the samples above 0 in each unit. @return how many readings, 0 where there is no sample */
 size_t units_find(const image *img, unit_reading out[UNITS_MAX]);
 
 /** "--metric mm reads 0.41 m to 9.8 m, --metric tum ..."; "" of none. @return out */

@@ -15,7 +15,7 @@ enum { HAS_FOURCC = 0x4, HAS_RGB = 0x40, HAS_LUMINANCE = 0x20000 };
 /* How a format is told. */
 typedef enum told { BY_DXGI = 0, BY_D3D9, BY_LUMINANCE, BY_RGB, BY_BGR, BY_NOTHING } told;
 
-/* What becomes of what was read, other than a shift of 24 bits. */
+/* How the samples read are changed, if not shifted by 24 bits. */
 enum { AS_IT_IS = -1, BLUE_FIRST = -2 };
 
 typedef struct pixels {

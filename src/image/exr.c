@@ -21,7 +21,7 @@
 
 #include "system/dynload.h"
 
-/* What is called of it. */
+/* The functions of the library that are called. */
 #define FUNCTIONS(X)                                                                                                   \
     X(exr_start_read)                                                                                                  \
     X(exr_finish)                                                                                                      \

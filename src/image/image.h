@@ -46,7 +46,7 @@ typedef enum image_file {
 
 enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4, IMAGE_NOTE_SIZE = 256, IMAGE_NAMES_SIZE = 128 };
 
-/** What a PNG says of its colours, and a program that obeys would change in its samples: bits. */
+/** Bits for a PNG's words about its colours, by which a program that obeys changes the samples. */
 enum { IMAGE_SRGB = 1, IMAGE_GAMMA = 2, IMAGE_PROFILE = 4 };
 
 /** Rows from the top, channels interleaved, samples in the order of this machine's bytes, no padding. */
@@ -83,7 +83,7 @@ bool image_file_of(const char *path, image_file *out);
 /** "PNG", "PFM", "npy", "DDS", "EXR", "TIFF", "raw", "compressedDepth"; null when out of range. */
 const char *image_file_name(image_file file);
 
-/** What a file may leave open. */
+/** Properties that a file may leave open. */
 typedef struct image_asked {
     const char *channel;    /**< of kinds whose channels have names; null: that which is depth */
     uint32_t width, height; /**< pixels, of a raw one; 0: the usual picture of its length */

@@ -15,7 +15,7 @@
 
 #include "system/dynload.h"
 
-/* What is called of it. */
+/* The functions of the library that are called. */
 #define FUNCTIONS(X)                                                                                                   \
     X(TIFFSetErrorHandler)                                                                                             \
     X(TIFFSetWarningHandler)                                                                                           \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What functions of depth take and give: rows. */
+/* The inputs and outputs of functions of depth: rows. */
 #include <math.h>
 
 #include "core/curve.h"
@@ -145,7 +145,7 @@ static double code(const dp_setup *s, const judge_depth *at) {
     return isnan(d) ? d : (double)dp_format_encode(&s->spec.format, s->spec.rounding, fmin(fmax(d, 0), 1));
 }
 
-/* What the matrix of a logarithmic depth gives. */
+/* The depth that the matrix gives where the shader then writes a logarithm. */
 static double of_matrix(const dp_setup *s, const judge_depth *at) {
     const double n = s->spec.znear, f = s->spec.zfar;
     return s->curve != DP_CURVE_LOG ? (double)NAN : at->behind / at->z * (isinf(f) ? 1 : f / (f - n));

@@ -54,7 +54,7 @@ typedef struct span {
     bool inverse; /* they are reciprocals: between them lies infinity */
 } span;
 
-/* What a logarithm loses: roundings of what it is of, which is about 1 where it begins. */
+/* The loss of a logarithm: roundings of its argument, which is about 1 where it begins. */
 static double logarithm_from(const judge_candidate *c) {
     return c->setup.curve == DP_CURVE_LOG ? fmax(1, 1 / c->setup.kappa) : 1;
 }
@@ -74,7 +74,7 @@ static double share_of(const judge_candidate *c) {
     return (c->setup.curve == DP_CURVE_LOG ? LOG_STEPS : STEPS) * 0x1p-24;
 }
 
-/* What went in may be off by roundings of a difference, which are as large as those of what it is from. */
+/* The span of an input, which may be off by roundings of a difference, as large as those of what it is from. */
 static span span_of(const judge_candidate *c, const judge_pairs *p, judge_precision precision, double x) {
     const bool differs = precision > JUDGE_BINARY32, depth = c->input->window != NULL;
     const double share = share_of(c), most = logarithm_from(c);
@@ -135,7 +135,7 @@ static bool fits(const judge_candidate *c, const judge_pairs *p, judge_precision
     return tells;
 }
 
-/* What goes in, of a share of all that can: window depths to either end, eye depths as their logarithm. */
+/* Number i of the inputs that are tried: window depths to either end, eye depths by their logarithm. */
 static double probe(const judge_candidate *c, int i) {
     const dp_spec *s = &c->setup.spec;
     const int half = PROBES / 2, power = 2 + (i - half) / 8; /* to 2^-33 */
@@ -148,7 +148,7 @@ static double probe(const judge_candidate *c, int i) {
     return c->input->metric * (s->znear + (far - s->znear) * t * t * t);
 }
 
-/* What to put in so that two candidates part; NaN where they never do. */
+/* The input at which two candidates part most; NaN where they never do. */
 static double parts(const judge_candidate *a, const judge_candidate *b, const judge_pairs *p,
                     judge_precision precision) {
     double best = 0, at = (double)NAN;
@@ -358,7 +358,7 @@ static const char *nothing(const judge_pairs *p) {
                           : "no function that is known gives these values, which neither rise nor fall throughout";
 }
 
-/* How far the values are off. */
+/* Measures the errors of the values, and where they are largest. */
 static void measure(const judge_pairs *p, judgement *out) {
     const judge_candidate *c = &out->found;
     for (size_t i = 0; i < p->count; i++) {
@@ -422,8 +422,8 @@ static bool is_possible(const judge_pairs *p, judge_precision precision) {
                                        : fine;
 }
 
-/* What is right and loses more may be met more closely by another function: where both are the same at what it loses,
- * and where all values are as they are stored, it is right. */
+/* The right function may lose more than another that meets the values more closely: where both are the same at its
+ * loss, and where all values are as they are stored, it is right. */
 static void excuse(search *s) {
     judgement *out = s->out, right = *out;
     right.named = right.also = false;
@@ -441,7 +441,7 @@ static void excuse(search *s) {
     s->out = out;
 }
 
-/* What is right, at whatever it loses, before all else but what is met as closely as binary32 can. */
+/* Tries the right function, whatever it loses, before all but one met as closely as binary32 can. */
 static void judge_given(search *s) {
     judgement *out = s->out;
     s->precision = out->precision = JUDGE_BINARY32;
@@ -464,7 +464,7 @@ static void judge_given(search *s) {
     }
 }
 
-/* What is made of window depths alone needs no planes. */
+/* Tries functions of window depths alone, which need no planes. */
 static void try_windows(search *s) {
     for (size_t i = 0; i < s->count; i++) {
         judge_candidate c = {.setup = s->setups[i], .factor = 1};

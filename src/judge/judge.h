@@ -23,7 +23,7 @@ typedef struct judge_depth {
     double behind, left; /**< z - near, far - z */
 } judge_depth;
 
-/** What goes in. */
+/** An input of a function. */
 typedef struct judge_input {
     const char *name;
     judge_depth (*depth)(const dp_setup *setup, double x);
@@ -31,13 +31,13 @@ typedef struct judge_input {
     double metric;              /**< 1 of an eye depth, -1 of a view z that is negative; else 0 */
 } judge_input;
 
-/** What planes can be told from a value: see line. */
+/** The planes that can be told from values: see `line`. */
 typedef enum judge_planes { JUDGE_PLANES_NONE, JUDGE_PLANES_BOTH, JUDGE_PLANES_RATIO } judge_planes;
 
 /** Projections by what people call functions of their depths: perspective, orthographic, what a shader writes. */
 enum { JUDGE_PERSPECTIVE, JUDGE_ORTHO, JUDGE_SHADER_DEPTH, JUDGE_PROJECTIONS };
 
-/** What comes out. */
+/** An output of a function. */
 typedef struct judge_output {
     const char *name, *formula;
     const char *called[JUDGE_PROJECTIONS]; /**< what people call it, and where; null: as of a perspective */
@@ -49,7 +49,7 @@ typedef struct judge_output {
     bool of_windows; /**< made of window depths alone: of others it is the one of the other direction */
     bool whole;      /**< a code: whole numbers, of window and eye depths */
     judge_planes planes;
-    /** Of a value at the share of the way of 1/z, orthographic of z, from near to far what is affine in that share:
+    /** From a value v at a share of the way from near to far in 1/z, orthographic in z, a number affine in the share:
      * that of near and far themselves, or far/near at 0 and 1 at 1, orthographic near/far. NaN: none */
     double (*line)(double v, double share, bool ortho);
 } judge_output;
@@ -81,10 +81,10 @@ typedef struct judge_candidate {
     double factor;        /**< by which the output is multiplied: 1 */
 } judge_candidate;
 
-/** What a candidate gives; NaN where it gives nothing. */
+/** The value of a candidate at x; NaN where it has none. */
 double judge_value(const judge_candidate *c, double x);
 
-/** What the values lost, the least that explains them: see judge_precision_name(). */
+/** The precision lost by the values, the least loss that explains them: see judge_precision_name(). */
 typedef enum judge_precision {
     JUDGE_BINARY32,   /**< roundings of binary32 */
     JUDGE_DIFFERENCE, /**< the same after a difference from 1, or from a plane: what lay near 0 lost its precision */

@@ -49,7 +49,7 @@ void listing_blank_rest(listing *s);
 
 /** The next word from *at on, and how many brackets more are open there; numbers are none. */
 bool listing_word(const char **at, const char *end, piece *out, int *open);
-/** What stands before, and behind, blanks apart; "" and '\0': nothing. */
+/** The text before a place and the character behind it, blanks skipped; "" and '\0': nothing. */
 const char *listing_before(const char *from, const char *at);
 char listing_after(const char *at, const char *end);
 piece listing_word_before(const char *from, const char *at);

@@ -12,7 +12,7 @@ typedef struct judge_pair {
     double in, out;
 } judge_pair;
 
-/** What numbers may be off by, because that is how they were printed. */
+/** The largest error of numbers as they were printed. */
 typedef struct judge_digits {
     double absolute, relative;
 } judge_digits;

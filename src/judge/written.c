@@ -157,7 +157,7 @@ bool written_define_known(const char *define) {
            (row_of(value + 1) != NULL || number_of_text(value + 1, &unused));
 }
 
-/* Of "camera.near" by its last word. */
+/* The row that a name suggests, "camera.near" by its last word. */
 static const value_row *guess(const char *name, bool hlsl) {
     const char *member = strrchr(name, '.');
     char key[NAME_SIZE + 2] = " ";
@@ -196,7 +196,7 @@ static bool fail(maker *m, const char *format, ...) {
     return false;
 }
 
-/* What was given for a name, else what is guessed; null: nothing. */
+/* The word given for a name, else the one that is guessed; null: none. */
 static const char *word_for(maker *m, piece name, bool *guessed) {
     char text[NAME_SIZE];
     snprintf(text, sizeof text, "%.*s", (int)name.length, name.at);
@@ -311,7 +311,7 @@ static bool make_members(maker *m, piece of, const item *structure) {
     return true;
 }
 
-/* Of a uniform that is a structure what is read of it; all where it is handed on as a whole. */
+/* Makes the members that are read of a uniform structure; all where it is handed on as a whole. */
 static bool make_structure(maker *m, piece name, const item *structure) {
     const listing *s = &m->s;
     for (size_t k = 0; k < s->count; k++) {
@@ -418,8 +418,8 @@ static bool take_function(maker *m, const item *i) {
     return has_depth || fail(m, "takes no float that is a depth");
 }
 
-/* What main does. How often it turns stands in the last constant, so that no compiler writes all turns out; many calls
- * a turn, in four sums, so that the loop is little beside them. */
+/* Writes the body of main. How often it turns stands in the last constant, so that no compiler writes all turns out;
+ * many calls a turn, in four sums, so that the loop is little beside them. */
 static void write_run(written *out, unsigned turns, char run[BODY_SIZE]) {
     static const char start[] =
         "    float depthprec_d = depthprec_in[depthprec_i];\n"
@@ -474,7 +474,7 @@ static bool write_text(maker *m, const char *function, unsigned turns) {
     return true;
 }
 
-/* Of several functions of the name the first that can be called. */
+/* Finds the first function of that name which can be called. */
 static bool find_function(maker *m, const char *function) {
     bool found = false, any = false;
     for (size_t k = 0; k < m->s.count && !found; k++) {

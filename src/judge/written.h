@@ -3,7 +3,7 @@
  * @file written.h  A function in a shader file of somebody's, made a compute shader over depths: depths stand at
  * binding 0, values at binding 1, what it knows of the camera at binding 2.
  *
- * Of the file only what the function needs is left, on its lines; uniforms become variables that are read there.
+ * The file keeps only what the function needs, on its lines; uniforms become variables that are read there.
  */
 #ifndef JUDGE_WRITTEN_H
 #define JUDGE_WRITTEN_H

@@ -10,7 +10,7 @@
 
 #include "method/bound.h"
 
-/* What one timing should last: long enough for the clock, short enough that the machine stays in one mood. */
+/* How long one timing should last: long enough for the clock, short enough that the machine stays in one mood. */
 static const double slice = 4e5; /* ns */
 enum { REPETITIONS_MAX = 99 };
 

@@ -39,19 +39,19 @@ typedef struct bench_result {
     bool front; /**< no other method with the same reference is both faster and more exact */
 } bench_result;
 
-/** What is said of timings. */
+/** The statistics of timings. */
 typedef struct bench_times {
     double median; /**< of an even count the mean of the middle two; the timings' unit */
     double spread; /**< half of upper minus lower quartile, as a share of the median */
 } bench_times;
 
-/** Of `count` >= 1 finite timings, which are sorted; a quartile lies between two by its share of the distance. */
+/** Sorts `count` >= 1 finite timings; a quartile lies between two by its share of the distance. */
 bench_times bench_statistics(double *times, size_t count);
 
 /** The claim of a row for a set-up of a case; NaN where it makes none. */
 double method_claimed(const method_row *row, size_t which, const dp_setup *setup);
 
-/** What is proven of a row for this very set-up, in the family's measure (bound.h); NaN where nothing is. */
+/** The error proven of a row for this very set-up, in the family's measure (bound.h); NaN where nothing is. */
 double method_bound(const method_row *row, const dp_setup *setup);
 
 /**

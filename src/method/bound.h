@@ -32,7 +32,7 @@ typedef struct bound_steps {
     double off;                          /**< the share before the last rounding */
 } bound_steps;
 
-/** What a language says of its operations. */
+/** The errors that a language allows its operations. */
 typedef struct bound_arithmetic {
     double rounding; /**< of sums, differences and products: half units, 1 for to nearest, 2 for to either neighbour */
     double division; /**< the same of quotients: 5 for 2.5 units in the last place */
@@ -59,13 +59,13 @@ void bound_begin(const bound_steps *row, const dp_setup *setup, const bound_arit
 term bound_run(bound_walk *w, const bound_piece *p); /**< the eye depth throughout the piece */
 
 /**
- * Of a perspective set-up with a standard or reversed mapping onto [0, 1]: no binary32 window depth, whose eye depth is
- * at most 2^127, has a greater relative error. INFINITY where the divisor may come to 0. Where numbers
- * may be flushed and far is infinite the depth is at most 2^125, too, and that of window depth 2^-125.
+ * For a perspective set-up with a standard or reversed mapping onto [0, 1]: no binary32 window depth, whose eye depth
+ * is at most 2^127, has a greater relative error. INFINITY where the divisor may come to 0. Where numbers may be
+ * flushed and far is infinite the depth is at most 2^125, too, and that of window depth 2^-125.
  */
 double bound_over(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how);
 
-/** Of linearize, by name and in the order of its rows. */
+/** The bounds of linearize, by name and in the order of its rows. */
 extern const bound_steps bound_unity, bound_complement_unity, bound_linear_01, bound_linear_01_near, bound_textbook,
     bound_fused, bound_complement, bound_newton, bound_magic, bound_double, bound_phi, bound_pair;
 

@@ -65,7 +65,7 @@ const bound_arithmetic bound_nearest = {.rounding = 1, .division = 1};
 
 /* ---- Constants --------------------------------------------------------------------------------------------------- */
 
-/* What a + b leaves of the exact sum (Knuth). */
+/* The exact rounding error of a + b (Knuth). */
 static double left_of_sum(double a, double b) {
     const double s = a + b, v = s - a;
     return (a - (s - v)) + (b - v);

@@ -7,7 +7,7 @@
 
 #include "method/method.h"
 
-/** What is wanted. */
+/** The method that is wanted: its error, its inputs and where it runs. */
 typedef struct method_wish {
     double tolerance;          /**< worst error, in the family's measure */
     double ratio_lo, ratio_hi; /**< for every far/near in between; ratio_hi may be INFINITY: finite ones up to

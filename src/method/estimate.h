@@ -8,7 +8,7 @@
 #ifndef METHOD_ESTIMATE_H
 #define METHOD_ESTIMATE_H
 
-/** What RCPPS promises, relative, on every processor: Intel SDM vol. 2 and AMD APM vol. 4, RCPPS. */
+/** The relative error that RCPPS promises on every processor: Intel SDM vol. 2 and AMD APM vol. 4, RCPPS. */
 #define ESTIMATE_WORST (1.5 * 0x1p-12)
 
 /**

@@ -56,7 +56,7 @@ static void cell_run(const method_call *c) {
 
 /* ---- The pipeline ------------------------------------------------------------------------------------------------ */
 
-/* Of binary32 depths, like what it is held against: without what the surfaces' own depths add. */
+/* The separation of binary32 depths, as what it is held against: without what the surfaces' own depths add. */
 static void bound_run(const method_call *c) {
     for (size_t i = 0; i < c->in->count; i++) {
         dp_budget b;
@@ -105,7 +105,7 @@ static double rule_claim(double ratio, double a, double b) {
     return (1 + far_cell(ratio, a, b)) / (1 - 1 / ratio) - 1;
 }
 
-/* Of the curve, and of `roundings` of depths next to near, where a cell is the smallest part of its depth. */
+/* The claim from the curve and `roundings` of depths next to near, where a cell is the smallest part of its depth. */
 static double neighbours(double ratio, double roundings, double b) {
     const double g = (ratio - 1) / steps24;
     (void)b;

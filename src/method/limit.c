@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What no method can beat: loops that read a family's inputs, write its outputs and do next to nothing in between. */
+/* Limits that no method beats: loops that read a family's inputs, write its outputs and do next to nothing between. */
 #include "method/method.h"
 
 #include "core/clones.h"

@@ -74,7 +74,7 @@ enum {
     METHOD_HALF = 1 << 6,     /**< only for what binary16 can hold: distances from 2^-13 to 32752 */
 };
 
-/** What a family's methods are given: the arrays that the family uses, `count` long. */
+/** The inputs of a family's methods: the arrays that the family uses, `count` long. */
 typedef struct method_inputs {
     size_t count;
     double *z;     /**< interval: eye depths; worst: the near ends of the ranges */
@@ -84,7 +84,7 @@ typedef struct method_inputs {
     float *eye;    /**< normal: METHOD_STRIP_EYES for each strip, line by line */
 } method_inputs;
 
-/** What they give back. */
+/** Their outputs. */
 typedef struct method_outputs {
     double *value;   /**< interval, worst, and linearize of a row that has `own`: scene units */
     float *eye;      /**< linearize: scene units */
@@ -120,18 +120,18 @@ struct method_row {
     void *(*open)(const dp_setup *setup);
     void (*close)(void *state);
     /**
-     * What is timed in place of run: the processor's instruction where run is a model of it, because of an
+     * The code timed in place of run: the processor's instruction where run is a model of it, because of an
      * instruction that promises an error, not bits, each maker has another. It keeps the row's claims. Null: run.
      */
     method_run *timed;
     bool (*available)(void);         /**< null: on every processor */
     const struct bound_steps *bound; /**< its operations: of linearize what is proven for the camera at hand comes from
                                       them; null: it has no text */
-    /** What is measured, where it is a row of the room texture. */
+    /** The row of the room `shader` that is measured, if it is one. */
     const decode_row *decode;
     const position_row *position;
     const normal_row *normal;
-    /** Of what runs on a device, else null: what run needs. It gives out->value, and out->eye is NaN where there is
+    /** The state of a method that runs on a device, else null. It gives out->value, and out->eye is NaN where there is
      * nothing to measure; its time is `cost`, and what is proven of it `known`, NaN where they are not known. */
     void *own;
     double known;
@@ -172,7 +172,7 @@ typedef struct method_family_row {
     void (*fill)(const dp_setup *setup, method_inputs *in);
     /** The error of answer i of a call; false where the method's domain leaves that input out. */
     bool (*judge)(const method_call *call, size_t i, method_error *error);
-    /** What no method can beat: run() of one that does nothing but move the same bytes. */
+    /** The limit of all methods: run() of one that does nothing but move the same bytes. */
     method_run *limit;
 } method_family_row;
 

@@ -155,7 +155,7 @@ static double float_claim(double ratio, double step, double places) {
     return angle_of(step, 2 * DP_UNIT + places);
 }
 
-/* What rounding places adds to methods that subtract them, as an error of depth. */
+/* The error that rounded places add to methods that subtract them, as one of depth. */
 #define PLACES (1.6 * DP_UNIT)
 #define CLAIMS(to, step, places)                                                                                       \
     { FORMULA_TO(to, unorm_claim, step, places), FORMULA(float_claim, step, places) }

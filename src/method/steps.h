@@ -49,7 +49,7 @@ typedef struct steps {
 /** The text of a row, which is right. */
 void steps_read(const char *text, steps *out);
 
-/** What constants are formed of: binary64 planes or what stands in their place, and of a logarithmic mapping C and
+/** The numbers that form constants: binary64 planes or what stands in their place, and of a logarithmic mapping C and
  * log2(C far + 1). */
 typedef struct steps_given {
     double n, f, scale, span;

@@ -180,7 +180,7 @@ static double power_of_two(int e) {
     return dp_float64((uint64_t)(exponent + 1023) << 52);
 }
 
-/* What rounding moves a number by that is at most x: half a step below the power of two under x; above it half a step
+/* The most that rounding moves a number of at most x: half a step below the power of two under x; above it half a step
  * there, but not more than the way back, unless to `either` neighbour. */
 static double half_step(double x, int bits, int least, bool either) {
     const int top = binade(x), step = top - bits > least - 1 ? top - bits : least - 1;

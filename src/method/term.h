@@ -47,7 +47,7 @@ term term_scaled(const term *a, range by);
  * what fits is not rounded. A result below 2^-126 may become 0 where that `flushes`. */
 term term_rounded(const term *a, int bits, double halves, bool flushes);
 
-/** Of ranges of numbers: rounded outward. */
+/** Arithmetic of ranges, rounded outward. */
 range range_outward(double lo, double hi);
 range range_sum(range a, range b);
 range range_product(range a, range b);

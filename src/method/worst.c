@@ -48,7 +48,7 @@ static void certified_run(const method_call *c) {
     }
 }
 
-/* Of `count` depths: one range in a hundred may exceed it. */
+/* The claim for `count` sampled depths: one range in a hundred may exceed it. */
 static double sampled_claim(double ratio, double count, double b) {
     (void)b;
     return 1 - dp_pow(ratio, -2 * dp_log(100) / count);

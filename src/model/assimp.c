@@ -25,7 +25,7 @@
 #include "model/transform.h"
 #include "system/dynload.h"
 
-/* What is called of it. */
+/* The functions of the library that are called. */
 #define FUNCTIONS(X)                                                                                                   \
     X(aiImportFileFromMemory)                                                                                          \
     X(aiReleaseImport)                                                                                                 \
@@ -200,7 +200,7 @@ static bool count_animated(const reading *r) {
 
 /* ---- Units and axes ---------------------------------------------------------------------------------------------- */
 
-/* What a file says of itself by a name; `without` where it does not. */
+/* A number that a file gives of itself by a name; `without` where it gives none. */
 static double said(const struct aiScene *scene, const char *name, double without) {
     const struct aiMetadata *all = scene->mMetaData;
     for (unsigned i = 0; all != NULL && i < all->mNumProperties; i++) {

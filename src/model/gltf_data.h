@@ -7,7 +7,7 @@
 
 #include "model/source.h"
 
-/* What has a name. */
+/* Kinds of things that have names. */
 typedef enum gltf_named { GLTF_NODE = 0, GLTF_MESH, GLTF_MATERIAL, GLTF_CAMERA, GLTF_NAMED } gltf_named;
 
 typedef struct gltf {

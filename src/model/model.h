@@ -42,7 +42,7 @@ typedef struct model_camera {
     double znear, zfar;             /**< zfar INFINITY where the file has none */
 } model_camera;
 
-/** What was left out or stands still. */
+/** Counts of what was left out or stands still. */
 typedef struct model_notes {
     size_t skinned, morphed; /**< nodes whose mesh is */
     size_t animated;         /**< nodes that an animation moves */
@@ -61,7 +61,7 @@ typedef struct model {
     struct model_names *names; /**< what the names point into */
 } model;
 
-/** What may be asked for. */
+/** Options of reading a model. */
 typedef struct model_asked {
     model_transforms transforms;
 } model_asked;
@@ -87,7 +87,7 @@ void model_scale(model *m, double factor);
 
 void model_free(model *m);
 
-/** Of the triangles, scene units: vertices that none of them uses do not count. All 0 where there are none. */
+/** The box of the triangles, scene units: vertices that none of them uses do not count. All 0 where there are none. */
 typedef struct model_box {
     double lo[3], hi[3];
 } model_box;

@@ -65,7 +65,7 @@ static bool read_number(char **at, double *out) {
     return *at != from && isfinite(*out) && (is_blank(**at) || **at == '\0');
 }
 
-/* What is left of the line, without blanks at its end. */
+/* The rest of the line, without blanks at its end. */
 static const char *rest(obj_reader *r, char *at) {
     at = skip(at);
     size_t length = strlen(at);

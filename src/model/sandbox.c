@@ -11,7 +11,7 @@
 
 enum { NAME_MOST = 1 << 12 };
 
-/* What comes first in the file between the two. */
+/* The head of the file between parent and child. */
 typedef struct head {
     size_t vertices, triangles, surfaces;
     double metres;
@@ -50,7 +50,7 @@ static void put_model(FILE *out, const model *m, const char *error) {
     fwrite(m->of, sizeof *m->of, m->triangles, out);
 }
 
-/* What the child is given. */
+/* The task of the child. */
 typedef struct reading {
     const model_source *source;
     bool (*read)(model_source *, const char *);

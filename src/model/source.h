@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is read, and the model that grows from it: shared by the kinds of files. */
+/* The bytes that are read, and the model that grows from them: shared by the kinds of files. */
 #ifndef MODEL_SOURCE_H
 #define MODEL_SOURCE_H
 

@@ -131,7 +131,7 @@ static bool read_word(parser *p, config_setting_t *s) {
 
 static bool read_settings(parser *p, config_setting_t *group, char end);
 
-/* Of an array all elements are scalars of one type. */
+/* Reads elements; those of an array are scalars of one type. */
 static bool read_elements(parser *p, config_setting_t *s, char end);
 
 static bool read_value(parser *p, config_setting_t *s) {

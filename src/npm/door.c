@@ -148,7 +148,7 @@ EXPORT(prepare) dp_status door_prepare(int task, int real, int word_size) {
     return dp_batch_init(&batch, &setup, (dp_task)task, (dp_real)real, (dp_word)word_size, dp_path_best());
 }
 
-/** Of so many elements in the first block to the second. */
+/** Converts so many elements of the first block into the second. */
 EXPORT(run) void door_run(size_t count) {
     dp_batch_run(&batch, blocks[0], blocks[1], count);
 }

@@ -10,7 +10,7 @@ export type Codes = Uint16Array | Uint32Array;
 export type Numbers = Reals | Integers | readonly number[];
 
 export class DepthprecError extends Error {
-    /** Of the library, or the exit status of the command. */
+    /** The library's status, or the command's exit status. */
     readonly status: number;
 }
 
@@ -25,7 +25,7 @@ export interface CameraOptions {
     mapping?: string;
     ortho?: boolean;
     rounding?: "nearest" | "even" | "zero";
-    /** Of codes and intervals: "exact" is the lattice of real arithmetic. */
+    /** The model of codes and intervals: "exact" is the lattice of real arithmetic. */
     model?: "exact" | "staged" | "float";
     /** The binary32 arithmetic that separation() counts: "ieee", "fused", ... (depthprec list arithmetics). */
     arith?: string;
@@ -145,14 +145,14 @@ export type CommandOptions = { camera?: Camera } & { [option: string]: unknown }
 /** The near or far plane, format, mapping or distance that a separation asks for: the JSON of depthprec-solve(1). */
 export function solve(options: CommandOptions): Promise<any>;
 
-/** What a depth bias does, in the units of an API: the JSON of depthprec-bias(1). */
+/** The effect of a depth bias, in the units of an API: the JSON of depthprec-bias(1). */
 export function bias(options: CommandOptions): Promise<any>;
 
 /** Whether cameras meet their requirements, as depthprec(5) has them, a camera being a Camera or an object: the JSON of
  *  depthprec-check(1), also where one is missed. */
 export function check(requirements: { [key: string]: unknown }): Promise<any>;
 
-/** What a depth image, rows of samples from the top, holds: its format, whether that is certain, whether depth is reversed,
+/** Recognises a depth image, rows of samples from the top: its format, whether that is certain, whether depth is reversed,
  *  and why; with { metric } its unit and lattice, and these null. Throws where it is no depth image, with what it looks like,
  *  and TypeError where the image has any other key: options come behind it. */
 export function recognise(

@@ -206,7 +206,7 @@ gsl_error_handler_t *gsl_set_error_handler_off(void) {
     return NULL;
 }
 
-/* Of what a library would do, each refuses. */
+/* Functions that refuse in place of a library's. */
 #define MISSING(what, result, name, ...)                                                                               \
     result name(__VA_ARGS__) {                                                                                         \
         missing(what);                                                                                                 \

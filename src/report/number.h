@@ -10,7 +10,7 @@
 /** The room that number_shortest() needs, with the terminating null. */
 enum { NUMBER_SIZE = 32 };
 
-/** What number_parse() lets through. */
+/** The numbers that number_parse() accepts. */
 typedef enum number_kind {
     NUMBER_FINITE, /**< a finite decimal (or C99 hexadecimal) number */
     NUMBER_FAR     /**< the same, and inf or infinity in any case */

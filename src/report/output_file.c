@@ -118,7 +118,7 @@ int output_check(const char *path) {
     return status;
 }
 
-/* What a path would name, though the file may not be there: its folder's identity and the name in it. */
+/* The file that a path would name, though it may not be there: its folder's identity and the name in it. */
 static bool name_in_folder(const char *path, struct stat *folder, const char **name) {
     *name = path_name(path);
     char *copy = *name == path ? strdup(".") : strndup(path, (size_t)(*name - path));

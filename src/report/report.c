@@ -83,7 +83,7 @@ static void blanks(output *out, int count) {
         output_char(out, ' ');
 }
 
-/* What is wider than its column pushes the rest, but is never cut or glued to its neighbour. */
+/* A cell wider than its column pushes the rest, but is never cut or glued to its neighbour. */
 static void put(text_line *line, const column *c, const char *text) {
     const int length = (int)strlen(text), rest = abs(c->width) - length;
     const bool left = c->width < 0;
@@ -317,7 +317,7 @@ static void quoted(output *out, const char *text, size_t length) {
     output_char(out, '"');
 }
 
-/* What stands before a value: a comma, and its key inside an object. */
+/* Writes a comma before a value, and its key inside an object. */
 static void json_member(json_walk *w, const char *key) {
     if (w->filled)
         output_char(w->out, ',');

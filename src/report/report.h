@@ -32,8 +32,8 @@
 /** The forms, for column.only. */
 enum { AS_TEXT = 1 << FORM_TEXT, AS_JSON = 1 << FORM_JSON, AS_CSV = 1 << FORM_CSV };
 
-/** What lies at a column's offset, or is pointed to from there. A value that does not exist is "-" in text, null in
- * JSON, empty in CSV. */
+/** The type of the value at a column's offset, or pointed to from there. A value that does not exist is "-" in text,
+ * null in JSON, empty in CSV. */
 typedef enum column_kind {
     COLUMN_END = 0,
     COLUMN_NUMBER,  /**< double; NaN: does not exist. Infinity is null in JSON */

@@ -24,7 +24,7 @@
 #include "depthprec/depthprec.h"
 #include "image/image.h"
 
-/** What is asked for. Start from camera_spec_default(). */
+/** The camera asked for. Start from camera_spec_default(). */
 typedef struct camera_spec {
     uint32_t width, height;
     double fov_y;                /**< perspective: vertical field of view in degrees, in [0.01, 179] */

@@ -69,7 +69,7 @@ typedef struct trap_row {
 
 NAMED_ROWS(trap_row, trap);
 
-/** What it takes a surface at z for, within 2^-40 of exactly; NaN where it is no trap of the set-up. Between the
+/** The depth that the trap reads of a surface at z, within 2^-40; NaN where it is no trap of the set-up. Between the
  * planes, near above 0; `half` is the tangent of half the vertical field of view, INFINITY what has no depth left. */
 double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z);
 /** The same of a depth that is known better than by z. */

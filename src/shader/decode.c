@@ -214,7 +214,7 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
     return perspective_exact(setup, quantity, near_hi, far_hi);
 }
 
-/* What decode_exact() does in perspective, for all that is alike in a loop. */
+/* decode_exact() in perspective, as a loop over all that is alike. */
 DP_INLINE void perspective_loop(const dp_setup *setup, decode_quantity quantity, bool reversed, const float *restrict d,
                                 double *restrict out, size_t count) {
     const dp_setup s = *setup;

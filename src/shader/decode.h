@@ -13,7 +13,7 @@
 #include "core/named.h"
 #include "depthprec/depthprec.h"
 
-/** What a decoding gives. */
+/** The quantity that a decoding gives. */
 typedef enum decode_quantity {
     DECODE_EYE = 0, /**< eye depth z, scene units */
     DECODE_01,      /**< z/f; 0 where f is infinite */

@@ -52,8 +52,8 @@ static double off(double end, double stored) {
     return end == stored ? 0 : end - stored;
 }
 
-/* Of the quantity, from the stored depth to the farther end; of two stored depths, which may be off either way, what is
- * between them. Errors are made of it, as outputs would cancel. */
+/* The change of the quantity from the stored depth to the farther end, or between two stored depths, which may be off
+ * either way. Errors are made of it, as outputs would cancel. */
 static double change(const cell_case *at, const double *p) {
     const dp_cell *own = &at->cell, *other = &at->behind;
     if (at->row->behind > 0)
@@ -213,7 +213,7 @@ static double ramp_area(double x) {
     return x <= 0 ? 0 : x < 1 ? x * x / 2 : x - 0.5;
 }
 
-/* Of depths u in the cell and places t in [-1/2, 1/2] of the texel those with u + slope t > bias. */
+/* The share with u + slope t > bias, of depths u in the cell and places t in [-1/2, 1/2] of the texel. */
 double effect_share(const effect_row *row, const effect_view *view, const double *parameters, double z) {
     const int index = parameter_find(row->parameters, "slope");
     if (row->kind != EFFECT_STEP || !row->alone || view->setup->spec.model == DP_MODEL_FLOAT)

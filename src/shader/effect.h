@@ -30,7 +30,7 @@ typedef enum effect_kind {
     EFFECT_STEP      /**< 0 or 1: which, a comparison with p says */
 } effect_kind;
 
-/** What an effect needs besides the depth of its pixel: bits. */
+/** Bits for the inputs of an effect besides the depth of its pixel. */
 enum {
     EFFECT_POSITION = 1,     /**< the world position of the pixel, so the camera */
     EFFECT_LAST_FRAME = 2,   /**< last frame's view-projection */
@@ -45,7 +45,7 @@ typedef enum effect_taps {
     EFFECT_AROUND     /**< its own with each corner; the mean of four outputs */
 } effect_taps;
 
-/** What it does to a picture of colours. */
+/** How an effect changes a picture of colours. */
 typedef enum effect_mix {
     EFFECT_TINTS = 0, /**< where it is 1 there is its tint */
     EFFECT_SPARES,    /**< where it is 0 */
@@ -53,7 +53,7 @@ typedef enum effect_mix {
     EFFECT_SMEARS     /**< the mean of `samples` pixels, its vector apart */
 } effect_mix;
 
-/** What a pixel is to an effect, exactly. */
+/** The exact inputs of an effect at a pixel. */
 typedef struct effect_view {
     const dp_setup *setup;    /**< planes; cells, where none are given */
     double base[3], along[3]; /**< at eye depth z it shows the place base + along z, world coordinates */
@@ -180,7 +180,7 @@ double effect_error(const effect_row *row, const effect_view *view, const double
  */
 double effect_step(const effect_row *row, const effect_view *view, const double *parameters, double z);
 
-/** What is known of the depth behind a pixel, in place of a cell. */
+/** The span of depths that a pixel may have, in place of a cell. */
 typedef struct effect_depths {
     double seen;   /**< what the effect gets */
     double lo, hi; /**< between which it truly lies */

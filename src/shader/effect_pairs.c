@@ -18,7 +18,7 @@ void edge_critical(const effect_view *view, const double *p, double seen, const 
         out[i] = apart[i] / view->setup->spec.zfar;
 }
 
-/* What makes two pixels the same, of their normals and of the first one's depth. */
+/* Two pixels are one where the differences of normals and of depths, times their parameters, stay below this. */
 static const double SAME = 0.1;
 
 double outline(const effect_view *view, const double *p, double z, double reference) {

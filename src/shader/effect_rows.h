@@ -18,7 +18,7 @@ static inline float saturatef(float x) {
     return fminf(fmaxf(x, 0.0f), 1.0f);
 }
 
-/** Of two depths beyond all bounds neither is behind the other. */
+/** a - b; of two infinite depths neither is behind the other. */
 static inline double minus(double a, double b) {
     return a == b ? 0 : a - b;
 }

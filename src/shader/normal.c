@@ -55,7 +55,7 @@ DP_INLINE mask side_farther(mask within, float z, float a, float a2, float b, fl
     return -(a > b) | missing(b);
 }
 
-/* Of numbers that are not negative, as their bits are ordered: NaN is greater than infinity. */
+/* Whether a < b, both not negative, as their bits are ordered: NaN is greater than infinity. */
 DP_INLINE mask less(float a, float b) {
     return -(mask)((dp_bits32(a) - dp_bits32(b)) >> 31);
 }
@@ -140,7 +140,7 @@ DP_INLINE vector corner_half(const corner *c) {
     return half_cross(c, c->z, c->h, c->v);
 }
 
-/* Of neighbours whose depths were kept in binary16 before. */
+/* The cross product of neighbours whose depths were kept in binary16 before. */
 DP_INLINE vector corner_kept(const corner *c) {
     return half_cross(c, c->z, half_below(c->h), half_below(c->v));
 }

@@ -4,7 +4,7 @@
  * shader.
  *
  * The methods differ in which neighbour they take on each axis, how many pixels away, and how they form the normal.
- * What is not there is NaN: holes, whatever lies beyond the border of the image, and sky, unless the method sees it.
+ * Missing depths are NaN: holes, whatever lies beyond the border of the image, and sky, unless the method sees it.
  * A method that can choose takes the other side then; where it cannot, or neither side is there, the normal is NaN.
  */
 #ifndef SHADER_NORMAL_H

@@ -29,7 +29,7 @@ static double to_half(double x) {
     return fabs(x - rint(x / step) * step);
 }
 
-/* What a neighbour's place is off by because its share of the picture and its depth were in binary16 before. */
+/* The error of a neighbour's place whose share of the picture and depth were in binary16 before. */
 static double uv_off(const texture_camera *camera, const normal_tap *tap, double ray, double reading) {
     const double u = (tap->column + 0.5) / camera->width, v = (camera->height - tap->row - 0.5) / camera->height;
     const double z = tap->stored, depth = to_half(z) + 2 * reading * z;
@@ -38,7 +38,7 @@ static double uv_off(const texture_camera *camera, const normal_tap *tap, double
     return ray * depth + across * (camera->ortho ? 1 : z + depth);
 }
 
-/* What a place is off by in the shader: `before` that the eye depth as it is read, slopes and products in binary32,
+/* The error of a place in the shader: `before` that of the eye depth as read, slopes and products in binary32,
  * then binary16. */
 static double place_off(const normal_row *method, vector place, double reading, double before) {
     const double size = length(place) + before, single = before + size * (reading + 4 * DP_UNIT);

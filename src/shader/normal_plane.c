@@ -14,7 +14,7 @@ DP_INLINE double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Of the rhombus whose sides are the unit vectors: half the angle between these is that of its diagonals' lengths. */
+/* The diagonals of the rhombus of the unit vectors: their lengths give half the angle between the two. */
 DP_INLINE void diagonals(const double a[3], const double b[3], double *apart, double *along) {
     const double la = sqrt(dot(a, a)), lb = sqrt(dot(b, b));
     double sum = 0, difference = 0;
@@ -33,7 +33,7 @@ double normal_angle(const double a[3], const double b[3]) {
     return 2 * dp_atan2(apart, along);
 }
 
-/* What multiplies the eye depth and what does not: a pixel's place is direction z + place. */
+/* The ray of a pixel, whose place at eye depth z is direction z + place. */
 static void ray(const texture_camera *camera, double column, double row, double direction[3], double place[3]) {
     const double x = camera_slope_x(camera, column), y = camera_slope_y(camera, row);
     const bool ortho = camera->ortho;
@@ -97,7 +97,7 @@ typedef struct plane_block {
     double normal[3][NORMAL_BLOCK], offset[NORMAL_BLOCK];
 } plane_block;
 
-/* What multiplies the depth and what does not are constants of a row but for x. */
+/* Direction and place of the ray are constants of a row but for x. */
 CLONES static void depths_beside(const texture_camera *camera, const plane_block *restrict p, double column, double row,
                                  size_t count, double *restrict z) {
     const texture_camera c = *camera;
@@ -140,7 +140,7 @@ static void block_errors(const normal_planes *p, const grain *g, const plane_blo
 
 /* ---- Planes in blocks -------------------------------------------------------------------------------------------- */
 
-/* What a block's bounds are made of, an array each, so that loops over it become vectors. */
+/* The terms of a block's bounds, an array each, so that loops over it become vectors. */
 typedef struct bound_block {
     double exact[3][NORMAL_BLOCK]; /* the vector that the method would find without errors: away from the camera, or
                                       towards an orthographic one */
@@ -252,7 +252,7 @@ DP_INLINE double half_ulp(double x) { /* dp_half_ulp(), which is not compiled fo
 }
 
 /*
- * What the method rounds, in units: each rounding is a vector of either sign that is added to the exact one, and they
+ * The roundings of a method, in units: each is a vector of either sign that is added to the exact one, and they
  * turn it most where all are whole. Those of a and b pass into c; those of c have one direction and count together.
  * A component of the unit vector, at most `beside` from the exact one, is rounded by half a unit in its last place.
  */

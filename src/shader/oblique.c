@@ -5,7 +5,7 @@
 
 #include "core/engine.h"
 
-/* What doubles lose of an eye depth: cells may be finer than that. */
+/* The relative error of an eye depth in double: cells may be finer than that. */
 static const double LOST = 0x1p-50, LOST_ALONG = 0x1p-48;
 
 /* The constant of a pixel. */

@@ -15,7 +15,7 @@
 #include "shader/camera.h"
 #include "shader/sample_rounding.h"
 
-/** What codes of pixels from (column, row) on to the right stand for, as grain_ranges_of(); by that where the camera
+/** The ranges of codes of pixels from (column, row) on to the right, as grain_ranges_of(); by that where the camera
  *  is shared. */
 void pixel_ranges_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row, const uint32_t *codes,
                      size_t count, const grain_rows *out);
@@ -24,7 +24,7 @@ void pixel_ranges_of(const texture_camera *camera, const grain *g, uint32_t colu
  *  code_max are skipped. */
 void pixel_eyes(const texture_camera *camera, uint32_t row, const uint32_t *codes, float *eyes);
 
-/** Of one pixel: as grain_range_of(), and as dp_stored(). */
+/** The same of one pixel as grain_range_of() and dp_stored() have it. */
 grain_range pixel_range_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row, uint32_t code);
 double pixel_stored(const texture_camera *camera, uint32_t column, uint32_t row, uint32_t code);
 

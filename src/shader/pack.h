@@ -56,7 +56,7 @@ NAMED_ROWS(pack_row, pack);
 const pack_row *pack_stereo(void);
 
 /**
- * Of normals: the largest angle, degrees, between what the codes give back and a unit vector that a shader in binary32
+ * For normals: the largest angle, degrees, between what the codes give back and a unit vector that a shader in binary32
  * stores as them; 180 where a channel may have been clipped, or no unit vector is stored so.
  * @param truncated  channels were cut off; else they are the nearest
  */

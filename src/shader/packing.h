@@ -53,7 +53,7 @@ void packing_normal_texel(const double normal[3], uint8_t *texel);
  */
 double packing_normal_reach(const uint8_t *texel, bool truncated);
 
-/** What became of an image besides its depths. */
+/** The parts of an unpacked image besides its depths. */
 typedef struct unpacked {
     grain grain;                  /**< the packing's own rounding: to nearest, as render targets store */
     uint8_t *normals;             /**< the channels of packing_normals(), malloc'ed; null where there are none */

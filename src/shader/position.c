@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an engine prepares for a camera; the exact place; the matrix and its condition. */
+/* The constants that an engine prepares for a camera; the exact place; the matrix and its condition. */
 #include "shader/position.h"
 
 #include <float.h>

@@ -2,7 +2,7 @@
 /**
  * @file position.h  Ways from a window depth to a place, a row each, in binary32 as shaders do it.
  *
- * What engines do is modelled operation by operation, none fused, on constants formed in double and rounded once.
+ * Engines are modelled operation by operation, none fused, on constants formed in double and rounded once.
  * u and v run from the left and the top edge here: (i + 1/2) and (j + 1/2) times the rounded 1/width and 1/height.
  */
 #ifndef SHADER_POSITION_H

@@ -148,7 +148,7 @@ static bool matrix_of(matrix *m, const texture_camera *camera, const pixel *p, d
     return p->scale < (double)INFINITY;
 }
 
-/* What a unit of each entry of a row of `forth` makes of (place, one). */
+/* The error of a row of `forth` times (place, one), where each entry is off by a unit of itself. */
 static double row_off(const matrix *m, int row, const double place[3], double one) {
     double sum = fabs(m->forth[4 * row + 3]) * one;
     for (int k = 0; k < 3; k++)
@@ -157,7 +157,7 @@ static double row_off(const matrix *m, int row, const double place[3], double on
 }
 
 /*
- * Of the rounding of the matrix, which the engine then inverts. The place solves three equations,
+ * The error from the rounding of the matrix, which the engine then inverts. The place solves three equations,
  * (M_i - ndc_i M_w) (place, 1) = 0, whose rounding moves it by `from` times what each is off by: by the camera's own
  * place where the place is that of another camera, and not by the product of large numbers in M and its inverse. M_w
  * is in all three, so what it does to them is added with its sign. Orders beyond the first matter where the camera is
@@ -201,7 +201,7 @@ static double summed(const matrix *m, int row) {
     return sum;
 }
 
-/* Of an NDC coordinate, twice a share less 1: what the share is off by, and the difference. */
+/* The error of an NDC coordinate, twice a share less 1: that of the share, and of the difference. */
 static double ndc_off(double share, double share_off) {
     return 2 * share_off + (share <= 0.25 ? 0.5 : 0);
 }

@@ -5,7 +5,7 @@
 #include "shader/half.h"
 #include "shader/position.h"
 
-/* What stays the same along a line of pixels, and where the planes go. */
+/* The constants along a line of pixels, and where the planes go. */
 typedef struct line {
     const position_state *s;
     float base[3], step[3]; /* rows differ in what they keep here */
@@ -85,7 +85,7 @@ static void rays_run(const position_state *s, uint32_t row, uint32_t column, con
 
 /* ---- Top left and extents ---------------------------------------------------------------------------------------- */
 
-/* What a component becomes: view-relative first, in binary16 where the row says so, then moved to the world. */
+/* Each component is view-relative first, in binary16 where the row says so, and is then moved to the world. */
 #define EXTENTS(name, rounded)                                                                                         \
     CLONES static void name(const line *l, int first, const float *restrict eye, int count, float *restrict x,         \
                             float *restrict y, float *restrict z) {                                                    \

@@ -83,7 +83,7 @@ static span between_span(const grain *g, span s) {
                   s.den};
 }
 
-/* What was rounded to a level lies a step away at most on either side: cut-off numbers of binary16 lie above theirs,
+/* A depth lies at most a step from its level, on either side: cut-off numbers of binary16 lie above theirs,
  * which way others were cut is not known. */
 static span level_span(const grain *g, span s) {
     const double half = g->levels == GRAIN_HALF ? 0.5 : 1;
@@ -228,7 +228,7 @@ DP_INLINE double span_of(const ranging *r, double a, double b, double eyes) {
     return step == 0 ? 0 : eyes * (step * r->kappa);
 }
 
-/* Of a binary floating-point format, as dp_float_value(). */
+/* The value of a code of a binary floating-point format, as dp_float_value(). */
 DP_INLINE double float_value(uint32_t code, int mantissa, int bias) {
     const uint32_t field = code >> mantissa, fraction = code & ((1U << mantissa) - 1U);
     const uint32_t whole = field == 0 ? fraction : fraction | 1U << mantissa;

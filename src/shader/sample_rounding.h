@@ -31,7 +31,7 @@ typedef enum grain_kind {
 /** How an image was rounded. */
 typedef enum grain_rounding { GRAIN_ANY = 0, GRAIN_NEAREST, GRAIN_ZERO } grain_rounding;
 
-/** What the depth itself was rounded to before it became a sample of metric depth: levels that are even in eye depth or
+/** The levels to which depth was rounded before it became a sample of metric depth: they are even in eye depth or
  * in its inverse, or binary16. */
 typedef enum grain_levels { GRAIN_FINE = 0, GRAIN_EVEN, GRAIN_INVERSE, GRAIN_HALF } grain_levels;
 
@@ -129,7 +129,7 @@ typedef struct grain_bound {
 /** @return false where there is no such form: then grain_errors_of() */
 bool grain_bound_init(grain_bound *out, const dp_setup *setup, const grain *g, double reading);
 
-/** Of quantities from lo to hi; INFINITY where they are not between the planes. */
+/** The bound for quantities from lo to hi; INFINITY where they are not between the planes. */
 DP_INLINE double grain_bound_of(const grain_bound *b, double lo, double hi) {
     const double at_lo = (lo - b->zero) * b->per, at_hi = (hi - b->zero) * b->per;
     const double depth = at_lo > at_hi ? at_lo : at_hi, number = depth * b->stretch + b->more;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a bias has to cover, and the three that do; depthprec(7), "Shadow maps", derives every line. */
+/* The errors that a bias has to cover, and the three that do; depthprec(7), "Shadow maps", derives every line. */
 #include <math.h>
 
 #include "core/bits.h"
@@ -14,12 +14,12 @@ static const double outward = 1.0 + 0x1p-20;
 /* How far the rounding of the light's matrix turns the light, radians. */
 static const double turned_light = 4.0 * 0x1p-24;
 
-/* What a sine that a shader takes of a cosine may be off by. */
+/* The largest error of a sine that a shader takes from a cosine. */
 static const double sine_error = 0x1p-10;
 
 static const double root2 = 1.4142135623730951;
 
-/* Of texture coordinates: Direct3D allows 0.6 of a step. */
+/* The rounding of texture coordinates: Direct3D allows 0.6 of a step. */
 static const double rounded_step = 0.6;
 
 static double degrees(double angle) {
@@ -28,7 +28,7 @@ static double degrees(double angle) {
 
 /* ---- What is needed ---------------------------------------------------------------------------------------------- */
 
-/* What several parts and the slope's own error are made of. Lengths are of scene units, sizes of texels. */
+/* The terms of several parts and of the slope's own error. Lengths are of scene units, sizes of texels. */
 typedef struct ground {
     double depth;            /**< far - near */
     double texel_x, texel_y; /**< scene units */
@@ -141,7 +141,7 @@ void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double sl
     *along_normal = *along_light * dp_cos(degrees(slant));
 }
 
-/* What of the bias is slope times filter radius, at the azimuth that needs most. */
+/* The part of the bias that is slope times filter radius, at the azimuth that needs most. */
 static double share_of(const shadow_light *light, const ground *g, const shadow_bias *bias, double slope) {
     const double larger = fmax(g->texel_x, g->texel_y);
     const double m = slope * larger * larger / g->diagonal;

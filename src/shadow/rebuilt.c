@@ -10,7 +10,7 @@
 static const double eps = 0x1p-24;
 static const double outward = 1.0 + 0x1p-20;
 
-/* What the window depth at z is off by before the format rounds it: matrix, product, sum, the eye depth, quotient,
+/* The error of the window depth at z before the format rounds it: matrix, product, sum, the eye depth, quotient,
  * viewport; and the plane of a triangle, beside what moves it in the picture. */
 static double window_off(const dp_setup *camera, double z) {
     const dp_triangles *t = &camera->spec.triangles;

@@ -23,7 +23,7 @@
  * Sizes are magnitudes: o and F are added with shadow_sign(). A bias in the shader that is taken off the point's depth
  * is the same as one added to the map.
  *
- * What is promised: the surface, or its triangles, enters as binary32 positions; triangles are of the class
+ * The promise: the surface, or its triangles, enters as binary32 positions; triangles are of the class
  * light->triangles, not slimmer or larger, and not clipped; the point's position is rounded to binary32, or is off by
  * light->position; map and lookup use one matrix in binary32. depthprec(7), "Shadow maps", derives every term.
  */
@@ -83,7 +83,7 @@ shadow_light shadow_light_default(void);
 
 shadow_status shadow_light_check(const shadow_light *light);
 
-/** What the bias has to cover. */
+/** The causes that the bias has to cover. */
 typedef enum shadow_cause {
     SHADOW_CAUSE_TEXEL = 0, /**< half a texel from where it was drawn */
     SHADOW_CAUSE_KERNEL,    /**< the rest of the filter's radius */
@@ -132,7 +132,7 @@ typedef struct shadow_bias {
  */
 double shadow_rebuilt(const dp_setup *camera, double lo, double hi, double world);
 
-/** What a light's map needs. */
+/** The bias that a light's map needs, and its parts. */
 typedef struct shadow_need {
     double texel_x, texel_y; /**< scene units */
     double texel;            /**< the larger of the two */
@@ -148,7 +148,7 @@ typedef struct shadow_need {
 /** Fills in *need. The light has been checked. */
 void shadow_need_of(const shadow_light *light, shadow_need *need);
 
-/** What a part costs at a slant (degrees), in window depth, at the worst azimuth: for figures. */
+/** The cost of a part at a slant (degrees), in window depth, at the worst azimuth: for figures. */
 double shadow_part_at(const shadow_light *light, const shadow_part *part, double slant);
 
 /**

@@ -15,7 +15,7 @@ FILE *input_open(const char *path);
 /** Null is allowed; stdin stays open. errno stays. */
 void input_close(FILE *in);
 
-/** Of an earlier run in this process nothing is remembered. */
+/** Forgets the files of an earlier run in this process. */
 void input_forget(void);
 
 /** Remembers a file that will be read, so that an output is refused before any work. */

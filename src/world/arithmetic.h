@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What each row of world.c does, in binary32. */
+/* The steps of each row of world.c, in binary32. */
 #ifndef WORLD_ARITHMETIC_H
 #define WORLD_ARITHMETIC_H
 

@@ -13,7 +13,7 @@ double world_off(const world_scheme *s, const world_asked *a, double distance) {
     return world_all(&e);
 }
 
-/* What surfaces up to z are off by. */
+/* The errors of view z of surfaces up to z. */
 static dp_displaced displaced(const world_scheme *s, const world_asked *a, double distance, double z) {
     const world_error e = error_at(s, a, distance, z);
     const double own = world_own(&e, a->shared_origin);
@@ -42,7 +42,7 @@ double world_separation(const world_scheme *s, const world_asked *a, double dist
     return world_budget(s, a, distance, &terms, &b) == DP_OK ? b.separation : (double)INFINITY;
 }
 
-/* Of all of them what is lost at the farthest, and what the buffer needs wherever places may be moved to. */
+/* The loss at the farthest, and the buffer's need wherever places may be moved to. */
 double world_separation_over(const world_scheme *s, const world_asked *a, double distance, double lo, double hi) {
     const double settled = 1.0 + 0x1p-40, outward = 1.0 + 0x1p-16;
     const dp_spec *spec = &a->setup->spec;

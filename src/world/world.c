@@ -74,7 +74,7 @@ static world_error of_camera_double(const world_scheme *s, const world_where *at
                          .camera = turn * at->length};
 }
 
-/* What multiples of the size are off by, up to x: 2^24 of them are binary32 numbers. */
+/* The error of multiples of the size, up to x: 2^24 of them are binary32 numbers. */
 static double multiple(const world_scheme *s, double x) {
     return x > 0x1p24 * s->size ? unit * x : 0.0;
 }

@@ -39,7 +39,7 @@ typedef struct world_place {
 
 enum { WORLD_ORDERS = 48 };
 
-/** What a coordinate of view space is off by at most. */
+/** The largest errors of a coordinate of view space. */
 typedef struct world_error {
     double vertex; /**< each vertex by itself */
     double mesh;   /**< shared by all vertices about one origin */
@@ -93,12 +93,12 @@ world_error world_bound(const world_scheme *s, const world_where *at);
  */
 double world_gap(const world_scheme *s, double distance, double z, double ray_ratio, bool shared_origin);
 
-/** What one vertex is off by. */
+/** The error of one vertex, all parts together. */
 static inline double world_all(const world_error *e) {
     return e->vertex + e->mesh + e->camera;
 }
 
-/** What two vertices do not share; of meshes with one origin, or not. */
+/** The error that two vertices do not share, by whether their meshes share an origin. */
 static inline double world_own(const world_error *e, bool shared_origin) {
     return shared_origin ? e->vertex : e->vertex + e->mesh;
 }
