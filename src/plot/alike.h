@@ -5,7 +5,7 @@
 
 #include "plot/chart.h"
 
-/** What hides a curve, or is hidden by it. */
+/** Another curve that hides this one, or is hidden by it. */
 typedef struct alike {
     const chart_series *other; /**< null: none does */
     double from, to;           /**< where along x; NaN for the end of the curve, one at least */

@@ -46,7 +46,7 @@ static double height(heights h) {
     return h.lower - h.upper;
 }
 
-/* What the band has everywhere from point i to point j. */
+/* The heights that the band covers everywhere from point i to point j. */
 static heights common_span(const axes *a, const chart_panel *panel, size_t index, size_t i, size_t j) {
     heights h = {a->frame.y, a->frame.y + a->frame.h};
     for (; i <= j; i++) {

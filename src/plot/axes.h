@@ -8,7 +8,7 @@
 #include "plot/theme.h"
 #include "plot/ticks.h"
 
-/** What every part of the drawing needs. */
+/** The canvas, theme and fonts that every part of the drawing needs. */
 typedef struct pencil {
     canvas *c;
     const theme *theme;

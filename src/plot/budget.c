@@ -53,7 +53,7 @@ static void sample(const void *context, double from, double to, refine_sample *o
     out->flicker[s->count] = INFINITY;
 }
 
-/* What only a logarithmic depth has takes the colour of what it has not. */
+/* A cause that only a logarithmic depth has takes the colour of one that it lacks. */
 static dp_cause lender_of(dp_cause cause) {
     return cause == DP_CAUSE_ARGUMENT ? DP_CAUSE_PROJECTION
            : cause == DP_CAUSE_LOG2   ? DP_CAUSE_COMPOSITION

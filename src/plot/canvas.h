@@ -51,7 +51,7 @@ typedef struct canvas_font {
     canvas_colour halo; /**< drawn round the letters, to stand out on a picture; a = 0 for none */
 } canvas_font;
 
-/** What of a text lies at the given point. The baseline is the lower edge, the height of a capital the upper. */
+/** Which part of a text lies at the given point: the baseline is the lower edge, a capital's height the upper. */
 typedef enum canvas_align { CANVAS_LEFT = 0, CANVAS_MIDDLE, CANVAS_RIGHT } canvas_align;
 
 typedef struct canvas_bytes {

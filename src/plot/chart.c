@@ -15,7 +15,7 @@ typedef union block {
     max_align_t align;
 } block;
 
-/* What its users do not see follows the chart. */
+/* A chart with the private fields that follow it. */
 typedef struct whole {
     chart shown;
     block *memory;
@@ -201,7 +201,7 @@ static void rescale(chart_series *s, double x, double y) {
         s->note[0] = '\0'; /* it has lengths */
 }
 
-/* What holds for each, then what holds for both. */
+/* Joins subtitles: the sentence of each, then those of both. */
 static void join_subtitle(chart *c, const chart *other) {
     char text[sizeof c->subtitle];
     const char *rest = strstr(c->subtitle, ". "), *end = strstr(other->subtitle, ". ");

@@ -62,7 +62,7 @@ static void share_height(grid *g, const chart *c) {
         g->share[row] /= sum;
 }
 
-/* Of all rows together. */
+/* The height of the frames of all rows together. */
 static double frames_height(const grid *g) {
     return g->area.h - g->gap_y * (g->rows - 1) - g->heading * g->rows;
 }
@@ -182,7 +182,7 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
     return true;
 }
 
-/* Of the tick labels on the left of all panels. */
+/* The width of the widest tick label on the left of all panels. */
 static double widest_y(const pencil *p, const chart *c, int labels) {
     double widest = 0;
     for (size_t i = 0; i < c->panel_count; i++)

@@ -77,7 +77,7 @@ static void add_binades(knot_list *k, const dp_setup *setup, int most) {
         add_knot(k, dp_eye(setup, ldexp(1.0, -i), 1 - ldexp(1.0, -i)));
 }
 
-/* Of NDC depths in [-1, 1] each half has its own powers of two. */
+/* Adds binades of NDC depths in [-1, 1], of which each half has its own powers of two. */
 static void add_signed_binades(knot_list *k, const dp_setup *setup) {
     for (int i = 1; i <= 50; i++) {
         add_knot(k, dp_eye(setup, 0.5 + ldexp(0.5, -i), 0.5 - ldexp(0.5, -i)));
@@ -219,7 +219,7 @@ chart_panel *envelope_curves(const figure_request *request, chart *out, chart_ax
     }
     refine_share_axis(refined, request->count);
     for (size_t i = 0; i < request->count; i++) {
-        /* What the axis cannot show in any case need not be computed exactly: half of it is left to the line. */
+        /* Differences that the axis cannot show need not be computed: half of them are left to the line. */
         const bool unsaid = isnan(request->tolerance);
         const double tolerance = unsaid ? dp_expm1(refine_half_pixel(&refined[i], 0) / 2) : request->tolerance;
         curves[i].by_way = interval && envelope_way(curves[i].setup, tolerance, &curves[i].way);

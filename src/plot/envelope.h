@@ -11,7 +11,7 @@
 #include "plot/figure.h"
 #include "plot/refine.h"
 
-/** What a curve takes from the worst case of a slice. */
+/** The value of a curve from the worst case of a slice. */
 typedef double (*envelope_value)(const dp_worst *worst);
 double envelope_error(const dp_worst *worst);
 

@@ -17,7 +17,7 @@ enum { WALL = 1, DECAL = 2 };             /* who is drawn */
 enum { PLAIN = 0, STRIPE, COVER, KINDS }; /* what a pixel shows */
 enum { COLUMNS = 120, ROWS = 90 };        /* pixels that are shown, at most */
 
-/* Of the decal, as a part of the height that is shown; of a stripe, as a part of that; pixels of a cell of the wall's
+/* The decal's radius, a part of the height shown; a stripe, a part of that; pixels of a cell of the wall's
  * mesh, and of the decal's. */
 static const double radius = 0.6, stripe = 0.25, cells[] = {37.0, 23.0};
 
@@ -34,7 +34,7 @@ typedef struct stage {
     double guaranteed;  /* at every pixel that is shown, scene units */
 } stage;
 
-/* What was drawn with one gap. */
+/* The counts of one drawing, with one gap. */
 typedef struct shot {
     double share;
     size_t wrong, covered; /* pixels of the decal */
@@ -106,7 +106,7 @@ static int kind_of_wall(const stage *s, const double at[2]) {
     return (int)floor(at[0] / (s->radius * stripe)) % 2 != 0 ? STRIPE : PLAIN;
 }
 
-/* What each pixel shows, where not null: NaN where that is nothing. */
+/* Draws with a gap. Each pixel of the map, where not null, gets what it shows: NaN for nothing. */
 static shot draw(stage *s, double share, chart_map *m) {
     const draw_area *a = &s->buffer.area;
     shot out = {.share = share};

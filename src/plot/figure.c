@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What figures share: styles of set-ups, ranges, panels. */
+/* Shared by figures: styles of set-ups, ranges, panels. */
 #include <math.h>
 #include <string.h>
 

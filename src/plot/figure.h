@@ -17,7 +17,7 @@
 #include "plot/chart.h"
 #include "raster/raster.h"
 
-/** What is asked for. */
+/** The data and options that a figure is drawn from. */
 typedef struct figure_request {
     const dp_setup *setups; /**< all with the same planes and projection; at least one, but for figures of a file or of
                                shadow maps */
@@ -44,7 +44,7 @@ typedef struct figure_request {
     int columns, rows;                 /**< how finely to compute: pixels of the figure; see refine.h */
 } figure_request;
 
-/** What a figure can make something of. */
+/** Bits for the options that a figure uses. */
 enum {
     FIGURE_AT = 1 << 0,          /**< one depth, given with --at */
     FIGURE_TERMS = 1 << 1,       /**< --interpolation, --from-origin, --linearize */

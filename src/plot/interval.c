@@ -14,7 +14,7 @@ static double widest_cell(const dp_worst *worst) {
     return worst->interval;
 }
 
-/* What a census found of one set-up: the longest interval of each band, at its nearer depth. */
+/* Findings of a census of one set-up: the longest interval of each band, at its nearer depth. */
 typedef struct found {
     size_t count;
     double z[CENSUS_BANDS_MAX], longest[CENSUS_BANDS_MAX];

@@ -48,7 +48,7 @@ static double crossed(const ground *g, canvas_rect box) {
     return length;
 }
 
-/* What a box hides: points, labels and lines, and above all itself beyond the frame. */
+/* The cost of a box: the points, labels and lines that it hides, and above all its own part beyond the frame. */
 static double cost_of(const ground *g, canvas_rect box) {
     double cost = 10 * (box.w * box.h - overlap(box, g->a->frame)) + box.h / 2 * crossed(g, box);
     for (size_t i = 0; i < g->count; i++)

@@ -23,7 +23,7 @@ static bool listed(const legend *l, const chart_series *s) {
     return false;
 }
 
-/* What a curve hides in each panel that has it; where along x, as far as that holds in all of them. */
+/* The curve that this one hides in each panel that has it; where along x, as far as that holds in all of them. */
 static alike hidden_by(const chart *c, const chart_panel *panel, size_t index) {
     const char *name = panel->series[index].name;
     alike all = {NULL, (double)NAN, (double)NAN};
@@ -91,7 +91,7 @@ static bool has_blind(const chart *c) {
     return false;
 }
 
-/* Of one panel, those that are marks on what the others show, or the others. */
+/* Lists the series of a panel that mark what others show, or, without `marks`, the others. */
 static void list(legend *l, const chart *c, const chart_panel *panel, bool marks) {
     for (size_t k = 0; k < panel->series_count && l->count < LEGEND_MAX; k++) {
         const chart_series *s = &panel->series[k];

@@ -23,7 +23,7 @@ static double interval_at(const figure_request *request, const dp_setup *setup, 
     return dp_sample_at(setup, request->at, &sample) == DP_OK ? sample.interval : (double)NAN;
 }
 
-/* What the colour shows for one camera; NaN when there is no such camera, or it does not see what was asked. */
+/* The number coloured for one camera; NaN when there is no such camera, or it does not see what was asked. */
 static double cell_value(const dp_setup *like, const figure_request *request, double znear, double zfar, bool *by_way) {
     dp_setup setup;
     dp_spec spec = like->spec;

@@ -101,7 +101,7 @@ static void add_curve(const figure_request *r, chart *out, chart_panel *panel, c
     snprintf(s->name, sizeof s->name, "%s", is_error ? "error given" : "separation given");
 }
 
-/* What each requirement allows over its depths; then where it is worst, with the names. */
+/* Adds a level for each requirement over its depths, then a point where it is worst, with its name. */
 static void add_needs(const needs *s, chart *out, chart_panel *panel, const check_verdict *first, bool passed) {
     size_t count = 0, k = 0;
     for (size_t i = 0; i < s->count; i++)

@@ -9,7 +9,7 @@
 /* A log axis has no 0: what is exact is drawn here, and the legend says so. */
 static const double exact = 1e-17;
 
-/* What a method is. Those judged by the pipeline answer a question of their own. */
+/* Bits for a method's kind. Those judged by the pipeline answer a question of their own. */
 enum { FRONT = 1, PIPELINE = 2, MINE = 4 };
 
 /* A method that has a time and a finite error. */
@@ -95,7 +95,7 @@ static void add_bars(const field *f, chart *out, chart_panel *panel) {
     }
 }
 
-/* Of ours those on the front or not, or all that are somebody's. */
+/* Adds a set of methods as points: our own on the front, our own behind it, or a user's. */
 static void add_points(const field *f, chart *out, chart_panel *panel, int bits, int set) {
     chart_series *s = add_methods(f, out, panel, CHART_POINTS, bits, set);
     if (s == NULL)

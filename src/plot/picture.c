@@ -20,7 +20,7 @@ static uint32_t start_of(uint32_t pixels, int fields, int i) {
     return (uint32_t)((uint64_t)pixels * (uint64_t)i / (uint64_t)fields);
 }
 
-/* What a field looks at along one direction: all its pixels where they are errors, else the one in its middle. */
+/* The pixels of a field along one direction: all where they are errors, else the one in its middle. */
 static span looks_at(const picture *p, uint32_t pixels, int fields, int i) {
     const span all = {start_of(pixels, fields, i), start_of(pixels, fields, i + 1)};
     const uint32_t middle = (all.first + all.end - 1) / 2;

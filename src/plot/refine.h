@@ -21,7 +21,7 @@
 
 enum { REFINE_VALUES = 13, REFINE_KNOTS = 1024 };
 
-/** What a curve is at one place. */
+/** The values of curves at one place. */
 typedef struct refine_sample {
     double y[REFINE_VALUES]; /**< INFINITY and NaN are values like others, to be reached to the column */
     /** How much it may change without a knot from one depth to the next: in units of a linear axis, relatively on a

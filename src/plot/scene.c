@@ -14,7 +14,7 @@
 
 enum { NUMBERED = 9, EYES_MOST = 256, FIELDS_LEAST = 64, FIELDS_MOST = 2048 };
 
-/* Of the width, around the model; and what shape a panel has at most, width over height. */
+/* The margin around the model, a share of the width; the extreme shapes of a panel, width over height. */
 static const double margin = 0.04, widest = 8.0, narrowest = 0.6;
 
 /* Which coordinates lie across and upwards, and along which one looks: up or down it. */
@@ -116,7 +116,7 @@ static void draw_model(const fights_asked *a, const view *v, const box *all, con
     }
 }
 
-/* What fights at every depth has the lower end of the scale. */
+/* Draws the findings; one that fights at every depth has the lower end of the scale. */
 static void draw_overlaps(const fights_asked *a, const view *v, const sheet *s, double lowest) {
     for (size_t i = 0; i < a->count; i++) {
         const finder_finding *f = a->item[i].finding;
@@ -206,7 +206,7 @@ static void reach(box *b, const double place[3]) {
     }
 }
 
-/* Of the model and the eyes. */
+/* The box of the model and the eyes. */
 static box box_of(const fights_asked *a) {
     box b = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
     for (size_t i = 0; i < 3 * a->m->triangles; i++)
@@ -235,7 +235,7 @@ static chart_axis depths_of(const fights_asked *a) {
     return axis;
 }
 
-/* What a direction without extent has: enough for an axis. */
+/* The extent given to a direction that has none: enough for an axis. */
 static double least_of(const box *all, double extent) {
     double least = 1e-6 * extent;
     for (int k = 0; k < 3; k++)

@@ -9,7 +9,7 @@
 
 static const double most_digits = 16;
 
-/* What a figure shows: a panel for each case, in all of them the same methods in the same rows. */
+/* The table of a figure: a panel for each case, in all of them the same methods in the same rows. */
 typedef struct table {
     const method_family_row *family;
     const stability_result *results;

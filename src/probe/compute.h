@@ -50,7 +50,7 @@ bool compute_look(compute_run *run, char error[COMPUTE_ERROR_SIZE]);
 bool compute_values(const char *device, const compute_run *run, size_t runs, shot_machine *machine, FILE **values,
                     bool *endless, char error[COMPUTE_ERROR_SIZE]);
 
-/** What the child does: values, or where `runs` is not 0 times, go to `out`. */
+/** Runs in the child: values, or times where `runs` is not 0, go to `out`. */
 bool shot_compute(const char *wanted, const compute_run *run, size_t runs, shot_machine *machine, FILE *out);
 
 #endif

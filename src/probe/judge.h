@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the stored codes say: each hypothesis predicts every pixel, and its hits are counted. */
+/* The stored codes judge hypotheses: each predicts every pixel, and its hits are counted. */
 #ifndef PROBE_JUDGE_H
 #define PROBE_JUDGE_H
 

@@ -39,7 +39,7 @@ static void end_text(char *text, size_t size) {
     text[size - 1] = '\0';
 }
 
-/* What the child wrote is checked as a file is: its driver may have written anything. */
+/* Reads the child's answer, checked as a file is: its driver may have written anything. */
 static bool read_machine(shot_machine *m, FILE *in) {
     if (fread(m, sizeof *m, 1, in) != 1 || m->count > SHOT_DEVICES_MAX || m->chosen > m->count)
         return false;

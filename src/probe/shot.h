@@ -20,13 +20,13 @@ enum {
     SHOT_ERROR_SIZE = 192
 };
 
-/** What the buffer is cleared to: no tie in any format, and rounded as it is truncated. */
+/** The depth to which the buffer is cleared: no tie in any format, and rounded as it is truncated. */
 #define SHOT_CLEAR 0.75F
 
-/** What is asked for. */
+/** The format of the depth buffer that is asked for. */
 typedef enum shot_format { SHOT_D16 = 0, SHOT_D24, SHOT_D32F, SHOT_FORMATS } shot_format;
 
-/** What the vertex shader does with its four numbers (x, y, z, w): the constant of shaders.glsl. */
+/** The vertex shader's use of its four numbers (x, y, z, w): the constant of shaders.glsl. */
 typedef enum shot_program {
     SHOT_PASS = 0,     /**< clip coordinates as they are */
     SHOT_PROJECT,      /**< clip z = a z + b, clip w = w */
@@ -48,7 +48,7 @@ typedef struct shot {
     bool again;            /**< draw `second` over it where it is equal to what is stored, and count in `passed` */
     float (*second)[4];    /**< as many vertices */
     shot_program other;    /**< their program */
-    /* What comes back. */
+    /* The results. */
     bool drawn;
     uint64_t passed; /**< samples; 0: none; else some, where the device cannot count */
     uint32_t
@@ -69,7 +69,7 @@ typedef struct shot_device {
     char format[SHOT_FORMATS][SHOT_NAME_SIZE]; /**< what stands for each, as the API names it */
 } shot_device;
 
-/** What a back end finds. */
+/** The devices that a back end finds, and the chosen one. */
 typedef struct shot_machine {
     size_t count; /**< devices */
     shot_device device[SHOT_DEVICES_MAX];

@@ -21,7 +21,7 @@ bool vulkan_fail(gpu *g, const char *what) {
     return false;
 }
 
-/* What a result other than success means, in a sentence. */
+/* Whether a result is success; else notes its meaning in a sentence. */
 bool vulkan_good(gpu *g, VkResult result, const char *what) {
     static const struct {
         VkResult result;
@@ -389,7 +389,7 @@ static void draw_pass(gpu *g, const shot *s, const VkPipeline pipeline[2]) {
                                  0, NULL, 0, NULL);
 }
 
-/* Of 24 bits the upper 8 of a word mean nothing. */
+/* Copies the codes; with 24 bits the upper 8 of a word mean nothing. */
 static void take_codes(const gpu *g, shot *s) {
     const uint16_t *narrow = g->at_codes;
     const uint32_t *wide = g->at_codes;

@@ -96,7 +96,7 @@ static bool compute(gpu *g, const compute_run *run, void *const at[BINDINGS], Vk
     return true;
 }
 
-/* What is timed: the depths in a buffer, again and again. */
+/* A run that is timed: the depths in a buffer, again and again. */
 typedef struct timed {
     gpu g;
     VkPipeline pipeline;

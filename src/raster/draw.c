@@ -77,7 +77,7 @@ typedef struct drawing {
     unsigned who;
 } drawing;
 
-/* Of a span: codes to what the test compares, which is never that of an empty pixel. Depths may be below 0. */
+/* Turns the codes of a span into keys for the test, never that of an empty pixel. Depths may be below 0. */
 static void keys_of(const draw_camera *camera, int count, uint32_t *code) {
     const uint32_t most = camera->target.format.code_max;
     const bool is_float = camera->target.format.kind == DP_FORMAT_FLOAT;

@@ -63,7 +63,7 @@ typedef struct draw_buffer {
  */
 raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup);
 
-/** What the vertex shader makes of a place in eye space: clip coordinates, z from 0 to w. */
+/** The clip coordinates that the vertex shader gives a place in eye space, z from 0 to w. */
 raster_vertex draw_clip(const draw_camera *camera, const double place[3]);
 
 /** The ray through a place of the window: its eye coordinates at depth 1. */
@@ -92,7 +92,7 @@ bool draw_triangle(draw_buffer *buffer, const draw_camera *camera, const double 
  */
 typedef void draw_take(void *context, int x, int y, int count, const uint32_t *key);
 
-/** What draw_triangle() stands on: the pixels of an area inside the target, for a depth test of the caller's own. */
+/** Gives the pixels of an area inside the target to a depth test of the caller's own, as draw_triangle() does. */
 bool draw_keys(const draw_camera *camera, const draw_area *area, const double place[3][3], draw_take *take,
                void *context);
 

@@ -238,7 +238,7 @@ static int threads_of(const draw_fight_request *r) {
 #endif
 }
 
-/* What the threads share. */
+/* The state that the threads share. */
 typedef struct progress {
     uint64_t next, done; /* chunks that were begun, pairs that are done */
     int stop, failed;

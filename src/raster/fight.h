@@ -46,7 +46,7 @@ typedef struct draw_fight_request {
     void *context;
 } draw_fight_request;
 
-/** What is guaranteed of planes at a slant, degrees, where the farther one is z away; INFINITY where nothing is. */
+/** The separation guaranteed for planes at a slant, degrees, the farther one z away; INFINITY where none is. */
 double draw_guaranteed(const dp_setup *setup, double slant, double z);
 
 /** All bands as one. */

@@ -180,8 +180,8 @@ bool raster_softpipe_span(const raster_target *target, const raster_piece *piece
 }
 
 /*
- * Of 16 bits: two rows in runs of 16 pixels. The first quad of two by two that has a pixel is converted, each half of
- * its width by itself; from there on whole codes are added. All as the processor does it, modulo 2^16.
+ * Depths of 16 bits: two rows in runs of 16 pixels. The first quad of two by two that has a pixel is converted, each
+ * half of its width by itself; from there on whole codes are added. All as the processor does it, modulo 2^16.
  */
 static uint16_t truncated16(float value) {
     return (uint16_t)(fabsf(value) < 0x1p31F ? (int32_t)value : 0);

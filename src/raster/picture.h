@@ -36,7 +36,7 @@ typedef struct draw_picture {
     double guaranteed; /**< the gap from which on no pixel is wrong, scene units; INFINITY where there is none */
 } draw_picture;
 
-/** Of a frame, in pixels. */
+/** Counts of a frame, in pixels. */
 typedef struct draw_picture_count {
     size_t covered; /**< by something that lies upon a surface, and by that surface */
     size_t wrong; /**< of those: the surface itself is shown; at a gap of 0 none of the two is nearer, but they fight */

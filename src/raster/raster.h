@@ -52,7 +52,7 @@ typedef enum raster_status {
 /** One sentence without a full stop; any value is accepted. */
 const char *raster_status_text(raster_status status);
 
-/** What becomes of the plane of depth when the triangle is clipped. */
+/** The plane of depth of a triangle that is clipped. */
 typedef enum raster_clipping {
     RASTER_CLIP_ANY = 0, /**< the implementation's choice */
     RASTER_CLIP_PIECES,  /**< new vertices; each piece of the fan has its own plane */
@@ -96,7 +96,7 @@ typedef struct raster_vertex {
     float x, y, z, w;
 } raster_vertex;
 
-/** What is drawn into. Made by raster_target_init(); may be used by many threads at once. */
+/** A target to draw into. Made by raster_target_init(); may be used by many threads at once. */
 typedef struct raster_target {
     const raster_row *row;
     int width, height; /**< pixels */

@@ -3,8 +3,8 @@
  * @file vertex_compare.h  The same vertices through two vertex programs: how many get different codes, and how
  * far apart.
  *
- * What differs depends on where vertices and cameras are, so the distribution is part of the answer. Vertices are drawn
- * at random: vertex i depends on the seed and i alone, and results do not depend on the number of threads.
+ * The differences depend on where vertices and cameras are, so the distribution is part of the answer. Vertices are
+ * drawn at random: vertex i depends on the seed and i alone, and results do not depend on the number of threads.
  */
 #ifndef RASTER_VERTEX_COMPARE_H
 #define RASTER_VERTEX_COMPARE_H
@@ -48,7 +48,7 @@ typedef struct vertex_gap {
     double depth; /**< window depth of the pass that is farther, which is the one that needs it */
 } vertex_gap;
 
-/** What two programs make of the vertices. */
+/** The differences between the codes of two programs. */
 typedef struct vertex_difference {
     uint64_t vertices;   /**< counted */
     uint64_t differ;     /**< those whose codes differ */

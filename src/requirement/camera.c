@@ -152,7 +152,7 @@ static bool read_words(reader *r, config_setting_t *const *found, draft *d, need
     return true;
 }
 
-/* Of a GPU whose profile is named, nothing is known of the formats that it does not store. */
+/* A named GPU's profile must store the formats: nothing is known of others. */
 static bool gpu_suits(reader *r, config_setting_t *const *found, const draft *d, const need_camera *camera) {
     char names[PROFILE_FORMATS_SIZE], chosen[64] = "";
     if (found[KEY_FORMAT] == NULL)
@@ -165,7 +165,7 @@ static bool gpu_suits(reader *r, config_setting_t *const *found, const draft *d,
     return true;
 }
 
-/* Of a rasterizer that is known its own arithmetic; a GPU's profile in its place has both. */
+/* A rasterizer that is known brings its own arithmetic; a GPU's profile in its place has both. */
 static bool take_arith(reader *r, config_setting_t *const *found, draft *d, need_camera *out) {
     const config_setting_t *const named = found[KEY_VIEW + VIEW_RASTER];
     char name[PROFILE_NAME_SIZE];
@@ -181,7 +181,7 @@ static bool take_arith(reader *r, config_setting_t *const *found, draft *d, need
     return true;
 }
 
-/* What softpipe steps has no bound. */
+/* Refuses formats whose codes the rasterizer steps, as softpipe does: they have no bound. */
 static bool raster_suits(reader *r, const config_setting_t *s, const draft *d, const need_camera *camera) {
     for (size_t i = 0; i < d->format_count && camera->raster != NULL; i++)
         if (!raster_bounded(camera->raster, &d->formats[i]))

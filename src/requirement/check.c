@@ -8,7 +8,7 @@
 #include "requirement/judge.h"
 #include "world/reach.h"
 
-/* What the exact lattice refuses by this factor, no arithmetic in front of it can save: see check.h. */
+/* A limit that the exact lattice misses by this factor, no arithmetic can save: see check.h. */
 static const double refusal_factor = 4.0;
 
 const char *check_method_name(check_method method) {

@@ -17,7 +17,7 @@
 
 enum { CHECK_CENSUS_MAX = 1 << 28, CHECK_SAMPLE = 1 << 24, CHECK_SEED = 1 };
 
-/** What decided, the cheapest first. */
+/** The methods that decide, the cheapest first. */
 typedef enum check_method {
     CHECK_LATTICE = 0, /**< the exact model */
     CHECK_STAGED,

@@ -16,7 +16,7 @@ static judgement of_separation(const dp_setup *setup, double lo, double hi, doub
         .value = passed || worst.separation > limit ? worst.separation : worst.bound, .z = worst.z, .passed = passed};
 }
 
-/* Of what a shader writes, whatever its log2. */
+/* The judgement of the error of depth that a shader writes, whatever its log2. */
 static judgement of_written_error(const dp_setup *setup, double lo, double hi, double limit) {
     judgement out;
     out.value = dp_computed_error_over(setup, lo, hi, &out.z);

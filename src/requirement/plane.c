@@ -185,7 +185,7 @@ static double reach_from(const search *s, double start, double end) {
     return at;
 }
 
-/* What is reported passes as `check` judges, whose bound over a range may be a little larger. */
+/* The answer moved until it passes as `check` judges, whose bound over a range may be a little larger. */
 static double judged(const search *s, double value, double towards) {
     for (double share = 0x1p-52; share < 0.5 && !plane_passes(s->problem, value); share *= 2.0)
         value = isinf(value) ? far_most : value + (towards - value) * share;

@@ -2,7 +2,7 @@
 /**
  * @file plane.h  The near or far plane from which on a requirement holds, in any model, judged as `check` judges.
  *
- * What a plane needs is not monotone: the steps of a FLOAT double at powers of two, and in binary32 each plane is
+ * The need of a plane is not monotone: the steps of a FLOAT double at powers of two, and in binary32 each plane is
  * rounded in its own way. So no single value is sought, but an interval of them, all of which are shown to do by a
  * bound over all cameras in between (core/engine.h): first a place where the bound holds, then its ends, by bisection.
  */

@@ -16,7 +16,7 @@ typedef struct reader {
     char shown[80];
 } reader;
 
-/* What a length may be besides finite and not negative; of any sign, it is finite or infinite. */
+/* Bits for lengths other than finite ones of at least 0; of any sign, they are finite or infinite. */
 enum { READER_POSITIVE = 1 << 0, READER_INFINITE = 1 << 1, READER_SIGNED = 1 << 2 };
 
 /* Notes what is wrong and where; s may be null. @return false */

@@ -67,7 +67,7 @@ static bool in_planes(reader *r, const config_setting_t *s, const need *n) {
                        n->lo >= spec->znear ? n->hi : n->lo);
 }
 
-/* What a kind of limit asks of its camera. */
+/* Whether a camera suits a kind of limit. */
 static bool suits(reader *r, const config_setting_t *s, const need *n) {
     const need_camera *camera = &r->file->cameras[n->camera];
     const dp_spec *spec = &camera->setups[0].spec;
@@ -231,7 +231,7 @@ static bool read_all(reader *r, config_setting_t *root) {
     return true;
 }
 
-/* What libconfig would follow or stop at without a word. */
+/* Refuses text that libconfig would follow or stop at without a word. */
 static bool is_plain(reader *r, const char *text, size_t size) {
     static const char include[] = "@include";
     int line = 1;

@@ -19,7 +19,7 @@
 #include "raster/raster.h"
 #include "world/world.h"
 
-/** What a requirement limits; the index of its row in need_kind_get(). */
+/** The quantity that a requirement limits; the index of its row in need_kind_get(). */
 typedef enum need_kind {
     NEED_SEPARATION = 0, /**< the separation of two surfaces, at the depth or at every depth of the range */
     NEED_ERROR,          /**< the view-space error of the stored depth */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a camera of a requirement file says of slanted triangles; without a viewport surfaces face it. */
+/* The triangles of a camera in a requirement file; without a viewport surfaces face it. */
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -114,7 +114,7 @@ static bool read_raster(reader *r, config_setting_t *s, const config_setting_t *
     return true;
 }
 
-/* What they describe must be drawn by a pipeline that interpolates linearly, and judged by its guarantee. */
+/* Triangles must be drawn by a pipeline that interpolates linearly, and judged by its guarantee. */
 static bool suits(reader *r, const config_setting_t *s, const need_camera *camera, const dp_spec *spec) {
     if (spec->ortho)
         return reader_fail(r, s, "viewport: does not apply to an orthographic camera");

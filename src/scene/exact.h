@@ -11,7 +11,7 @@
 
 typedef const double *const exact_triangle[3];
 
-/* What a quick evaluation says of a sign that it cannot tell. */
+/* The answer of a quick evaluation that cannot tell a sign. */
 enum { EXACT_UNSURE = 2 };
 
 /* (t1 - t0) x (t2 - t0), each component good to 2^-42 of the vector's length; false: it is exactly 0. */

@@ -22,7 +22,7 @@ static bool make_unit(double v[3]) {
     return isfinite(length) && length > 0.0;
 }
 
-/* Of the three axes the one that has the least of a direction. */
+/* The axis that a direction is farthest from. */
 static void farthest_axis(const double from[3], double out[3]) {
     int least = 0;
     for (int k = 0; k < 3; k++) {

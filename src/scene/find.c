@@ -15,7 +15,7 @@
 #include "scene/pairs.h"
 #include "system/posix.h"
 
-/* Of the extent: what lies against something in a file of binary32 numbers is hardly ever exactly against it. */
+/* The share of the extent within which surfaces touch: binary32 files hardly ever hold exactly touching ones. */
 #define AGAINST 1e-9
 
 enum { TELL = 1 << 12 };

@@ -32,7 +32,7 @@ static double largest(const double x[3]) {
     return fmax(fmax(fabs(x[0]), fabs(x[1])), fabs(x[2]));
 }
 
-/* What is no part of a closed body hides nothing, and uncovers nothing: terrain that runs through a slab, say. */
+/* A triangle of no closed body hides nothing, and uncovers nothing: terrain that runs through a slab, say. */
 static void meet(ray *r, uint32_t triangle) {
     const model *m = r->among->m;
     if (r->among->body[triangle] == BODY_NONE)

@@ -6,7 +6,7 @@
  * at most 2^-10 of the overlap's longest diagonal: a body that lies against the overlap hides it, too, although a slit
  * as flat as that may show it.
  *
- * What hides nothing: a body with a hole in it, or whose neighbours' corners are not at the same coordinates, bodies of
+ * These hide nothing: a body with a hole in it, or whose neighbours' corners are not at the same coordinates, bodies of
  * blended or two-sided materials, and walls that face into their room. What is hidden wrongly: an overlap that shows
  * itself only between the points tried, in a hollow of the body or through a masked part of its texture, and one seen
  * by a camera inside a body.

@@ -9,7 +9,7 @@
 #define SINE_SLACK 1.7e-11
 /* An area, relative to the product of both triangles' longest sides: what rounding of their corners may make of 0. */
 #define AREA_SLACK 0x1p-46
-/* Of a distance, relative to the coordinates that it is made of: normals again, and a few roundings. */
+/* The error of a distance, relative to the coordinates in it: normals again, and a few roundings. */
 #define HEIGHT_SLACK 0x1p-38
 
 typedef struct point {

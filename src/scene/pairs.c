@@ -16,7 +16,7 @@ enum { CHUNK = 256, ROUND_MAX = 16 };
 enum { WORK_LOOK = 64, WORK_EACH = 32 * WORK_LOOK, WORK_TELL = 1 << 24 };
 #define WORK_MAX ((uint64_t)1 << 27)
 
-/* Of the float normals' product, six roundings. */
+/* The error of the float normals' product, six roundings. */
 #define FLOAT_SLACK 1e-6F
 
 typedef struct chunk {

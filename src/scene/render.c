@@ -11,7 +11,7 @@
 
 enum { TOLD_EVERY = 1 << 14 };
 
-/* Of the rounding of places and depths; and the most that counts as no difference, of the depth. */
+/* The share of places and depths that rounding loses; the largest share of a depth that counts as no difference. */
 static const double rounding = 0x1p-46, same_most = 0x1p-30;
 
 typedef double vector[3];
@@ -79,7 +79,7 @@ static bool meets(const seen *s, const vector ray) {
     return dot(s->edge[0], ray) > 0.0 && dot(s->edge[1], ray) > 0.0 && dot(s->edge[2], ray) > 0.0;
 }
 
-/* What share of a depth its rounding may be. */
+/* The share of a depth that its rounding may be. */
 static double unsure(const rendering *r, const seen *s, const vector ray, double inverse) {
     const double slant = fabs(inverse) / (s->length * sqrt(dot(ray, ray)));
     return fmin(rounding * r->reach * fabs(inverse) / slant, same_most);
@@ -155,7 +155,7 @@ static render_status pass(rendering *r, draw_take *take, double done) {
     return RENDER_DONE;
 }
 
-/* Of what is shown; where the ray passes it by nothing counts as nearer. */
+/* The depths of the triangles shown; where a ray passes its triangle by, no depth is nearer. */
 static void take_depths(rendering *r) {
     const render_picture *p = r->out;
     uint32_t last = RENDER_NOTHING;
@@ -229,7 +229,7 @@ static uint32_t grey(double share) {
     return 0xFF000000U | v << 16 | v << 8 | v;
 }
 
-/* Of a triangle that was drawn. */
+/* The grey of a triangle that was drawn. */
 static uint32_t shade(const rendering *r, uint32_t t) {
     static const vector light = {0.25, 0.5, -0.8}; /* in eye space: above the camera, to its right */
     static const double levels[] = {1.0, 0.84, 0.92, 0.76};

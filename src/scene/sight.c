@@ -12,7 +12,7 @@
 
 enum { DIGITS = 6, SIDES = 6, POLYGON = FINDER_CORNERS + SIDES, ROUNDS = 12 };
 
-/* Of coordinates and depths in double, relative; and how far a triangle may be turned away, its sine. */
+/* The relative error of coordinates and depths in double; the sine of the most that a triangle may be turned away. */
 static const double outward = 0x1p-40;
 static const double turned = 0x1p-8;
 
@@ -46,7 +46,7 @@ static void keep(polygon *p, const double at[3]) {
         memcpy(p->at[p->corners++], at, sizeof p->at[0]);
 }
 
-/* What of a polygon lies where n . p >= c. */
+/* Keeps the part of a polygon where n . p >= c. */
 static void cut(polygon *p, const double n[3], double c) {
     const polygon from = *p;
     double side[POLYGON] = {0};
@@ -222,7 +222,7 @@ static double enough(const dp_setup *setup, double from, double to, double limit
     return worst.bound;
 }
 
-/* What tells a pair apart from an eye. */
+/* The set-up that judges a pair from an eye, and its distance. */
 typedef struct standard {
     dp_setup own;
     bool covered; /* else by the class of the set-up */
@@ -323,7 +323,7 @@ static void judge_eyes(const sight_asked *asked, const finder_finding *f, scene_
 
 /* ---- What mends it ----------------------------------------------------------------------------------------------- */
 
-/* What a distance along the normal of either grows by where it is added along that of the other: its share. */
+/* The share by which a distance along one normal grows where it is added along the other. */
 static double parallel(const double a[3], const double b[3]) {
     double sine = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -349,7 +349,7 @@ static pair moved_apart(const pair *p, int which, double by) {
     return to;
 }
 
-/* What a pair still lacks once it is moved. */
+/* The distance that a pair still lacks once it is moved. */
 static double lack_moved(const sight_asked *asked, const pair *p, double by) {
     double lack = 0.0;
     for (int which = 0; which < 2; which++) {
@@ -391,7 +391,7 @@ double scene_lift(const model *m, const finder_found *found, const finder_findin
     return lift > 0.0 ? lift / share : lift;
 }
 
-/* Of what touches neither side is the one to which it is moved. */
+/* The most that any pair still lacks. Pairs that touch may be moved to either side. */
 static double lack_of_all(const sight_asked *asked, const finder_finding *f, double lift) {
     const double none = SCENE_NO_GAP * asked->found->extent;
     double lack = 0.0;

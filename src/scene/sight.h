@@ -13,7 +13,7 @@
  * larger than the library takes, or a side of the view cuts it and the rasterizer's depth is anchored at the window's
  * origin, the class of the set-up stands for them; what is told apart that way alone is not *covered*.
  *
- * What is judged are pixels whose ray meets both surfaces within the overlap. Beside its edge a ray may meet the one
+ * The pixels judged are those whose ray meets both surfaces within the overlap. Beside its edge a ray may meet the one
  * and, behind it, more of the other.
  */
 #ifndef SCENE_SIGHT_H
@@ -56,7 +56,7 @@ typedef struct sight_asked {
 } sight_asked;
 
 /**
- * What has to be added to the distance of a finding, along any of its normals, so that it grows by `lift` everywhere:
+ * The length to add to the distance of a finding, along any of its normals, so that it grows by `lift` everywhere:
  * more where triangles are tilted against each other; infinite where they meet in some places and part in others, which
  * no distance mends.
  */

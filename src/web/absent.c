@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What the page has not: the commands and figures that need files, threads, GSL, libconfig or jansson, and the rows
- * that their options name. Each refuses in a sentence; the program has them all.
+ * Stand-ins for what the page lacks: the commands and figures that need files, threads, GSL, libconfig or jansson, and
+ * the rows that their options name. Each refuses in a sentence; the program has them all.
  */
 #include <stdio.h>
 

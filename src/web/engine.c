@@ -54,7 +54,7 @@ static void say(const char *word) {
 }
 
 /**
- * What the program makes of the words, as words each ended by 0: the command, how many operands, the operands, then
+ * Prints the words as the program reads them, each ended by 0: the command, how many operands, the operands, then
  * each option that was given and its argument, "" of none, as the option table has them in order. @return exit status
  */
 PAGE_EXPORT("parse") int parse_words(int count) {

@@ -18,7 +18,7 @@ PAGE_EXPORT("image_room") void *image_room(size_t size) {
     return dropped.data = malloc(size + 1);
 }
 
-/* What stands for a window depth of 1: the largest code, 1 of numbers, and 0 where samples are bits of fp32. */
+/* The sample of a window depth of 1: the largest code, 1 of numbers, and 0 where samples are bits of fp32. */
 static double top_of(const dp_recognised *found) {
     const bool bits = found->format.kind == DP_FORMAT_FLOAT;
     return dropped.type >= IMAGE_F16 ? 1 : dropped.type == IMAGE_U8 ? 255 : bits ? 0 : (double)found->format.code_max;

@@ -29,7 +29,7 @@ static void let_go(void) {
     picture = (draw_picture){0};
 }
 
-/* Of several cameras, mappings and depths the first; of formats the first that the rasterizer draws. */
+/* Makes the picture of the first camera, mapping and depth, and of the first format that the rasterizer draws. */
 static int make(const camera_asked *all) {
     const camera_asked *c = camera_of(all, 0);
     size_t format = 0;
@@ -93,7 +93,7 @@ PAGE_EXPORT("picture_draw") int picture_draw(double gap, unsigned frame, int mar
     return (int)count.wrong;
 }
 
-/** What was drawn: 640 x 360 pixels of red, green, blue and alpha, row by row from the top. */
+/** The picture drawn: 640 x 360 pixels of red, green, blue and alpha, row by row from the top. */
 PAGE_EXPORT("picture_pixels") const uint32_t *picture_pixels(void) {
     return pixels;
 }
