@@ -101,7 +101,7 @@ DP_API dp_cell dp_cell_of(const dp_setup *setup, uint32_t code);
 DP_API double dp_separation(const dp_setup *setup, double z);
 
 /**
- * What a depth is stored as, with its error, its cell and the separation there: all of the above in one call.
+ * The code that a depth is stored as, with its error, cell and separation there: all of the above in one call.
  * @return DP_OK or DP_ERROR_DEPTH (outside [near, far] or NaN), DP_ERROR_NULL, DP_ERROR_BINARY32 (in `float`, above
  *         3.4028235e+38)
  */

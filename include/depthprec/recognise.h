@@ -78,7 +78,7 @@ typedef enum dp_reason {
     DP_REASON_COUNT
 } dp_reason;
 
-/** What dp_recognise() found in an image. */
+/** The findings of dp_recognise() in an image. */
 typedef struct dp_recognised {
     int depth;         /**< finite samples, all in [0, 1] or codes of a format: it can be window depth. Holes, which are
                             not finite, are no hindrance */

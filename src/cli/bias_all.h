@@ -7,17 +7,17 @@
 
 enum { BIAS_CALL_SIZE = 128 };
 
-/** What a program writes to set a bias, "glPolygonOffset(0, -1528)". Lives until the statement ends. */
+/** The call that sets a bias, "glPolygonOffset(0, -1528)". Lives until the statement ends. */
 typedef struct bias_call_text {
     char text[BIAS_CALL_SIZE];
 } bias_call_text;
 
 bias_call_text bias_call(const bias_api *api, double units, double factor);
 
-/** What bias_needed() gives, with the sign that brings a layer nearer; NaN where none is enough. */
+/** The units of bias_needed(), with the sign that brings a layer nearer; NaN where none are enough. */
 double bias_signed(const dp_setup *setup, double units);
 
-/** With a viewport: what text says that is told apart. */
+/** With a viewport: the surfaces that are told apart, in text. */
 #define BIAS_DRAWN_TWICE "resolved: one plane drawn as different triangles, each at least a pixel high"
 
 /** Where the least factor that is enough at any slant is INFINITY. */
@@ -37,7 +37,7 @@ static inline bool bias_chooses_factor(const bias_request *o) {
     return o->camera.triangles.width > 0 && !option_given(o->line, "factor") && !option_given(o->line, "slope");
 }
 
-/** What was measured of an API's r in that format on the GPU of a profile: a sentence, "" where nothing was. @return
+/** The measured r of an API in that format on the GPU of a profile: a sentence, "" where none was. @return
  * out */
 const char *bias_of_gpu(const bias_request *o, const bias_api *api, const dp_format *format, char out[BIAS_CALL_SIZE]);
 

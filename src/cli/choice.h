@@ -51,7 +51,7 @@ typedef struct choice_words {
  */
 choice_words choice_sentence(const choosing *c, const char *unit);
 
-/** What a model neglects of the separation, as a share, and the depth where it does; NaN where it neglects nothing. */
+/** The share of the separation that a model neglects, and the depth where it does; NaN where it neglects nothing. */
 typedef struct choice_share {
     double share, z;
 } choice_share;

@@ -18,7 +18,7 @@
 
 enum { DIGITS = 6, DIGITS_Z = 9, DIGITS_SHORT = 4 };
 
-/* What the bias does, or what one unit does and how many are enough. */
+/* The effect of the bias, or of one unit and how many are enough. */
 typedef struct row {
     bias_effect effect;     /* of the bias given, or of one unit that brings a layer nearer */
     double one_unit;        /* what one unit moves; NaN where it is held at a plane */
@@ -37,7 +37,7 @@ typedef struct needs {
     double shift_lo, shift_hi;   /* what the units of the gap do at the ends, or those that tell apart without a gap */
 } needs;
 
-/* What is asked; below `range_lo`, what belongs to the set-up at hand. */
+/* The question; the fields below `range_lo` are of the set-up at hand. */
 typedef struct biasing {
     each_setup each;
     const bias_request *o;
@@ -63,7 +63,7 @@ typedef struct biasing {
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
-/* What is asked of this set-up: the factor is written with the sign that the API takes, the goal counts nearer as +. */
+/* The goal for this set-up: the factor is written with the sign that the API takes, the goal counts nearer as +. */
 static bias_goal goal_of(const biasing *b, double gap) {
     bias_goal goal = b->goal;
     goal.factor = b->state.factor * bias_sign(b->each.setup);
@@ -256,7 +256,7 @@ static void say_range(page *p, const biasing *b) {
                   camera_length(b->each.here, r->hi, DIGITS_Z).text);
 }
 
-/* What of r was measured. @return whether there is nothing more to say of it */
+/* Says how far r was measured. @return whether there is nothing more to say of it */
 static bool say_measured(page *p, const biasing *b) {
     const bias_request *o = b->o;
     char text[BIAS_CALL_SIZE];
@@ -270,7 +270,7 @@ static bool say_measured(page *p, const biasing *b) {
     return text[0] != '\0';
 }
 
-/* What the API leaves open. */
+/* Says which r the API leaves open. */
 static void say_open(page *p, const biasing *b) {
     const bias_unit unit = bias_unit_at(b->state.api, &b->each.setup->spec.format, 1.0);
     if (isinf(unit.most))

@@ -34,7 +34,7 @@ typedef struct worst {
     double remedy_separation; /* NaN where nothing helps */
 } worst;
 
-/* What a budget is made of; below `linearize`, what belongs to the set-up at hand. */
+/* The state of a budget; the fields below `linearize` are of the set-up at hand. */
 typedef struct budget {
     each_setup each;
     const budget_request *o;
@@ -70,7 +70,7 @@ enum {
     WITH_DIVIDE = 256  /* or is written as clip z */
 };
 
-/* What the set-ups have. */
+/* The conditions of columns that the set-ups fulfil. */
 static unsigned conditions_of_setups(const setups *all) {
     unsigned when = 0;
     for (size_t i = 0; i < all->count; i++) {

@@ -7,7 +7,7 @@
 #include "code/code.h"
 #include "core/append.h"
 
-/* What --what names, in its order. */
+/* The parts of code that --what names, in its order. */
 enum { WHAT_LINEARIZE, WHAT_PROJECTION, WHAT_ENCODE, WHAT_POSITION, WHAT_PACK, WHAT_NORMAL };
 
 typedef struct wanted_code {
@@ -38,7 +38,7 @@ static int refuse_method(const wanted_code *w, const char *given, const char *la
                : usage_error("code: METHOD must be one of %s, got '%s'", all, given);
 }
 
-/* What a part has no use for: of options that are given the first. */
+/* Refuses the first option given that a part has no use for. */
 static int check_needless(const wanted_code *w) {
     enum {
         MATRIX = 1 << WHAT_PROJECTION,

@@ -11,7 +11,7 @@
 static const name_list topics = {.get = list_topic};
 static const topic all_topics = {"topics", "", {.get = list_topic}, .bound = "bound"};
 
-/* What is listed, and the thing at hand. */
+/* The topic that is listed, and the thing at hand. */
 typedef struct listing {
     const list_request *o;
     const topic *topic;

@@ -124,7 +124,7 @@ static unsigned conditions(const measuring *b) {
     return when;
 }
 
-/* What each of the user's functions is judged to be. */
+/* Says what each of the user's functions is judged to be. */
 static void say_mine(page *p, const measuring *b) {
     page_line(p,
               "device: ns a call on %s, the least of %d; the loop round the calls takes %.2g of it; what depends on "
@@ -299,7 +299,7 @@ static int list_families(const judge_request *o, output *out) {
     return output_close(out);
 }
 
-/* What a camera says is asked of a family. */
+/* Refuses options of a camera where no family is named. */
 static int check_family(const judge_request *o) {
     static const char *const of_family[] = {"near", "far", "format", "mapping", "tolerance", "mine"};
     char text[NAMES_SIZE];

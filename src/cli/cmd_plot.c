@@ -152,7 +152,7 @@ static void name_setups(plotting *p) {
     }
 }
 
-/* What holds for all set-ups: the full label without the name in front. */
+/* The subtitle, which holds for all set-ups: the full label without the name in front. */
 static void subtitle_of(const plot_request *o, const figure_request *request, bool budgeted, char *out, size_t size) {
     char full[SETUP_LABEL_SIZE];
     setup_fields fields = setup_fields_of(&request->setups[0], NULL);
@@ -228,7 +228,7 @@ static void choose_setups(plot_request *o, const figure_row *row) {
         o->camera.mapping_count = 1;
 }
 
-/* What a rasterizer draws is at one depth between the planes. */
+/* Resolves the depth at which a rasterizer draws: one between the planes. */
 static int resolve_drawn(const plotting *p, plot_request *o) {
     depths at;
     int status = view_drawn(&o->camera);

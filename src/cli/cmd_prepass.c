@@ -14,7 +14,7 @@
 enum { DIGITS = 6 };
 static const double most_z = 1e38;
 
-/* What an API takes to make up for a difference; NaN where nothing is enough. */
+/* The units by which an API makes up for a difference; NaN where none are enough. */
 typedef struct api_bias {
     const char *api;
     double units;

@@ -47,7 +47,7 @@ typedef struct guarantee {
     dp_separation_worst worst;
 } guarantee;
 
-/* What a table is made of; below the range, what belongs to the set-up at hand. */
+/* The state of a table; the fields below the range are of the set-up at hand. */
 typedef struct table {
     each_setup each;
     const table_request *o;
@@ -175,7 +175,7 @@ static void say_reach_of(page *p, const dp_setup *full, const unit_row *unit, co
     char text[RESOLVED_TEXT_SIZE], sentence[RESOLVED_TEXT_SIZE] = "";
     double up_to[RESOLVED_LIMITS];
     resolved_up_to(full, unit, up_to);
-    /* What is wider than a separation that holds everywhere goes without saying. */
+    /* A separation wider than one that holds everywhere goes without saying. */
     for (size_t i = 0; i < RESOLVED_LIMITS && (i == 0 || !(up_to[i - 1] >= full->spec.zfar)); i++)
         if (!isnan(up_to[i]))
             append(sentence, sizeof sentence, "%s %s up to %s%s", *sentence != '\0' ? "," : "",
@@ -357,7 +357,7 @@ static const column columns[] = {{PART(table, triangles, "triangles", slant_colu
                                  {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
                                  {.kind = COLUMN_END}};
 
-/* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
+/* The columns of these set-ups: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->o->line, "tolerance") ? WITH_TOLERANCE : 0) | (t->o->out.full ? VERBOSE : 0) |
                     (t->o->camera.preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |

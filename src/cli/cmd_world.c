@@ -29,7 +29,7 @@ typedef struct line {
     double safe_to, still_to; /* scene units; INFINITY: as far as is asked */
 } line;
 
-/* What is asked. */
+/* The question, completed. */
 typedef struct world {
     world_request o; /* camera, view, gap and depth filled in */
     double wanted, z;
@@ -133,7 +133,7 @@ static void say_distance(page *p, void *item) {
                w->least != NULL ? w->least : "none", w->least != NULL ? " suffices" : " of them suffices");
 }
 
-/* Of a single scheme, and no distance: the answer is a sentence. */
+/* Says the reach; for a single scheme and no distance the answer is a sentence. */
 static void say_reach(page *p, void *item) {
     world *w = item;
     if (!isnan(w->distance) || w->o.origin.scheme_count != 1)
@@ -186,7 +186,7 @@ static const column columns[] = {{FIELD(world, wanted, "gap", "scene")},
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-/* What was not given is as if it had been typed in `unit`; of scene units in metres. */
+/* A length; one not given counts as typed in the unit `name`, or in metres where no scene unit is known. */
 static double length_or(bool given, double value, world_request *o, double standard, const char *name) {
     const unit_row *unit = unit_find(name);
     lengths *in = &o->camera.lengths;

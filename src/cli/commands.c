@@ -39,7 +39,7 @@ const command_row *command_find(const char *name) {
 
 static const name_list shells = {.words = (const char *const[]){"bash", "zsh", "fish", NULL}};
 
-/* What help is asked about: a command, or one of its words, which no command line begins with. */
+/* The subjects of help: a command, or one of its words, which no command line begins with. */
 static bool list_helped(size_t index, list_item *item) {
     if (!list_command(index, item))
         return false;

@@ -15,7 +15,7 @@ struct option_place;
 struct option_rule;
 struct option_use;
 
-/** What a command does in one of several ways, as each figure is of plot: some options are for some of them. */
+/** One of several ways of a command, as each figure is of plot: some options are for some of them. */
 typedef struct command_part {
     const char *words; /**< "with --light-box"; null behind the last */
     unsigned bits;
@@ -69,7 +69,7 @@ typedef struct command_row {
     one(completions)
 /* clang-format on */
 
-/** What is run returns a status of report/output.h. */
+/** A command's row, and its function, which returns a status of report/output.h. */
 #define COMMAND_DECLARED(name)                                                                                         \
     extern const command_row command_##name;                                                                           \
     int cmd_##name(void *request);

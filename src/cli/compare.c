@@ -74,7 +74,7 @@ static void compute_row(const comparison *c, compared *r) {
         r->up_to[i] = unit_convert(r->up_to[i], r->unit, unit);
 }
 
-/* What is asked for first, then as far as it goes, then as close as it comes, then as cheap as it is. */
+/* Sorts what was asked for first, then by how far it goes, how close it comes and how cheap it is. */
 static int better(const void *a, const void *b) {
     const compared *first = a, *second = b;
     if (first->unbounded != second->unbounded)
@@ -204,7 +204,7 @@ static void say_facing(page *p, const comparison *c, const compared *r, const ch
             to_the_end(r) ? "" : "z = ", resolved_text(r->zfar, r->up_to[MIDDLE], c->o->camera.lengths.unit, text));
 }
 
-/* What a mapping costs in each frame, where the hardware does not compute depth by itself. */
+/* Says the cost of a mapping in each frame, where the hardware does not compute depth by itself. */
 static void say_costs(page *p, const comparison *c) {
     unsigned said = 0;
     for (size_t i = 0; i < c->each->all.count; i++) {
@@ -244,7 +244,7 @@ static void say_notes(page *p, void *item) {
               c->limit_end - c->limit_begin == LIMITS && c->bounded > 0 ? "B: bytes a pixel. " : "");
 }
 
-/* What the cameras have in common, and where there are several the planes of each. */
+/* Says what the cameras have in common, and where there are several the planes of each. */
 static void say_cameras(page *p, const comparison *c) {
     const table_request *o = c->o;
     char planes[1024] = "", unit[32] = "";

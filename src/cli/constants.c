@@ -15,7 +15,7 @@ enum { LABEL = 24, DIGITS_32 = 9, DIGITS_Z = 6, DIGITS_READ = 7, DIGITS_01 = 5, 
 enum { STORED = 2 };
 static const char *const stored[STORED] = {"unorm16", "unorm24"};
 
-/* Of binary32, as doubles. */
+/* Numbers of binary32, as doubles. */
 typedef struct vector {
     double x, y, z, w;
 } vector;
@@ -31,7 +31,7 @@ typedef struct corner {
     double x, y, z;
 } corner;
 
-/* What a trap takes a depth for, and by which share of it that is too much. */
+/* The depth that a trap reads, and by which share that is too much. */
 typedef struct reading {
     double z, reads, relative, percent;
 } reading;

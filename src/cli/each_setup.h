@@ -43,7 +43,7 @@ bool each_setup_go(each_setup *w, size_t i);
 /** Goes to depth i, each in turn. @return false behind the last, and where nothing more can be written */
 bool each_setup_depth(each_setup *w, size_t i, double *z);
 
-/** What text says above a set-up: for reports whose item begins with an each_setup. */
+/** Writes text above a set-up: for reports whose item begins with an each_setup. */
 void each_setup_title(page *p, void *item);
 
 #endif

@@ -52,7 +52,7 @@ static void *next_series(void *of, size_t i) {
     return p;
 }
 
-/* Of a map that lies on another, the next field that has a value. */
+/* The next field to write: of a map that lies on another, one that has a value. */
 static size_t next_field(plotted *p, size_t i) {
     const chart_map *m = &p->panel->map;
     if (p->series != NULL || m->under == NULL)

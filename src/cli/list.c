@@ -281,7 +281,7 @@ bool list_method(size_t index, list_item *item) {
     return true;
 }
 
-/* What can be listed. */
+/* The topics that can be listed. */
 static const topic topics[] = {
     {"formats", "depth formats and the bounds of their rounding", {.get = list_format}, .bound = "bound"},
     {"mappings", "how an eye depth becomes a window depth", {.get = list_mapping}, .bound = "bound"},

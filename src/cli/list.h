@@ -7,7 +7,7 @@
 
 #include "cli/option/names.h"
 
-/** What options and operands may be called, and is no table of named rows. */
+/** Lists of words for options and operands that are no table of named rows. */
 bool list_format(size_t index, list_item *item);
 bool list_mapping(size_t index, list_item *item);
 bool list_rounding(size_t index, list_item *item); /**< of name alone */
@@ -26,7 +26,7 @@ bool list_stereo(size_t index, list_item *item);  /**< of name alone: those of d
 bool list_samples(size_t index, list_item *item); /**< of name alone */
 bool list_method(size_t index, list_item *item);
 
-/** What can be listed: the row of a list_topic(). */
+/** A topic that can be listed: the row of a list_topic(). */
 typedef struct topic {
     const char *name, *note;
     name_list of;

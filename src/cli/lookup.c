@@ -80,7 +80,7 @@ bool lookup_wanted(const table_request *o) {
     return o->looked_up.count > 0;
 }
 
-/* What is asked is no depth of the scene, and a code must be one of each format. */
+/* The value looked up need be no depth of the scene, but a code must be one of each format. */
 static int check(const table_request *o, const setups *all) {
     for (size_t i = 0; i < all->count && option_given(o->line, "code"); i++) {
         const dp_format *format = &all->items[i].spec.format;

@@ -8,7 +8,7 @@
 #include "cli/methods/request.h"
 #include "code/code.h"
 
-/* What a function gave for the windows of a camera. */
+/* The values of a function for the windows of a camera. */
 typedef struct seen {
     double znear, zfar;
     size_t inputs;
@@ -27,7 +27,7 @@ static const seen *find(const mine_row *f, const dp_setup *setup, size_t inputs)
     return NULL;
 }
 
-/* What is given nothing of a camera is asked about that of the chart alone. */
+/* Runs the function for cameras not yet seen; one that is given no camera runs for the chart's alone. */
 static void expect(const method_row *row, const dp_setup *cameras, size_t count, size_t inputs) {
     mine_row *f = row->own;
     dp_setup fresh[SEEN_MOST];
@@ -121,7 +121,7 @@ static int open_mine(mine *m, const char *operand, size_t which) {
     return status;
 }
 
-/* What is shown of a row is the time of its own machine. */
+/* Times the functions: a row shows the time on its own machine. */
 static int time_all(mine *m, bool on_device) {
     shader *all[BENCH_METHODS_MAX + 1];
     double ns[BENCH_METHODS_MAX + 1];

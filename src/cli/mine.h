@@ -21,7 +21,7 @@ typedef struct mine_row {
     size_t seen_count;
 } mine_row;
 
-/** What they are among. */
+/** The user's functions and the methods they are among. */
 typedef struct mine {
     const judge_request *o;
     dp_setup setup;

@@ -14,7 +14,7 @@ typedef struct per_vertex {
     double depth; /**< the class whose error is no more than the separation */
 } per_vertex;
 
-/** Of several depths: the greatest share of z, and the smallest class. z is NaN while there are none. */
+/** The worst of several depths: the greatest share of z, the smallest class. z is NaN while there are none. */
 typedef struct per_vertex_worst {
     double z, error, depth;
 } per_vertex_worst;

@@ -42,7 +42,7 @@ void effect_tell(const void *of, list_item *item) {
             append(item->bound, sizeof item->bound, "%s%s", count++ == 0 ? "; needs " : ", ", needs[i].name);
 }
 
-/* Of each effect, so names come again. */
+/* The parameters of every effect in turn, so that names come again. */
 bool list_parameter(size_t index, list_item *item) {
     const effect_row *row;
     for (size_t k = 0; (row = effect_get(k)) != NULL; k++)

@@ -14,7 +14,7 @@ enum {
     AGAINST_LINEARIZATION = 1 << DP_CAUSE_LINEARIZATION
 };
 
-/* What is changed. */
+/* A change of the camera, and the causes that it lessens. */
 typedef struct remedy {
     unsigned causes;
     const char *text, *format; /* a finer format, or null */

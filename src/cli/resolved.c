@@ -28,7 +28,7 @@ dp_setup resolved_in(const dp_setup *setup, dp_model model) {
     return out;
 }
 
-/* What is guaranteed of a smaller separation is so of a larger one: each is sought behind the one before. */
+/* Where a smaller separation is guaranteed a larger one is: each is sought behind the one before. */
 void resolved_up_to(const dp_setup *full, const unit_row *unit, double up_to[RESOLVED_LIMITS]) {
     double from = full->spec.znear;
     for (size_t i = 0; i < RESOLVED_LIMITS; i++) {

@@ -15,7 +15,7 @@ number_text resolved_limit_text(size_t i, const unit_row *unit);
 /** The same set-up in another model. */
 dp_setup resolved_in(const dp_setup *setup, dp_model model);
 
-/** Of dp_setup_guaranteed(): the depth up to which each separation is guaranteed; NaN: not even at near. */
+/** For dp_setup_guaranteed(): the depth up to which each separation is guaranteed; NaN: not even at near. */
 void resolved_up_to(const dp_setup *full, const unit_row *unit, double up_to[RESOLVED_LIMITS]);
 
 /** "82800 m", "the far plane" where nothing is beyond it, rounded to the safe side; the unit may be null. @return out

@@ -49,7 +49,7 @@ int setup_undrawn(const camera_asked *c, const dp_format *format) {
                         c->raster->name, format->name);
 }
 
-/* What has a budget: a logarithmic mapping without the terms that its shader has not. */
+/* Refuses what has no budget: terms that the shader of a logarithmic mapping does not have. */
 static int check_budget(const camera_asked *c, const dp_spec *spec) {
     static const struct {
         const char *id;

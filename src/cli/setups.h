@@ -55,8 +55,8 @@ enum { SETUP_LABEL_SIZE = 160 };
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]);
 
 /**
- * What names a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON `arith` follows
- * where the model is float, `log_c` where the mapping is log, and the unit, null where nothing says it.
+ * The fields that name a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON
+ * `arith` follows where the model is float, `log_c` where the mapping is log, and the unit, null where nothing says it.
  */
 typedef struct setup_fields {
     double znear, zfar, log_c; /**< log_c is NaN unless the mapping is log */
@@ -71,7 +71,7 @@ extern const column setup_columns[];
 /** Points into the set-up, which must stay where it is. The unit is that of its lengths, or null. */
 setup_fields setup_fields_of(const dp_setup *setup, const char *unit);
 
-/** What its separations are in: a shader's are in binary32, too. */
+/** The model of its separations: a shader's are in binary32, too. */
 dp_model setup_model(const dp_setup *setup);
 
 /** The same of a budget: that of a logarithmic mapping is of binary32 arithmetic, too, though it has no codes there. */
@@ -80,22 +80,22 @@ void setup_fields_budget(const dp_setup *setup, setup_fields *fields);
 /** The label as such fields have model and arithmetic. @return out */
 const char *setup_label_as(const dp_setup *setup, const setup_fields *fields, char out[SETUP_LABEL_SIZE]);
 
-/** What text says above a set-up: its label and the unit, which is that of the page from here on. */
+/** Writes a set-up's label and unit, which is that of the page from here on. */
 void setup_title(page *p, const dp_setup *setup, const setup_fields *fields);
 
 /** The line that prints the code of a camera; nothing of one without a projection matrix, or orthographic. */
 void setup_say_code(page *p, const dp_spec *spec);
 
-/** What rg is, where a set-up has it. */
+/** Explains rg, where a set-up has it. */
 void setups_say_rg(page *p, const dp_setup *some, size_t count);
 
-/** What binary32 clipping draws of what lies between the planes. */
+/** The depths between the planes that binary32 clipping draws. */
 typedef struct clipping {
     double znear, zfar; /**< the effective planes; both NaN when nothing is drawn, or there is no pipeline */
     bool loses;         /**< depths that binary32 has between the planes are not drawn */
 } clipping;
 
-/** Of a set-up of the model float; NaN and false for the others. */
+/** The clipping of a set-up of the model float; NaN and false for the others. */
 clipping clipping_of(const dp_setup *setup);
 
 /** A line on stderr: what clipping keeps, these planes and `rest` behind them, or nothing where znear is NaN. */

@@ -7,7 +7,7 @@
 #include "report/number.h"
 #include "report/report.h"
 
-/** What JSON says of them. */
+/** Triangles and rasterizer as JSON has them. */
 typedef struct slant_fields {
     dp_triangles triangles;
     const char *raster; /**< null when none was named */
@@ -16,17 +16,17 @@ typedef struct slant_fields {
 
 extern const column slant_columns[];
 
-/** Of which surfaces a guarantee speaks: "any slant", "87 degrees". */
+/** The surfaces for which a guarantee holds: "any slant", "87 degrees". */
 number_text slant_words(const dp_triangles *t);
 
-/** Of options that have a viewport; null of others. @return out */
+/** Fills `out` from options that have a viewport. @return out; null without one */
 const slant_fields *slant_fields_of(const camera_asked *c, slant_fields *out);
 
 /** page_title() or page_line(). */
 typedef void slant_line(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /**
- * What text says above a set-up, or above several where it is null: view, grid and class, or why there is no guarantee;
+ * Writes text above a set-up, or above several where it is null: view, grid and class, or why there is no guarantee;
  * nothing without a viewport.
  */
 void slant_say(page *p, slant_line *line, const camera_asked *c, const dp_setup *setup);

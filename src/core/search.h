@@ -26,7 +26,7 @@ typedef struct dp_edge {
     int single;          /* binary32 numbers alone are asked about */
 } dp_edge;
 
-/* Of the numbers strictly between the two one about halfway; 0: there is none. */
+/* A number about halfway between the two, strictly between them; 0: there is none. */
 static inline int dp_edge_between(const dp_edge *e, double *x) {
     const double lo = smaller(e->holds, e->fails), hi = larger(e->holds, e->fails);
     const double even = 0.5 * lo + 0.5 * hi;

@@ -68,7 +68,7 @@ static inline const dp_setup *frame_planes(const frame *f) {
     return f->planes != NULL ? f->planes : &f->camera->setup;
 }
 
-/** How many threads it runs on. */
+/** The number of threads on which a frame is made. */
 int frame_threads(const frame *f);
 
 /** The codes of a row; UINT32_MAX where the image has no depth. */

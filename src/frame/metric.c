@@ -90,7 +90,7 @@ static void add_all(const image *img, look *l, double scale) {
             dp_distinct_add(&l->seen, image_sample(img, i) * scale);
 }
 
-/* How many bits hold the most. */
+/* How many bits hold the largest sample. */
 static int bits_for(double most, int bits) {
     while (bits <= BITS_MAX && ldexp(1, bits) - 1 < most)
         bits++;

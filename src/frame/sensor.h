@@ -24,7 +24,7 @@ typedef struct sensor_row {
 
 const sensor_row *sensor_get(size_t index); /**< null beyond the last */
 
-/** How the file itself rounded. */
+/** The rounding of the file itself. */
 typedef struct sensor_file {
     double step;  /**< samples are multiples of it, in scene units; 0: numbers */
     double unit;  /**< of an integer, at most the step; 0: numbers */

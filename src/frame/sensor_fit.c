@@ -406,7 +406,7 @@ static int residue_of(double k, int modulus) {
     return (int)(k - modulus * floor(k / modulus));
 }
 
-/* How many levels have each residue, or how many of their pixels. @return the fullest one */
+/* Counts the levels, or their pixels, that have each residue. @return the fullest one */
 static int count_residues(const level_set *levels, int modulus, const double *pixels, double of[MODULUS_MOST]) {
     int fullest = 0;
     for (int i = 0; i < modulus; i++)

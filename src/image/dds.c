@@ -12,7 +12,7 @@
 enum { HEADER_SIZE = 128, MORE_SIZE = 20 };
 enum { HAS_FOURCC = 0x4, HAS_RGB = 0x40, HAS_LUMINANCE = 0x20000 };
 
-/* How a format is told. */
+/* The fields of the header that tell a format. */
 typedef enum told { BY_DXGI = 0, BY_D3D9, BY_LUMINANCE, BY_RGB, BY_BGR, BY_NOTHING } told;
 
 /* How the samples read are changed, if not shifted by 24 bits. */

@@ -400,7 +400,7 @@ static bool add_nodes(gltf *g) {
 
 /* ---- Animations -------------------------------------------------------------------------------------------------- */
 
-/* How many nodes any channel moves. */
+/* How many nodes are moved by some channel of an animation. */
 static void count_animated(gltf *g) {
     const json_t *animations = gltf_rows(g, "animations");
     const size_t nodes = json_array_size(gltf_rows(g, "nodes"));

@@ -31,7 +31,7 @@ double axes_y(const axes *a, double value);
 /** Does a point lie in the frame, or on it? */
 bool axes_holds(const axes *a, double x, double y);
 
-/** How many labels fit. */
+/** How many tick labels fit along an axis. */
 int axes_room_x(const pencil *p, double width);
 int axes_room_y(const pencil *p, double height);
 

@@ -57,7 +57,7 @@ static bool has_shape(const double v[3][2], const dp_triangles *class) {
            longest * longest / area * (1.0 + 8.0 * moved / sqrt(area)) <= class->slim;
 }
 
-/* Whether pixels inside and vertices are of the class; 1/z changes evenly across the screen. */
+/* Whether vertices and pixels inside lie within a factor `depth` of each other; 1/z changes evenly on the screen. */
 static bool has_depth(const draw_camera *camera, const draw_plane *plane, const double facing[3], double depth) {
     const double *n = plane->normal;
     const double step = 2.0 * (fabs(n[0]) / ((double)camera->p00 * camera->target.width) +

@@ -28,7 +28,7 @@ enum {
     EXIT_IO = 3      /**< could not read or write */
 };
 
-/** How data are written. */
+/** The forms in which data are written. */
 typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
 
 /** Whether text is dressed for a terminal: where it is one and NO_COLOR is not set, always, or never. */

@@ -19,7 +19,7 @@ typedef struct ruler {
     dp_edge edge; /* it holds from lo to the one, and does not at the other */
 } ruler;
 
-/* Of set-ups whose depths are computed binary32 depths alone are of interest. */
+/* Where depths are computed, binary32 depths alone are of interest. */
 static dp_edge edge_of(const dp_setup *setup, double holds, double fails) {
     return (dp_edge){holds, fails, .straight = 2.0, .single = dp_is_computed(setup)};
 }

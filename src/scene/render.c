@@ -268,7 +268,7 @@ static void middle_of(const model *m, vector middle) {
     }
 }
 
-/* How far from the middle, where it stands, the eye must be for all to be in sight. */
+/* How far from the middle, where it stands now, the eye must be for the whole model to be in sight. */
 static double distance_for(const model *m, const draw_camera *camera, const scene_eye *eye) {
     double most = 0.0;
     for (size_t i = 0; i < 3 * m->triangles; i++) {

@@ -237,7 +237,7 @@ static const dp_setup *standard_of(const pair *p, const sight_asked *asked, cons
     return out->covered ? &out->own : asked->setup;
 }
 
-/* How much more it would have to be, where it is seen nearer than asked. */
+/* The distance that a pair lacks where it is seen, up to the depth asked for. */
 static double lack_of(const sight_asked *asked, const dp_setup *by, const scene_sight *seen, double least) {
     const bool farther = asked->within > 0.0 && asked->within < seen->seen_to;
     return fmax(enough(by, seen->seen_from, farther ? asked->within : seen->seen_to, least) - least, 0.0);

@@ -122,7 +122,7 @@ static void decal_matrix(const double p[PARAMETERS_MAX], double m[3][4]) {
     }
 }
 
-/* How deep inside the box, scene units; negative outside. */
+/* How deep a place lies inside the box, scene units; negative outside. */
 double decal_inside(const effect_view *view, const double *p, double z) {
     double m[3][4], inside = HUGE_VAL;
     decal_matrix(p, m);

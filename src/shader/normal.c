@@ -101,7 +101,7 @@ typedef struct corner {
 
 typedef vector (*corner_rule)(const corner *c);
 
-/* How a number is kept. */
+/* How a method keeps numbers: in binary32 or in binary16. */
 typedef float (*float_rule)(float x);
 
 DP_INLINE float single_of(float x) {

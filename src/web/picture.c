@@ -80,7 +80,7 @@ PAGE_EXPORT("picture_gap") double picture_gap(double place) {
     return picture.z > 0.0 ? draw_picture_gap(&picture, place) : 0.0;
 }
 
-/** How far things are, scene units: for a second picture of them. */
+/** The eye depth of the things drawn, scene units: for a second picture of them. */
 PAGE_EXPORT("picture_z") double picture_z(void) {
     return picture.z;
 }

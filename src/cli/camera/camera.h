@@ -17,7 +17,7 @@
 
 enum { CAMERA_FORMATS_MAX = 64, CAMERA_FARS_MAX = 4, CAMERA_PRESETS_MAX = 16 };
 
-/** What a command makes of a camera. */
+/** How a command uses a camera. */
 typedef struct camera_use {
     bool shape;    /**< --viewport is the shape of the view alone: nothing slants */
     bool drawn;    /**< a rasterizer draws */
@@ -67,15 +67,15 @@ typedef struct camera_asked {
     struct camera_asked *each; /**< of several presets this camera with each alone; else null */
 } camera_asked;
 
-/** Of planes, formats, arithmetic and depths; of a view and slanted triangles in it. */
+/** The options of planes, formats, arithmetic and depths; those of a view and slanted triangles in it. */
 extern const option_table camera_options, view_options;
 
-/** What several commands take of them. */
+/** The options that several commands take. */
 extern const option_use camera_planes[], camera_uses[], camera_projected[], camera_slanted[], camera_beside_viewport[];
 
 #define CAMERA_PLACES(request, member) PLACE(request, member, camera_options), PLACE(request, member, view_options)
 
-/** What help says of mappings, and of what a view changes. */
+/** Texts of help about mappings, and about what a view changes. */
 #define CAMERA_PERSPECTIVE     "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
 #define CAMERA_ALL_PERSPECTIVE CAMERA_PERSPECTIVE "; all are d3d and reversed"
 #define CAMERA_OF_VIEW         "with --viewport also its field of view and rasterizer"
@@ -84,7 +84,7 @@ extern const option_use camera_planes[], camera_uses[], camera_projected[], came
 /** Languages that some commands have in place of the rows'. */
 option_parser parse_presets, parse_fars, parse_slant_or_plane;
 
-/** What follows from other options, once all are read; several presets are resolved. @return EXIT_FINE, or EXIT_USAGE
+/** Completes options by others, once all are read; several presets are resolved. @return EXIT_FINE, or EXIT_USAGE
  * after one line on stderr */
 int camera_complete(camera_asked *c, const camera_use *use);
 
@@ -134,7 +134,7 @@ int camera_read_far(asked_line *line, const option_row *row, const char *value, 
 
 option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
 
-/** What the options of slanted triangles say together; without --viewport surfaces face the camera. @return as above */
+/** Takes the options of slanted triangles together; without --viewport surfaces face the camera. @return as above */
 int slant_complete(camera_asked *c);
 
 /** With --viewport: a preset's field of view and rasterizer, where none were given. */

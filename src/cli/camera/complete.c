@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows from other options: what presets, platforms and rasterizers give where the user did not. */
+/* Values that follow from other options: those of presets, platforms and rasterizers where the user gave none. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -51,7 +51,7 @@ static void take_preset(camera_asked *c, const preset *p) {
     slant_take_preset(c, p);
 }
 
-/* What is stored; a preset's format and rasterizer give way to it, its mapping stays. */
+/* Takes what a platform stores; a preset's format and rasterizer give way to it, its mapping stays. */
 static void take_platform(camera_asked *c) {
     const platform *p = c->platform;
     if (p == NULL)
@@ -72,7 +72,7 @@ static void take_platform(camera_asked *c) {
     slant_take_raster(c, p->raster);
 }
 
-/* Of a rasterizer that is known its own arithmetic, with the remap of the platform. */
+/* Takes the arithmetic of a known rasterizer, with the remap of the platform. */
 static int take_arith(camera_asked *c) {
     const bool known = c->has_raster_arith || (c->raster != NULL && c->raster->model != NULL);
     if (!known || option_given(c->line, "arith"))
@@ -126,7 +126,7 @@ int camera_check_stored(const camera_asked *c, const dp_format *format) {
                         profile_formats(&c->gpu, names), format->name);
 }
 
-/* Of formats that nobody named those that the GPUs of the profiles store; one that was named has to be among them. */
+/* Keeps formats that the GPUs of the profiles store; one that the user named has to be among them. */
 static int keep_stored(camera_asked *c) {
     const bool given = option_given(c->line, "format");
     const bool any =

@@ -102,7 +102,7 @@ int parse_presets(asked_line *line, const option_row *row, const char *value, vo
     return parse_names(line, row, value, group, add_preset);
 }
 
-/* What is not positive needs --ortho, which may come later: check_near() of complete.c. */
+/* A near plane that is not positive needs --ortho, which may come later: check_near() of complete.c. */
 static int parse_near(asked_line *line, const option_row *row, const char *value, void *group) {
     camera_asked *c = group;
     if (!length_read(&(length_reader){.in = line->lengths}, value, strlen(value), NUMBER_FINITE, &c->znear) ||
@@ -246,7 +246,7 @@ const option_use camera_planes[] = {
 
 const option_use camera_uses[] = {GROUP_OF(camera_planes), TAKE("preset"), TAKE("rounding"), END};
 
-/* Of either projection. */
+/* Options of cameras of either projection. */
 const option_use camera_projected[] = {
     OWN("near", ALSO("with --ortho also 0 or negative")), TAKE("ortho"), TAKE("platform"), GROUP_OF(camera_uses),
         END};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the options of slanted triangles say together: view, rasterizer, and that they are asked about at all. */
+/* The options of slanted triangles taken together: view, rasterizer, and that they are asked about at all. */
 #include "cli/camera/camera.h"
 #include "report/number.h"
 #include "report/output.h"
@@ -34,7 +34,7 @@ int view_vertical(const camera_asked *c, int width, int height, double *fov_y) {
     return EXIT_FINE;
 }
 
-/* What draws: a rasterizer whose arithmetic is known, and of the formats those that it has. */
+/* Takes a rasterizer whose arithmetic is known, and of the formats those that it has. */
 static int take_drawn(camera_asked *c) {
     size_t kept = 0;
     if (c->raster == NULL)
@@ -89,7 +89,7 @@ static bool is_slanted(const camera_asked *c, const option_taken *viewport) {
     return option_given(c->line, "viewport") || c->use.drawn || c->use.seen || viewport->own.standard != NULL;
 }
 
-/* Of constants and code the viewport is the shape of the view alone: nothing slants. */
+/* Takes the viewport of constants and code as the shape of the view alone: nothing slants. */
 static int take_shape(camera_asked *c) {
     c->spec.width = (uint32_t)c->triangles.width;
     c->spec.height = (uint32_t)c->triangles.height;

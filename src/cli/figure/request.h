@@ -16,7 +16,7 @@ typedef struct figure_asked {
 
 extern const option_table figure_options;
 
-/** What a picture of any kind takes of them. */
+/** The options that a picture of any kind takes. */
 extern const option_use figure_picture[];
 
 #endif

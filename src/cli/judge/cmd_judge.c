@@ -54,7 +54,7 @@ static void name(const judge_request *o, const judge_candidate *c, named *out) {
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
-/* What is stored in bytes is a share of 1, whose error counts as it is. */
+/* Says the losses; a value stored in bytes is a share of 1, whose error counts as it is. */
 static void say_losses(page *p, const report *r) {
     const judgement *j = &r->found;
     char off[NUMBER_SIZE + 32] = "";

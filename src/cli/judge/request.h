@@ -20,7 +20,7 @@ typedef struct judge_asked {
 
 extern const option_table judge_options;
 
-/** What figures and methods take of them. */
+/** The options that figures and methods take. */
 extern const option_use judge_mine[];
 
 typedef struct judge_request {

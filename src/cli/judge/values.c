@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a function gives for depths, few and all. */
+/* The values of a function for depths, few and all. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

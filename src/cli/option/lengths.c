@@ -60,7 +60,7 @@ const unit_row *option_unit(const asked_line *line, const char *name) {
     return *end != '\0' && unit_find(end) != NULL ? unit_find(end) : line->lengths->unit;
 }
 
-/* What a refusal adds where letters behind digits make one expect a unit; not those of 1e400 and 0x10. */
+/* Letters behind digits make one expect a unit; those of 1e400 and 0x10 do not. */
 const char *length_hint(const char *text, size_t length) {
     const size_t digits = strcspn(text, "0123456789");
     bool letter = false;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What was given on a line, and memory for what it is read into. */
+/* The options given on a line, and memory for what they are read into. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -39,7 +39,7 @@ typedef struct typed_length {
     const unit_row *unit;
 } typed_length;
 
-/** What the lengths of a line are in. */
+/** The unit of a line's lengths. */
 typedef struct lengths {
     const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
     typed_length typed[LENGTHS_TYPED_MAX]; /**< the first that were */
@@ -123,7 +123,7 @@ typedef struct option_row {
     const char *group;      /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
 
-/** What relates two options, whatever their values. */
+/** A relation of two options, whatever their values. */
 typedef struct option_rule {
     const char *option; /**< who is refused; null behind the last rule */
     enum { RULE_NEEDS, RULE_CONFLICTS } relation;
@@ -167,7 +167,7 @@ static inline void *option_field(const option_row *row, void *group) {
     return (char *)group + row->place;
 }
 
-/** What every command takes: --help and --version. */
+/** The options of every command: --help and --version. */
 extern const option_row option_always[];
 
 /** Tables in the order in which help shows them, null behind the last. */
@@ -184,7 +184,7 @@ int option_set(asked_line *line, const char *name, const char *value);
 
 /* ---- Which command takes what ------------------------------------------------------------------------------------ */
 
-/** What is a command's own of an option that others take, too; null where it is as the row has it. */
+/** A command's own texts for an option that others take, too; null where the row's holds. */
 typedef struct option_own {
     const char *argument; /**< how help writes the argument */
     const char *optional; /**< an argument that may be left out, and is written behind "=" */
@@ -195,7 +195,7 @@ typedef struct option_own {
     option_parser *parse; /**< another language than the row's */
 } option_own;
 
-/** What a command takes; where an option is found twice the first is meant, so what is its own stands first. */
+/** Options that a command takes; where one is found twice the first is meant, so its own stand first. */
 typedef struct option_use {
     const char *name;               /**< of an option; or null */
     const option_row *rows;         /**< or all of these */
@@ -348,7 +348,7 @@ int option_read_range(asked_line *line, const option_row *row, const char *value
 /** Reads so many numbers with commas between them, each within its limits. @return how many, 0 where one is wrong */
 int option_read_numbers(const char *text, int most, const double limits[][2], double *out);
 
-/** What the lengths of one argument have: some a unit, and some, other than 0, none. */
+/** Lengths of one argument: whether some have a unit, and some, other than 0, none. */
 typedef struct length_reader {
     lengths *in;
     bool named, bare;
@@ -357,7 +357,7 @@ typedef struct length_reader {
 /** A length of so many characters. */
 bool length_read(length_reader *seen, const char *text, size_t length, number_kind kind, double *out);
 
-/** What a refusal adds where letters behind digits make one expect a unit. */
+/** The words that a refusal adds where letters behind digits make one expect a unit. */
 const char *length_hint(const char *text, size_t length);
 
 /** Refuses lengths of which some have a unit and others none. @return EXIT_FINE, or EXIT_USAGE after one line */

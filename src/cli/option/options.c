@@ -13,7 +13,7 @@
 
 /* ---- Defaults ---------------------------------------------------------------------------------------------------- */
 
-/* What the rows say; what a command has of its own follows when its options are read. */
+/* Sets the defaults of the rows; those of a command's own follow when its options are read. */
 static void set_defaults(asked_line *line) {
     for (const option_place *p = line->command->places; p->table != NULL; p++) {
         void *const group = (char *)line->request + p->at;
@@ -141,7 +141,7 @@ int check_operand(const command_row *v, const char *what, const name_list *n, co
     return usage_error("%s: %.*s %s", v->name, (int)strcspn(what, " "), what, names_refuse(n, given, text));
 }
 
-/* What a word may be meant to be that has no place here: a command; of two lengths near and far. @return out */
+/* Guesses the meaning of a word out of place: a command; two lengths are near and far. @return out */
 static const char *nearest_word(char **words, int count, char out[NAMES_SIZE]) {
     if (count < 2 || !isdigit((unsigned char)*words[0]) ||
         !(isdigit((unsigned char)*words[1]) || strcmp(words[1], "inf") == 0))
@@ -258,7 +258,7 @@ static void put_command_first(const known *k, int argc, char **argv) {
     argv[1] = word;
 }
 
-/* What the options say together, now that each is read. */
+/* Checks the options together, now that each is read. */
 static int finish(asked_line *line) {
     const command_row *v = line->command;
     int status = check_operands(line);

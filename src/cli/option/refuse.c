@@ -6,7 +6,7 @@
 
 #include "cli/option/option.h"
 
-/* What gave an option its value in place of the user: a preset or a platform; its own option and name. */
+/* A preset or a platform that gave an option its value in place of the user: its own option and name. */
 enum { CHOOSERS_MAX = 8 };
 static struct chooser { const char *option, *by, *name; } choosers[CHOOSERS_MAX];
 static size_t chooser_count;

@@ -22,7 +22,7 @@ typedef struct output_asked {
 
 extern const option_table output_options;
 
-/** What a report takes. */
+/** The options that a report takes. */
 extern const option_use output_written[];
 
 /** Opens what --output names, which is no picture's, for text, JSON or CSV, as wide as --full makes it, as --color

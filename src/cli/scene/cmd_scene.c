@@ -111,7 +111,7 @@ static void shorten(scene *s, double gap) {
     s->gap = gap;
 }
 
-/* What was not said: as far as the model reaches, and the largest distance that is not told apart there. */
+/* Defaults of limits: as far as the model reaches, and the largest distance that is not told apart there. */
 static int take_limits(scene *s) {
     const double znear = s->setup.spec.znear, zfar = s->setup.spec.zfar;
     const model_box b = model_box_of(&s->model);
@@ -284,7 +284,7 @@ void scene_end(scene *s) {
     model_free(&s->model);
 }
 
-/* What is asked of this command alone. */
+/* Checks the options that only this command has. */
 static int check_asked(const scene *s) {
     const scene_request *o = &s->o;
     if (o->out.report != REPORT_TEXT && o->out.form != FORM_TEXT)

@@ -38,7 +38,7 @@ static int take_look(scene *s) {
 
 /* ---- A camera of the model --------------------------------------------------------------------------------------- */
 
-/* What it says of the view, where nothing was given. */
+/* Takes the view from the model's camera, where none was given. */
 static int take_view(scene *s, const model_camera *camera) {
     scene_request *o = &s->o;
     const char *name = o->scene.camera;

@@ -10,7 +10,7 @@
 /** As scene_begin(), of the figure's options. */
 int scene_figure_begin(scene *s, const scene_request *o);
 
-/** What the figure is made of, and the chart's subtitle and unit. @return false when out of memory */
+/** The data of the figure, and the chart's subtitle and unit. @return false when out of memory */
 bool scene_figure_take(const scene *s, fights_asked *out, chart *c);
 
 /** The height that suits the views of a chart at a width, px. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What `scene` prints: the findings as text, JSON and CSV. */
+/* The findings of `scene` as text, JSON and CSV. */
 #include "cli/scene/request.h"
 #include "cli/scene/scene.h"
 
@@ -20,7 +20,7 @@ static number_text length(const page *p, double value) {
     return number_in(number_brief(number_of(value, DIGITS)), p->unit);
 }
 
-/* Of one that was typed, as it was. */
+/* A length in words: one that was typed, as it was. */
 static number_text asked(const page *p, const scene *s, double value) {
     const number_text typed = camera_length(&s->o.camera, value, DIGITS),
                       plain = number_in(number_of(value, DIGITS), p->unit);
@@ -73,7 +73,7 @@ static void say_eyes(page *p, const scene *s) {
                    number_of(e->ahead.y, DIGITS).text, number_of(e->ahead.z, DIGITS).text);
 }
 
-/* Of what is not covered; a mapping that is not affine on the screen has no guarantee of slanted triangles. */
+/* The condition of what is not covered; a mapping not affine on the screen guarantees no slanted triangles. */
 static const char *condition_of(const scene *s) {
     return s->setup.spec.model == DP_MODEL_FLOAT ? "if cut into the triangles above" : "facing the camera";
 }

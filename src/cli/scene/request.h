@@ -23,7 +23,7 @@ typedef struct scene_asked {
 /** Whence it is seen; and the rest. */
 extern const option_table scene_eye_options, scene_options;
 
-/** What a figure of a model takes of them. */
+/** The options that a figure of a model takes. */
 extern const option_use scene_model[];
 #define SCENE_ANGLE "judge surfaces whose planes meet at no more than this angle"
 

@@ -38,7 +38,7 @@ typedef struct scene_finding {
     double wrong_pixels; /* of --render, else NaN */
 } scene_finding;
 
-/* What --render drew. */
+/* The picture that --render drew. */
 typedef struct scene_rendered {
     const char *file, *raster;
     int width, height;
@@ -47,7 +47,7 @@ typedef struct scene_rendered {
     uint64_t wrong_pixels, wrong_found; /* those of findings */
 } scene_rendered;
 
-/* What a program adds to one of two surfaces; NaN where no bias is enough. */
+/* The bias for one of two surfaces; NaN where none is enough. */
 typedef struct scene_bias {
     const char *api;
     double units, factor;

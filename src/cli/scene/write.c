@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What `scene` writes for machines: verdicts as JUnit XML, and requirements that `check` reads. */
+/* Files of `scene` for machines: verdicts as JUnit XML, and requirements that `check` reads. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>

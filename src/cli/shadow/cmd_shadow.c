@@ -140,7 +140,7 @@ static void say_heads(page *p, void *item) {
                   p->plain);
 }
 
-/* Of the map where the least share of the constant bias is needed by any reckoning. */
+/* Says the causes in the map where the least share of the constant bias is needed by any reckoning. */
 static void say_causes(page *p, const shadow *s) {
     char text[256] = "";
     shadow_row least = shadow_row_of(&s->maps, 0, bias_asked_api(&s->o.bias, 0));
@@ -217,7 +217,7 @@ static void say_calls(page *p, void *item) {
 
 enum { ONE_API = 1, ALL_APIS = 2, SPLIT = 4 };
 
-/* Of a way of a row: what JSON and CSV have, behind the name of the way. */
+/* The columns of a way in JSON and CSV, behind the name of the way. */
 #define NUMBERS(name, k)                                                                                               \
     {FIELD(shadow_row, way[k].window, name "_bias", "")}, {FIELD(shadow_row, way[k].units, name "_units", "")},        \
         {FIELD(shadow_row, way[k].gap, name "_gap", "scene")},                                                         \

@@ -38,7 +38,7 @@ static void keep_off_zero(shadow_light *light, const bias_api *api) {
         light->receiver_lo = away;
 }
 
-/* What all maps share; of a box, also its sides and planes. */
+/* The light that all maps share; of a box, also its sides and planes. */
 static shadow_light light_of(const shadow_request *o, const dp_format *format, dp_mapping mapping) {
     const bool box = option_given(o->line, "light-box");
     dp_spec spec = {.zfar = box ? o->shadow.light_box[2] : 1.0,
@@ -104,7 +104,7 @@ static int read_depth_of(const shadow_request *o, shadow_maps *out) {
     return EXIT_FINE;
 }
 
-/* What the options could not see one by one. */
+/* Refuses options that are wrong only together. */
 static int refused(const shadow_request *o, shadow_status status) {
     const uint32_t side = o->shadow.size[0] < o->shadow.size[1] ? o->shadow.size[0] : o->shadow.size[1];
     const uint32_t least = (5 * o->shadow.kernel + 6) / 2 + 1; /* a texel wider than both margins of a cascade */

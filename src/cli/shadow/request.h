@@ -21,10 +21,10 @@ typedef struct shadow_asked {
     dp_spec camera;      /**< of the depth texture that receivers are rebuilt from: format, mapping, far */
 } shadow_asked;
 
-/** Of the maps; help shows their size where it shows that of images. */
+/** The options of the maps; help shows their size where it shows that of images. */
 extern const option_table shadow_options, shadow_size_options;
 
-/** What a figure of shadow maps takes of them. */
+/** The options that a figure of shadow maps takes. */
 extern const option_use shadow_map_uses[], shadow_cascade_uses[];
 #define SHADOW_FROM_ORIGIN     "no coordinate of a position exceeds R"
 #define SHADOW_FROM_ORIGIN_OUT "positions are relative to the centre of the light's box"

@@ -20,7 +20,7 @@ typedef struct shadow_set {
     char call[BIAS_CALL_SIZE];                            /**< what a program writes; "" where no bias is enough */
 } shadow_set;
 
-/** What a map needs, for one API. */
+/** The bias that a map needs, for one API. */
 typedef struct shadow_row {
     int cascade;             /**< from 1 */
     double from, to, radius; /**< of a cascade; NaN of a box */
@@ -31,14 +31,14 @@ typedef struct shadow_row {
     const char *api;
 } shadow_row;
 
-/** What is enough in all maps of a set-up, for one API. */
+/** The bias that is enough in all maps of a set-up, for one API. */
 typedef struct shadow_whole {
     const char *api;
     bool hidden, limited; /**< in a map a gap is as deep as the box, or reaches beyond the far plane */
     shadow_set way[SHADOW_WAY_COUNT];
 } shadow_whole;
 
-/** Of map i. */
+/** The row of map i. */
 shadow_row shadow_row_of(const shadow_maps *maps, size_t i, const bias_api *api);
 
 shadow_whole shadow_whole_of(const shadow_maps *maps, const bias_api *api);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lies beyond the distance that solve finds: where surfaces are seen to fight, and where it holds again. */
+/* Depths beyond the distance that solve finds: where surfaces are seen to fight, and where it holds again. */
 #include <float.h>
 #include <math.h>
 

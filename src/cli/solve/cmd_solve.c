@@ -248,8 +248,8 @@ static bool leaves_open(const solve_report *r, const dp_format *format) {
 }
 
 /*
- * What else there is: the real depth buffers with the mappings that an engine can choose. Of the logarithms it is the
- * one that was asked about: the others are those of other renderers, and `log` stands for what a shader may write.
+ * Adds the alternatives: the real depth buffers with the mappings that an engine can choose. Of the logarithms it is
+ * the one that was asked about: the others are those of other renderers, and `log` stands for what a shader may write.
  */
 static void add_others(solve_report *r) {
     const dp_mapping asked = r->o->camera.mappings[0];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What solve found, in columns: JSON, CSV and the table of alternatives. */
+/* The findings of solve in columns: JSON, CSV and the table of alternatives. */
 #include <math.h>
 #include <string.h>
 
@@ -14,7 +14,7 @@ typedef struct plane_fields {
     bool proven, certain;
 } plane_fields;
 
-/* What was found about a candidate; parts that are not asked for or do not exist are null. */
+/* The findings about a candidate; parts that are not asked for or do not exist are null. */
 typedef struct candidate {
     solve_candidate found;
     setup_fields setup;
@@ -182,7 +182,7 @@ static unsigned conditions(const solve_report *r) {
            (r->o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
 }
 
-/* What is measured names a column, and what is solved for another. */
+/* Writes the report; the quantities measured and solved for name columns. */
 void solve_report_write(const solve_report *r, output *out) {
     static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
     solving s = {.report = *r, .target = option_word("for", r->target), .measure = solve_measure_name(r)};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What solve found, in sentences. */
+/* The findings of solve in sentences. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -68,7 +68,7 @@ static number_text bound(const solve_report *r, double value, bool upward) {
     return upward ? up(r, value) : in_unit(r, number_down(value, SOLVE_DIGITS));
 }
 
-/* What is measured, in the unit of what is wanted, and that beside it. */
+/* The measured value in the unit of the one wanted, and that beside it. */
 static number_two against_wanted(const solve_report *r, double value) {
     const solve_request *o = r->o;
     const unit_row *unit = option_unit(o->line, r->kind == MEASURE_ERROR ? "error" : "separation");

@@ -10,7 +10,7 @@
 #include "requirement/distance.h"
 #include "requirement/plane.h"
 
-/** What real arithmetic would need: the same question in the model exact. */
+/** The need of real arithmetic: the same question in the model exact. */
 typedef struct solve_lattice {
     bool possible;
     double value;      /**< the plane or distance; NaN where neither is asked */
@@ -65,7 +65,7 @@ int solve_check_apart(const solve_request *o, solve_target target);
 /** Fills in `fight` and `again` of the answer. */
 void solve_look_beyond(solve_report *r);
 
-/** What text says of `again`. */
+/** Writes `again` in text. */
 void solve_say_beyond(page *p, const solve_report *r);
 
 /** Writes it in the form that the options ask for. */

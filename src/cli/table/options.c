@@ -36,7 +36,7 @@ static const option_row level_rows[] = {
 static const option_table level_options = {.rows = level_rows};
 
 /* clang-format off */
-/* What the reverse has no use for. */
+/* Bits for the ways of `table`; the reverse has no use for some options. */
 enum { TABLE_OF_DEPTHS = 1, TABLE_OF_CODES = 2, TABLE_OF_CONSTANTS = 4, TABLE_OF_LEVELS = 8 };
 static const option_use of_depths[] = {
     OWN("tolerance", WITHOUT("5% for the model; intervals are exact")),

@@ -183,7 +183,7 @@ static void say_within(page *p, const table *t, double reach, const char *all, c
         page_text(p, "Up to z = %s %s", number_in(number_down(reach, DIGITS), p->unit).text, within);
 }
 
-/* What a level is, how far from the camera the effect stays within one, and what of its parameter does so everywhere.
+/* Says what a level is, how far the effect stays within one, and up to which parameter it does so everywhere.
  */
 static void say_reach(page *p, const table *t) {
     char all[64], within[256];
@@ -233,7 +233,7 @@ static void say_effect(page *p, void *item) {
     say_reach(p, t);
 }
 
-/* Of another parameter, with the wanted one as it is. */
+/* Says the limit of another parameter, with the wanted one as it is. */
 static void say_ceiling(page *p, const table *t) {
     const texture_parameter *other = &t->effect->parameters[t->effect->ceiling];
     const number_text wanted = number_of(t->parameters[t->effect->wanted], DIGITS_Z),

@@ -56,7 +56,7 @@ static bool run(const texture_request *o, const texture_source *s, const texture
     return good;
 }
 
-/* What is grey, and what is in colour. */
+/* Builds the chart; with --overlay the grey picture lies under the coloured one. */
 static void build(const texture_request *o, drawing *d, chart *c) {
     if (!(o->image.overlay > 0)) {
         picture_build(&d->shown, c);

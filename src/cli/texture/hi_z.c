@@ -13,7 +13,7 @@ int texture_hi_z_check(const texture_request *o) {
     return o->out.file != NULL ? EXIT_FINE : option_error("hi-z", "needs -o FILE");
 }
 
-/* What JSON and messages say of a level. */
+/* A level in words for JSON and messages. */
 typedef struct hi_z {
     pyramid p;
     const char *file, *depth, *operation, *mapping;

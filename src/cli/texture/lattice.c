@@ -70,7 +70,7 @@ static bool read_numbers(const char *text, const struct way *way, double out[NUM
     return count >= way->least && count <= way->most;
 }
 
-/* What the levels were rounded to before the file was written stands behind a sign. @return whether it is well said */
+/* Reads behind "@" the step to which levels were rounded before the file was written. @return whether it is right */
 static bool read_again(char *text, const char *id, sensor *out) {
     char *const at = strchr(text, '@');
     if (at == NULL)
@@ -80,7 +80,7 @@ static bool read_again(char *text, const char *id, sensor *out) {
            out->again <= 1e12;
 }
 
-/* Of a data sheet. @return whether there is one of that name */
+/* Takes the lattice of a data sheet. @return whether there is one of that name */
 static bool find_device(const unit_row *unit, const char *text, sensor *out) {
     const name_list devices = {.get = list_device};
     const double again = out->again;

@@ -21,7 +21,7 @@ static const name_list samples = {.get = list_samples};
 static const name_list stereos = {.get = list_stereo};
 static const name_list packings = {.rows = &packing_table};
 
-/* What 1 in a sample of metric depth is. */
+/* The length of 1 in a sample of metric depth. */
 static const struct sample_unit {
     const char *name, *length, *moved; /* moved: a row of moved_get(), or null */
 } sample_units[] = {

@@ -130,7 +130,7 @@ static bool take_packed(void *context, uint32_t row, uint32_t count, const float
     return true;
 }
 
-/* What reading it back takes. */
+/* Notes the planes and packing with which a program reads the file back. */
 static void note_of_packing(const texture_request *o, const texture_source *s, char note[IMAGE_NOTE_SIZE]) {
     const dp_spec *planes = &frame_planes(&s->frame)->spec;
     snprintf(note, IMAGE_NOTE_SIZE, "product=depth packing=%s near=%s far=%s%s%s%s", o->image.pack->name,

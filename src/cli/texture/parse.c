@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the page has not of the options of texture. */
+/* The options of texture that the page lacks. */
 #include <stdio.h>
 #include <string.h>
 

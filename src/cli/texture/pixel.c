@@ -14,7 +14,7 @@
 
 enum { DIGITS = 6, DIGITS_DEPTH = 10, DIGITS_Z = 9, DIGITS_MOST = 15, NEIGHBOURS = 4 };
 
-/* What does not exist is NaN. */
+/* A pixel and its numbers; those that do not exist are NaN. */
 typedef struct pixel {
     uint32_t column, row;
     const char *state;  /* "depth", "sky", "hole" */
@@ -136,7 +136,7 @@ static bool read_error(const pixels *all, frame_product product, size_t field) {
     return true;
 }
 
-/* What the effect makes of the pixels. */
+/* Finds the effect's outputs at the pixels. */
 static bool find_effect(pixels *all) {
     frame_product product = *all->effect;
     bool good = read_product(all, product, offsetof(pixel, output));
@@ -172,7 +172,7 @@ static bool has_camera(const pixels *all) {
            (option_given(all->o->line, "ortho") && *option_text(all->o->line, "ortho") != '\0');
 }
 
-/* Of a synthetic image how much it is, of an image at most. */
+/* Says an error: in a synthetic image as it is, in an image as a bound. */
 static void say_off(page *p, const pixels *all, double by, const char *unit) {
     if (isnan(by))
         return;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an image does not say: how coarse it is against its buffer, and what was assumed about it. */
+/* Readings that an image leaves open: how coarse it is against its buffer, and what was assumed about it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -64,7 +64,7 @@ static double type_steps(const texture_source *s) {
     return 0;
 }
 
-/* What all samples are multiples of: steps that were found, or the codes of a coarser format than the set-up's. */
+/* The steps that all samples are multiples of: those found, or the codes of a format coarser than the set-up's. */
 static double found_steps(const texture_source *s) {
     const dp_format *looks_like = &s->found.format;
     if (s->found.steps > 0)
@@ -74,7 +74,7 @@ static double found_steps(const texture_source *s) {
     return codes && coarser && looks_like->kind == DP_FORMAT_UNORM ? looks_like->code_max : 0;
 }
 
-/* Of bits that were shifted up, which make steps that are not whole; 0 of others. */
+/* The whole steps below steps that are not whole, as bits that were shifted up make them; else 0. */
 static double whole_steps(double steps) {
     return steps == floor(steps) ? 0 : floor(steps);
 }
@@ -157,7 +157,7 @@ static void add_reading(texture_source *s, const char *what, const char *name, c
         s->readings[s->reading_count++] = (texture_reading){what, name, dp_eye(&setup, d, 1 - d)};
 }
 
-/* Of the logarithms three-webgl and osgearth have the depths of log; those that begin at near are not read. */
+/* Readings by other mappings: three-webgl and osgearth have the depths of log; those from near on are not read. */
 static void mappings_of(texture_source *s, double d) {
     static const dp_mapping others[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, DP_MAPPING_LINEAR, DP_MAPPING_LOG};
     dp_spec spec = s->setup.spec;

@@ -43,7 +43,7 @@ static void *next_error(void *of, size_t i) {
     return e;
 }
 
-/* Of an image window depth without --metric, and levels with it or --stereo. */
+/* Conditions of columns; an image has window depth without --metric, and levels with it or --stereo. */
 enum { OF_SYNTHETIC = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8, OF_METRIC = 16, OF_STEREO = 32 };
 
 static unsigned conditions(const statistics *r) {
@@ -220,14 +220,14 @@ static const column columns[] = {
     {LIST("errors", error_columns, next_error), .only = AS_JSON | AS_TEXT, .indent = 2},
     {.kind = COLUMN_END}};
 
-/* Of a corner, where rays are longest. */
+/* The longest ray, that of a corner. */
 static double longest_ray(const texture_camera *c) {
     const uint32_t right = c->width - 1, bottom = c->height - 1;
     return fmax(fmax(camera_radial(c, 0, 0), camera_radial(c, right, 0)),
                 fmax(camera_radial(c, 0, bottom), camera_radial(c, right, bottom)));
 }
 
-/* What is said of the source by names, and of its options. */
+/* Names the source's properties and its options. */
 static void name_all(statistics *r) {
     static const bool answers[] = {false, true};
     const texture_source *s = &r->source;
@@ -297,7 +297,7 @@ static bool add_decoding(statistics *r, const decode_row *row) {
     return frame_summarise_decoding(&r->source.frame, row, &e->sum);
 }
 
-/* Of an image what is certain without looking any further; a synthetic image tells the truth about everything. */
+/* The products whose errors are shown: a synthetic image knows all, an image those certain at once. */
 static size_t products_of(const statistics *r, frame_product out[ERRORS_MAX]) {
     size_t count = 0;
     out[count++] = (frame_product){.kind = FRAME_EYE, .error = true};

@@ -60,7 +60,7 @@ typedef struct texture_asked {
     double overlay;                 /**< errors above it are shown, scene units; 0 when not given */
 } texture_asked;
 
-/** Of the image; its rows name a matrix first, and a picture's size behind --synthetic. */
+/** The options of the image; its rows name a matrix first, and a picture's size behind --synthetic. */
 extern const option_table texture_options;
 
 typedef struct texture_request {

@@ -47,7 +47,7 @@ int texture_parameter_set(const char *whose, const texture_parameter *list, cons
     return EXIT_FINE;
 }
 
-/* What is not the synthetic image's may be the effect's. */
+/* Reads the parameters of the synthetic image; others may be the effect's. */
 static int synthetic_parameters(const texture_request *o, const synthetic_row *synthetic, double *out) {
     int status = EXIT_FINE;
     parameter_defaults(synthetic->parameters, out);
@@ -119,7 +119,7 @@ static int check_together(const texture_request *o) {
     return status == EXIT_FINE ? texture_camera_check(o) : status;
 }
 
-/* What would change the samples in a program that obeys it. */
+/* Warns of colours by which a program that obeys them changes the samples. */
 static void warn_of_colours(const texture_request *o, const texture_source *s) {
     static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};
     for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->out.quiet; i++)
@@ -159,7 +159,7 @@ static void warn_of_channels(const texture_request *o, const texture_source *s) 
 
 /* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
 
-/* What a codec has changed is known to nobody, so no error has it. */
+/* Warns of lossy compression: nobody knows what it changed, so no error has it. */
 static void warn_of_compression(const texture_request *o, const texture_source *s) {
     if (s->picture.lossy != NULL && !o->out.quiet)
         message("depthprec: %s: its compression, %s, may have changed the depths, which no error here counts; save it "
@@ -283,7 +283,7 @@ static int read_stereo(const texture_request *o, texture_source *s) {
     return wrong == NULL ? EXIT_FINE : usage_error("%s: no disparity: %s", s->path, wrong);
 }
 
-/* What was said of the samples' bits is undone; what they show is said. */
+/* Undoes a move of bits that the user named; says one that the samples show. */
 static int move_bits(texture_request *o, texture_source *s) {
     const moved_row *said = o->image.metric > 0 ? o->image.moved : NULL;
     if (said != NULL && !moved_undo(said, &s->picture))
@@ -363,7 +363,7 @@ static int read_image(texture_request *o, texture_source *s) {
     recognise(&s->picture, &s->found, s->why);
     return EXIT_FINE;
 }
-/* What the user gave, which may leave a choice; else what was found, else what is usual. */
+/* The format that the user gave, which may leave a choice; else the one found, else the usual one. */
 static int choose_format(const texture_request *o, texture_source *s, dp_format *out) {
     const bool chosen = o->camera.preset_count > 0 || o->camera.platform != NULL;
     const bool given = texture_is_window(o) && (option_given(o->line, "format") || chosen);

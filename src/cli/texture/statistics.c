@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What text says of an image. */
+/* An image in text. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -126,7 +126,7 @@ static void say_levels(statistics *r, page *p) {
                   number_in(number_of(b->znear, 6), p->unit).text, number_in(number_of(b->zfar, 6), p->unit).text);
 }
 
-/* What makes depths of the samples. */
+/* Says how samples become depths. */
 static void say_stereo(const statistics *r, page *p) {
     const stereo_spec *s = &r->stereo;
     char offset[NUMBER_SIZE + 8] = "";

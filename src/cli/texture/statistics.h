@@ -21,7 +21,7 @@ typedef struct error_line {
     char at[64]; /* and the pixel, or how many these are, and the unit */
 } error_line;
 
-/** What is printed of the lattice of metric depth. */
+/** The lattice of metric depth as it is printed. */
 typedef struct lattice_fields {
     const char *name, *from, *other, *like;
     double step, step_error, offset, offset_error, before, constant, levels, bits, off_pixels, residual;

@@ -72,8 +72,8 @@ const char *texture_origin_name(texture_origin origin);
 int texture_source_open(texture_request *o, texture_source *out);
 void texture_source_close(texture_source *s);
 
-/** What the text of --lattice or --as says, of a sensor by name in the unit of a scene, metres where that is open; NaN
- * where it does not, no row where the text is null. @return an exit status, after one line on stderr */
+/** Reads the text of --lattice or --as, a sensor by name, in the unit of a scene, metres where that is open; NaN for
+ * what it leaves out, no row where the text is null. @return an exit status, after one line on stderr */
 int texture_lattice(const unit_row *unit, const char *id, const char *text, sensor *out);
 
 /** One line on stderr where the image contradicts it. */
@@ -86,7 +86,7 @@ bool texture_far_known(const texture_request *o);
 bool texture_is_window(const texture_request *o);
 
 /**
- * Of an image, what it does not say: fills in grain, how the samples were rounded, which is said in `why` of what was
+ * Reads what an image does not say: fills in grain, how the samples were rounded, which is said in `why` of what was
  * found, and the readings of a pixel. One line on stderr about what is assumed, if anything is.
  */
 void texture_read_on(const texture_request *o, texture_source *s);
@@ -97,7 +97,7 @@ bool texture_coarser(const texture_source *s);
 /** Whether its samples may be metric depth, or disparity: whole numbers with holes at 0, or numbers above 1. */
 bool texture_may_be_metric(const texture_source *s);
 
-/** What is said of the pixels of a packing that wraps which hold 0. @return out */
+/** A sentence about the pixels that hold 0 of a packing that wraps. @return out */
 const char *texture_zeros_of(const texture_request *o, const texture_source *s, char out[READINGS_SIZE]);
 
 /** "320,180 is at z = 4.2 as d3d, 0.4 as reversed", of "mapping" or "format"; "" where it has none. @return out */
@@ -208,7 +208,7 @@ int texture_report_write(const texture_request *o, const texture_source *source)
 /** Whether the pixels of --pixel lie in so many. @return an exit status, after one line on stderr */
 int texture_pixels_check(const texture_request *o, uint32_t width, uint32_t height);
 
-/** What --pixel asks about, likewise; `effect` is the effect of --product beside it, or null. */
+/** Writes the pixels of --pixel, likewise; `effect` is the effect of --product beside it, or null. */
 int texture_pixel_write(const texture_request *o, const texture_source *source, const frame_product *effect);
 
 /** The effect that --product names, and its parameters, in an image or not. @return EXIT_FINE, or EXIT_USAGE after one

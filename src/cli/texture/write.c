@@ -120,7 +120,7 @@ static bool in_units(const frame_product *made, const frame_summary *sum) {
     return made->kind == FRAME_EYE && !made->error && !made->radial && sum->count > 0 && sum->lo > 0;
 }
 
-/* What a PNG spreads over its samples: of an effect what is asked for, or that of a colour; else what is there. */
+/* The range that a PNG spreads over its samples: of an effect that asked for or of a colour; else that found. */
 static bool range_of(const texture_request *o, const texture_source *s, const frame_product *made, frame_summary *sum) {
     const bool asked = option_given(o->line, "range"), wide = made->kind == FRAME_NORMAL || made->vector;
     *sum = (frame_summary){.lo = asked  ? o->camera.range_lo
@@ -157,7 +157,7 @@ static bool rounding_of_product(const texture_request *o, const texture_source *
     return true;
 }
 
-/* What the samples of a PNG mean. */
+/* Chooses the scale of a PNG's samples. */
 static bool scale_of(const texture_request *o, const texture_source *s, const frame_product *made, writing *w) {
     frame_summary sum;
     if (w->type != IMAGE_U16 || w->on.picture != NULL)

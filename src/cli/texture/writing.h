@@ -63,7 +63,7 @@ meaning writing_meaning(const texture_request *o, const texture_product *p, cons
 /** For the file itself. Eye depths are read back by it. */
 void writing_note(const writing *w, const texture_product *p, const meaning *m, char note[IMAGE_NOTE_SIZE]);
 
-/** What the numbers in the file are: JSON on stdout; or, of a PNG, a line on stderr. @return an exit status */
+/** Says the meaning of the file's numbers: JSON on stdout; or, of a PNG, a line on stderr. @return an exit status */
 int writing_say(const texture_request *o, const texture_product *p, const writing *w, meaning *m);
 
 #endif
