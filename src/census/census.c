@@ -135,7 +135,7 @@ static void update_bound(sweep *w, uint32_t first) {
     w->bound_edge = here;
 }
 
-/* Those that may hold something new; the guarantee is asked for only where what it is not below leaves some. */
+/* The runs of a block that may hold something new; the guarantee is asked for only where its floor leaves some. */
 static uint32_t suspects_of_block(sweep *w, uint32_t base) {
     const uint32_t first = w->s->first + base * CENSUS_RUN;
     if (w->slack_known == HUGE_VAL)

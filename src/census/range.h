@@ -28,7 +28,7 @@ static inline int census_band_of(const census_range *range, uint32_t rank) {
     return (int)(census_folded(range, rank) - census_folded(range, range->first));
 }
 
-/* From a depth to the next one. */
+/* The distance from a depth to the next one. */
 static inline double census_step(uint32_t rank) {
     return (double)dp_ranked32(rank + 1) - (double)dp_ranked32(rank);
 }

@@ -122,7 +122,7 @@ static int find_method(wanted_code *w) {
     return refuse_method(w, o->line->operands[0], NULL);
 }
 
-/* Without a name the one with the least error. */
+/* Finds the packing: without a name the one with the least error. */
 static int find_packed(wanted_code *w) {
     const bool depth = w->o->what == WHAT_PACK, given = w->o->line->operand_count > 0;
     const bound_arithmetic *how = &w->language->how;

@@ -89,7 +89,7 @@ static int better(const void *a, const void *b) {
     return cheaper != 0 ? cheaper : first->setup < second->setup ? -1 : 1;
 }
 
-/* From a near plane that has no power of ten: multiples of 1, 2 or 5 times one, as many as there is room for. */
+/* Between planes without powers of ten: multiples of 1, 2 or 5 times one, as many as there is room for. */
 static void choose_multiples(comparison *c, double near, double far, double most) {
     static const double of[] = {1.0, 2.0, 5.0};
     const double power = floor(dp_log10(far - near)) - 1.0;
@@ -103,7 +103,7 @@ static void choose_multiples(comparison *c, double near, double far, double most
         c->depths[c->depth_count++] = fmin(fmax(k * step + 0.0, near), far); /* 0 is not -0 */
 }
 
-/* At most five of the depths asked about, else powers of ten: those that a reader looks for. */
+/* Chooses at most five of the depths asked about, else powers of ten: those that a reader looks for. */
 static void choose_depths(comparison *c) {
     const table_request *o = c->o;
     double near = INFINITY, far = -INFINITY;

@@ -12,7 +12,7 @@ static double clip_of(const dp_chain *c, double z) {
     return c->a * z + c->b;
 }
 
-/* By how much more or less that may be in a run of cameras. */
+/* How much larger or smaller the clip depth may be in a run of cameras. */
 static double clip_more(const dp_chain *c, double z) {
     return c->a_more * fabs(z) + c->b_more;
 }
@@ -168,7 +168,7 @@ static dp_step product_of(const dp_chain *c, dp_span r) {
     return s;
 }
 
-/* By how much more or less the clip depths of a span may be. */
+/* How much larger or smaller the clip depths of a span may be. */
 static double clip_more_over(const dp_chain *c, dp_span r) {
     return c->run ? clip_more(c, size_of(r).most) : 0.0;
 }
@@ -250,7 +250,7 @@ static dp_step add_w(const dp_chain *c, dp_span r, magnitude clip, double error)
     return m.most < 0x1p24 * granule ? (dp_step){0.0, 0.0} : step_of(m);
 }
 
-/* By how much more or less the quotients of a span may be in a run of cameras. */
+/* How much larger or smaller the quotients of a span may be in a run of cameras. */
 static double ndc_more(const dp_chain *c, dp_span r) {
     return clip_more_over(c, r) / w_of(c, r.lo);
 }

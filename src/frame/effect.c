@@ -146,7 +146,7 @@ static size_t pixel_of(const work *w, const tap *at) {
     return (size_t)at->row * w->camera->width + at->column;
 }
 
-/* As the texture of depths and normals has it: z towards the camera, in two channels of 8 bits. */
+/* The normal that the texture of depths and normals holds: z towards the camera, in two channels of 8 bits. */
 static void packed_normal(const work *w, const tap *at, double out[3]) {
     uint8_t texel[2];
     const uint8_t *packed = texel;

@@ -67,7 +67,7 @@ DP_INLINE float frame_upwards(double error) {
     return dp_float_up(error * (1 + 0x1p-48));
 }
 
-/** From the camera, along the world's axes. */
+/** The exact place at z, from the camera, along the world's axes. */
 static inline void frame_exact_place(const frame_row *in, uint32_t x, double z, double relative[3]) {
     double view[3];
     camera_view(in->frame->camera, x, in->row, z, view);
@@ -89,7 +89,7 @@ static inline void frame_exact_places(const frame_row *in) {
 /** Those of FRAME_EFFECT, in effect.c. */
 frame_make frame_effect, frame_effect_error;
 
-/** By kind, and error or not. */
+/** The functions that make rows: by kind, and error or not. */
 extern frame_make *const frame_makers[FRAME_KINDS][2];
 
 #endif

@@ -47,7 +47,7 @@ double fit_chance(const double *probabilities, size_t count, size_t on) {
     return most;
 }
 
-/* From the nearest level. */
+/* The distance of a value from the nearest level. */
 static double residual_of(const fit *f, double at) {
     const double k = (at - f->offset) / f->step;
     return (k - rint(k)) * f->step;
@@ -194,7 +194,7 @@ static int compare_doubles(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-/* From a quarter of the window up to sixteen steps in the usual gap, or to what rounding leaves. */
+/* Tries teeth from a quarter of the window up to sixteen steps in the usual gap, or to what rounding leaves. */
 static bool choose_teeth(const fit_value *values, comb *c) {
     double sorted[WINDOW] = {0}, gaps[WINDOW] = {0}, off = 0;
     for (size_t i = 0; i < c->count; i++)

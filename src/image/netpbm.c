@@ -40,7 +40,7 @@ static bool is_blank(char c) {
     return c != '\0' && strchr(" \t\n\v\f\r", c) != NULL;
 }
 
-/* To the first character that is neither blank nor comment. */
+/* Skips to the first character that is neither blank nor comment. */
 static bool skip(header *h) {
     bool comment = false;
     do {

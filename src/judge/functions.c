@@ -127,7 +127,7 @@ static double complement(const dp_setup *s, const judge_depth *at) {
     return at->den > 0 ? at->comp / at->den : 1 - window(s, at);
 }
 
-/* From the depth in the middle of the buffer, where it is 0. */
+/* NDC depth, from the depth in the middle of the buffer, where it is 0. */
 static double ndc(const dp_setup *s, const judge_depth *at) {
     if (!dp_mapping_get(s->spec.mapping)->ndc_signed)
         return (double)NAN;

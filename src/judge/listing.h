@@ -56,7 +56,7 @@ piece listing_word_before(const char *from, const char *at);
 
 /** Is it declared there, to be known to others? Inside: to be known there alone, as a parameter is. */
 bool listing_item_declares(const item *i, piece name, bool inside);
-/** By the file, but for uniforms. */
+/** Whether the file declares a name, but for uniforms. */
 bool listing_declares(const listing *s, piece name);
 /** The type with which a uniform, or a member of a structure, is declared; of length 0 where none is found. */
 piece listing_type(const listing *s, piece name, bool member);

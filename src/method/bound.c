@@ -64,7 +64,7 @@ static piece pop_worst(search *s) {
     return worst;
 }
 
-/* From below 1/2 the octaves of d, above it those of 1 - d, to where depths are what they are at the plane, or to the
+/* Pieces are the octaves of d below 1/2, above it those of 1 - d, to where depths are those at the plane, or to the
  * last number. */
 static void first_pieces(search *s) {
     const double turn = s->reversed ? s->base / (s->base + s->slope) * 0x1p-4 : 0x1p-26;

@@ -71,7 +71,7 @@ static double left_of_sum(double a, double b) {
     return (a - (s - v)) + (b - v);
 }
 
-/* Those of binary64 stand for what is known of them: products and sums of the planes. */
+/* The term of a constant; those of binary64 are known as products and sums of the planes. */
 static term constant_of(const steps *s, int index, const steps_given *given, bool wide) {
     const steps_node *of = &s->node[index];
     const double value = steps_value(s, index, given);

@@ -104,7 +104,7 @@ static void engine_run(const method_call *c) {
         c->out->code[i] = dp_format_encode(&c->setup->spec.format, c->setup->spec.rounding, (double)c->in->d[i]);
 }
 
-/* As texts, for the code that is printed of them. */
+/* The steps as texts, from which code is printed. */
 static const bound_steps floor_steps = {.constants = {"M = most; H = 1/2", "M = most; H = 1/2"},
                                         .steps = {"k = whole(d*M + H)", "k = whole(d*M + H)"}};
 static const bound_steps rint_steps = {.constants = {"M = most", "M = most"},

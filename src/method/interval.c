@@ -112,7 +112,7 @@ static double neighbours(double ratio, double roundings, double b) {
     return 0.75 / (1 / (g * g) + 2 / g) + roundings * steps24 / (1 - 1 / ratio);
 }
 
-/* In the binary32 pipeline. */
+/* The claim of the guarantee in the binary32 pipeline. */
 static double bound_claim(double ratio, double a, double b) {
     (void)a, (void)b;
     return 2 * (2 + 2 / (1 - 1 / ratio)) + 2 / 3.0 - 1;

@@ -165,7 +165,7 @@ static void pair_run(const method_call *c) {
     }
 }
 
-/* As the engine has it: n/(phi d + q), which also has a limit for an infinite far plane. */
+/* The engine's formula: n/(phi d + q), which also has a limit for an infinite far plane. */
 static void phi_run(const method_call *c) {
     const double n = c->setup->spec.znear, phi = n / c->setup->spec.zfar;
     const bool reversed = c->setup->reversed != 0;

@@ -242,7 +242,7 @@ static bool read_words(obj_reader *r, char *line) {
     return true;
 }
 
-/* From a # on that begins a word. */
+/* Cuts the line at a # that begins a word. */
 static void cut_comment(char *line) {
     char *at = strchr(line, '#');
     while (at != NULL && at != line && !is_blank(at[-1]))

@@ -53,7 +53,7 @@ static void place_at(const stage *s, double x, double y, double at[2]) {
         at[k] = z * (s->along[k][0] * ray[0] + s->along[k][1] * ray[1] + s->along[k][2] * ray[2]);
 }
 
-/* At the corners of what is shown: the most. */
+/* The largest guaranteed separation in the area shown, that of a corner. */
 static double guaranteed_over(const stage *s, double slant) {
     const draw_area *a = &s->buffer.area;
     double most = 0.0;

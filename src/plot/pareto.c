@@ -75,7 +75,7 @@ static void add_front(const field *f, chart *out, chart_panel *panel, int pipeli
     snprintf(s->name, sizeof s->name, "front");
 }
 
-/* From the worst error found to what is proven, a bar each. */
+/* Adds a bar for each method from the worst error found to the proven one. */
 static void add_bars(const field *f, chart *out, chart_panel *panel) {
     size_t count = 0;
     for (size_t i = 0; i < f->count; i++)

@@ -41,7 +41,7 @@ static void pack_rows(const pixels *p, int first, int count, unsigned char *to) 
     }
 }
 
-/* Up to a whole byte, or to the end where it is the last. */
+/* Deflates up to a whole byte, or, in the last band, to the end. */
 static bool deflate_rows(unsigned char *raw, size_t before, bool last, band *b) {
     z_stream z = {0};
     const size_t window = before < WINDOW ? before : WINDOW;

@@ -216,7 +216,7 @@ static box box_of(const fights_asked *a) {
     return b;
 }
 
-/* From the nearest fight to the farthest, without the bright end, which is hard to tell from the model. */
+/* The scale from the nearest fight to the farthest, without the bright end, hard to tell from the model. */
 static chart_axis depths_of(const fights_asked *a) {
     chart_axis axis = {.label = "may z-fight from", .key = "fights_from", .unit = "scene units", .scale = CHART_LOG};
     axis.lo = (double)INFINITY;

@@ -27,7 +27,7 @@ static void draw_marker(const pencil *p, const chart_series *s, double x, double
     theme_marker(p->c, p->theme, x, y, marker, s->style.colour, s->style.stroke % 2 == 1, size * p->scale);
 }
 
-/* At even distances along the line, which need not have a point there. */
+/* Draws markers at even distances along the line, which need not have a point there. */
 static void draw_markers(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
     double spacing = fmin(MARKER_SPACING * p->scale, a->frame.w / 3), before = 0, all = 0;

@@ -177,7 +177,7 @@ static bool make_depth(context *g, shot_format format) {
            fail(g, "the driver refuses a frame of depth alone");
 }
 
-/* As they lie in memory: no conversion on the way. */
+/* Reads the codes as they lie in memory: no conversion on the way. */
 static void take_codes(context *g, shot *s) {
     static uint16_t narrow[SHOT_PIXELS];
     const GLenum what = s->format == SHOT_D24 ? GL_DEPTH_STENCIL : GL_DEPTH_COMPONENT;

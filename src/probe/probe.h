@@ -58,7 +58,7 @@ typedef struct probe_result {
  */
 bool probe_run(const char *device, uint64_t seed, probe_result *result, char error[SHOT_ERROR_SIZE]);
 
-/** Null is allowed. */
+/** Frees a result, which may be null. */
 void probe_free(probe_result *result);
 
 /** "d16", "d24", "d32f". */

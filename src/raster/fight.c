@@ -58,7 +58,7 @@ static int at_least(int x, int least) {
     return x > least ? x : least;
 }
 
-/* As far about the pixel as the larger mesh reaches, and no farther than REACH. */
+/* The area about a pixel as far as the larger mesh reaches, and no farther than REACH. */
 static draw_area area_about(const draw_camera *camera, int x, int y, const draw_mesh mesh[2]) {
     const double reach =
         0.5 * CELLS *

@@ -16,7 +16,7 @@ static float between(float t, float out, float in) {
     return out + t * (in - out);
 }
 
-/* From the vertex nearer to the plane: `t` is at most 1/2. */
+/* Cuts an edge from the vertex nearer to the plane: `t` is at most 1/2. */
 static raster_vertex cut(const raster_vertex *inside, const raster_vertex *outside, float d_inside, float d_outside) {
     const bool nearer = -d_outside < d_inside;
     const raster_vertex *from = nearer ? outside : inside;

@@ -68,7 +68,7 @@ static bool has_depth(const draw_camera *camera, const draw_plane *plane, const 
     return most + moved * step <= allowed * least && most <= allowed * (least - moved * step);
 }
 
-/* Not next to an edge either, for clip coordinates are rounded. */
+/* Whether a place is in view, and not next to an edge, for clip coordinates are rounded. */
 static bool in_view(const draw_camera *camera, const double window[2], double z) {
     return window[0] >= moved && window[0] <= camera->target.width - moved && window[1] >= moved &&
            window[1] <= camera->target.height - moved && z >= (double)camera->pipeline.znear &&

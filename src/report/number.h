@@ -71,7 +71,7 @@ number_text number_brief(number_text number);
 /** The digits that it takes to see that a value near `at` is off by `step`, with two digits of the step. */
 int number_digits_within(double at, double step, int least, int most);
 
-/** As number_shortest(). */
+/** The text of number_shortest(). */
 number_text number_full(double value);
 
 #endif

@@ -43,7 +43,7 @@ static void judge_in(const need *n, const dp_setup *setup, check_verdict *v) {
     v->code = j.code;
 }
 
-/* From a world of places: no farther from its origin than a corner of its box, seen within 60 degrees of the axis. */
+/* Judges places of a world: no farther from its origin than a corner of its box, within 60 degrees of the axis. */
 static void judge_world(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
     static const double root3 = 1.7320508075688774;
     with_model(asked, DP_MODEL_FLOAT, &v->setup); /* need_read() has refused mappings that have none */

@@ -98,7 +98,7 @@ double distance_about(const dp_setup *setup, double lo, double hi, double limit,
     return r.edge.holds;
 }
 
-/* As `check` would judge it, in one piece: where that stops refining too early, a little less, at last the beginning,
+/* Takes what `check` accepts, in one piece: where that stops refining too early, a little less, at last the beginning,
  * which holds. */
 static void confirm(const ruler *r, distance_answer *out) {
     const double reach = r->edge.holds;

@@ -104,7 +104,7 @@ static solve_problem in_lattice(const solve_problem *p) {
     return exact;
 }
 
-/* At the far end of the range, or a little before the depth that is worst in the middle: there binades end. */
+/* Whether no plane can pass, by the far end of the range or just before the middle's worst depth: there binades end. */
 static bool none_passes(const solve_problem *p, double outer, double inner, double middle) {
     const solve_problem exact = in_lattice(p);
     const int half = p->kind == MEASURE_ERROR;
@@ -131,7 +131,7 @@ static bool is_smallest(const search *s, double outer, double inner) {
            (isinf(outer) && inner > 0.5 * far_most);
 }
 
-/* Where nothing is found: the outermost plane that passes alone, or what comes near. */
+/* Keeps, in case nothing is found, the outermost plane that passes alone, or what comes near. */
 static void offer(search *s, double value) {
     const bool by_chance = s->problem->kind == MEASURE_ERROR && value != s->inner;
     const judgement j = reached_at(s->problem, value);
@@ -162,7 +162,7 @@ static bool find(search *s, double outer, double inner, double box[2]) {
     return false;
 }
 
-/* From a value that passes towards an end, in stretches as long as can be shown to pass. */
+/* Goes from a value that passes towards an end, in stretches as long as can be shown to pass. */
 static double reach_from(const search *s, double start, double end) {
     const bool up = end > start, outwards = (end == s->outer);
     const int most = s->problem->lo < s->problem->hi ? STRETCHES_OF_RANGE : STRETCHES_MOST;

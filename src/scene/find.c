@@ -51,7 +51,7 @@ static bool measure_box(search *s) {
 /* ---- What closed bodies hide --------------------------------------------------------------------------------------
  */
 
-/* From neither side from which both triangles are seen; where there is none, it was asked for all the same. */
+/* Whether a pair is hidden from each side that shows both triangles; without such a side, the user asked for it. */
 static bool is_hidden(const hidden_among *among, const finder_pair *p, double gap) {
     const model *m = among->m;
     const bool both_a = m->surface[m->of[p->triangle[0]]].two_sided;

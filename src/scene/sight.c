@@ -16,7 +16,7 @@ enum { DIGITS = 6, SIDES = 6, POLYGON = FINDER_CORNERS + SIDES, ROUNDS = 12 };
 static const double outward = 0x1p-40;
 static const double turned = 0x1p-8;
 
-/* By which share of what it lacks a lift grows beyond that. */
+/* A lift grows beyond what it lacks by this share of it. */
 static const double spare = 0x1p-7;
 
 static const double degrees = 180.0 / 3.14159265358979323846;
@@ -108,7 +108,7 @@ static void unit_normal(const model *m, uint32_t triangle, double out[3]) {
         out[k] /= length;
 }
 
-/* With their overlap where they are at most `gap` apart. */
+/* Two triangles with their overlap where they are at most `gap` apart. */
 static pair pair_of(const sight_asked *asked, const finder_pair *of, double gap) {
     const model *m = asked->m;
     overlap o = {0};
@@ -243,7 +243,7 @@ static double lack_of(const sight_asked *asked, const dp_setup *by, const scene_
     return fmax(enough(by, seen->seen_from, farther ? asked->within : seen->seen_to, least) - least, 0.0);
 }
 
-/* Where it is not guaranteed, at the depths that are seen, and what is lacking. */
+/* Finds the depths at which a pair is seen and not guaranteed, and the distance that it lacks. */
 static void judge_pair(const pair *p, const sight_asked *asked, const scene_eye *eye, scene_sight *seen) {
     standard of;
     const dp_setup *by = standard_of(p, asked, eye, seen, &of);

@@ -12,7 +12,7 @@
 
 enum { TREE_LEAF = 4 };
 
-/* In binary32, rounded outward. */
+/* A box in binary32, rounded outward. */
 typedef struct tree_box {
     float lo[3], hi[3];
 } tree_box;

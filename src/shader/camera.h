@@ -93,7 +93,7 @@ DP_INLINE void camera_view(const texture_camera *camera, double column, double r
     view[2] = z;
 }
 
-/** From the camera, along the world's axes; the world's place is `origin` more. */
+/** Turns a place in view space to the world's axes; the world's place is `origin` more. */
 DP_INLINE void camera_turn(const texture_camera *camera, const double view[3], double world[3]) {
     for (int i = 0; i < 3; i++)
         world[i] = camera->axis[0][i] * view[0] + camera->axis[1][i] * view[1] + camera->axis[2][i] * view[2];

@@ -271,7 +271,7 @@ static double error_in(const cell_case *at, const double *parameters) {
     return LEVELS * kinds[at->row->kind].error(at, parameters);
 }
 
-/* From what is stored of z to what is stored of the next depths beyond its cell. */
+/* The step from the stored depth of z to that of the next depths beyond its cell. */
 static cell_case step_at(const effect_row *row, const effect_view *view, double z) {
     const dp_setup *setup = view->setup;
     const uint32_t code = dp_code(setup, z), last = setup->reversed ? 0 : setup->spec.format.code_max;

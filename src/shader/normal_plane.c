@@ -294,7 +294,7 @@ DP_INLINE void finish(bool ortho, double y, const bound_block *restrict b, size_
     }
 }
 
-/* From errors that are known, or, where these are null, that a closed form has. */
+/* Bounds from errors that are known, or, where these are null, from those of a closed form. */
 DP_INLINE void bounds_of(const texture_camera *camera, bool ortho, const grain_bound *form, const double *error,
                          const plane_block *p, double column, double row, size_t count, double *bound) {
     bound_block b;

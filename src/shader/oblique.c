@@ -24,7 +24,7 @@ static double eye_of(const camera_oblique *o, dp_pair k, dp_point point) {
     return z > 0 ? z : (double)INFINITY;
 }
 
-/* From z to z' are z z' |d' - d|/|e|: nothing cancels. */
+/* The distance from z to z' is z z' |d' - d|/|e|: nothing cancels. */
 static double span_of(const camera_oblique *o, dp_point a, dp_point b, double z_a, double z_b) {
     const double step = a.den == b.den ? (b.num - a.num) / a.den : b.num / b.den - a.num / a.den;
     return step == 0 ? 0 : z_a * z_b * fabs(step / o->pull);

@@ -97,7 +97,7 @@ static span level_span(const grain *g, span s) {
     return (span){1 / (1 / fmax(lo, 0) + up), least > 0 ? 1 / least : (double)INFINITY, 1};
 }
 
-/* Without a buffer: the numbers that the sample may have been. */
+/* The numbers that a sample may have been, where there is no buffer. */
 static span sample_span(const grain *g, double v) {
     const span s = between_span(g, g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v));
     return g->levels == GRAIN_FINE ? s : level_span(g, s);

@@ -171,7 +171,7 @@ static pair quick_two_sum(float first, float second) {
     return (pair){sum, second - added};
 }
 
-/* The same of any two. */
+/* The same sum of any two numbers. */
 static pair two_sum(float first, float second) {
     const float sum = first + second, added = sum - first, kept = sum - added;
     const float first_rest = first - kept, second_rest = second - added;

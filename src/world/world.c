@@ -25,7 +25,7 @@ static double half_ulp(double x) {
     return ldexp(unit, exponent - 1);
 }
 
-/* The same of those below a power of two. */
+/* Half a unit in the last place just below x, which may be a power of two. */
 static double half_ulp_below(double x) {
     return half_ulp(x * (1.0 - 0x1p-30));
 }
@@ -47,7 +47,7 @@ static world_error of_world(const world_scheme *s, const world_where *at) {
                          .camera = turn * far_off + unit * at->distance};
 }
 
-/* Where it seems to be, once mesh and camera are off by so much: what comes after is rounded there. */
+/* The place as it seems once mesh and camera are off by so much: later steps are rounded there. */
 static world_where seen(const world_where *at, double mesh, double camera) {
     const double off = mesh + camera;
     return (world_where){at->distance, at->length + off, at->result + off};

@@ -14,7 +14,7 @@ const char *camera_api(const camera_asked *c) {
     return c->platform != NULL ? c->platform->api : c->preset_count == 1 ? c->presets[0]->api : NULL;
 }
 
-/* As if it had been typed. */
+/* Gives an option its value as if it had been typed. */
 static void take(camera_asked *c, const char *name, const char *value) {
     const option_row *row = option_find(c->line->command, name);
     row->parse(c->line, row, value, c);

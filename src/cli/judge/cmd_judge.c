@@ -31,7 +31,7 @@ typedef struct report {
     const char *function, *device, *defines;
 } report;
 
-/* As people call it for such a projection. */
+/* The name that people give the output with such a projection. */
 static const char *called(const judge_candidate *c) {
     const dp_setup *s = &c->setup;
     const char *own = c->output->called[s->spec.ortho                      ? JUDGE_ORTHO

@@ -92,7 +92,7 @@ static inline bool option_is(const char *name, const char *other) {
     return strcmp(name, other) == 0;
 }
 
-/** From here on as if the user had given it. */
+/** Counts an option, from here on, as given by the user. */
 void option_give(asked_line *line, const char *name, const char *text);
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -205,7 +205,7 @@ typedef struct option_use {
 } option_use;
 
 /** An option as its row has it, or with a command's own words; rows, a group, or a group for some parts alone. */
-/** Behind the last row, and the last use. */
+/** Stands behind the last row, and the last use. */
 #define END                                                                                                            \
     { .name = NULL }
 

@@ -89,7 +89,7 @@ static void know(known *k) {
     k->longs[k->count] = (struct option){NULL, 0, NULL, 0};
 }
 
-/* As the command has it, else as another one. */
+/* The option's row in this command, else in another one. */
 static const option_row *row_of_value(const known *k, int value, const command_row *v) {
     for (size_t i = 0; i < k->count; i++)
         if (k->longs[i].val == value) {

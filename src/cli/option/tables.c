@@ -5,7 +5,7 @@
 #include "cli/option/option.h"
 #include "core/append.h"
 
-/* Behind the last of its name, which says under which heading it stands; else behind all. */
+/* Adds a row behind the last of its name, which says under which heading it stands; else behind all. */
 static size_t add_row(const option_row *out[OPTIONS_MAX + 1], size_t count, const option_row *row) {
     size_t at = count;
     for (size_t i = count; i-- > 0 && at == count;)

@@ -87,7 +87,7 @@ static int read_model(scene *s) {
     return error.unreadable ? EXIT_IO : status;
 }
 
-/* As far as the model reaches, of every eye that was asked for; without one, where it looks small. */
+/* How far the model reaches from any eye asked for; without an eye, a depth at which it looks small. */
 static double farthest(const scene *s, const model_box *b) {
     double reach = s->eyes.count > 0 ? 0.0 : SCENE_FAR_AWAY * s->extent;
     for (size_t i = 0; i < 8 * s->eyes.count; i++) {

@@ -50,7 +50,7 @@ size_t scene_fighting(const scene *s) {
     return n;
 }
 
-/* From an eye, how many more are told apart only if their triangles are cut; they come next. */
+/* How many more, from an eye, are told apart only if their triangles are cut; they come next. */
 static size_t uncovered(const scene *s) {
     const size_t fights = scene_fighting(s);
     size_t n = fights;

@@ -139,7 +139,7 @@ static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_un
     return DP_OK;
 }
 
-/* With the planes as they are: how far it holds, or whether it does. */
+/* Answers with the planes as they are: how far it holds, or whether it does. */
 static dp_status answer_as_is(const solve_report *r, const dp_spec *spec, distance_answer *out) {
     dp_setup setup;
     const dp_status status = judge_setup(spec, &setup);

@@ -68,7 +68,7 @@ int parse_product(asked_line *line, const option_row *row, const char *value, vo
     return method[end] == '\0' ? EXIT_FINE : read_normals(o, row, method + end + 1);
 }
 
-/* With a name it stands beside the product. */
+/* A map of errors with a name stands beside the product. */
 int parse_error_map(asked_line *line, const option_row *row, const char *value, void *group) {
     texture_asked *o = group;
     (void)line;
