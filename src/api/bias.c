@@ -239,7 +239,7 @@ static double units_to(double window, double r) {
 }
 
 double bias_units(const bias_api *api, const dp_format *format, double d, double window) {
-    const double outward = api->binary32 ? 0x1p-22 : 0x1p-48;
+    const double outward = api->binary32 ? DP_ROUNDINGS32_2 : DP_ROUNDINGS_30;
     return round_up(api, format, units_to((1.0 + outward) * window, bias_unit_at(api, format, d).least));
 }
 
@@ -252,7 +252,7 @@ static double needed_with(const dp_setup *setup, const bias_goal *goal, double z
     const double gap = window_of_gap(setup, z, goal->gap);
     const double window = fmax(step, gap) - goal->factor * m;
     /* Covers the roundings above and, where o itself is rounded to binary32, those; a single step is exact. */
-    const double outward = gap <= step && m == 0.0 ? 0.0 : goal->api->binary32 ? 0x1p-22 : 0x1p-48;
+    const double outward = gap <= step && m == 0.0 ? 0.0 : goal->api->binary32 ? DP_ROUNDINGS32_2 : DP_ROUNDINGS_30;
     return round_up(goal->api, format,
                     units_to(fmax(window + (fmax(step, gap) + fabs(goal->factor) * m) * outward, 0.0), r));
 }

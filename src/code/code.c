@@ -131,7 +131,7 @@ code_said code_function(output *out, const code_language *l, const method_row *r
 /* Twice a pixel's centre less the size is exact; the constant is rounded to nearest, `products` as may be. */
 static double place_bound(double depth, const bound_arithmetic *how, int products) {
     const double each = 1 + how->rounding * DP_UNIT;
-    return ((1 + depth) * (1 + DP_UNIT) * (products > 1 ? each * each : each) - 1) * (1 + 0x1p-40);
+    return ((1 + depth) * (1 + DP_UNIT) * (products > 1 ? each * each : each) - 1) * DP_OUTWARD;
 }
 
 double code_place_bound(const code_language *l, const method_row *row, const dp_setup *setup) {

@@ -54,7 +54,7 @@ static double linear_bound(const curve_row *row, const dp_setup *setup, const bo
         p.d.off = (range){-0x1p-126, 0};
     bound_begin(&own, &standard, how, &w);
     const term z = bound_run(&w, &p);
-    return fmax(-z.off.lo, z.off.hi) * (1 + 0x1p-40);
+    return fmax(-z.off.lo, z.off.hi) * DP_OUTWARD;
 }
 
 /* A product of factors 1 + e is at most 1 + t + t^2 for t the sum of the e, which is below 1; and what is flushed. */

@@ -109,7 +109,7 @@ double code_pack_bound(const packing *p, const bound_arithmetic *how) {
 double code_unpack_bound(const packing *p, const bound_arithmetic *how) {
     const digits d = digits_of(p);
     const double part = d.rest > BYTE ? 0 : how->division;
-    return (d.rest > 0 ? fmax(part, part / 2 + how->rounding) : how->division) * DP_UNIT * (1 + 0x1p-20);
+    return (d.rest > 0 ? fmax(part, part / 2 + how->rounding) : how->division) * DP_UNIT * (1 + DP_ROUNDINGS32_14);
 }
 
 /* Two functions, there and back, of those inputs. */
@@ -199,7 +199,7 @@ static double turned(pack_layout layout, const bound_arithmetic *how) {
 double code_normal_bound(const pack_row *row, const bound_arithmetic *how) {
     const double half = sqrt(3) / 2 / (double)((1 << (row->bits - 1)) - 1), degree = M_PI / 180;
     const double exact = row->layout == PACK_XYZ ? dp_atan2(half, sqrt(1 - half * half)) : row->normal.max * degree;
-    return (exact * (1 + 0x1p-20) + turned(row->layout, how) * DP_UNIT * (1 + 0x1p-10)) / degree;
+    return (exact * (1 + DP_ROUNDINGS32_14) + turned(row->layout, how) * DP_UNIT * (1 + 0x1p-10)) / degree;
 }
 
 code_said code_normal(output *out, const code_language *l, const pack_row *row) {

@@ -7,11 +7,10 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "core/outward.h"
+
 /* Also into functions that are compiled for another instruction set. */
 #define DP_INLINE static inline __attribute__((always_inline))
-
-/* Half a unit in the last place of binary32 at 1: the most that a rounding changes a number by, relatively. */
-#define DP_UNIT 0x1p-24
 
 DP_INLINE uint32_t dp_bits32(float x) {
     uint32_t bits;

@@ -12,9 +12,6 @@
 #include "core/triangles.h"
 #include "depthprec/depth.h"
 
-/* Outward by more than the rounding of this file's own arithmetic. */
-static const double outward = 1.0 + 0x1p-40;
-
 static const char *const names[DP_CAUSE_COUNT] = {
     [DP_CAUSE_EYE] = "eye",
     [DP_CAUSE_COMPOSITION] = "composition",
@@ -44,10 +41,10 @@ static double linearization_error(const dp_setup *setup, const dp_chain *c, doub
     if (c->pipeline.ortho) {
         const double start = setup->reversed ? f : n;
         const double scene = DP_UNIT * (3.0 * fabs(z - start) + fabs(start) + fabs(z));
-        return larger(scene, 0x1p-126) / (f - n) * outward;
+        return larger(scene, 0x1p-126) / (f - n) * DP_OUTWARD;
     }
     const double start = setup->reversed ? 1.0 / f : 1.0 / n;
-    const double relative = DP_UNIT * ((3.0 * fabs(1.0 / z - start) + start) * z + 2.0) * outward;
+    const double relative = DP_UNIT * ((3.0 * fabs(1.0 / z - start) + start) * z + 2.0) * DP_OUTWARD;
     return relative * c->half * fabs(c->b) / z;
 }
 
@@ -77,7 +74,7 @@ static double composed_separation(const dp_setup *setup, const dp_chain *c, cons
         return HUGE_VAL;
     const double first = larger(z - m->reach, moved(smaller(n, z), -0x1p-20));
     dp_demand d;
-    const double plain = dp_demand_longest(c, (dp_span){first, z + m->reach}, extra, &d) * outward;
+    const double plain = dp_demand_longest(c, (dp_span){first, z + m->reach}, extra, &d) * DP_OUTWARD;
     const double s = dp_composition_separation(m, z, plain, 0);
     const int clamped = z - m->reach <= moved(n, 0x1p-20) || z + m->reach + s >= moved(setup->spec.zfar, -0x1p-20);
     return clamped ? dp_composition_separation(m, z, plain, 1) : s;
@@ -207,12 +204,12 @@ static void share_out(const dp_guarantee *g, double z, double longest, double wi
     const double z1 = (double)(float)z;
     const double apart = last_within(z1, longest) - z1;
     const double eye = dp_eye_rounding(z1, z1 + apart);
-    const double pipeline_needs = (apart + eye) * outward;
+    const double pipeline_needs = (apart + eye) * DP_OUTWARD;
     out->separation = with_lattice(g->setup, z, pipeline_needs);
     out->window = window;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
-        out->cause[i] = part[i] > 0.0 ? apart * outward * (part[i] / window) : 0.0;
-    out->cause[DP_CAUSE_EYE] = eye * outward;
+        out->cause[i] = part[i] > 0.0 ? apart * DP_OUTWARD * (part[i] / window) : 0.0;
+    out->cause[DP_CAUSE_EYE] = eye * DP_OUTWARD;
     out->cause[DP_CAUSE_FORMAT] += out->separation > pipeline_needs ? out->separation - pipeline_needs : 0.0;
 }
 
@@ -339,7 +336,7 @@ static double apart_over(dp_span run, double longest) {
     const double step = 2.0 * dp_half_ulp(nearest_to_0);
     const double steps = longest < 0x1p45 * step ? floor(longest / step) * step : longest;
     const double whole = smaller(steps, last_within(run.hi, longest) - run.lo);
-    return dp_apart_with_eye(run.lo, run.hi, whole) * outward;
+    return dp_apart_with_eye(run.lo, run.hi, whole) * DP_OUTWARD;
 }
 
 /*
@@ -380,8 +377,8 @@ dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint3
     if (setup->curve == DP_CURVE_LOG) {
         const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(0));
         const dp_log_steps a = dp_log_shader_steps(&s, at);
-        const double off = (a.argument + a.log2) * outward;
-        const double rest = (a.scale + a.ndc) * outward + 0x1p-149;
+        const double off = (a.argument + a.log2) * DP_OUTWARD;
+        const double rest = (a.scale + a.ndc) * DP_OUTWARD + 0x1p-149;
         range_of(&s.pipeline, (a.lo - off) * s.k_lo - rest, (a.hi + off) * s.k_hi + rest, lowest, highest);
         return DP_OK;
     }
@@ -390,7 +387,7 @@ dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint3
     if (status != DP_OK)
         return status;
     const dp_chain c = dp_chain_make(setup, &pipeline);
-    const double error = dp_chain_steps(&c, at).full * outward + 0x1p-149;
+    const double error = dp_chain_steps(&c, at).full * DP_OUTWARD + 0x1p-149;
     const double g = dp_chain_window(&c, at.lo);
     range_of(&pipeline, g - error, g + error, lowest, highest);
     return DP_OK;

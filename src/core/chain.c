@@ -44,13 +44,13 @@ static double excess_below(const dp_chain *c, double z) {
     const double w = w_of(c, z);
     const double clip = clip_of(c, z) + (c->pipeline.ndc_signed ? w : 0.0);
     const double rounding = c->pipeline.ndc_signed ? 0x1p-51 * w : 0.0;
-    return clip - rounding < 0.0 ? c->half * (rounding - clip) / w * (1.0 + 0x1p-50) : 0.0;
+    return clip - rounding < 0.0 ? c->half * (rounding - clip) / w * (1.0 + DP_ROUNDINGS_6) : 0.0;
 }
 
 static double excess_above(const dp_chain *c, double z) {
     const double w = w_of(c, z);
     const double past = clip_of(c, z) - w + 0x1p-51 * w;
-    return past > 0.0 ? c->half * past / w * (1.0 + 0x1p-50) : 0.0;
+    return past > 0.0 ? c->half * past / w * (1.0 + DP_ROUNDINGS_6) : 0.0;
 }
 
 static double resolved_up_to(double zfar) {
@@ -93,7 +93,7 @@ static void span_of(float x, float y, double *least, double *more) {
 static double excess_at(const dp_chain *c, double z) {
     const double a = (fabs(c->a) + c->a_more) * fabs(z);
     const double b = fabs(c->b) + c->b_more;
-    return c->half * (a + b + (c->pipeline.ortho ? a : b)) / w_of(c, z) * DP_UNIT * (1.0 + 0x1p-20);
+    return c->half * (a + b + (c->pipeline.ortho ? a : b)) / w_of(c, z) * DP_UNIT * (1.0 + DP_ROUNDINGS32_14);
 }
 
 dp_chain dp_chain_between(const dp_setup *one, const dp_setup *other, const dp_pipeline *p) {
@@ -122,8 +122,8 @@ dp_chain dp_chain_between(const dp_setup *one, const dp_setup *other, const dp_p
 /* ---- A z + B ----------------------------------------------------------------------------------------------------- */
 
 /* Room for the rounding of this file's own sums of two products. */
-static const double raised = 1.0 + 0x1p-50;
-static const double lowered = 1.0 - 0x1p-50;
+static const double raised = 1.0 + DP_ROUNDINGS_6;
+static const double lowered = 1.0 - DP_ROUNDINGS_6;
 
 /* Magnitudes of a sum before it is rounded; `least` is 0 where its sign changes. */
 typedef struct magnitude {
@@ -333,7 +333,7 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
     const double zfar = c->reach.hi;
     const double w1 = w_of(c, z);
     const double w2 = w_of(c, zfar);
-    const double up = 1.0 + 0x1p-20;
+    const double up = 1.0 + DP_ROUNDINGS32_14;
     const double more = c->run ? larger(clip_more(c, z) / w1, clip_more(c, zfar) / w2) : 0.0;
     const double g = up * (larger(fabs(clip_of(c, z)) / w1, fabs(clip_of(c, zfar)) / w2) + more);
     const double q = up * (larger(fabs(dividend(c, z)) / w1, fabs(dividend(c, zfar)) / w2) + more);

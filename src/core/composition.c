@@ -17,7 +17,7 @@ static const double root3 = 1.73205081;
 static const double root6 = 2.44948975;
 
 /* Terms of second order, and what rounded terms of a sum are larger than real ones. */
-static const double outward = 1.0 + 0x1p-16;
+static const double outward = 1.0 + DP_ROUNDINGS32_254;
 
 static const dp_composition_row rows[DP_COMPOSITION_COUNT] = {
     [DP_COMPOSITION_ONCE] = {"once",

@@ -56,7 +56,7 @@ double dp_curve_ahead(const dp_setup *setup, double num, double den, double z);
  * or 214 for each of the exponentials of LOG, whose arguments reach 70.
  */
 static inline double dp_curve_outward(const dp_setup *setup) {
-    return setup->curve == DP_CURVE_LOG ? 1.0 + 0x1p-44 : 1.0 + 0x1p-48;
+    return setup->curve == DP_CURVE_LOG ? 1.0 + DP_ROUNDINGS_510 : 1.0 + DP_ROUNDINGS_30;
 }
 
 #endif

@@ -4,9 +4,6 @@
 #include "core/extremes.h"
 #include "core/rounding.h"
 
-/* Outward by more than the rounding of this file's own arithmetic. */
-static const double outward = 1.0 + 0x1p-40;
-
 /* ---- The format -------------------------------------------------------------------------------------------------- */
 
 /*
@@ -124,7 +121,8 @@ static void clamp_either(const dp_chain *c, dp_demand *d, double full1, double f
 static double before_rounding(dp_step s1, dp_step s2, double rest) {
     const double errors = s1.error + s2.error;
     const double grid = smaller(s1.grid, s2.grid);
-    return errors == 0.0 || grid == 0.0 ? rest + errors : smaller(rest, floor(rest / grid * outward) * grid) + errors;
+    return errors == 0.0 || grid == 0.0 ? rest + errors
+                                        : smaller(rest, floor(rest / grid * DP_OUTWARD) * grid) + errors;
 }
 
 /*
@@ -224,9 +222,9 @@ static dp_demand demand_beyond(const dp_chain *c, const dp_steps *s1, dp_span fi
 /* The distance behind z at which the window depth has moved by what is demanded. */
 static double distance(const dp_chain *c, double z, const dp_demand *d) {
     if (c->pipeline.ortho)
-        return d->window / (c->half * d->slope) * outward;
-    const double x = d->window * z / (c->half * d->slope) * outward;
-    return x < 1.0 ? z * x / (1.0 - x) * outward : HUGE_VAL;
+        return d->window / (c->half * d->slope) * DP_OUTWARD;
+    const double x = d->window * z / (c->half * d->slope) * DP_OUTWARD;
+    return x < 1.0 ? z * x / (1.0 - x) * DP_OUTWARD : HUGE_VAL;
 }
 
 /*

@@ -5,9 +5,6 @@
 #include "core/extremes.h"
 #include "core/rounding.h"
 
-/* Outward by more than the rounding of this file's own arithmetic. */
-static const double outward = 1.0 + 0x1p-40;
-
 /* Errors of a span of depths, by the shader of a logarithm or by a pipeline. */
 typedef struct computed {
     const dp_setup *setup;
@@ -42,7 +39,7 @@ static double window_error(const computed *m, dp_span r) {
     const double entries = larger(fabs(m->a * r.lo + m->b) / w1, fabs(m->a * r.hi + m->b) / w2);
     const double full = dp_chain_steps(c, r).full;
     const double high = larger(dp_chain_window(c, r.lo), dp_chain_window(c, r.hi)) + full;
-    return (full + c->half * (entries + unknown) + dp_stored_error(&c->pipeline, high)) * outward;
+    return (full + c->half * (entries + unknown) + dp_stored_error(&c->pipeline, high)) * DP_OUTWARD;
 }
 
 /* The decoded depth lies between the planes, and is nearer to the eye by no more than it may lie behind. */
@@ -52,7 +49,7 @@ static double pipeline_error(const computed *m, dp_span r) {
     const double before = fabs(dp_curve_ahead(m->setup, -error, 1.0, r.hi));
     const double behind = smaller(ahead, m->setup->spec.zfar - r.lo);
     const double moved = larger(behind, smaller(before, r.hi - m->setup->spec.znear));
-    return moved * outward + dp_depth_rounding(larger(fabs(r.lo), fabs(r.hi)));
+    return moved * DP_OUTWARD + dp_depth_rounding(larger(fabs(r.lo), fabs(r.hi)));
 }
 
 /* Outward from what enters: GCC 12 forgets to round a pair of ends to nearest where it makes one vector of them. */

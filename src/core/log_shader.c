@@ -8,9 +8,6 @@
 #include "core/reciprocal.h"
 #include "core/rounding.h"
 
-/* Outward by more than the rounding of this file's own arithmetic. */
-static const double outward = 1.0 + 0x1p-40;
-
 static const double ln2 = 0.69314718055994531;
 
 /* A division of Vulkan, GLSL and WGSL, in units in the last place: where they say what log2 may be off by. */
@@ -99,10 +96,10 @@ static double window_below(const dp_log_shader *s, double logarithm) {
 
 dp_log_steps dp_log_shader_steps(const dp_log_shader *s, dp_span r) {
     dp_log_steps out = {.lo = log2_at(s, s->from_hi, r.lo), .hi = log2_at(s, s->from, r.hi)};
-    out.argument = argument_error(s, r) * outward;
-    out.log2 = log2_error(s->log2, out.lo, out.hi) * outward;
+    out.argument = argument_error(s, r) * DP_OUTWARD;
+    out.log2 = log2_error(s->log2, out.lo, out.hi) * DP_OUTWARD;
     const double off = out.argument + out.log2;
-    const double hi = larger((out.hi + off) * s->k_hi * outward, 0.0);
+    const double hi = larger((out.hi + off) * s->k_hi * DP_OUTWARD, 0.0);
     if (s->vertex)
         vertex_steps(s, window_below(s, out.lo - off), hi, &out);
     else if (s->by == 0.0)
@@ -117,9 +114,9 @@ dp_log_steps dp_log_shader_steps(const dp_log_shader *s, dp_span r) {
 /* Where the scale is 1/log2(far/near) of the shader's own: by how much that is off; it is from `least` to `most`. */
 static double scale_over_near(dp_log_shader *s, double least, double most) {
     const double off = division * 2.0 * DP_UNIT / ln2 * (1.0 + beside) + log2_error(s->log2, least, most);
-    s->k_lo = 1.0 / ((most + off) * outward);
-    s->k_hi = 1.0 / ((least - off) * (2.0 - outward));
-    s->decoded = s->k_hi / (1.0 / ((least + off) * outward)) - 1.0;
+    s->k_lo = 1.0 / ((most + off) * DP_OUTWARD);
+    s->k_hi = 1.0 / ((least - off) * (2.0 - DP_OUTWARD));
+    s->decoded = s->k_hi / (1.0 / ((least + off) * DP_OUTWARD)) - 1.0;
     return off;
 }
 
@@ -165,8 +162,8 @@ dp_log_shader dp_log_shader_between(const dp_setup *outer, const dp_setup *inner
     s.run = 1;
     s.from_hi = other.from;
     if (s.by > 0.0) {
-        s.k_lo = (double)(float)(ln2 / outer->kappa * (1.0 - 0x1p-50));
-        s.k_hi = (double)(float)(ln2 / inner->kappa * (1.0 + 0x1p-50));
+        s.k_lo = (double)(float)(ln2 / outer->kappa * (1.0 - DP_ROUNDINGS_6));
+        s.k_hi = (double)(float)(ln2 / inner->kappa * (1.0 + DP_ROUNDINGS_6));
         s.above = most_above(&s, s.from_hi, s.zfar, other.zfar);
     } else {
         const double most = dp_log2(s.zfar / s.from);
@@ -179,7 +176,7 @@ dp_log_shader dp_log_shader_between(const dp_setup *outer, const dp_setup *inner
 
 /* The distance behind z at which the logarithm has grown by so much. */
 static double distance(const dp_log_shader *s, double z, double growth) {
-    return argument_of(s, s->from, z) / (s->by > 0.0 ? s->by : 1.0 / s->from) * dp_expm1(growth * ln2) * outward;
+    return argument_of(s, s->from, z) / (s->by > 0.0 ? s->by : 1.0 / s->from) * dp_expm1(growth * ln2) * DP_OUTWARD;
 }
 
 /*

@@ -109,7 +109,7 @@ double dp_lattice_least(const dp_setup *outer, const dp_setup *inner, double z, 
     double low, high;
     window_range(outer, inner, z, z, &low, &high);
     const double step = dp_step_num(&outer->spec.format, dp_binade(&outer->spec.format, low)) / outer->den;
-    return fabs(dp_curve_ahead(inner, half ? step * dp_error_share(outer) : step, 1.0, z)) * (1.0 - 0x1p-40);
+    return fabs(dp_curve_ahead(inner, half ? step * dp_error_share(outer) : step, 1.0, z)) * (1.0 - DP_ROUNDINGS_8190);
 }
 
 double dp_lattice_exact(const dp_setup *setup, double z) {
@@ -121,8 +121,8 @@ double dp_lattice_above(const dp_setup *setup, double z) {
     if (setup->curve != DP_CURVE_PERSPECTIVE)
         return HUGE_VAL;
     const double step = largest_code_step(setup, dp_window(setup, z) * (1.0 + 2.0 * DP_WINDOW_ERROR));
-    const double h = z * step * setup->kappa * (1.0 + 0x1p-40);
-    return h < 0.5 ? z * h / (1.0 - h) * (1.0 + 0x1p-40) : HUGE_VAL;
+    const double h = z * step * setup->kappa * DP_OUTWARD;
+    return h < 0.5 ? z * h / (1.0 - h) * DP_OUTWARD : HUGE_VAL;
 }
 
 double dp_lattice_separation(const dp_setup *setup, double z) {

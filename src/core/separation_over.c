@@ -41,7 +41,7 @@ typedef struct search {
  * dp_lattice_separation() has it, a little larger.
  */
 static double with_eye(const dp_setup *setup, double lo, double hi, double ahead) {
-    const double outward = dp_curve_outward(setup) * (1.0 + 0x1p-50);
+    const double outward = dp_curve_outward(setup) * (1.0 + DP_ROUNDINGS_6);
     if (setup->spec.model == DP_MODEL_EXACT)
         return ahead * outward;
     return dp_apart_with_eye(lo, hi, ahead) * outward;
@@ -54,13 +54,13 @@ static double with_eye(const dp_setup *setup, double lo, double hi, double ahead
 static double error_of(const dp_setup *setup, double hi, double step) {
     const double share = dp_error_share(setup);
     return fabs(dp_curve_ahead(setup, (setup->spec.model == DP_MODEL_EXACT ? share : fabs(share)) * step, 1.0, hi)) *
-           dp_curve_outward(setup) * (1.0 + 0x1p-50);
+           dp_curve_outward(setup) * (1.0 + DP_ROUNDINGS_6);
 }
 
 /* The same as a bound of the lattice: in a run its steps are the largest of any camera, and as long as in the outer. */
 static double lattice_bound(const search *s, double lo, double hi) {
     const dp_setup *inner = s->inner != NULL ? s->inner : &s->lattice;
-    const double step = dp_separation_step(&s->lattice, inner, lo, hi, s->half) * (1.0 + 0x1p-50);
+    const double step = dp_separation_step(&s->lattice, inner, lo, hi, s->half) * (1.0 + DP_ROUNDINGS_6);
     return s->half ? error_of(&s->lattice, hi, step)
                    : with_eye(&s->lattice, lo, hi, dp_curve_ahead(&s->lattice, step, 1.0, hi));
 }
@@ -241,12 +241,12 @@ static void over_binades(const search *s) {
     const int lowest = 1 - format->bias;
     for (int e = dp_binade(format, dp_window(setup, out->lo)) + 1; e >= lowest; e--) {
         const double end = e == lowest ? out->hi : dp_curve_eye(setup, dp_point_make(dp_power2(e), 1.0));
-        if (end * (1.0 + 0x1p-46) < out->lo)
+        if (end * (1.0 + DP_ROUNDINGS_126) < out->lo)
             continue;
-        const double z = smaller(end * (1.0 + 0x1p-46), out->hi);
+        const double z = smaller(end * (1.0 + DP_ROUNDINGS_126), out->hi);
         raise_bound(out, with_eye(setup, z, z, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z)));
-        note_separation(s, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
-        if (end * (1.0 - 0x1p-46) > out->hi)
+        note_separation(s, smaller(larger(end * (1.0 - DP_ROUNDINGS_126), out->lo), out->hi));
+        if (end * (1.0 - DP_ROUNDINGS_126) > out->hi)
             break;
     }
 }

@@ -9,8 +9,7 @@
 
 static const double degree = 0x1.1df46a2529d39p-6;
 
-/* Outward by more than the rounding of this file's own arithmetic; and roundings of what is rounded already. */
-static const double outward = 1.0 + 0x1p-40;
+/* For roundings of what is rounded already. */
 static const double second_order = 1.0 + 0x1p-10;
 
 /* A bound on what is flushed to zero on the way, for triangles of any size; the least window depth beside it. */
@@ -210,7 +209,7 @@ static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t,
     const double cosine = dp_cos(angle);
     const double along = sine * v->ray + cosine; /* of the normal, along the ray */
     const double sum = sine * per_sine + cosine * per_cosine + along * facing + both * moved->position;
-    dp_budget b = {.separation = sum / (1.0 - moved->turn) * outward};
+    dp_budget b = {.separation = sum / (1.0 - moved->turn) * DP_OUTWARD};
     double rest = b.separation;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         b.cause[i] = along * of->cause[i] * z * z / slope;

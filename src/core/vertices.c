@@ -12,7 +12,7 @@ static const double most_depth = 1e6, least_beyond = 0x1p-48;
 
 /* The sum of two terms of opposite signs, at least 0, rounded up by what it may have lost. */
 static double rounded_up(double nearer, double farther) {
-    return larger(nearer + farther + 0x1p-50 * (fabs(nearer) + fabs(farther)), 0.0);
+    return larger(nearer + farther + DP_ROUNDINGS_6 * (fabs(nearer) + fabs(farther)), 0.0);
 }
 
 static dp_vertex_error error_of(const dp_setup *setup, double z, double depth) {
@@ -26,13 +26,13 @@ static dp_vertex_error error_of(const dp_setup *setup, double z, double depth) {
     const double part = behind * (before / (z * (z2 - z1))); /* the weights are part z1/before and part z2/behind */
     if (setup->curve == DP_CURVE_LINEAR) {
         e.eye = rounded_up(before * (behind / z), 0.0) + 0x1p-51 * (before + behind); /* of z/depth and z depth */
-        e.window = e.eye / setup->kappa * (1.0 + 0x1p-50);
+        e.window = e.eye / setup->kappa * (1.0 + DP_ROUNDINGS_6);
     } else {
         const double c = setup->log_c, scale = c / (c * (z - setup->anchor) + 1.0);
         const double chord =
             rounded_up(part * z1 / before * dp_log1p(-scale * before), part * z2 / behind * dp_log1p(scale * behind));
-        e.eye = dp_expm1(chord) / scale * (1.0 + 0x1p-50);
-        e.window = chord / setup->kappa * (1.0 + 0x1p-50);
+        e.eye = dp_expm1(chord) / scale * (1.0 + DP_ROUNDINGS_6);
+        e.window = chord / setup->kappa * (1.0 + DP_ROUNDINGS_6);
     }
     return e;
 }

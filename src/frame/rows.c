@@ -85,7 +85,7 @@ static const double *along_in(const frame_row *in) {
  * turning them and of the difference from the place. */
 DP_INLINE double places_lose(const texture_camera *c, double z) {
     const double most = c->half[0] * (1 + fabs(c->centre[0])) + c->half[1] * (1 + fabs(c->centre[1]));
-    return 0x1p-48 * (fabs(z) + most * (c->ortho ? 1 : fabs(z)));
+    return DP_ROUNDINGS_30 * (fabs(z) + most * (c->ortho ? 1 : fabs(z)));
 }
 
 CLONES static void eye_errors(const float *eyes, const grain_rows *ranges, const double *along, double lost, float *out,
@@ -106,7 +106,7 @@ CLONES static void linear01_errors(const float *restrict eyes, const grain_rows 
     const double *stored = ranges->stored, *reach = ranges->reach;
 #pragma omp simd
     for (size_t i = 0; i < count; i++) {
-        const double product = (double)(float)((double)eyes[i] / far), roundings = 0x1p-50 * fabs(stored[i]);
+        const double product = (double)(float)((double)eyes[i] / far), roundings = DP_ROUNDINGS_6 * fabs(stored[i]);
         const float error = frame_upwards((fabs(product * far - stored[i]) + roundings + reach[i]) / far);
         out[i] = eyes[i] == eyes[i] ? error : (float)NAN;
     }
@@ -116,7 +116,7 @@ CLONES static void linear01_errors(const float *restrict eyes, const grain_rows 
 static void replace_by_errors(const frame_row *in, double factor) {
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double along = in->product->radial ? stretch(in, x) : factor, truth = frame_truth(in, x).z * along;
-        in->out[x] = frame_upwards(fabs((double)in->out[x] - truth) + 0x1p-50 * fabs(truth));
+        in->out[x] = frame_upwards(fabs((double)in->out[x] - truth) + DP_ROUNDINGS_6 * fabs(truth));
     }
 }
 
@@ -131,7 +131,7 @@ static void make_eye_error(const frame_row *in) {
     if (in->product->as != NULL)
         make_eye(in);
     eye_errors(in->product->as != NULL ? in->out : eyes_of(in), &ranges, in->product->radial ? along_in(in) : NULL,
-               in->product->radial ? places_lose(camera_of(in), 1) : 0x1p-50, in->out, camera_of(in)->width);
+               in->product->radial ? places_lose(camera_of(in), 1) : DP_ROUNDINGS_6, in->out, camera_of(in)->width);
 }
 
 static void make_linear01_error(const frame_row *in) {
@@ -161,7 +161,7 @@ static void make_raw_error(const frame_row *in) {
         const uint32_t code = in->codes[x];
         double error = NAN;
         if (code != UINT32_MAX && in->frame->synthetic != NULL) {
-            const double d = true_window(in, x), slack = d < 1 ? d * 0x1p-50 : 0;
+            const double d = true_window(in, x), slack = d < 1 ? d * DP_ROUNDINGS_6 : 0;
             error = fabs((double)in->depth[x] - d) + slack;
         } else if (code != UINT32_MAX) {
             const double stored = dp_format_value(&setup->spec.format, code);

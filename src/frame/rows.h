@@ -64,7 +64,7 @@ static inline const grain_range *frame_range_of(const frame_row *in, frame_range
 /** An error map must not be below the error: the nearest binary32 number that is not. A few roundings to double came
  *  before. */
 DP_INLINE float frame_upwards(double error) {
-    return dp_float_up(error * (1 + 0x1p-48));
+    return dp_float_up(error * (1 + DP_ROUNDINGS_30));
 }
 
 /** The exact place at z, from the camera, along the world's axes. */

@@ -32,8 +32,8 @@ static double worst_of(search *s, float a, float b) {
         p.d.share = (range){-1, 0};
     }
     p.near = s->reversed ? p.d.exact : rest;
-    p.inverse = range_outward((s->slope * p.near.lo + s->base) * (1 - 0x1p-49),
-                              (s->slope * p.near.hi + s->base) * (1 + 0x1p-49));
+    p.inverse = range_outward((s->slope * p.near.lo + s->base) * (1 - DP_ROUNDINGS_14),
+                              (s->slope * p.near.hi + s->base) * (1 + DP_ROUNDINGS_14));
     if (!(p.inverse.lo > 0))
         return (double)INFINITY;
     p.eye = range_quotient((range){1, 1}, p.inverse);
@@ -98,5 +98,5 @@ double bound_over(const bound_steps *row, const dp_setup *setup, const bound_ari
         push_piece(&s, worst.a, middle);
         push_piece(&s, dp_ranked32(dp_rank32(middle) + 1U), worst.b);
     }
-    return s.heap[0].worst * (1 + 0x1p-40) + 0x1p-48;
+    return s.heap[0].worst * DP_OUTWARD + 0x1p-48;
 }

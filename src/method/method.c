@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "core/elementary.h"
+#include "core/outward.h"
 
 dp_status method_setup(const method_family_row *family, size_t which, double znear, double zfar, bool ortho,
                        dp_setup *out) {
@@ -110,6 +111,6 @@ void method_windows(const dp_setup *setup, method_inputs *in) {
 }
 
 double method_cancelled(double ratio, double a, double b) {
-    const double e = (a * ratio + b) * DP_UNIT * (1 + 0x1p-20);
+    const double e = (a * ratio + b) * DP_UNIT * (1 + DP_ROUNDINGS32_14);
     return e < 1 ? e / (1 - e) : (double)INFINITY;
 }

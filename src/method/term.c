@@ -27,7 +27,7 @@ static bool has_end(range r) {
 
 /* Each end has been rounded once: four times as much is taken off. */
 range range_outward(double lo, double hi) {
-    return (range){lo - fabs(lo) * 0x1p-51, hi + fabs(hi) * 0x1p-51};
+    return (range){lo - fabs(lo) * DP_ROUNDINGS_2, hi + fabs(hi) * DP_ROUNDINGS_2};
 }
 
 range range_sum(range a, range b) {
@@ -89,7 +89,7 @@ static term stands_for(double computed, range exact, range off) {
 }
 
 term term_constant(double value, int bits) {
-    const double computed = bits == TERM_SINGLE ? (double)(float)value : value, formed = 0x1p-51 * fabs(value);
+    const double computed = bits == TERM_SINGLE ? (double)(float)value : value, formed = DP_ROUNDINGS_2 * fabs(value);
     return stands_for(computed, (range){value - formed, value + formed},
                       (range){computed - value - formed, computed - value + formed});
 }
@@ -130,8 +130,8 @@ static range both(range a, range b) {
     if (!has_end(a) || !has_end(b) || a.lo <= -1 || b.lo <= -1)
         return without_end;
     const double lo = a.lo * b.lo, hi = a.hi * b.hi;
-    return range_outward(a.lo + b.lo + lo - 0x1p-50 * (fabs(a.lo) + fabs(b.lo) + fabs(lo)),
-                         a.hi + b.hi + hi + 0x1p-50 * (fabs(a.hi) + fabs(b.hi) + fabs(hi)));
+    return range_outward(a.lo + b.lo + lo - DP_ROUNDINGS_6 * (fabs(a.lo) + fabs(b.lo) + fabs(lo)),
+                         a.hi + b.hi + hi + DP_ROUNDINGS_6 * (fabs(a.hi) + fabs(b.hi) + fabs(hi)));
 }
 
 /* (1 + a)/(1 + b) - 1 */
@@ -139,7 +139,7 @@ static range either(range a, range b) {
     if (!has_end(a) || !has_end(b) || a.lo <= -1 || b.lo <= -1)
         return without_end;
     const double lo = a.lo - b.hi, hi = a.hi - b.lo;
-    return range_outward((lo - fabs(lo) * 0x1p-50) / (1 + b.hi), (hi + fabs(hi) * 0x1p-50) / (1 + b.lo));
+    return range_outward((lo - fabs(lo) * DP_ROUNDINGS_6) / (1 + b.hi), (hi + fabs(hi) * DP_ROUNDINGS_6) / (1 + b.lo));
 }
 
 term term_product(const term *a, const term *b) {
@@ -204,9 +204,9 @@ term term_rounded(const term *a, int bits, double halves, bool flushes) {
         return t;
     const double half = half_step(most, bits, least, halves > 1), unit = halves * power_of_two(-bits);
     const double e = halves * half + (lost ? (double)FLT_MIN : 0);
-    const double by_step = fewest > 0 ? e / fewest * (1 + 0x1p-50) : (double)INFINITY;
+    const double by_step = fewest > 0 ? e / fewest * (1 + DP_ROUNDINGS_6) : (double)INFINITY;
     const double relative =
-        step > least && !lost ? lesser(unit / (halves > 1 ? 1 : 1 + unit) * (1 + 0x1p-50), by_step) : by_step;
+        step > least && !lost ? lesser(unit / (halves > 1 ? 1 : 1 + unit) * (1 + DP_ROUNDINGS_6), by_step) : by_step;
     t.off = range_sum(t.off, (range){-e, e});
     t.share = both(t.share, (range){-relative, relative});
     t.grid = halves > 2 ? FINEST : t.grid > step ? t.grid : step;

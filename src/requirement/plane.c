@@ -56,7 +56,7 @@ bool plane_passes(const solve_problem *p, double value) {
 /* The largest of the errors that one code has at a depth in any camera of a run: a stored depth moves one way. */
 static double error_of_code(const dp_setup *outer, const dp_setup *inner, uint32_t code, double z) {
     const double a = fabs(dp_error(outer, code, z)), b = fabs(dp_error(inner, code, z));
-    return fmax(a, b) * (1.0 + 0x1p-44);
+    return fmax(a, b) * (1.0 + DP_ROUNDINGS_510);
 }
 
 /*
@@ -66,7 +66,7 @@ static double error_of_code(const dp_setup *outer, const dp_setup *inner, uint32
  */
 static bool is_aligned(const solve_problem *p, const dp_setup *outer, const dp_setup *inner) {
     enum { CELLS = 4 };
-    const double rounding = p->hi * 0x1p-48;
+    const double rounding = p->hi * DP_ROUNDINGS_30;
     const uint32_t one = dp_code(outer, p->hi), other = dp_code(inner, p->hi);
     uint32_t code = (one > other) == outer->reversed ? other : one; /* the farther one */
     double end = p->hi;
@@ -82,8 +82,8 @@ static bool is_aligned(const solve_problem *p, const dp_setup *outer, const dp_s
             return true;
         if (fmax(a.stored, b.stored) - fmax(fmin(a.lo, b.lo), p->lo) + rounding > p->limit)
             return false;
-        code = dp_code(outer, a.lo * (1.0 - 0x1p-50));
-        if (end <= p->lo || dp_code(inner, b.lo * (1.0 - 0x1p-50)) != code)
+        code = dp_code(outer, a.lo * (1.0 - DP_ROUNDINGS_6));
+        if (end <= p->lo || dp_code(inner, b.lo * (1.0 - DP_ROUNDINGS_6)) != code)
             return end <= p->lo;
     }
     return p->lo == p->hi;

@@ -5,13 +5,14 @@
 #include <string.h>
 
 #include "core/expansion.h"
+#include "core/outward.h"
 
 /*
  * Relative to the same sum with every term's magnitude: a difference, a product, their difference and the sum of two
  * normals cost at most 6 roundings a factor, the product of both and the sum of three 4 more: 16 x 2^-53. In pairs each
  * operation is good to 2^-102.
  */
-#define ROUNDED 0x1p-48
+#define ROUNDED DP_ROUNDINGS_30
 #define PAIRED  0x1p-96
 
 static bool same(const double p[3], const double q[3]) {

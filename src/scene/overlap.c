@@ -5,10 +5,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/outward.h"
+
 /* 1e-9 degrees: normals are good to 2^-42. */
 #define SINE_SLACK 1.7e-11
 /* An area, relative to the product of both triangles' longest sides: what rounding of their corners may make of 0. */
-#define AREA_SLACK 0x1p-46
+#define AREA_SLACK DP_ROUNDINGS_126
 /* The error of a distance, relative to the coordinates in it: normals again, and a few roundings. */
 #define HEIGHT_SLACK 0x1p-38
 

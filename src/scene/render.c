@@ -9,10 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/outward.h"
+
 enum { TOLD_EVERY = 1 << 14 };
 
 /* The share of places and depths that rounding loses; the largest share of a depth that counts as no difference. */
-static const double rounding = 0x1p-46, same_most = 0x1p-30;
+static const double rounding = DP_ROUNDINGS_126, same_most = 0x1p-30;
 
 typedef double vector[3];
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/elementary.h"
+#include "core/outward.h"
 #include "depthprec/bounds.h"
 #include "requirement/distance.h"
 #include "scene/exact.h"
@@ -13,7 +14,7 @@
 enum { DIGITS = 6, SIDES = 6, POLYGON = FINDER_CORNERS + SIDES, ROUNDS = 12 };
 
 /* The relative error of coordinates and depths in double; the sine of the most that a triangle may be turned away. */
-static const double outward = 0x1p-40;
+static const double outward = DP_ROUNDINGS_8190;
 static const double turned = 0x1p-8;
 
 /* A lift grows beyond what it lacks by this share of it. */

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/outward.h"
+
 enum { DEPTH_MAX = 32, TASK_ITEMS = 1 << 14 };
 
 /* ---- Boxes --------------------------------------------------------------------------------------------------------
@@ -31,8 +33,8 @@ tree_box tree_box_of(const double *const *corner, int corners, const double orig
         }
         /* two roundings in double, far below one in binary32, which is not left to chance */
         const double size = fmax(fabs(lo), fabs(hi)) + fabs(origin[k]) + grown;
-        box.lo[k] = below(lo - origin[k] - grown - size * 0x1p-51);
-        box.hi[k] = above(hi - origin[k] + grown + size * 0x1p-51);
+        box.lo[k] = below(lo - origin[k] - grown - size * DP_ROUNDINGS_2);
+        box.hi[k] = above(hi - origin[k] + grown + size * DP_ROUNDINGS_2);
     }
     return box;
 }

@@ -275,6 +275,6 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
          * looks); the difference with 1, exact below 2^24; then quotient and C */
         off = c.form == DECODE_EXP2 ? (power + 1.1) * steep + (away < 0x1.fffp23 ? 0 : 1) + 2 : power * steep + 4;
     }
-    off *= DP_UNIT * (1 + 0x1p-20); /* the constants are rounded, too, and so is this */
+    off *= DP_UNIT * (1 + DP_ROUNDINGS32_14); /* the constants are rounded, too, and so is this */
     return off < 0.5 ? off / (1 - off) : (double)INFINITY;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/elementary.h"
+#include "core/outward.h"
 
 typedef struct vector {
     double x, y, z;
@@ -77,6 +78,6 @@ double normal_corner_bound(const texture_camera *camera, const normal_row *metho
         size_a * off_b + size_b * off_a + off_a * off_b + 6 * DP_UNIT * (size_a + off_a) * (size_b + off_b);
     /* the unit vector's own: half a step in each component, and before that four roundings */
     const double kept = (method->half ? sqrt(3) * (HALF / 2) * (1 + 0x1p-8) : 0) + 8 * DP_UNIT;
-    const double all = angle_of(truly * (1 + 0x1p-40), whole) + angle_of(found * (1 + 0x1p-40), whole) + kept;
+    const double all = angle_of(truly * DP_OUTWARD, whole) + angle_of(found * DP_OUTWARD, whole) + kept;
     return all < M_PI ? all : M_PI; /* NaN, too */
 }

@@ -6,7 +6,7 @@
 #include "core/engine.h"
 
 /* The relative error of an eye depth in double: cells may be finer than that. */
-static const double LOST = 0x1p-50, LOST_ALONG = 0x1p-48;
+static const double LOST = DP_ROUNDINGS_6, LOST_ALONG = DP_ROUNDINGS_30;
 
 /* The constant of a pixel. */
 static dp_pair constant_of(const texture_camera *camera, double column, double row) {

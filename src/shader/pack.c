@@ -316,5 +316,5 @@ double pack_reach(const pack_row *row, const uint32_t codes[], bool truncated) {
     reach r = {.most = 0};
     row->decode(row, codes, r.back);
     reaches[row->layout](row, codes, truncated ? 1 : 0.5, &r);
-    return r.most * (180 / M_PI) * (1 + 0x1p-40);
+    return r.most * (180 / M_PI) * DP_OUTWARD;
 }

@@ -31,7 +31,7 @@ double grain_number_gap(const grain *g, double v) {
 
 /* Each binade above the least has half as many as all below it together. */
 double grain_numbers_below(const grain *g, double v) {
-    const double gap = grain_number_gap(g, v), whole = ceil(v / gap * (1 - 0x1p-44));
+    const double gap = grain_number_gap(g, v), whole = ceil(v / gap * (1 - DP_ROUNDINGS_510));
     return g->kind == GRAIN_STEPS ? whole : whole + ldexp(ilogb(gap / g->least), g->bits - 1);
 }
 
@@ -39,7 +39,7 @@ double grain_numbers_below(const grain *g, double v) {
 static span steps_span_of(const grain *g, double steps, double v) {
     const double blur = g->bits > 0 ? floor(0.5 + 1.5 * unit_of(g, v) * steps) : 0;
     const double first = rint(v * steps) - blur, last = rint(v * steps) + blur;
-    const double cut = first * (steps / (steps + 1)) * (1 - 0x1p-50);
+    const double cut = first * (steps / (steps + 1)) * (1 - DP_ROUNDINGS_6);
     const double below[] = {[GRAIN_ANY] = fmin(first - 0.5, cut), [GRAIN_NEAREST] = first - 0.5, [GRAIN_ZERO] = first};
     const double above[] = {[GRAIN_ANY] = last + 1, [GRAIN_NEAREST] = last + 0.5, [GRAIN_ZERO] = last + 1};
     const double margin = g->margin * steps, down = first - below[g->rounding], up = above[g->rounding] - last;
@@ -118,7 +118,7 @@ double grain_quotient_codes(const grain *g, const dp_format *format, double v) {
 
 /* The outermost codes whose numbers are in the span. */
 static void codes_within(const dp_format *format, span s, uint32_t code, uint32_t *first, uint32_t *last) {
-    const double lo = s.lo / s.den * (1 - 0x1p-50), hi = s.hi / s.den * (1 + 0x1p-50);
+    const double lo = s.lo / s.den * (1 - DP_ROUNDINGS_6), hi = s.hi / s.den * (1 + DP_ROUNDINGS_6);
     *first = dp_format_encode(format, DP_ROUND_ZERO, lo);
     *last = dp_format_encode(format, DP_ROUND_ZERO, hi);
     if (dp_format_value(format, *first) < lo)

@@ -44,7 +44,7 @@ bool grain_bound_init(grain_bound *out, const dp_setup *setup, const grain *g, d
     const double zero = setup->reversed ? end : start, one = setup->reversed ? start : end;
     const double least = spec->ortho ? spec->znear : end, most = spec->ortho ? spec->zfar : start;
     const double width = copysign(setup->kappa, one - zero);
-    const double slack = 0x1p-50; /* outweighs the roundings of quantities and of window depths */
+    const double slack = DP_ROUNDINGS_6; /* outweighs the roundings of quantities and of window depths */
     *out = (grain_bound){.zero = zero,
                          .per = 1 / width,
                          .least = least - slack * fabs(least),

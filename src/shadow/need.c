@@ -9,7 +9,7 @@
 static const double eps = 0x1p-24;
 
 /* Covers terms of second order and this file's own rounding. */
-static const double outward = 1.0 + 0x1p-20;
+static const double outward = 1.0 + DP_ROUNDINGS32_14;
 
 /* How far the rounding of the light's matrix turns the light, radians. */
 static const double turned_light = 4.0 * 0x1p-24;

@@ -4,11 +4,12 @@
 #include <math.h>
 
 #include "core/elementary.h"
+#include "core/outward.h"
 #include "shader/decode.h"
 #include "shadow/shadow.h"
 
 static const double eps = 0x1p-24;
-static const double outward = 1.0 + 0x1p-20;
+static const double outward = 1.0 + DP_ROUNDINGS32_14;
 
 /* The error of the window depth at z before the format rounds it: matrix, product, sum, the eye depth, quotient,
  * viewport; and the plane of a triangle, beside what moves it in the picture. */

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "core/outward.h"
+
 static world_error error_at(const world_scheme *s, const world_asked *a, double distance, double z) {
     const world_where at = {distance, a->ray_ratio * z, z};
     return world_bound(s, &at);
@@ -44,7 +46,7 @@ double world_separation(const world_scheme *s, const world_asked *a, double dist
 
 /* The loss at the farthest, and the buffer's need wherever places may be moved to. */
 double world_separation_over(const world_scheme *s, const world_asked *a, double distance, double lo, double hi) {
-    const double settled = 1.0 + 0x1p-40, outward = 1.0 + 0x1p-16;
+    const double settled = 1.0 + 0x1p-40, outward = 1.0 + DP_ROUNDINGS32_254;
     const dp_spec *spec = &a->setup->spec;
     for (double end = hi;;) {
         const dp_displaced d = displaced(s, a, distance, end);

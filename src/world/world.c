@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/outward.h"
 #include "world/arithmetic.h"
 
 static const double unit = 0x1p-24;
@@ -13,7 +14,7 @@ static const double root3 = 1.73205081;
 static const double turn = WORLD_TURN;
 
 /* Terms of second order, and what is formed in double on the way to a binary32 number; and numbers that are flushed. */
-static const double outward = 1.0 + 0x1p-16, flushed = 0x1p-120;
+static const double outward = 1.0 + DP_ROUNDINGS32_254, flushed = 0x1p-120;
 
 /* Half a unit of a double in the world, and of the second of two binary32 numbers. */
 static const double in_double = 0x1p-53, low_part = 0x1p-49;

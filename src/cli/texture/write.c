@@ -8,6 +8,7 @@
 #include "cli/texture/request.h"
 #include "cli/texture/writing.h"
 #include "core/append.h"
+#include "core/outward.h"
 #include "report/message.h"
 #include "report/number.h"
 #include "report/report.h"
@@ -86,7 +87,7 @@ static void to_greys(const writing *w, const float *values) {
     uint16_t *out = w->row;
     for (size_t i = 0; i < w->row_values; i++) {
         const double share = fmin(fmax(((double)values[i] + w->more - w->lo) * w->scale, 0), 1) * (GREYS - 1);
-        const double grey = w->upwards ? fmin(ceil(share * (1 + 0x1p-48)), GREYS - 1) : rint(share);
+        const double grey = w->upwards ? fmin(ceil(share * (1 + DP_ROUNDINGS_30)), GREYS - 1) : rint(share);
         out[i] = !isfinite(values[i]) ? 0 : (uint16_t)(1 + grey);
     }
 }
