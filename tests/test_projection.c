@@ -140,3 +140,151 @@ TEST(test_refused) {
         assert_non_null(fault.rule);
     }
 }
+
+/* ---- What rounding left of the planes ---- */
+
+/* The planes of a third row c, e by hand: NDC depth is c + e/z, or c z + e, and ends at 0 or -1 and at 1. */
+static void by_hand(const matrix_case *m, long double c, long double e, long double planes[2]) {
+    const dp_mapping_row *row = dp_mapping_get(m->mapping);
+    const long double ends[2] = {row->ndc_signed ? -1 : 0, 1};
+    for (int k = 0; k < 2; k++) {
+        const long double end = ends[k ^ (row->reversed != 0)];
+        planes[k] = m->ortho ? (end - e) / c : end == c ? (long double)INFINITY : e / (end - c);
+        if (!m->ortho && planes[k] < 0)
+            planes[k] = INFINITY;
+    }
+}
+
+static int as_wide(double got, long double want, long double width) {
+    return got == want || fabsl(got - want) <= 1e-6L * width + 1e-15L * fabsl(want);
+}
+
+/* Entries to binary32: the planes that were, and no more than half a unit of each entry makes of them by hand. */
+TEST(test_planes_of_floats) {
+    tally t = {.name = "planes of entries of binary32"};
+    rng r = rng_make("planes of floats");
+    for (uint64_t k = test_cases(1000, 20000, 1000000); k > 0; k--) {
+        const matrix_case m = any_case(&r);
+        double rows[ENTRIES], columns[ENTRIES];
+        dp_projection p;
+        dp_planes at = {0}, turned = {0};
+        for (int i = 0; i < ENTRIES; i++)
+            rows[i] = (double)(float)m.rows[i];
+        rows[0] = (double)1.1F; /* long, and of no matter to depth */
+        for (int i = 0; i < ENTRIES; i++)
+            columns[i % 4 * 4 + i / 4] = rows[i];
+        const dp_mapping_row *row = dp_mapping_get(m.mapping);
+        if (dp_projection_init(&p, rows, row->ndc_signed, row->reversed, NULL) != DP_OK || p.reversed != row->reversed)
+            continue;
+        const dp_status status = dp_projection_planes(&at, &p, rows, NULL, NULL);
+        TALLY(&t,
+              status == DP_OK && dp_projection_planes(&turned, &p, columns, NULL, NULL) == DP_OK &&
+                  memcmp(&at, &turned, sizeof at) == 0,
+              "%s by columns", row->name);
+        TALLY(&t,
+              at.near_least <= m.znear && m.znear <= at.near_most && at.far_least <= m.zfar && m.zfar <= at.far_most,
+              "%s %.17g..%.17g: %.17g to %.17g, %.17g to %.17g", row->name, m.znear, m.zfar, at.near_least,
+              at.near_most, at.far_least, at.far_most);
+        long double least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
+        for (int i = 0; i < 4; i++) {
+            const float c = (float)rows[10], e = (float)rows[11], way = i & 1 ? INFINITY : -INFINITY;
+            const long double at_c = c == 0 ? 0 : ((long double)c + nextafterf(c, way)) / 2;
+            const long double at_e = e == 0 ? 0 : ((long double)e + nextafterf(e, i & 2 ? INFINITY : -INFINITY)) / 2;
+            long double planes[2];
+            by_hand(&m, m.backwards ? -at_c : at_c, at_e, planes);
+            for (int j = 0; j < 2; j++) {
+                least[j] = fminl(least[j], planes[j]);
+                most[j] = fmaxl(most[j], planes[j]);
+            }
+        }
+        TALLY(&t,
+              as_wide(at.near_least, least[0], most[0] - least[0]) &&
+                  as_wide(at.near_most, most[0], most[0] - least[0]) &&
+                  as_wide(at.far_least, least[1], isinf(most[1]) ? least[1] : most[1] - least[1]) &&
+                  as_wide(at.far_most, most[1], most[1] - least[1]),
+              "%s%s %.17g..%.17g: %.17g to %.17g, not %.17Lg to %.17Lg", row->name, m.ortho ? " ortho" : "", m.znear,
+              m.zfar, at.far_least, at.far_most, least[1], most[1]);
+        char shown[512];
+        snprintf(shown, sizeof shown, "%.*g", at.far_digits, p.zfar);
+        const double rounded = strtod(shown, NULL);
+        TALLY(&t, rounded >= at.far_least && rounded <= at.far_most, "%s: %s is not in %.17g to %.17g", row->name,
+              shown, at.far_least, at.far_most);
+        snprintf(shown, sizeof shown, "%.*g", at.far_digits - 1, p.zfar);
+        const double shorter = strtod(shown, NULL);
+        TALLY(&t, at.far_digits == 1 || isinf(p.zfar) || shorter < at.far_least || shorter > at.far_most,
+              "%s: %s lies in %.17g to %.17g, too", row->name, shown, at.far_least, at.far_most);
+    }
+    tally_end(&t);
+}
+
+/* Oblique near planes, rounded to binary32: the nearest and the farthest plane of the picture were between. */
+TEST(test_planes_of_oblique) {
+    tally t = {.name = "planes of oblique matrices"};
+    rng r = rng_make("oblique planes");
+    for (uint64_t k = test_cases(1000, 20000, 200000); k > 0; k--) {
+        double m[ENTRIES] = {rng_uniform(&r, 0.5, 3),
+                             0,
+                             rng_uniform(&r, -0.5, 0.5),
+                             0,
+                             0,
+                             rng_uniform(&r, 0.5, 3),
+                             rng_uniform(&r, -0.5, 0.5),
+                             0,
+                             rng_uniform(&r, -0.05, 0.05),
+                             rng_uniform(&r, -0.05, 0.05),
+                             rng_uniform(&r, 1.2, 2),
+                             -rng_uniform(&r, 0.1, 2),
+                             0,
+                             0,
+                             1,
+                             0};
+        long double near = INFINITY, far = 0;
+        for (int i = 0; i < 4; i++) {
+            const long double u = ((i & 1 ? 1 : -1) - (long double)m[2]) / m[0];
+            const long double v = ((i & 2 ? 1 : -1) - (long double)m[6]) / m[5];
+            const long double c = m[10] + m[8] * u + m[9] * v;
+            near = fminl(near, m[11] / -c);
+            far = fmaxl(far, 1 - c < 0 ? m[11] / (1 - c) : (long double)INFINITY);
+        }
+        for (int i = 0; i < ENTRIES; i++)
+            m[i] = (double)(float)m[i];
+        dp_projection p;
+        dp_planes at;
+        if (dp_projection_init(&p, m, 0, 0, NULL) != DP_OK)
+            continue;
+        TALLY(&t,
+              dp_projection_planes(&at, &p, m, NULL, NULL) == DP_OK && at.near_least <= near && near <= at.near_most &&
+                  at.far_least <= far && far <= at.far_most,
+              "%.17Lg, %.17Lg not in %.17g to %.17g, %.17g to %.17g", near, far, at.near_least, at.near_most,
+              at.far_least, at.far_most);
+        TALLY(&t, at.near_most - at.near_least < 2e-5 * at.near_most, "near %.9g to %.9g", at.near_least, at.near_most);
+    }
+    tally_end(&t);
+}
+
+/* Doubles by a unit in the last place, what was typed as it is; and what is refused. */
+TEST(test_planes_of_doubles) {
+    matrix_case m = {.znear = 0.1, .zfar = 1000, .mapping = DP_MAPPING_D3D};
+    const double typed[ENTRIES] = {1.5, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.25, -0.5, 0, 0, -1, 0};
+    dp_projection p;
+    dp_planes at = {.near_digits = -5};
+    fill(&m);
+    assert_int_equal(dp_projection_init(&p, m.rows, 0, 0, NULL), DP_OK);
+    assert_int_equal(dp_projection_planes(&at, &p, m.rows, NULL, NULL), DP_OK);
+    assert_true(at.far_least <= 1000 && 1000 <= at.far_most && at.far_most - at.far_least < 1e-8 && at.far_digits == 1);
+    assert_true(at.near_least <= 0.1 && 0.1 <= at.near_most && at.near_most - at.near_least < 1e-15);
+    assert_int_equal(dp_projection_planes(&at, &p, m.rows, m.rows, m.rows), DP_OK);
+    assert_true(at.far_least == p.zfar && at.far_most == p.zfar && at.far_digits == 17 && at.near_digits == 17);
+    assert_int_equal(dp_projection_init(&p, typed, 0, 0, NULL), DP_OK);
+    assert_int_equal(dp_projection_planes(&at, &p, typed, NULL, NULL), DP_OK);
+    assert_true(at.far_least == 2 && at.far_most == 2 && at.near_least == 0.4 && at.near_most == 0.4);
+    at.near_digits = -5;
+    assert_int_equal(dp_projection_planes(&at, &p, m.rows, NULL, NULL), DP_ERROR_MATRIX);
+    assert_int_equal(dp_projection_planes(NULL, &p, typed, NULL, NULL), DP_ERROR_NULL);
+    assert_int_equal(dp_projection_planes(&at, NULL, typed, NULL, NULL), DP_ERROR_NULL);
+    assert_int_equal(dp_projection_planes(&at, &p, NULL, NULL, NULL), DP_ERROR_NULL);
+    assert_int_equal(dp_projection_planes(&at, &p, typed, typed, NULL), DP_ERROR_NULL);
+    p.mapping = DP_MAPPING_COUNT;
+    assert_int_equal(dp_projection_planes(&at, &p, typed, NULL, NULL), DP_ERROR_MATRIX);
+    assert_true(at.near_digits == -5);
+}

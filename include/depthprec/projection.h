@@ -72,5 +72,25 @@ typedef enum dp_layout { DP_LAYOUT_FOUND = 0, DP_LAYOUT_ROWS, DP_LAYOUT_COLUMNS,
 DP_API dp_status dp_projection_find(dp_projection *out, const double m[16], dp_layout layout, dp_mapping mapping,
                                     dp_matrix_fault *fault);
 
+/** Between what the planes of a matrix lie, which was rounded. */
+typedef struct dp_planes {
+    double near_least, near_most, far_least, far_most; /**< far_most may be INFINITY */
+    int near_digits, far_digits; /**< the fewest to which znear and zfar may be rounded and lie there; 17: all */
+} dp_planes;
+
+/**
+ * What the entries say of the planes: those of any matrix whose entries were rounded to these. Near far/near = 10^6 the
+ * entries of binary32 leave a digit or two of far.
+ *
+ * @param p      what dp_projection_init() or dp_projection_find() made of m, in the layout that it was in
+ * @param least  of each entry, what it was before it was rounded, at least, and
+ * @param most   at most. Both null: by its bits. If all entries are numbers of binary32, one of them with more than 20
+ *               bits, those that are not 0 were rounded to binary32; else those of more than 20 bits to doubles, for
+ *               which a unit in the last place is taken. What has fewer bits was typed
+ * @return DP_OK, DP_ERROR_NULL, or DP_ERROR_MATRIX where p is not of m; *out is then left as it was
+ */
+DP_API dp_status dp_projection_planes(dp_planes *out, const dp_projection *p, const double m[16],
+                                      const double least[16], const double most[16]);
+
 DP_END
 #endif

@@ -138,6 +138,131 @@ dp_status dp_projection_init(dp_projection *out, const double m[16], int ndc_sig
     return DP_OK;
 }
 
+/* ---- What rounding left of the planes -----------------------------------------------------------------------------
+ */
+
+enum { ENTRIES = 16, BITS_TYPED = 20, DIGITS_MOST = 17 };
+
+/* A number of so many bits was hardly typed. */
+static int is_long(double x) {
+    int exponent;
+    const double bits = ldexp(frexp(x, &exponent), BITS_TYPED);
+    return bits != floor(bits);
+}
+
+/* What was rounded to each entry: to binary32 if all are such numbers and one is long, else only long ones, to doubles.
+ */
+static void ends_by_bits(const double m[ENTRIES], double least[ENTRIES], double most[ENTRIES]) {
+    int single = 1, any = 0;
+    for (int i = 0; i < ENTRIES; i++) {
+        single = single && (double)(float)m[i] == m[i];
+        any = any || is_long(m[i]);
+    }
+    single = single && any;
+    for (int i = 0; i < ENTRIES; i++) {
+        const float f = (float)m[i];
+        const int rounded = single ? m[i] != 0 : is_long(m[i]);
+        least[i] = single ? 0.5 * (m[i] + (double)nextafterf(f, -INFINITY)) : nextafter(m[i], (double)-INFINITY);
+        most[i] = single ? 0.5 * (m[i] + (double)nextafterf(f, INFINITY)) : nextafter(m[i], (double)INFINITY);
+        if (!rounded)
+            least[i] = most[i] = m[i];
+    }
+}
+
+static void turn(double turned[ENTRIES], const double m[ENTRIES]) {
+    for (int i = 0; i < ENTRIES; i++)
+        turned[i] = m[i % 4 * 4 + i / 4];
+}
+
+static dp_status take_as(dp_projection *out, const dp_projection *p, const double m[ENTRIES]) {
+    const dp_mapping_row *row = dp_mapping_get(p->mapping);
+    return row == NULL ? DP_ERROR_MATRIX : dp_projection_init(out, m, row->ndc_signed, p->reversed, NULL);
+}
+
+static int is_of(const dp_projection *p, const double m[ENTRIES]) {
+    dp_projection q;
+    return take_as(&q, p, m) == DP_OK && q.znear == p->znear && q.zfar == p->zfar;
+}
+
+static void widen(dp_planes *out, double near, double far) {
+    out->near_least = fmin(out->near_least, near);
+    out->near_most = fmax(out->near_most, near);
+    out->far_least = fmin(out->far_least, far);
+    out->far_most = fmax(out->far_most, far);
+}
+
+/* What c + a u + b v rounds, at most. */
+static double lost_of(const dp_projection *p, const double row[4]) {
+    const double across = fabs(row[0]) * p->half[0] * (1 + fabs(p->centre[0]));
+    const double up = fabs(row[1]) * p->half[1] * (1 + fabs(p->centre[1]));
+    return across + up == 0 ? 0 : 0x1p-50 * (fabs(row[2]) + across + up);
+}
+
+/* Planes are monotone in each entry that they depend on, so their extremes are where each is at an end. */
+static void visit_corners(dp_planes *out, const dp_projection *p, const double m[ENTRIES],
+                          const double *const ends[2]) {
+    static const int shaping[] = {Z + 2, Z + 3, Z, Z + 1, X, X + 2, Y + 1, Y + 2};
+    const double lost = lost_of(p, m + Z);
+    const int count = lost > 0 ? 8 : 2;
+    double at[ENTRIES];
+    int rounded = 0;
+    for (int i = 0; i < ENTRIES; i++)
+        at[i] = m[i];
+    for (int i = 0; i < count; i++)
+        rounded = rounded || ends[0][shaping[i]] < ends[1][shaping[i]];
+    for (int corner = 0; rounded && corner < 1 << count; corner++) {
+        dp_projection q;
+        for (int i = 0; i < count; i++)
+            at[shaping[i]] = ends[corner >> i & 1][shaping[i]];
+        at[Z + 2] += corner & 1 ? lost : -lost;
+        if (take_as(&q, p, at) == DP_OK)
+            widen(out, q.znear, q.zfar);
+    }
+}
+
+/* The fewest digits to which the number is rounded and still in the range. */
+static int digits_of(double value, double least, double most) {
+    double unit = 1;
+    if (!isfinite(value) || value == 0 || least == most)
+        return DIGITS_MOST;
+    while (unit * 10 <= fabs(value))
+        unit *= 10;
+    while (unit > fabs(value))
+        unit /= 10;
+    for (int digits = 1; digits < DIGITS_MOST; digits++, unit /= 10) {
+        const double rounded = floor(value / unit + 0.5) * unit;
+        if (least <= rounded && rounded <= most)
+            return digits;
+    }
+    return DIGITS_MOST;
+}
+
+dp_status dp_projection_planes(dp_planes *out, const dp_projection *p, const double m[16], const double least[16],
+                               const double most[16]) {
+    double by_bits[2][ENTRIES], turned[3][ENTRIES];
+    if (out == NULL || p == NULL || m == NULL || (least == NULL) != (most == NULL))
+        return DP_ERROR_NULL;
+    if (least == NULL)
+        ends_by_bits(m, by_bits[0], by_bits[1]);
+    const double *rows = m, *ends[2] = {least != NULL ? least : by_bits[0], most != NULL ? most : by_bits[1]};
+    if (!is_of(p, m)) {
+        turn(turned[0], ends[0]);
+        turn(turned[1], ends[1]);
+        turn(turned[2], m);
+        ends[0] = turned[0];
+        ends[1] = turned[1];
+        rows = turned[2];
+        if (!is_of(p, rows))
+            return DP_ERROR_MATRIX;
+    }
+    dp_planes made = {p->znear, p->znear, p->zfar, p->zfar, 0, 0};
+    visit_corners(&made, p, rows, ends);
+    made.near_digits = digits_of(p->znear, made.near_least, made.near_most);
+    made.far_digits = digits_of(p->zfar, made.far_least, made.far_most);
+    *out = made;
+    return DP_OK;
+}
+
 /* ---- The convention ---------------------------------------------------------------------------------------------- */
 
 /* A search for the cameras of a matrix: those that fit, of which the first is kept, and what was wrong last. */
@@ -183,17 +308,16 @@ dp_status dp_projection_find(dp_projection *out, const double m[16], dp_layout l
                              dp_matrix_fault *fault) {
     dp_matrix_fault own = {NULL, {0}};
     search s = {.mapping = mapping, .why = fault != NULL ? fault : &own};
-    double turned[16];
+    double turned[ENTRIES];
     if (out == NULL || m == NULL)
         return DP_ERROR_NULL;
     if (mapping != DP_MAPPING_COUNT &&
         (dp_mapping_get(mapping) == NULL || dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE))
         return DP_ERROR_MAPPING;
     int same = 1;
-    for (int i = 0; i < 16; i++) {
-        turned[i] = m[i % 4 * 4 + i / 4];
+    turn(turned, m);
+    for (int i = 0; i < ENTRIES; i++)
         same = same && turned[i] == m[i];
-    }
     const int by_columns = is_last_row(turned[W], turned[W + 1], turned[W + 2], turned[W + 3]);
     const int by_rows = is_last_row(m[W], m[W + 1], m[W + 2], m[W + 3]) || !by_columns;
     if (layout == DP_LAYOUT_ROWS || (layout != DP_LAYOUT_COLUMNS && by_rows))

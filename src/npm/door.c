@@ -179,17 +179,21 @@ EXPORT(worst) dp_status door_worst(void) {
 
 /**
  * The camera of the matrix in the numbers, its mapping the first word, "" where it is to be found. The answer is in the
- * numbers (near, far, ortho) and the first word (mapping); what is wrong with the matrix: four numbers and a sentence.
+ * numbers (near, far, ortho, dp_planes) and the first word (mapping); what is wrong with the matrix: four numbers and a
+ * sentence.
  */
 EXPORT(matrix) dp_status door_matrix(int layout) {
     dp_mapping mapping = DP_MAPPING_COUNT;
     dp_projection found;
+    dp_planes planes;
     dp_matrix_fault fault;
     dp_status status = *text != '\0' ? dp_mapping_parse(text, &mapping) : DP_OK;
     if (status == DP_OK)
         status = dp_projection_find(&found, numbers, (dp_layout)layout, mapping, &fault);
-    if (status == DP_OK) {
-        const double all[] = {found.znear, found.zfar, found.ortho};
+    if (status == DP_OK && dp_projection_planes(&planes, &found, numbers, NULL, NULL) == DP_OK) {
+        const double all[] = {found.znear,       found.zfar,         found.ortho,
+                              planes.near_least, planes.near_most,   planes.far_least,
+                              planes.far_most,   planes.near_digits, planes.far_digits};
         memcpy(numbers, all, sizeof all);
         answer(dp_mapping_get(found.mapping)->name, "", "");
     } else if (status == DP_ERROR_MATRIX) {

@@ -88,6 +88,14 @@ export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport">
     readonly triangleClass: readonly [number, number, number];
     /** The code of window depth 1. */
     readonly codeMax: number;
+    /** Of a matrix: between what its planes lie, by how its entries were rounded, and the fewest digits of `near` and
+     *  `far` that lie there. Of other cameras the planes themselves, and 17. */
+    readonly nearLeast: number;
+    readonly nearMost: number;
+    readonly farLeast: number;
+    readonly farMost: number;
+    readonly nearDigits: number;
+    readonly farDigits: number;
 
     constructor(options?: CameraOptions);
 
@@ -95,7 +103,8 @@ export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport">
      * The camera of a 4x4 projection matrix, clip = M (x, y, z, 1): 16 numbers, or 4 rows of 4. A perspective tells whether
      * it is reversed; whether NDC depth begins at 0 or at -1 only a reversed one with far >= 2 near tells, so `mapping` has
      * to be said else: "d3d" or "reversed" (0 to 1), "gl" or "gl-reversed" (-1 to 1). `layout`: "rows", "columns", else as
-     * the fourth row tells. Throws where it is no projection, where its planes differ from pixel to pixel, and where more
+     * the fourth row tells. `near` and `far` are those of the entries as they are: numbers of 32 bits, if all are, else of 64
+     * leave them between nearLeast and nearMost, farLeast and farMost. Throws where it is no projection, where its planes differ from pixel to pixel, and where more
      * than one convention fits, naming what each would be.
      */
     static fromMatrix(matrix: Numbers | readonly Numbers[], options?: Omit<CameraOptions, "near" | "far" | "ortho"> & { layout?: "rows" | "columns" }): Camera;

@@ -147,12 +147,13 @@ function pass(given, outs, work) {
 // ---- Cameras --------------------------------------------------------------------------------------------------------
 
 let ready = {}; // what the module is prepared for
+const PLANES = ["nearLeast", "nearMost", "farLeast", "farMost", "nearDigits", "farDigits"]; // as door.c has them
 
 export class Camera {
     #setups = {};
     #narrow;
 
-    constructor(options = {}) {
+    constructor(options = {}, planes = undefined) { // the second by fromMatrix alone
         if (typeof options !== "object" || options === null) throw new TypeError(`a camera must be an object, got ${options === null ? "null" : typeof options}`);
         const given = { ...USUAL };
         for (const [name, value] of Object.entries(options)) {
@@ -177,6 +178,7 @@ export class Camera {
         this.#narrow = numbers[1] <= 16;
         const [named, mapping, arith] = read(3);
         Object.assign(this, given, { format: named, mapping, arith, ortho: Boolean(given.ortho), codeMax: numbers[0] });
+        PLANES.forEach((name, i) => (this[name] = planes?.[i] ?? [given.near, given.near, given.far, given.far, 17, 17][i]));
         Object.freeze(this);
     }
 
@@ -197,8 +199,14 @@ export class Camera {
             throw new DepthprecError(`${string(core.status(status))}: ${readings.join("; ")}`, status);
         }
         demand(status);
-        const [near, far, ortho] = numbers;
-        return new Camera({ near, far, ortho: ortho !== 0, mapping: read(1)[0], ...more });
+        const [near, far, ortho] = numbers, planes = numbers.slice(3, 9);
+        return new Camera({ near, far, ortho: ortho !== 0, mapping: read(1)[0], ...more }, planes);
+    }
+
+    // What Node.js shows: planes in the digits that they have.
+    [Symbol.for("nodejs.util.inspect.custom")](depth, options, inspect) {
+        const shown = (name) => Number(this[name].toPrecision(this[`${name}Digits`]));
+        return `Camera ${inspect({ ...this, near: shown("near"), far: shown("far") }, options)}`;
     }
 
     static async preset(name, more = {}) {

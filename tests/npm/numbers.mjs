@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import test from "node:test";
+import { inspect } from "node:util";
 import { Camera, DepthprecError, version } from "depthprec";
 
 const small = new Camera({ near: 1, far: 2, format: "unorm2" });
@@ -54,7 +55,7 @@ test("the worst: code 2 is widest, 8/21; at 12/7 code 3 is 2/7 off", () => {
 
 test("what a camera is", () => {
     assert.deepEqual({ ...small, viewport: null }, { near: 1, far: 2, format: "unorm2", mapping: "d3d", ortho: false, rounding: "nearest", model: "exact", arith: "ieee",
-        logC: 1, viewport: null, fov: 60, subpixel: 8, slant: [0, 90], triangleClass: [2, 512, 16], codeMax: 3 });
+        logC: 1, viewport: null, fov: 60, subpixel: 8, slant: [0, 90], triangleClass: [2, 512, 16], codeMax: 3, nearLeast: 1, nearMost: 1, farLeast: 2, farMost: 2, nearDigits: 17, farDigits: 17 });
     assert.throws(() => { small.near = 3; }, TypeError);
     assert.equal(new Camera({ format: "D24", mapping: "GL" }).format, "unorm24");
     assert.equal(new Camera().far, 1000);
@@ -111,6 +112,22 @@ test("cameras of matrices", () => {
     refuses(() => Camera.fromMatrix(new Array(16).fill(NaN)), /finite/);
     refuses(() => Camera.fromMatrix([[2, 0, 0, 0], [0, 3, 0, 0], [0.1, 0, -4 / 3, -4 / 3], [0, 0, -1, 0]], { mapping: "d3d" }), /the same for every pixel/);
     for (const bad of ["matrix", null, {}, undefined]) refuses(() => Camera.fromMatrix(bad), /a matrix must be/, TypeError);
+});
+
+// Near 0.1 and far 100000 of Direct3D in entries of 32 bits: c is 1.000001, a step 2^-23 there, e -0.1, 2^-27.
+test("the planes of a rounded matrix", () => {
+    const rows = Float32Array.from([1.1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1e5 / (1e5 - 0.1), -1e4 / (1e5 - 0.1), 0, 0, 1, 0]);
+    const c = rows[10], e = -rows[11], half = 2 ** -24, given = Camera.fromMatrix(rows, { mapping: "d3d" });
+    near(given.farLeast, (e - half / 16) / (c + half - 1), 1e-9);
+    near(given.farMost, (e + half / 16) / (c - half - 1), 1e-9);
+    near(given.nearLeast, (e - half / 16) / (c + half), 1e-12);
+    near(given.nearMost, (e + half / 16) / (c - half), 1e-12);
+    assert.ok(given.farLeast <= 1e5 && 1e5 <= given.farMost && given.nearLeast <= 0.1 && 0.1 <= given.nearMost);
+    assert.match(inspect(given), /near: 0\.1,\s+far: 100000,/);
+    assert.match(inspect({ given }), /far: 100000,/);
+    const typed = Camera.fromMatrix(matrix(-1.25, -0.5), { mapping: "d3d" });
+    assert.deepEqual([typed.nearLeast, typed.nearMost, typed.farLeast, typed.farMost, typed.farDigits], [0.4, 0.4, 2, 2, 17]);
+    assert.deepEqual([new Camera({ far: 7 }).farLeast, new Camera({ far: 7 }).nearMost], [7, 0.1]);
 });
 
 test("arrays: of any type, of any length, each element as by itself", () => {

@@ -405,6 +405,32 @@ class Matrix(unittest.TestCase):
         self.assertLess(abs(narrow.near - 0.1), 1e-8)
         self.assertEqual(narrow, Camera.from_matrix([binary32(x) for x in sum(m, [])]))
 
+    def test_planes(self):
+        """Of float32 entries: half a step of each, by fractions; a standard matrix of near 0.1 and far 100000."""
+        n, f = Fraction(1, 10), 10 ** 5
+        entries = array.array("f", sum(self.matrix(n, f, "d3d"), []))
+        entries[0] = 1.1  # of more than 20 bits, which says that all were rounded
+        c, e = (Fraction(entries[i]) for i in (10, 11))
+        # Next to 1 the steps are 2^-23 above, next to -0.1 2^-27.
+        at = [(x + k * Fraction(1, 2 ** 24), y + j * Fraction(1, 2 ** 28)) for x, y in ((c, e),) for k in (-1, 1)
+              for j in (-1, 1)]
+        far, near = [-y / (x - 1) for x, y in at], [-y / x for x, y in at]
+        found = Camera.from_matrix(entries, "d3d")
+        for got, want in ((found.far_least, min(far)), (found.far_most, max(far)), (found.near_least, min(near)),
+                          (found.near_most, max(near))):
+            self.close(got, float(want), 1e-9)
+        self.assertTrue(found.near_least <= 0.1 <= found.near_most and found.far_least <= 1e5 <= found.far_most)
+        self.assertEqual((found.near_digits, found.far_digits), (1, 1))
+        self.assertIn("near 0.1 (0.09999999", repr(found))
+        self.assertRegex(repr(found), r"far 100000\.0 \(98689\.\d+ to 111848\.\d+\)")
+        again = pickle.loads(pickle.dumps(found))
+        self.assertEqual((again, repr(again), again.far_most), (found, repr(found), found.far_most))
+        typed = Camera.from_matrix([[1.5, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1.25, -0.5], [0, 0, 1, 0]], "d3d")
+        self.assertEqual(repr(typed), "Camera(0.4, 2.0, 'fp32', 'd3d')")
+        self.assertEqual((typed.far_least, typed.far_most, typed.far_digits), (2, 2, 17))
+        plain = Camera(0.1, 7)
+        self.assertEqual((plain.near_least, plain.far_most, plain.near_digits), (0.1, 7, 17))
+
     def test_layouts(self):
         """Near 1, far infinite: the transpose is a projection, too, of another camera."""
         m = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1, 0, 0, 1, 0]

@@ -13,7 +13,7 @@
 #include "report/number.h"
 #include "system/input.h"
 
-enum { ENTRIES = 16, DEPTH = 10, FILE_MOST = 1 << 16, DIGITS_ROUNDED = 6 };
+enum { ENTRIES = 16, FILE_MOST = 1 << 16, DIGITS_ROUNDED = 6 };
 
 static const double DEGREE = M_PI / 180;
 
@@ -107,69 +107,47 @@ static bool are_single(const entries *e) {
 }
 
 /* What was rounded to an entry lies between. Few digits were not rounded, but typed. */
-static void ends_of(const entries *e, size_t i, bool single, double ends[2]) {
+static void ends_of(const entries *e, size_t i, bool single, double *least, double *most) {
     const double m = e->m[i], half = e->digits[i] >= DIGITS_ROUNDED ? 0.5 * e->last[i] : 0;
     const double own = half > 0 ? fmax(half, 0x1p-53 * fabs(m)) : 0;
     const float f = (float)m;
-    for (int k = 0; k < 2; k++) {
-        const double sign = k == 0 ? -1 : 1;
-        const double beside = 0.5 * ((double)f + (double)nextafterf(f, (float)sign * INFINITY));
-        ends[k] = m + sign * own;
-        if (single && m != 0)
-            ends[k] = k == 0 ? fmin(ends[k], beside) : fmax(ends[k], beside);
+    *least = m - own;
+    *most = m + own;
+    if (single && m != 0) {
+        *least = fmin(*least, 0.5 * ((double)f + (double)nextafterf(f, -INFINITY)));
+        *most = fmax(*most, 0.5 * ((double)f + (double)nextafterf(f, INFINITY)));
     }
 }
 
-/* Depth depends on the last two entries of the third row; planes are monotone in each. */
-static void find_planes(const entries *e, const dp_mapping_row *row, texture_matrix *t) {
-    const dp_projection *p = &t->taken;
+static void find_planes(const entries *e, texture_matrix *t) {
     const bool single = are_single(e);
-    double ends[2][2], m[ENTRIES];
-    ends_of(e, DEPTH, single, ends[0]);
-    ends_of(e, DEPTH + 1, single, ends[1]);
-    memcpy(m, e->m, sizeof m);
-    t->planes[0] = t->planes[1] = p->znear;
-    t->planes[2] = t->planes[3] = p->zfar;
-    for (int i = 0; i < 4; i++) {
-        dp_projection other;
-        m[DEPTH] = ends[0][i & 1];
-        m[DEPTH + 1] = ends[1][i >> 1];
-        if (dp_projection_init(&other, m, row->ndc_signed, row->reversed, NULL) != DP_OK)
-            continue;
-        t->planes[0] = fmin(t->planes[0], other.znear);
-        t->planes[1] = fmax(t->planes[1], other.znear);
-        t->planes[2] = fmin(t->planes[2], other.zfar);
-        t->planes[3] = fmax(t->planes[3], other.zfar);
-    }
+    double least[ENTRIES], most[ENTRIES];
+    for (size_t i = 0; i < ENTRIES; i++)
+        ends_of(e, i, single, &least[i], &most[i]);
+    dp_projection_planes(&t->planes, &t->taken, e->m, least, most);
 }
 
-/* To the digits that lie in the range, or as it is. */
-static double carried(double value, const double range[2]) {
-    const double off = fmax(value - range[0], range[1] - value) / fabs(value);
-    int digits = 1;
-    if (!(off > 0) || !isfinite(off))
-        return value;
-    for (double left = 10 * off; left < 1 && digits < 17; left *= 10)
-        digits++;
+static double number_at(double value, int digits) {
     return strtod(number_of(value, digits).text, NULL);
 }
 
 dp_setup texture_matrix_shown(const texture_matrix *t, const dp_setup *setup) {
     dp_setup shown = *setup;
     if (t->path != NULL) {
-        shown.spec.znear = carried(setup->spec.znear, t->planes);
-        shown.spec.zfar = carried(setup->spec.zfar, t->planes + 2);
+        shown.spec.znear = number_at(setup->spec.znear, t->planes.near_digits);
+        shown.spec.zfar = number_at(setup->spec.zfar, t->planes.far_digits);
     }
     return shown;
 }
 
 void texture_matrix_say_planes(const texture_matrix *t, page *p) {
-    if (t->path != NULL && (t->planes[0] < t->planes[1] || t->planes[2] < t->planes[3]))
+    const dp_planes *at = &t->planes;
+    if (t->path != NULL && (at->near_least < at->near_most || at->far_least < at->far_most))
         page_note(p, "planes",
                   "near may be %s to %s, far %s to %s, by the digits of the entries; all below is of the "
                   "entries as they are",
-                  number_down(t->planes[0], 9).text, number_up(t->planes[1], 9).text, number_down(t->planes[2], 6).text,
-                  number_up(t->planes[3], 6).text);
+                  number_down(at->near_least, 9).text, number_up(at->near_most, 9).text,
+                  number_down(at->far_least, 6).text, number_up(at->far_most, 6).text);
 }
 
 /* ---- What it says ------------------------------------------------------------------------------------------------ */
@@ -226,7 +204,7 @@ int texture_matrix_open(const texture_request *o, texture_source *s, texture_req
                             o->image.matrix);
     s->matrix.path = o->image.matrix;
     name_edges(&s->matrix);
-    find_planes(&e, row, &s->matrix);
+    find_planes(&e, &s->matrix);
     s->mapping_from = given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
     s->direction_from = p->ortho && !given ? ORIGIN_ASSUMED : given ? ORIGIN_GIVEN : ORIGIN_FOUND;
     with->camera.mappings[0] = p->mapping;
@@ -269,8 +247,8 @@ const column texture_matrix_columns[] = {{FIELD(texture_matrix, path, "file", ""
                                          {FIELD(texture_matrix, edges[3], "top", "")},
                                          {FIELD(texture_matrix, fov[0], "fov_x", "degrees")},
                                          {FIELD(texture_matrix, fov[1], "fov_y", "degrees")},
-                                         {FIELD(texture_matrix, planes[0], "near_least", "scene")},
-                                         {FIELD(texture_matrix, planes[1], "near_most", "scene")},
-                                         {FIELD(texture_matrix, planes[2], "far_least", "scene")},
-                                         {FIELD(texture_matrix, planes[3], "far_most", "scene")},
+                                         {FIELD(texture_matrix, planes.near_least, "near_least", "scene")},
+                                         {FIELD(texture_matrix, planes.near_most, "near_most", "scene")},
+                                         {FIELD(texture_matrix, planes.far_least, "far_least", "scene")},
+                                         {FIELD(texture_matrix, planes.far_most, "far_most", "scene")},
                                          {.kind = COLUMN_END}};

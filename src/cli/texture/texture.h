@@ -30,7 +30,7 @@ typedef struct texture_matrix {
     bool oblique;
     double fov[2];     /**< degrees, across and up; NaN where it is orthographic */
     double edges[4];   /**< left, right, bottom, top: slopes, or scene units where it is orthographic */
-    double planes[4];  /**< near and far may be from, to, by the digits of the entries; equal where these are exact */
+    dp_planes planes;  /**< what near and far may be by the digits of the entries; equal where these are exact */
     const char *looks; /**< "+z", "-z" */
 } texture_matrix;
 

@@ -13,6 +13,7 @@ Camera is the library itself (MIT). The five functions run the command beside it
 (GPL-3.0-or-later). Every formula and bound is derived in depthprec(7).
 """
 import ctypes as _ctypes
+import decimal as _decimal
 import math as _math
 from collections import namedtuple as _namedtuple
 from functools import partial as _partial
@@ -48,10 +49,13 @@ class Camera:
     viewport   (width, height) in pixels: separation() then holds for slanted triangles; with them fov (vertical,
                degrees), subpixel (bits), slant ((lo, hi), degrees), triangle_class ((depth, pixels, slim))
 
+    near_least, near_most, near_digits and far_least, far_most, far_digits are what from_matrix() says of its planes; of
+    other cameras the planes themselves, and 17.
+
     Raises Error, a ValueError, with the library's sentence. Source: depthprec(3), setup.h.
     """
 
-    __slots__ = ("_given", "_setups", "_calls", "_words", "_direct")
+    __slots__ = ("_given", "_planes", "_setups", "_calls", "_words", "_direct")
 
     def __init__(self, near=0.1, far=1000.0, format="fp32", mapping="d3d", *, ortho=False, rounding="nearest",
                  model="exact", arith="ieee", log_c=1.0, viewport=None, fov=60.0, subpixel=8, slant=(0.0, 90.0),
@@ -84,6 +88,8 @@ class Camera:
                        "viewport": None if viewport is None else (spec.triangles.width, spec.triangles.height),
                        "fov": fov, "subpixel": subpixel, "slant": tuple(slant),
                        "triangle_class": tuple(triangle_class)}
+        self._planes = {"near_least": spec.znear, "near_most": spec.znear, "far_least": spec.zfar,
+                        "far_most": spec.zfar, "near_digits": 17, "far_digits": 17}
 
     @classmethod
     def from_matrix(cls, matrix, mapping=None, *, layout=None, **more):
@@ -96,7 +102,11 @@ class Camera:
         layout   "rows", "columns"; None: as the fourth row tells
         more     format, rounding, ... of Camera
 
-        near and far are those of the entries as they are: of float32 entries those that a shader has, too.
+        near and far are those of the entries as they are: of float32 entries those that a shader has, too. The planes
+        that the matrix was made of lie from near_least to near_most and from far_least to far_most, by what rounding
+        took from the entries: to float32 if all are such numbers, else to float64. near_digits and far_digits are
+        the fewest digits that lie there, which repr() shows. Of entries of at most 20 bits, where all are, none was
+        rounded.
         Raises Error where it is no projection, where its planes differ from pixel to pixel, and where more than one
         convention fits, naming what each would be. Source: depthprec(3), projection.h.
         """
@@ -111,8 +121,11 @@ class Camera:
         if status == _core.STATUSES.index("CONVENTION"):
             raise Error("%s: %s" % (_core.status_text(status).decode(), _readings(numbers, layout, asked)), status)
         _core.demand(status)
-        return cls(found.znear, found.zfar, mapping=_core.mapping_get(found.mapping)[0].decode(),
-                   ortho=bool(found.ortho), **more)
+        made, planes = cls(found.znear, found.zfar, mapping=_core.mapping_get(found.mapping)[0].decode(),
+                           ortho=bool(found.ortho), **more), _core.Planes()
+        _core.demand(_core.projection_planes(planes, found, numbers, None, None))
+        made._planes = {name: getattr(planes, name) for name in made._planes}
+        return made
 
     @classmethod
     def preset(cls, name, **more):
@@ -131,18 +144,28 @@ class Camera:
         return cls(**{"near": row["near"], "far": far, "mapping": row["mapping"], "format": row["format"], **more})
 
     def __getattr__(self, name):
-        if name.startswith("_") or name not in self._given:
-            raise AttributeError("'Camera' has no attribute '%s'" % name)
-        return self._given[name]
+        for fields in () if name.startswith("_") else (self._given, self._planes):
+            if name in fields:
+                return fields[name]
+        raise AttributeError("'Camera' has no attribute '%s'" % name)
 
     def __dir__(self):
-        return [*super().__dir__(), *self._given]
+        return [*super().__dir__(), *self._given, *self._planes]
 
     def __repr__(self):
         usual = Camera.__init__.__kwdefaults__
-        shown = [repr(self._given[name]) for name in ("near", "far", "format", "mapping")]
+        rounded = self.near_least < self.near_most or self.far_least < self.far_most
+        shown = [self._plane(name) if rounded else repr(self._given[name]) for name in ("near", "far")]
+        shown += [repr(self._given[name]) for name in ("format", "mapping")]
         shown += ["%s=%r" % (name, self._given[name]) for name in usual if self._given[name] != usual[name]]
-        return "Camera(%s)" % ", ".join(shown)
+        return ("<Camera of a matrix: %s>" if rounded else "Camera(%s)") % ", ".join(shown)
+
+    def _plane(self, name):
+        """A plane in the digits that it has, and between what it lies."""
+        text = "%s %r" % (name, float("%.*g" % (self._planes[name + "_digits"], self._given[name])))
+        least, most = self._planes[name + "_least"], self._planes[name + "_most"]
+        return text if least == most else "%s (%s to %s)" % (
+            text, _nine(least, _decimal.ROUND_FLOOR), _nine(most, _decimal.ROUND_CEILING))
 
     def __eq__(self, other):
         return self._given == other._given if isinstance(other, Camera) else NotImplemented
@@ -151,7 +174,7 @@ class Camera:
         return hash(tuple(self._given.values()))
 
     def __reduce__(self):
-        return _again, (self._given,)
+        return _again, (self._given, self._planes)
 
     @property
     def code_max(self):
@@ -359,8 +382,14 @@ class Camera:
         return given
 
 
-def _again(given):
-    return Camera(**given)
+def _again(given, planes):
+    made = Camera(**given)
+    made._planes = planes
+    return made
+
+
+def _nine(x, way):
+    return "%.9g" % (x if _math.isinf(x) else _decimal.Context(prec=9, rounding=way).create_decimal(x))
 
 
 def _number(value, what):

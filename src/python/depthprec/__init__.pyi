@@ -47,6 +47,12 @@ class Camera:
     subpixel: int
     slant: tuple[float, float]
     triangle_class: tuple[float, float, float]
+    near_least: float
+    near_most: float
+    near_digits: int
+    far_least: float
+    far_most: float
+    far_digits: int
     @property
     def code_max(self) -> int: ...
     def __init__(

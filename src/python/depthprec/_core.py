@@ -43,8 +43,11 @@ Projection = _structure("dp_projection", ortho=c_int, reversed=c_int, backwards=
                         scale=c_double * 2, half=c_double * 2, centre=c_double * 2, znear=c_double, zfar=c_double,
                         tilt=c_double * 2, base=c_double * 2, pull=c_double)
 MatrixFault = _structure("dp_matrix_fault", rule=c_char_p, got=c_double * 4)
+Planes = _structure("dp_planes", near_least=c_double, near_most=c_double, far_least=c_double, far_most=c_double,
+                    near_digits=c_int, far_digits=c_int)
 
-STRUCTURES = (Format, PlaneError, Triangles, Spec, Setup, Batch, Worst, SeparationWorst, Projection, MatrixFault)
+STRUCTURES = (Format, PlaneError, Triangles, Spec, Setup, Batch, Worst, SeparationWorst, Projection, MatrixFault,
+              Planes)
 
 
 def _function(name, result, *arguments):
@@ -76,6 +79,8 @@ separation_over = _function("dp_separation_over", c_int, POINTER(Setup), c_doubl
                             POINTER(SeparationWorst))
 projection_find = _function("dp_projection_find", c_int, POINTER(Projection), POINTER(c_double), c_int, c_int,
                             POINTER(MatrixFault))
+projection_planes = _function("dp_projection_planes", c_int, POINTER(Planes), POINTER(Projection), POINTER(c_double),
+                              POINTER(c_double), POINTER(c_double))
 
 
 class Error(ValueError):
