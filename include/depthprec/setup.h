@@ -50,21 +50,12 @@ typedef struct dp_setup {
     dp_spec spec;
     /* private to the library: */
     dp_curve curve;
-    int reversed;
-    int shader;
-    double anchor;
-    double log_c;
-    double log_by;
+    int reversed, shader;
+    double anchor, log_c, log_by;
     int spans_zero;
-    double kappa;
-    double scale;
-    double den;
-    double log_hi;
-    double log_lo;
-    uint32_t code_near;
-    uint32_t code_far;
-    float matrix[2];
-    float inside[2];
+    double kappa, scale, den, log_hi, log_lo;
+    uint32_t code_near, code_far;
+    float matrix[2], inside[2];
 } dp_setup;
 
 /**
