@@ -4,8 +4,10 @@
  * each of its parts alone, against arithmetic in which only that part is binary32.
  */
 #include <float.h>
+#include <gmp.h>
 
 #include "census/census.h"
+#include "core/engine.h"
 #include "depthprec/depthprec.h"
 #include "support.h"
 
@@ -112,6 +114,38 @@ TEST(never_violated_and_tight) {
         tally_end(&violated);
         tally_end(&loose);
     }
+}
+
+/* What is left up to far decides what is certain, in fractions, where binary64 rounds the difference, too. */
+TEST(certain_up_to_far) {
+    tally t = {.name = "certain"};
+    rng r = rng_make("certain");
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    mpq_t left, apart;
+    mpq_inits(left, apart, NULL);
+    for (int i = 0; i < 20000; i++) {
+        spec.znear = rng_log(&r, 1e-12, 1e3);
+        spec.zfar = spec.znear * rng_log(&r, 1.1, 1e24);
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        const double z = rng_log(&r, spec.znear, spec.zfar), at = spec.zfar - z;
+        const double s = i % 4 == 0   ? nextafter(at, 0)
+                         : i % 4 == 1 ? nextafter(at, HUGE_VAL)
+                         : i % 4 == 2 ? at
+                                      : z * rng_unit(&r);
+        mpq_set_d(left, spec.zfar);
+        mpq_set_d(apart, z);
+        mpq_sub(left, left, apart);
+        mpq_set_d(apart, s);
+        TALLY(&t, dp_is_certain(&setup, z, s) == (mpq_cmp(apart, left) <= 0), "far %.17g, z %.17g, %.17g", spec.zfar, z,
+              s);
+    }
+    mpq_clears(left, apart, NULL);
+    assert_false(dp_is_certain(&setup, 1.0, HUGE_VAL));
+    spec.zfar = HUGE_VAL;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_true(dp_is_certain(&setup, 1.0, 1e300) && !dp_is_certain(&setup, 1.0, HUGE_VAL));
+    tally_end(&t);
 }
 
 /* Every row, perspective and orthographic, in random stretches of some hundred thousand depths. */

@@ -73,9 +73,10 @@ static bool has_cause(const budget_case *c, int cause) {
     return cause != DP_CAUSE_SNAPPING && cause != DP_CAUSE_SETUP && (!shader || c->shader);
 }
 
-static void want_budget_row(values *v, const budget_case *c, const dp_budget *b, double z) {
+static void want_budget_row(values *v, const budget_case *c, const dp_budget *b, double z, double zfar) {
     const bool some = isfinite(b->separation);
     want(v, "z=%f separation=%f window=%f", z, b->separation, b->window);
+    want_bool(v, "certain", some && (long double)z + b->separation <= zfar);
     for (int i = 0; i < DP_CAUSE_COUNT; i++) {
         static const char *const kinds[] = {"causes", "part", "share"};
         const double numbers[] = {b->cause[i], some ? b->cause[i] : NAN,
@@ -142,7 +143,7 @@ static void want_budget(values *v, const budget_case *c, const dp_setup *setup, 
         dp_budget b;
         assert_int_equal(dp_budget_at(setup, z[k], &c->terms, &b), DP_OK);
         values_under(v, "%srows[%d].", under, k);
-        want_budget_row(v, c, &b, z[k]);
+        want_budget_row(v, c, &b, z[k], setup->spec.zfar);
     }
     values_under(v, "%s", under);
     want_budget_worst(v, setup, c);
@@ -175,7 +176,7 @@ static void csv_columns(const budget_case *c, char out[1024]) {
         if (has_cause(c, i))
             snprintf(out + strlen(out), 1024 - strlen(out), ", %s [scene] = causes.%s", name, name);
     }
-    strcat(out, ", composition = /terms.composition, ?log2 = /terms.log2");
+    strcat(out, ", certain, composition = /terms.composition, ?log2 = /terms.log2");
 }
 
 /* ---- Sentences --------------------------------------------------------------------------------------------------- */

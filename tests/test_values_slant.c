@@ -135,6 +135,7 @@ static void check_rows(const slant_case *c, const char *command) {
         const json_t *row = row_of(root, (size_t)k), *causes = node_at(row, "causes");
         const dp_budget facing = budget_of(c, c->z[k], false), slanted = budget_of(c, c->z[k], true);
         assert_true(at(row, "guarantee_facing") == facing.separation);
+        assert_true(flag_at(row, "certain") == (c->z[k] + facing.separation <= number_behind(c->line, "-f", 1000)));
         assert_true(at(row, "guarantee_slanted") == slanted.separation);
         assert_true(at(row, table ? "guaranteed" : "separation") == (table ? facing : slanted).separation);
         assert_true(csv_at(csv, "guarantee_facing [scene]", k) == facing.separation);
@@ -317,6 +318,7 @@ static void check_bias(const slant_case *c, const char *options, double slope, d
         assert_true(isnan(given) ? isinf(at(root, "factor")) : at(root, "factor") == sign * given);
         assert_true(at(root, "setups[0].factor") == factor && at(row, "units_apart") == units);
         assert_true(at(row, "guarantee_facing") == separation_of(c, z, false));
+        assert_true(flag_at(row, "certain") == (z + separation_of(c, z, false) <= number_behind(c->line, "-f", 1000)));
         assert_true(at(row, "guarantee_slanted") == separation_of(c, z, true));
         assert_true(csv_at(csv, "units_apart", 0) == units && csv_at(csv, "factor", 0) == factor);
         assert_true(csv_at(csv, "guarantee_slanted [scene]", 0) == separation_of(c, z, true));

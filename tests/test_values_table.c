@@ -72,7 +72,9 @@ static void want_row(values *v, const dp_setup *setup, const method_row *method,
     want(v, "error=%f cell_lo=%f cell_hi=%f", dp_error(setup, code, z), cell.lo, cell.hi);
     want(v, "interval=%f separation=%f", interval_of(method, setup, z), dp_separation(setup, z));
     want(v, "lattice=%f", dp_separation(&exact, z));
-    want(v, "guaranteed=%f", isnan(computed) ? dp_separation(&staged, z) : computed);
+    const double guaranteed = isnan(computed) ? dp_separation(&staged, z) : computed;
+    want(v, "guaranteed=%f", guaranteed);
+    want_bool(v, "certain", isfinite(guaranteed) && (long double)z + guaranteed <= setup->spec.zfar);
 }
 
 /* What --tolerance takes for a set-up: the cheapest claim for these planes, in the pipeline or on its lattice. */
@@ -161,7 +163,7 @@ TEST(each_number) {
         check_forms(&v, 0, lines[i], "setups[].rows[]",
                     SETUP_CSV "?arith = ^arith, z [scene], code, depth, z_stored [scene], error [scene], "
                               "cell_lo [scene], cell_hi [scene], interval [scene], separation [scene], "
-                              "guaranteed [scene], ?method = ^method");
+                              "guaranteed [scene], certain, ?method = ^method");
         check_text(&v, lines[i]);
         values_free(&v);
     }

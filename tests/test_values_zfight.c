@@ -69,6 +69,8 @@ static void want_census(values *v, const zfight_case *c, const dp_setup *setup, 
         values_under(v, "setups[%zu].bands[%d].", i, kept++);
         want_counts(v, c, &r.bands[b]);
         want(v, "~clipped=%f", counted ? (double)r.bands[b].clipped : NAN);
+        const double nearest = r.bands[b].lo;
+        want_bool(v, "certain", (long double)nearest + dp_separation(setup, nearest) <= setup->spec.zfar);
     }
     values_under(v, "setups[%zu].", i);
     want_setup(v, setup);
@@ -117,7 +119,7 @@ TEST(each_number) {
         check_forms(&v, 0, lines[i], "setups[].bands[]",
                     SETUP_CSV "arith = ^arith, method = ^method, seed = ^seed, gap [scene] = ^gap, lo [scene], "
                               "hi [scene], pairs, ties, swaps, longest [scene], longest_z [scene], bound [scene], "
-                              "used, clipped, near_effective [scene] = ^near_effective, "
+                              "used, clipped, certain, near_effective [scene] = ^near_effective, "
                               "far_effective [scene] = ^far_effective");
         char *text = output_of(0, lines[i], "--full");
         check_table(&v, text, "setups[].bands[]+",

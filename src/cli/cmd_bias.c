@@ -14,6 +14,7 @@
 #include "cli/resolved.h"
 #include "cli/slant.h"
 #include "core/append.h"
+#include "core/engine.h"
 #include "report/number.h"
 
 enum { DIGITS = 6, DIGITS_Z = 9, DIGITS_SHORT = 4 };
@@ -26,6 +27,7 @@ typedef struct row {
     double gap;             /* inverse: the units that bring a layer nearer by the gap */
     const char *held;       /* text: where the biased depth is held at a plane */
     double facing, slanted; /* the separations that need no bias */
+    bool certain;           /* the facing one ends before far */
 } row;
 
 /* Inverse: the same over the range. */
@@ -89,6 +91,7 @@ static void *next_row(void *of, size_t i) {
     }
     if (b->triangles != NULL) {
         r->facing = dp_separation(&b->facing, z);
+        r->certain = dp_is_certain(&b->facing, z, r->facing);
         r->slanted = dp_separation(&b->slanted, z);
     }
     r->effect = bias_at(setup, &state, b->goal.slope, z);
@@ -340,6 +343,7 @@ static const column row_columns[] = {
     {FIELD(row, effect.shift, "shift", "scene"), SHOWN("shift", 12, DIGITS), .when = EFFECT},
     {FIELD(row, effect.limited, "limited", ""), .only = AS_JSON, .when = EFFECT},
     {TEXT_FIELD(row, held, "", -1, 0), .when = VERBOSE},
+    {FIELD(row, certain, "certain", ""), .when = WITH_TRIANGLES},
     {.kind = COLUMN_END}};
 
 static const column needs_columns[] = {{FIELD(needs, lo, "lo", "scene")},

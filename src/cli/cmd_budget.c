@@ -12,6 +12,7 @@
 #include "cli/remedy.h"
 #include "cli/slant.h"
 #include "core/elementary.h"
+#include "core/engine.h"
 #include "report/number.h"
 #include "world/reach.h"
 
@@ -21,6 +22,7 @@ typedef struct row {
     double z;
     dp_budget parts;
     double facing;                               /* the separation of surfaces that face the camera */
+    bool certain;                                /* that one ends before far */
     char cause[DP_CAUSE_COUNT][NUMBER_SIZE + 8]; /* "0.00149  50 %" */
 } row;
 
@@ -208,6 +210,7 @@ static void *next_row(void *of, size_t index) {
         budget_by(b, b->scheme, &b->facing, r->z, &terms, &facing);
         r->facing = facing.separation;
     }
+    r->certain = dp_is_certain(&b->facing, r->z, r->facing);
     for (int i = 0; i < DP_CAUSE_COUNT && b->o->out.form == FORM_TEXT; i++)
         write_cause(r, i);
     note(b, r);
@@ -325,6 +328,7 @@ static const column row_columns[] = {
     {FIELD(row, parts.separation, "guarantee_slanted", "scene"), .when = WITH_TRIANGLES},
     {FIELD(row, parts.window, "window", "")},
     {GROUP("causes", cause_columns)},
+    {FIELD(row, certain, "certain", "")},
     {.kind = COLUMN_END}};
 
 static const column worst_columns[] = {{FIELD(worst, z, "z", "scene")},

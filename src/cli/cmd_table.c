@@ -38,6 +38,7 @@ typedef struct row {
     double slanted;             /* the guaranteed one at any slant that is asked for */
     per_vertex written;         /* what depth written per vertex is off by in such triangles */
     double lattice, guaranteed; /* the separation in the model exact, and in the fullest that there is */
+    bool certain;               /* what is guaranteed ends before far */
     int depth_digits, stored_digits, cell_digits;
 } row;
 
@@ -118,7 +119,8 @@ static void *next_row(void *of, size_t i) {
     dp_sample_at(&t->setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
     r->lattice = separation_in(&t->exact, &t->setup, &r->sample);
     r->guaranteed = separation_in(&t->full, &t->setup, &r->sample);
-    if (!(t->uncertain <= z) && z < t->full.spec.zfar && z + r->guaranteed > t->full.spec.zfar)
+    r->certain = dp_is_certain(&t->full, z, r->guaranteed);
+    if (!(t->uncertain <= z) && z < t->full.spec.zfar && !r->certain)
         t->uncertain = z;
     r->slanted = slanted_at(t, z);
     r->written = per_vertex_at(&t->setup, z, t->slant.triangles.depth, r->guaranteed); /* no depth of 0 is one */
@@ -305,6 +307,7 @@ static const column row_columns[] = {
     {FIELD(row, written.error, "per_vertex", "scene"), SHOWN("per vertex", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES | PER_VERTEX},
     {FIELD(row, written.depth, "per_vertex_depth", ""), .when = WITH_TRIANGLES | PER_VERTEX},
+    {FIELD(row, certain, "certain", "")},
     {TEXT_FIELD(row, sample.lo, "cell from", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {.kind = COLUMN_END}};

@@ -10,6 +10,7 @@
 #include "cli/stop.h"
 #include "cli/zfight/request.h"
 #include "cli/zfight_triangles.h"
+#include "core/engine.h"
 #include "report/message.h"
 #include "report/number.h"
 
@@ -19,6 +20,7 @@ typedef struct band {
     double ties, swaps; /* percent of the pairs */
     double longest, used, clipped;
     double slanted;         /* what is guaranteed at any slant that is asked for */
+    bool certain;           /* anything behind the band's nearest depth is */
     char from[NUMBER_SIZE]; /* of text: "all" below the bands */
 } band;
 
@@ -105,7 +107,8 @@ static band band_of(const zfight *z, const census_band *b) {
                 .longest = b->longest,
                 .used = b->slack,
                 .clipped = (double)b->clipped,
-                .slanted = slanted_over(z, b->lo, b->hi)};
+                .slanted = slanted_over(z, b->lo, b->hi),
+                .certain = dp_is_certain(&z->facing, b->lo, dp_separation(&z->facing, b->lo))};
     if (z->o->separation > 0.0)
         out.longest = out.used = (double)NAN;
     if (z->o->separation > 0.0 || z->o->sample > 0) /* a sample would only count those that it drew */
@@ -170,11 +173,13 @@ static void say_neighbours(page *p, const zfight *z) {
     page_text(p, "Neighbouring binary32 depths%s: %s %% tie, %s %% swap. --separation asks about surfaces.",
               z->o->sample > 0 ? ", chosen at random" : "", number_of(z->whole.ties, 3).text,
               number_of(z->whole.swaps, 3).text);
+    const double there = dp_separation(&z->facing, all->longest_z);
     if (all->longest > 0.0)
-        page_line(p, "longest interval %s at z = %s, guaranteed there %s",
+        page_line(p, "longest interval %s at z = %s, guaranteed there %s%s",
                   number_in(number_of(all->longest, DIGITS), p->unit).text,
                   number_in(number_of(all->longest_z, DIGITS), p->unit).text,
-                  number_in(number_up(dp_separation(&z->facing, all->longest_z), DIGITS), p->unit).text);
+                  number_in(number_up(there, DIGITS), p->unit).text,
+                  dp_is_certain(&z->facing, all->longest_z, there) ? "" : ": nothing behind is certain");
 }
 
 static void say_answer(page *p, void *item) {
@@ -228,6 +233,7 @@ static const column band_columns[] = {{FIELD(band, counts.lo, "lo", "scene")},
                                       {FIELD(band, counts.hi, "hi", "scene"), SHOWN("to", 10, DIGITS)},
                                       {GROUP(NULL, count_columns)},
                                       {FIELD(band, clipped, "clipped", ""), .only = AS_CSV},
+                                      {FIELD(band, certain, "certain", "")},
                                       {.kind = COLUMN_END}};
 
 static const column plane_columns[] = {{FIELD(census_result, near_effective, "near_effective", "scene")},

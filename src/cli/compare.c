@@ -43,6 +43,7 @@ typedef struct compared {
     cost cost;
     char name[SETUP_LABEL_SIZE];
     double separation[DEPTHS]; /* NaN where the depth is not in the range of the set-up */
+    double uncertain;          /* the first of these, before far, behind which nothing is certain; NaN: none */
     double up_to[LIMITS];      /* NaN: not even at near */
     uint64_t bytes;
 } compared;
@@ -63,11 +64,15 @@ typedef struct comparison {
 static void compute_row(const comparison *c, compared *r) {
     const unit_row *unit = c->o->camera.lengths.unit;
     const dp_setup full = dp_setup_guaranteed(r->setup); /* of what is unbounded, for surfaces that face the camera */
+    r->uncertain = (double)NAN;
     for (size_t i = 0; i < c->depth_count; i++) {
         const double z = unit_convert(c->depths[i], unit, r->unit);
-        r->separation[i] = z >= full.spec.znear && z <= full.spec.zfar
-                               ? unit_convert(dp_separation(&full, z), r->unit, unit)
-                               : (double)NAN;
+        const bool inside = z >= full.spec.znear && z <= full.spec.zfar;
+        const double separation = inside ? dp_separation(&full, z) : (double)NAN;
+        r->separation[i] = unit_convert(separation, r->unit, unit);
+        if (inside && z < full.spec.zfar && full.spec.triangles.width == 0 && isfinite(full.spec.zfar) &&
+            !dp_is_certain(&full, z, separation) && !(r->uncertain <= c->depths[i]))
+            r->uncertain = c->depths[i];
     }
     resolved_up_to(&full, r->unit, r->up_to);
     for (size_t i = 0; i < LIMITS; i++)
@@ -218,6 +223,17 @@ static void say_costs(page *p, const comparison *c) {
     }
 }
 
+/* What is guaranteed may be more than is left up to far. */
+static void say_uncertain(page *p, const comparison *c) {
+    char names[1024] = "";
+    for (size_t i = 0; i < c->bounded; i++)
+        if (!isnan(c->rows[i].uncertain))
+            append(names, sizeof names, "%s %s from z = %s", *names != '\0' ? "," : "", c->rows[i].name,
+                   number_of(c->rows[i].uncertain, DIGITS_Z).text);
+    if (*names != '\0')
+        page_text(p, "Nothing behind is certain, up to far:%s.", names);
+}
+
 static void say_notes(page *p, void *item) {
     const comparison *c = item;
     const number_text limit = resolved_limit_text(MIDDLE, c->o->camera.lengths.unit);
@@ -240,6 +256,7 @@ static void say_notes(page *p, void *item) {
             break;
         }
     depth24plus_say(p, &c->o->camera);
+    say_uncertain(p, c);
     page_text(p, "%s--full prints codes, errors, intervals, worst cases.",
               c->limit_end - c->limit_begin == LIMITS && c->bounded > 0 ? "B: bytes a pixel. " : "");
 }

@@ -195,8 +195,9 @@ static int last_kept(const dp_chain *c, double ulp, double *lo, double *hi) {
 
 /*
  * Adding B. Where all sums have fewer than 25 bits above the granule of their terms it is exact. Where the products are
- * multiples of the sums' last place, every sum is rounded alike: the product stays, and B is rounded to a multiple (if
- * it does not lie in the middle of two). Next to a power of two there are two such cases, each with its own last place.
+ * multiples of the sums' last place, every sum is rounded alike: the product stays, and B is rounded to a multiple. In
+ * the middle of two it goes to the even one where the products are even multiples; else sums are not rounded alike.
+ * Next to a power of two there are two such cases, each with its own last place.
  */
 static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, double *hi) {
     *lo = *hi = 0.0;
@@ -216,7 +217,7 @@ static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, doub
     *hi = -HUGE_VAL;
     for (int i = 0; i < 2 && alike; i++) {
         const double kept = rint(c->b / ulp[i]) * ulp[i] - c->b;
-        alike = fabs(kept) != 0.5 * ulp[i];
+        alike = fabs(kept) != 0.5 * ulp[i] || (!c->run && granule >= 2.0 * ulp[i]);
         *lo = smaller(*lo, c->pipeline.reversed ? kept : -kept);
         *hi = larger(*hi, c->pipeline.reversed ? kept : -kept);
         if (c->run)

@@ -3,6 +3,7 @@
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
+#include "core/expansion.h"
 #include "core/extremes.h"
 #include "core/rounding.h"
 #include "depthprec/depth.h"
@@ -131,4 +132,9 @@ double dp_lattice_separation(const dp_setup *setup, double z) {
     const double s = dp_staged_is_exact(setup) ? dp_curve_ahead(setup, exact_step(setup, z), setup->den, z)
                                                : dp_curve_ahead(setup, staged_step(setup, z), 1.0, z);
     return (s + dp_eye_rounding(z, z + s)) * dp_curve_outward(setup);
+}
+
+int dp_is_certain(const dp_setup *setup, double z, double separation) {
+    const dp_pair left = dp_two_sum(setup->spec.zfar, -z);
+    return separation < left.hi || (separation == left.hi && left.lo >= 0.0);
 }

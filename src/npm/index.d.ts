@@ -131,7 +131,8 @@ export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport">
     windowDepth(z: number): number;
     windowDepth<T extends Reals = Reals>(z: Numbers, options?: { out?: T }): T;
 
-    /** How far behind z a surface must lie to be resolved: guaranteed, despite the rounding of shader, viewport and buffer. */
+    /** How far behind z a surface must lie to be resolved: guaranteed, despite the rounding of shader, viewport and buffer.
+     * Where z + separation(z) > far nothing behind z is certain: far ends no separation. */
     separation(z: number): number;
     separation<T extends Reals = Reals>(z: Numbers, options?: { out?: T }): T;
 

@@ -238,7 +238,8 @@ class Camera:
         buffer. With a viewport: how far in front of z, along the normal, at any slant.
 
         z, out  as window_depth(); float32 is rounded up
-        Returns scene units; math.inf where nothing is certain. For "linear", which no pipeline computes, a lattice.
+        Returns scene units; math.inf where nothing is certain. Nor is anything where z + separation(z) > far: far ends
+        no separation. For "linear", which no pipeline computes, a lattice.
         Source: depthprec(3), dp_separation() of dp_setup_guaranteed().
         """
         return self._map("separation", z, out)
