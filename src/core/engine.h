@@ -40,7 +40,8 @@ double dp_lattice_separation(const dp_setup *setup, double z);
 /* Whether a separation behind z leaves room up to far: else nothing behind z is certain. Decided exactly. */
 int dp_is_certain(const dp_setup *setup, double z, double separation);
 
-/* dp_lattice_separation() of the model exact, whatever the set-up's; and, in a fraction of the time, what it is not above. */
+/* dp_lattice_separation() of the model exact, whatever the set-up's; and, in a fraction of the time, what it is not
+ * above. */
 double dp_lattice_exact(const dp_setup *setup, double z);
 double dp_lattice_above(const dp_setup *setup, double z);
 
