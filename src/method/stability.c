@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/elementary.h"
+#include "core/search.h"
 
 /* Near planes: tiny units, common ones, and the hugest for which 1e12 times as far is still a far plane. */
 static const double units[] = {1e-12, 0.1, 1e6};
@@ -89,15 +90,12 @@ static double claim_beyond(const stability_result *r, double ratio) {
 
 /* Between a far/near where the claim holds and one where it does not: the geometric middle decides. */
 static double bisect(walk *w, double holds, double breaks, int step) {
-    for (int i = 0; i < BISECTIONS; i++) {
-        place where;
-        double middle = sqrt(holds) * sqrt(breaks);
-        if (error_at(w, middle, step, false, &where) <= claim_beyond(w->result, middle))
-            holds = middle;
-        else
-            breaks = middle;
-    }
-    return sqrt(holds) * sqrt(breaks);
+    dp_edge e = {.holds = holds, .fails = breaks};
+    place where;
+    double ratio;
+    for (int i = 0; i < BISECTIONS && dp_edge_between(&e, &ratio); i++)
+        *(error_at(w, ratio, step, false, &where) <= claim_beyond(w->result, ratio) ? &e.holds : &e.fails) = ratio;
+    return sqrt(e.holds) * sqrt(e.fails);
 }
 
 bool stability_must_break(const method_claim *c) {
