@@ -95,6 +95,7 @@ static const option_use uses[] = {
 static const option_rule rules[] = {
     CONFLICTS("viewport", "units", ": it says how many suffice"),
     CONFLICTS("units", "separation", ", which solves for them"),
+    CONFLICTS("range", "units", ": units are solved for over a range"),
     {.option = NULL}};
 /* clang-format on */
 
