@@ -32,11 +32,11 @@ CORE := $(wildcard src/core/*.c)
 PAGE := $(wildcard src/web/*.c src/npm/*.c)
 WINDOWS := $(wildcard src/windows/*.c)
 ROOMS := $(filter-out $(CORE) $(PAGE) $(WINDOWS),$(wildcard src/*/*.c src/*/*/*.c))
-TESTS := $(wildcard tests/test_*.c)
+TESTS := $(wildcard tests/*/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
-SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
-WEB := $(wildcard tests/web/*.c tests/python/*.c tests/npm/*.c)
+WEB := $(filter-out $(TESTS),$(wildcard tests/web/*.c tests/python/*.c tests/npm/*.c))
+SUPPORT := $(filter-out $(TESTS) $(BENCHES) $(FUZZ) $(WEB),$(wildcard tests/*.c tests/*/*.c))
 MAN := $(patsubst %,$(B)/%,$(wildcard man/*.[1-9]))
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh tests/windows.sh tests/dist.sh
 SCRIPTS := $(wildcard src/*.sh src/windows/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
@@ -49,7 +49,7 @@ ROOMS_O := $(call objects,$(ROOMS))
 TESTS_O := $(call objects,$(TESTS) $(BENCHES))
 SUPPORT_O := $(call objects,$(SUPPORT))
 FUZZ_O := $(call objects,$(FUZZ))
-TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(TESTS))
+TEST_PROGRAMS := $(patsubst %.c,$(B)/tests/%,$(notdir $(TESTS)))
 BENCH_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(BENCHES))
 FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(B)/%,$(FUZZ))
 
@@ -393,7 +393,9 @@ $(B)/baseline/depthprec: $(ROOMS_O) $(B)/baseline/batch.o $(B)/libdepthprec.a | 
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/build.libs -lm
 
-$(BASELINE_PROGRAMS): $(B)/baseline/%: $(B)/obj/tests/%.o $(B)/baseline/batch.o $(B)/libsupport.a $(B)/librooms.a \
+# A test is called by its name alone, whatever its room.
+.SECONDEXPANSION:
+$(BASELINE_PROGRAMS): $(B)/baseline/%: $$(filter %/$$*.o,$$(TESTS_O)) $(B)/baseline/batch.o $(B)/libsupport.a $(B)/librooms.a \
     $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
@@ -423,7 +425,7 @@ check-dist:
 cross-windows:
 	@$(MAKE) --no-print-directory cross MACHINES=windows
 
-$(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
+$(B)/tests/%: $$(filter %/$$*.o,$$(TESTS_O)) $(B)/libsupport.a $(B)/librooms.a $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
 	@mkdir -p $(@D)
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
@@ -487,7 +489,7 @@ lint-man: $(MAN)
 	$(Q)mandoc -T lint -W warning $(MAN)
 
 lint-spell:
-	$(Q)codespell -L nd,eror,arithmetics,positoin $(wildcard README.md) Makefile include src man tests/*.[ch] tests/*.sh
+	$(Q)codespell -L nd,eror,arithmetics,positoin $(wildcard README.md) Makefile include src man $(filter tests/%,$(ALL_C) $(ALL_H)) tests/*.sh
 
 lint-scripts:
 	$(Q)for f in $(SCRIPTS); do sh -n $$f || exit 1; done; bash -n .ci/run

@@ -52,9 +52,12 @@ stale() { # stale: the rows whose old text is not there exactly once, and what e
         {
             if (split($4, tests, " ") == 0) wrong("no test is near it")
             for (i in tests) {
-                file = "tests/" tests[i] (tests[i] ~ /^test_/ ? ".c" : ".sh")
-                if ((getline line <file) <= 0) wrong("there is no " file)
-                close(file)
+                if (!(tests[i] in there)) {
+                    find = "ls " (tests[i] ~ /^test_/ ? "tests/*/" tests[i] ".c" : "tests/" tests[i] ".sh") " 2>/dev/null"
+                    there[tests[i]] = (find | getline line) > 0
+                    close(find)
+                }
+                if (!there[tests[i]]) wrong("there is no " tests[i])
             }
         }'
 }
@@ -145,8 +148,8 @@ judge() { # judge TREE TEST...: prints what came of it
             [ -z "${NEAR-}" ] || break
             make -C "$tree" check-programs >"$tree/mutants.log" 2>&1 ||
                 { echo "error: the tests do not compile" && return; }
-            tests=$(cd "$tree" && ls tests/test_*.c tests/*.sh |
-                sed -n 's|^tests/\(test_.*\)\.c$|build/tests/\1|p; /\.sh$/p')
+            tests=$(cd "$tree" && ls tests/*/test_*.c tests/*.sh |
+                sed -n 's|^tests/[a-z]*/\(test_.*\)\.c$|build/tests/\1|p; /\.sh$/p')
             tests=$(echo "$tests" | grep -vxE "tests/(run|tap|coverage|cross|linked|page|bench|windows|dist|mutants)\.sh|$(echo "$near" | tr '\n' '|')-")
             how=', which is not named'
         fi

@@ -52,7 +52,7 @@ TARGET static int32_t kernel_FLOAT_OF_HALF(const dp_batch *batch, const void *in
  *
  * The divider is busy for as long as the rest of such a kernel takes. So every other vector goes without it: a
  * reciprocal estimate, Newton's steps, and a last step by the exact remainder, which rounds as the divide does.
- * tests/test_quotient.c has the proofs.
+ * test_quotient.c has the proofs.
  *
  * float: the estimate is within 2^-14, so y within half a step and 2^-28 of 1/b. That rounds q rightly, but where the
  * mantissa of b is in the last 32nd of its range and divides the one of a, shifted, but for 1. No numerator of

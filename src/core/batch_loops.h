@@ -307,7 +307,7 @@ LOOP(UNORM_OF_FLOAT_32, real32, word32, unorm_code)
 
 /*
  * N = 24: d (2^24 - 1) rounded is the float below D = d 2^24, and the code is D - 1/2 rounded up, D - 1 above d = 1/2:
- * what is left when the float below 1/2 is added and the fraction cut off. tests/test_batch.c tries every float.
+ * what is left when the float below 1/2 is added and the fraction cut off. test_batch.c tries every float.
  */
 DP_INLINE uint32_t unorm24_code(const numbers *k, float x) {
     return (uint32_t)(int32_t)(clamped32(k, x) * 16777215.0F + 0x1.fffffep-2F);

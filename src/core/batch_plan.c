@@ -191,7 +191,7 @@ static int quotient_reversed(dp_batch *b) {
     return b->setup.reversed && quotient_unorm(b);
 }
 
-/* c/M = c 2^-N + c (1/M - 2^-N): right in binary32 for every code of these formats (tests/test_batch.c tries all). */
+/* c/M = c 2^-N + c (1/M - 2^-N): right in binary32 for every code of these formats (test_batch.c tries all). */
 static int value_unorm(dp_batch *b) {
     const int bits = b->setup.spec.format.bits;
     if (bits < 16 || bits > 24 || dp_format_is_rg(&b->setup.spec.format))

@@ -76,7 +76,7 @@ extern dp_batch_kernel *const dp_batch_avx512[DP_KERNEL_COUNT];
 /* Fills in everything behind `out_size`, by the kernels that there are. */
 void dp_batch_plan(dp_batch *batch, dp_batch_kernel *const *table);
 
-/* The numerators of FAST_EYE: none has a divisor by which batch_avx512.c could round wrongly (tests/test_quotient.c).
+/* The numerators of FAST_EYE: none has a divisor by which batch_avx512.c could round wrongly (test_quotient.c).
  */
 enum { DP_BATCH_TOPS = 4096, DP_BATCH_TOP_FIRST = 20480 };
 

@@ -70,7 +70,7 @@ bool draw_picture_marked(const draw_picture *p);
  * @param gap    scene units, 0 to DRAW_PICTURE_GAP z
  * @param marks  wrong pixels are shown in a colour of their own, else as what they show
  * @param pixel  red, green, blue and alpha, a byte each, row by row from the top; null: pixels are counted only
- * Cost: no allocation; measured by tests/test_picture.c.
+ * Cost: no allocation; measured by test_picture.c.
  */
 draw_picture_count draw_picture_frame(draw_picture *p, double gap, unsigned frame, bool marks, uint32_t *pixel);
 

@@ -271,7 +271,7 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
         const double away = setup->log_c * exact, steep = (away + 1) / away;
         const double per = c.form == DECODE_EXP2 ? M_LN2 : 1, product = dp_half_ulp((double)c.scale * d) / DP_UNIT;
         const double power = dp_log1p(away) + per * product;
-        /* exp2f within 0.55 ulp and expm1f within 1, as C libraries have them and ours (0.501; tests/test_decode.c
+        /* exp2f within 0.55 ulp and expm1f within 1, as C libraries have them and ours (0.501; test_decode.c
          * looks); the difference with 1, exact below 2^24; then quotient and C */
         off = c.form == DECODE_EXP2 ? (power + 1.1) * steep + (away < 0x1.fffp23 ? 0 : 1) + 2 : power * steep + 4;
     }

@@ -3,7 +3,7 @@
 # Prints a house in glTF 2.0, with surfaces that fight and surfaces that only look as if they did:
 #     sh tests/models/house.sh [NODE=LENGTH...] >house.gltf
 # moves nodes out of what they lie on, by a length in metres. tests/models/house.gltf is what it prints without.
-# house-lifted.gltf what it prints with the lengths that depthprec scene asks for. tests/test_values_house.c has the
+# house-lifted.gltf what it prints with the lengths that depthprec scene asks for. tests/cli/test_values_house.c has the
 # list of the fights, and of what must not be taken for one.
 set -eu
 

@@ -13,7 +13,7 @@
 
 /* In this program instead of plot/canvas.c; where it writes is remembered. */
 #define canvas_text page_canvas_text
-#include "../src/web/canvas.c"
+#include "web/canvas.c"
 #undef canvas_text
 
 enum { WORDS_MAX = 512 };

@@ -4,7 +4,7 @@
 
 #include "support.h"
 
-#include "../src/web/plain.c"
+#include "web/plain.c"
 
 /* What cairo says without hinting, which depends on the screen. */
 static double by_cairo(cairo_t *cr, const char *text, double size, int bold) {
