@@ -393,9 +393,10 @@ $(B)/baseline/depthprec: $(ROOMS_O) $(B)/baseline/batch.o $(B)/libdepthprec.a | 
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/build.libs -lm
 
-# A test is called by its name alone, whatever its room.
+# A test is called by its name alone, whatever its room. A % in a rule is replaced before it could be the filter's.
+any := %
 .SECONDEXPANSION:
-$(BASELINE_PROGRAMS): $(B)/baseline/%: $$(filter %/$$*.o,$$(TESTS_O)) $(B)/baseline/batch.o $(B)/libsupport.a $(B)/librooms.a \
+$(BASELINE_PROGRAMS): $(B)/baseline/%: $$(filter $$(any)/$$*.o,$$(TESTS_O)) $(B)/baseline/batch.o $(B)/libsupport.a $(B)/librooms.a \
     $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
@@ -425,7 +426,7 @@ check-dist:
 cross-windows:
 	@$(MAKE) --no-print-directory cross MACHINES=windows
 
-$(B)/tests/%: $$(filter %/$$*.o,$$(TESTS_O)) $(B)/libsupport.a $(B)/librooms.a $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
+$(B)/tests/%: $$(filter $$(any)/$$*.o,$$(TESTS_O)) $(B)/libsupport.a $(B)/librooms.a $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
 	@mkdir -p $(@D)
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
