@@ -136,7 +136,7 @@ static void check_statistics(const metric_kind *k, const command *base, size_t h
     for (size_t i = 0; i < json_array_size(json_object_get(root, "bands")); i++)
         pixels += number_in(json_array_get(json_object_get(root, "bands"), i), "pixels");
     assert_true(pixels == (double)(PIXELS - holes));
-    if (k->step > 0)
+    if (k->step > 0 && k->first == 0) /* that of a first rounding may be all that the samples show */
         assert_relative(number_in(json_object_get(root, "samples"), "step"), k->step * k->scale, 1e-12);
     const json_t *lattice = json_object_get(root, "lattice");
     assert_string_equal(json_string_value(json_object_get(lattice, "name")), k->lattice != NULL ? k->lattice : "file");
@@ -146,6 +146,19 @@ static void check_statistics(const metric_kind *k, const command *base, size_t h
     json_decref(root);
 }
 
+/* Of so few pixels two roundings one on the other may leave nothing to tell: then the samples are taken as they are, it
+ * is said that a sensor may resolve less, and nothing is promised of it. */
+static bool left_open(const metric_kind *k, const command *base) {
+    if (k->first == 0)
+        return false;
+    json_t *root = statistics(base);
+    const json_t *lattice = json_object_get(root, "lattice");
+    const bool open = strcmp(json_string_value(json_object_get(lattice, "name")), "file") == 0 &&
+                      strcmp(json_string_value(json_object_get(lattice, "from")), "assumed") == 0;
+    json_decref(root);
+    return open;
+}
+
 static double one_picture(tally *t, rng *r, const metric_kind *k) {
     double z[PIXELS], worst = 0, used = 0;
     float eye[PIXELS], map[PIXELS], place[3 * PIXELS], fog[PIXELS];
@@ -153,6 +166,8 @@ static double one_picture(tally *t, rng *r, const metric_kind *k) {
     const size_t holes = picture(r, k, z);
     truth_add(&base, truth_path("in.npy"));
     truth_add_number(&base, 0, "--metric", k->scale);
+    if (left_open(k, &base))
+        return (double)NAN;
     truth_product(&base, "eye.npy", "eye", NULL, false);
     truth_product(&base, "map.npy", "eye", NULL, true);
     truth_floats("eye.npy", 1, eye);
@@ -202,9 +217,15 @@ TEST(metric_depth_is_within_what_is_said) {
     tally t = {.name = "metric"};
     rng r = rng_make("metric");
     double used[KINDS] = {0};
+    uint64_t open = 0;
     for (uint64_t i = 0; i < rounds; i++)
-        for (size_t k = 0; k < KINDS; k++)
-            used[k] = fmax(used[k], one_picture(&t, &r, &kinds[k]));
+        for (size_t k = 0; k < KINDS; k++) {
+            const double share = one_picture(&t, &r, &kinds[k]);
+            used[k] = fmax(used[k], share);
+            open += (uint64_t)(isnan(share) != 0);
+        }
+    print_message("# %llu of %llu left open\n", (unsigned long long)open, (unsigned long long)(rounds * KINDS));
+    assert_true(open * 20 <= rounds * KINDS);
     for (size_t k = 0; k < KINDS; k++) {
         print_message("# %s: %.3f of the bound is used\n", kinds[k].name, used[k]);
         assert_true(used[k] > 0.4);
