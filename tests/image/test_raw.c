@@ -231,7 +231,7 @@ TEST(refusals) {
         {"--metric 0.01 --product raw",
          "depthprec: --product: raw does not apply with --metric, which is not window depth\n"},
         {"--metric 0.01 --product linear01",
-         "depthprec: --product: linear01 needs --far with --metric, which has none\n"},
+         "depthprec: --product: linear01 needs --far with --metric and --stereo, which have none\n"},
         {"--packing depth-normals --product raw",
          "depthprec: --product: raw does not apply with --packing depth-normals, which is not window depth\n"},
         {"-m d3d -f inf --product linear01", "depthprec: texture: eye depth over far: this needs a finite far plane\n"},
