@@ -204,8 +204,8 @@ static bool read_npy(image_source *source, image *out) {
     text[length] = '\0';
 
     dictionary d = {.source = source, .at = text};
-    image_type type;
-    bool little;
+    image_type type = IMAGE_U8;
+    bool little = true;
     return read_dictionary(&d) && read_type(&d, &type, &little) && read_sides(&d, type, out) &&
            source_samples(source, out, little) && (!d.fortran || transpose(source, out));
 }

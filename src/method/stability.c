@@ -6,8 +6,9 @@
 #include "core/elementary.h"
 #include "core/search.h"
 
-/* Near planes: tiny units, common ones, and the hugest for which 1e12 times as far is still a far plane. */
-static const double units[] = {1e-12, 0.1, 1e6};
+/* Near planes: tiny units, common ones, the hugest for which 1e12 times as far is still a far plane, and one with whose
+ * multiples the sums of a pipeline are rounded to either side. */
+static const double units[] = {1e-12, 0.1, 1e6, 0.74408};
 static const double ortho_ratio = 1e4;
 enum { UNITS = sizeof units / sizeof units[0], PIPELINE_WALKED = 24, BISECTIONS = 6 };
 

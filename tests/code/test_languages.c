@@ -126,7 +126,7 @@ static void *load_c(output *out, const char *path) {
 }
 
 TEST(c_has_the_bits_of_the_library) {
-    char path[512], symbol[32];
+    char path[512], symbol[64];
     const code_language *c = code_language_find("c");
     rng r = rng_make("code");
     tally t = {.name = "bits"};

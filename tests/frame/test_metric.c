@@ -222,7 +222,8 @@ TEST(metric_depth_is_within_what_is_said) {
         for (size_t k = 0; k < KINDS; k++) {
             const double share = one_picture(&t, &r, &kinds[k]);
             used[k] = fmax(used[k], share);
-            open += (uint64_t)(isnan(share) != 0);
+            if (isnan(share))
+                open++;
         }
     print_message("# %llu of %llu left open\n", (unsigned long long)open, (unsigned long long)(rounds * KINDS));
     assert_true(open * 20 <= rounds * KINDS);

@@ -127,7 +127,7 @@ TEST(budget) {
  * and of as many pixels beyond it as a triangle may reach, both ways; at least 2. */
 TEST(budget_of_a_screen) {
     static const struct {
-        uint32_t width, height;
+        int width, height;
         double fov, pixels;
     } rows[] = {{1920, 1080, 120, 4096}, {1920, 1080, 120, 16}, {1080, 1920, 150, 512},
                 {640, 480, 30, 512},     {640, 480, 30, 8192},  {4096, 256, 100, 64}};
