@@ -82,13 +82,15 @@ ABSENT_FIGURE(world_build)
         return NULL;                                                                                                   \
     }
 
+#define ABSENT_TABLE(name) const named_table name##_table = {NULL, 0, 0};
+
 ABSENT_ROWS(device_row, device_get)
-ABSENT_ROWS(effect_row, effect_get)
-ABSENT_ROWS(finder_filter_row, finder_filter_get)
+ABSENT_TABLE(effect)
+ABSENT_TABLE(finder_filter)
 ABSENT_ROWS(moved_row, moved_get)
-ABSENT_ROWS(normal_row, normal_get)
-ABSENT_ROWS(pack_row, pack_get)
-ABSENT_ROWS(packing, packing_get)
+ABSENT_TABLE(normal)
+ABSENT_TABLE(pack)
+ABSENT_TABLE(packing)
 
 sensor device_sensor(const device_row *row) {
     (void)row;
@@ -111,9 +113,9 @@ const pack_row *packing_normals(const packing *p) {
     return NULL;
 }
 
-ABSENT_ROWS(position_row, position_get)
+ABSENT_TABLE(position)
 ABSENT_ROWS(sensor_row, sensor_get)
-ABSENT_ROWS(synthetic_row, synthetic_get)
+ABSENT_TABLE(synthetic)
 
 /* Families of methods but interval, which figures are drawn by. */
 static const size_t none;
