@@ -62,7 +62,7 @@ static digits digits_of(int way) {
                     .read = way / 12 % 2 == 0 ? 256 : BYTE,
                     .unit = way / 24 % 2 == 0 ? BYTE : 256,
                     .scale = way / 48 % 2 == 0 ? 1 : 255.0 / 256,
-                    .last = way / 96};
+                    .last = (unsigned)way / 96};
 }
 
 /* As shaders do it: fract(v (1, 256, ...)), less the next digit over 256, of the last one itself, or nothing. A byte

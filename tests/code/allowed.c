@@ -167,8 +167,8 @@ static bool magic(reader *r, number *out) {
                                         "asfloat(0x7ef311c7u - asuint(",
                                         "bitcast<f32>(0x7ef311c7u - bitcast<u32>(",
                                         "as_type<float>(0x7ef311c7u - as_type<uint>(",
-                                        "((union { uint32_t u; float f; }){.u = 0x7ef311c7u - "
-                                        "(union { float f; uint32_t u; }){",
+                                        ("((union { uint32_t u; float f; }){.u = 0x7ef311c7u - "
+                                         "(union { float f; uint32_t u; }){"),
                                         "(np.uint32(0x7ef311c7) - "};
     if (!took(r, forms[r->p]))
         return false;

@@ -12,8 +12,8 @@ static void check_side(tally *t, const char *line, const char *what, const char 
     if (isnan(exact) && strncmp(text, "inf", 3) == 0) /* null in JSON */
         return;
     const bool close = fabs(shown - exact) <= 1.0001e-5 * fabs(exact);
-    TALLY(t, end != text && close && (to == EITHER || (shown - exact) * to >= 0), "%s: %s is %.12s, of %.17g", line,
-          what, text, exact);
+    TALLY(t, end != text && close && (to == EITHER || (shown - exact) * (double)(int)to >= 0),
+          "%s: %s is %.12s, of %.17g", line, what, text, exact);
 }
 
 /* The word in a column of a line. */

@@ -311,7 +311,9 @@ static void want_image(values *v, const char *path, const texture_case *c, const
     want_text(v, "synthetic", NULL);
     want_text(v, "packing", NULL); /* test_packing has it otherwise */
     want_text(v, "lossy", NULL);   /* and test_image_compressed this */
-    want_text(v, "channel", NULL); /* and test_image_tools this */
+    want_text(v, "channel", NULL); /* and test_image_tools this, */
+    want_text(v, "moved", NULL);   /* and test_sensor_files these */
+    want_text(v, "moved_from", NULL);
     values_under(v, "sky.");
     want_count(v, "zeros", 0); /* of packings, in test_packing */
     values_under(v, "recognised.");

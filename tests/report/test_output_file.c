@@ -92,7 +92,7 @@ static int opened_as_somebody(const char *path, bool checks) {
         const int status = output_open(&out, path);
         _exit(status == EXIT_FINE ? output_close(&out) : status);
     }
-    int status;
+    int status = 0;
     assert_true(child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status));
     return WEXITSTATUS(status);
 }

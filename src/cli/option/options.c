@@ -274,7 +274,7 @@ static int finish(asked_line *line) {
 int options_parse(asked_line *line, int argc, char **argv) {
     const command_row *command = command_find("table");
     char text[NAMES_SIZE];
-    known k;
+    known k = {.count = 0};
     input_forget();
     option_forget_choosers();
     *line = (asked_line){.argv = argv};

@@ -119,7 +119,7 @@ static int stereo_part_set(length_reader *seen, const option_row *row, const cha
     if (!read || !(value >= p->least && value <= p->most) || (place == STEREO_STEP && fabs(value) < STEREO_STEP_LEAST))
         return option_refuse(row, "%s must be %s, got '%.*s'%s", p->name, p->limits, (int)(length - from), text + from,
                              place == STEREO_BASELINE ? length_hint(text + from, length - from) : "");
-    *(double *)((char *)out + p->place) = value;
+    memcpy((char *)out + p->place, &value, sizeof value);
     return EXIT_FINE;
 }
 
