@@ -113,9 +113,9 @@ static double worst_of(const struct function *w, int form, double n, double f, s
 
 /* Over the near planes of the walk. */
 static double walked(const struct function *w, int form, double ratio) {
-    static const double near[] = {1e-12, 0.1, 1e6};
+    static const double near[] = {1e-12, 0.1, 1e6, 0.74408};
     double worst = 0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         worst = fmax(worst, worst_of(w, form, near[i], near[i] * ratio, WALKED));
     return worst;
 }
