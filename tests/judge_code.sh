@@ -111,3 +111,4 @@ right() { # prints what is not judged right
 check "$count functions are compiled and run" compiled
 check "there are enough of them" [ $count -ge 140 ]
 check "each is judged right" empty right
+finish
