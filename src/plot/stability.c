@@ -130,7 +130,7 @@ const char *stability_build(const figure_request *request, chart *out) {
     const method_family_row *family = request->family;
     stability_result *results = chart_memory(out, STABILITY_MAX, sizeof *results);
     const size_t count = results != NULL ? stability_run(family, STABILITY_ALL, results) : 0;
-    snprintf(out->subtitle, sizeof out->subtitle, "%s: %s; worst %s over near 1e-12, 0.1 and 1e6%s", family->name,
+    snprintf(out->subtitle, sizeof out->subtitle, "%s: %s; worst %s over four near planes%s", family->name,
              family->summary, family->measure, family->steps ? ", as digits of the code" : "");
     return count > 0 ? stability_draw(family, results, count, out) : "no memory for the methods";
 }
