@@ -543,14 +543,17 @@ TEST(test_optional) {
     assert_int_equal(options_parse(&o, 3, (char *[]){"depthprec", "texture", "--error-map=a.npy", NULL}), EXIT_FINE);
     assert_true(!ASKED(texture, o)->image.error_map && option_given(&o, "error-map"));
     assert_string_equal(ASKED(texture, o)->image.error_file, "a.npy");
+    options_release(&o);
     assert_int_equal(options_parse(&o, 4, (char *[]){"depthprec", "texture", "--error-map", "a.npy", NULL}), EXIT_FINE);
     assert_true(ASKED(texture, o)->image.error_map && ASKED(texture, o)->image.error_file == NULL &&
                 o.operand_count == 1);
+    options_release(&o);
     assert_int_equal(parse(&o, "table", "link", NULL, line), EXIT_FINE);
     assert_string_equal(ASKED(table, o)->out.link, "depthprec.html");
     options_release(&o);
     assert_int_equal(options_parse(&o, 3, (char *[]){"depthprec", "bias", "--link=a.html", NULL}), EXIT_FINE);
     assert_string_equal(ASKED(table, o)->out.link, "a.html");
+    options_release(&o);
     assert_int_equal(parse(&o, "table", "quiet", NULL, line), EXIT_FINE);
     assert_null(ASKED(table, o)->out.link);
     options_release(&o);
