@@ -35,7 +35,8 @@ static void room(rng *r, lattice l, double first, double far, uint16_t *mm) {
     }
     for (int i = 0; i < N; i++) {
         const double at = level_of(l, z[i] * (1 + 0.0005 * rng_uniform(r, -1, 1)));
-        mm[i] = rng_below(r, 30) == 0 ? 0 : (uint16_t)rint((first > 0 ? first * rint(at / first) : at) * 1000);
+        const double whole = rint((first > 0 ? first * rint(at / first) : at) * 1000);
+        mm[i] = rng_below(r, 30) == 0 ? 0 : (uint16_t)fmin(fmax(whole, 0), UINT16_MAX);
     }
 }
 
