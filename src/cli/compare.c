@@ -223,7 +223,7 @@ static void say_costs(page *p, const comparison *c) {
     }
 }
 
-/* What is guaranteed may be more than is left up to far. */
+/* A guarantee may exceed the distance that is left up to far. */
 static void say_uncertain(page *p, const comparison *c) {
     char names[1024] = "";
     for (size_t i = 0; i < c->bounded; i++)

@@ -191,7 +191,7 @@ static void widen(dp_planes *out, double near, double far) {
     out->far_most = fmax(out->far_most, far);
 }
 
-/* What c + a u + b v rounds, at most. */
+/* The most by which c + a u + b v is rounded. */
 static double lost_of(const dp_projection *p, const double row[4]) {
     const double across = fabs(row[0]) * p->half[0] * (1 + fabs(p->centre[0]));
     const double up = fabs(row[1]) * p->half[1] * (1 + fabs(p->centre[1]));

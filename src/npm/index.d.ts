@@ -88,7 +88,7 @@ export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport">
     readonly triangleClass: readonly [number, number, number];
     /** The code of window depth 1. */
     readonly codeMax: number;
-    /** Of a matrix: between what its planes lie, by how its entries were rounded, and the fewest digits of `near` and
+    /** Planes of a matrix: the ends between which each lies, by how its entries were rounded, and the fewest digits of `near` and
      *  `far` that lie there. Of other cameras the planes themselves, and 17. */
     readonly nearLeast: number;
     readonly nearMost: number;

@@ -23,7 +23,7 @@ static bool is_between(char c) {
     return c == ',' || c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/* What a matrix says: its entries, their significant digits, and the worth of the last; 0: exact. */
+/* A matrix as it is given: its entries, their significant digits, and the worth of the last; 0: exact. */
 typedef struct entries {
     double m[ENTRIES], last[ENTRIES];
     int digits[ENTRIES];
@@ -106,7 +106,7 @@ static bool are_single(const entries *e) {
     return long_one;
 }
 
-/* What was rounded to an entry lies between. Few digits were not rounded, but typed. */
+/* The ends between which the number behind an entry lies. Few digits were not rounded, but typed. */
 static void ends_of(const entries *e, size_t i, bool single, double *least, double *most) {
     const double m = e->m[i], half = e->digits[i] >= DIGITS_ROUNDED ? 0.5 * e->last[i] : 0;
     const double own = half > 0 ? fmax(half, 0x1p-53 * fabs(m)) : 0;
