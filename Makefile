@@ -169,7 +169,7 @@ wheel:
 
 wheel-parts: $(B)/libdepthprec.so.0 $(B)/plain/depthprec
 
-PLAIN_O := $(filter-out %/plot/canvas.o,$(ROOMS_O)) $(call objects,src/web/canvas.c src/web/plain.c)
+PLAIN_O := $(filter-out %/draw/canvas.o,$(ROOMS_O)) $(call objects,src/web/canvas.c src/web/plain.c)
 PLAIN_LIBS := -lgsl -lgslcblas -ljansson -lconfig -lpng16 -lz $(if $(findstring clang,$(CC)),,-lgomp)
 $(B)/plain/depthprec: $(PLAIN_O) $(B)/libdepthprec.a
 	@mkdir -p $(@D)
@@ -201,13 +201,13 @@ WINDOWS_CC := gcc
 WINDRES := windres
 WINDOWS_LIBRARIES :=
 WINDOWS_LINK = gcc -s -fopenmp -Wl,--stack,8388608
-WINDOWS_CANVAS := src/plot/canvas.c
+WINDOWS_CANVAS := src/draw/canvas.c
 WINDOWS_HEADERS = $(shell pkg-config --cflags $(PKGS_build))
 WINDOWS_DYNAMIC = $(shell pkg-config --libs $(PKGS_build))
 endif
 windows_objects = $(patsubst %.c,$(B)/windows/obj/%.o,$(1))
 WINDOWS_CORE_O := $(call windows_objects,$(CORE) src/windows/fma.c)
-WINDOWS_O := $(call windows_objects,$(filter-out src/plot/canvas.c src/system/sandbox.c,$(ROOMS)) $(WINDOWS_CANVAS) \
+WINDOWS_O := $(call windows_objects,$(filter-out src/draw/canvas.c src/system/sandbox.c,$(ROOMS)) $(WINDOWS_CANVAS) \
     src/windows/posix.c)
 
 $(WINDOWS_ROOT)/lib/libwindows.a: src/windows/libraries.sh
@@ -220,7 +220,7 @@ $(B)/windows/obj/%.o: %.c Makefile | $(WINDOWS_LIBRARIES)
 	$(Q)$(WINDOWS_CC) -std=gnu11 $(INCLUDES) $(WINDOWS_FLAGS) $(WINDOWS_HEADERS) -MMD -MP -c -o $@ $<
 
 # The page has these, too, and no header of a system.
-$(call windows_objects,src/web/canvas.c src/report/output.c src/cli/methods.c): WINDOWS_FLAGS += -include system/posix.h
+$(call windows_objects,src/web/canvas.c src/report/output.c src/method/cmd_methods/methods.c): WINDOWS_FLAGS += -include system/posix.h
 
 $(B)/windows/manifest.o: src/windows/depthprec.manifest
 	@mkdir -p $(@D)
@@ -245,15 +245,17 @@ web:
 	@sh src/packages.sh web
 	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
-WEB_ROOMS := $(sort $(wildcard src/cli/*/options.c src/cli/world/origin.c \
-    $(patsubst %,src/%/*.c,web core raster api world census report requirement plot probe judge cli cli/option cli/camera cli/solve cli/judge)))
-WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/shader/decode.c src/shader/constants.c src/code/language.c src/frame/recognise.c
-WEB_NOT := report/output_file report/terminal requirement/camera requirement/reader requirement/requirement requirement/view requirement/check \
-    plot/canvas plot/fight plot/linear01 plot/scene plot/shadow plot/world plot/normals plot/pareto plot/stability plot/needs plot/pixels \
-    cli/cmd_methods cli/mine cli/cmd_check cli/check_report cli/cmd_code cli/cmd_world \
-    cli/constants cli/levels cli/link cli/completions cli/stop cli/junit cli/camera/profile \
-    api/profile_file web/plain probe/opengl probe/vulkan probe/vulkan_compute probe/compile probe/probe judge/read_pairs judge/listing judge/written cli/judge/shader
-WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
+# Rooms that the page lacks but for these files and the options of their commands; and files of others that it lacks.
+WEB_LESS := code image method model scene shader shadow system texture
+WEB_FROM := code/language method/choose method/estimate method/families method/interval method/limit method/method \
+    method/truth method/ways method/cmd_methods/methods shader/constants shader/decode texture/recognise texture/cmd_texture/products
+WEB_NOT := camera/profile_file camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions draw/canvas draw/pixels \
+    judge/listing judge/read_pairs judge/written judge/cmd_judge/shader probe/compile probe/opengl probe/probe probe/vulkan \
+    probe/vulkan_compute quantity/cmd_table/constants quantity/cmd_table/levels report/output_file report/terminal solve/camera \
+    solve/check solve/figure_needs solve/reader solve/requirement solve/view solve/cmd_check/check_report solve/cmd_check/command \
+    web/plain world/figure world/cmd_world/command zfight/figure
+WEB_SOURCES := $(sort $(filter-out $(patsubst %,src/%.c,$(patsubst %,%/%,$(WEB_LESS)) $(WEB_NOT)),$(CORE) $(ROOMS) $(wildcard src/web/*.c)) \
+    $(wildcard src/*/cmd_*/options.c) $(patsubst %,src/%.c,$(WEB_FROM)))
 
 WEB_CC ?= clang --target=wasm32-wasi
 # Instructions that browsers and node have since 2020; there is one thread, and what belongs to it is the program's.
@@ -312,7 +314,8 @@ npm:
 	@sh src/packages.sh npm
 	@$(MAKE) $(PARALLEL) $(B)/dist/depthprec-$(VERSION).tgz
 
-NPM_NOT := $(patsubst %,src/%.c,plot/canvas plot/pixels image/png cli/cmd_methods cli/stop frame/strips probe/opengl probe/vulkan probe/vulkan_compute probe/compile \
+NPM_NOT := $(patsubst %,src/%.c,draw/canvas draw/pixels image/png method/cmd_methods/command cli/stop texture/strips \
+    probe/opengl probe/vulkan probe/vulkan_compute probe/compile \
     report/output_file report/terminal system/dynload system/sandbox)
 NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still) \
     src/npm/config.c src/npm/standin.c)

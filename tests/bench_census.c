@@ -11,9 +11,9 @@
 #include <stdlib.h>
 
 #include "aims.h"
-#include "census/census.h"
 #include "depthprec/depth.h"
 #include "timing.h"
+#include "zfight/census.h"
 
 enum { RUNS = 5, PLAIN_BLOCK = 1024 };
 

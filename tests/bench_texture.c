@@ -23,8 +23,8 @@
 
 #include "aims.h"
 #include "core/clones.h"
-#include "frame/frame.h"
 #include "named.h"
+#include "texture/frame.h"
 #include "timing.h"
 
 enum { WIDTH = 3840, HEIGHT = 2160, STRIDE = WIDTH + 16, RUNS = 9, WAYS_MAX = 24 };

@@ -9,8 +9,8 @@
 #ifndef TESTS_DRAWN_H
 #define TESTS_DRAWN_H
 
-#include "plot/chart.h"
-#include "plot/draw.h"
+#include "draw/chart.h"
+#include "draw/draw.h"
 #include "svg.h"
 
 enum { DRAWN_LABELS = 64, DRAWN_ENTRIES = 40, DRAWN_PANELS = 8, DRAWN_LINES = 8 };

@@ -4,40 +4,55 @@
 # need each other, no line and no function is too long.
 . tests/tap.sh
 
-# folder | the layers that its files may include
+# room | the rooms that what it computes may include. Files figure*.c and folders cmd* of a room are not of it: figures
+# may include all that is computed, plot and draw; commands and options all but the doors.
 layers='
 include/depthprec | depthprec
 src/core          | depthprec core
-src/api           | depthprec core system api
+src/bias          | depthprec core bias
+src/camera        | depthprec core system bias camera
 src/world         | depthprec core world
-src/census        | depthprec core census
+src/zfight        | depthprec core zfight
 src/raster        | depthprec core raster
-src/shadow        | depthprec core api image shader shadow
+src/shadow        | depthprec core bias image shader shadow
 src/windows       | system windows
 src/system        | windows system
 src/probe         | depthprec core system raster probe
 src/image         | depthprec core system image
 src/shader        | depthprec core image shader
-src/frame         | depthprec core image shader frame
-src/judge         | depthprec core system image shader frame judge
-src/method        | depthprec core shader census method
-src/code          | depthprec core image shader census method system report code
-src/requirement   | depthprec core system api raster world requirement
+src/texture       | depthprec core image shader texture
+src/judge         | depthprec core system image shader texture judge
+src/method        | depthprec core shader zfight method
+src/code          | depthprec core image shader zfight method system report code
+src/solve         | depthprec core system bias camera raster world solve
 src/model         | core system model
-src/scene         | depthprec core system raster world model requirement scene
+src/scene         | depthprec core system raster world model bias camera solve scene
 src/report        | depthprec core system report
-src/plot          | depthprec core system api world census raster shadow image shader frame method requirement model scene plot
-src/cli           | depthprec core system api world census raster shadow image shader frame method requirement model scene probe judge code report plot cli
-src/npm           | depthprec cli core frame image plot probe report system npm
-src/web           | depthprec core system raster probe image shader frame method requirement scene judge report plot cli web
+src/draw          | core draw
+src/plot          | depthprec core zfight raster shader method draw plot
 '
+computed=$(echo "$layers" | sed -n 's,^src/\([a-z]*\) .*,\1,p' | grep -vE '^(windows|report|draw|plot)$')
 
-strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none
+# Quoted includes of the files that come in, NUL between, but for those of these rooms' own headers.
+strangers() { # strangers LAYER...
+    xargs -0 grep -Hn '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' >"$scratch/includes"
+    [ -s "$scratch/includes" ] || return
+    lines -vE "\"($(echo "$*" | tr ' ' '|'))/[a-z0-9_]+\.h\"" "$scratch/includes" >"$scratch/strange"
+    cat "$scratch/strange"
+    [ "${figures-}" ] || lines -E '"[a-z]+/figure[a-z0-9_]*\.h"' "$scratch/includes"
+}
+of_room() { # of_room FOLDER LAYER...
     folder=$1
     shift
-    find "$folder" -name '*.[ch]' -exec grep -Hn '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' {} + >"$scratch/includes"
-    [ -s "$scratch/includes" ] || return
-    lines -vE "\"($(echo "$*" | tr ' ' '|'))/[a-z0-9_/]+\.h\"" "$scratch/includes"
+    find "$folder" -maxdepth 1 -name '*.[ch]' ! -name 'figure*' -print0 | figures=$([ "$folder" = src/plot ] && echo 1) strangers "$@"
+}
+of_figures() {
+    find src -path 'src/*/figure*.[ch]' ! -path 'src/plot/*' ! -path '*/cmd*' -print0 | figures=1 strangers "$@"
+}
+# Commands, and what lies in src/cli, may not include the doors that stand on them.
+of_commands() {
+    find src/cli src/*/cmd* -name '*.[ch]' >"$scratch/commands" && grep -q '^src/bias/cmd_bias/command.c$' "$scratch/commands" || return
+    xargs cat <"$scratch/commands" | lines -E '^#include "(web|npm)/'
 }
 
 includes() { # includes WHAT FOLDER...: prints the includes of <WHAT...>
@@ -47,8 +62,8 @@ includes() { # includes WHAT FOLDER...: prints the includes of <WHAT...>
 }
 
 cairo_elsewhere() {
-    includes cairo include src >"$scratch/cairo" && grep -q '^src/plot/canvas\.c:' "$scratch/cairo" || return
-    lines -v '^src/plot/canvas\.c:' "$scratch/cairo"
+    includes cairo include src >"$scratch/cairo" && grep -q '^src/draw/canvas\.c:' "$scratch/cairo" || return
+    lines -v '^src/draw/canvas\.c:' "$scratch/cairo"
 }
 
 # What is opened to be read is remembered there, so that no output is written over it. Of the system's own files none is.
@@ -71,12 +86,17 @@ echo "$layers" >"$scratch/layers"
 while IFS='|' read -r folder allowed; do
     folder=${folder%% *}
     [ -d "$folder" ] || continue
-    check "$folder includes only: ${allowed# }" empty strangers "$folder" $allowed
+    check "what $folder computes includes only: ${allowed# }" empty of_room "$folder" $allowed
 done <"$scratch/layers"
-# src/python is no room: it has no C.
-check "every folder of src but python has its row" empty sh -c 'for d in src/*/; do [ "$d" = src/python/ ] || grep -q "^${d%/} " "$1" || echo "$d"; done' - "$scratch/layers"
+check "figures include what is computed, plot and draw" empty of_figures depthprec $computed draw plot
+check "commands include no door" empty of_commands
+# src/python is no room: it has no C. src/quantity, src/cli and the doors compute nothing.
+check "every room that computes has its row" empty sh -c 'for d in src/*/; do
+    case $d in src/python/ | src/cli/ | src/web/ | src/npm/) continue ;; esac
+    ls "$d"*.c 2>/dev/null | grep -qv /figure || continue
+    grep -q "^${d%/} " "$1" || echo "$d"; done' - "$scratch/layers"
 check "of the core's own headers other rooms include none but those of src/README.md" empty core_inside
-check "cairo is included in src/plot/canvas.c alone" empty cairo_elsewhere
+check "cairo is included in src/draw/canvas.c alone" empty cairo_elsewhere
 web_elsewhere() {
     lines -rnE '__(wasm|wasi|EMSCRIPTEN)' include src >"$scratch/web"
     grep -q '^src/web/page\.h:' "$scratch/web" || return
@@ -170,9 +190,9 @@ check "comments name files as they are called" empty misnamed
 
 # An option is known by its name: one that no row has is never given.
 unnamed_options() {
-    find src/cli src/web -name '*.[ch]' | xargs grep -hoE '^ *\{"[a-z0-9-]+", (0|'"'.'"'),' | grep -oE '[a-z0-9-]{2,}' |
+    find src/cli src/web src/*/cmd* -name '*.[ch]' | xargs grep -hoE '^ *\{"[a-z0-9-]+", (0|'"'.'"'),' | grep -oE '[a-z0-9-]{2,}' |
         sort -u >"$scratch/named" && grep -q '^near$' "$scratch/named" || return
-    find src/cli src/web -name '*.[ch]' |
+    find src/cli src/web src/*/cmd* -name '*.[ch]' |
         xargs grep -hoE '\<(option_(given|text|error|give|unit|word|set|find|written)\([^,()"]*,? *|TAKE\(|OWN\(|NEEDS\(|CONFLICTS\()"[a-z0-9-]+"' |
         sed 's/.*"\(.*\)"/\1/' | sort -u | comm -23 - "$scratch/named"
 }

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/methods.h"
 #include "method/choose.h"
+#include "method/cmd_methods/methods.h"
 #include "printed.h"
 
 int cmd_methods(void *request);

@@ -5,10 +5,9 @@
 
 #include <string.h>
 
-#include "api/bias.h"
-#include "api/platform.h"
-#include "api/presets.h"
-#include "frame/synthetic.h"
+#include "bias/bias.h"
+#include "camera/platform.h"
+#include "camera/presets.h"
 #include "method/method.h"
 #include "plot/figure.h"
 #include "shader/decode.h"
@@ -16,6 +15,7 @@
 #include "shader/normal.h"
 #include "shader/pack.h"
 #include "shader/position.h"
+#include "texture/synthetic.h"
 
 static inline const method_family_row *method_family_find(const char *name) {
     for (size_t i = 0; method_family_get(i) != NULL; i++)

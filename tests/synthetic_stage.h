@@ -4,7 +4,7 @@
 #ifndef TESTS_SYNTHETIC_STAGE_H
 #define TESTS_SYNTHETIC_STAGE_H
 
-#include "frame/frame.h"
+#include "texture/frame.h"
 
 typedef struct synthetic_stage {
     texture_camera camera;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "views.h"
 
-#include "frame/normal_errors.h"
+#include "texture/normal_errors.h"
 
 texture_camera view_camera(const char *format, dp_mapping mapping, double znear, double zfar, bool ortho,
                            uint32_t width, uint32_t height, double extent) {

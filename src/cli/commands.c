@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "cli/help/request.h"
+#include "cli/cmd_help/request.h"
 #include "cli/list.h"
 #include "cli/option/option.h"
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "plot/notes.h"
+#include "draw/notes.h"
 
 static void xml(output *out, const char *text) {
     char clean[1024];

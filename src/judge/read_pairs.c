@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "core/elementary.h"
-#include "frame/image_depths.h"
 #include "system/input.h"
+#include "texture/image_depths.h"
 
 enum { LINE_SIZE = 512, HAND_DIGITS = 4 };
 

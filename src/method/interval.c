@@ -2,8 +2,8 @@
 /* The z-fighting interval at a depth. The last three rows speak of the binary32 pipeline and are judged by it. */
 #include <math.h>
 
-#include "census/census.h"
 #include "method/truth.h"
+#include "zfight/census.h"
 
 /* ---- The lattice ------------------------------------------------------------------------------------------------- */
 

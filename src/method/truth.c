@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "census/census.h"
+#include "zfight/census.h"
 
 /* Twice the value of the boundary below a code, exact: half-way to the code before it. */
 static long double boundary(const dp_format *f, uint32_t code, bool above) {

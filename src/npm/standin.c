@@ -21,16 +21,16 @@
 #include <unistd.h>
 
 #include "cli/commands.h"
-#include "frame/strips.h"
+#include "draw/pixels.h"
 #include "image/kind.h"
 #include "npm/standin.h"
-#include "plot/pixels.h"
 #include "probe/compute.h"
 #include "report/message.h"
 #include "report/output.h"
 #include "system/dynload.h"
 #include "system/input.h"
 #include "system/sandbox.h"
+#include "texture/strips.h"
 
 #define WAY_OUT "the native program has it"
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "core/elementary.h"
-#include "plot/ticks.h"
+#include "draw/ticks.h"
 
 /* The greatest error that any depth of z's cell has. */
 static double cell_error(const dp_setup *setup, double z) {

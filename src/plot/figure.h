@@ -12,9 +12,9 @@
 
 #include "core/named.h"
 #include "depthprec/depthprec.h"
+#include "draw/chart.h"
 #include "method/bench.h"
 #include "method/stability.h"
-#include "plot/chart.h"
 #include "raster/raster.h"
 
 /** The data and options that a figure is drawn from. */

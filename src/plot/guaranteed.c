@@ -7,7 +7,7 @@
 #include "core/append.h"
 #include "core/engine.h"
 #include "core/search.h"
-#include "plot/ticks.h"
+#include "draw/ticks.h"
 
 bool guaranteed_has(const figure_request *request, size_t i) {
     return request->guaranteed || request->setups[i].spec.model == DP_MODEL_FLOAT;

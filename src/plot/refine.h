@@ -17,7 +17,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "plot/chart.h"
+#include "draw/chart.h"
 
 enum { REFINE_VALUES = 13, REFINE_KNOTS = 1024 };
 

@@ -5,7 +5,7 @@
 
 #include "depthprec/bounds.h"
 #include "depthprec/depth.h"
-#include "requirement/distance.h"
+#include "solve/distance.h"
 
 enum { DIGITS = 6 };
 

@@ -7,9 +7,9 @@
 #include "core/elementary.h"
 #include "core/outward.h"
 #include "depthprec/bounds.h"
-#include "requirement/distance.h"
 #include "scene/exact.h"
 #include "scene/pairs.h"
+#include "solve/distance.h"
 
 enum { DIGITS = 6, SIDES = 6, POLYGON = FINDER_CORNERS + SIDES, ROUNDS = 12 };
 

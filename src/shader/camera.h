@@ -78,18 +78,18 @@ static inline bool camera_is_centred(const texture_camera *c) {
 
 /** sx of column i and sy of row j: see above. Within 2 units of 2^-53 relative at whole columns and rows; where the
  *  frustum is not centred 4 units of the larger of hx and hx cx, hy and hy cy. */
-DP_INLINE double camera_slope_x(const texture_camera *c, double column) {
-    return ((2 * column + 1 - c->width) / c->width - c->centre[0]) * c->half[0];
+DP_INLINE double camera_slope_x(const texture_camera *c, double i) {
+    return ((2 * i + 1 - c->width) / c->width - c->centre[0]) * c->half[0];
 }
-DP_INLINE double camera_slope_y(const texture_camera *c, double row) {
-    return ((c->height - 2 * row - 1) / c->height - c->centre[1]) * c->half[1];
+DP_INLINE double camera_slope_y(const texture_camera *c, double j) {
+    return ((c->height - 2 * j - 1) / c->height - c->centre[1]) * c->half[1];
 }
 
 /** The view-space place of a pixel at eye depth z, in double: the reference of everything that is faster. */
-DP_INLINE void camera_view(const texture_camera *camera, double column, double row, double z, double view[3]) {
+DP_INLINE void camera_view(const texture_camera *camera, double i, double j, double z, double view[3]) {
     const double scale = camera->ortho ? 1 : z;
-    view[0] = camera_slope_x(camera, column) * scale;
-    view[1] = camera_slope_y(camera, row) * scale;
+    view[0] = camera_slope_x(camera, i) * scale;
+    view[1] = camera_slope_y(camera, j) * scale;
     view[2] = z;
 }
 
@@ -100,8 +100,8 @@ DP_INLINE void camera_turn(const texture_camera *camera, const double view[3], d
 }
 
 /** Distance from the camera (perspective: the ray's length) per unit of eye depth; orthographic: 1. */
-DP_INLINE double camera_radial(const texture_camera *camera, double column, double row) {
-    const double x = camera_slope_x(camera, column), y = camera_slope_y(camera, row);
+DP_INLINE double camera_radial(const texture_camera *camera, double i, double j) {
+    const double x = camera_slope_x(camera, i), y = camera_slope_y(camera, j);
     return camera->ortho ? 1 : sqrt(x * x + y * y + 1);
 }
 

@@ -32,7 +32,7 @@
 
 #include <stdbool.h>
 
-#include "api/bias.h"
+#include "bias/bias.h"
 #include "depthprec/depthprec.h"
 
 typedef enum shadow_status {

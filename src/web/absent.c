@@ -5,22 +5,22 @@
  */
 #include <stdio.h>
 
-#include "cli/check_report.h"
-#include "cli/constants.h"
-#include "cli/judge/request.h"
-#include "cli/levels.h"
 #include "cli/link.h"
-#include "cli/mine.h"
-#include "cli/scene/figure.h"
-#include "cli/shadow/maps.h"
-#include "cli/texture/request.h"
-#include "frame/device.h"
-#include "frame/units.h"
+#include "judge/cmd_judge/request.h"
 #include "judge/pairs.h"
+#include "method/cmd_methods/mine.h"
 #include "plot/figure.h"
-#include "requirement/check.h"
+#include "quantity/cmd_table/constants.h"
+#include "quantity/cmd_table/levels.h"
+#include "scene/cmd_scene/drawing.h"
 #include "scene/find.h"
 #include "shader/pack.h"
+#include "shadow/cmd_shadow/maps.h"
+#include "solve/check.h"
+#include "solve/cmd_check/check_report.h"
+#include "texture/cmd_texture/request.h"
+#include "texture/device.h"
+#include "texture/units.h"
 
 static int absent(const asked_line *line) {
     return usage_error("%s is not in the page: the program has it", line->command->name);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The page in place of plot/canvas.c: the same drawing as SVG text, without cairo. Letters stay text in the page's own
+ * The page in place of draw/canvas.c: the same drawing as SVG text, without cairo. Letters stay text in the page's own
  * font, whose widths the page measures. Coordinates are written to a hundredth of a px.
  */
-#include "plot/canvas.h"
+#include "draw/canvas.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plot/pixels.h"
+#include "draw/pixels.h"
 #include "web/page.h"
 
 #define FONT_FAMILY "DejaVu Sans, Verdana, sans-serif"

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "plot/canvas.h"
+#include "draw/canvas.h"
 #include "report/output.h"
 #include "system/input.h"
 #include "web/page.h"

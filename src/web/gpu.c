@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/judge/shader.h"
 #include "core/bits.h"
+#include "judge/cmd_judge/shader.h"
 #include "probe/compute.h"
 #include "probe/judge.h"
 #include "probe/spirv.h"

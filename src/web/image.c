@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "frame/recognise.h"
+#include "texture/recognise.h"
 #include "web/page.h"
 
 static image dropped;

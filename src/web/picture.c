@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/setups.h"
+#include "camera/cmd/setups.h"
 #include "report/number.h"
 #include "web/gpu.h"
 #include "web/page.h"

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "plot/canvas.h"
+#include "draw/canvas.h"
 #include "web/page.h"
 
 enum { FIRST = ' ', LAST = '~', OTHER = 838 };

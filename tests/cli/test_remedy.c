@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What budget advises: the words name the change whose separation is printed, and no other change does much better. */
-#include "cli/remedy.h"
+#include "quantity/cmd_budget/remedy.h"
 #include "support.h"
 
 static bool format_is(dp_spec *spec, const char *name) {

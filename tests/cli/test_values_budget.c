@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value that budget prints, against the library. */
-#include "cli/remedy.h"
 #include "printed.h"
+#include "quantity/cmd_budget/remedy.h"
 
 enum { DEPTHS = 6 };
 

@@ -2,10 +2,9 @@
 /* What list prints: every row of every table with its own note, source, spellings and numbers, in all three forms. */
 #include <ctype.h>
 
-#include "api/bias.h"
-#include "api/platform.h"
-#include "api/presets.h"
-#include "frame/synthetic.h"
+#include "bias/bias.h"
+#include "camera/platform.h"
+#include "camera/presets.h"
 #include "method/choose.h"
 #include "plot/figure.h"
 #include "printed.h"
@@ -15,6 +14,7 @@
 #include "shader/pack.h"
 #include "shader/packing.h"
 #include "shader/position.h"
+#include "texture/synthetic.h"
 
 enum { NUMBERS = 32 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What table and budget print of slanted triangles, against the library; options spelled out here by hand. */
-#include "api/bias.h"
+#include "bias/bias.h"
 #include "printed.h"
 
 enum { DEPTHS = 4 };

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The census against a plain one that stores every code, against published counts, and against itself. */
-#include "census/census.h"
 #include "depthprec/depthprec.h"
 #include "support.h"
+#include "zfight/census.h"
 
 /* ---- A plain census ---------------------------------------------------------------------------------------------- */
 

@@ -6,10 +6,10 @@
 #include <float.h>
 #include <gmp.h>
 
-#include "census/census.h"
 #include "core/engine.h"
 #include "depthprec/depthprec.h"
 #include "support.h"
+#include "zfight/census.h"
 
 static const double cameras[][2] = {{0.1, 100}, {0.1, 1000},  {0.3, 1000}, {0.01, 10000}, {1, 10},  {0.1, HUGE_VAL},
                                     {5, 5000},  {0.05, 4000}, {10, 1e5},   {0.25, 256},   {1, 1e4}, {0.02, 50}};

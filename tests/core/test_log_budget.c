@@ -9,7 +9,7 @@
 
 #include "depthprec/depthprec.h"
 #include "nvidia.h"
-#include "requirement/judge.h"
+#include "solve/judge.h"
 #include "support.h"
 
 enum { BITS = 256, RULES = 3 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which model is enough, and how the guaranteed separation is split: the sums, not the bounds themselves. */
-#include "cli/choice.h"
 #include "depthprec/depthprec.h"
+#include "quantity/cmd/choice.h"
 #include "setups.h"
 #include "support.h"
 

@@ -6,7 +6,7 @@
 #include "core/engine.h"
 #include "core/log_shader.h"
 #include "depthprec/depthprec.h"
-#include "requirement/distance.h"
+#include "solve/distance.h"
 #include "support.h"
 
 static int matrices, chains, shaders, slants;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The largest separation over a range: never below that of any depth in it, and no more above than is promised. */
-#include "census/census.h"
 #include "core/engine.h"
 #include "depthprec/depthprec.h"
 #include "support.h"
+#include "zfight/census.h"
 
 static const char *const format_names[] = {"fp32", "unorm24", "unorm16", "fp16", "float3.3b5", "unorm5"};
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/setups.h"
+#include "camera/cmd/setups.h"
 
 enum { ARGUMENTS_MAX = 32 };
 

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame/image_depths.h"
-#include "frame/recognise.h"
 #include "shader/camera.h"
+#include "texture/image_depths.h"
+#include "texture/recognise.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

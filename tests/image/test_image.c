@@ -2,10 +2,10 @@
 /* Images: what is written comes back, and what others wrote is read. */
 #include <unistd.h>
 
-#include "frame/recognise.h"
 #include "handmade.h"
 #include "image/image.h"
 #include "support.h"
+#include "texture/recognise.h"
 
 static bool parse(const handmade *h, image *out, image_error *error) {
     memset(error, 0x55, sizeof *error);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The choice in the words of set-ups: what it takes keeps its claim, and figures drawn by it look the same. */
-#include "cli/choice.h"
 #include "method/truth.h"
 #include "method/ways.h"
 #include "named.h"
 #include "plot/figure.h"
 #include "plot/refine.h"
+#include "quantity/cmd/choice.h"
 #include "support.h"
 
 static const struct {

@@ -3,10 +3,10 @@
  * maps of the same plane. */
 #include "drawn.h"
 #include "drawn_truth.h"
-#include "frame/normal_errors.h"
 #include "named.h"
 #include "plot/figure.h"
 #include "support.h"
+#include "texture/normal_errors.h"
 
 /* ---- Requirements ------------------------------------------------------------------------------------------------ */
 

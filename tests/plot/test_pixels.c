@@ -2,7 +2,7 @@
 /* PNG of figures, read back by libpng: every pixel, in one band of rows and in many, and the words. */
 #include <png.h>
 
-#include "plot/pixels.h"
+#include "draw/pixels.h"
 #include "support.h"
 
 static const notes words = {"a title", "what \xC3\xA9 it shows", "depthprec plot", "", ""};

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of each figure against the library, and what drawing may not change about them. */
 #include "depthprec/depthprec.h"
+#include "draw/draw.h"
+#include "draw/notes.h"
+#include "draw/ticks.h"
+#include "draw/trace.h"
+#include "draw/words.h"
 #include "named.h"
-#include "plot/draw.h"
 #include "plot/figure.h"
-#include "plot/notes.h"
-#include "plot/scene.h"
-#include "plot/ticks.h"
-#include "plot/trace.h"
-#include "plot/words.h"
-#include "requirement/requirement.h"
+#include "scene/figure.h"
 #include "scene_made.h"
 #include "shadow/shadow.h"
+#include "solve/requirement.h"
 #include "support.h"
 
 /* For the leak sanitizer: what fontconfig read stays in memory until the program ends. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figures about binary32 arithmetic show the library's numbers; bands stop where there are none. */
 #include "depthprec/depthprec.h"
+#include "draw/area.h"
+#include "draw/draw.h"
 #include "named.h"
-#include "plot/area.h"
-#include "plot/draw.h"
 #include "plot/figure.h"
 #include "setups.h"
 #include "support.h"

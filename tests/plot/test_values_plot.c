@@ -4,11 +4,11 @@
  * between the value at each point and the worst up to its neighbours; and CSV against JSON, of figures whose series
  * have places of their own (the others: test_drawn_data.c).
  */
-#include "census/census.h"
 #include "core/engine.h"
 #include "method/choose.h"
 #include "named.h"
 #include "printed.h"
+#include "zfight/census.h"
 
 /* ---- What a run printed ------------------------------------------------------------------------------------------ */
 

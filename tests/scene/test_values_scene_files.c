@@ -3,7 +3,7 @@
 #include <libxml/parser.h>
 #include <libxml/tree.h>
 
-#include "api/bias.h"
+#include "bias/bias.h"
 #include "printed.h"
 
 #define HOUSE  "tests/models/house.gltf"

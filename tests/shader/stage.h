@@ -3,9 +3,9 @@
 #ifndef TESTS_STAGE_H
 #define TESTS_STAGE_H
 
-#include "frame/frame.h"
 #include "named.h"
 #include "support.h"
+#include "texture/frame.h"
 
 enum { ACROSS = 23, DOWN = 17, PIXELS = ACROSS * DOWN, CODE_MAX = 65535 };
 

@@ -3,9 +3,9 @@
  * Outlines, which compare normals too: a scene's own, those that came with an image, and those made of its depths. Each
  * pixel is judged by formulas of this file.
  */
-#include "frame/normals.h"
 #include "stage.h"
 #include "synthetic_stage.h"
+#include "texture/normals.h"
 
 /* ---- Outlines ---------------------------------------------------------------------------------------------------- */
 

@@ -3,10 +3,10 @@
  * Effects over images and scenes, each pixel against a formula in double: the camera's rays, the world position and
  * last frame's projection are those of this file. Images hold random codes; of a scene the truth is a plane's.
  */
-#include "frame/frame.h"
 #include "named.h"
 #include "support.h"
 #include "synthetic_stage.h"
+#include "texture/frame.h"
 
 enum { ACROSS = 7, DOWN = 9, PIXELS = ACROSS * DOWN, CODE_MAX = 65535 };
 

@@ -3,8 +3,8 @@
  * How wrong normals are: the bound of depthprec(7) on planes, and what is measured on synthetic images,
  * counted again here.
  */
-#include "frame/normal_errors.h"
 #include "named.h"
+#include "texture/normal_errors.h"
 #include "views.h"
 
 static const double PI = 3.14159265358979323846;

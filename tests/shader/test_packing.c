@@ -3,10 +3,10 @@
  * program's own files. */
 #include <unistd.h>
 
-#include "frame/image_depths.h"
 #include "handmade.h"
 #include "shader/packing.h"
 #include "support.h"
+#include "texture/image_depths.h"
 #include "truth.h"
 
 /* ---- Every code ---------------------------------------------------------------------------------------------------*/

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every number that shadow prints, against the room shadow with a light of the test's own; the split and the sphere of
  * a cascade by closed forms. */
-#include "cli/bias_all.h"
+#include "bias/cmd_bias/bias_all.h"
 #include "named.h"
 #include "printed.h"
 #include "shadow/shadow.h"

@@ -7,11 +7,11 @@
 #include <unistd.h>
 
 #include "cli/option/option.h"
-#include "plot/canvas.h"
+#include "draw/canvas.h"
 #include "support.h"
 #include "web/page.h"
 
-/* In this program instead of plot/canvas.c; where it writes is remembered. */
+/* In this program instead of draw/canvas.c; where it writes is remembered. */
 #define canvas_text page_canvas_text
 #include "web/canvas.c"
 #undef canvas_text

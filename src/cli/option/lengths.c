@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/depths.h"
+#include "camera/cmd/depths.h"
 #include "cli/option/option.h"
 #include "core/append.h"
 #include "report/output.h"

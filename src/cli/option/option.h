@@ -21,7 +21,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "api/unit.h"
+#include "camera/unit.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
 #include "cli/option/names.h"

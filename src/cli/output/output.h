@@ -3,7 +3,7 @@
 #ifndef CLI_OUTPUT_OUTPUT_H
 #define CLI_OUTPUT_OUTPUT_H
 
-#include "cli/camera/camera.h"
+#include "camera/cmd/camera.h"
 #include "cli/option/option.h"
 #include "report/output.h"
 

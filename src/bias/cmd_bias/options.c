@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The command bias and its options. */
+#include <math.h>
+
+#include "bias/cmd_bias/request.h"
+#include "cli/list.h"
+#include "cli/option/kinds.h"
+#include "report/output.h"
+
+static const name_list apis = {.words = (const char *const[]){"all", NULL}, .rows = &bias_api_table};
+
+const bias_api *bias_asked_api(const bias_asked *b, size_t index) {
+    size_t i = 0;
+    while (bias_api_get(i) != NULL && ((b->apis >> i & 1U) == 0 || index-- > 0))
+        i++;
+    return bias_api_get(i);
+}
+
+static int add_api(asked_line *line, const option_row *row, const char *name, void *group) {
+    bias_asked *o = group;
+    (void)line;
+    list_item found;
+    if (!names_find(row->names, name, NULL, &found))
+        return option_unknown(row, name);
+    for (size_t i = 0; bias_api_get(i) != NULL; i++)
+        if (found.row == NULL || found.row == bias_api_get(i))
+            o->apis |= 1U << i;
+    return EXIT_FINE;
+}
+
+/* One is named, however often; of several there is no one. */
+static int parse_apis(asked_line *line, const option_row *row, const char *value, void *group) {
+    bias_asked *o = group;
+    o->apis = 0;
+    const int status = parse_names(line, row, value, group, add_api);
+    o->api = bias_asked_api(o, 1) == NULL ? bias_asked_api(o, 0) : NULL;
+    return status;
+}
+
+/* Some engines set an infinite one, of either sign. */
+static int parse_units(asked_line *line, const option_row *row, const char *value, void *group) {
+    double endless;
+    if (!number_parse(*value == '-' ? value + 1 : value, NUMBER_FAR, &endless) || !isinf(endless))
+        return parse_number(line, row, value, group);
+    *(double *)option_field(row, group) = *value == '-' ? -endless : endless;
+    return EXIT_FINE;
+}
+
+#define GROUP_TYPE bias_asked
+
+/* clang-format off */
+static const option_row bias_rows[] = {
+    {"api", 0, "NAME[,NAME...]",
+        "the API whose depth-bias rule applies: @; several, or all, are compared, each with its call",
+        .parse = parse_apis, INTO(unsigned, apis), .names = &apis, .standard = "d3d11",
+        .group = "The bias"},
+    {"units", 0, "U",
+        "constant bias in units of r, a whole number for d3d11, d3d12 and webgpu; in window depth for d3d9 and "
+        "vulkan-float; inf or -inf as a program sets it that casts it",
+        .parse = parse_units, INTO(double, units), LIMITS(-1e12, 1e12, NULL),
+        .without = "the units needed"},
+    {"factor", 0, "F",
+        "bias in units of the window slope", NUMBER(factor, -1e12, 1e12, NULL), .standard = "0"},
+    {"clamp", 0, "C",
+        "greatest bias, or least when negative, in window depth", NUMBER(clamp, -1e12, 1e12, NULL),
+        .standard = "0", .without = "none"},
+    {"slope", 0, "S",
+        "change of eye depth from one pixel to the next", LENGTH(slope, 0, 1e12, "scene units per pixel"),
+        .standard = "0", .without = "facing the camera"},
+    {"separation", 0, "S",
+        "how much nearer the bias must bring a layer, in scene units", POSITIVE(separation),
+        .without = "until it is resolved"},
+    END};
+/* clang-format on */
+
+const option_table bias_options = {.rows = bias_rows};
+
+int bias_complete(asked_line *line, const camera_asked *camera) {
+    const char *api = camera_api(camera);
+    return api == NULL || option_given(line, "api") ? EXIT_FINE : option_set(line, "api", api);
+}
+
+/* clang-format off */
+static const option_use uses[] = {
+    ROWS(bias_rows),
+    OWN("format", DEFAULT("fp32")),
+    OWN("preset", ALSO("for a bias also the API of its users; " CAMERA_OF_VIEW)),
+    OWN("platform", ALSO("for a bias also its API; with --viewport also its rasterizer")),
+    TAKE("at"), TAKE("range"), TAKE("log-c"), TAKE("viewport"), TAKE("link"),
+    OWN("full", HELP("all columns, however wide; and where a biased depth is clamped")),
+    GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
+/* clang-format on */
+
+/* clang-format off */
+static const option_rule rules[] = {
+    CONFLICTS("viewport", "units", ": it says how many suffice"),
+    CONFLICTS("units", "separation", ", which solves for them"),
+    CONFLICTS("range", "units", ": units are solved for over a range"),
+    {.option = NULL}};
+/* clang-format on */
+
+static const option_place places[] = {CAMERA_PLACES(bias_request, camera),
+                                      PLACE(bias_request, out, output_options),
+                                      PLACE(bias_request, bias, bias_options),
+                                      {.table = NULL}};
+
+static int complete(void *request) {
+    bias_request *o = request;
+    const int status = camera_complete(&o->camera, &(camera_use){.measured = true});
+    return status == EXIT_FINE ? bias_complete(o->line, &o->camera) : status;
+}
+
+/* clang-format off */
+const command_row command_bias = {
+    .name = "bias", .request = sizeof(bias_request), .places = places, .uses = uses, .rules = rules,
+    .complete = complete,
+    .operand = "", .operand_min = 0, .operand_max = 0,
+    .summary = "what a depth bias does and how much is needed, per API",
+    .example = "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
+    "  depthprec bias --api all --separation 0.02 --at 300\n"
+    "  depthprec bias --api webgpu -F depth24plus --separation 0.01 --range 1:100\n"
+    "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n"};
+/* clang-format on */

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file request.h  A depth bias, and what bias is asked. */
+#ifndef BIAS_CMD_BIAS_REQUEST_H
+#define BIAS_CMD_BIAS_REQUEST_H
+
+#include "bias/bias.h"
+#include "camera/cmd/camera.h"
+#include "cli/output/output.h"
+
+typedef struct bias_asked {
+    const bias_api *api; /**< --api; null for several: those of `apis` */
+    unsigned apis;       /**< 1 << index of bias_api_get(), or-ed */
+    double units, factor;
+    double clamp;      /**< window depth; 0 is none */
+    double slope;      /**< scene units per pixel, not negative */
+    double separation; /**< scene units; 0 when not given */
+} bias_asked;
+
+extern const option_table bias_options;
+
+typedef struct bias_request {
+    asked_line *line;
+    camera_asked camera;
+    output_asked out;
+    bias_asked bias;
+} bias_request;
+
+/** The API of that index among those that are asked for; null behind the last. */
+const bias_api *bias_asked_api(const bias_asked *b, size_t index);
+
+/** The rule of the preset or platform, where --api was not given. @return as a parser does */
+int bias_complete(asked_line *line, const camera_asked *camera);
+
+#endif

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "camera/cmd/each_setup.h"
+
+#include <unistd.h>
+
+enum { DEFAULT_ROWS = 9 };
+
+/* The depths of set-up i. */
+static int resolve(each_setup *w, size_t i) {
+    w->here = camera_of(w->camera, w->all.cameras[i]);
+    return depths_resolve(w->here, w->rows > 0 ? w->rows : DEFAULT_ROWS, &w->at);
+}
+
+int each_setup_start(each_setup *w, const camera_asked *camera, const output_asked *how) {
+    w->camera = camera;
+    w->how = how;
+    int status = setups_make(camera, &w->all);
+    for (size_t i = w->all.count; i-- > 0 && status == EXIT_FINE;)
+        status = resolve(w, i);
+    return status;
+}
+
+int each_setup_write(each_setup *w, const report_spec *spec, int status) {
+    if (status == EXIT_FINE)
+        status = output_start(w->how, w->camera, &w->out);
+    if (status == EXIT_FINE) {
+        const bool silent = w->how->quiet || isatty(w->out.fd); /* rows on the same terminal are progress enough */
+        w->progress = progress_start("rows", (uint64_t)w->all.count * w->at.count, silent);
+        report_write(spec, &w->out, w->how->form);
+        progress_end(&w->progress);
+        status = output_close(&w->out);
+        if (status == EXIT_FINE && !w->how->quiet)
+            clipping_warn(&w->all);
+    }
+    setups_release(&w->all);
+    return status;
+}
+
+bool each_setup_go(each_setup *w, size_t i) {
+    if (i == w->all.count)
+        return false;
+    resolve(w, i);
+    w->setup = &w->all.items[i];
+    w->fields = setup_fields_of(w->setup, camera_unit(w->here));
+    w->fields.preset = w->camera->preset_count > 1 ? w->camera->presets[w->all.cameras[i]]->name : NULL;
+    return true;
+}
+
+bool each_setup_depth(each_setup *w, size_t i, double *z) {
+    if (i > 0)
+        progress_step(&w->progress, ++w->done);
+    if (i == w->at.count || output_failed(&w->out))
+        return false;
+    *z = depths_get(&w->at, i);
+    return true;
+}
+
+void each_setup_title(page *p, void *item) {
+    const each_setup *w = item;
+    setup_title(p, w->setup, &w->fields);
+}

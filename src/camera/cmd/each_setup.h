@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file each_setup.h  A report of depths, one after the other, in each set-up: what such commands share.
+ *
+ *     typedef struct table { each_setup each; row row; } table;  // `each` stands first
+ *     int status = each_setup_start(&t.each, &o->camera, &o->out);                 // set-ups and depths
+ *     each_setup_write(&t.each, &spec, status);                  // its lists ask each_setup_go(), each_setup_depth()
+ */
+#ifndef CAMERA_CMD_EACH_SETUP_H
+#define CAMERA_CMD_EACH_SETUP_H
+
+#include "camera/cmd/setups.h"
+#include "cli/output/output.h"
+#include "cli/progress.h"
+
+typedef struct each_setup {
+    const camera_asked *camera;
+    const output_asked *how;
+    size_t rows; /**< how many depths where --at names none; 0: nine */
+    setups all;
+    const camera_asked *here; /**< that of the set-up at hand, see camera_of() */
+    depths at;                /**< of the set-up at hand, before there is one of the first */
+    output out;
+    progress progress;
+    uint64_t done;
+    const dp_setup *setup; /**< the one at hand */
+    setup_fields fields;
+} each_setup;
+
+/** Resolves set-ups and depths. @return an exit status, after one line on stderr */
+int each_setup_start(each_setup *w, const camera_asked *camera, const output_asked *how);
+
+/**
+ * Writes the report where `status` is EXIT_FINE, says on stderr what binary32 clipping loses, and frees what
+ * each_setup_start() made in any case.
+ * @return an exit status
+ */
+int each_setup_write(each_setup *w, const report_spec *spec, int status);
+
+/** Goes to set-up i. @return false behind the last */
+bool each_setup_go(each_setup *w, size_t i);
+
+/** Goes to depth i, each in turn. @return false behind the last, and where nothing more can be written */
+bool each_setup_depth(each_setup *w, size_t i, double *z);
+
+/** Writes text above a set-up: for reports whose item begins with an each_setup. */
+void each_setup_title(page *p, void *item);
+
+#endif

@@ -1,0 +1,255 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "camera/cmd/setups.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/engine.h"
+#include "report/message.h"
+#include "report/number.h"
+
+/* Depth that a shader writes goes through no pipeline; where table is asked, what is counted of that shader is said. */
+static int refuse_float(const camera_asked *c, dp_mapping mapping) {
+    const dp_mapping_row *row = dp_mapping_get(mapping);
+    const bool counted = c->use.counted && row->curve == DP_CURVE_LOG;
+    if (option_given(c->line, "model"))
+        return option_error("model",
+                            "float is a pipeline's arithmetic, and a shader writes the depth of %s: leave it out%s, or "
+                            "take one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
+                            row->name, counted ? " ('guaranteed' counts that shader's log2)" : "");
+    return option_error("mapping",
+                        "must be one of " DP_MAPPING_NAMES_PERSPECTIVE
+                        ", which have a pipeline's arithmetic, got %s, whose depth a shader writes",
+                        row->name);
+}
+
+int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status) {
+    const char *mapping = dp_mapping_get(spec->mapping)->name;
+    if (status == DP_ERROR_MODEL) /* of the models that have a name, float alone is not for all */
+        return refuse_float(c, spec->mapping);
+    /* "--far: must be ..." rather than "--far: far must be ...". */
+    const char *text = dp_status_text(status);
+    if (strncmp(text, "far ", 4) == 0)
+        text += 4;
+    if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
+        return option_error(status == DP_ERROR_ORTHO ? "ortho" : "far", "%s, got %s, %s", text,
+                            spec->ortho ? "orthographic" : "perspective", mapping);
+    return option_error("far", "%s, got near %s, far %s", text, number_full(spec->znear).text,
+                        number_full(spec->zfar).text);
+}
+
+int setup_undrawn(const camera_asked *c, const dp_format *format) {
+    if (c->raster == NULL || raster_bounded(c->raster, format))
+        return EXIT_FINE;
+    return option_error("raster",
+                        "%s steps the codes of %s from pixel to pixel, which has no bound: name other formats with "
+                        "--format",
+                        c->raster->name, format->name);
+}
+
+/* Refuses what has no budget: terms that the shader of a logarithmic mapping does not have. */
+static int check_budget(const camera_asked *c, const dp_spec *spec) {
+    static const struct {
+        const char *id;
+        const char *why;
+    } others[] = {{"from-origin", "budget begins with eye depth"},
+                  {"linearize", "budget ends with the code"},
+                  {"viewport", "budget is of surfaces that face the camera"}};
+    static const char leave[] = "leave it out, or take one of " DP_MAPPING_NAMES_PERSPECTIVE;
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
+    if (row->curve == DP_CURVE_LINEAR)
+        return option_error("mapping",
+                            "a budget needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG
+                            ", got %s",
+                            row->name);
+    for (size_t i = 0; i < sizeof others / sizeof others[0] && row->curve == DP_CURVE_LOG; i++)
+        if (option_given(c->line, others[i].id))
+            return option_error(others[i].id, "does not apply to the logarithmic mapping %s, whose %s: %s", row->name,
+                                others[i].why, leave);
+    return EXIT_FINE;
+}
+
+int setup_decided(const camera_asked *c) {
+    if (c->platform == NULL || option_given(c->line, "format") || c->format_count < 2)
+        return EXIT_FINE;
+    return option_error("platform", "stores unorm24 or fp32 on %s, as the device has it: -F says for which",
+                        c->platform->name);
+}
+
+static int add_setups(const camera_asked *c, size_t camera, setups *out) {
+    dp_spec spec = {.znear = c->znear,
+                    .zfar = c->zfar,
+                    .ortho = c->ortho,
+                    .rounding = c->rounding,
+                    .model = c->model,
+                    .arith = c->arith,
+                    .log_c = c->log_c,
+                    .triangles = c->triangles};
+    for (size_t f = 0; f < c->format_count; f++)
+        for (size_t m = 0; m < c->mapping_count; m++) {
+            const bool rg = dp_format_is_rg(&c->formats[f]); /* linear, whatever the camera's buffer is */
+            if (rg && m > 0)
+                break;
+            spec.format = c->formats[f];
+            spec.mapping = rg ? DP_MAPPING_LINEAR : c->mappings[m];
+            const bool shader = dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG;
+            spec.model = c->budgeted && shader ? DP_MODEL_EXACT : c->model;
+            if (c->budgeted && check_budget(c, &spec) != EXIT_FINE)
+                return EXIT_USAGE;
+            if (camera_check_stored(c, &spec.format) != EXIT_FINE || setup_undrawn(c, &spec.format) != EXIT_FINE)
+                return EXIT_USAGE;
+            out->cameras[out->count] = camera;
+            const dp_status status = dp_setup_init(&out->items[out->count++], &spec);
+            if (status != DP_OK)
+                return setup_refused(c, &spec, status);
+        }
+    return EXIT_FINE;
+}
+
+bool setups_have_log(const setups *all) {
+    for (size_t i = 0; i < all->count; i++)
+        if (all->items[i].curve == DP_CURVE_LOG)
+            return true;
+    return false;
+}
+
+int setups_make(const camera_asked *c, setups *out) {
+    const size_t cameras = camera_count(c), most = cameras * CAMERA_FORMATS_MAX * DP_MAPPING_COUNT;
+    int status = EXIT_FINE;
+    *out = (setups){.items = malloc(most * sizeof *out->items), .cameras = malloc(most * sizeof *out->cameras)};
+    if (out->items == NULL || out->cameras == NULL)
+        status = usage_error("no memory for %zu set-ups", most);
+    for (size_t i = 0; i < cameras && status == EXIT_FINE; i++)
+        status = add_setups(camera_of(c, i), i, out);
+    if (status == EXIT_FINE && c->budgeted && option_given(c->line, "log2") && !setups_have_log(out))
+        status = option_error("log2", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
+    if (status == EXIT_FINE && option_given(c->line, "log-c") && !setups_have_log(out))
+        status = option_error("log-c", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
+    if (status != EXIT_FINE)
+        setups_release(out);
+    return status;
+}
+
+int setups_make_float(const camera_asked *c, setups *out) {
+    camera_asked in_float = *c;
+    in_float.model = DP_MODEL_FLOAT;
+    return setups_make(&in_float, out);
+}
+
+void setups_release(setups *s) {
+    free(s->items);
+    free(s->cameras);
+    *s = (setups){0};
+}
+
+const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
+                                {FIELD(setup_fields, zfar, "far", "scene")},
+                                {FIELD(setup_fields, projection, "projection", "")},
+                                {FIELD(setup_fields, mapping, "mapping", "")},
+                                {FIELD(setup_fields, format, "format", "")},
+                                {FIELD(setup_fields, rounding, "rounding", "")},
+                                {FIELD(setup_fields, model, "model", "")},
+                                {FIELD(setup_fields, arith, "arith", ""), .only = AS_JSON, .optional = true},
+                                {FIELD(setup_fields, log_c, "log_c", ""), .only = AS_JSON, .optional = true},
+                                {FIELD(setup_fields, unit, "unit", ""), .only = AS_JSON},
+                                {FIELD(setup_fields, preset, "preset", ""), .only = AS_JSON, .optional = true},
+                                {.kind = COLUMN_END}};
+
+dp_model setup_model(const dp_setup *setup) {
+    return dp_is_computed(setup) ? DP_MODEL_FLOAT : setup->spec.model;
+}
+
+void setup_fields_budget(const dp_setup *setup, setup_fields *fields) {
+    fields->model = dp_model_name(DP_MODEL_FLOAT);
+    fields->arith = dp_arith_get(setup->spec.arith)->name;
+}
+
+setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
+    const dp_spec *spec = &setup->spec;
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping); /* of alternatives the rest of the set-up may be open */
+    setup_fields f = {.znear = spec->znear,
+                      .zfar = spec->zfar,
+                      .log_c = row->curve == DP_CURVE_LOG && !row->log_over_near ? spec->log_c : (double)NAN,
+                      .projection = spec->ortho ? "orthographic" : "perspective",
+                      .mapping = dp_mapping_get(spec->mapping)->name,
+                      .format = spec->format.name,
+                      .rounding = dp_rounding_name(spec->rounding),
+                      .model = dp_model_name(spec->model),
+                      .unit = unit};
+    if (setup_model(setup) == DP_MODEL_FLOAT)
+        setup_fields_budget(setup, &f);
+    return f;
+}
+
+const char *setup_label_as(const dp_setup *setup, const setup_fields *f, char out[SETUP_LABEL_SIZE]) {
+    const bool has_log_c = !isnan(f->log_c), has_arith = f->arith != NULL; /* only the model float has one */
+    snprintf(out, SETUP_LABEL_SIZE, "%s %s%s%s, near %s, far %s, %s, %s, %s%s%s", f->format, f->mapping,
+             has_log_c ? " C " : "", has_log_c ? number_full(f->log_c).text : "", number_full(f->znear).text,
+             number_full(f->zfar).text, f->projection, f->rounding,
+             option_word("model", has_arith ? DP_MODEL_FLOAT : setup->spec.model), has_arith ? " " : "",
+             has_arith ? f->arith : "");
+    return out;
+}
+
+const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]) {
+    const setup_fields f = setup_fields_of(setup, NULL);
+    if (full)
+        return setup_label_as(setup, &f, out);
+    snprintf(out, SETUP_LABEL_SIZE, "%s %s", f.format, f.mapping);
+    return out;
+}
+
+void setup_title(page *p, const dp_setup *setup, const setup_fields *fields) {
+    char label[SETUP_LABEL_SIZE];
+    const char *engine = fields->preset, *unit = fields->unit;
+    p->unit = unit;
+    page_title(p, "%s%s%s%s%s", engine != NULL ? engine : "", engine != NULL ? ": " : "",
+               setup_label_as(setup, fields, label), unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
+}
+
+void setup_say_code(page *p, const dp_spec *spec) {
+    const dp_mapping_row *mapping = dp_mapping_get(spec->mapping);
+    if (mapping->curve == DP_CURVE_PERSPECTIVE && !spec->ortho)
+        page_note(p, "code", "depthprec code -n %s -f %s -m %s", number_full(spec->znear).text,
+                  number_full(spec->zfar).text, mapping->name);
+}
+
+void setups_say_rg(page *p, const dp_setup *some, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (dp_format_is_rg(&some[i].spec.format)) {
+            page_text(
+                p, "rg is depth of Unity's DepthNormals, eye depth over far. Far itself becomes 0 by frac, and reads "
+                   "as the camera.");
+            return;
+        }
+}
+
+clipping clipping_of(const dp_setup *setup) {
+    dp_pipeline p;
+    float znear;
+    float zfar;
+    if (setup->spec.model != DP_MODEL_FLOAT || dp_pipeline_init(&p, setup) != DP_OK)
+        return (clipping){(double)NAN, (double)NAN, false};
+    dp_pipeline_planes(&p, &znear, &zfar);
+    return (clipping){(double)znear, (double)zfar, !(znear == p.znear && zfar == p.zfar)};
+}
+
+void clipping_say(const dp_setup *setup, double znear, double zfar, const char *rest) {
+    char label[SETUP_LABEL_SIZE];
+    setup_label(setup, false, label);
+    if (isnan(znear))
+        message("depthprec: warning: %s: clipping in binary32 removes everything", label);
+    else
+        message("depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s", label, number_of(znear, 9).text,
+                number_of(zfar, 9).text, rest);
+}
+
+void clipping_warn(const setups *all) {
+    for (size_t i = 0; i < all->count; i++) {
+        const clipping c = clipping_of(&all->items[i]);
+        if (c.loses)
+            clipping_say(&all->items[i], c.znear, c.zfar, "");
+    }
+}

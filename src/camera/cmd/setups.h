@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file setups.h  From options to set-ups: every format with every mapping, checked, named, and clipped. */
+#ifndef CAMERA_CMD_SETUPS_H
+#define CAMERA_CMD_SETUPS_H
+
+#include <stddef.h>
+
+#include "camera/cmd/camera.h"
+#include "report/report.h"
+
+typedef struct setups {
+    dp_setup *items;
+    size_t *cameras; /**< the camera of each, see camera_of() */
+    size_t count;
+} setups;
+
+/**
+ * Expands formats x mappings of each camera, format-major in the order given (fp16 d3d, fp16 reversed, fp32 d3d, ...),
+ * and checks each with dp_setup_init(); where only budgets are asked for, those of logarithmic mappings are in the
+ * model exact, for they have no codes in binary32. depth24plus stands for two formats, so it gives two set-ups per
+ * mapping.
+ *
+ * @return EXIT_FINE, or EXIT_USAGE after one line on stderr that names the option at fault
+ */
+int setups_make(const camera_asked *c, setups *out);
+
+/** The same in the model float, whatever --model is. */
+int setups_make_float(const camera_asked *c, setups *out);
+
+void setups_release(setups *s);
+
+/** Whether one of them has a logarithmic mapping. */
+bool setups_have_log(const setups *all);
+
+/** Says why a set-up cannot be made, by the option at fault; near and the like are in their ranges. @return EXIT_USAGE
+ */
+int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status);
+
+/** The same where the rasterizer that was named draws a format without a bound. @return EXIT_FINE or EXIT_USAGE */
+int setup_undrawn(const camera_asked *c, const dp_format *format);
+
+/**
+ * Refuses a platform that stores one of two formats, as the device has it, where neither was named and one is wanted.
+ * @return EXIT_FINE or EXIT_USAGE
+ */
+int setup_decided(const camera_asked *c);
+
+/** The room that setup_label() needs, with the terminating null. */
+enum { SETUP_LABEL_SIZE = 160 };
+
+/**
+ * One line about a set-up for legends and headers, "unorm24 d3d", and, where `full`, the rest as well:
+ * "unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact". @return out
+ */
+const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]);
+
+/**
+ * The fields that name a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON
+ * `arith` follows where the model is float, `log_c` where the mapping is log, and the unit, null where nothing says it.
+ */
+typedef struct setup_fields {
+    double znear, zfar, log_c; /**< log_c is NaN unless the mapping is log */
+    const char *projection, *mapping, *format, *rounding, *model;
+    const char *arith;  /**< null unless the model is float */
+    const char *unit;   /**< what a scene unit is; null where nothing says it */
+    const char *preset; /**< null where there are not several */
+} setup_fields;
+
+extern const column setup_columns[];
+
+/** Points into the set-up, which must stay where it is. The unit is that of its lengths, or null. */
+setup_fields setup_fields_of(const dp_setup *setup, const char *unit);
+
+/** The model of its separations: a shader's are in binary32, too. */
+dp_model setup_model(const dp_setup *setup);
+
+/** The same of a budget: that of a logarithmic mapping is of binary32 arithmetic, too, though it has no codes there. */
+void setup_fields_budget(const dp_setup *setup, setup_fields *fields);
+
+/** The label as such fields have model and arithmetic. @return out */
+const char *setup_label_as(const dp_setup *setup, const setup_fields *fields, char out[SETUP_LABEL_SIZE]);
+
+/** Writes a set-up's label and unit, which is that of the page from here on. */
+void setup_title(page *p, const dp_setup *setup, const setup_fields *fields);
+
+/** The line that prints the code of a camera; nothing of one without a projection matrix, or orthographic. */
+void setup_say_code(page *p, const dp_spec *spec);
+
+/** Explains rg, where a set-up has it. */
+void setups_say_rg(page *p, const dp_setup *some, size_t count);
+
+/** The depths between the planes that binary32 clipping draws. */
+typedef struct clipping {
+    double znear, zfar; /**< the effective planes; both NaN when nothing is drawn, or there is no pipeline */
+    bool loses;         /**< depths that binary32 has between the planes are not drawn */
+} clipping;
+
+/** The clipping of a set-up of the model float; NaN and false for the others. */
+clipping clipping_of(const dp_setup *setup);
+
+/** A line on stderr: what clipping keeps, these planes and `rest` behind them, or nothing where znear is NaN. */
+void clipping_say(const dp_setup *setup, double znear, double zfar, const char *rest);
+
+/** The same for each set-up that loses geometry. */
+void clipping_warn(const setups *all);
+
+#endif

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file slant.h  How reports name slanted triangles. */
+#ifndef CAMERA_CMD_SLANT_H
+#define CAMERA_CMD_SLANT_H
+
+#include "camera/cmd/camera.h"
+#include "report/number.h"
+#include "report/report.h"
+
+/** Triangles and rasterizer as JSON has them. */
+typedef struct slant_fields {
+    dp_triangles triangles;
+    const char *raster; /**< null when none was named */
+    const char *arith;
+} slant_fields;
+
+extern const column slant_columns[];
+
+/** The surfaces for which a guarantee holds: "any slant", "87 degrees". */
+number_text slant_words(const dp_triangles *t);
+
+/** Fills `out` from options that have a viewport. @return out; null without one */
+const slant_fields *slant_fields_of(const camera_asked *c, slant_fields *out);
+
+/** page_title() or page_line(). */
+typedef void slant_line(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/**
+ * Writes text above a set-up, or above several where it is null: view, grid and class, or why there is no guarantee;
+ * nothing without a viewport.
+ */
+void slant_say(page *p, slant_line *line, const camera_asked *c, const dp_setup *setup);
+
+#endif

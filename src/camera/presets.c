@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "camera/presets.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#define CHECKED "2026-11-21"
+
+/* clang-format off */
+static const preset rows[] = {
+    {"unity", NULL, "Direct3D, Metal, Vulkan and consoles; 16-bit and D24 on devices without D32",
+     "Unity manual, SL-PlatformDifferences (direction) and URP 14 UniversalRenderer (D32_SFloat_S8_UInt); near, far "
+     "and fov as scene files write them",
+     0.3, 1000.0, DP_MAPPING_REVERSED, "fp32", "m", 60, PRESET_VERTICAL, "spec-vulkan", "d3d11", "near, far, fov",
+     CHECKED},
+    {"unity-gl", NULL, "OpenGL and OpenGL ES: not reversed, NDC depth in [-1, 1]",
+     "Unity manual, SL-PlatformDifferences: \"other platforms: traditional direction\"",
+     0.3, 1000.0, DP_MAPPING_GL, "unorm24", "m", 60, PRESET_VERTICAL, "spec-gl", "gl", "near, far, format, fov",
+     CHECKED},
+    {"unreal", NULL, "scene units are centimetres: near is 10 cm; NearClipPlane in DefaultEngine.ini replaces it",
+     "GNearClippingPlane in CoreGlobals.cpp, as others quote it: the engine's source is not public",
+     10.0, (double)INFINITY, DP_MAPPING_REVERSED, "fp32", "cm", 90, PRESET_HORIZONTAL, "spec-vulkan", "d3d11",
+     "near, far, mapping, format, fov", CHECKED},
+    {"godot-forward", NULL, "Forward+ since 4.3: prefers D32_SFLOAT_S8_UINT",
+     "Camera3D class reference; RenderSceneBuffersRD::get_depth_format; godotengine.org/article/introducing-reverse-z",
+     0.05, 4000.0, DP_MAPPING_REVERSED, "fp32", "m", 75, PRESET_VERTICAL, "spec-vulkan", "vulkan", "", CHECKED},
+    {"godot-mobile", NULL,
+     "the mobile renderer prefers D24_UNORM_S8_UINT, where reversing gains nothing in the lattice",
+     "Camera3D class reference; RenderSceneBuffersRD::get_depth_format with p_storage false",
+     0.05, 4000.0, DP_MAPPING_REVERSED, "unorm24", "m", 75, PRESET_VERTICAL, "spec-vulkan", "vulkan", "", CHECKED},
+    {"three", NULL,
+     "WebGLRenderer; logarithmicDepthBuffer and reversedDepthBuffer are options, and names for --mapping; browsers "
+     "give the canvas 24 bits",
+     "three.js, src/cameras/PerspectiveCamera.js; mrdoob/three.js#30941 (the canvas default is integer)",
+     0.1, 2000.0, DP_MAPPING_GL, "unorm24", "units", 50, PRESET_VERTICAL, "spec-gl", "three", "format", CHECKED},
+    {"three-webgpu", NULL,
+     "WebGPURenderer; depth24plus is unorm24 or fp32 as the browser chooses; reversedDepthBuffer is an option and "
+     "takes depth32float", "three.js, src/cameras/PerspectiveCamera.js; mrdoob/three.js#32967, #33184",
+     0.1, 2000.0, DP_MAPPING_D3D, "depth24plus", "units", 50, PRESET_VERTICAL, "spec-vulkan", "webgpu", "", CHECKED},
+    {"bevy", NULL, "infinite reversed projection; the camera's far of 1000 only culls",
+     "bevy_camera/src/projection.rs (perspective_infinite_reverse_rh); CORE_3D_DEPTH_FORMAT",
+     0.1, (double)INFINITY, DP_MAPPING_REVERSED, "fp32", "m", 45, PRESET_VERTICAL, "spec-vulkan", "webgpu", "",
+     CHECKED},
+    {"cesium", NULL, "logarithmic depth, written per fragment; ratios beyond 1e9 take several frusta",
+     "CesiumJS, PerspectiveFrustum.js (near, far), Camera.js (fov, of the larger side), writeLogDepth.glsl",
+     1.0, 5e8, DP_MAPPING_CESIUM, "unorm24", "m", 60, PRESET_LARGER, "spec-gl", "gl", "format", CHECKED},
+    {"mujoco", NULL, "one scene unit is the model's extent: multiply by it; offscreen buffers",
+     "MuJoCo, mjVisual.map (znear, zfar), mj_defaultVisual (fovy); google-deepmind/mujoco#978 (reversed, 32-bit float)",
+     0.01, 50.0, DP_MAPPING_REVERSED, "fp32", "extents", 45, PRESET_VERTICAL, "spec-gl", "gl", "near, far", CHECKED},
+};
+/* clang-format on */
+
+double preset_fov_y(const preset *p, int width, int height) {
+    const bool vertical = p->axis == PRESET_VERTICAL || (p->axis == PRESET_LARGER && width <= height);
+    return vertical ? p->fov : dp_fov_vertical(p->fov, width, height);
+}
+
+NAMED_TABLE(preset, rows);

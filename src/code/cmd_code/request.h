@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file request.h  What code is asked. */
+#ifndef CODE_CMD_CODE_REQUEST_H
+#define CODE_CMD_CODE_REQUEST_H
+
+#include "camera/cmd/camera.h"
+#include "cli/output/output.h"
+#include "code/language.h"
+
+typedef struct code_request {
+    asked_line *line;
+    camera_asked camera;
+    output_asked out;
+    const code_language *language;
+    unsigned what; /**< linearize, projection: in the order of the names */
+    bool uniforms;
+} code_request;
+
+extern const option_table code_options;
+
+#endif

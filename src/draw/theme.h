@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file theme.h  Colours and strokes. Curves take the colour-blind safe palette of Okabe and Ito with dashes and
+ * markers as second cue; maps take viridis. A theme orders the palette so that its weakest colours come last.
+ */
+#ifndef DRAW_THEME_H
+#define DRAW_THEME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "draw/canvas.h"
+
+enum { THEME_COLOURS = 8, THEME_STROKES = 6, THEME_MARKERS = 6 };
+
+typedef struct theme {
+    const char *name;
+    canvas_colour background;
+    canvas_colour text;
+    canvas_colour faint; /**< subtitles, tick labels */
+    canvas_colour frame; /**< axes and ticks */
+    canvas_colour grid;  /**< major grid lines */
+    canvas_colour empty; /**< where a map has no value */
+    double line_width;   /**< px at the default size */
+    canvas_colour curves[THEME_COLOURS];
+} theme;
+
+/** Themes by index: light, dark, print; null beyond. The order is that of the option --theme. */
+const theme *theme_get(size_t index);
+
+/** Colour `colour` of the palette, taken modulo what there is; -1 is that of the text. */
+canvas_colour theme_colour(const theme *t, int colour);
+
+/** A pen for curve `colour` with stroke style `stroke` (0 is solid), taken modulo what there is. */
+canvas_pen theme_pen(const theme *t, int colour, int stroke, double scale);
+
+/** viridis: 0 is dark violet, 1 yellow; outside it is clamped. */
+canvas_colour theme_viridis(double t);
+
+/**
+ * Draws marker `marker` (disc, square, diamond, triangle, ...) at a point.
+ * @param colour  of the palette; -1 is that of the text
+ * @param hollow  only the rim has the colour
+ */
+void theme_marker(canvas *c, const theme *t, double x, double y, int marker, int colour, bool hollow, double scale);
+
+/** 0xAARRGGBB of an opaque colour. */
+uint32_t theme_pixel(canvas_colour colour);
+
+#endif

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "method/cmd_methods/methods.h"
+#include "judge/cmd_judge/request.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "cli/list.h"
+#include "core/append.h"
+#include "method/choose.h"
+
+/* The lattice and the pipeline are two questions, each with its choice. */
+void list_method_choice(size_t index, double tolerance, char chosen[LIST_TEXT_SIZE]) {
+    const method_row *row = method_get(index);
+    const method_family_row *family = method_family_get(row->family);
+    const double ratio = 1000.0 / 0.1;
+    const method_wish wish = {
+        .tolerance = tolerance, .ratio_lo = ratio, .ratio_hi = ratio, .pipeline = (row->domain & METHOD_PIPELINE) != 0};
+    chosen[0] = '\0';
+    for (size_t i = 0; i < family->case_count; i++)
+        if (method_choose(family, i, &wish) == row)
+            append(chosen, LIST_TEXT_SIZE, "%s%s", *chosen != '\0' ? ", " : "", family->cases[i].name);
+}
+
+static bool wanted(const judge_request *o, const method_case *c) {
+    dp_format format[2];
+    bool formatted = !option_given(o->line, "format"), mapped = !option_given(o->line, "mapping");
+    dp_format_parse(c->format, format);
+    for (size_t i = 0; i < o->camera.format_count; i++)
+        formatted = formatted || strcmp(o->camera.formats[i].name, format[0].name) == 0;
+    for (size_t i = 0; i < o->camera.mapping_count; i++)
+        mapped = mapped || o->camera.mappings[i] == c->mapping;
+    return formatted && mapped;
+}
+
+int methods_resolve(const judge_request *o, const method_family_row *family, methods_asked *out) {
+    if (o->judge.mine_count > 0 && family != &linearize_family)
+        return option_error("mine", "is for the family linearize, got %s", family->name);
+    out->family = family;
+    char all[NAMES_SIZE] = "";
+    for (size_t i = 0; i < out->family->case_count; i++) {
+        if (wanted(o, &out->family->cases[i])) {
+            out->which = i;
+            dp_status wrong = method_setup(out->family, i, o->camera.znear, o->camera.zfar, false, &out->setup);
+            if (wrong != DP_OK)
+                return option_error(wrong == DP_ERROR_NEAR ? "near" : "far", "%s", dp_status_text(wrong));
+            return EXIT_FINE;
+        }
+        append(all, sizeof all, "%s%s", i > 0 ? ", " : "", out->family->cases[i].name);
+    }
+    return option_error(option_given(o->line, "format") ? "format" : "mapping", "the family %s covers only %s",
+                        out->family->name, all);
+}
+
+const char *methods_machine(char *out, size_t size) {
+    char line[256], name[128] = "unknown processor";
+    FILE *f = fopen("/proc/cpuinfo", "r");
+    while (f != NULL && fgets(line, sizeof line, f) != NULL)
+        if (strncmp(line, "model name", 10) == 0 && strchr(line, ':') != NULL) {
+            snprintf(name, sizeof name, "%s", strchr(line, ':') + 2);
+            name[strcspn(name, "\n")] = '\0';
+            break;
+        }
+    if (f != NULL)
+        fclose(f);
+    const char *epoch = getenv("SOURCE_DATE_EPOCH");
+    time_t now = epoch != NULL ? (time_t)strtoll(epoch, NULL, 10) : time(NULL);
+    struct tm day;
+    char date[32] = "";
+    if (gmtime_r(&now, &day) != NULL)
+        strftime(date, sizeof date, ", %Y-%m-%d", &day);
+    snprintf(out, size, "%s%s", name, date);
+    return out;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The command methods and its options. */
+#include "cli/list.h"
+#include "cli/option/kinds.h"
+#include "method/cmd_methods/request.h"
+#include "report/output.h"
+
+static const name_list families = {.get = list_family};
+
+/* clang-format off */
+static const option_use uses[] = {
+    GROUP_OF(judge_mine),
+    OWN("format", WITHOUT("that of the family's first case")),
+    OWN("mapping", WITHOUT("that of the family's first case")),
+    OWN("unit", HELP("the length of a scene unit; any length can have a unit: 10cm"),
+        WITHOUT("m where a length has a unit")),
+    OWN("tolerance", HELP("mark the cheapest method whose bound is at most 0.05, or 5%"), WITHOUT("none")),
+    OWN("full", HELP("all columns, however wide; and methods that another beats in both speed and accuracy")),
+    GROUP_OF(camera_planes), GROUP_OF(output_written), END};
+/* clang-format on */
+
+/* clang-format off */
+static const option_rule rules[] = {
+    NEEDS("define", "mine", ", a function of yours"),
+    NEEDS("device", "mine", ", a function of yours"),
+    {.option = NULL}};
+/* clang-format on */
+
+static const option_place places[] = {CAMERA_PLACES(methods_request, camera),
+                                      PLACE(methods_request, out, output_options),
+                                      PLACE(methods_request, judge, judge_options),
+                                      {.table = NULL}};
+
+static int complete(void *request) {
+    methods_request *o = request;
+    return camera_complete(&o->camera, &(camera_use){0});
+}
+
+/* clang-format off */
+const command_row command_methods = {
+    .name = "methods", .request = sizeof(methods_request), .places = places, .uses = uses, .rules = rules,
+    .complete = complete,
+    .operand = "FAMILY", .operand_min = 0, .operand_max = 1, .names = &families,
+    .summary = "methods compared: time, worst error, where each fails",
+    .example = "  depthprec methods\n"
+    "  depthprec methods linearize -n 0.1 -f 1000\n"
+    "  depthprec methods interval -F fp32 -m reversed --tolerance 1e-6\n"
+    "  depthprec plot pareto linearize -o pareto.svg\n"
+    "  depthprec plot stability interval -o stability.svg\n",
+    .group = "Methods and hardware"};
+/* clang-format on */

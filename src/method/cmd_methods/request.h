@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file request.h  What methods is asked. */
+#ifndef METHOD_CMD_METHODS_REQUEST_H
+#define METHOD_CMD_METHODS_REQUEST_H
+
+#include "camera/cmd/camera.h"
+#include "cli/output/output.h"
+#include "judge/cmd_judge/request.h"
+
+/** As judge does, it takes functions of somebody's. */
+typedef judge_request methods_request;
+
+#endif

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+
+#include "core/elementary.h"
+#include "draw/notes.h"
+#include "plot/figure.h"
+
+/* A log axis has no 0: what is exact is drawn here, and the legend says so. */
+static const double exact = 1e-17;
+
+/* Bits for a method's kind. Those judged by the pipeline answer a question of their own. */
+enum { FRONT = 1, PIPELINE = 2, MINE = 4 };
+
+/* A method that has a time and a finite error. */
+typedef struct timed {
+    const bench_result *of;
+    double error;
+    int is;
+} timed;
+
+typedef struct field {
+    size_t count;
+    timed methods[BENCH_METHODS_MAX];
+    chart_extent time, error;
+} field;
+
+static field gather(const method_family_row *family, const bench_result *results, size_t count) {
+    field f = {.time = {INFINITY, 0}, .error = {INFINITY, 0}};
+    for (size_t i = 0; i < count; i++) {
+        const bench_result *r = &results[i];
+        const double error = measured_error(family, &r->measured);
+        const int is = (r->front ? FRONT : 0) | (r->row->asked > 0 ? MINE : 0) |
+                       ((r->row->domain & METHOD_PIPELINE) != 0 ? PIPELINE : 0);
+        if (!isfinite(error) || !isfinite(r->ns) || !(r->ns > 0))
+            continue;
+        f.methods[f.count++] = (timed){r, error, is};
+        f.time = (chart_extent){fmin(f.time.lo, r->ns), fmax(f.time.hi, r->ns)};
+        f.error = (chart_extent){fmin(f.error.lo, fmax(error, exact)), fmax(f.error.hi, error)};
+        if (isfinite(r->bound))
+            f.error.hi = fmax(f.error.hi, r->bound);
+    }
+    return f;
+}
+
+/* Those of which `bits` are `set`, along a line the fastest first; null where there are none, or a line has but one. */
+static chart_series *add_methods(const field *f, chart *out, chart_panel *panel, chart_kind kind, int bits, int set) {
+    size_t count = 0;
+    for (size_t i = 0; i < f->count; i++)
+        count += (f->methods[i].is & bits) == set;
+    chart_series *s = count > (kind == CHART_LINE ? 1u : 0u) ? chart_add_series(out, panel, kind, count) : NULL;
+    for (size_t i = 0, k = 0; i < f->count && s != NULL; i++) {
+        const timed *t = &f->methods[i];
+        if ((t->is & bits) != set)
+            continue;
+        size_t at = k++;
+        for (; kind == CHART_LINE && at > 0 && s->x[at - 1] > t->of->ns; at--) {
+            s->x[at] = s->x[at - 1];
+            s->y[at] = s->y[at - 1];
+        }
+        s->x[at] = t->of->ns;
+        s->y[at] = fmax(t->error, exact);
+        if (t->error < exact)
+            snprintf(s->note, sizeof s->note, " (without error: at 10\u207b\u00b9\u2077)");
+    }
+    return s;
+}
+
+static void add_front(const field *f, chart *out, chart_panel *panel, int pipeline) {
+    chart_series *s = add_methods(f, out, panel, CHART_LINE, FRONT | PIPELINE, FRONT | pipeline);
+    if (s == NULL)
+        return;
+    s->unlisted = true;
+    s->style = (chart_style){0, 0, -1, true};
+    snprintf(s->name, sizeof s->name, "front");
+}
+
+/* Adds a bar for each method from the worst error found to the proven one. */
+static void add_bars(const field *f, chart *out, chart_panel *panel) {
+    size_t count = 0;
+    for (size_t i = 0; i < f->count; i++)
+        count += isfinite(f->methods[i].of->bound) ? 1 : 0;
+    chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_BARS, 2 * count) : NULL;
+    if (s == NULL)
+        return;
+    s->style = (chart_style){2, 0, -1, false};
+    snprintf(s->name, sizeof s->name, "from the worst found to the bound");
+    for (size_t i = 0, k = 0; i < f->count; i++) {
+        const timed *t = &f->methods[i];
+        if (!isfinite(t->of->bound))
+            continue;
+        s->x[k] = s->x[k + 1] = t->of->ns;
+        s->y[k++] = fmax(t->error, exact);
+        s->y[k++] = t->of->bound;
+    }
+}
+
+/* Adds a set of methods as points: our own on the front, our own behind it, or a user's. */
+static void add_points(const field *f, chart *out, chart_panel *panel, int bits, int set) {
+    chart_series *s = add_methods(f, out, panel, CHART_POINTS, bits, set);
+    if (s == NULL)
+        return;
+    s->style = set == MINE    ? (chart_style){3, 2, 2, true}
+               : set == FRONT ? (chart_style){0, 0, 0, false}
+                              : (chart_style){1, 1, 1, false};
+    snprintf(s->name, sizeof s->name, "%s", set == MINE ? "yours" : set == FRONT ? "on the Pareto front" : "dominated");
+    s->labels = chart_memory(out, s->count, sizeof *s->labels);
+    for (size_t i = 0, k = 0; i < f->count && s->labels != NULL; i++) {
+        const timed *t = &f->methods[i];
+        if ((t->is & bits) == set)
+            snprintf(s->labels[k++], sizeof *s->labels, "%s%s", t->of->row->name,
+                     t->is & PIPELINE ? " (pipeline)" : "");
+    }
+}
+
+/* Whole decades round the data, 1, 2 or 5 of one where they span less, with room for the names. */
+static void fit(chart_axis *axis, chart_extent e) {
+    const double lo = dp_pow(10, floor(dp_log10(e.lo) - 0.1)), hi = dp_pow(10, ceil(dp_log10(fmax(e.lo, e.hi)) + 0.1));
+    axis->lo = lo;
+    axis->hi = hi;
+    for (int part = 2; part <= 5 && e.hi < 10 * e.lo; part += 3) {
+        axis->lo = 1.25 * part * lo <= e.lo ? part * lo : axis->lo;
+        axis->hi = hi / part >= 1.25 * e.hi ? hi / part : axis->hi;
+    }
+}
+
+const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out) {
+    const field f = gather(family, results, count);
+    chart_panel *panel = chart_add_panel(out);
+    if (f.count == 0)
+        return "no method of this family has a time and a finite error here";
+    panel->x = (chart_axis){.scale = CHART_LOG, .label = "time per element", .key = "time", .unit = "ns"};
+    panel->y = (chart_axis){.scale = CHART_LOG, .label = "worst error", .key = "error", .unit = family->measure};
+    add_front(&f, out, panel, 0);
+    add_front(&f, out, panel, PIPELINE);
+    add_bars(&f, out, panel);
+    add_points(&f, out, panel, FRONT | MINE, 0);
+    add_points(&f, out, panel, FRONT | MINE, FRONT);
+    add_points(&f, out, panel, MINE, MINE);
+    fit(&panel->x, f.time);
+    fit(&panel->y, f.error);
+    return NULL;
+}
+
+const char *pareto_build(const figure_request *request, chart *out) {
+    const method_family_row *family = request->family;
+    const dp_spec *planes = &request->setups[0].spec;
+    char subtitle[2 * CHART_TEXT];
+    dp_setup setup;
+    bench_result *results = chart_memory(out, BENCH_METHODS_MAX, sizeof *results);
+    if (results == NULL || method_setup(family, request->which, planes->znear, planes->zfar, false, &setup) != DP_OK)
+        return NULL;
+    snprintf(subtitle, sizeof subtitle, "%s: %s; %s, %s", family->name, family->summary,
+             family->cases[request->which].name, request->where);
+    notes_clean(out->subtitle, sizeof out->subtitle, subtitle);
+    const size_t count = bench_run(family, request->which, &setup, BENCH_REPETITIONS, results);
+    return count > 0 ? pareto_draw(family, results, count, out) : "no memory for the methods";
+}

@@ -1,0 +1,537 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* plot: a figure, drawn (SVG, PDF, PNG by the ending of -o) or as its numbers (--csv, --json). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "camera/cmd/raster_setups.h"
+#include "camera/unit.h"
+#include "cli/list.h"
+#include "core/append.h"
+#include "draw/notes.h"
+#include "method/cmd_methods/methods.h"
+#include "method/cmd_methods/mine.h"
+#include "plot/cmd_plot/figure_data.h"
+#include "plot/cmd_plot/figure_file.h"
+#include "plot/cmd_plot/request.h"
+#include "plot/figure.h"
+#include "quantity/cmd/choice.h"
+#include "report/message.h"
+#include "report/number.h"
+#include "scene/cmd_scene/drawing.h"
+#include "shadow/cmd_shadow/maps.h"
+#include "solve/cmd_check/check_report.h"
+
+enum { WIDTH = 800, HEIGHT = 500 };
+
+/* Depths that a figure waits for, about a quarter of a second a set-up. */
+static const uint64_t census_depths = UINT64_C(1) << 28;
+
+typedef struct plotting {
+    const plot_request *o;
+    const figure_row *row;
+    figure_request request;
+    setups all;
+    const char *names[CHART_SETUPS];
+    char text[CHART_SETUPS][SETUP_LABEL_SIZE];
+    methods_asked asked;
+    char where[2 * SHADER_TEXT_SIZE]; /* of what is timed */
+    judge_request judge;              /* what their methods, */
+    scene_request scene;              /* a model, */
+    shadow_request shadow;            /* and shadow maps are asked */
+    mine *mine;                       /* null: none is given */
+    need_file file;
+    shadow_maps maps;
+    scene model;
+    fights_asked fights;
+    chart *chart;
+    struct plotting *beside; /* another camera's curves in the same figure; else null */
+} plotting;
+
+static plotting plotting_of(const plot_request *o) {
+    const figure_request request = {.lo = NAN,
+                                    .hi = NAN,
+                                    .at = NAN,
+                                    .terms = o->origin.terms,
+                                    .tolerance = option_given(o->line, "tolerance") ? o->camera.tolerance : (double)NAN,
+                                    .every = o->out.form == FORM_CSV && !figure_file_wanted(o->line, &o->out),
+                                    .census = census_depths,
+                                    .columns = o->figure.width > 0 ? o->figure.width : WIDTH,
+                                    .rows = o->figure.height > 0 ? o->figure.height : HEIGHT,
+                                    .far_count = o->camera.far_count,
+                                    .fars = o->camera.fars};
+    scene_asked scene_of = o->scene;
+    scene_of.angle = o->shadow.angle; /* as this is */
+    return (plotting){
+        .o = o,
+        .row = o->line->operand_row,
+        .request = request,
+        .judge = {.line = o->line, .camera = o->camera, .out = o->out, .judge = o->judge},
+        .scene = {.line = o->line, .camera = o->camera, .out = o->out, .scene = scene_of, .bias = o->bias},
+        .shadow = {.line = o->line, .camera = o->camera, .out = o->out, .shadow = o->shadow, .bias = o->bias},
+        .chart = chart_new()};
+}
+
+/* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
+static int resolve_depths(plotting *p) {
+    const plot_request *o = p->o;
+    if (option_given(o->line, "at")) {
+        if (o->camera.at.count != 1)
+            return option_error("at", "must be one depth in the figure %s, got %zu", p->row->name, o->camera.at.count);
+        p->request.at = o->camera.at.lo;
+    }
+    if (!option_given(o->line, "range"))
+        return EXIT_FINE;
+    p->request.lo = o->camera.range_lo;
+    p->request.hi = o->camera.range_hi;
+    return p->all.count > 0 ? range_resolve(&o->camera, &p->request.lo, &p->request.hi) : EXIT_FINE;
+}
+
+/* A file is for the figures that show requirements or a model. */
+static int check_file_given(const plot_request *o, const figure_row *row) {
+    if ((row->takes & FIGURE_MODEL) != 0)
+        return o->line->operand_count > 1 ? EXIT_FINE
+                                          : usage_error("plot %s: needs MODEL, a file as of scene", row->name);
+    if ((row->takes & FIGURE_FILE) == 0)
+        return o->line->operand_count == 1 || row->family != NULL
+                   ? EXIT_FINE
+                   : usage_error("plot %s: takes no file, got '%s'", row->name, o->line->operands[1]);
+    return o->line->operand_count == 2
+               ? EXIT_FINE
+               : usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
+}
+
+/* Options that this figure has no use for. */
+static int check_options(const plot_request *o, const figure_row *row) {
+    if (o->camera.znear <= 0.0 && (row->takes & FIGURE_SIGNED) == 0)
+        return option_error("near", "must be greater than 0 in the figure %s, got '%s'", row->name,
+                            number_full(o->camera.znear).text);
+    if (option_given(o->line, "composition") && !(o->origin.terms.world > 0.0))
+        return option_error("composition", "needs --from-origin: eye depth is given");
+    if (option_given(o->line, "model") && (row->takes & FIGURE_BINARY32) != 0 && o->camera.model != DP_MODEL_FLOAT)
+        return option_error("model", "must be float in the figure %s, got '%s'", row->name,
+                            option_word("model", o->camera.model_auto ? DP_MODEL_COUNT : o->camera.model));
+    if (option_given(o->line, "viewport") && (row->takes & FIGURE_SLANTED) != 0 && option_given(o->line, "model") &&
+        o->camera.model != DP_MODEL_FLOAT)
+        return option_error("viewport", "needs --model float in the figure %s", row->name);
+    if (!isnan(o->camera.azimuth) && (row->takes & FIGURE_DRAWN) == 0)
+        return option_error("slant", "must be LO:HI in the figure %s, got '%s'", row->name,
+                            option_text(o->line, "slant"));
+    if (option_given(o->line, "tolerance") && !o->camera.model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
+        return option_error("tolerance", "needs --model auto in the figure %s", row->name);
+    return EXIT_FINE;
+}
+
+/* --model auto: what is enough over the whole range that the figure shows. Then curves of a quantity that only cells
+ * have are refused where there are none. */
+static int choose_models(plotting *p) {
+    enum { CHOICE_DEPTHS = 257 };
+    double lo, hi;
+    figure_range(&p->request, &lo, &hi);
+    const depths at = {.kind = DEPTHS_LOG, .lo = lo, .hi = hi, .count = CHOICE_DEPTHS};
+    for (size_t i = 0; i < p->all.count; i++)
+        setup_choose(&p->o->camera, &at, &p->all.items[i]);
+    for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FLOAT) == 0 && !p->request.guaranteed; i++)
+        if (p->all.items[i].spec.model == DP_MODEL_FLOAT)
+            return option_error(
+                "model",
+                "float has no cells for the figure %s to show, staged has; interval, error and budget draw what it "
+                "guarantees",
+                p->row->name);
+    return EXIT_FINE;
+}
+
+/* Set-ups differ by format and mapping and, where they were chosen one by one, by model. */
+static void name_setups(plotting *p) {
+    for (size_t i = 0; i < p->all.count; i++) {
+        char *name = p->text[i];
+        p->names[i] = setup_label(&p->all.items[i], false, name);
+        if (p->o->camera.model_auto)
+            append(name, SETUP_LABEL_SIZE, ", %s", option_word("model", p->all.items[i].spec.model));
+    }
+}
+
+/* The subtitle, which holds for all set-ups: the full label without the name in front. */
+static void subtitle_of(const plot_request *o, const figure_request *request, bool budgeted, char *out, size_t size) {
+    char full[SETUP_LABEL_SIZE];
+    setup_fields fields = setup_fields_of(&request->setups[0], NULL);
+    if (budgeted)
+        setup_fields_budget(&request->setups[0], &fields);
+    setup_label_as(&request->setups[0], &fields, full);
+    char *last = strrchr(full, ',');
+    bool one_model = true;
+    for (size_t i = 0; i < request->count; i++)
+        one_model = one_model && (!request->guaranteed || request->setups[i].spec.model == DP_MODEL_FLOAT);
+    if ((!one_model || (o->camera.model_auto && request->count > 1)) && last != NULL)
+        *last = '\0'; /* the names say it, or what is guaranteed */
+    else if (request->setups[0].spec.model == DP_MODEL_EXACT)
+        append(full, sizeof full, " (lattice of codes)");
+    const char *rest = strstr(full, ", ");
+    const char *one = request->count == 1 ? full : rest != NULL ? rest + 2 : "";
+    const char *unit = camera_unit(&o->camera);
+    if (!isnan(request->at))
+        snprintf(out, size, "%s, at depth %s", one, number_full(request->at).text);
+    else if (!isnan(request->lo))
+        snprintf(out, size, "%s, depths %s to %s", one, number_full(request->lo).text, number_full(request->hi).text);
+    else
+        snprintf(out, size, "%s", one);
+    const dp_triangles *t = &request->setups[0].spec.triangles;
+    if (t->width > 0 && request->raster == NULL) /* a figure that draws says it itself */
+        append(out, size, ", %dx%d, fov %s, %d subpixel bits, slant %s to %s", t->width, t->height,
+               number_of(t->fov_y, 4).text, t->subpixel, number_full(t->slant_lo).text, number_full(t->slant_hi).text);
+    append(out, size, "%s%s", unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
+}
+
+/* Which family and, where it is timed, in which case; the figure measures that and not the set-ups. */
+static int resolve_methods(plotting *p) {
+    const plot_request *o = p->o;
+    char machine[192];
+    const char *family = o->line->operand_count > 1 ? o->line->operands[1]
+                         : o->judge.mine_count > 0  ? linearize_family.name
+                                                    : p->row->family;
+    const name_list families = {.get = list_family};
+    list_item item;
+    int status = check_operand(o->line->command, "FAMILY", &families, family, &item);
+    if (status == EXIT_FINE)
+        status = methods_resolve(&p->judge, item.row, &p->asked);
+    if (status == EXIT_FINE && o->judge.mine_count > 0)
+        status = mine_open(&p->judge, &p->asked, p->row->build == pareto_build, &p->mine);
+    if (status != EXIT_FINE)
+        return status;
+    snprintf(p->where, sizeof p->where, "near %s, far %s; %s",
+             number_in(number_full(o->camera.znear), camera_unit(&o->camera)).text,
+             number_in(number_full(o->camera.zfar), camera_unit(&o->camera)).text,
+             p->mine != NULL ? mine_device(p->mine) : methods_machine(machine, sizeof machine));
+    p->request.setups = &p->asked.setup;
+    p->request.count = 1;
+    p->request.family = p->asked.family;
+    p->request.which = p->asked.which;
+    p->request.where = p->where;
+    return status;
+}
+
+/* Where none are named and all would be too many: those that the figure shows then, and of a single set-up the first
+ * mapping. */
+static void choose_setups(plot_request *o, const figure_row *row) {
+    const size_t all = o->camera.format_count;
+    if (row->formats == NULL)
+        return;
+    if (!option_given(o->line, "format") && all * o->camera.mapping_count > row->setups_max) {
+        o->camera.format_count = 0;
+        for (size_t i = 0; i < all; i++)
+            if (strstr(row->formats, o->camera.formats[i].name) != NULL)
+                o->camera.formats[o->camera.format_count++] = o->camera.formats[i];
+        o->camera.format_count += o->camera.format_count == 0; /* a rasterizer that has none of them */
+    }
+    if (row->setups_max == 1 && !option_given(o->line, "mapping"))
+        o->camera.mapping_count = 1;
+}
+
+/* Resolves the depth at which a rasterizer draws: one between the planes. */
+static int resolve_drawn(const plotting *p, plot_request *o) {
+    depths at;
+    int status = view_drawn(&o->camera);
+    if (status == EXIT_FINE && option_given(o->line, "at"))
+        status = depths_resolve(&p->o->camera, 1, &at);
+    if (status == EXIT_FINE && option_given(o->line, "range"))
+        status = option_error("range", "does not apply to the figure %s; --at says its depth", p->row->name);
+    if (status == EXIT_FINE && isnan(o->camera.azimuth))
+        status = option_error("slant", "must be SLANT,AZIMUTH in the figure %s, got '%s'", p->row->name,
+                              option_text(o->line, "slant"));
+    return status;
+}
+
+static int resolve_setups(plotting *p) {
+    plot_request in_model = *p->o;
+    const bool drawn = (p->row->takes & FIGURE_DRAWN) != 0;
+    int status = check_options(p->o, p->row);
+    if (status == EXIT_FINE && drawn)
+        status = resolve_drawn(p, &in_model);
+    choose_setups(&in_model, p->row);
+    if ((p->row->takes & FIGURE_BINARY32) != 0)
+        in_model.camera.model = DP_MODEL_FLOAT;
+    for (size_t i = 0; (p->row->takes & FIGURE_STAGED) != 0 && i < in_model.camera.mapping_count; i++)
+        if (!option_given(p->o->line, "model") && dp_mapping_get(in_model.camera.mappings[i])->ndc_signed)
+            in_model.camera.model = DP_MODEL_STAGED;
+    in_model.camera.budgeted = (p->row->takes & FIGURE_TERMS) != 0;
+    if (status == EXIT_FINE)
+        status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model.camera) : EXIT_FINE;
+    if (status == EXIT_FINE)
+        status = (drawn ? raster_setups : setups_make)(&in_model.camera, &p->all);
+    if (status == EXIT_FINE)
+        status = resolve_depths(p);
+    if (status == EXIT_FINE && p->all.count > p->row->setups_max)
+        status = usage_error("plot %s: shows at most %zu set-up%s, got %zu: name fewer with --format or --mapping",
+                             p->row->name, p->row->setups_max, p->row->setups_max == 1 ? "" : "s", p->all.count);
+    if (status != EXIT_FINE)
+        return status;
+    p->request.setups = p->all.items;
+    p->request.count = p->all.count;
+    p->request.guaranteed = (p->row->takes & FIGURE_GUARANTEED) != 0 && !option_given(p->o->line, "model");
+    for (size_t i = 0; p->request.guaranteed && i < p->all.count; i++)
+        p->all.items[i] = dp_setup_guaranteed(&p->all.items[i]);
+    if (p->request.guaranteed)
+        p->request.census = 0;
+    p->request.raster = drawn ? in_model.camera.raster : NULL;
+    p->request.slant = p->o->camera.triangles.slant_lo;
+    p->request.azimuth = p->o->camera.azimuth;
+    status = choose_models(p);
+    name_setups(p);
+    p->chart->unit = camera_unit(&p->o->camera);
+    subtitle_of(p->o, &p->request, in_model.camera.budgeted, p->chart->subtitle, sizeof p->chart->subtitle);
+    return status == EXIT_FINE && p->row->family != NULL ? resolve_methods(p) : status;
+}
+
+/* Neither of a picture nor of the output. */
+static bool is_of_camera(const asked_line *line, const char *name) {
+    static const option_table *const others[] = {&figure_options, &output_options};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        for (const option_row *row = others[i]->rows; row->name != NULL; row++)
+            if (option_find(line->command, name) == row)
+                return false;
+    return true;
+}
+
+/* The camera of --beside, whose options are words of one word; it has no figure of its own. */
+static int parse_beside(const plotting *p, char *text, asked_line *out) {
+    enum { WORDS = 64 };
+    char *words[WORDS + 1] = {p->o->line->argv[0], "plot", (char *)p->row->name};
+    int count = 3;
+    for (char *word = strtok(text, " "); word != NULL && count < WORDS; word = strtok(NULL, " "))
+        words[count++] = word;
+    int status = options_parse(out, count, words);
+    for (size_t i = 0; i < out->given_count && status == EXIT_FINE; i++)
+        if (!is_of_camera(out, out->given[i].name))
+            status = option_error("beside", "must be options of a camera, got '%s'", p->o->figure.beside);
+    if (status == EXIT_FINE && out->operand_count != 1)
+        status = usage_error("plot %s: --beside takes options, got '%s'", p->row->name, out->operands[1]);
+    return status;
+}
+
+static int resolve_beside(plotting *p, char *text, asked_line *line, plotting *q) {
+    const int status = parse_beside(p, text, line);
+    if (status != EXIT_FINE)
+        return status;
+    *q = plotting_of(line->request);
+    q->request.columns = p->request.columns;
+    q->request.rows = p->request.rows;
+    q->request.names = q->names;
+    p->beside = q;
+    return q->chart == NULL ? usage_error("plot: no memory") : resolve_setups(q);
+}
+
+static int resolve_file(plotting *p) {
+    const int status = resolve_depths(p);
+    p->request.file = &p->file;
+    return status == EXIT_FINE ? check_read(p->o->line->operands[1], &p->file) : status;
+}
+
+/* Shadow maps bring their own cameras. */
+static int resolve_shadow(plotting *p) {
+    const plot_request o = *p->o;
+    p->shadow.shadow.world = o.origin.terms.world; /* the row of that name is one for all figures */
+    if (o.camera.format_count * o.camera.mapping_count != 1)
+        return usage_error("plot %s: shows one format in one mapping, got %zu: name one with --format and --mapping",
+                           p->row->name, o.camera.format_count * o.camera.mapping_count);
+    const int status = shadow_maps_make(&p->shadow, &o.camera.formats[0], o.camera.mappings[0], &p->maps);
+    p->request.maps = p->maps.items;
+    p->request.map_count = p->maps.count;
+    p->chart->unit = camera_unit(&o.camera);
+    char *const subtitle = p->chart->subtitle;
+    const size_t size = sizeof p->chart->subtitle;
+    snprintf(subtitle, size, "%s %s, %u x %u texels, filter of %u x %u; ", o.camera.formats[0].name,
+             dp_mapping_get(o.camera.mappings[0])->name, o.shadow.size[0], o.shadow.size[1], o.shadow.kernel,
+             o.shadow.kernel);
+    if (p->maps.view.count > 0)
+        append(subtitle, size, "view near %s, far %s", number_full(o.camera.znear).text,
+               number_full(o.camera.zfar).text);
+    else
+        append(subtitle, size, "box %s x %s x %s", number_full(o.shadow.light_box[0]).text,
+               number_full(o.shadow.light_box[1]).text, number_full(o.shadow.light_box[2]).text);
+    return status;
+}
+
+/* Which curves, or how many fields of a map, were computed by other methods than the exact engine. */
+static void say_methods(const chart_panel *panel) {
+    const chart_map *m = &panel->map;
+    if (m->by_way > 0)
+        message("depthprec: %zu of %d fields by a method that is cheaper than the exact cell", m->by_way,
+                m->columns * m->rows);
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (panel->series[s].method != NULL)
+            message("depthprec: %s: by %s between the cells that the planes cut", panel->series[s].name,
+                    panel->series[s].method);
+}
+
+/* How much was computed for the picture, against a value for each pixel column and curve. */
+static void say_evaluations(const figure_row *row, const chart *c) {
+    size_t fields = 0;
+    for (size_t p = 0; p < c->panel_count; p++) {
+        say_methods(&c->panels[p]);
+        fields += (size_t)c->panels[p].map.columns * (size_t)c->panels[p].map.rows;
+    }
+    if (fields > 0)
+        message("depthprec: %s: %zu evaluations, one per field", row->name, fields);
+    else if (c->curves > 0)
+        message("depthprec: %s: %zu evaluations for %zu curve%s (one per pixel column would be %zu)", row->name,
+                c->evaluations, c->curves, c->curves == 1 ? "" : "s", c->places);
+}
+
+/* ---- The command ------------------------------------------------------------------------------------------------- */
+
+/* Reads and searches the model, which may take long. */
+static int look_at_model(plotting *p, output *out) {
+    const int status = scene_look(&p->model, out);
+    p->request.fights = &p->fights;
+    if (status == EXIT_FINE && !scene_figure_take(&p->model, &p->fights, p->chart))
+        return usage_error("plot: no memory");
+    return status;
+}
+
+static int height_of(const plotting *p) {
+    const bool own = p->request.fights != NULL && p->o->figure.height == 0;
+    return own ? scene_figure_height(p->chart, p->request.columns) : p->request.rows;
+}
+
+/* The figure, with the curves of the other camera where there is one: they stay in `room`. */
+static const char *build(plotting *p, bool every, chart *out, chart *room) {
+    const unit_row *own = p->o->camera.lengths.unit,
+                   *other = p->beside != NULL ? p->beside->o->camera.lengths.unit : NULL;
+    p->request.every = p->request.every || every;
+    const char *wrong = p->row->build(&p->request, out);
+    if (p->beside == NULL || wrong != NULL)
+        return wrong;
+    p->beside->request.every = p->request.every;
+    wrong = p->row->build(&p->beside->request, room);
+    if (chart_failed(room))
+        chart_fail(out);
+    if (wrong != NULL || chart_failed(out))
+        return wrong;
+    return chart_join(out, room, (int)p->request.count, own != NULL && other != NULL ? unit_convert(1, other, own) : 1)
+               ? NULL
+               : "--beside: must be a camera of which the figure shows the same";
+}
+
+/* To stdout, where the file is that of the figure. As CSV curves share their places, of which a picture needs few. */
+static int write_numbers(plotting *p) {
+    plot_request beside = *p->o;
+    output out;
+    beside.out.file = NULL;
+    int status = output_start(&beside.out, &beside.camera, &out);
+    if (status != EXIT_FINE)
+        return status;
+    const bool again = beside.out.form == FORM_CSV && p->chart->curves > 0;
+    chart *every = again ? chart_new() : NULL, *room = again ? chart_new() : NULL;
+    if (every != NULL && (build(p, true, every, room) != NULL || chart_failed(every)))
+        status = EXIT_IO;
+    else
+        figure_data_write(&out, beside.out.form, "plot", p->row->name, every != NULL ? every : p->chart);
+    chart_free(every);
+    chart_free(room);
+    if (status == EXIT_FINE)
+        return output_close(&out);
+    output_abandon(&out);
+    return usage_error("plot: no memory");
+}
+
+static const char *set_axes(const double ends[4], chart *c) {
+    for (size_t i = 0; i < 2 * c->panel_count; i++) {
+        chart_panel *panel = &c->panels[i / 2];
+        chart_axis *axis = i % 2 == 0 ? &panel->x : &panel->y;
+        axis->lo = ends[i % 2 * 2];
+        axis->hi = ends[i % 2 * 2 + 1];
+        if (axis->scale == CHART_LOG && !(axis->lo > 0))
+            return "--axes: LO must be greater than 0 on a logarithmic axis";
+    }
+    return NULL;
+}
+
+static int write_figure(plotting *p) {
+    const plot_request *o = p->o;
+    const bool drawn = figure_file_wanted(o->line, &o->out);
+    chart *c = p->chart;
+    output out;
+    int status = drawn ? output_open(&out, o->out.file) : output_start(&o->out, &o->camera, &out);
+    if (status != EXIT_FINE)
+        return status;
+    if ((p->row->takes & FIGURE_MODEL) != 0)
+        status = look_at_model(p, &out);
+    if (status != EXIT_FINE) {
+        output_abandon(&out);
+        return status;
+    }
+    const char *wrong = build(p, false, c, p->beside != NULL ? p->beside->chart : NULL);
+    if (wrong == NULL && option_given(o->line, "axes"))
+        wrong = set_axes(o->figure.axes, c);
+    status = wrong != NULL ? usage_error("%s", wrong) : p->mine != NULL ? p->mine->status : EXIT_FINE;
+    if (status != EXIT_FINE) {
+        output_abandon(&out);
+        return status;
+    }
+    if (p->mine != NULL && p->row->build == stability_build)
+        append(c->subtitle, sizeof c->subtitle, "; yours ran on %s, hatched where not", mine_device(p->mine));
+    if (c->title[0] == '\0')
+        snprintf(c->title, sizeof c->title, "%s", p->row->title);
+    bool good = !chart_failed(c);
+    if (good && drawn)
+        good = figure_file_write(o->line, &o->figure, o->out.file, c, p->request.columns, height_of(p), &out);
+    else if (good)
+        figure_data_write(&out, o->out.form, "plot", p->row->name, c);
+    if (good && o->out.full)
+        say_evaluations(p->row, c);
+    if (good && drawn && o->out.form != FORM_TEXT)
+        status = write_numbers(p);
+    if (good && status == EXIT_FINE)
+        return output_close(&out);
+    output_abandon(&out);
+    if (good)
+        return status;
+    message("depthprec: no memory for the figure");
+    return EXIT_IO;
+}
+
+static int check_output(const plot_request *o) {
+    if (o->out.form == FORM_TEXT && o->out.file == NULL)
+        return usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
+    canvas_format type;
+    return figure_file_wanted(o->line, &o->out) ? figure_file_type(o->line, &o->figure, "output", o->out.file, &type)
+                                                : EXIT_FINE;
+}
+
+int cmd_plot(void *request) {
+    const plot_request *o = request;
+    plotting p = plotting_of(o), q = {.chart = NULL};
+    asked_line other = {.request = NULL};
+    p.request.names = p.names;
+    char *text = strdup(o->figure.beside != NULL ? o->figure.beside : "");
+    int status = check_output(o);
+    if (status == EXIT_FINE && p.request.far_count > 1 && (p.row->takes & FIGURE_FARS) == 0)
+        status = option_error("far", "must be one far plane in the figure %s, got '%s'", p.row->name,
+                              option_text(o->line, "far"));
+    if (status == EXIT_FINE)
+        status = check_file_given(o, p.row);
+    if (status == EXIT_FINE && (p.chart == NULL || text == NULL))
+        status = usage_error("plot: no memory");
+    if (status == EXIT_FINE) {
+        notes_clean(p.chart->title, sizeof p.chart->title, o->figure.title != NULL ? o->figure.title : "");
+        status = (p.row->takes & FIGURE_FILE) != 0     ? resolve_file(&p)
+                 : (p.row->takes & FIGURE_MODEL) != 0  ? scene_figure_begin(&p.model, &p.scene)
+                 : (p.row->takes & FIGURE_SHADOW) != 0 ? resolve_shadow(&p)
+                                                       : resolve_setups(&p);
+    }
+    if (status == EXIT_FINE && o->figure.beside != NULL)
+        status = resolve_beside(&p, text, &other, &q);
+    if (status == EXIT_FINE)
+        status = write_figure(&p);
+    chart_free(p.chart);
+    scene_end(&p.model);
+    setups_release(&p.all);
+    need_release(&p.file);
+    mine_close(p.mine);
+    chart_free(q.chart);
+    setups_release(&q.all);
+    options_release(&other);
+    free(text);
+    return status;
+}

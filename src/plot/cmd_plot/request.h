@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file request.h  What plot is asked: of a camera, of a model, of shadow maps, of methods. */
+#ifndef PLOT_CMD_PLOT_REQUEST_H
+#define PLOT_CMD_PLOT_REQUEST_H
+
+#include "camera/cmd/camera.h"
+#include "cli/output/output.h"
+#include "judge/cmd_judge/request.h"
+#include "plot/cmd/request.h"
+#include "scene/cmd_scene/request.h"
+#include "shadow/cmd_shadow/request.h"
+#include "world/cmd/origin.h"
+
+typedef struct plot_request {
+    asked_line *line;
+    camera_asked camera;
+    output_asked out;
+    figure_asked figure;
+    origin_asked origin;
+    shadow_asked shadow; /**< its angle is the model's, too, and its from-origin that of `origin` */
+    scene_asked scene;
+    judge_asked judge;
+    bias_asked bias; /**< as it is where nothing is said */
+} plot_request;
+
+#endif

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file per_vertex.h  What a report says of depth that is written per vertex under a mapping that is not affine. */
+#ifndef QUANTITY_CMD_TABLE_PER_VERTEX_H
+#define QUANTITY_CMD_TABLE_PER_VERTEX_H
+
+#include <stdbool.h>
+
+#include "depthprec/depthprec.h"
+#include "report/page.h"
+
+/** At a depth; NaN where the mapping is affine on the screen, or no viewport was asked for. */
+typedef struct per_vertex {
+    double error; /**< the most by which a triangle of the class is too far, scene units */
+    double depth; /**< the class whose error is no more than the separation */
+} per_vertex;
+
+/** The worst of several depths: the greatest share of z, the smallest class. z is NaN while there are none. */
+typedef struct per_vertex_worst {
+    double z, error, depth;
+} per_vertex_worst;
+
+/** Is depth written per vertex wrong between vertices? */
+bool per_vertex_matters(const dp_setup *setup);
+
+/** @param depth  of the class, as in dp_triangles @param separation  what is told apart at z */
+per_vertex per_vertex_at(const dp_setup *setup, double z, double depth, double separation);
+
+per_vertex_worst per_vertex_none(void);
+void per_vertex_add(per_vertex_worst *worst, const per_vertex *here, double z);
+
+/** One sentence, when it has to be written per fragment; nothing where there is nothing to say. */
+void per_vertex_say(page *p, const per_vertex_worst *worst, double depth);
+
+#endif

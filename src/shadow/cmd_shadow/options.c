@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The command shadow and its options. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/list.h"
+#include "cli/option/kinds.h"
+#include "core/append.h"
+#include "report/output.h"
+#include "shadow/cmd_shadow/request.h"
+#include "shadow/shadow.h"
+
+/* N, or N:LAMBDA. */
+static int parse_cascades(asked_line *line, const option_row *row, const char *value, void *group) {
+    shadow_asked *o = group;
+    (void)line;
+    enum { MOST = 8 }; /* as many as a figure has panels */
+    const size_t length = strcspn(value, ":");
+    char number[8];
+    uint64_t count;
+    snprintf(number, sizeof number, "%.*s", (int)length, value);
+    if (length >= sizeof number || !number_parse_count(number, MOST, &count) || count < 1 ||
+        (value[length] != '\0' &&
+         (!number_parse(value + length + 1, NUMBER_FINITE, &o->lambda) || !(o->lambda >= 0.0 && o->lambda <= 1.0))))
+        return option_refuse(row, "must be N or N:LAMBDA, N a whole number from 1 to %d, LAMBDA from 0 to 1, got '%s'",
+                             MOST, value);
+    o->cascades = (unsigned)count;
+    return EXIT_FINE;
+}
+
+/* Z, or Z:FACET. */
+static int parse_curvature(asked_line *line, const option_row *row, const char *value, void *group) {
+    shadow_asked *o = group;
+    const size_t split = strcspn(value, ":");
+    length_reader seen = {.in = line->lengths};
+    const bool faceted = value[split] != '\0';
+    double radius, facet = 0.0;
+    if (!length_read(&seen, value, split, NUMBER_FINITE, &radius) || !(radius >= 1e-12 && radius <= 1e18) ||
+        (faceted && (!length_read(&seen, value + split + 1, strlen(value + split + 1), NUMBER_FINITE, &facet) ||
+                     !(facet >= 0.0 && facet <= 1e18))))
+        return option_refuse(row, "must be Z or Z:FACET, Z from 1e-12 and FACET from 0 to 1e18 scene units, got '%s'%s",
+                             value, length_hint(value, split));
+    o->curvature = radius;
+    o->facet = facet;
+    return length_check_mixed(&seen, row, value);
+}
+
+/* FORMAT:MAPPING or FORMAT:MAPPING:FAR. */
+static int parse_camera_depth(asked_line *line, const option_row *row, const char *value, void *group) {
+    shadow_asked *o = group;
+    char text[80] = "", *rest = NULL;
+    append(text, sizeof text, "%s", value);
+    const char *format = strtok_r(text, ":", &rest), *mapping = strtok_r(NULL, ":", &rest);
+    const char *far = strtok_r(NULL, "", &rest);
+    dp_spec *camera = &o->camera;
+    dp_format formats[2];
+    if (mapping == NULL || dp_format_parse(format, formats) != 1 ||
+        dp_mapping_parse(mapping, &camera->mapping) != DP_OK ||
+        dp_mapping_get(camera->mapping)->curve != DP_CURVE_PERSPECTIVE)
+        return option_refuse(
+            row, "must be FORMAT:MAPPING[:FAR], MAPPING one of " DP_MAPPING_NAMES_PERSPECTIVE ", got '%s'", value);
+    camera->format = formats[0];
+    camera->zfar = 0.0;
+    return far != NULL ? camera_read_far(line, row, far, &camera->zfar) : EXIT_FINE;
+}
+
+static void begin(asked_line *line, void *group) {
+    shadow_asked *o = group;
+    (void)line;
+    o->curvature = (double)NAN;
+}
+
+#define GROUP_TYPE shadow_asked
+
+/* clang-format off */
+static const option_row shadow_rows[] = {
+    {"cascades", 0, "N[:LAMBDA]",
+        "number of shadow maps, 1 to 8, that cover the view from near to far; LAMBDA 0 splits it uniformly, 1 "
+        "logarithmically",
+        .parse = parse_cascades, SIZED(cascades), .standard = "4:0.5", .group = "The shadow map"},
+    {"light-box", 0, "WxHxD",
+        "one shadow map of a box: width, height, and depth along the light", .parse = parse_box,
+        INTO(double, light_box[0]),
+        .without = "cascades of the view"},
+    {"casters", 0, "Z",
+        "how far towards the light from a cascade casters are included",
+        LENGTH(casters, 0, 1e12, "scene units"), .standard = "100"},
+    {"kernel", 0, "N",
+        "the filter reads NxN texels: 1 nearest, 2 bilinear, 3 and more percentage-closer filtering",
+        WHOLE(kernel, 1, 64, "texels"), .standard = "3"},
+    {"angle", 0, "DEG",
+        "receivers stay free of acne up to this angle between their normal and the light",
+        NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75"},
+    {"curvature", 0, "Z[:FACET]",
+        "receivers curve away from the light with a radius of at least Z; tessellated into triangles of circumradius "
+        "FACET or less, or smooth", .parse = parse_curvature, INTO(double, curvature), .without = "flat"},
+    {"camera-depth", 0, "FORMAT:MAPPING[:FAR]",
+        "screen-space shadows: receivers are rebuilt from the camera's depth texture in this format and mapping, of "
+        "the view's near plane and FAR, else --far", .parse = parse_camera_depth, INTO(dp_spec, camera)},
+    {"from-origin", 0, "R",
+        SHADOW_FROM_ORIGIN, LENGTH(world, 0, 1e18, "scene units"), .standard = "0", .without = SHADOW_FROM_ORIGIN_OUT},
+    END};
+/* clang-format on */
+
+const option_table shadow_options = {.rows = shadow_rows, .begin = begin};
+
+/* clang-format off */
+static const option_row size_rows[] = {
+    {"size", 0, "WxH|N",
+        "texels of each shadow map; N is NxN", .parse = parse_size_or_n, INTO(uint32_t, size[0]),
+        .standard = "2048x2048", .instead = "; a figure's size is --figure-size"},
+    END};
+/* clang-format on */
+
+const option_table shadow_size_options = {.rows = size_rows};
+
+/* clang-format off */
+const option_use shadow_map_uses[] = {
+    TAKE("size"), TAKE("light-box"), TAKE("kernel"), TAKE("angle"), END};
+const option_use shadow_cascade_uses[] = {TAKE("cascades"), TAKE("casters"), END};
+enum { PART_CASCADES = 1, PART_BOX = 2 };
+static const option_use of_cascades[] = {
+    OWN("near", HELP("near plane of the view"), DEFAULT("0.1")),
+    OWN("far", HELP("shadow distance, greater than near and at most 1e12 scene units"),
+        DEFAULT("1000")),
+    TAKE("fov"), TAKE("hfov"),
+    OWN("viewport", HELP("size of the view in pixels; sets its aspect ratio"), DEFAULT("1920x1080")),
+    TAKE("camera-depth"), GROUP_OF(shadow_cascade_uses), END};
+static const option_use of_box[] = {
+    OWN("range", HELP("with --light-box: where receivers lie along the light, from the front of the box"),
+        WITHOUT("the whole box, less 1/256 where units have no effect at window depth 0")), END};
+/* clang-format on */
+
+/* clang-format off */
+static const option_use uses[] = {
+    TAKE("from-origin"),
+    OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_ALL_PERSPECTIVE), DEFAULT("d3d")),
+    OWN("unit", HELP("the length of a scene unit; any length can have a unit: 10cm"),
+        WITHOUT("m where a length has a unit")),
+    OWN("arith", ALSO("by default that of --raster where known")),
+    FOR(PART_CASCADES, of_cascades), FOR(PART_BOX, of_box), GROUP_OF(shadow_map_uses),
+    TAKE("raster"), TAKE("subpixel"), TAKE("triangle-class"), TAKE("curvature"), TAKE("api"),
+    GROUP_OF(output_written), END};
+/* clang-format on */
+
+static const option_place places[] = {
+    CAMERA_PLACES(shadow_request, camera),         PLACE(shadow_request, out, output_options),
+    PLACE(shadow_request, shadow, shadow_options), PLACE(shadow_request, shadow, shadow_size_options),
+    PLACE(shadow_request, bias, bias_options),     {.table = NULL}};
+
+static const command_part parts[] = {{"to cascades", PART_CASCADES}, {"with --light-box", PART_BOX}, {NULL, 0}};
+
+static size_t asked_part(const void *request) {
+    const shadow_request *o = request;
+    return option_given(o->line, "light-box");
+}
+
+static int complete(void *request) {
+    shadow_request *o = request;
+    return camera_complete(&o->camera, &(camera_use){.mapped = true});
+}
+
+/* clang-format off */
+const command_row command_shadow = {
+    .name = "shadow", .request = sizeof(shadow_request), .places = places, .uses = uses,
+    .complete = complete,
+    .operand = "", .operand_min = 0, .operand_max = 0,
+    .summary = "shadow maps: the bias that prevents acne, and its gap",
+    .example = "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
+    "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
+    "  depthprec shadow -f 300 --cascades 3:0.8 --api all\n"
+    "  depthprec plot shadow -f 150 -o shadow.svg\n",
+    .part = asked_part, .parts = parts};
+/* clang-format on */

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file request.h  What is asked of shadow maps, by shadow and the figure of them. */
+#ifndef SHADOW_CMD_SHADOW_REQUEST_H
+#define SHADOW_CMD_SHADOW_REQUEST_H
+
+#include "bias/cmd_bias/request.h"
+#include "camera/cmd/camera.h"
+#include "cli/output/output.h"
+
+typedef struct shadow_asked {
+    uint32_t size[2]; /**< texels */
+    unsigned cascades;
+    double lambda;       /**< of their split: 0 even, 1 logarithmic */
+    double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
+    double casters;      /**< scene units */
+    unsigned kernel;     /**< the filter reads so many texels in either direction */
+    double angle;        /**< of a receiver's normal to the light, degrees */
+    double world;        /**< no coordinate of a position exceeds it, scene units */
+    double curvature;    /**< radius of curvature of receivers, scene units; NaN when not given */
+    double facet;        /**< of the circles about their triangles, scene units */
+    dp_spec camera;      /**< of the depth texture that receivers are rebuilt from: format, mapping, far */
+} shadow_asked;
+
+/** The options of the maps; help shows their size where it shows that of images. */
+extern const option_table shadow_options, shadow_size_options;
+
+/** The options that a figure of shadow maps takes. */
+extern const option_use shadow_map_uses[], shadow_cascade_uses[];
+#define SHADOW_FROM_ORIGIN     "no coordinate of a position exceeds R"
+#define SHADOW_FROM_ORIGIN_OUT "positions are relative to the centre of the light's box"
+
+typedef struct shadow_request {
+    asked_line *line;
+    camera_asked camera;
+    output_asked out;
+    shadow_asked shadow;
+    bias_asked bias;
+} shadow_request;
+
+#endif

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "shadow/cmd_shadow/rows.h"
+#include "shadow/cmd_shadow/request.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/append.h"
+
+enum { DIGITS = 4 };
+
+static double signed_or_none(double magnitude, int sign) {
+    return isfinite(magnitude) ? magnitude * sign + 0.0 : (double)NAN; /* no -0 */
+}
+
+static shadow_set set_of(const shadow_light *light, const shadow_need *need, int k, const bias_api *api) {
+    const shadow_bias *b = &need->bias[k];
+    const shadow_state state = shadow_state_of(light, b, api);
+    const int sign = shadow_sign(light);
+    const bool none = !isfinite(b->factor) || !isfinite(state.units);
+    return (shadow_set){.window = b->window,
+                        .units = none ? (double)NAN : signed_or_none(state.units, sign),
+                        .factor = signed_or_none(b->factor, sign),
+                        .offset = b->offset,
+                        .texels = b->offset / need->texel,
+                        .gap = none ? (double)NAN : state.gap_light,
+                        .gap_normal = none ? (double)NAN : state.gap_normal,
+                        .gap_facing = none ? (double)NAN : state.gap_facing,
+                        .share = isfinite(b->factor) ? b->share : (double)NAN};
+}
+
+/* The number farther from 0; none where either is none. */
+static double wider(double a, double b) {
+    return isnan(a) || isnan(b) ? (double)NAN : fabs(a) >= fabs(b) ? a : b;
+}
+
+static shadow_set widest(const shadow_set *a, const shadow_set *b) {
+    return (shadow_set){.window = wider(a->window, b->window),
+                        .units = wider(a->units, b->units),
+                        .factor = wider(a->factor, b->factor),
+                        .offset = wider(a->offset, b->offset),
+                        .texels = wider(a->texels, b->texels),
+                        .gap = wider(a->gap, b->gap),
+                        .gap_normal = wider(a->gap_normal, b->gap_normal),
+                        .gap_facing = wider(a->gap_facing, b->gap_facing),
+                        .share = isnan(a->share) || isnan(b->share) ? (double)NAN : fmin(a->share, b->share)};
+}
+
+/* Four digits that are enough, or all of a whole number. */
+static void write_enough(double value, bool all_digits, char out[UNITS_SIZE]) {
+    const number_text text = all_digits ? number_full(fabs(value)) : number_brief(number_up(fabs(value), DIGITS));
+    snprintf(out, UNITS_SIZE, "%s%s", value < 0.0 ? "-" : "", isnan(value) ? "-" : text.text);
+}
+
+/* "2.5 texels" is a length that each cascade has in scene units of its own. */
+static void write_set(shadow_set *w, int k, const bias_api *api) {
+    write_enough(w->units, w->units == nearbyint(w->units) && fabs(w->units) < 1e9, w->units_text);
+    write_enough(w->factor, false, w->factor_text);
+    w->call[0] = '\0';
+    if (isnan(w->units))
+        return;
+    if (k == SHADOW_NORMAL)
+        snprintf(w->call, sizeof w->call, "%s texels, ", number_brief(number_up(w->texels, DIGITS)).text);
+    append(w->call, sizeof w->call, "%s", bias_call(api, w->units, strtod(w->factor_text, NULL)).text);
+}
+
+shadow_row shadow_row_of(const shadow_maps *maps, size_t i, const bias_api *api) {
+    const shadow_cascade *c = &maps->items[i];
+    const shadow_light *light = &c->light;
+    const bool split = maps->view.count > 0;
+    const double depth = light->setup.spec.zfar - light->setup.spec.znear;
+    shadow_need need;
+    shadow_need_of(light, &need);
+    shadow_row r = {.cascade = (int)i + 1,
+                    .from = split ? c->from : (double)NAN,
+                    .to = split ? c->to : (double)NAN,
+                    .radius = split ? c->radius : (double)NAN,
+                    .width = light->width,
+                    .height = light->height,
+                    .depth = depth,
+                    .texel = need.texel,
+                    .api = api->name};
+    for (int k = 0; k < SHADOW_CAUSE_COUNT; k++)
+        r.cause[k] = shadow_part_at(light, &need.part[k], light->triangles.slant_hi) * depth;
+    for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
+        r.way[k] = set_of(light, &need, k, api);
+        write_set(&r.way[k], k, api);
+        r.limited = r.limited || need.bias[k].limited ||
+                    light->receiver_hi + r.way[k].gap > light->setup.spec.zfar; /* units may be worth more */
+    }
+    return r;
+}
+
+shadow_whole shadow_whole_of(const shadow_maps *maps, const bias_api *api) {
+    shadow_whole w = {.api = api->name};
+    for (size_t i = 0; i < maps->count; i++) {
+        const shadow_row r = shadow_row_of(maps, i, api);
+        w.limited = w.limited || r.limited;
+        for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
+            w.way[k] = i == 0 ? r.way[k] : widest(&w.way[k], &r.way[k]);
+            w.hidden = w.hidden || r.way[k].gap >= r.depth || r.way[k].window >= 1.0; /* no units, no gap */
+        }
+    }
+    for (int k = 0; k < SHADOW_WAY_COUNT; k++)
+        write_set(&w.way[k], k, api);
+    return w;
+}

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/cmd_check/check_report.h"
+#include "solve/cmd_check/request.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "camera/cmd/setups.h"
+#include "camera/cmd/slant.h"
+#include "cli/junit.h"
+#include "core/append.h"
+#include "report/number.h"
+#include "report/report.h"
+
+enum { DIGITS = 6, SENTENCE_SIZE = 512 };
+
+static bool has_code(const check_verdict *v) {
+    return isfinite(v->z);
+}
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+/* A length with the unit of the file behind it, "0.001 m"; a share as it is. */
+static void put(char *out, const char *before, const check_file *f, number_text number, bool is_length) {
+    const bool has_unit = is_length && f->file.unit[0] != '\0';
+    append(out, SENTENCE_SIZE, "%s %s", before, number_in(number, has_unit ? f->file.unit : NULL).text);
+}
+
+static number_text surfaces(const check_verdict *v) {
+    return check_is_slanted(v) ? slant_words(&v->setup.spec.triangles) : (number_text){"facing"};
+}
+
+/* "separation 0.00149 m at 50 m (code 123), facing, allowed 0.001 m"; what is promised is rounded up */
+static const char *sentence(const check_file *f, const check_verdict *v, char out[SENTENCE_SIZE]) {
+    const need_kind_row *kind = need_kind_get(v->asked->kind);
+    const number_two compared = number_compared(v->value, v->asked->limit, DIGITS);
+    out[0] = '\0';
+    put(out, kind->phrase, f, compared.value, kind->is_length);
+    if (!kind->is_length) { /* of a range, not of a depth */
+        put(out, " from", f, number_of(v->asked->lo, DIGITS), true);
+        put(out, " to", f, number_of(v->asked->hi, DIGITS), true);
+    } else if (!isnan(v->z)) {
+        put(out, " at", f, number_of(v->z, DIGITS), true);
+    }
+    if (kind->is_length && has_code(v))
+        append(out, SENTENCE_SIZE, " (code %u)", v->code);
+    if (v->asked->kind == NEED_SEPARATION)
+        append(out, SENTENCE_SIZE, ", %s", surfaces(v).text);
+    put(out, ", allowed", f, compared.limit, kind->is_length);
+    return out;
+}
+
+/* Which GPU the promises for a camera are for. */
+static void say_measured(page *p, const check_file *f) {
+    for (size_t i = 0; i < f->file.camera_count; i++) {
+        const need_camera *camera = &f->file.cameras[i];
+        if (camera->gpu.measured[0] != '\0')
+            page_text(p, "%s: camera %s: measured on %s", f->file.path, camera->name, camera->gpu.measured);
+    }
+}
+
+static void write_text(const checks_request *o, bool failures, output *out, const check_file *files, size_t count) {
+    char text[SENTENCE_SIZE], label[SETUP_LABEL_SIZE];
+    page p = page_start(out, 4); /* where what decided is indented to */
+    for (const check_file *f = files; f < files + count; f++) {
+        for (size_t k = 0; k < f->count; k++) {
+            const check_verdict *v = &f->verdicts[k];
+            if (failures && v->passed)
+                continue;
+            page_text(&p, "%s%s%s  %s:%d: %s: camera %s, %s (%s): %s", v->passed ? p.good : p.bad,
+                      v->passed ? "pass" : "FAIL", p.plain, f->file.path, v->asked->line, v->asked->name,
+                      v->camera->name, setup_label(&v->setup, false, label),
+                      option_word("model", setup_model(&v->setup)), sentence(f, v, text));
+            if (o->out.full)
+                page_note(&p, "", "decided by %s: %s", check_method_name(v->method),
+                          setup_label(&v->setup, true, label));
+        }
+        if (!failures)
+            say_measured(&p, f);
+        if (!failures)
+            page_text(&p, "%s: %ld passed, %ld failed", f->file.path, (long)f->count - f->failed, f->failed);
+    }
+}
+
+/* ---- JUnit ------------------------------------------------------------------------------------------------------- */
+
+static void say_case(output *out, const check_file *f, const check_verdict *v) {
+    char text[SENTENCE_SIZE], name[SENTENCE_SIZE], label[SETUP_LABEL_SIZE], line[16];
+    char full[SETUP_LABEL_SIZE], detail[SETUP_LABEL_SIZE + PROFILE_MEASURED_SIZE + 16];
+    const char *const measured = v->camera->gpu.measured;
+    snprintf(line, sizeof line, "%d", v->asked->line);
+    snprintf(name, sizeof name, "%s (%s%s%s)", v->asked->name, setup_label(&v->setup, false, label),
+             check_is_slanted(v) ? ", " : "", check_is_slanted(v) ? surfaces(v).text : "");
+    snprintf(detail, sizeof detail, "%s%s%s", setup_label(&v->setup, true, full),
+             measured[0] != '\0' ? ", measured on " : "", measured);
+    junit_case(out, &(junit_row){.classname = v->camera->name,
+                                 .name = name,
+                                 .file = f->file.path,
+                                 .line = line,
+                                 .type = v->passed ? NULL : need_kind_get(v->asked->kind)->name,
+                                 .message = v->passed ? NULL : sentence(f, v, text),
+                                 .detail = detail});
+}
+
+static void write_junit(output *out, const check_file *files, size_t count) {
+    junit_begin(out, "depthprec check");
+    for (size_t i = 0; i < count; i++) {
+        junit_suite(out, files[i].file.path, files[i].count, (size_t)files[i].failed);
+        for (size_t k = 0; k < files[i].count; k++)
+            say_case(out, &files[i], &files[i].verdicts[k]);
+        junit_suite_end(out);
+    }
+    junit_end(out);
+}
+
+/* ---- JSON and CSV ------------------------------------------------------------------------------------------------ */
+
+/* A verdict, and what of it is named elsewhere. */
+typedef struct verdict {
+    const char *file, *name, *camera, *kind, *unit, *method; /* unit: null where the file does not say */
+    const char *measured;                                    /* null without a profile */
+    need asked;
+    check_verdict found;
+    setup_fields setup;
+    slant_fields slant;
+    const slant_fields *triangles; /* null where surfaces face the camera */
+    const char *surfaces;
+    double code; /* NaN where there is none */
+} verdict;
+
+typedef struct verdicts {
+    const check_file *files;
+    size_t count;
+    bool passed;
+    verdict verdict;
+} verdicts;
+
+static void *next_verdict(void *of, size_t i) {
+    verdicts *all = of;
+    const check_file *f = all->files;
+    for (; f < all->files + all->count && i >= f->count; f++)
+        i -= f->count;
+    if (f == all->files + all->count)
+        return NULL;
+    const check_verdict *v = &f->verdicts[i];
+    all->verdict =
+        (verdict){.file = f->file.path,
+                  .name = v->asked->name,
+                  .camera = v->camera->name,
+                  .kind = need_kind_get(v->asked->kind)->name,
+                  .unit = f->file.unit[0] != '\0' ? f->file.unit : NULL,
+                  .method = check_method_name(v->method),
+                  .measured = v->camera->gpu.measured[0] != '\0' ? v->camera->gpu.measured : NULL,
+                  .asked = *v->asked,
+                  .setup = setup_fields_of(&v->setup, f->file.unit[0] != '\0' ? f->file.unit : NULL),
+                  .found = *v,
+                  .slant = {v->setup.spec.triangles, v->camera->raster != NULL ? v->camera->raster->name : NULL,
+                            dp_arith_get(v->setup.spec.arith)->name},
+                  .surfaces = check_is_slanted(v) ? "any slant" : "facing",
+                  .code = has_code(v) ? v->code : (double)NAN};
+    all->verdict.triangles = check_is_slanted(v) ? &all->verdict.slant : NULL;
+    return &all->verdict;
+}
+
+static const column verdict_columns[] = {
+    {FIELD(verdict, file, "file", "")},
+    {FIELD(verdict, asked.line, "line", "")},
+    {FIELD(verdict, name, "name", "")},
+    {FIELD(verdict, camera, "camera", "")},
+    {PART(verdict, setup, "setup", setup_columns)},
+    {FIELD(verdict, kind, "kind", "")},
+    {FIELD(verdict, unit, "unit", "")},
+    {FIELD(verdict, asked.lo, "lo", "scene")},
+    {FIELD(verdict, asked.hi, "hi", "scene")},
+    {FIELD(verdict, asked.limit, "limit", "")},
+    {FIELD(verdict, found.value, "value", "")},
+    {FIELD(verdict, found.z, "z", "scene")},
+    {FIELD(verdict, code, "code", "")},
+    {FIELD(verdict, method, "method", "")},
+    {FIELD(verdict, found.passed, "passed", "")},
+    {FIELD(verdict, surfaces, "surfaces", "")},
+    {FIELD(verdict, measured, "measured", ""), .only = AS_JSON, .optional = true},
+    {PART(verdict, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {.kind = COLUMN_END}};
+
+static const column columns[] = {{FIELD(verdicts, passed, "passed", ""), .only = AS_JSON},
+                                 {LIST("requirements", verdict_columns, next_verdict)},
+                                 {.kind = COLUMN_END}};
+
+void check_say_failures(const checks_request *o, const check_file *files, size_t count) {
+    output errors = {.fd = STDERR_FILENO, .colour = (output_colour)o->out.colour};
+    write_text(o, true, &errors, files, count);
+    output_flush(&errors);
+}
+
+void check_report(const checks_request *o, output *out, const check_file *files, size_t count, bool passed) {
+    verdicts all = {.files = files, .count = count, .passed = passed};
+    const output_form form = o->out.report == REPORT_JSON ? FORM_JSON : o->out.form;
+    if (o->out.report == REPORT_JUNIT)
+        write_junit(out, files, count);
+    else if (form == FORM_TEXT)
+        write_text(o, o->out.quiet, out, files, count);
+    else
+        report_write(&(report_spec){.command = "check", .columns = columns, .item = &all}, out, form);
+}

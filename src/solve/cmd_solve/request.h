@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file request.h  What solve is asked. */
+#ifndef SOLVE_CMD_SOLVE_REQUEST_H
+#define SOLVE_CMD_SOLVE_REQUEST_H
+
+#include "camera/cmd/camera.h"
+#include "cli/output/output.h"
+
+/** Values of --for, and SOLVE_FOR_ANY when it was not given. The planes come first. */
+typedef enum solve_target {
+    SOLVE_FOR_NEAR = 0,
+    SOLVE_FOR_FAR,
+    SOLVE_FOR_FORMAT,
+    SOLVE_FOR_MAPPING,
+    SOLVE_FOR_SEPARATION,
+    SOLVE_FOR_DISTANCE,
+    SOLVE_FOR_FRUSTA,
+    SOLVE_FOR_ANY
+} solve_target;
+
+typedef struct solve_request {
+    asked_line *line;
+    camera_asked camera;
+    output_asked out;
+    solve_target target;
+    double separation, error; /**< scene units; 0 when not given */
+} solve_request;
+
+extern const option_table solve_options;
+
+#endif

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/reader.h"
+#include "core/append.h"
+#include "system/posix.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PATH_SIZE = 4096 };
+
+bool reader_fail(reader *r, const config_setting_t *s, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(r->error->text, sizeof r->error->text, format, arguments);
+    va_end(arguments);
+    r->error->unreadable = false;
+    if (s != NULL)
+        r->error->line = (int)config_setting_source_line(s);
+    for (char *c = r->error->text; *c != '\0'; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = '?';
+    return false;
+}
+
+void reader_known(reader *r, const char *given, const char *name) {
+    char *known = r->error->known;
+    snprintf(r->error->given, sizeof r->error->given, "%s", given);
+    if (strlen(known) + strlen(name) + 2 < NEED_KNOWN_SIZE)
+        append(known, NEED_KNOWN_SIZE, "%s%s", *known != '\0' ? " " : "", name);
+}
+
+const char *reader_shown(reader *r, const config_setting_t *s) {
+    switch (config_setting_type(s)) {
+    case CONFIG_TYPE_INT:
+    case CONFIG_TYPE_INT64:
+        snprintf(r->shown, sizeof r->shown, "%lld", config_setting_get_int64(s));
+        break;
+    case CONFIG_TYPE_FLOAT:
+        snprintf(r->shown, sizeof r->shown, "%.15g", config_setting_get_float(s));
+        break;
+    case CONFIG_TYPE_BOOL:
+        snprintf(r->shown, sizeof r->shown, "%s", config_setting_get_bool(s) ? "true" : "false");
+        break;
+    case CONFIG_TYPE_STRING:
+        snprintf(r->shown, sizeof r->shown, "'%.60s'", config_setting_get_string(s));
+        break;
+    case CONFIG_TYPE_GROUP:
+        return "a group";
+    default:
+        snprintf(r->shown, sizeof r->shown, "%d values", config_setting_length(s));
+    }
+    return r->shown;
+}
+
+bool reader_keys(reader *r, const config_setting_t *group, const char *what, const char *const *names,
+                 config_setting_t **found) {
+    for (int k = 0; names[k] != NULL; k++)
+        found[k] = NULL;
+    for (unsigned i = 0; i < (unsigned)config_setting_length(group); i++) {
+        config_setting_t *s = config_setting_get_elem(group, i);
+        const char *name = config_setting_name(s);
+        int k = 0;
+        while (names[k] != NULL && strcmp(names[k], name) != 0)
+            k++;
+        if (names[k] == NULL) {
+            for (k = 0; names[k] != NULL; k++)
+                reader_known(r, name, names[k]);
+            return reader_fail(r, s, "%s: has no key '%.40s'", what, name);
+        }
+        found[k] = s;
+    }
+    return true;
+}
+
+bool reader_string(reader *r, const config_setting_t *s, const char **out) {
+    if (config_setting_type(s) != CONFIG_TYPE_STRING)
+        return reader_fail(r, s, "%s: must be a word in quotes, got %s", config_setting_name(s), reader_shown(r, s));
+    *out = config_setting_get_string(s);
+    return true;
+}
+
+/* Where the requirement file lies; an absolute path stays. */
+static void beside(const reader *r, const char *name, char *out, size_t size) {
+    const char *path = r->file->path;
+    snprintf(out, size, "%.*s%s", path_is_absolute(name) ? 0 : (int)(path_name(path) - path), path, name);
+}
+
+bool reader_row(reader *r, const config_setting_t *s, const char *key, bool (*known)(const char *name),
+                need_camera *camera, char name[PROFILE_NAME_SIZE]) {
+    const char *text = "";
+    char path[PATH_SIZE], error[PROFILE_ERROR_SIZE];
+    if (!reader_string(r, s, &text))
+        return false;
+    if (!profile_is_file(text)) {
+        snprintf(name, PROFILE_NAME_SIZE, "%s", text);
+        return true;
+    }
+    beside(r, text, path, sizeof path);
+    if (!profile_add(&camera->gpu, path, key, name, error))
+        return reader_fail(r, s, "%s: %s", key, error);
+    return known(name) || reader_fail(r, s, "%s: '%.120s' names what is not known here, '%.40s'", key, path, name);
+}
+
+bool reader_name(reader *r, const config_setting_t *s, const char *name) {
+    const size_t length = strlen(name);
+    bool good = length >= 1 && length <= 64;
+    for (const char *c = name; *c != '\0'; c++)
+        good = good && *c > 0x20 && *c < 0x7f;
+    return good || reader_fail(r, s, "name: must be 1 to 64 printable ASCII characters, no blanks, got '%.70s'", name);
+}
+
+bool reader_unit(reader *r, const config_setting_t *s) {
+    const char *name = "";
+    if (!reader_string(r, s, &name))
+        return false;
+    r->unit = unit_find(name);
+    if (r->unit == NULL)
+        return reader_fail(r, s, "unit: must be " UNIT_NAMES ", got '%.40s'", name);
+    r->file->unit = r->unit->name;
+    return true;
+}
+
+/* A decimal number at the beginning of a text; *rest is what follows it and blanks. No sign, no hexadecimal. */
+static bool leading_number(const char *text, double *value, const char **rest) {
+    if (text[strspn(text, "0123456789.eE+-")] == 'x' || text[strspn(text, "0123456789.eE+-")] == 'X' ||
+        !((*text >= '0' && *text <= '9') || *text == '.'))
+        return false;
+    char *end;
+    *value = strtod(text, &end);
+    *rest = end + strspn(end, " ");
+    return end != text && isfinite(*value);
+}
+
+static bool is_number(const config_setting_t *s) {
+    const int type = config_setting_type(s);
+    return type == CONFIG_TYPE_INT || type == CONFIG_TYPE_INT64 || type == CONFIG_TYPE_FLOAT;
+}
+
+static double number_of(const config_setting_t *s) {
+    return config_setting_type(s) == CONFIG_TYPE_FLOAT ? config_setting_get_float(s)
+                                                       : (double)config_setting_get_int64(s);
+}
+
+/* A number alone is in scene units; with a unit behind it, it is converted into them. */
+static bool length_text(reader *r, const config_setting_t *s, const char *key, const char *text, double *out) {
+    const char *unit;
+    double value;
+    if (!leading_number(text, &value, &unit))
+        return reader_fail(r, s, "%s: must be a length such as 0.1 or \"10 cm\", got '%.40s'", key, text);
+    if (*unit == '\0') {
+        *out = value;
+        return true;
+    }
+    const unit_row *row = unit_find(unit);
+    if (row == NULL)
+        return reader_fail(r, s, "%s: the unit must be " UNIT_NAMES ", got '%.40s'", key, unit);
+    if (r->unit == NULL)
+        return reader_fail(r, s,
+                           "%s: '%.40s' has a unit, but the file does not say what a scene unit is: add "
+                           "unit = \"m\"; or the like at its top",
+                           key, text);
+    *out = unit_convert(value, row, r->unit);
+    return true;
+}
+
+bool reader_length(reader *r, const config_setting_t *s, const char *key, unsigned allowed, double *out) {
+    const bool text = config_setting_type(s) == CONFIG_TYPE_STRING;
+    if (text && (allowed & READER_INFINITE) != 0 && strcmp(config_setting_get_string(s), "inf") == 0) {
+        *out = HUGE_VAL;
+        return true;
+    }
+    if (text) {
+        const char *value = config_setting_get_string(s);
+        const bool negative = (allowed & READER_SIGNED) != 0 && *value == '-';
+        if (!length_text(r, s, key, value + negative, out))
+            return false;
+        *out = negative ? -*out : *out;
+    } else if (is_number(s)) {
+        *out = number_of(s);
+    } else {
+        return reader_fail(r, s, "%s: must be a length such as 0.1 or \"10 cm\", got %s", key, reader_shown(r, s));
+    }
+    if (isfinite(*out) && (allowed & READER_SIGNED) != 0)
+        return true;
+    if (!isfinite(*out) || *out < 0.0 || ((allowed & READER_POSITIVE) != 0 && *out == 0.0))
+        return reader_fail(r, s, "%s: must be a finite length %s, got %s", key,
+                           (allowed & READER_POSITIVE) != 0 ? "above 0" : "not below 0", reader_shown(r, s));
+    return true;
+}
+
+bool reader_number_within(const config_setting_t *s, double least, double most, double *out) {
+    if (!is_number(s))
+        return false;
+    *out = number_of(s);
+    return *out >= least && *out <= most;
+}
+
+bool reader_share(reader *r, const config_setting_t *s, const char *key, double *out) {
+    const char *rest = "";
+    bool good = is_number(s);
+    if (good)
+        *out = number_of(s);
+    else if (config_setting_type(s) == CONFIG_TYPE_STRING)
+        good = leading_number(config_setting_get_string(s), out, &rest) && (*rest == '\0' || strcmp(rest, "%") == 0);
+    if (good && *rest == '%')
+        *out /= 100.0;
+    return (good && *out >= 0.0 && *out <= 1.0) ||
+           reader_fail(r, s, "%s: must be a share from 0 to 1, such as 0.001 or \"0.1 %%\", got %s", key,
+                       reader_shown(r, s));
+}

@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/requirement.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/model.h"
+#include "solve/reader.h"
+#include "system/input.h"
+
+static const need_kind_row kinds[NEED_KIND_COUNT] = {
+    [NEED_SEPARATION] = {"separation", "separation", true},
+    [NEED_ERROR] = {"error", "error of the stored depth", true},
+    [NEED_TIES] = {"ties", "share of ties and swaps", false},
+};
+
+const need_kind_row *need_kind_get(need_kind kind) {
+    return (unsigned)kind < NEED_KIND_COUNT ? &kinds[kind] : NULL;
+}
+
+/* ---- A requirement, key by key ----------------------------------------------------------------------------------- */
+
+enum { KEY_NAME, KEY_CAMERA, KEY_AT, KEY_RANGE, KEY_SEPARATION, KEY_ERROR, KEY_TIES, KEY_COUNT };
+
+static const char *const keys[] = {"name", "camera", "at", "range", "separation", "error", "ties", NULL};
+
+static bool known_camera(reader *r, const config_setting_t *s, size_t *out) {
+    const char *name;
+    if (!reader_string(r, s, &name))
+        return false;
+    for (size_t i = 0; i < r->file->camera_count; i++)
+        if (strcmp(r->file->cameras[i].name, name) == 0) {
+            *out = i;
+            return true;
+        }
+    for (size_t i = 0; i < r->file->camera_count; i++)
+        reader_known(r, name, r->file->cameras[i].name);
+    return reader_fail(r, s, "camera: must be one of those under 'cameras', got '%s'", name);
+}
+
+/* Depths may have any sign where the camera's planes may. */
+static unsigned sign_of(const reader *r, const need *n) {
+    return r->file->cameras[n->camera].setups[0].spec.znear <= 0.0 ? READER_SIGNED : 0;
+}
+
+static bool read_range(reader *r, config_setting_t *s, need *n) {
+    if ((!config_setting_is_array(s) && !config_setting_is_list(s)) || config_setting_length(s) != 2)
+        return reader_fail(r, s, "range: must be two depths, [LO, HI], got %s", reader_shown(r, s));
+    return reader_length(r, config_setting_get_elem(s, 0), "range", sign_of(r, n), &n->lo) &&
+           reader_length(r, config_setting_get_elem(s, 1), "range", sign_of(r, n) | READER_INFINITE, &n->hi) &&
+           (n->lo < n->hi || reader_fail(r, s,
+                                         "range: its near end must be below its far end, got %g and %g; a single "
+                                         "depth is written at = %g",
+                                         n->lo, n->hi, n->lo));
+}
+
+static bool in_planes(reader *r, const config_setting_t *s, const need *n) {
+    const need_camera *camera = &r->file->cameras[n->camera];
+    const dp_spec *spec = &camera->setups[0].spec;
+    if (n->lo >= spec->znear && n->hi <= spec->zfar)
+        return true;
+    return reader_fail(r, s, "%s: must lie within near and far of the camera '%s', %.15g and %.15g, got %.15g",
+                       config_setting_name(s), camera->name, spec->znear, spec->zfar,
+                       n->lo >= spec->znear ? n->hi : n->lo);
+}
+
+/* Whether a camera suits a kind of limit. */
+static bool suits(reader *r, const config_setting_t *s, const need *n) {
+    const need_camera *camera = &r->file->cameras[n->camera];
+    const dp_spec *spec = &camera->setups[0].spec;
+    if (n->kind == NEED_ERROR && spec->model == DP_MODEL_FLOAT)
+        return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has %s",
+                           camera->name, model_word(spec->model));
+    if (n->kind != NEED_TIES)
+        return true;
+    if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
+        return reader_fail(
+            r, s, "ties: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", and the camera '%s' has %s",
+            camera->name, dp_mapping_get(spec->mapping)->name);
+    if (spec->model != DP_MODEL_FLOAT && !camera->automatic)
+        return reader_fail(r, s, "ties: needs the model float or auto, and the camera '%s' has %s", camera->name,
+                           model_word(spec->model));
+    if (!(n->lo < n->hi) || isinf(n->hi))
+        return reader_fail(r, s, "ties: needs a range with a finite far end");
+    if (isinf((float)n->hi))
+        return reader_fail(r, s, "ties: needs a range up to 3.4028235e+38, the largest binary32 number, got %.15g",
+                           n->hi);
+    return true;
+}
+
+static bool read_limit(reader *r, config_setting_t *s, need *n) {
+    if (!kinds[n->kind].is_length)
+        return reader_share(r, s, kinds[n->kind].name, &n->limit);
+    return reader_length(r, s, kinds[n->kind].name, READER_POSITIVE, &n->limit);
+}
+
+/* Exactly one of some keys: which, or -1 after an error. */
+static int one_of(reader *r, const config_setting_t *group, config_setting_t *const *found, int first, int last,
+                  const char *names) {
+    int which = -1;
+    for (int k = first; k <= last; k++)
+        if (found[k] != NULL) {
+            if (which >= 0) {
+                reader_fail(r, found[k], "'%s' and '%s' must not both be given", keys[which], keys[k]);
+                return -1;
+            }
+            which = k;
+        }
+    if (which < 0)
+        reader_fail(r, group, "requirement: needs %s", names);
+    return which;
+}
+
+static bool read_need(reader *r, config_setting_t *group, bool listed, need *n) {
+    config_setting_t *found[KEY_COUNT] = {NULL};
+    n->line = (int)config_setting_source_line(group);
+    n->name = config_setting_name(group);
+    if (!reader_keys(r, group, "requirement", listed ? keys : keys + 1, listed ? found : found + 1))
+        return false;
+    if (listed && (found[KEY_NAME] == NULL ? !reader_fail(r, group, "requirement: needs a name")
+                                           : !reader_string(r, found[KEY_NAME], &n->name)))
+        return false;
+    if (!reader_name(r, listed ? found[KEY_NAME] : group, n->name))
+        return false;
+    if (found[KEY_CAMERA] == NULL)
+        return reader_fail(r, group, "requirement '%s': needs a camera", n->name);
+    if (!known_camera(r, found[KEY_CAMERA], &n->camera))
+        return false;
+    const int where = one_of(r, group, found, KEY_AT, KEY_RANGE, "at = DEPTH or range = [LO, HI]");
+    if (where < 0)
+        return false;
+    if (where == KEY_RANGE
+            ? !read_range(r, found[KEY_RANGE], n)
+            : !reader_length(r, found[KEY_AT], "at", sign_of(r, n) != 0 ? READER_SIGNED : READER_POSITIVE, &n->lo))
+        return false;
+    if (where == KEY_AT)
+        n->hi = n->lo;
+    if (!in_planes(r, found[where], n))
+        return false;
+    const int what = one_of(r, group, found, KEY_SEPARATION, KEY_TIES, "one of separation, error and ties");
+    if (what < 0)
+        return false;
+    n->kind = (need_kind)(what - KEY_SEPARATION);
+    return read_limit(r, found[what], n) && suits(r, found[what], n);
+}
+
+/* ---- The file ---------------------------------------------------------------------------------------------------- */
+
+static int by_name(const void *a, const void *b) {
+    const need *const *x = a;
+    const need *const *y = b;
+    const int order = strcmp((*x)->name, (*y)->name);
+    return order != 0 ? order : ((*x)->line > (*y)->line) - ((*x)->line < (*y)->line);
+}
+
+/* libconfig refuses a name given twice in a group, but in a list `name` is only a key like others. */
+static bool names_differ(reader *r) {
+    const size_t count = r->file->count;
+    const need **sorted = malloc(count * sizeof *sorted);
+    if (sorted == NULL)
+        return reader_fail(r, NULL, "no memory for %zu requirements", count);
+    for (size_t i = 0; i < count; i++)
+        sorted[i] = &r->file->needs[i];
+    if (count > 1) /* none: malloc() may have given no array */
+        qsort(sorted, count, sizeof *sorted, by_name);
+    bool good = true;
+    for (size_t i = 1; i < count && good; i++)
+        if (strcmp(sorted[i - 1]->name, sorted[i]->name) == 0) {
+            reader_fail(r, NULL, "requirement '%s': is already on line %d", sorted[i]->name, sorted[i - 1]->line);
+            r->error->line = sorted[i]->line;
+            good = false;
+        }
+    free(sorted);
+    return good;
+}
+
+static bool read_needs(reader *r, config_setting_t *s) {
+    const bool listed = config_setting_is_list(s);
+    if (!listed && !config_setting_is_group(s))
+        return reader_fail(r, s, "requirements: must be a group { NAME = { ... }; } or a list ( { name = ... }, ... )");
+    const unsigned count = (unsigned)config_setting_length(s);
+    if (count == 0)
+        return reader_fail(r, s, "requirements: must hold at least one");
+    r->file->needs = calloc(count, sizeof *r->file->needs);
+    if (r->file->needs == NULL)
+        return reader_fail(r, s, "no memory for %u requirements", count);
+    for (unsigned i = 0; i < count; i++) {
+        config_setting_t *group = config_setting_get_elem(s, i);
+        if (!config_setting_is_group(group))
+            return reader_fail(r, group, "requirement: must be a group { ... }, got %s", reader_shown(r, group));
+        if (!read_need(r, group, listed, &r->file->needs[r->file->count]))
+            return false;
+        r->file->count++;
+    }
+    return names_differ(r);
+}
+
+static bool read_cameras(reader *r, config_setting_t *s) {
+    const unsigned count = config_setting_is_group(s) ? (unsigned)config_setting_length(s) : 0;
+    if (count == 0)
+        return reader_fail(r, s, "cameras: must be a group { NAME = { ... }; } with at least one camera");
+    r->file->cameras = calloc(count, sizeof *r->file->cameras);
+    if (r->file->cameras == NULL)
+        return reader_fail(r, s, "no memory for %u cameras", count);
+    for (unsigned i = 0; i < count; i++) {
+        config_setting_t *group = config_setting_get_elem(s, i);
+        if (!config_setting_is_group(group))
+            return reader_fail(r, group, "camera: must be a group { ... }, got %s", reader_shown(r, group));
+        if (!reader_camera(r, group, &r->file->cameras[i]))
+            return false;
+        r->file->camera_count++;
+    }
+    return true;
+}
+
+static bool read_all(reader *r, config_setting_t *root) {
+    static const char *const names[] = {"unit", "cameras", "requirements", NULL};
+    config_setting_t *found[3];
+    if (!reader_keys(r, root, "file", names, found) || (found[0] != NULL && !reader_unit(r, found[0])))
+        return false;
+    bool (*const parts[])(reader *, config_setting_t *) = {NULL, read_cameras, read_needs};
+    for (int k = 1; k < 3; k++) {
+        if (found[k] == NULL)
+            return reader_fail(r, NULL, "needs a group '%s'", names[k]);
+        if (!parts[k](r, found[k]))
+            return false;
+    }
+    return true;
+}
+
+/* Refuses text that libconfig would follow or stop at without a word. */
+static bool is_plain(reader *r, const char *text, size_t size) {
+    static const char include[] = "@include";
+    int line = 1;
+    for (const char *at = text; at < text + size; line++) {
+        const char *end = memchr(at, '\n', size - (size_t)(at - text));
+        if (end == NULL)
+            end = text + size;
+        if (memchr(at, '\0', (size_t)(end - at)) != NULL) {
+            r->error->line = line;
+            return reader_fail(r, NULL, "holds a null byte: not text");
+        }
+        at += strspn(at, " \t\r\f\v");
+        if (strncmp(at, include, sizeof include - 1) == 0) {
+            r->error->line = line;
+            return reader_fail(r, NULL, "@include is not allowed in requirement files");
+        }
+        at = end + 1;
+    }
+    return true;
+}
+
+bool need_parse(const char *path, const char *text, size_t size, need_file *out, need_error *error) {
+    *out = (need_file){.path = path, .unit = ""};
+    *error = (need_error){0};
+    reader r = {.file = out, .error = error};
+    if (size > NEED_BYTES_MAX)
+        return reader_fail(&r, NULL, "must be at most %d bytes, got %zu", NEED_BYTES_MAX, size);
+    config_t *config = malloc(sizeof *config);
+    if (config == NULL)
+        return reader_fail(&r, NULL, "no memory");
+    config_init(config);
+    out->memory = config;
+    bool good = is_plain(&r, text, size);
+    if (good && !config_read_string(config, text)) {
+        error->line = config_error_line(config);
+        const char *text_of = config_error_text(config);
+        /* libconfig's arrays hold values of one type, and 50 is not of the type of 0.5 */
+        good =
+            reader_fail(&r, NULL, "%s; expected %s", text_of,
+                        strstr(text_of, "element type") != NULL ? "two numbers of one kind, [0.5, 50.0], or (0.5, 50)"
+                                                                : "KEY = VALUE; as depthprec(5) describes");
+    }
+    good = good && read_all(&r, config_root_setting(config));
+    if (!good)
+        need_release(out);
+    return good;
+}
+
+static char *slurp(FILE *in, size_t *size) {
+    size_t room = 1 << 16;
+    char *text = malloc(room);
+    *size = 0;
+    while (text != NULL && *size <= NEED_BYTES_MAX) {
+        *size += fread(text + *size, 1, room - 1 - *size, in);
+        if (feof(in) || ferror(in))
+            break;
+        if (*size < room - 1)
+            continue;
+        char *more = realloc(text, room *= 2);
+        if (more == NULL)
+            free(text);
+        text = more;
+    }
+    if (text != NULL)
+        text[*size] = '\0';
+    return text;
+}
+
+bool need_read(const char *path, need_file *out, need_error *error) {
+    *out = (need_file){.path = path, .unit = ""};
+    *error = (need_error){.unreadable = true};
+    errno = 0;
+    FILE *in = input_open(path);
+    size_t size = 0;
+    char *text = in != NULL ? slurp(in, &size) : NULL;
+    if (text == NULL || ferror(in)) {
+        snprintf(error->text, sizeof error->text, "cannot read: %s", strerror(errno));
+        free(text);
+        input_close(in);
+        return false;
+    }
+    input_close(in);
+    const bool good = need_parse(path, text, size, out, error);
+    free(text);
+    return good;
+}
+
+void need_release(need_file *file) {
+    free(file->cameras);
+    free(file->needs);
+    if (file->memory != NULL)
+        config_destroy(file->memory);
+    free(file->memory);
+    *file = (need_file){.path = file->path, .unit = ""};
+}

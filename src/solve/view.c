@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The triangles of a camera in a requirement file; without a viewport surfaces face it. */
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "raster/raster.h"
+#include "solve/reader.h"
+
+/* Two numbers, [A, B], each from `least` to `most`. */
+static bool read_pair(reader *r, config_setting_t *s, double least, double most, const char *form, double out[2]) {
+    bool good = (config_setting_is_array(s) || config_setting_is_list(s)) && config_setting_length(s) == 2;
+    for (unsigned i = 0; i < 2 && good; i++)
+        good = reader_number_within(config_setting_get_elem(s, i), least, most, &out[i]);
+    return good || reader_fail(r, s, "%s: must be %s, got %s", config_setting_name(s), form, reader_shown(r, s));
+}
+
+static bool read_viewport(reader *r, config_setting_t *s, dp_triangles *t) {
+    static const char form[] = "[WIDTH, HEIGHT], each a whole number from 1 to 32768 pixels";
+    double sides[2];
+    if (!read_pair(r, s, 1, 32768, form, sides))
+        return false;
+    if (sides[0] != floor(sides[0]) || sides[1] != floor(sides[1]))
+        return reader_fail(r, s, "viewport: must be %s, got %g and %g", form, sides[0], sides[1]);
+    t->width = (int)sides[0];
+    t->height = (int)sides[1];
+    return true;
+}
+
+static bool read_slant(reader *r, config_setting_t *s, dp_triangles *t) {
+    static const char form[] = "[LO, HI], from 0 to 90 degrees";
+    double ends[2];
+    if (!read_pair(r, s, 0, 90, form, ends))
+        return false;
+    if (ends[0] > ends[1])
+        return reader_fail(r, s, "slant: must be %s, got %g and %g", form, ends[0], ends[1]);
+    t->slant_lo = ends[0];
+    t->slant_hi = ends[1];
+    return true;
+}
+
+/* Degrees, as the options take them. */
+static bool read_angle(reader *r, config_setting_t *s, double *out) {
+    return reader_number_within(s, 0.01, 179, out) ||
+           reader_fail(r, s, "%s: must be a number from 0.01 to 179 degrees, got %s", config_setting_name(s),
+                       reader_shown(r, s));
+}
+
+static bool read_fov(reader *r, config_setting_t *s, dp_triangles *t) {
+    return read_angle(r, s, &t->fov_y);
+}
+
+static bool read_hfov(reader *r, config_setting_t *s, dp_triangles *t) {
+    double fov_x;
+    if (!read_angle(r, s, &fov_x))
+        return false;
+    t->fov_y = dp_fov_vertical(fov_x, t->width, t->height);
+    return dp_triangles_check(t) == DP_OK ||
+           reader_fail(r, s, "hfov: makes a vertical angle of %g degrees, which must be from 0.001 to 179.9", t->fov_y);
+}
+
+static bool read_subpixel(reader *r, config_setting_t *s, dp_triangles *t) {
+    double bits;
+    if (!reader_number_within(s, 1, 8, &bits) || bits != floor(bits))
+        return reader_fail(r, s, "subpixel: must be a whole number from 1 to 8 bits, got %s", reader_shown(r, s));
+    t->subpixel = (int)bits;
+    return true;
+}
+
+static bool read_class(reader *r, config_setting_t *group, dp_triangles *t) {
+    static const char *const names[] = {"depth", "pixels", "slim", NULL};
+    double *const fields[] = {&t->depth, &t->pixels, &t->slim};
+    config_setting_t *found[3];
+    if (!config_setting_is_group(group))
+        return reader_fail(r, group, "triangle: must be a group { depth = 2; pixels = 512; slim = 16; }, got %s",
+                           reader_shown(r, group));
+    if (!reader_keys(r, group, "triangle", names, found))
+        return false;
+    for (int k = 0; k < 3; k++)
+        if (found[k] != NULL && (!reader_number_within(found[k], 0, 1e6, fields[k]) || dp_triangles_check(t) != DP_OK))
+            return reader_fail(r, found[k],
+                               "triangle: must have depth from 1 to 1e6, pixels from 1 to 65536 and slim from 2 to "
+                               "1024, got %s = %s",
+                               names[k], reader_shown(r, found[k]));
+    return true;
+}
+
+static bool has_raster(const char *name) {
+    return raster_find(name) != NULL;
+}
+
+/* The rasterizer's grid and set-up; the bits of those that have at least so many may be said, too. */
+static bool read_raster(reader *r, config_setting_t *s, const config_setting_t *bits, need_camera *out,
+                        dp_triangles *t) {
+    const int asked = t->subpixel;
+    char name[PROFILE_NAME_SIZE];
+    if (!reader_row(r, s, "raster", has_raster, out, name))
+        return false;
+    out->raster = raster_find(name);
+    if (out->raster == NULL) {
+        for (size_t i = 0; i < raster_table.count; i++)
+            reader_known(r, name, raster_get(i)->name);
+        return reader_fail(r, s, "raster: must be a rasterizer as 'depthprec list rasterizers' names them, got '%.40s'",
+                           name);
+    }
+    if (bits != NULL && !out->raster->at_least)
+        return reader_fail(r, bits, "subpixel: cannot be combined with the rasterizer %s", out->raster->name);
+    if (bits != NULL && asked < out->raster->plane_bits)
+        return reader_fail(r, bits, "subpixel: must be at least %d with the rasterizer %s, got %d",
+                           out->raster->plane_bits, out->raster->name, asked);
+    raster_describe(out->raster, t);
+    if (bits != NULL)
+        t->subpixel = asked;
+    return true;
+}
+
+/* Triangles must be drawn by a pipeline that interpolates linearly, and judged by its guarantee. */
+static bool suits(reader *r, const config_setting_t *s, const need_camera *camera, const dp_spec *spec) {
+    if (spec->ortho)
+        return reader_fail(r, s, "viewport: does not apply to an orthographic camera");
+    if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
+        return reader_fail(r, s, "viewport: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
+                           dp_mapping_get(spec->mapping)->name);
+    if (spec->model != DP_MODEL_FLOAT && !camera->automatic)
+        return reader_fail(r, s, "viewport: needs the model float or auto, got %s", dp_model_name(spec->model));
+    return true;
+}
+
+/* The view and the rasterizer that a preset has, where nothing else is said. */
+static bool complete(reader *r, config_setting_t *const found[VIEW_COUNT], const preset *of, need_camera *out,
+                     dp_triangles *t) {
+    const bool angle = found[VIEW_FOV] != NULL || found[VIEW_HFOV] != NULL;
+    const bool grid = found[VIEW_RASTER] != NULL || found[VIEW_SUBPIXEL] != NULL;
+    if (of == NULL && !angle)
+        return reader_fail(r, found[VIEW_VIEWPORT], "viewport: needs fov or hfov");
+    if (of == NULL && !grid)
+        return reader_fail(r, found[VIEW_VIEWPORT], "viewport: needs raster or subpixel");
+    if (!angle)
+        t->fov_y = preset_fov_y(of, t->width, t->height);
+    if (!grid) {
+        out->raster = raster_find(of->raster);
+        raster_describe(out->raster, t);
+    }
+    return true;
+}
+
+bool reader_view(reader *r, config_setting_t *const found[VIEW_COUNT], const preset *of, need_camera *out,
+                 dp_spec *spec) {
+    static const char *const names[VIEW_COUNT + 1] = {VIEW_KEYS, NULL};
+    static bool (*const readers[VIEW_COUNT])(reader *, config_setting_t *, dp_triangles *) = {
+        [VIEW_VIEWPORT] = read_viewport, [VIEW_FOV] = read_fov,           [VIEW_HFOV] = read_hfov,
+        [VIEW_SLANT] = read_slant,       [VIEW_SUBPIXEL] = read_subpixel, [VIEW_TRIANGLE] = read_class};
+    dp_triangles *t = &spec->triangles;
+    for (int k = 0; k < VIEW_COUNT && found[VIEW_VIEWPORT] == NULL; k++)
+        if (found[k] != NULL)
+            return reader_fail(r, found[k], "%s: needs a viewport: surfaces face the camera", names[k]);
+    if (found[VIEW_VIEWPORT] == NULL)
+        return true;
+    if (found[VIEW_FOV] != NULL && found[VIEW_HFOV] != NULL)
+        return reader_fail(r, found[VIEW_HFOV], "'fov' and 'hfov' must not both be given");
+    *t = dp_triangles_default();
+    for (int k = 0; k < VIEW_COUNT; k++)
+        if (found[k] != NULL && readers[k] != NULL && !readers[k](r, found[k], t))
+            return false;
+    if (found[VIEW_RASTER] != NULL && !read_raster(r, found[VIEW_RASTER], found[VIEW_SUBPIXEL], out, t))
+        return false;
+    return complete(r, found, of, out, t) && suits(r, found[VIEW_VIEWPORT], out, spec);
+}

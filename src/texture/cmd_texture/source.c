@@ -1,0 +1,501 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "camera/cmd/setups.h"
+#include "cli/option/names.h"
+#include "report/message.h"
+#include "report/number.h"
+#include "texture/cmd_texture/request.h"
+#include "texture/cmd_texture/texture.h"
+#include "texture/normals.h"
+#include "texture/units.h"
+
+/* UINT32_MAX stands for "no depth" among codes. */
+enum { BITS_MAX = 31 };
+
+const char *texture_origin_name(texture_origin origin) {
+    static const char *const names[] = {"given", "found", "assumed"};
+    return names[origin];
+}
+
+bool texture_scene_takes(const texture_request *o, const char *name) {
+    return o->image.synthetic != NULL && parameter_find(o->image.synthetic->parameters, name) >= 0;
+}
+
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
+                          parameter_use unused, double *out) {
+    const char *words[PARAMETERS_MAX + 1];
+    const name_list known = {.words = words};
+    const int index = parameter_find(list, given->name);
+    char text[NAMES_SIZE];
+    size_t count = 0;
+    for (int i = 0; list[i].name != NULL; i++)
+        if (list[i].use == PARAMETER_ALWAYS || list[i].use != unused)
+            words[count++] = list[i].name;
+    words[count] = NULL;
+    if (index < 0 || (list[index].use != PARAMETER_ALWAYS && list[index].use == unused))
+        return option_error("parameter", "of %s %s", whose, names_refuse(&known, given->name, text));
+    const texture_parameter *p = &list[index];
+    if (!(given->value >= p->lo && given->value <= p->hi) || (p->whole && given->value != floor(given->value)))
+        return option_error("parameter", "%s must be %sfrom %s to %s, got %s", p->name,
+                            p->whole ? "a whole number " : "", number_of(p->lo, 6).text, number_of(p->hi, 6).text,
+                            number_full(given->value).text);
+    out[index] = given->value;
+    return EXIT_FINE;
+}
+
+/* Reads the parameters of the synthetic image; others may be the effect's. */
+static int synthetic_parameters(const texture_request *o, const synthetic_row *synthetic, double *out) {
+    int status = EXIT_FINE;
+    parameter_defaults(synthetic->parameters, out);
+    for (size_t i = 0; i < o->image.parameter_count && status == EXIT_FINE; i++)
+        if (o->image.effect == NULL || texture_scene_takes(o, o->image.parameters[i].name))
+            status = texture_parameter_set(synthetic->name, synthetic->parameters, &o->image.parameters[i],
+                                           PARAMETER_ALWAYS, out);
+    return status;
+}
+
+bool texture_far_known(const texture_request *o) {
+    return o->image.metric == 0 || option_given(o->line, "far") || o->camera.preset_count > 0;
+}
+
+bool texture_is_window(const texture_request *o) {
+    return o->image.metric == 0 && (o->image.packing == NULL || !o->image.packing->linear);
+}
+
+/* Options of window depth: again when a file has said what its samples are. */
+static int check_window(const texture_request *o) {
+    static const char *const window[] = {"format", "mapping", "log-c", "product", "sky"};
+    const bool raw = o->image.product != NULL && o->image.product->kind == FRAME_RAW;
+    for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
+        if (option_given(o->line, window[i]) && (o->image.metric > 0 || !option_is(window[i], "sky")) &&
+            (raw || !option_is(window[i], "product")))
+            return option_error(window[i], "%sdoes not apply with --%s%s, which is not window depth",
+                                option_is(window[i], "product") ? "raw " : "",
+                                o->image.stereo.focal > 0 ? "stereo"
+                                : o->image.metric > 0     ? "metric"
+                                                          : "packing ",
+                                o->image.metric > 0 ? "" : o->image.packing->name);
+    return EXIT_FINE;
+}
+
+/* The focal length is the camera's, too: another one is refused, and so are planes without a use. */
+static int check_stereo(const texture_request *o) {
+    static const char *const planes[] = {"near", "far", "preset", "platform"};
+    if (o->image.stereo.focal == 0)
+        return EXIT_FINE;
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
+        if (option_given(o->line, planes[i]) && o->image.product == NULL && !option_given(o->line, "pixel"))
+            return option_error(planes[i], "is for --product and --pixel beside --stereo, whose depths have no planes");
+    if (option_given(o->line, "intrinsics") && o->camera.intrinsics[0] != o->image.stereo.focal)
+        return option_error("intrinsics", "FX must be the focal length of --stereo, %s, got %s",
+                            number_full(o->image.stereo.focal).text, number_full(o->camera.intrinsics[0]).text);
+    return EXIT_FINE;
+}
+
+/* Options that need another one, or have no meaning beside it. */
+static int check_together(const texture_request *o) {
+    const bool file = o->line->operand_count > 0;
+    if (file && o->image.synthetic != NULL)
+        return option_error("synthetic", "replaces FILE, got '%s' too", o->line->operands[0]);
+    if (!file && o->image.synthetic == NULL)
+        return usage_error(
+            "texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF, PGM or raw image, or --synthetic NAME");
+    if (file && o->image.effect == NULL && o->image.parameter_count > 0)
+        return option_error("parameter", "needs --synthetic or --product effect");
+    const bool disparity = o->image.stereo.focal > 0;
+    if (o->image.metric > 0 && !file)
+        return option_error(disparity ? "stereo" : "metric", "needs FILE");
+    if (check_stereo(o) != EXIT_FINE)
+        return EXIT_USAGE;
+    if (o->image.channel != NULL && !file)
+        return option_error("channel", "needs FILE");
+    if (o->image.packing != NULL && !file)
+        return option_error("packing", "needs FILE");
+    const int status = check_window(o);
+    return status == EXIT_FINE ? texture_camera_check(o) : status;
+}
+
+/* Warns of colours by which a program that obeys them changes the samples. */
+static void warn_of_colours(const texture_request *o, const texture_source *s) {
+    static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->out.quiet; i++)
+        if ((s->picture.colours >> i & 1U) != 0)
+            message("depthprec: %s: has %s chunk: a program that applies it changes packed depths; ignored here",
+                    s->path, names[i]);
+    if (s->unpacked.premultiplied && !o->out.quiet)
+        message("depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong", s->path);
+}
+
+/* Whether all pixels are grey, as those of a depth that was written as colour are. */
+static bool is_grey(const image *p) {
+    const size_t size = image_type_size(p->type), count = (size_t)p->width * p->height;
+    const char *at = p->data;
+    for (size_t i = 0; p->channels >= 3 && i < count; i++, at += p->channels * size)
+        if (memcmp(at, at + size, size) != 0 || memcmp(at, at + 2 * size, size) != 0)
+            return false;
+    return true;
+}
+
+/* A byte is less than any depth has; colours that are not grey may be the channels of one, or a picture. */
+static void warn_of_channels(const texture_request *o, const texture_source *s) {
+    const image *p = &s->picture;
+    if (o->out.quiet || o->image.channel != NULL)
+        return;
+    if (*p->others != '\0')
+        message("depthprec: %s: channel %s is read, the others are %s; --channel NAME reads another", s->path,
+                p->channel, p->others);
+    else if (!is_grey(p))
+        message(p->type == IMAGE_U8
+                    ? "depthprec: %s: of %u channels the first is read, 8 bits; --packing rgb24 reads a depth of 24 "
+                      "bits in three"
+                    : "depthprec: %s: of %u channels that differ the first is read; a colour picture or a map of "
+                      "places has no depth there",
+                s->path, p->channels);
+}
+
+/* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
+
+/* Warns of lossy compression: nobody knows what it changed, so no error has it. */
+static void warn_of_compression(const texture_request *o, const texture_source *s) {
+    if (s->picture.lossy != NULL && !o->out.quiet)
+        message("depthprec: %s: its compression, %s, may have changed the depths, which no error here counts; save it "
+                "without loss",
+                s->path, s->picture.lossy);
+}
+
+/* Whether the command line says what the samples are. */
+static bool is_asked(const texture_request *o) {
+    return option_given(o->line, "packing") || option_given(o->line, "metric") || option_given(o->line, "stereo") ||
+           option_given(o->line, "format");
+}
+
+/* Whether a word of the note is an option that nothing on the command line stands against. */
+static bool is_open(const texture_request *o, const char *id) {
+    const bool of_samples = option_is(id, "packing") || option_is(id, "metric");
+    const bool of_lattice = option_given(o->line, "packing") || option_given(o->line, "format");
+    return !option_given(o->line, id) &&
+           !(of_samples                 ? is_asked(o)
+             : option_is(id, "lattice") ? of_lattice
+                                        : o->camera.preset_count > 0 || o->image.matrix != NULL);
+}
+
+/* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
+static int take_note(texture_request *o, texture_source *s) {
+    static const char *const known[] = {"packing", "metric", "lattice", "near", "far", "ortho", "mapping"};
+    char *rest = NULL;
+    const bool asked = is_asked(o);
+    bool open[sizeof known / sizeof known[0]];
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        open[i] = is_open(o, known[i]);
+    snprintf(s->note, sizeof s->note, "%s", s->picture.note);
+    for (char *word = strtok_r(s->note, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
+        char *value = strchr(word, '=');
+        if (value != NULL)
+            *value++ = '\0';
+        if (value != NULL && strcmp(word, "product") == 0 && strcmp(value, "depth") != 0 && !asked)
+            return usage_error(
+                "%s: holds %s, as depthprec wrote them, and no depth; --format NAME reads it all the same", s->path,
+                value);
+        for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+            if (!open[i] || strcmp(word, known[i]) != 0 || (value == NULL) != (option_is(known[i], "ortho")))
+                continue;
+            const int status = option_set(o->line, known[i], value);
+            if (status != EXIT_FINE)
+                return status;
+            option_give(o->line, known[i], "");
+            s->noted = s->noted || option_is(known[i], "mapping");
+            if (option_is(known[i], "metric"))
+                s->metric_from = s->picture.file == IMAGE_ROS && s->type == IMAGE_U16 ? ORIGIN_ASSUMED : ORIGIN_FOUND;
+        }
+    }
+    return EXIT_FINE;
+}
+
+/* ---- The image --------------------------------------------------------------------------------------------------- */
+
+/* The depths of a packed texture; what else is known of them is the packing's. */
+static int unpack(const texture_request *o, texture_source *s) {
+    const packing *p = o->image.packing;
+    const bool zero = option_given(o->line, "rounding") && o->camera.rounding == DP_ROUND_ZERO;
+    dp_format formats[2];
+    if (p->steps == 0 && (o->image.product == NULL || !o->image.product->packed))
+        return option_error("packing", "%s holds normals and no depth: --product packed-normal writes them", p->name);
+    if (!packing_convert(p, zero, &s->picture, &s->unpacked))
+        return usage_error("%s: %s", s->path, s->unpacked.wrong);
+    warn_of_colours(o, s);
+    s->unpacked.zeros = packing_unwrap(p, &s->picture, o->image.sky != 0 ? 1.0f : NAN);
+    if (p->steps == 0)
+        s->found = (dp_recognised){.depth = true};
+    else
+        recognise(&s->picture, &s->found, s->why);
+    dp_format_parse(p->format, formats);
+    s->found.format = formats[0];
+    s->found.certain = true;
+    s->found.steps = 0;
+    const char *towards = p->linear || p->steps == 0 ? NULL : recognise_towards(&s->found);
+    const grain *g = &s->unpacked.grain;
+    const bool steps = g->kind == GRAIN_STEPS;
+    snprintf(s->why, sizeof s->why, "packing %s, %s, in %s%s%s%s%s", p->name,
+             p->linear ? "eye depth over far" : "window depth", steps ? "steps of 1/" : "numbers of ",
+             number_of(steps ? g->steps : g->bits, 10).text, steps ? "" : " bits", towards != NULL ? "; " : "",
+             towards != NULL ? towards : "");
+    return EXIT_FINE;
+}
+
+void texture_source_close(texture_source *s) {
+    image_free(&s->picture);
+    image_free(&s->colours);
+    free(s->unpacked.normals);
+    frame_normals_free(&s->normals);
+}
+
+/* Whether anything says that the samples are window depth, or of which camera. */
+static bool is_said(const texture_request *o) {
+    static const char *const window[] = {"near",   "far",    "mapping",  "log-c", "ortho",
+                                         "matrix", "preset", "platform", "sky",   "rounding"};
+    bool said = is_asked(o) || o->image.metric > 0 || o->image.packing != NULL;
+    for (size_t i = 0; i < sizeof window / sizeof window[0]; i++)
+        said = said || option_given(o->line, window[i]);
+    return said || o->image.pack != NULL || (o->image.product != NULL && o->image.product->kind == FRAME_RAW);
+}
+
+/* Metric depth where nothing is said and the samples can be nothing else. */
+static int guess(texture_request *o, texture_source *s) {
+    const char *why = NULL, *unit = is_said(o) ? NULL : units_guess(&s->picture, &why);
+    int status = EXIT_FINE;
+    if (unit != NULL) {
+        status = option_set(o->line, "metric", unit);
+        option_give(o->line, "metric", "");
+        s->metric_from = ORIGIN_ASSUMED;
+    }
+    if (o->image.metric > 0 && s->metric_from == ORIGIN_ASSUMED && !o->out.quiet)
+        fprintf(stderr, "depthprec: %s: --metric %s is assumed%s%s\n", s->path, unit != NULL ? unit : "mm",
+                why != NULL ? ": " : "", why != NULL ? why : "");
+    return status;
+}
+
+static int read_stereo(const texture_request *o, texture_source *s) {
+    const char *wrong = stereo_convert(&s->picture, &o->image.stereo, &s->metric);
+    return wrong == NULL ? EXIT_FINE : usage_error("%s: no disparity: %s", s->path, wrong);
+}
+
+/* Undoes a move of bits that the user named; says one that the samples show. */
+static int move_bits(texture_request *o, texture_source *s) {
+    const moved_row *said = o->image.metric > 0 ? o->image.moved : NULL;
+    if (said != NULL && !moved_undo(said, &s->picture))
+        return usage_error("%s: --metric %s needs samples of 16 bits that were moved so, got %s", s->path,
+                           option_text(o->line, "metric"), image_type_name(s->type));
+    if (said != NULL && said->lattice != NULL && o->image.lattice == NULL) {
+        o->image.lattice = said->lattice;
+        option_give(o->line, "lattice", "");
+    }
+    if (said != NULL || o->image.packing != NULL || o->image.stereo.focal > 0)
+        return EXIT_FINE;
+    s->moved = moved_find(&s->picture);
+    const moved_row *row = s->moved.row;
+    if (row == NULL || o->out.quiet || (o->image.metric == 0 && !s->moved.certain))
+        return EXIT_FINE;
+    message("depthprec: %s: its samples may be no depths: %s%s%s%s%s", s->path,
+            s->moved.certain ? "" : "it may be that ", row->note, row->reading != NULL ? "; --metric " : "",
+            row->reading != NULL ? row->reading : "", row->reading != NULL ? " reads them" : "");
+    return EXIT_FINE;
+}
+
+static int read_metric(const texture_request *o, texture_source *s) {
+    sensor given;
+    int status = texture_lattice(o->camera.lengths.unit, "lattice", o->image.lattice, &given);
+    if (status != EXIT_FINE)
+        return status;
+    if (given.row != NULL && option_text(o->line, "lattice")[0] == '\0')
+        sensor_scale(&given, o->image.metric); /* a note's is of samples, whatever unit these have */
+    const double zfar = option_given(o->line, "far") ? o->camera.zfar : (double)INFINITY;
+    const char *wrong =
+        metric_convert(&s->picture, o->image.metric, zfar, given.row != NULL ? &given : NULL, &s->metric);
+    if (wrong != NULL)
+        return usage_error("%s: no metric depth: %s", s->path, wrong);
+    if (s->moved.row != NULL) /* levels of samples that may be no depths */
+        s->metric.sensor.found = s->metric.seen.found = false;
+    texture_lattice_warn(o, s);
+    return EXIT_FINE;
+}
+
+static int read_image(texture_request *o, texture_source *s) {
+    image_error error;
+    s->path = o->line->operands[0];
+    image_asked asked = {.channel = o->image.channel};
+    if (option_given(o->line, "size")) {
+        asked.width = o->image.size[0];
+        asked.height = o->image.size[1];
+    }
+    if (!image_read_as(s->path, &asked, &s->picture, &error)) {
+        usage_error("%s: %s", s->path, error.text);
+        return error.unreadable ? EXIT_IO : EXIT_USAGE;
+    }
+    if (asked.width > 0 && s->picture.file != IMAGE_RAW)
+        return option_error("size", "is for --synthetic and raw files: %s has its own", s->path);
+    if (s->picture.size_assumed && !o->out.quiet)
+        message("depthprec: %s: %u x %u pixels are assumed, by its length; --size sets them", s->path, s->picture.width,
+                s->picture.height);
+    s->type = s->picture.type;
+    s->channels = s->picture.channels;
+    warn_of_compression(o, s);
+    int status = take_note(o, s);
+    if (status == EXIT_FINE)
+        status = move_bits(o, s);
+    if (status == EXIT_FINE)
+        status = guess(o, s);
+    if (status == EXIT_FINE)
+        status = check_window(o);
+    if (status == EXIT_FINE && s->picture.most > 0 && o->image.metric == 0 &&
+        o->camera.formats[0].code_max != s->picture.most)
+        return usage_error("%s: its samples are shares of %u: --metric UNIT reads them as lengths, --format NAME as "
+                           "the codes of a format that ends there",
+                           s->path, s->picture.most);
+    if (status != EXIT_FINE || o->image.packing != NULL)
+        return status != EXIT_FINE ? status : unpack(o, s);
+    warn_of_channels(o, s);
+    if (o->image.metric > 0)
+        return o->image.stereo.focal > 0 ? read_stereo(o, s) : read_metric(o, s);
+    recognise(&s->picture, &s->found, s->why);
+    return EXIT_FINE;
+}
+/* The format that the user gave, which may leave a choice; else the one found, else the usual one. */
+static int choose_format(const texture_request *o, texture_source *s, dp_format *out) {
+    const bool chosen = o->camera.preset_count > 0 || o->camera.platform != NULL;
+    const bool given = texture_is_window(o) && (option_given(o->line, "format") || chosen);
+    s->format_from = given ? ORIGIN_GIVEN : s->path != NULL && s->found.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED;
+    if (!given && s->path != NULL && !s->found.depth)
+        return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path, s->why);
+    if (given && o->camera.format_count > 1 && option_given(o->line, "format"))
+        return option_error("format", "must be one format, got %zu", o->camera.format_count);
+    dp_format usual[2];
+    dp_format_parse("unorm24", usual);
+    *out = given ? o->camera.formats[0] : s->path != NULL ? s->found.format : usual[0];
+    bool told = false; /* of two formats of a preset or a platform */
+    for (size_t i = 0; given && s->path != NULL && i < o->camera.format_count && !told; i++)
+        if (strcmp(o->camera.formats[i].name, s->found.format.name) == 0) {
+            *out = o->camera.formats[i];
+            told = s->found.certain;
+        }
+    if (given && !told && setup_decided(&o->camera) != EXIT_FINE)
+        return EXIT_USAGE;
+    if (out->bits > BITS_MAX)
+        return option_error("format", "must have at most %d bits in an image, got %s", BITS_MAX, out->name);
+    return EXIT_FINE;
+}
+
+static int choose_mapping(const texture_request *o, texture_source *s, dp_mapping *out) {
+    const bool given = option_given(o->line, "mapping") || o->camera.preset_count > 0;
+    if (!texture_is_window(o)) { /* a packing that says so */
+        *out = DP_MAPPING_LINEAR;
+        s->mapping_from = s->direction_from = ORIGIN_FOUND;
+        return EXIT_FINE;
+    }
+    if (given && o->camera.mapping_count > 1)
+        return option_error("mapping", "must be one mapping, got %zu", o->camera.mapping_count);
+    /* Nothing in an image tells the curve; what is usual in perspective pictures tells nothing of orthographic ones. */
+    const bool told = s->path != NULL && s->found.reversed >= 0 && !o->camera.ortho;
+    s->mapping_from = s->noted ? ORIGIN_FOUND : given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
+    s->direction_from = s->noted                     ? ORIGIN_FOUND
+                        : given                      ? ORIGIN_GIVEN
+                        : told && s->found.direction ? ORIGIN_FOUND
+                                                     : ORIGIN_ASSUMED;
+    const dp_mapping usual = o->camera.platform != NULL ? o->camera.mappings[0] : DP_MAPPING_D3D;
+    *out = given ? o->camera.mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : usual;
+    if (dp_mapping_get(*out)->log_from_near)
+        return option_error(option_given(o->line, "mapping") ? "mapping" : "preset",
+                            "texture reads logarithms that begin at the eye (log, three-webgl, osgearth), none that "
+                            "begins at near; got %s",
+                            dp_mapping_get(*out)->name);
+    return EXIT_FINE;
+}
+
+static int make_setup(const texture_request *o, texture_source *s, dp_setup *out) {
+    texture_request one = *o;
+    setups all = {0};
+    if (o->image.matrix != NULL && o->image.packing != NULL && o->image.packing->linear)
+        return option_error("matrix", "is for window depth, and %s holds eye depth: --fov says its camera", s->path);
+    int status = o->image.metric > 0 ? EXIT_FINE : choose_format(o, s, &one.camera.formats[0]);
+    if (status == EXIT_FINE && (o->image.metric == 0 || o->image.matrix != NULL))
+        status =
+            o->image.matrix != NULL ? texture_matrix_open(o, s, &one) : choose_mapping(o, s, &one.camera.mappings[0]);
+    one.camera.format_count = one.camera.mapping_count = 1;
+    if (status == EXIT_FINE)
+        status = setups_make(&one.camera, &all);
+    if (status != EXIT_FINE)
+        return status;
+    *out = all.items[0];
+    setups_release(&all);
+    return EXIT_FINE;
+}
+
+/* Metric depth lies on a lattice of its own; the planes that were given are for effects alone. */
+static int make_camera(const texture_request *o, texture_source *s) {
+    const bool is_metric = o->image.metric > 0;
+    int status = make_setup(o, s, is_metric ? &s->planes : &s->setup);
+    camera_spec spec = o->camera.spec;
+    if (s->path != NULL) {
+        spec.width = s->picture.width;
+        spec.height = s->picture.height;
+    }
+    if (status == EXIT_FINE)
+        status = view_vertical(&o->camera, (int)spec.width, (int)spec.height, &spec.fov_y);
+    if (status == EXIT_FINE)
+        status = texture_camera_place(o, &spec);
+    if (status != EXIT_FINE)
+        return status;
+    const double focal = o->image.stereo.focal, middle[] = {focal, focal, 0.5 * spec.width, 0.5 * spec.height};
+    const bool said = option_given(o->line, "intrinsics"), says_angle = s->matrix.path != NULL || said || focal > 0;
+    if (said || focal > 0)
+        texture_intrinsics_take(said ? o->camera.intrinsics : middle, (double[]){spec.width, spec.height}, &s->matrix);
+    s->fov_y = says_angle ? s->matrix.fov[1] : spec.fov_y;
+    spec.matrix = says_angle ? &s->matrix.taken : NULL;
+    spec.radial = o->image.radial;
+    if (o->image.radial && o->camera.ortho)
+        return option_error("radial", "does not apply to an orthographic camera, whose rays are parallel");
+    const char *wrong = camera_init(&s->camera, is_metric ? &s->planes : &s->setup, &spec);
+    if (wrong != NULL)
+        return usage_error("texture: %s", wrong);
+    if (is_metric) {
+        dp_spec lattice = dp_spec_default();
+        lattice.znear = s->metric.znear;
+        lattice.zfar = s->metric.zfar;
+        lattice.mapping = s->metric.mapping;
+        lattice.format = s->metric.format;
+        if (dp_setup_init(&s->setup, &lattice) != DP_OK)
+            return usage_error("%s: no metric depth: its depths are too small or too large for --%s", s->path,
+                               focal > 0 ? "stereo" : "metric");
+        s->camera.setup = s->setup;
+    }
+    const bool moves = o->image.effect != NULL && (o->image.effect->needs & EFFECT_LAST_FRAME) != 0;
+    return moves ? texture_last_camera(o, &s->setup, &spec, &s->last) : EXIT_FINE;
+}
+
+int texture_source_open(texture_request *o, texture_source *s) {
+    int status = check_together(o);
+    if (status == EXIT_FINE && o->image.synthetic != NULL)
+        status = synthetic_parameters(o, o->image.synthetic, s->parameters);
+    else if (status == EXIT_FINE)
+        status = read_image(o, s);
+    if (status == EXIT_FINE)
+        status = make_camera(o, s);
+    if (status == EXIT_FINE && s->path != NULL)
+        texture_read_on(o, s);
+    s->frame =
+        (frame){.camera = &s->camera,
+                .last = o->image.effect != NULL && (o->image.effect->needs & EFFECT_LAST_FRAME) != 0 ? &s->last : NULL,
+                .image = s->path != NULL ? &s->picture : NULL,
+                .synthetic = o->image.synthetic,
+                .parameters = s->parameters,
+                .grain = s->path != NULL ? &s->grain : NULL,
+                .metric = o->image.metric > 0,
+                .sensor = o->image.metric > 0 && o->image.stereo.focal == 0 ? &s->metric.sensor : NULL,
+                .planes = o->image.metric > 0 ? &s->planes : NULL,
+                .sky = o->image.sky,
+                .threads = o->out.threads};
+    return status;
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file request.h  What world is asked. */
+#ifndef WORLD_CMD_WORLD_REQUEST_H
+#define WORLD_CMD_WORLD_REQUEST_H
+
+#include "camera/cmd/camera.h"
+#include "cli/output/output.h"
+#include "world/cmd/origin.h"
+
+typedef struct world_request {
+    asked_line *line;
+    camera_asked camera;
+    output_asked out;
+    origin_asked origin;
+    depths distances;  /**< of the camera from the world's origin; count is 0 when not given */
+    double separation; /**< scene units; 0 when not given */
+} world_request;
+
+extern const option_table world_options;
+
+#endif

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file request.h  What zfight is asked. */
+#ifndef ZFIGHT_CMD_ZFIGHT_REQUEST_H
+#define ZFIGHT_CMD_ZFIGHT_REQUEST_H
+
+#include "camera/cmd/camera.h"
+#include "cli/output/output.h"
+
+typedef struct zfight_request {
+    asked_line *line;
+    camera_asked camera;
+    output_asked out;
+    uint64_t sample; /**< pairs to draw; 0 when not given */
+    uint64_t seed;
+    bool drawn;        /**< --rasterize: the surfaces are drawn */
+    double separation; /**< scene units; 0 when not given */
+} zfight_request;
+
+extern const option_table zfight_options;
+
+#endif

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cameras of engines: each row makes set-ups, says where it comes from and what is not confirmed. */
+#include <ctype.h>
+
+#include "camera/cost.h"
+#include "camera/presets.h"
+#include "cli/option/names.h"
+#include "named.h"
+#include "raster/raster.h"
+#include "support.h"
+
+static size_t count(void) {
+    size_t rows = 0;
+    while (preset_get(rows) != NULL)
+        rows++;
+    return rows;
+}
+
+TEST(test_required) {
+    static const char *const names[] = {"unity", "unity-gl",     "unreal", "godot-forward", "godot-mobile",
+                                        "three", "three-webgpu", "bevy",   "cesium",        "mujoco"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        assert_non_null(preset_find(names[i]));
+    const name_list presets = {.rows = &preset_table};
+    list_item item;
+    assert_true(names_find(&presets, "BEVY", NULL, &item) && item.row == preset_find("bevy"));
+    assert_null(preset_find("quake"));
+    assert_null(preset_find(""));
+    assert_null(preset_get(count()));
+}
+
+TEST(test_rows) {
+    for (size_t i = 0; i < count(); i++) {
+        const preset *row = preset_get(i);
+        assert_true(preset_find(row->name) == row); /* no name twice */
+        for (const char *c = row->name; *c != '\0'; c++)
+            assert_true(islower((unsigned char)*c) || isdigit((unsigned char)*c) || *c == '-');
+        assert_non_null(bias_api_find(row->api));
+        assert_true(raster_find(row->raster) != NULL && row->fov > 0 && row->fov < 180);
+        assert_true(row->unit[0] != '\0' && row->note[0] != '\0' && row->source[0] != '\0');
+        assert_int_equal(strlen(row->checked), 10);
+        assert_true(strspn(row->checked, "0123456789-") == 10 && row->checked[4] == '-' && row->checked[7] == '-');
+        dp_format formats[2];
+        const size_t found = dp_format_parse(row->format, formats);
+        assert_true(found >= 1);
+        for (size_t f = 0; f < found; f++) {
+            dp_spec spec = dp_spec_default();
+            dp_setup setup;
+            spec.znear = row->znear;
+            spec.zfar = row->zfar;
+            spec.mapping = row->mapping;
+            spec.format = formats[f];
+            assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        }
+    }
+}
+
+/* What is not confirmed is named by the columns that a row has. */
+TEST(test_unconfirmed) {
+    static const char *const columns[] = {"near", "far", "mapping", "format", "fov"};
+    for (size_t i = 0; i < count(); i++) {
+        char text[64];
+        assert_true(strlen(preset_get(i)->unconfirmed) < sizeof text);
+        strcpy(text, preset_get(i)->unconfirmed);
+        for (char *word = strtok(text, ", "); word != NULL; word = strtok(NULL, ", ")) {
+            int known = 0;
+            for (size_t c = 0; c < 5; c++)
+                known |= strcmp(word, columns[c]) == 0;
+            assert_true(known);
+        }
+    }
+}
+
+TEST(test_known_values) {
+    dp_format formats[2];
+    assert_int_equal(dp_format_parse(preset_find("three-webgpu")->format, formats), 2); /* depth24plus */
+    assert_string_equal(preset_find("unreal")->unit, "cm");
+    assert_true(isinf(preset_find("unreal")->zfar) && isinf(preset_find("bevy")->zfar));
+    assert_int_equal(preset_find("unity")->mapping, DP_MAPPING_REVERSED);
+    assert_int_equal(preset_find("unity-gl")->mapping, DP_MAPPING_GL);
+    assert_int_equal(preset_find("cesium")->mapping, DP_MAPPING_CESIUM);
+    assert_true(strstr(preset_find("mujoco")->unconfirmed, "near") != NULL);
+    dp_format_parse(preset_find("godot-mobile")->format, formats);
+    assert_string_equal(formats[0].name, "unorm24");
+}
+
+/* The shader writes log2(1 + z - near)/log2(1 + far - near): 0 at the near plane, and 10 behind it log(11)/log(5e8). */
+TEST(test_cesium_codes) {
+    const preset *p = preset_find("cesium");
+    dp_format formats[2];
+    dp_format_parse(p->format, formats);
+    dp_spec spec = dp_spec_default();
+    spec.znear = p->znear, spec.zfar = p->zfar, spec.mapping = p->mapping, spec.format = formats[0];
+    dp_setup setup;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_int_equal(dp_code(&setup, 1), 0);
+    assert_int_equal(dp_code(&setup, 11), lrint(0xFFFFFF * (log(11) / log(5e8))));
+    assert_int_equal(dp_code(&setup, 5e8), 0xFFFFFF);
+}
+
+/* Vertical, horizontal, and of the larger side. */
+TEST(test_view) {
+    assert_true(preset_fov_y(preset_find("godot-forward"), 1920, 1080) == 75);
+    assert_true(preset_fov_y(preset_find("bevy"), 100, 300) == 45);
+    assert_relative(preset_fov_y(preset_find("unreal"), 1920, 1080), 58.71550708558254, 1e-14);
+    assert_relative(preset_fov_y(preset_find("unreal"), 300, 400), 106.26020470831196, 1e-14);
+    assert_true(preset_fov_y(preset_find("cesium"), 1080, 1920) == 60);
+    assert_relative(preset_fov_y(preset_find("cesium"), 2000, 1000), 32.20422750397203, 1e-14);
+    assert_string_equal(preset_find("three")->raster, "spec-gl");
+    assert_string_equal(preset_find("unity")->raster, "spec-vulkan");
+}
+
+static dp_format format_of(const char *name) {
+    dp_format f[2];
+    assert_int_not_equal(dp_format_parse(name, f), 0);
+    return f[0];
+}
+
+TEST(test_cost) {
+    static const char *const order[] = {"unorm16", "fp32", "unorm24", "fp16", "float3.3"};
+    for (int i = 0; i < 5; i++)
+        for (int k = i + 1; k < 4; k++) {
+            const dp_format a = format_of(order[i]), b = format_of(order[k]);
+            const cost x = cost_of(&a, DP_MAPPING_D3D), y = cost_of(&b, DP_MAPPING_D3D);
+            assert_true(cost_compare(&x, &y) < 0 && cost_compare(&y, &x) > 0);
+        }
+    for (size_t i = 0; i < dp_format_count(); i++) /* every named format has its row */
+        assert_null(strstr(cost_of(&dp_format_get(i)->format, DP_MAPPING_GL).available, "study"));
+}

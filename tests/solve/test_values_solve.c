@@ -1,0 +1,597 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Every value that solve prints. The planes that it found are taken from its JSON and put to the test: there the
+ * measure is what is printed beside them, they pass, and beyond them nothing does. Text and CSV say the same.
+ */
+#include <time.h>
+
+#include "camera/cost.h"
+#include "printed.h"
+#include "solve/distance.h"
+#include "solve/plane.h"
+
+typedef struct solve_case {
+    const char *arguments, *target;
+    measure_kind kind;
+    double limit; /* NaN: what is reached is asked */
+    double lo, hi;
+    bool possible;
+    double znear, zfar; /* as given; NaN where they are asked for */
+    const char *model;
+} solve_case;
+
+static const solve_case cases[] = {
+    {"-F unorm24,fp32 -m d3d,reversed -f 10000 --separation 0.01 --at 5000", "near", MEASURE_SEPARATION, 0.01, 5000,
+     5000, true, NAN, 10000, "exact"},
+    {"-n 0.1 -F unorm16 -m d3d --for far --error 0.024 --at 17.77", "far", MEASURE_ERROR, 0.024, 17.77, 17.77, true,
+     0.1, NAN, "exact"},
+    {"--for far -n 0.1 -F fp16 -m log --log-c 2.5 --error 0.0036 --range 2:5", "far", MEASURE_ERROR, 0.0036, 2, 5, true,
+     0.1, NAN, "exact"},
+    {"-F fp16 -m reversed -f 1000 --error 0.01 --range 1:100", "near", MEASURE_ERROR, 0.01, 1, 100, false, NAN, 1000,
+     "exact"},
+    {"-F fp16 -m reversed -f 4000 --rounding even --separation 0.5 --range 10:700", "near", MEASURE_SEPARATION, 0.5, 10,
+     700, true, NAN, 4000, "exact"},
+    {"-n 0.1 -f 4000 -F unorm16 --separation 0.001 --at 100", "mapping", MEASURE_SEPARATION, 0.001, 100, 100, false,
+     0.1, 4000, "exact"},
+    {"-n 0.1 -f 4000 --separation 0.001 --range 0.1:100", "format", MEASURE_SEPARATION, 0.001, 0.1, 100, true, 0.1,
+     4000, "exact"},
+    {"-n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed --rounding zero --range 3:50", "separation", MEASURE_SEPARATION,
+     NAN, 3, 50, true, 0.1, 1000, "exact"},
+    {"-F unorm24,fp32 -m d3d,reversed -f 10000 --separation 0.013 --range 20:4000", "near", MEASURE_SEPARATION, 0.013,
+     20, 4000, true, NAN, 10000, "float"},
+    {"-F unorm24 -m reversed -f 10000 --separation 0.013 --at 4000", "near", MEASURE_SEPARATION, 0.013, 4000, 4000,
+     true, NAN, 10000, "float"},
+    {"-F fp32 -m d3d -f 10000 --separation 0.013 --at 4000", "near", MEASURE_SEPARATION, 0.013, 4000, 4000, true, NAN,
+     10000, "float"},
+    {"--for far -n 0.25 -F unorm24 -m gl --separation 0.5 --at 700", "far", MEASURE_SEPARATION, 0.5, 700, 700, true,
+     0.25, NAN, "float"},
+    {"-F unorm24 -m d3d -f 2000 --error 0.01 --range 1:300", "near", MEASURE_ERROR, 0.01, 1, 300, true, NAN, 2000,
+     "staged"},
+    {"--for distance -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,gl --separation 0.01", "distance", MEASURE_SEPARATION, 0.01,
+     0.1, 1000, true, 0.1, 1000, "float"},
+    {"--for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01 --range 0.2:121.4", "distance",
+     MEASURE_SEPARATION, 0.01, 0.2, 121.4, true, 0.1, 1000, "float"},
+    {"--for distance -n 0.1 -f 2e5 -F fp32 -m reversed --separation 0.01", "distance", MEASURE_SEPARATION, 0.01, 0.1,
+     2e5, true, 0.1, 2e5, "float"},
+    {"--for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01", "distance", MEASURE_SEPARATION, 0.01, 0.1,
+     1000, true, 0.1, 1000, "exact"},
+    {"--for distance -n 0.1 -f 1000 -F fp32 -m reversed --separation 0.01 --range 0.5:1000", "distance",
+     MEASURE_SEPARATION, 0.01, 0.5, 1000, true, 0.1, 1000, "exact"},
+    {"--for distance -n 0.1 -f 1000 -F unorm24 -m log --separation 0.001", "distance", MEASURE_SEPARATION, 0.001, 0.1,
+     1000, true, 0.1, 1000, "float"},
+    {"--for near -f 1e7 -F unorm24 -m three-webgpu --separation 1 --at 1e5", "near", MEASURE_SEPARATION, 1, 1e5, 1e5,
+     true, NAN, 1e7, "float"},
+    {"--for near -f 1e4 -F unorm24 -m d3d --separation 0.0001 --at 5000", "near", MEASURE_SEPARATION, 0.0001, 5000,
+     5000, false, NAN, 1e4, "float"},
+    {"--for distance -n 0.1 -f 1000 -F fp16 -m d3d --error 0.02 --range 0.2:900", "distance", MEASURE_ERROR, 0.02, 0.2,
+     900, true, 0.1, 1000, "exact"},
+};
+
+static json_t *root; /* what the run at hand printed */
+
+/* ---- What is said of a candidate --------------------------------------------------------------------------------- */
+
+static dp_setup setup_of(const json_t *o) {
+    dp_spec spec = dp_spec_default();
+    dp_format format[2];
+    dp_setup setup;
+    spec.znear = number_at(o, "near");
+    spec.zfar = isnan(number_at(o, "far")) ? INFINITY : number_at(o, "far");
+    assert_int_equal(dp_format_parse(text_at(o, "format"), format), 1);
+    spec.format = format[0];
+    assert_int_equal(dp_mapping_parse(text_at(o, "mapping"), &spec.mapping), DP_OK);
+    for (int r = 0; dp_rounding_name((dp_rounding)r) != NULL; r++)
+        if (strcmp(dp_rounding_name((dp_rounding)r), text_at(o, "rounding")) == 0)
+            spec.rounding = (dp_rounding)r;
+    for (int m = 0; m < DP_MODEL_COUNT; m++)
+        if (strcmp(dp_model_name((dp_model)m), text_at(o, "model")) == 0)
+            spec.model = (dp_model)m;
+    spec.log_c = node_at(o, "log_c") != NULL ? number_at(o, "log_c") : 1;
+    assert_int_equal(judge_setup(&spec, &setup), DP_OK);
+    return setup;
+}
+
+/* What a set-up was made from: of a logarithmic depth it has the model that its codes have. */
+static dp_spec spec_of(const dp_setup *setup) {
+    dp_spec spec = setup->spec;
+    if (setup->shader)
+        spec.model = DP_MODEL_FLOAT;
+    return spec;
+}
+
+/* The measure with another plane in place of the one that was solved for; INFINITY where that cannot be. */
+static double with_plane(const solve_case *c, const dp_setup *setup, bool near_asked, double plane) {
+    dp_spec spec = spec_of(setup);
+    dp_setup other;
+    *(near_asked ? &spec.znear : &spec.zfar) = plane;
+    if (spec.znear > c->lo || spec.zfar < c->hi || judge_setup(&spec, &other) != DP_OK)
+        return INFINITY;
+    return judge(c->kind, &other, c->lo, c->hi, NAN).value;
+}
+
+/* Both ends pass; outward of each nothing does, unless it is as far as a plane can go. */
+static void check_island(const solve_case *c, const dp_setup *setup, bool near_asked, double lo, double hi) {
+    const double outward = 1e-7;
+    assert_true(lo <= hi);
+    assert_true(with_plane(c, setup, near_asked, lo) <= c->limit && with_plane(c, setup, near_asked, hi) <= c->limit);
+    if (c->kind == MEASURE_ERROR) /* which may pass again where it is aligned otherwise */
+        return;
+    if (lo > 1e-12 && (near_asked || lo > c->hi))
+        assert_true(with_plane(c, setup, near_asked, lo * (1 - outward)) > c->limit);
+    if (near_asked ? hi < c->lo : hi < 1e18)
+        assert_true(with_plane(c, setup, near_asked, hi * (1 + outward)) > c->limit);
+}
+
+static double in_binary32(const solve_case *c, const dp_setup *setup, double z) {
+    dp_budget b;
+    return c->kind == MEASURE_SEPARATION && dp_budget_at(setup, z, NULL, &b) == DP_OK ? b.separation : NAN;
+}
+
+/* Was a plane solved for? By default it is the target; among alternatives it may be another near plane. */
+static bool is_solved(const solve_case *c, const dp_setup *setup) {
+    return isnan(c->znear) || isnan(c->zfar) || setup->spec.znear != c->znear;
+}
+
+static bool near_is_asked(const solve_case *c) {
+    return strcmp(c->target, "far") != 0;
+}
+
+static bool is_distance(const solve_case *c) {
+    return strcmp(c->target, "distance") == 0;
+}
+
+static const char *measure_of(const solve_case *c) {
+    return c->kind == MEASURE_ERROR ? "error" : "separation";
+}
+
+static plane_answer solve_again(const solve_case *c, const dp_setup *setup) {
+    plane_answer out;
+    const solve_problem p = {.spec = spec_of(setup),
+                             .unknown = near_is_asked(c) ? SOLVE_NEAR : SOLVE_FAR,
+                             .kind = c->kind,
+                             .limit = c->limit,
+                             .lo = c->lo,
+                             .hi = c->hi};
+    assert_int_equal(plane_solve(&p, &out), DP_OK);
+    return out;
+}
+
+static bool passes_at(const solve_case *c, const dp_setup *setup, double plane) {
+    dp_spec spec = spec_of(setup);
+    dp_setup other;
+    *(near_is_asked(c) ? &spec.znear : &spec.zfar) = plane;
+    return judge_setup(&spec, &other) == DP_OK && judge(c->kind, &other, c->lo, c->hi, c->limit).passed;
+}
+
+/* Its own ends pass, as does all between them, planes of few bits among them. */
+static void check_plane(const solve_case *c, const dp_setup *setup, double plane, const plane_answer *p) {
+    assert_true(passes_at(c, setup, plane) && passes_at(c, setup, p->until));
+    for (int i = 0; i < 2000 && isfinite(plane) && isfinite(p->until); i++) {
+        const double x = plane * pow(p->until / plane, i / 1999.0), grid = ldexp(1.0, ilogb(x) - i % 16);
+        const double tried[] = {x, rint(x / grid) * grid};
+        for (int k = 0; k < 2; k++)
+            if (tried[k] >= fmin(plane, p->until) && tried[k] <= fmax(plane, p->until) && (k == 0 || c->lo == c->hi))
+                assert_true(passes_at(c, setup, tried[k]));
+    }
+}
+
+/* None was found, for certain or not. */
+static void want_no_plane(values *v, const solve_case *c, const dp_setup *setup) {
+    const plane_answer p = solve_again(c, setup);
+    assert_false(p.possible);
+    want(v, "until=%f proven=%d certain=%d", NAN, p.certain, p.certain);
+}
+
+static void want_plane(values *v, const solve_case *c, const dp_setup *setup, double plane) {
+    const plane_answer p = solve_again(c, setup);
+    want(v, "until=%f proven=%d certain=%d", p.until, true, p.certain);
+    want(v, "~from=%f ~to=%f", fmin(plane, p.until), fmax(plane, p.until));
+    assert_true(p.possible && p.value == plane);
+    check_plane(c, setup, plane, &p);
+    if (setup->spec.model == DP_MODEL_EXACT && c->kind == MEASURE_SEPARATION)
+        check_island(c, setup, near_is_asked(c), fmin(plane, p.until), fmax(plane, p.until));
+}
+
+/* Up to here it holds, just beyond it does not. */
+static distance_answer want_distance(values *v, const solve_case *c, const dp_setup *setup, bool whole) {
+    distance_answer d;
+    assert_int_equal(distance_solve(c->kind, setup, c->lo, c->hi, c->limit, &d), DP_OK);
+    want_number(v, "distance", d.possible ? d.value : NAN);
+    if (d.possible)
+        assert_true(judge(c->kind, setup, c->lo, d.value, c->limit).passed && (!d.throughout || d.value == c->hi));
+    if (!d.throughout)
+        assert_true(d.fails > d.value && !judge(c->kind, setup, c->lo, d.fails, c->limit).passed);
+    if (whole)
+        want(v, "throughout=%d fails_from=%f", d.throughout, d.fails);
+    want_bool(v, "possible", d.possible);
+    return d;
+}
+
+/* The nearest surfaces that far apart, one at each binary32 depth, that are stored as one code or the wrong way. */
+static double first_fight(const dp_setup *setup, double from, double to, double apart) {
+    dp_pipeline p;
+    assert_int_equal(dp_pipeline_init(&p, setup), DP_OK);
+    float z = (float)from;
+    for (z = (double)z < from ? nextafterf(z, INFINITY) : z; (double)z <= to; z = nextafterf(z, INFINITY)) {
+        const uint32_t front = dp_pipeline_code(&p, z), back = dp_pipeline_code(&p, (float)((double)z + apart));
+        if (setup->reversed ? back >= front : back <= front)
+            return (double)z;
+    }
+    return NAN;
+}
+
+/* What lies beyond the distance: 2^14 depths are looked at, then twice as many, and so on until some fight. */
+static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
+    distance_span again[32];
+    distance_answer d;
+    double first = NAN, end = NAN;
+    assert_int_equal(distance_solve(c->kind, setup, c->lo, c->hi, c->limit, &d), DP_OK);
+    const double from = d.possible ? d.value : c->lo;
+    if (setup->spec.model == DP_MODEL_FLOAT && from + c->limit <= c->hi) {
+        first = first_fight(setup, from, c->hi - c->limit, c->limit);
+        end = from;
+        for (uint32_t depths = 1 << 14; end < c->hi && !(end >= first); depths *= 2)
+            for (uint32_t k = 0; k < depths && end < c->hi; k++)
+                end = fmin((double)nextafterf((float)end, INFINITY), c->hi);
+        end = fmin(end, c->hi - c->limit);
+    }
+    values_under(v, "fight.");
+    want(v, "first=%f searched_to=%f", first, end);
+    const size_t count =
+        c->kind == MEASURE_SEPARATION && !d.throughout ? distance_again(setup, from, c->hi, c->limit, again, 32) : 0;
+    for (size_t i = 0; i < count; i++) {
+        values_under(v, "again[%zu].", i);
+        want(v, "lo=%f hi=%f", again[i].lo, again[i].hi);
+    }
+}
+
+/* What real arithmetic would need: the same question in the model exact. */
+static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, bool solved) {
+    const dp_setup exact = setup_in(setup, DP_MODEL_EXACT);
+    judgement reached;
+    double value = NAN;
+    values_under(v, "%.60slattice.", v->prefix);
+    if (is_distance(c)) {
+        const distance_answer d = want_distance(v, c, &exact, false);
+        reached = d.reached;
+        value = d.possible ? d.value : NAN;
+    } else if (solved) {
+        const plane_answer p = solve_again(c, &exact);
+        want_bool(v, "possible", p.possible);
+        want_number(v, near_is_asked(c) ? "near" : "far", value = p.value);
+        reached = p.reached;
+    } else {
+        reached = judge(c->kind, &exact, c->lo, c->hi, c->limit);
+        want_bool(v, "possible", isnan(c->limit) || reached.passed);
+    }
+    want_number(v, measure_of(c), reached.value);
+    want(v, "z=%f ~plane=%f ~value=%f", reached.z, value, reached.value);
+}
+
+static void want_candidate(values *v, const solve_case *c, const json_t *o, const char *under) {
+    const dp_setup setup = setup_of(o);
+    const cost price = cost_of(&setup.spec.format, setup.spec.mapping);
+    const double plane = near_is_asked(c) ? setup.spec.znear : setup.spec.zfar;
+    judgement worst = judge(c->kind, &setup, c->lo, c->hi, c->limit);
+    bool passes = isnan(c->limit) || worst.passed;
+    values_under(v, "%s", under);
+    want_setup(v, &(dp_setup){.spec = spec_of(&setup)});
+    if (is_distance(c)) {
+        const distance_answer d = want_distance(v, c, &setup, true);
+        worst = d.reached;
+        passes = d.possible;
+        want(v, "~from=%f ~to=%f ~plane=%f", passes ? c->lo : NAN, passes ? d.value : NAN, passes ? d.value : NAN);
+    } else {
+        want_bool(v, "possible", passes);
+        want_derived(v, "plane", passes ? plane : NAN);
+    }
+    want_number(v, measure_of(c), worst.value);
+    want(v, "z=%f guaranteed=%f ~value=%f", worst.z, in_binary32(c, &setup, worst.z), worst.value);
+    const bool solved = !is_distance(c) && !isnan(c->limit) && is_solved(c, &setup);
+    if (solved && passes)
+        want_plane(v, c, &setup, plane);
+    else if (!is_distance(c)) {
+        if (solved && (isnan(c->znear) || isnan(c->zfar)))
+            want_no_plane(v, c, &setup);
+        want(v, "~from=%f ~to=%f", NAN, NAN);
+    }
+    values_under(v, "%s", under);
+    want_lattice(v, c, &setup, solved);
+    values_under(v, "%s", under);
+    want(v, "bytes=%u available=%s caution=%s effort=%s ~role=%s", (unsigned)price.bytes, price.available,
+         price.caution, price.effort, strcmp(under, "answer.") == 0 ? "answer" : "alternative");
+}
+
+/* Cheapest first: what passes as it is, what passes with another near, the rest. */
+static int class_of(const solve_case *c, const json_t *o) {
+    const dp_setup setup = setup_of(o);
+    const bool asked = isnan(c->znear) || isnan(c->zfar);
+    return !flag_at(o, "possible") ? 2 : !asked && is_solved(c, &setup) ? 1 : 0;
+}
+
+static void check_order(const solve_case *c, const json_t *alternatives) {
+    for (size_t i = 1; i < json_array_size(alternatives); i++) {
+        const json_t *a = json_array_get(alternatives, i - 1), *b = json_array_get(alternatives, i);
+        const dp_setup x = setup_of(a), y = setup_of(b);
+        const cost p = cost_of(&x.spec.format, x.spec.mapping), q = cost_of(&y.spec.format, y.spec.mapping);
+        assert_true(class_of(c, a) <= class_of(c, b));
+        if (class_of(c, a) == class_of(c, b) && class_of(c, a) < 2)
+            assert_true(cost_compare(&p, &q) <= 0);
+    }
+}
+
+static void want_solve(values *v, const solve_case *c) {
+    const json_t *answer = node_at(root, "answer"), *islands = node_at(root, "islands");
+    const json_t *others = node_at(root, "alternatives");
+    const dp_setup own = setup_of(answer), setup = setup_in(&own, DP_MODEL_EXACT);
+    char under[PATH_SIZE];
+    assert_string_equal(text_at(answer, "model"), c->model);
+    want(v, "for=%s measure=%s limit=%f lo=%f hi=%f", c->target, measure_of(c), c->limit, c->lo, c->hi);
+    want(v, "possible=%d", c->possible);
+    want_candidate(v, c, answer, "answer.");
+    if (is_distance(c))
+        want_beyond(v, c, &own);
+    for (size_t i = 0; i < json_array_size(islands); i++) {
+        const double lo = number_at(islands, "[%zu].lo", i), end = number_at(islands, "[%zu].hi", i);
+        const double hi = isnan(end) ? INFINITY : end;
+        values_under(v, "islands[%zu].", i);
+        want(v, "lo=%f hi=%f", lo, hi);
+        check_island(c, &setup, near_is_asked(c), lo, hi);
+        assert_true(i == 0);
+        if (c->possible && own.spec.model == DP_MODEL_EXACT)
+            assert_true(value_at(v, "answer.from")->number == lo && value_at(v, "answer.to")->number == hi);
+    }
+    for (size_t i = 0; i < json_array_size(others); i++) {
+        snprintf(under, sizeof under, "alternatives[%zu].", i);
+        want_candidate(v, c, json_array_get(others, i), under);
+    }
+    check_order(c, others);
+}
+
+/* ---- CSV and text ------------------------------------------------------------------------------------------------ */
+
+static void check_lines(const values *v, int status, const char *arguments) {
+    line_places lines = {0};
+    place_add(&lines, "", "answer.");
+    for (size_t i = 0; i < json_array_size(node_at(root, "alternatives")); i++)
+        place_add(&lines, "", "alternatives[%zu].", i);
+    check_csv(v, status, arguments,
+              "role, " SETUP_CSV "for = /for, possible = ^possible, measure = /measure, limit [scene] = /limit, "
+              "value [scene] = ^value, z [scene] = ^z, from [scene], to [scene], bytes = ^bytes, "
+              "available = ^available, lattice [scene] = ^lattice.plane, "
+              "lattice value [scene] = ^lattice.value",
+              &lines);
+    places_free(&lines);
+}
+
+/* The set-up under the prefix. */
+static dp_setup setup_again(const values *v) {
+    return setup_of(node_at(root, "%.*s", (int)strlen(v->prefix) - 1, v->prefix));
+}
+
+/* The number behind so many others in the line of a label. */
+static double number_shown(const char *text, const char *label, int others) {
+    const char *at = text;
+    while (*at != '\0' && strncmp(at + strspn(at, " "), label, strlen(label)) != 0)
+        at += strcspn(at, "\n") + (at[strcspn(at, "\n")] == '\n');
+    assert_true(*at != '\0');
+    for (at += strspn(at, " ") + strlen(label); *at != '\n' && *at != '\0';) {
+        const size_t length = strcspn(at, " ,:;\n");
+        char *end;
+        const double number = strtod(at, &end);
+        if (length > 0 && end == at + length && others-- == 0)
+            return number;
+        at += length + strspn(at + length, " ,:;");
+    }
+    fail_msg("too few numbers behind '%s'", label);
+    return NAN;
+}
+
+/* A plane is shown with six digits or more that pass when they are typed in: it may be 8 units inwards. */
+static void want_shown(values *v, const solve_case *c, const char *name, double plane, double shown) {
+    char at[PATH_SIZE];
+    const double from = value_at(v, (snprintf(at, PATH_SIZE, "%.60sfrom", v->prefix), at))->number;
+    const double to = value_at(v, (snprintf(at, PATH_SIZE, "%.60sto", v->prefix), at))->number;
+    const dp_setup setup = setup_again(v);
+    assert_true(shown == plane || (shown >= from && shown <= to && fabs(shown / plane - 1) < 9e-5));
+    assert_true(passes_at(c, &setup, shown));
+    want_derived(v, name, shown);
+}
+
+/* Its plane, the lattice's and what it reaches; "none" is no number. */
+static void check_text_alternative(values *v, const solve_case *c, const char *text, const char *under) {
+    const bool reached = isnan(c->limit),
+               by_value = strcmp(c->target, "format") == 0 || strcmp(c->target, "mapping") == 0;
+    const json_t *o = node_at(root, "%.*s", (int)strlen(under) - 1, under);
+    const char *fields[] = {reached ? "value" : "plane", reached || by_value ? "lattice.value" : "lattice.plane",
+                            "value", "bytes"};
+    char path[PATH_SIZE], label[128], columns[256] = "";
+    const bool ideal = by_value || reached || flag_at(o, "lattice.possible");
+    snprintf(label, sizeof label, "%-9.40s %-12.40s %-6.20s ", text_at(o, "format"), text_at(o, "mapping"),
+             text_at(o, "model"));
+    values_under(v, "%s", under);
+    snprintf(path, sizeof path, "%.60splane", under);
+    if (node_at(o, "until") != NULL && !isnan(value_at(v, path)->number)) { /* there where a plane was solved for */
+        want_shown(v, c, "shown", value_at(v, path)->number, number_shown(text, label, 0));
+        fields[0] = "shown";
+    }
+    for (size_t i = 0; i < (reached ? 2 : 4); i++) {
+        snprintf(path, sizeof path, "%.60s%s", under, fields[i]);
+        if (!isnan(value_at(v, path)->number) && (i != 1 || ideal))
+            snprintf(columns + strlen(columns), sizeof columns - strlen(columns), "%s%s:6", *columns ? ", " : "",
+                     fields[i]);
+    }
+    check_line(v, text, label, columns);
+}
+
+/* All of it in one sentence: what is guaranteed, what is seen, what the lattice has. */
+static void check_text_distance(values *v, const solve_case *c, const char *text) {
+    const bool seen = isfinite(number_at(root, "fight.first"));
+    char label[64], columns[256] = "answer.near:6, answer.far:6, limit:6, lo:6, answer.plane:6";
+    if (isfinite(number_at(root, "fight.searched_to")))
+        strcat(columns, seen ? ", fight.first:6" : ", fight.searched_to:6");
+    if (strcmp(text_at(root, "answer.model"), "exact") != 0)
+        strcat(columns, ", answer.lattice.plane:6");
+    snprintf(label, sizeof label, "%.20s %.20s,", text_at(root, "answer.format"), text_at(root, "answer.mapping"));
+    char *const sentence = strndup(text, strcspn(text, "\n") - 1); /* without its full stop */
+    values_under(v, "%s", "");
+    check_line(v, sentence, label, columns);
+    free(sentence);
+    assert_true((strstr(text, "first found to z-fight at z") != NULL) == seen);
+    assert_true((strstr(text, "holds again") != NULL) == (value_find(v, "again[0].lo") != NULL));
+    if (value_find(v, "again[0].lo") != NULL)
+        check_line(v, text, "holds again", "again[0].lo:6, again[0].hi:6");
+    assert_true((strstr(text, "  assumed  ") != NULL) == (strstr(c->arguments, "-f ") == NULL));
+}
+
+/* Which values pass. */
+static void check_text_passing(values *v, const solve_case *c, const char *text) {
+    values_under(v, "answer.");
+    want_shown(v, c, "shown_from", value_at(v, "answer.from")->number, number_shown(text, "passes ", 0));
+    want_shown(v, c, "shown_to", value_at(v, "answer.to")->number, number_shown(text, "passes ", 1));
+    check_line(v, text, "passes ", "shown_from:6, shown_to:6");
+}
+
+static void check_text(values *v, const solve_case *c, const char *arguments) {
+    const bool in_float = strcmp(text_at(root, "answer.model"), "float") == 0;
+    char label[128], under[PATH_SIZE];
+    char *text = output_of(!c->possible, arguments, "--full");
+    snprintf(label, sizeof label, "%-14s ", measure_of(c));
+    values_under(v, "%s", "");
+    check_line(v, text, label, isnan(c->limit) ? "answer.value:6, answer.z:6" : "answer.value:6, answer.z:6, limit:6");
+    if (is_distance(c))
+        check_text_distance(v, c, text);
+    if (isfinite(number_at(root, "answer.guaranteed")) && !in_float && !is_distance(c))
+        check_line(v, text, "guaranteed", "answer.guaranteed:6");
+    if (isnan(c->znear) || isnan(c->zfar)) {
+        snprintf(label, sizeof label, "%-14s ", c->target);
+        values_under(v, "answer.");
+        if (c->possible) {
+            check_line(v, text, label, "plane:15");
+            check_text_passing(v, c, text);
+        }
+        if (in_float && value_at(v, "answer.lattice.possible")->number != 0)
+            check_line(v, text, "lattice", "lattice.plane:6");
+    }
+    for (size_t i = 0; i < json_array_size(node_at(root, "alternatives")); i++) {
+        snprintf(under, sizeof under, "alternatives[%zu].", i);
+        check_text_alternative(v, c, text, under);
+    }
+    free(text);
+}
+
+TEST(each_number) {
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const solve_case *c = &cases[i];
+        char line[512];
+        const bool fullest = strcmp(c->model, "float") == 0; /* which is that of an answer unless asked otherwise */
+        snprintf(line, sizeof line, "solve %s%s %s%s", fullest ? "" : "--model ", fullest ? "" : c->model, c->arguments,
+                 i % 2 == 0 ? " --unit ft" : "");
+        values v = values_of(line);
+        char *text = output_of(!c->possible, line, "--json");
+        root = json_of(text);
+        want_solve(&v, c);
+        check_json_text(&v, text);
+        check_lines(&v, !c->possible, line);
+        check_text(&v, c, line);
+        json_decref(root);
+        free(text);
+        values_free(&v);
+    }
+}
+
+/* One format and no mapping: the answer is the only one that does it, a logarithm; the library says which do. */
+TEST(logarithm_answers) {
+    static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED, DP_MAPPING_LOG};
+    for (size_t i = 0; i < 4; i++) {
+        dp_setup setup = SETUP("unorm24", .zfar = 1e6, .mapping = mappings[i]);
+        setup = dp_setup_guaranteed(&setup);
+        assert_int_equal(dp_separation(&setup, 500) <= 0.01, mappings[i] == DP_MAPPING_LOG);
+    }
+    printed p = print_of("solve --for mapping -n 0.1 -f 1e6 -F d24 --separation 0.01 --at 500");
+    assert_int_equal(p.status, 0);
+    assert_true(strncmp(p.out, "unorm24 log, near 0.1, far 1000000 resolves 0.01 ", 47) == 0);
+    printed_free(&p);
+}
+
+/* What is wanted is told as it was typed, and what is reached in that unit: a twelfth of a metre is 0.0833 m. */
+TEST(typed_lengths) {
+    static const char *const lines[][2] = {
+        {"solve --for distance --separation 0.5mm -n 5cm -f 2km -F d24 -m d3d", "separation of 0.5 mm is guaranteed"},
+        {"solve --for distance --separation 0.5mm -n 5cm -f 2km -F d24 -m d3d", " mm at z = "},
+        {"solve --for distance --separation 0.5mm -n 5cm -f 2km -F d24 -m d3d", "near 5 cm, far 2 km:"},
+        {"solve --for near --separation 0.01mm --at 2km -F d24 -m d3d", "resolves 0.01 mm"},
+        {"solve --for near --separation 0.01mm --at 2km -F d24 -m d3d", "at z = 2 km, wanted 0.01 mm"},
+        {"bias --separation 0.25mm --at 3km -f 9km -F d24 -m d3d", "units at z = 3 km"},
+        {"bias --separation 0.25mm --at 3km -f 9km -F d24 -m d3d --api gl,metal", "0.25 mm nearer at z = 3 km:"},
+        {"bias --separation 0.25mm --at 3km -f 9km -F d24 -m d3d", " mm at z = 3 km"},
+        {"zfight --separation 0.02mm --range 1m:1.5m -F d24 -m d3d",
+         "Surfaces 0.02 mm apart never z-fight from 1 m to 1.5 m"},
+        {"world --separation 3mm --from-origin 2km --at 10m", "3 mm apart"},
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        printed p = print_of("%s", lines[i][0]);
+        char *flat = calloc(1, strlen(p.out) + 1), *to = flat;
+        for (const char *at = p.out; *at != '\0'; at++)
+            if (*at != '\n' && (*at != ' ' || at[1] != ' '))
+                *to++ = *at;
+            else if (*at == '\n' && at[1] == ' ')
+                *to++ = ' ', at += strspn(at + 1, " ");
+        if (strstr(flat, lines[i][1]) == NULL)
+            fail_msg("%s: no \"%s\":\n%s", lines[i][0], lines[i][1], p.out);
+        free(flat);
+        printed_free(&p);
+    }
+    /* The same number as without units. */
+    printed typed = print_of("solve --for near --separation 0.01mm --at 2km -F d24 -m d3d");
+    printed bare = print_of("solve --for near --separation 1e-5 --at 2000 -F d24 -m d3d --unit m");
+    double in_mm, in_m;
+    assert_int_equal(sscanf(strstr(typed.out, "\n  separation ") + 14, "%lf mm", &in_mm), 1);
+    assert_int_equal(sscanf(strstr(bare.out, "\n  separation ") + 14, "%lf m", &in_m), 1);
+    assert_relative(in_mm, 1000 * in_m, 1e-5);
+    printed_free(&typed);
+    printed_free(&bare);
+}
+
+LIST_TEST(check_apart)
+
+/* Up to where it is guaranteed and up to where nothing was found, the first never farther; no depth before near. */
+TEST(no_contradiction) {
+    static const double apart[] = {950, 850, 831, 800, 700, 100, 1};
+    for (size_t i = 0; i < sizeof apart / sizeof apart[0]; i++) {
+        const char *line = "solve --for distance -n 0.1 -f 1000 -F fp16 -m d3d";
+        json_t *all = json_printed(0, "%s --separation %g", line, apart[i]);
+        const double reached = number_at(all, "answer.distance"), seen = number_at(all, "fight.searched_to"),
+                     first = number_at(all, "fight.first");
+        assert_true(reached >= 0.1);
+        assert_true(isnan(seen) == (reached + apart[i] > 1000)); /* a pair is left to look at, or none is */
+        assert_true(isnan(seen) || seen >= reached);
+        assert_true(isnan(first) || first >= reached);
+        printed p = print_of("%s --separation %g --full", line, apart[i]);
+        assert_null(strstr(p.out, "z = -"));
+        assert_int_equal(strstr(p.out, "nothing up to z = 1000 lies that far behind it") != NULL, isnan(seen));
+        printed_free(&p);
+        json_decref(all);
+    }
+    static const refused_row rows[] = {
+        {"--for distance -n 0.1 -f 1000 --separation 2000", "--separation: must be at most 999.9, all", 2},
+        {"--for format -n 0.1 -f 1000 --separation 2000 --at 5", "--separation: must be at most 999.9, all", 2},
+        {"--for mapping -n 0.1 -f 1000 -F d24 --separation 2000 --at 5", "--separation: must be at most 999.9", 2},
+        {"--for near -f 1000 --separation 2000 --at 5", "--separation: must be at most 1000, all", 2},
+        {"--for frusta -n 0.1 -f 1000 -F d24 -m d3d --separation 2000", "--separation: must be at most 999.9", 2},
+        {"--for distance --ortho -n -5 -f 5 --separation 10.5", "--separation: must be at most 10, all", 2}};
+    CHECK_REFUSED("solve", rows);
+}
+
+/* Next to 0 an octave holds as many depths as anywhere: few of them are looked at, from before 0 too. */
+TEST(soon_beside_0) {
+    static const char *const cameras[] = {"-n -1 -f 1e-6 --separation 1e-9", "-n -1 -f 1e6 --separation 0.1"};
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
+        const time_t start = time(NULL);
+        json_t *all = json_printed(-1, "solve --for distance --ortho -F fp32 -m reversed %s", cameras[i]);
+        assert_true(time(NULL) - start < 15); /* minutes before; some two now, longer sanitized */
+        const double seen = number_at(all, "fight.searched_to"), first = number_at(all, "fight.first");
+        assert_true(isnan(first) || first <= seen);
+        json_decref(all);
+    }
+}
