@@ -281,10 +281,13 @@ static double corners_error(const work *w, uint32_t x) {
 
 /* ---- One pixel --------------------------------------------------------------------------------------------------- */
 
-/* The most that binary32 adds: a few roundings of an output of 1, and one of each depth. */
+/*
+ * The most that binary32 adds where the output is at most 1: a few roundings of that, and one of the depth that it
+ * compares with, which lies no farther off than the output tells; what is seen is read as it is.
+ */
 static double rounding_error(const work *w, const effect_view *view, double seen) {
     const double p = w->parameters[w->row->wanted], depth = w->row->apart(view, w->parameters, seen, 0);
-    return LEVELS * DP_UNIT * (8 + 4 * (w->row->kind == EFFECT_FADE ? depth / p : depth * p));
+    return LEVELS * DP_UNIT * (8 + (w->row->kind == EFFECT_FADE ? depth / p : depth * p));
 }
 
 /* Where what it is compared with is not known, it lies where the error is largest. */

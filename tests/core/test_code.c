@@ -307,7 +307,7 @@ static void random_codes(void **state) {
     formats(format);
     const int slow = p->mapping >= DP_MAPPING_LOG || p->either_sign;
     const int slowest = p->mapping > DP_MAPPING_LOG; /* two logarithms a depth */
-    const uint64_t cases = test_cases(slow ? 2000 : 10000, slowest ? 10000 : 100000, 1000000);
+    const uint64_t cases = test_cases(slow ? 600 : 4000, slowest ? 5000 : 50000, 1000000);
     for (int i = 0; i < 6; i++)
         random_cases(&r, p, &format[i], i < 4 ? cases : cases / 50, &t);
     tally_end(&t);

@@ -91,7 +91,7 @@ static void report(const char *what, const slack_report *slack) {
 
 /*
  * Every pair of a census, for 12 cameras x 4 mappings x 4 formats, in every row of arithmetic; by default in `ieee`,
- * and of each mapping and format three cameras, each camera with a format of every mapping.
+ * and of each mapping and format one or two cameras, each camera with formats of two mappings.
  */
 TEST(never_violated_and_tight) {
     const dp_arith rows = test_cases(1, 1, dp_arith_count());
@@ -104,7 +104,7 @@ TEST(never_violated_and_tight) {
             for (int m = 0; m < MAPPINGS; m++)
                 for (int f = 0; f < FORMATS; f++) {
                     dp_setup setup;
-                    if (test_effort() == EFFORT_CHECK && (c + m + f) % FORMATS != 0)
+                    if (test_effort() == EFFORT_CHECK && ((c + m + f) % FORMATS != 0 || (c / FORMATS + m) % 2 != 0))
                         continue;
                     assert_true(make(&setup, c, m, f, a, 0));
                     const double reach = test_effort() == EFFORT_QUICK ? 4.0 * setup.spec.znear : HUGE_VAL;
@@ -155,7 +155,7 @@ TEST(every_arithmetic) {
         tally violated = {.name = "guarantee"};
         tally loose = {.name = "tightness in stretches is not judged"};
         slack_report slack = {0};
-        for (uint64_t i = test_cases(20, 100, 4000); i > 0; i--) {
+        for (uint64_t i = test_cases(20, 50, 2000); i > 0; i--) {
             dp_setup setup;
             if (!make(&setup, (int)rng_below(&r, CAMERAS), (int)rng_below(&r, MAPPINGS), (int)rng_below(&r, FORMATS), a,
                       rng_below(&r, 3) == 0))

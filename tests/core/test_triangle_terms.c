@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Slanted triangles in a set-up: the numbers of depthprec(7), how classes nest, and what is refused. */
 #include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 
 static const double pi = 3.14159265358979323846;
@@ -185,6 +186,47 @@ TEST(known_world) {
     const double own = 4.0 * eps * z + half_step(1.5 * z) + half_step(z), want = 2.0 * own - 2.0 * half_step(z);
     const double is = composition_of(DP_MAPPING_REVERSED, znear, NULL, z);
     TALLY(&all, is >= want && is <= 1.03 * want, "facing: %.9g, not %.9g", is, want);
+    tally_end(&all);
+}
+
+/*
+ * Vertices that are moved by up to `own` on each axis are off their plane: the range of their depths, by the slope of
+ * the plane, is more by what two of them are moved in window depth, and the largest depth by one. Of slim triangles
+ * with few pixels and vertices near the eye that is a tenth of all that moving them takes.
+ */
+TEST(known_displaced) {
+    static const double shares[] = {0.5, 0.3, 0.05}; /* how far, of the way from the eye to the nearest vertex */
+    const double eps = 0x1p-24, z = 3.0, k = 50.0, znear = 0x1p-20;
+    tally all = {.name = "displaced"};
+    for (size_t i = 0; i < sizeof shares / sizeof shares[0]; i++)
+        for (int anchor = 0; anchor < DP_ANCHOR_COUNT; anchor++) {
+            const dp_triangles t = {.width = 1920,
+                                    .height = 1080,
+                                    .fov_y = 60,
+                                    .plane = dp_anchor_get((dp_anchor)anchor)->plane,
+                                    .slant_lo = 1,
+                                    .slant_hi = 1,
+                                    .depth = k,
+                                    .pixels = 3,
+                                    .slim = 1024};
+            const dp_setup setup =
+                SETUP("fp32", .znear = znear, .zfar = INFINITY, .mapping = DP_MAPPING_REVERSED, .triangles = t);
+            const double off = shares[i] * z / k, nearest = z / k - off;
+            dp_budget still, moved;
+            assert_int_equal(dp_budget_at(&setup, z, NULL, &still), DP_OK);
+            assert_int_equal(dp_budget_at(&setup, z, &(dp_budget_terms){.displaced = {.own = off / sqrt(3.0)}}, &moved),
+                             DP_OK);
+            const double ray = tan(t.fov_y * pi / 360.0) * hypot(1.0, 16.0 / 9.0);
+            const double seen = cos(pi / 180.0) + sin(pi / 180.0) * ray;
+            const double l = 0.5 * (1.0 + hypot(t.slim, 1.0)), *c = derived[anchor];
+            const double per_range = (c[1] * l + c[2]) * (1.0 + c[3] * eps * (t.width + t.height + 2 * t.pixels));
+            const double stray = z * z * (1.0 / nearest - k / z); /* in scene units at z, as all of window depth */
+            const double setup_more = 2.0 * eps * seen * stray * (c[0] + per_range * 2.0);
+            const double want = (1.0 + k) * off + setup_more, is = moved.separation - still.separation;
+            TALLY(&all, setup_more > 0.005 * want && is >= want * (1.0 - 1e-9) && is <= 1.002 * want,
+                  "%s, %g: %.9g, not %.9g, of which the set-up %.3g", dp_anchor_get((dp_anchor)anchor)->name, shares[i],
+                  is, want, setup_more);
+        }
     tally_end(&all);
 }
 

@@ -141,7 +141,7 @@ static bool is_named(const judgement *j, const written *w) {
 TEST(test_right) {
     tally own = {.name = "own camera"}, other = {.name = "another one"}, found = {.name = "planes found"};
     rng r = rng_make("judged");
-    for (uint64_t i = 0; i < test_cases(200, 2000, 50000); i++) {
+    for (uint64_t i = 0; i < test_cases(200, 500, 20000); i++) {
         const written *w = &functions[rng_below(&r, FUNCTIONS)];
         const double n = (double)(float)rng_log(&r, 0.01, 10);
         const double f = w->far_infinite ? (double)INFINITY : (double)(float)(n * rng_log(&r, 20, 1e5));
@@ -326,7 +326,7 @@ static double kept_as(int kind, double v) {
 TEST(test_none_accused) {
     tally accused = {.name = "accused"}, right = {.name = "right"};
     rng r = rng_make("accused");
-    for (uint64_t i = 0; i < test_cases(300, 3000, 100000); i++) {
+    for (uint64_t i = 0; i < test_cases(300, 600, 20000); i++) {
         const written *w = &functions[rng_below(&r, FUNCTIONS)];
         const double n = (double)(float)rng_log(&r, 0.01, 10);
         const double f = w->far_infinite ? (double)INFINITY : (double)(float)(n * rng_log(&r, 20, 1e6));

@@ -34,7 +34,7 @@ TEST(random_bits) {
     uint64_t word = 20140611;
     long quick = 0;
     long inside = 0;
-    for (int i = 0; i < 300000; i++) {
+    for (uint64_t i = test_cases(30000, 300000, 1000000); i > 0; i--) {
         uint64_t bits = next(&word);
         if (i % 2 == 0) /* half of them where the quick way works */
             bits = (bits & 0x800FFFFFFFFFFFFFU) | (897 + (bits >> 52) % 180) << 52;
@@ -54,7 +54,7 @@ TEST(random_bits) {
 /* Decimals as people type them, which need few digits, and their neighbours, which need seventeen. */
 TEST(short_decimals) {
     uint64_t word = 7;
-    for (int i = 0; i < 100000; i++) {
+    for (uint64_t i = test_cases(10000, 100000, 400000); i > 0; i--) {
         char text[64];
         snprintf(text, sizeof text, "%de%d", (int)(next(&word) % 100000), (int)(next(&word) % 50) - 38);
         double value = strtod(text, NULL);
@@ -123,7 +123,7 @@ TEST(reading) {
 /* Digits of a value that is rounded up, or down: never on its other side, and no further off than a unit. */
 TEST(rounded) {
     uint64_t word = 1965;
-    for (int i = 0; i < 100000; i++) {
+    for (uint64_t i = test_cases(10000, 100000, 400000); i > 0; i--) {
         const double value = ldexp((double)(next(&word) >> 11), (int)(next(&word) % 200) - 150);
         char nearest[64];
         snprintf(nearest, sizeof nearest, "%.4g", value); /* 9.9996 is 10, whose unit is the larger */
@@ -164,7 +164,7 @@ TEST(rounded) {
 /* Two that a sentence compares never have one text, or one that is in the other order, unless they are equal. */
 TEST(compared) {
     uint64_t word = 1729;
-    for (int i = 0; i < 100000; i++) {
+    for (uint64_t i = test_cases(10000, 100000, 400000); i > 0; i--) {
         const double a = ldexp((double)(next(&word) >> 11), (int)(next(&word) % 200) - 150);
         const double b = a * (1 + ldexp((double)(next(&word) % 3) - 1, -(int)(next(&word) % 54)));
         const number_two two = number_compared(a, b, 6);

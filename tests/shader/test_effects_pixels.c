@@ -4,6 +4,7 @@
  * last frame's projection are those of this file. Images hold random codes; of a scene the truth is a plane's.
  */
 #include "named.h"
+#include "setups.h"
 #include "support.h"
 #include "synthetic_stage.h"
 #include "texture/frame.h"
@@ -420,6 +421,97 @@ TEST(test_worst) {
                   "%s %s pixel %d code %u: %.9g levels, not %.9g", effects[e].name, s.ortho ? "ortho" : "", k, code,
                   (double)worst[k], least);
         }
+    }
+    tally_end(&t);
+}
+
+/* ---- Steep effects ----------------------------------------------------------------------------------------------- */
+
+/*
+ * In a buffer of binary32 the roundings of the effect weigh as much as the cell. Where what it compares with is not
+ * given none of it makes a larger error than is stated, over references beside the middles of two binary32 numbers, and
+ * some makes most of it: eye depth is rounded once, of a reference that is just above a power of two.
+ */
+typedef struct steep {
+    const char *effect, *parameter;
+    bool gain, share; /* the output grows with the parameter; the depth is a share of far */
+} steep;
+
+static const steep steeps[] = {
+    {"intersection", "half-width", false, false}, {"soft-particles", "fade-distance", false, false},
+    {"ray-march", "step", false, false},          {"thickness", "scale", false, false},
+    {"scan-line", "half-width", false, true},     {"depth-of-field", "level", true, true},
+    {"force-field", "power", true, false},        {"water-depth", "density", true, false},
+};
+
+static double steep_output(const steep *of, double z, double reference, double p, double stretch) {
+    const double behind = z - reference, scale = of->gain ? p : 1 / p;
+    if (strcmp(of->effect, "force-field") == 0)
+        return fmax(0, (1 - behind) * p);
+    if (strcmp(of->effect, "water-depth") == 0)
+        return behind > 0 ? -expm1(-p * stretch * behind) : 0;
+    if (of->share)
+        return unit(fabs(behind) / FAR * scale);
+    return unit((strcmp(of->effect, "intersection") == 0 ? fabs(behind) : behind) * scale);
+}
+
+/* The largest error at one depth and the share of it that is found, over references at which rounding is worst. */
+static double steep_share(tally *t, rng *r, const steep *of, const frame *f, uint32_t *codes) {
+    static float got[PIXELS], stated[PIXELS];
+    const dp_setup *s = &f->camera->setup;
+    const double turn = ldexp(1, 1 + (int)rng_below(r, 5)) * (1 + rng_log(r, 0x1p-20, 0x1p-10));
+    const uint32_t code = dp_code(s, turn);
+    const double z = dp_stored(s, code), share = of->share ? FAR : 1, wide = z / share * rng_log(r, 0x1p-20, 0x1p-12);
+    const effect_row *row = effect_find(of->effect);
+    const dp_cell cell = dp_cell_of(s, code);
+    const double before = strcmp(of->effect, "force-field") == 0 ? 1 : 0; /* its glow ends there */
+    double at[PARAMETERS_MAX], most = 0;
+    parameter_defaults(row->parameters, at);
+    at[parameter_find(row->parameters, of->parameter)] = of->gain ? 1 / wide : wide;
+    const double p = at[parameter_find(row->parameters, of->parameter)];
+    for (size_t k = 0; k < PIXELS; k++)
+        codes[k] = code;
+    frame_product product = {.kind = FRAME_EFFECT, .effect = row, .effect_settings = at, .error = true};
+    assert_null(frame_refuses(f, &product));
+    assert_true(frame_run(f, &product, false, keep, stated));
+    product.error = false;
+    const effect_view view = effect_view_of(f->camera, NULL, 0, 0);
+    for (int i = 0; i < 40; i++) {
+        const double middle =
+            (double)(float)((z - before + wide * share * rng_uniform(r, -1, 1)) / share) * (1 + 0x1p-53);
+        const double reference = middle * (1 + (rng_below(r, 2) ? 0.99 : -0.99) * 0x1p-24) * share;
+        at[parameter_find(row->parameters, "reference")] = reference;
+        assert_true(frame_run(f, &product, false, keep, got));
+        for (int k = 0; k <= 2; k++) {
+            const double truth = k == 0 ? cell.lo : k == 1 ? cell.hi : z;
+            const double want = steep_output(of, truth, reference, p, view.stretch);
+            if (want <= 1 || !of->gain)
+                most = fmax(most, fabs((double)got[0] - want));
+        }
+    }
+    TALLY(t, 255 * most <= (double)stated[0], "%s, %s %a at %a: %.9g levels, not %.9g", of->effect, of->parameter, p, z,
+          255 * most, (double)stated[0]);
+    return stated[0] < 255 ? 255 * most / (double)stated[0] : 0;
+}
+
+TEST(test_steep) {
+    static uint32_t codes[PIXELS];
+    const image depths = {
+        .width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes};
+    rng r = rng_make("steep effects");
+    tally t = {.name = "steep effects"};
+    for (size_t i = 0; i < sizeof steeps / sizeof steeps[0]; i++) {
+        double used = 0;
+        for (uint64_t n = test_cases(200, 1000, 20000); n > 0; n--) {
+            stage s = {.reversed = true, .now = {.fov = 50}, .last = {.fov = 50}};
+            stage_ready(&s);
+            s.setup = SETUP("fp32", .znear = NEAR, .zfar = FAR, .mapping = DP_MAPPING_REVERSED);
+            camera_of(&s, &s.now, &s.camera);
+            const frame f = {.camera = &s.camera, .last = &s.camera, .image = &depths, .sky = 0, .threads = 1};
+            used = fmax(used, steep_share(&t, &r, &steeps[i], &f, codes));
+        }
+        print_message("# %s: %.3f of what is stated\n", steeps[i].effect, used);
+        TALLY(&t, used > 0.7, "%s: only %.3f of what is stated is found", steeps[i].effect, used);
     }
     tally_end(&t);
 }

@@ -213,7 +213,7 @@ static double one_picture(tally *t, rng *r, const metric_kind *k) {
 }
 
 TEST(metric_depth_is_within_what_is_said) {
-    const uint64_t rounds = test_cases(2, 6, 400);
+    const uint64_t rounds = test_cases(2, 3, 200);
     tally t = {.name = "metric"};
     rng r = rng_make("metric");
     double used[KINDS] = {0};
