@@ -201,6 +201,21 @@ static bool does_something(const char *line, const option_row *row, const char *
     return refused || !same;
 }
 
+/* Times, and what a GPU does, differ from run to run; the others take no options. */
+static const char *const untried[] = {"methods", "probe", "help", "completions"};
+
+TEST(each_command_is_tried) {
+    for (size_t i = 0; command_get(i) != NULL; i++) {
+        bool tried_here = false;
+        for (size_t k = 0; k < sizeof commands / sizeof commands[0]; k++)
+            tried_here |= command_find(commands[k].verb) == command_get(i);
+        for (size_t k = 0; k < sizeof untried / sizeof untried[0]; k++)
+            tried_here |= command_find(untried[k]) == command_get(i);
+        if (!tried_here)
+            fail_msg("%s has no line in this test", command_get(i)->name);
+    }
+}
+
 TEST(has_an_effect_or_is_refused) {
     tally t = {.name = "options"};
     const option_row *all[OPTIONS_MAX + 1];
