@@ -2,7 +2,9 @@
 /*
  * OpenEXR by the C interface of OpenEXRCore: one channel of half, float or uint, scanlines or tiles, in any compression
  * that the library has. The channel is the one that is asked for, else Z or depth, else the one whose last part is one
- * of these, as in "ViewLayer.Depth.Z", else R where G and B hold the same or are not there, else the only one.
+ * of these, as in "ViewLayer.Depth.Z", else V, R, Y or X of a layer or a part of that name, as in "ViewLayer.Depth.V",
+ * else R, else the only one. Z beside X and Y is none. Where a file has several parts, all are looked through, and a
+ * channel is called by the name of its part and its own.
  *
  * The image is the display window: pixels that the data window has not hold no depth, what lies around it is left out.
  *
@@ -27,6 +29,7 @@
     X(exr_finish)                                                                                                      \
     X(exr_get_default_error_message)                                                                                   \
     X(exr_get_count)                                                                                                   \
+    X(exr_get_name)                                                                                                    \
     X(exr_get_storage)                                                                                                 \
     X(exr_get_channels)                                                                                                \
     X(exr_get_data_window)                                                                                             \
@@ -96,19 +99,88 @@ static bool is_flat(const reading *r, int part) {
            (storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED);
 }
 
-/* How a name is looked for: as it is, or in any case, or as the last part behind a dot. */
-typedef enum likeness { LIKE_SAME = 0, LIKE_CASE, LIKE_LAST } likeness;
+/* How a name is looked for: as it is, or in any case, or as the last part behind a dot, or as the layer of a number. */
+typedef enum likeness { LIKE_SAME = 0, LIKE_CASE, LIKE_LAST, LIKE_LAYER } likeness;
+
+/* Where the last part of a name begins, "Z" of "ViewLayer.Depth.Z". */
+static size_t last_of(const char *name) {
+    const char *dot = strrchr(name, '.');
+    return dot != NULL ? (size_t)(dot - name) + 1 : 0;
+}
+
+/* The layer of the one number of a pixel, "ViewLayer.Depth.V"; grey has all colours, of which red is read. */
+static bool is_layer(const char *name, const char *wanted) {
+    static const char *const numbers[] = {"V", "R", "Y", "X"};
+    const size_t last = last_of(name), size = strlen(wanted);
+    const bool layer = last > size && strncasecmp(name + last - 1 - size, wanted, size) == 0 &&
+                       (last == size + 1 || name[last - 2 - size] == '.');
+    for (size_t i = 0; layer && i < sizeof numbers / sizeof numbers[0]; i++)
+        if (strcasecmp(name + last, numbers[i]) == 0)
+            return true;
+    return false;
+}
 
 static bool is_like(const char *name, const char *wanted, likeness how) {
-    const char *dot = strrchr(name, '.');
+    if (how == LIKE_LAYER)
+        return is_layer(name, wanted);
     if (how == LIKE_LAST)
-        return dot != NULL && strcasecmp(dot + 1, wanted) == 0;
+        return last_of(name) > 0 && strcasecmp(name + last_of(name), wanted) == 0;
     return (how == LIKE_SAME ? strcmp(name, wanted) : strcasecmp(name, wanted)) == 0;
 }
 
 static bool names_depth(const char *name) {
-    return is_like(name, "Z", LIKE_CASE) || is_like(name, "Z", LIKE_LAST) || is_like(name, "depth", LIKE_CASE) ||
-           is_like(name, "depth", LIKE_LAST);
+    static const char *const names[] = {"Z", "depth"};
+    bool depth = false;
+    for (size_t i = 0; i < 2; i++)
+        depth = depth || is_like(name, names[i], LIKE_CASE) || is_like(name, names[i], LIKE_LAST) ||
+                is_layer(name, names[i]);
+    return depth;
+}
+
+enum { NAME_SIZE = 256 };
+
+/* Behind the name of its part, where there are several. */
+static const char *full_name(const reading *r, int part, const char *channel, char out[NAME_SIZE]) {
+    const char *name = NULL;
+    int parts = 0;
+    r->call.exr_get_count(r->file, &parts);
+    if (parts > 1 && r->call.exr_get_name(r->file, part, &name) == EXR_ERR_SUCCESS && name != NULL)
+        snprintf(out, NAME_SIZE, "%s.%s", name, channel);
+    else
+        snprintf(out, NAME_SIZE, "%s", channel);
+    return out;
+}
+
+static const exr_attr_chlist_entry_t *find_entry(const reading *r, int part, const char *name) {
+    const exr_attr_chlist_t *list;
+    if (r->call.exr_get_channels(r->file, part, &list) != EXR_ERR_SUCCESS)
+        return NULL;
+    for (int i = 0; i < list->num_channels; i++)
+        if (strcmp(list->entries[i].name.str, name) == 0)
+            return &list->entries[i];
+    return NULL;
+}
+
+/* Another channel of its layer. */
+static const exr_attr_chlist_entry_t *find_beside(const reading *r, int part, const char *channel, const char *last) {
+    char name[NAME_SIZE];
+    snprintf(name, sizeof name, "%.*s%s", (int)last_of(channel), channel, last);
+    return find_entry(r, part, name);
+}
+
+/* Z of a place or of a normal. */
+static bool is_of_vector(const reading *r, int part, const char *channel) {
+    const bool small = channel[last_of(channel)] == 'z';
+    return find_beside(r, part, channel, small ? "x" : "X") != NULL &&
+           find_beside(r, part, channel, small ? "y" : "Y") != NULL;
+}
+
+static bool fits(const reading *r, int part, const char *channel, const char *wanted, likeness how) {
+    char full[NAME_SIZE];
+    full_name(r, part, channel, full);
+    if (how == LIKE_SAME || how == LIKE_LAYER)
+        return is_like(channel, wanted, how) || is_like(full, wanted, how);
+    return is_like(channel, wanted, how) && (strcasecmp(wanted, "Z") != 0 || !is_of_vector(r, part, channel));
 }
 
 static bool find_like(reading *r, const char *wanted, likeness how) {
@@ -119,7 +191,7 @@ static bool find_like(reading *r, const char *wanted, likeness how) {
         if (!is_flat(r, part) || r->call.exr_get_channels(r->file, part, &list) != EXR_ERR_SUCCESS)
             continue;
         for (int i = 0; i < list->num_channels; i++)
-            if (wanted == NULL ? list->num_channels == 1 : is_like(list->entries[i].name.str, wanted, how)) {
+            if (wanted == NULL ? list->num_channels == 1 : fits(r, part, list->entries[i].name.str, wanted, how)) {
                 r->part = part;
                 r->channel = list->entries[i].name.str;
                 return true;
@@ -140,6 +212,7 @@ static void add_name(char *names, size_t size, const char *name) {
 static int name_channels(reading *r, char *names, size_t size) {
     int parts = 0, flat = 0;
     const exr_attr_chlist_t *list;
+    char name[NAME_SIZE];
     r->call.exr_get_count(r->file, &parts);
     for (int part = 0; part < parts; part++) {
         if (!is_flat(r, part) || r->call.exr_get_channels(r->file, part, &list) != EXR_ERR_SUCCESS)
@@ -147,7 +220,7 @@ static int name_channels(reading *r, char *names, size_t size) {
         flat++;
         for (int i = 0; i < list->num_channels; i++)
             if (list->entries[i].name.str != r->channel)
-                add_name(names, size, list->entries[i].name.str);
+                add_name(names, size, full_name(r, part, list->entries[i].name.str, name));
     }
     return flat;
 }
@@ -165,17 +238,17 @@ static bool find_channel(reading *r) {
     const char *asked = r->source->asked.channel;
     if (asked != NULL)
         return find_like(r, asked, LIKE_SAME) || no_channel(r);
-    return find_like(r, "Z", LIKE_CASE) || find_like(r, "depth", LIKE_CASE) || find_like(r, "Z", LIKE_LAST) ||
-           find_like(r, "depth", LIKE_LAST) || find_like(r, "R", LIKE_CASE) || find_like(r, NULL, LIKE_SAME) ||
-           no_channel(r);
+    for (likeness how = LIKE_CASE; how <= LIKE_LAYER; how++)
+        if (find_like(r, "Z", how) || find_like(r, "depth", how))
+            return true;
+    return find_like(r, "R", LIKE_CASE) || find_like(r, NULL, LIKE_SAME) || no_channel(r);
 }
 
 /* DWA knows colours by name, and takes what has other names as it is. */
 static bool is_colour(const char *channel) {
     static const char *const colours[] = {"R", "G", "B", "Y", "RY", "BY"};
-    const char *dot = strrchr(channel, '.'), *last = dot != NULL ? dot + 1 : channel;
     for (size_t i = 0; i < sizeof colours / sizeof colours[0]; i++)
-        if (strcasecmp(last, colours[i]) == 0)
+        if (strcasecmp(channel + last_of(channel), colours[i]) == 0)
             return true;
     return false;
 }
@@ -200,16 +273,6 @@ static const char *lossy_name(const reading *r, exr_pixel_type_t type) {
     }
 }
 
-static const exr_attr_chlist_entry_t *find_entry(const reading *r, const char *name) {
-    const exr_attr_chlist_t *list;
-    if (r->call.exr_get_channels(r->file, r->part, &list) != EXR_ERR_SUCCESS)
-        return NULL;
-    for (int i = 0; i < list->num_channels; i++)
-        if (strcmp(list->entries[i].name.str, name) == 0)
-            return &list->entries[i];
-    return NULL;
-}
-
 static uint64_t side_of(int32_t first, int32_t last) {
     return (uint64_t)((int64_t)last - first + 1);
 }
@@ -217,7 +280,7 @@ static uint64_t side_of(int32_t first, int32_t last) {
 static bool find_shape(reading *r) {
     static const image_type types[] = {
         [EXR_PIXEL_UINT] = IMAGE_U32, [EXR_PIXEL_HALF] = IMAGE_F16, [EXR_PIXEL_FLOAT] = IMAGE_F32};
-    const exr_attr_chlist_entry_t *entry = find_entry(r, r->channel);
+    const exr_attr_chlist_entry_t *entry = find_entry(r, r->part, r->channel);
     exr_result_t code = r->call.exr_get_data_window(r->file, r->part, &r->window);
     if (code == EXR_ERR_SUCCESS)
         code = r->call.exr_get_display_window(r->file, r->part, &r->shown);
@@ -321,21 +384,17 @@ static bool holds_same(reading *r, const char *name, bool *same) {
     return good;
 }
 
-/* A depth that renderers write as grey has the same in all colours; a photograph has not. */
-static bool check_grey(reading *r) {
+/* Which other colour of its layer, if any, a red channel differs from. */
+static bool compare_colours(reading *r) {
     static const char *const others[] = {"G", "B"};
-    const exr_attr_chlist_entry_t *red = find_entry(r, r->channel);
-    for (size_t i = 0; i < 2 && r->source->asked.channel == NULL && is_like(r->channel, "R", LIKE_CASE); i++) {
-        const exr_attr_chlist_entry_t *entry = find_entry(r, others[i]);
+    const exr_attr_chlist_entry_t *red = find_entry(r, r->part, r->channel);
+    for (size_t i = 0; i < 2 && r->out->unlike == NULL && strcasecmp(r->channel + last_of(r->channel), "R") == 0; i++) {
+        const exr_attr_chlist_entry_t *entry = find_beside(r, r->part, r->channel, others[i]);
         bool same =
             entry == NULL || (entry->pixel_type == red->pixel_type && entry->x_sampling == 1 && entry->y_sampling == 1);
         if (entry != NULL && same && !holds_same(r, entry->name.str, &same))
             return false;
-        if (!same)
-            return source_fail(r->source,
-                               "EXR: its channels R and %s differ, so it is a colour picture and no depth: --channel R "
-                               "reads one of them all the same",
-                               others[i]);
+        r->out->unlike = same ? NULL : others[i];
     }
     return true;
 }
@@ -389,10 +448,12 @@ static bool read_file(reading *r) {
         return damaged(r, code);
     if (!find_channel(r) || !find_shape(r))
         return false;
-    r->out->named_depth = names_depth(r->channel);
-    snprintf(r->out->channel, sizeof r->out->channel, "%s", r->channel);
+    char name[NAME_SIZE];
+    full_name(r, r->part, r->channel, name);
+    r->out->named_depth = names_depth(name);
+    snprintf(r->out->channel, sizeof r->out->channel, "%.*s", IMAGE_NAMES_SIZE - 1, name);
     name_channels(r, r->out->others, sizeof r->out->others);
-    return read_samples(r) && check_grey(r) && show(r);
+    return read_samples(r) && (r->source->asked.channel != NULL || compare_colours(r)) && show(r);
 }
 
 static bool read_exr(image_source *source, image *out) {
@@ -425,6 +486,5 @@ const image_kind image_kind_exr = {
     .magic_size = 4,
     .types = 1U << IMAGE_U32 | 1U << IMAGE_F16 | 1U << IMAGE_F32,
     .channels = 1U << 1,
-    .named = true,
     .read = read_exr,
 };

@@ -27,7 +27,7 @@ static const struct {
     {"PK\3\4", 4, "a zip archive: of an .npz, unpack the .npy"},
     {"\xff\xd8\xff", 3, "JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
     {"P2", 2, "PGM in plain text: convert it to P5"},
-    {"P6", 2, "PPM: convert it to PNG of 16 bits"},
+    {"P6", 2, "PPM, which has colours: convert it to PNG"},
     {"\xabKTX", 4, "KTX: save its pixels as .npy"},
     {"#?RADIANCE", 8, "Radiance HDR: convert it to PFM"},
 };
@@ -68,8 +68,6 @@ static bool unknown(image_source *source, const unsigned char *head, size_t size
 
 static bool read_kind(image_source *source, image_file file, image *out) {
     image read = {.file = file};
-    if (source->asked.channel != NULL && !kinds[file]->named)
-        return source_fail(source, "--channel names one of an EXR; those of %s have no names", kinds[file]->name);
     if (!kinds[file]->read(source, &read)) {
         free(read.data);
         return false;

@@ -2,6 +2,7 @@
 /**
  * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4. DDS, EXR, TIFF, PGM,
  *  raw and ROS's compressedDepth are read; of an EXR one channel, by a library that must be there then, as for TIFF.
+ *  Which of several channels is depth image_choose() says.
  *
  * Files are not trusted: sizes are checked before memory is asked for (IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX;
  * what a file of known length cannot hold is refused), and what is damaged, cut short, followed by anything
@@ -56,8 +57,9 @@ typedef struct image {
     image_file file;                /**< what it was read from */
     void *data;                     /**< malloc'ed */
     bool named_depth;               /**< its channel is called Z or depth */
-    char channel[IMAGE_NAMES_SIZE]; /**< of a kind whose channels have names: the one that was read; else "" */
+    char channel[IMAGE_NAMES_SIZE]; /**< the one that was read or chosen, by name; "" before that, or if it is alone */
     char others[IMAGE_NAMES_SIZE];  /**< the names of all others, "B, G, R", perhaps cut short */
+    const char *unlike;             /**< of a kind that reads one: "G" or "B", which differs from the red one; or null */
     const char *says;               /**< the depth format that the file names, "unorm24"; null when it names none */
     unsigned colours;               /**< IMAGE_SRGB, ... */
     uint32_t most;                  /**< the largest sample, where the file says another than the type's; else 0 */
@@ -85,7 +87,7 @@ const char *image_file_name(image_file file);
 
 /** Properties that a file may leave open. */
 typedef struct image_asked {
-    const char *channel;    /**< of kinds whose channels have names; null: that which is depth */
+    const char *channel;    /**< of kinds whose channels have names, others leave it to image_choose(); null: depth */
     uint32_t width, height; /**< pixels, of a raw one; 0: the usual picture of its length */
 } image_asked;
 
@@ -94,6 +96,13 @@ typedef struct image_asked {
 bool image_read(const char *path, image *out, image_error *error);
 /** The same, with what the file may leave open. */
 bool image_read_as(const char *path, const image_asked *asked, image *out, image_error *error);
+/**
+ * The channel of depth of an image that was read: what it is called, and what the others are. Those of kinds without
+ * names are R, G, B and A, of a PNG with two Y and A; raw has one.
+ * @param asked  its name: it alone is kept, whatever the others hold; null: the first, or what the reader chose
+ * @return false after a sentence: there is none of that name, or red differs from green or blue, as in a picture
+ */
+bool image_choose(image *img, const char *asked, image_error *error);
 /** The first from memory, never raw. */
 bool image_parse(const void *bytes, size_t size, image *out, image_error *error);
 void image_free(image *image);

@@ -80,7 +80,6 @@ struct image_writer {
 typedef struct image_kind {
     const char *name, *ending;
     const char *magic[4];        /**< the first bytes, one or the other; null: no other, of raw none */
-    bool named;                  /**< its channels have names */
     size_t magic_size, magic_at; /**< and how many bytes come before it */
     unsigned types, channels;    /**< bit sets of what it holds */
     bool bottom_up;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * TIFF by libtiff: one image of whole numbers of 8, 16 or 32 bits or of floats of 16, 32 or 64, grey or colour, strips
- * or tiles, in any compression that the library has; of channels that lie apart from each other the first.
+ * or tiles, channels beside each other or apart, in any compression that the library has.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,7 +41,8 @@ typedef struct reading {
     size_t size;
     uint64_t at; /* where the library reads */
     TIFF *file;
-    size_t have; /* bytes of out->data */
+    size_t have;     /* bytes of out->data */
+    uint32_t planes; /* of channels that lie apart; else 1 */
 } reading;
 
 static tmsize_t give(thandle_t of, void *to, tmsize_t size) {
@@ -96,13 +97,13 @@ static bool find_type(reading *r, image_type *type) {
                        bits, format);
 }
 
-static bool find_shape(reading *r, bool *apart) {
+static bool find_shape(reading *r) {
     const uint32_t colours = number(r, TIFFTAG_PHOTOMETRIC), channels = number(r, TIFFTAG_SAMPLESPERPIXEL);
     uint32_t width = 0, height = 0;
     image_type type = IMAGE_U8;
     r->call.TIFFGetField(r->file, TIFFTAG_IMAGEWIDTH, &width);
     r->call.TIFFGetField(r->file, TIFFTAG_IMAGELENGTH, &height);
-    *apart = number(r, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE && channels > 1;
+    r->planes = number(r, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE ? channels : 1;
     if (colours == PHOTOMETRIC_MINISWHITE)
         return source_fail(r->source, "TIFF: its 0 is white: save it with 0 as black");
     if (colours != PHOTOMETRIC_MINISBLACK && colours != PHOTOMETRIC_RGB)
@@ -113,7 +114,7 @@ static bool find_shape(reading *r, bool *apart) {
                            number(r, TIFFTAG_ORIENTATION));
     if (channels < 1 || channels > IMAGE_CHANNELS_MAX)
         return source_fail(r->source, "TIFF: it must have 1 to %d channels, got %u", IMAGE_CHANNELS_MAX, channels);
-    return find_type(r, &type) && source_shape(r->source, r->out, width, height, *apart ? 1 : channels, type);
+    return find_type(r, &type) && source_shape(r->source, r->out, width, height, channels, type);
 }
 
 /* Null where it gives back what it was given. LERC and WebP may do so, too, which nothing in the file says. */
@@ -143,65 +144,77 @@ static bool damaged(reading *r, uint64_t row) {
     return source_fail(r->source, "damaged TIFF: row %llu cannot be read", (unsigned long long)row);
 }
 
-static bool read_strips(reading *r) {
-    const size_t row = image_bytes(r->out) / r->out->height;
-    if (r->call.TIFFScanlineSize64(r->file) != row)
+/* Pixels of one plane, or of all channels, to where they belong in a row of the image. */
+static void place(const reading *r, uint32_t plane, const unsigned char *from, uint32_t x, uint32_t y, uint32_t count) {
+    const size_t size = image_type_size(r->out->type), pixel = r->out->channels * size, part = pixel / r->planes;
+    unsigned char *to = (unsigned char *)r->out->data + ((size_t)y * r->out->width + x) * pixel + plane * part;
+    for (uint32_t i = 0; i < count; i++)
+        memcpy(to + i * pixel, from + i * part, part);
+}
+
+static bool read_strips(reading *r, uint32_t plane) {
+    const size_t row = image_bytes(r->out) / r->out->height, part = row / r->planes;
+    if (r->call.TIFFScanlineSize64(r->file) != part)
         return source_fail(r->source, "damaged TIFF: its rows have another size than its width says");
-    for (uint32_t y = 0; y < r->out->height; y++)
-        if (!source_grow(r->source, r->out, &r->have, (y + (size_t)1) * row))
-            return false;
-        else if (r->call.TIFFReadScanline(r->file, (unsigned char *)r->out->data + y * row, y, 0) != 1)
-            return damaged(r, y);
-    return true;
+    unsigned char *line = malloc(part);
+    bool good = line != NULL || source_fail(r->source, "out of memory");
+    for (uint32_t y = 0; good && y < r->out->height; y++) {
+        good = source_grow(r->source, r->out, &r->have, (y + (size_t)1) * row) &&
+               (r->call.TIFFReadScanline(r->file, line, y, (uint16_t)plane) == 1 || damaged(r, y));
+        if (good)
+            place(r, plane, line, 0, y, r->out->width);
+    }
+    free(line);
+    return good;
 }
 
-static bool read_tile(reading *r, unsigned char *tile, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
-    const size_t pixel = r->out->channels * image_type_size(r->out->type), row = r->out->width * pixel;
-    const uint32_t columns = r->out->width - x < width ? r->out->width - x : width;
-    const uint32_t rows = r->out->height - y < height ? r->out->height - y : height;
-    if (!source_grow(r->source, r->out, &r->have, (y + (size_t)rows) * row))
+static bool read_tile(reading *r, uint32_t plane, unsigned char *tile, const uint32_t at[2], const uint32_t sides[2]) {
+    const size_t row = image_bytes(r->out) / r->out->height, part = row / r->out->width / r->planes;
+    const uint32_t columns = r->out->width - at[0] < sides[0] ? r->out->width - at[0] : sides[0];
+    const uint32_t rows = r->out->height - at[1] < sides[1] ? r->out->height - at[1] : sides[1];
+    if (!source_grow(r->source, r->out, &r->have, (at[1] + (size_t)rows) * row))
         return false;
-    if (r->call.TIFFReadTile(r->file, tile, x, y, 0, 0) < 0)
-        return damaged(r, y);
+    if (r->call.TIFFReadTile(r->file, tile, at[0], at[1], 0, (uint16_t)plane) < 0)
+        return damaged(r, at[1]);
     for (uint32_t i = 0; i < rows; i++)
-        memcpy((unsigned char *)r->out->data + (y + i) * row + x * pixel, tile + (size_t)i * width * pixel,
-               columns * pixel);
+        place(r, plane, tile + (size_t)i * sides[0] * part, at[0], at[1] + i, columns);
     return true;
 }
 
-static bool read_tiles(reading *r) {
+static bool read_tiles(reading *r, uint32_t plane) {
     const uint64_t most = UINT64_C(1) << 28;
-    const size_t pixel = r->out->channels * image_type_size(r->out->type);
-    uint32_t width = 0, height = 0;
-    r->call.TIFFGetField(r->file, TIFFTAG_TILEWIDTH, &width);
-    r->call.TIFFGetField(r->file, TIFFTAG_TILELENGTH, &height);
-    const uint64_t size = (uint64_t)width * height * pixel;
-    if (width < 1 || height < 1 || width > most || height > most / width || size > most ||
+    const size_t part = r->out->channels / r->planes * image_type_size(r->out->type);
+    uint32_t sides[2] = {0, 0};
+    r->call.TIFFGetField(r->file, TIFFTAG_TILEWIDTH, &sides[0]);
+    r->call.TIFFGetField(r->file, TIFFTAG_TILELENGTH, &sides[1]);
+    const uint64_t size = (uint64_t)sides[0] * sides[1] * part;
+    if (sides[0] < 1 || sides[1] < 1 || sides[0] > most || sides[1] > most / sides[0] || size > most ||
         r->call.TIFFTileSize64(r->file) != size)
         return source_fail(r->source,
                            "damaged TIFF: its tiles have another size than they say, or more than 2^28 bytes");
     unsigned char *tile = malloc(size);
     bool good = tile != NULL || source_fail(r->source, "out of memory");
-    for (uint64_t y = 0; good && y < r->out->height; y += height)
-        for (uint64_t x = 0; good && x < r->out->width; x += width)
-            good = read_tile(r, tile, (uint32_t)x, (uint32_t)y, width, height);
+    for (uint64_t y = 0; good && y < r->out->height; y += sides[1])
+        for (uint64_t x = 0; good && x < r->out->width; x += sides[0])
+            good = read_tile(r, plane, tile, (const uint32_t[]){(uint32_t)x, (uint32_t)y}, sides);
     free(tile);
     return good;
 }
 
 static bool read_file(reading *r) {
-    bool apart;
     r->call.TIFFSetErrorHandler(NULL); /* it would print */
     r->call.TIFFSetWarningHandler(NULL);
     r->file = r->call.TIFFClientOpen("image", "rm", (thandle_t)r, give, take_nothing, seek, leave_open, give_size, NULL,
                                      NULL);
     if (r->file == NULL)
         return source_fail(r->source, "damaged TIFF: its first directory cannot be read");
-    if (!find_shape(r, &apart))
+    if (!find_shape(r))
         return false;
     r->out->lossy = lossy_name(r);
-    if (!(r->call.TIFFIsTiled(r->file) ? read_tiles(r) : read_strips(r)))
-        return false;
+    const bool tiled = r->call.TIFFIsTiled(r->file) != 0;
+    for (uint32_t plane = 0; plane < r->planes; plane++)
+        if (!(tiled ? read_tiles(r, plane) : read_strips(r, plane)))
+            return false;
     return r->call.TIFFReadDirectory(r->file) != 1 ||
            source_fail(r->source, "TIFF: it has several images: a file must hold one image and nothing else");
 }

@@ -70,7 +70,7 @@ static void number_attribute(handmade *h, const char *name, const char *type, si
     attribute(h, name, type, &value);
 }
 
-static void exr_header(handmade *h, const exr_channel *channels, size_t count, const int *shown) {
+static void exr_header(handmade *h, const exr_channel *channels, size_t count, const int *shown, const char *part) {
     handmade list = {.size = 0}, box = {.size = 0}, display = {.size = 0}, one = {.size = 0};
     for (size_t k = 0; k < count; k++) {
         handmade_bytes(&list, channels[k].name, strlen(channels[k].name) + 1);
@@ -86,9 +86,16 @@ static void exr_header(handmade *h, const exr_channel *channels, size_t count, c
         handmade_number(&display, (uint64_t)(ends[k] + (shown != NULL ? shown[k] : 0)), 4, 1);
     }
     handmade_number(&one, 0x3F800000, 4, 1);
-    handmade_number(h, 20000630, 4, 1);
-    handmade_number(h, 2, 4, 1);
     attribute(h, "channels", "chlist", &list);
+    if (part != NULL) {
+        handmade name = {.size = 0}, type = {.size = 0}, chunks = {.size = 0};
+        handmade_text(&name, part);
+        handmade_text(&type, "scanlineimage");
+        handmade_number(&chunks, DOWN, 4, 1);
+        attribute(h, "name", "string", &name);
+        attribute(h, "type", "string", &type);
+        attribute(h, "chunkCount", "int", &chunks);
+    }
     number_attribute(h, "compression", "compression", 1);
     attribute(h, "dataWindow", "box2i", &box);
     attribute(h, "displayWindow", "box2i", &display);
@@ -99,22 +106,46 @@ static void exr_header(handmade *h, const exr_channel *channels, size_t count, c
     handmade_number(h, 0, 1, 1);
 }
 
+static void exr_row(handmade *h, size_t y, const exr_channel *channels, size_t count, size_t row) {
+    handmade_number(h, y + 5, 4, 1);
+    handmade_number(h, row, 4, 1);
+    for (size_t k = 0; k < count; k++)
+        for (size_t x = 0; x < ACROSS; x++)
+            handmade_number(h, channels[k].other ? 0 : bits_of(channels[k].type, y * ACROSS + x),
+                            (int)image_type_size(channels[k].type), 1);
+}
+
 /* Scanlines without compression; the channels in the order of their names. */
 static void make_exr(handmade *h, const exr_channel *channels, size_t count, const int *shown) {
     size_t row = 0;
-    exr_header(h, channels, count, shown);
+    handmade_number(h, 20000630, 4, 1);
+    handmade_number(h, 2, 4, 1);
+    exr_header(h, channels, count, shown, NULL);
     for (size_t k = 0; k < count; k++)
         row += ACROSS * image_type_size(channels[k].type);
     for (size_t y = 0, at = h->size + 8 * DOWN; y < DOWN; y++, at += 8 + row)
         handmade_number(h, at, 8, 1);
-    for (size_t y = 0; y < DOWN; y++) {
-        handmade_number(h, y + 5, 4, 1);
-        handmade_number(h, row, 4, 1);
-        for (size_t k = 0; k < count; k++)
-            for (size_t x = 0; x < ACROSS; x++)
-                handmade_number(h, channels[k].other ? 0 : bits_of(channels[k].type, y * ACROSS + x),
-                                (int)image_type_size(channels[k].type), 1);
-    }
+    for (size_t y = 0; y < DOWN; y++)
+        exr_row(h, y, channels, count, row);
+}
+
+/* The same in parts of one channel each, called by their names. */
+static void make_parts(handmade *h, const exr_channel *channels, const char *const *names, size_t count) {
+    size_t at = 0;
+    handmade_number(h, 20000630, 4, 1);
+    handmade_number(h, 2 | 0x1000, 4, 1);
+    for (size_t k = 0; k < count; k++)
+        exr_header(h, &channels[k], 1, NULL, names[k]);
+    handmade_number(h, 0, 1, 1);
+    at = h->size + 8 * DOWN * count;
+    for (size_t k = 0; k < count; k++)
+        for (size_t y = 0; y < DOWN; y++, at += 12 + ACROSS * image_type_size(channels[k].type))
+            handmade_number(h, at, 8, 1);
+    for (size_t k = 0; k < count; k++)
+        for (size_t y = 0; y < DOWN; y++) {
+            handmade_number(h, k, 4, 1);
+            exr_row(h, y, &channels[k], 1, ACROSS * image_type_size(channels[k].type));
+        }
 }
 
 /* Is EXR or TIFF read by this build, on this machine? Otherwise it says so by name. */
@@ -146,9 +177,10 @@ static const char *write_file(const char *name, const handmade *h) {
     return path;
 }
 
-#define COLOUR(other)                                                                                                  \
-    "EXR: its channels R and " other " differ, so it is a colour picture and no depth: --channel R reads one of them " \
-    "all the same"
+#define COLOUR_OF(read, other)                                                                                         \
+    "EXR: its channels R and " other " differ, so it is a colour picture and no depth: --channel " read                \
+    " reads one of them all the same"
+#define COLOUR(other) COLOUR_OF("R", other)
 
 TEST(exr_channels) {
     static const struct {
@@ -171,6 +203,33 @@ TEST(exr_channels) {
         {{{"V.Depth.Z", IMAGE_F32, false}, {"V.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
         {{{"layer.z", IMAGE_F32, false}, {"v.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
         {{{"A", IMAGE_F16, true}, {"DEPTH", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
+        {{{"V.Depth.V", IMAGE_F32, false}, {"V.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
+        {{{"Depth.B", IMAGE_F16, true}, {"Depth.G", IMAGE_F16, true}, {"Depth.R", IMAGE_F16, false}},
+         3,
+         NULL,
+         IMAGE_F16,
+         COLOUR_OF("Depth.R", "G")},
+        {{{"R", IMAGE_F16, true}, {"depth.X", IMAGE_F32, false}, {"depth.Y", IMAGE_F32, true}},
+         3,
+         NULL,
+         IMAGE_F32,
+         NULL},
+        {{{"A.Z", IMAGE_F32, true}, {"undepth.R", IMAGE_F32, true}, {"z.y", IMAGE_F32, false}},
+         3,
+         "z.y",
+         IMAGE_F32,
+         NULL},
+        {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}, {"Z", IMAGE_F32, true}},
+         3,
+         NULL,
+         IMAGE_F32,
+         "EXR: has no channel Z, depth or R, but X, Y, Z: --channel NAME takes one"},
+        {{{"N.X", IMAGE_F32, true}, {"N.Y", IMAGE_F32, true}, {"N.Z", IMAGE_F32, true}},
+         3,
+         NULL,
+         IMAGE_F32,
+         "EXR: has no channel Z, depth or R, but N.X, N.Y, N.Z: --channel NAME takes one"},
+        {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}, {"Z", IMAGE_F32, false}}, 3, "Z", IMAGE_F32, NULL},
         {{{"Y", IMAGE_F16, false}}, 1, NULL, IMAGE_F16, NULL},
         {{{"Q", IMAGE_F16, false}, {"Z", IMAGE_F32, true}}, 2, "Q", IMAGE_F16, NULL},
         {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}},
@@ -187,8 +246,11 @@ TEST(exr_channels) {
         image img;
         image_error error = {.text = ""};
         make_exr(&h, rows[i].channels, rows[i].count, NULL);
-        const bool good =
-            image_read_as(write_file("c.exr", &h), &(image_asked){.channel = rows[i].asked}, &img, &error);
+        bool good = image_read_as(write_file("c.exr", &h), &(image_asked){.channel = rows[i].asked}, &img, &error);
+        if (good && !image_choose(&img, rows[i].asked, &error)) {
+            image_free(&img);
+            good = false;
+        }
         if (good != (rows[i].sentence == NULL))
             fail_msg("row %zu: %s", i, good ? "accepted" : error.text);
         if (!good) {
@@ -225,6 +287,41 @@ TEST(exr_names) {
         else
             assert_non_null(strstr(img.others, "layer02.a.rather.long.name, ..."));
         assert_true(strlen(img.others) < sizeof img.others);
+        image_free(&img);
+    }
+}
+
+/* Of several parts that which holds the depth is read, by the name of the channel or of the part, which both have. */
+TEST(exr_parts) {
+    static const struct {
+        exr_channel channels[2];
+        const char *names[2], *asked, *read, *others;
+    } rows[] = {
+        {{{"R", IMAGE_F16, true}, {"Z", IMAGE_F32, false}}, {"rgba", "side"}, NULL, "side.Z", "rgba.R"},
+        {{{"R", IMAGE_F16, true}, {"V", IMAGE_F32, false}}, {"rgba", "depth"}, NULL, "depth.V", "rgba.R"},
+        {{{"Z", IMAGE_F32, false}, {"Z", IMAGE_F16, true}}, {"left", "right"}, NULL, "left.Z", "right.Z"},
+        {{{"Z", IMAGE_F32, true}, {"Z", IMAGE_F16, false}}, {"left", "right"}, "right.Z", "right.Z", "left.Z"},
+        {{{"Z", IMAGE_F32, false}, {"R", IMAGE_F16, true}}, {"left", "right"}, "Z", "left.Z", "right.R"},
+        {{{"R", IMAGE_F16, true}, {"Z", IMAGE_F32, true}}, {"rgba", "side"}, "side.R", NULL, NULL},
+    };
+    if (!exr_is_read())
+        skip();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        handmade h = {.size = 0};
+        image img;
+        image_error error = {.text = ""};
+        make_parts(&h, rows[i].channels, rows[i].names, 2);
+        const bool good =
+            image_read_as(write_file("parts.exr", &h), &(image_asked){.channel = rows[i].asked}, &img, &error);
+        if (good != (rows[i].read != NULL))
+            fail_msg("row %zu: %s", i, good ? img.channel : error.text);
+        if (!good) {
+            assert_string_equal(error.text, "EXR: has no channel side.R, but rgba.R, side.Z");
+            continue;
+        }
+        assert_string_equal(img.channel, rows[i].read);
+        assert_string_equal(img.others, rows[i].others);
+        assert_bits(&img, rows[i].channels[0].other ? rows[i].channels[1].type : rows[i].channels[0].type, 0);
         image_free(&img);
     }
 }
@@ -356,7 +453,7 @@ TEST(tiff_types) {
             }
 }
 
-/* Of channels that lie apart the first is read. */
+/* Channels that lie apart are put beside each other. */
 TEST(tiff_apart) {
     handmade h = {.size = 0};
     image img;
@@ -366,7 +463,7 @@ TEST(tiff_apart) {
     make_tiff(&h, &(tiff_of){.type = IMAGE_U16, .channels = 2, .apart = true});
     if (!image_parse(h.at, h.size, &img, &error))
         fail_msg("%s", error.text);
-    assert_int_equal(img.channels, 1);
+    assert_int_equal(img.channels, 2);
     assert_bits(&img, IMAGE_U16, 0);
     image_free(&img);
 }
@@ -679,7 +776,6 @@ TEST(by_the_program) {
     check_says(0, "\"channel\":\"Z\"", "texture %s --format fp32 -m gl -n 1 --json -q", path);
     check_says(2, "EXR: has no channel X, but Q, Z", "texture %s --channel X -q", path);
     prepare();
-    check_says(2, "--channel names one of an EXR; those of PNG have no names", "texture %s --channel Z",
-               scratch_file("a.png"));
+    check_says(2, "PNG: has no channel Z, but one without a name", "texture %s --channel Z", scratch_file("a.png"));
     check_says(2, "--channel: needs FILE", "texture --synthetic plane --channel Z");
 }

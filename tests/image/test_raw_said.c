@@ -21,7 +21,7 @@ TEST(what_is_said) {
     assert_null(strstr(p.errors, "assumed"));
     assert_non_null(strstr(p.out, "480 x 640 pixels, raw of u4"));
     printed_free(&p);
-    check_says(2, "those of raw have no names", "texture %s -m d3d --channel Z", path);
+    check_says(2, "raw: has no channel Z, but one without a name", "texture %s -m d3d --channel Z", path);
     snprintf(path, sizeof path, "%s", scratch_file("own.npy"));
     p = print_of("texture --synthetic plane --size 8x8 -o %s", path);
     printed_free(&p);

@@ -221,7 +221,8 @@ static const option_row texture_rows[] = {
         "how the channels of FILE together hold the depth: @; see 'depthprec list packings'",
         ROW(packing, packings)},
     {"channel", 0, "NAME",
-        "the EXR channel to read", TEXT(channel), .without = "the first there is of Z, depth and R"},
+        "the channel to read, of an EXR by its name, of others R, G, B or A", TEXT(channel),
+        .without = "the first, where red, green and blue are the same; of an EXR the first there is of Z, depth and R"},
     {"pixel", 0, "X,Y[;X,Y...]",
         "describe single pixels: code, eye depth and its range, neighbours, position, normal; 0,0 is the "
         "top left. With an effect alone: the pixel that sees the depths",

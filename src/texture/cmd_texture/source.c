@@ -130,31 +130,17 @@ static void warn_of_colours(const texture_request *o, const texture_source *s) {
         message("depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong", s->path);
 }
 
-/* Whether all pixels are grey, as those of a depth that was written as colour are. */
-static bool is_grey(const image *p) {
-    const size_t size = image_type_size(p->type), count = (size_t)p->width * p->height;
-    const char *at = p->data;
-    for (size_t i = 0; p->channels >= 3 && i < count; i++, at += p->channels * size)
-        if (memcmp(at, at + size, size) != 0 || memcmp(at, at + 2 * size, size) != 0)
-            return false;
-    return true;
-}
-
-/* A byte is less than any depth has; colours that are not grey may be the channels of one, or a picture. */
-static void warn_of_channels(const texture_request *o, const texture_source *s) {
-    const image *p = &s->picture;
-    if (o->out.quiet || o->image.channel != NULL)
-        return;
-    if (*p->others != '\0')
+/* Of several channels that do not hold a depth together: which is read. */
+static int choose_channel(const texture_request *o, texture_source *s) {
+    image_error error;
+    if (o->image.packing != NULL && o->image.channel == NULL)
+        return EXIT_FINE;
+    if (!image_choose(&s->picture, o->image.channel, &error))
+        return usage_error("%s: %s", s->path, error.text);
+    if (s->picture.others[0] != '\0' && o->image.channel == NULL && !o->out.quiet)
         message("depthprec: %s: channel %s is read, the others are %s; --channel NAME reads another", s->path,
-                p->channel, p->others);
-    else if (!is_grey(p))
-        message(p->type == IMAGE_U8
-                    ? "depthprec: %s: of %u channels the first is read, 8 bits; --packing rgb24 reads a depth of 24 "
-                      "bits in three"
-                    : "depthprec: %s: of %u channels that differ the first is read; a colour picture or a map of "
-                      "places has no depth there",
-                s->path, p->channels);
+                s->picture.channel, s->picture.others);
+    return EXIT_FINE;
 }
 
 /* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
@@ -345,6 +331,8 @@ static int read_image(texture_request *o, texture_source *s) {
     warn_of_compression(o, s);
     int status = take_note(o, s);
     if (status == EXIT_FINE)
+        status = choose_channel(o, s);
+    if (status == EXIT_FINE)
         status = move_bits(o, s);
     if (status == EXIT_FINE)
         status = guess(o, s);
@@ -357,7 +345,6 @@ static int read_image(texture_request *o, texture_source *s) {
                            s->path, s->picture.most);
     if (status != EXIT_FINE || o->image.packing != NULL)
         return status != EXIT_FINE ? status : unpack(o, s);
-    warn_of_channels(o, s);
     if (o->image.metric > 0)
         return o->image.stereo.focal > 0 ? read_stereo(o, s) : read_metric(o, s);
     recognise(&s->picture, &s->found, s->why);

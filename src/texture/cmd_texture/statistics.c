@@ -180,7 +180,7 @@ static void say_source(statistics *r, page *p) {
     p->unit = camera_unit(&r->o->camera);
     if (r->o->image.packing != NULL)
         snprintf(packed, sizeof packed, ", packed as %s", r->o->image.packing->name);
-    else if (s->channels > 1)
+    else if (s->channels > 1 && r->named.channel == NULL)
         snprintf(packed, sizeof packed, ", the first is read");
     if (r->named.channel != NULL)
         snprintf(channels, sizeof channels, "channel %s", r->named.channel);
