@@ -59,7 +59,7 @@ typedef struct image {
     bool named_depth;               /**< its channel is called Z or depth */
     char channel[IMAGE_NAMES_SIZE]; /**< the one that was read or chosen, by name; "" before that, or if it is alone */
     char others[IMAGE_NAMES_SIZE];  /**< the names of all others, "B, G, R", perhaps cut short */
-    const char *unlike;             /**< of a kind that reads one: "G" or "B", which differs from the red one; or null */
+    const char *unlike;             /**< of a kind that reads one channel: "G" or "B", which is not as red; or null */
     const char *says;               /**< the depth format that the file names, "unorm24"; null when it names none */
     unsigned colours;               /**< IMAGE_SRGB, ... */
     uint32_t most;                  /**< the largest sample, where the file says another than the type's; else 0 */
