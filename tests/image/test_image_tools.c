@@ -182,84 +182,78 @@ static const char *write_file(const char *name, const handmade *h) {
     " reads one of them all the same"
 #define COLOUR(other) COLOUR_OF("R", other)
 
+static const struct {
+    exr_channel channels[3];
+    size_t count;
+    const char *asked;
+    image_type type;
+    const char *sentence;
+} channel_rows[] = {
+    {{{"A", IMAGE_F16, true}, {"R", IMAGE_F16, true}, {"Z", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, NULL},
+    {{{"B", IMAGE_F16, true}, {"G", IMAGE_F16, true}, {"R", IMAGE_F16, false}}, 3, "R", IMAGE_F16, NULL},
+    {{{"B", IMAGE_F16, false}, {"G", IMAGE_F16, false}, {"R", IMAGE_F16, false}}, 3, NULL, IMAGE_F16, NULL},
+    {{{"B", IMAGE_F32, true}, {"G", IMAGE_F32, false}, {"R", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, COLOUR("B")},
+    {{{"A", IMAGE_F32, true}, {"G", IMAGE_F16, false}, {"R", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, COLOUR("G")},
+    {{{"A", IMAGE_F32, true}, {"R", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
+    {{{"A", IMAGE_F32, true}, {"depth", IMAGE_U32, false}}, 2, NULL, IMAGE_U32, NULL},
+    {{{"R", IMAGE_F32, true}, {"depth", IMAGE_U32, false}}, 2, NULL, IMAGE_U32, NULL},
+    {{{"R", IMAGE_F32, true}, {"far.depth", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
+    {{{"A", IMAGE_F32, true}, {"z", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
+    {{{"V.Depth.Z", IMAGE_F32, false}, {"V.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
+    {{{"layer.z", IMAGE_F32, false}, {"v.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
+    {{{"A", IMAGE_F16, true}, {"DEPTH", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
+    {{{"V.Depth.V", IMAGE_F32, false}, {"V.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
+    {{{"Depth.B", IMAGE_F16, true}, {"Depth.G", IMAGE_F16, true}, {"Depth.R", IMAGE_F16, false}},
+     3,
+     NULL,
+     IMAGE_F16,
+     COLOUR_OF("Depth.R", "G")},
+    {{{"R", IMAGE_F16, true}, {"depth.X", IMAGE_F32, false}, {"depth.Y", IMAGE_F32, true}}, 3, NULL, IMAGE_F32, NULL},
+    {{{"A.Z", IMAGE_F32, true}, {"undepth.R", IMAGE_F32, true}, {"z.y", IMAGE_F32, false}}, 3, "z.y", IMAGE_F32, NULL},
+    {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}, {"Z", IMAGE_F32, true}},
+     3,
+     NULL,
+     IMAGE_F32,
+     "EXR: has no channel Z, depth or R, but X, Y, Z: --channel NAME takes one"},
+    {{{"N.X", IMAGE_F32, true}, {"N.Y", IMAGE_F32, true}, {"N.Z", IMAGE_F32, true}},
+     3,
+     NULL,
+     IMAGE_F32,
+     "EXR: has no channel Z, depth or R, but N.X, N.Y, N.Z: --channel NAME takes one"},
+    {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}, {"Z", IMAGE_F32, false}}, 3, "Z", IMAGE_F32, NULL},
+    {{{"Y", IMAGE_F16, false}}, 1, NULL, IMAGE_F16, NULL},
+    {{{"Q", IMAGE_F16, false}, {"Z", IMAGE_F32, true}}, 2, "Q", IMAGE_F16, NULL},
+    {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}},
+     2,
+     NULL,
+     IMAGE_F32,
+     "EXR: has no channel Z, depth or R, but X, Y: --channel NAME takes one"},
+    {{{"X", IMAGE_F32, true}, {"Z", IMAGE_F32, true}}, 2, "z", IMAGE_F32, "EXR: has no channel z, but X, Z"},
+};
+
 TEST(exr_channels) {
-    static const struct {
-        exr_channel channels[3];
-        size_t count;
-        const char *asked;
-        image_type type;
-        const char *sentence;
-    } rows[] = {
-        {{{"A", IMAGE_F16, true}, {"R", IMAGE_F16, true}, {"Z", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, NULL},
-        {{{"B", IMAGE_F16, true}, {"G", IMAGE_F16, true}, {"R", IMAGE_F16, false}}, 3, "R", IMAGE_F16, NULL},
-        {{{"B", IMAGE_F16, false}, {"G", IMAGE_F16, false}, {"R", IMAGE_F16, false}}, 3, NULL, IMAGE_F16, NULL},
-        {{{"B", IMAGE_F32, true}, {"G", IMAGE_F32, false}, {"R", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, COLOUR("B")},
-        {{{"A", IMAGE_F32, true}, {"G", IMAGE_F16, false}, {"R", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, COLOUR("G")},
-        {{{"A", IMAGE_F32, true}, {"R", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
-        {{{"A", IMAGE_F32, true}, {"depth", IMAGE_U32, false}}, 2, NULL, IMAGE_U32, NULL},
-        {{{"R", IMAGE_F32, true}, {"depth", IMAGE_U32, false}}, 2, NULL, IMAGE_U32, NULL},
-        {{{"R", IMAGE_F32, true}, {"far.depth", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
-        {{{"A", IMAGE_F32, true}, {"z", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
-        {{{"V.Depth.Z", IMAGE_F32, false}, {"V.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
-        {{{"layer.z", IMAGE_F32, false}, {"v.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
-        {{{"A", IMAGE_F16, true}, {"DEPTH", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
-        {{{"V.Depth.V", IMAGE_F32, false}, {"V.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
-        {{{"Depth.B", IMAGE_F16, true}, {"Depth.G", IMAGE_F16, true}, {"Depth.R", IMAGE_F16, false}},
-         3,
-         NULL,
-         IMAGE_F16,
-         COLOUR_OF("Depth.R", "G")},
-        {{{"R", IMAGE_F16, true}, {"depth.X", IMAGE_F32, false}, {"depth.Y", IMAGE_F32, true}},
-         3,
-         NULL,
-         IMAGE_F32,
-         NULL},
-        {{{"A.Z", IMAGE_F32, true}, {"undepth.R", IMAGE_F32, true}, {"z.y", IMAGE_F32, false}},
-         3,
-         "z.y",
-         IMAGE_F32,
-         NULL},
-        {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}, {"Z", IMAGE_F32, true}},
-         3,
-         NULL,
-         IMAGE_F32,
-         "EXR: has no channel Z, depth or R, but X, Y, Z: --channel NAME takes one"},
-        {{{"N.X", IMAGE_F32, true}, {"N.Y", IMAGE_F32, true}, {"N.Z", IMAGE_F32, true}},
-         3,
-         NULL,
-         IMAGE_F32,
-         "EXR: has no channel Z, depth or R, but N.X, N.Y, N.Z: --channel NAME takes one"},
-        {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}, {"Z", IMAGE_F32, false}}, 3, "Z", IMAGE_F32, NULL},
-        {{{"Y", IMAGE_F16, false}}, 1, NULL, IMAGE_F16, NULL},
-        {{{"Q", IMAGE_F16, false}, {"Z", IMAGE_F32, true}}, 2, "Q", IMAGE_F16, NULL},
-        {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}},
-         2,
-         NULL,
-         IMAGE_F32,
-         "EXR: has no channel Z, depth or R, but X, Y: --channel NAME takes one"},
-        {{{"X", IMAGE_F32, true}, {"Z", IMAGE_F32, true}}, 2, "z", IMAGE_F32, "EXR: has no channel z, but X, Z"},
-    };
     if (!exr_is_read())
         skip();
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < sizeof channel_rows / sizeof channel_rows[0]; i++) {
         handmade h = {.size = 0};
         image img;
         image_error error = {.text = ""};
-        make_exr(&h, rows[i].channels, rows[i].count, NULL);
-        bool good = image_read_as(write_file("c.exr", &h), &(image_asked){.channel = rows[i].asked}, &img, &error);
-        if (good && !image_choose(&img, rows[i].asked, &error)) {
+        make_exr(&h, channel_rows[i].channels, channel_rows[i].count, NULL);
+        bool good =
+            image_read_as(write_file("c.exr", &h), &(image_asked){.channel = channel_rows[i].asked}, &img, &error);
+        if (good && !image_choose(&img, channel_rows[i].asked, &error)) {
             image_free(&img);
             good = false;
         }
-        if (good != (rows[i].sentence == NULL))
+        if (good != (channel_rows[i].sentence == NULL))
             fail_msg("row %zu: %s", i, good ? "accepted" : error.text);
         if (!good) {
-            assert_string_equal(error.text, rows[i].sentence);
+            assert_string_equal(error.text, channel_rows[i].sentence);
             continue;
         }
         assert_int_equal(img.file, IMAGE_EXR);
         assert_int_equal(img.channels, 1);
-        assert_bits(&img, rows[i].type, 0);
+        assert_bits(&img, channel_rows[i].type, 0);
         image_free(&img);
     }
 }
