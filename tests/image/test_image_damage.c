@@ -60,7 +60,8 @@ TEST(other_files) {
          "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but JPEG, which keeps no depths: save PNG of 16 bits, PFM or "
          ".npy"},
         {"P2\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but PGM in plain text: convert it to P5"},
-        {"P6\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but PPM, which has colours: convert it to PNG"},
+        {"P6\n1 1\n", 7,
+         "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but PPM, which has colours: convert it to PNG"},
         {"\xabKTX 20\xbb", 8, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but KTX: save its pixels as .npy"},
         {"#?RADIANCE", 10, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM, but Radiance HDR: convert it to PFM"},
     };
