@@ -90,9 +90,7 @@ static double once(method_run *run, const method_call *call, size_t rounds) {
 bench_times bench_statistics(double *times, size_t count) {
     gsl_sort(times, 1, count);
     const double lower = gsl_stats_quantile_from_sorted_data(times, 1, count, 0.25);
-    const double median = gsl_stats_median_from_sorted_data(times, 1, count);
-    const double upper = gsl_stats_quantile_from_sorted_data(times, 1, count, 0.75);
-    return (bench_times){median, (upper - lower) / 2 / median};
+    return (bench_times){times[0], (lower - times[0]) / times[0]};
 }
 
 typedef struct contestant {
@@ -124,29 +122,42 @@ static void time_methods(contestant *all, bench_result *results, size_t count, i
     time_all(all, count + 1, repetitions);
     const bench_times limit = bench_statistics(all[count].times, (size_t)repetitions);
     for (size_t i = 0; i < count; i++) {
-        results[i].limit = limit.median;
+        results[i].limit = limit.least;
         if (all[i].run == NULL) {
             results[i].ns = all[i].call.row->cost;
             continue;
         }
         const bench_times times = bench_statistics(all[i].times, (size_t)repetitions);
-        results[i].ns = times.median;
+        results[i].ns = times.least;
         results[i].spread = times.spread;
     }
 }
 
+/* Is what the row claims there, and kept? Of a function of somebody's nothing is claimed but what it is asked for. */
+static bool keeps_claim(const method_family_row *family, const bench_result *r) {
+    const double error = measured_error(family, &r->measured);
+    return error <= (r->row->asked > 0 ? r->row->asked : r->claim);
+}
+
+/* Do the two differ by no more than two runs of one of them may? A busy machine does not make all alike. */
+static bool as_fast(const bench_result *a, const bench_result *b) {
+    static const double least = 0.1, most = 0.25;
+    return fmax(a->ns, b->ns) <= fmin(a->ns, b->ns) * (1 + fmin(fmax(fmax(a->spread, b->spread), least), most));
+}
+
+/* Of two as fast the more exact one is the better, and of two as exact, too, neither. */
+static bool is_beaten(const method_family_row *family, const bench_result *r, const bench_result *by) {
+    const double error = measured_error(family, &r->measured), other = measured_error(family, &by->measured);
+    return keeps_claim(family, by) && (as_fast(r, by) ? other < error : by->ns < r->ns && other <= error);
+}
+
 static void mark_front(const method_family_row *family, bench_result *results, size_t count) {
     for (size_t i = 0; i < count; i++) {
-        const double error = measured_error(family, &results[i].measured), asked = results[i].row->asked;
-        results[i].front = !isnan(error) && !isnan(results[i].ns) && !(asked > 0 && error > asked);
-        for (size_t k = 0; k < count && results[i].front; k++) {
-            if ((results[k].row->domain & METHOD_PIPELINE) != (results[i].row->domain & METHOD_PIPELINE))
-                continue;
-            double other = measured_error(family, &results[k].measured);
-            bool better =
-                (other < error && results[k].ns <= results[i].ns) || (other <= error && results[k].ns < results[i].ns);
-            results[i].front = !better;
-        }
+        bench_result *r = &results[i];
+        r->front = keeps_claim(family, r) && !isnan(r->ns);
+        for (size_t k = 0; k < count && r->front; k++)
+            if ((results[k].row->domain & METHOD_PIPELINE) == (r->row->domain & METHOD_PIPELINE))
+                r->front = !is_beaten(family, r, &results[k]);
     }
 }
 

@@ -28,7 +28,7 @@ bool method_measure(const method_family_row *family, const method_row *row, cons
 typedef struct bench_result {
     const method_row *row;
     size_t inputs; /**< how many of the shared inputs it was given: the first of them */
-    double ns;     /**< median, an element; NaN when not timed */
+    double ns;     /**< the least of the repetitions, an element; NaN when not timed */
     double spread; /**< of the repetitions: bench_times */
     double limit;  /**< ns of a loop that moves the same bytes, in turns with the methods: what none can beat */
     double setup;  /**< ns to prepare a set-up, once; 0 where there is nothing to prepare */
@@ -36,16 +36,19 @@ typedef struct bench_result {
     double at_absolute, at_relative, at_ulp; /**< the inputs that reach the worst: eye or window depths */
     double claim;                            /**< for this set-up; NaN where the row claims nothing of it */
     double bound;                            /**< for this set-up; NaN where nothing is proven of it */
-    bool front; /**< no other method with the same reference is both faster and more exact */
+    /** It keeps its claim, and no other that does, with the same reference, is both faster and more exact. Two are as
+     *  fast within 10 %, or within their spread where that is more, up to 25 %; of these the more exact one is. */
+    bool front;
 } bench_result;
 
 /** The statistics of timings. */
 typedef struct bench_times {
-    double median; /**< of an even count the mean of the middle two; the timings' unit */
-    double spread; /**< half of upper minus lower quartile, as a share of the median */
+    double least; /**< what the machine takes when nothing disturbs it; the timings' unit */
+    double
+        spread; /**< how far the lower quartile lies above it, as a share of it: a quarter of the timings are nearer */
 } bench_times;
 
-/** Sorts `count` >= 1 finite timings; a quartile lies between two by its share of the distance. */
+/** Sorts `count` >= 1 timings above 0; a quartile lies between two by its share of the distance. */
 bench_times bench_statistics(double *times, size_t count);
 
 /** The claim of a row for a set-up of a case; NaN where it makes none. */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "core/bits.h"
+#include "core/clones.h"
 #include "method/bound.h"
 #include "method/method.h"
 #if defined(__x86_64__)
@@ -14,7 +15,7 @@
 
 /* Ties to even: below 2^-14 the addition of 1/2 rounds to the step of the subnormals, which are the low bits of the
  * sum; above, half a step less the lowest kept bit is added to the bits. Both are computed and one is chosen. */
-static void bits_run(const method_call *c) {
+CLONES static void bits_run(const method_call *c) {
     for (size_t i = 0; i < c->in->count; i++) {
         uint32_t x = dp_bits32(c->in->d[i]);
         uint32_t small = dp_bits32(c->in->d[i] + 0.5f) - dp_bits32(0.5f);
@@ -74,26 +75,26 @@ static bool has_f16c(void) {
 
 /* ---- UNORM ------------------------------------------------------------------------------------------------------- */
 
-static void floor_run(const method_call *c) {
+CLONES static void floor_run(const method_call *c) {
     const float most = (float)c->setup->spec.format.code_max;
     for (size_t i = 0; i < c->in->count; i++)
         c->out->code[i] = (uint32_t)(int32_t)(c->in->d[i] * most + 0.5f);
 }
 
-static void rint_run(const method_call *c) {
+CLONES static void rint_run(const method_call *c) {
     const float most = (float)c->setup->spec.format.code_max;
     for (size_t i = 0; i < c->in->count; i++)
         c->out->code[i] = (uint32_t)(int32_t)rintf(c->in->d[i] * most);
 }
 
 /* The addition of 2^23 leaves whole numbers only, in the low bits of the sum. */
-static void magic_run(const method_call *c) {
+CLONES static void magic_run(const method_call *c) {
     const float most = (float)c->setup->spec.format.code_max;
     for (size_t i = 0; i < c->in->count; i++)
         c->out->code[i] = dp_bits32(c->in->d[i] * most + 0x1p23f) - dp_bits32(0x1p23f);
 }
 
-static void double_run(const method_call *c) {
+CLONES static void double_run(const method_call *c) {
     const double most = c->setup->spec.format.code_max;
     for (size_t i = 0; i < c->in->count; i++)
         c->out->code[i] = (uint32_t)(int32_t)((double)c->in->d[i] * most + 0.5);

@@ -2,12 +2,13 @@
 /* The z-fighting interval at a depth. The last three rows speak of the binary32 pipeline and are judged by it. */
 #include <math.h>
 
+#include "core/clones.h"
 #include "method/truth.h"
 #include "zfight/census.h"
 
 /* ---- The lattice ------------------------------------------------------------------------------------------------- */
 
-static void rule_run(const method_call *c) {
+CLONES static void rule_run(const method_call *c) {
     const double factor = 1 / (c->setup->spec.znear * ldexp(1.0, c->setup->spec.format.bits));
     for (size_t i = 0; i < c->in->count; i++)
         c->out->value[i] = c->in->z[i] * c->in->z[i] * factor;
@@ -19,7 +20,7 @@ static double slope_at(const dp_setup *setup, double z) {
     return setup->spec.ortho ? f - n : z * z * (1 / n - 1 / f);
 }
 
-static void derivative_run(const method_call *c) {
+CLONES static void derivative_run(const method_call *c) {
     const dp_format *f = &c->setup->spec.format;
     const double unorm = 1.0 / f->code_max, least = ldexp(1.0, 1 - f->bias - f->mantissa_bits);
     for (size_t i = 0; i < c->in->count; i++) {

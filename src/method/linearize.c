@@ -11,6 +11,7 @@
 #include <gsl/gsl_spline.h>
 
 #include "core/bits.h"
+#include "core/clones.h"
 #include "core/elementary.h"
 #include "method/bound.h"
 #include "method/estimate.h"
@@ -18,16 +19,20 @@
 
 /* ---- The rows of shader/decode.h -------------------------------------------------------------------------------- */
 
+CLONES static void scale_all(float *eye, size_t count, float base, float scale) {
+    for (size_t i = 0; i < count; i++)
+        eye[i] = base + scale * eye[i];
+}
+
 /* Shares of far, or of the way from near to far, become depths. */
 static void decoded_run(const method_call *c) {
     const decode_row *row = c->row->decode;
     const dp_spec *spec = &c->setup->spec;
     const bool of_far = row->quantity == DECODE_01;
-    const float scale = (float)(of_far ? spec->zfar : spec->zfar - spec->znear), base = of_far ? 0 : (float)spec->znear;
     decode_run(row, c->setup, c->in->d, c->out->eye, c->in->count);
     if (row->quantity != DECODE_EYE)
-        for (size_t i = 0; i < c->in->count; i++)
-            c->out->eye[i] = base + scale * c->out->eye[i];
+        scale_all(c->out->eye, c->in->count, of_far ? 0 : (float)spec->znear,
+                  (float)(of_far ? spec->zfar : spec->zfar - spec->znear));
 }
 
 /* The reciprocal of x > 0 from its bits, within 12 %, then one Newton step. */
@@ -36,7 +41,7 @@ static float magic_reciprocal(float x) {
     return y * (2.0f - x * y);
 }
 
-static void magic_run(const method_call *c) {
+CLONES static void magic_run(const method_call *c) {
     const zbuffer_params p = zbuffer_params_of(c->setup);
     for (size_t i = 0; i < c->in->count; i++)
         c->out->eye[i] = magic_reciprocal(p.z * c->in->d[i] + p.w);
@@ -54,21 +59,21 @@ static textbook textbook_of(const dp_setup *setup) {
     return setup->reversed ? (textbook){n * f, n, f - n} : (textbook){n * f, f, n - f};
 }
 
-static void textbook_run(const method_call *c) {
+CLONES static void textbook_run(const method_call *c) {
     const textbook t = textbook_of(c->setup);
     const float product = (float)t.product, base = (float)t.base, slope = (float)t.slope;
     for (size_t i = 0; i < c->in->count; i++)
         c->out->eye[i] = product / (base + slope * c->in->d[i]);
 }
 
-static void fused_run(const method_call *c) {
+CLONES static void fused_run(const method_call *c) {
     const textbook t = textbook_of(c->setup);
     const float product = (float)t.product, base = (float)t.base, slope = (float)t.slope;
     for (size_t i = 0; i < c->in->count; i++)
         c->out->eye[i] = product / fmaf(slope, c->in->d[i], base);
 }
 
-static void double_run(const method_call *c) {
+CLONES static void double_run(const method_call *c) {
     const textbook t = textbook_of(c->setup);
     for (size_t i = 0; i < c->in->count; i++)
         c->out->eye[i] = (float)(t.product / (t.base + t.slope * (double)c->in->d[i]));
@@ -81,7 +86,7 @@ static float toward_near(bool reversed, float d) {
     return reversed ? d : 1.0f - d;
 }
 
-static void complement_run(const method_call *c) {
+CLONES static void complement_run(const method_call *c) {
     const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
     const float product = (float)(n * f), base = (float)n, slope = (float)(f - n);
     const bool reversed = c->setup->reversed != 0;
@@ -89,7 +94,7 @@ static void complement_run(const method_call *c) {
         c->out->eye[i] = product / (base + slope * toward_near(reversed, c->in->d[i]));
 }
 
-static void newton_run(const method_call *c) {
+CLONES static void newton_run(const method_call *c) {
     const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
     const float product = (float)(n * f), base = (float)n, slope = (float)(f - n);
     const bool reversed = c->setup->reversed != 0;
@@ -148,7 +153,7 @@ static pair two_product(float a, float b) {
     return (pair){p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
 }
 
-static void pair_run(const method_call *c) {
+CLONES static void pair_run(const method_call *c) {
     const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
     /* In units of near: then nothing leaves the range of binary32, whatever the scene's units are. */
     const pair slope = pair_of(f / n - 1), product = pair_of(f);
@@ -166,7 +171,7 @@ static void pair_run(const method_call *c) {
 }
 
 /* The engine's formula: n/(phi d + q), which also has a limit for an infinite far plane. */
-static void phi_run(const method_call *c) {
+CLONES static void phi_run(const method_call *c) {
     const double n = c->setup->spec.znear, phi = n / c->setup->spec.zfar;
     const bool reversed = c->setup->reversed != 0;
     for (size_t i = 0; i < c->in->count; i++) {

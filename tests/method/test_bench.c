@@ -67,10 +67,11 @@ static void fill(const dp_setup *setup, method_inputs *in) {
 }
 
 static bool loses_one; /* the answer to input 6 is no number */
+static double worse = 1;
 
 /* The worst of each kind at an input of its own; what lies outside of the domain is worse and does not count. */
 static bool judge(const method_call *call, size_t i, method_error *e) {
-    const double scale = strcmp(call->row->name, "exact") == 0 ? 1e-3 : 1;
+    const double scale = worse * (strcmp(call->row->name, "exact") == 0 ? 1e-3 : 1);
     *e = (method_error){i == 3 ? 9 : 1, scale * (i == 5 ? 8 : 2), i == 7 ? 7 : 3};
     if (i == 4)
         *e = (method_error){1e9, 1e9, 1e9};
@@ -116,30 +117,34 @@ static double sorted_at(int contestant, int quarters) {
     return below + 1 < repetitions ? sorted[below] + (at - below) * (sorted[below + 1] - sorted[below]) : sorted[below];
 }
 
-static size_t run_bench(int count, bench_result results[BENCH_METHODS_MAX]) {
+static size_t run_samples(double far, bench_result results[BENCH_METHODS_MAX]) {
     dp_setup setup;
-    rng r = rng_make("bench");
-    repetitions = count;
     memset(runs, 0, sizeof runs);
     clock_ns = 1e9;
+    assert_int_equal(method_setup(&family, 0, 0.1, far, false, &setup), DP_OK);
+    return bench_run(&family, 0, &setup, repetitions, results);
+}
+
+static size_t run_bench(int count, bench_result results[BENCH_METHODS_MAX]) {
+    rng r = rng_make("bench");
+    repetitions = count;
     for (int c = 0; c < CONTESTANTS; c++)
         for (int i = 0; i < count; i++)
             samples[c][i] = floor(rng_log(&r, 5e5, 3e6) * (c == 1 ? 3 : c == 2 ? 2 : 1));
-    assert_int_equal(method_setup(&family, 0, 0.1, 1000, false, &setup), DP_OK);
-    return bench_run(&family, 0, &setup, count, results);
+    return run_samples(1000, results);
 }
 
-TEST(medians_and_quartiles) {
+TEST(leasts_and_quartiles) {
     static const int counts[] = {25, 8, 1};
     static bench_result results[BENCH_METHODS_MAX];
     for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
         assert_int_equal(run_bench(counts[k], results), 3);
         for (int i = 0; i < 3; i++) {
-            const double inputs = i == 2 ? 6 : INPUTS, median = sorted_at(i, 2);
+            const double inputs = i == 2 ? 6 : INPUTS, least = sorted_at(i, 0);
             assert_int_equal(results[i].inputs, (size_t)inputs);
-            assert_relative(results[i].ns, median / inputs, 1e-12);
-            assert_scene(results[i].spread, (sorted_at(i, 3) - sorted_at(i, 1)) / 2 / median, 1e-12);
-            assert_relative(results[i].limit, sorted_at(LIMIT, 2) / INPUTS, 1e-12);
+            assert_relative(results[i].ns, least / inputs, 1e-12);
+            assert_scene(results[i].spread, (sorted_at(i, 1) - least) / least, 1e-12);
+            assert_relative(results[i].limit, sorted_at(LIMIT, 0) / INPUTS, 1e-12);
             assert_scene(results[i].setup, i == 1 ? 77777 : 0, 1e-6);
             assert_true(runs[i] == counts[k] + 2);
         }
@@ -176,12 +181,38 @@ TEST(no_number_is_the_worst) {
     assert_true(results[2].measured.worst.relative == 8); /* it stops before */
 }
 
-/* On the front are the fastest and the most exact; the third is slower an element than the first, and no better. */
-TEST(front) {
+/* Beyond far/near of 100 the second claims nothing. Errors are 8, .008 and 8 times `worse`, the claims 10, 4 and 12;
+ * the third has 6 inputs, the others 10. Every turn but the first takes `more`. */
+TEST(front_by_hand) {
+    static const struct {
+        double far, worse, more, ns[3];
+        bool front[3];
+    } known[] = {
+        {5, 1, 1, {5e5, 9e5, 6e5}, {true, true, false}},       /* the third is slower, and no better */
+        {5, 1, 1, {5e5, 5.4e5, 6e5}, {false, true, false}},    /* 8 % are as fast */
+        {5, 1, 1, {5e5, 5.6e5, 6e5}, {true, true, false}},     /* 12 % are not, */
+        {5, 1, 1.2, {5e5, 5.6e5, 6e5}, {false, true, false}},  /* unless turns differ as much, */
+        {5, 1, 1.2, {5e5, 6.1e5, 9e5}, {true, true, false}},   /* but not more, */
+        {5, 1, 1.9, {5e5, 6.4e5, 9e5}, {true, true, false}},   /* and never of 28 % */
+        {5, 1, 1, {8.4e5, 2e6, 5e5}, {true, true, true}},      /* as fast and as exact */
+        {1000, 1, 1, {5e5, 9e5, 6e5}, {true, false, false}},   /* without a claim, */
+        {1000, 1, 1, {5e5, 5.4e5, 6e5}, {true, false, false}}, /* which beats none, either */
+        {5, 10, 1, {5e5, 9e5, 6e5}, {false, true, false}},     /* claims that are broken */
+        {1000, 1.4, 1, {5e5, 9e5, 9e5}, {false, false, true}}, /* a broken one beats none */
+    };
     static bench_result results[BENCH_METHODS_MAX];
-    assert_int_equal(run_bench(REPETITIONS, results), 3);
-    assert_true(results[0].ns < results[1].ns && results[0].ns < results[2].ns);
-    assert_true(results[0].front && results[1].front && !results[2].front);
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+        repetitions = REPETITIONS;
+        worse = known[k].worse;
+        for (int c = 0; c < CONTESTANTS; c++)
+            for (int i = 0; i < REPETITIONS; i++)
+                samples[c][i] = (c < 3 ? known[k].ns[c] : 5e5) * (i > 0 ? known[k].more : 1);
+        assert_int_equal(run_samples(known[k].far, results), 3);
+        worse = 1;
+        for (int i = 0; i < 3; i++)
+            if (results[i].front != known[k].front[i])
+                fail_msg("row %zu: method %d is %son the front", k, i, results[i].front ? "" : "not ");
+    }
 }
 
 TEST(untimed) {
@@ -194,15 +225,14 @@ TEST(untimed) {
 TEST(statistics_by_hand) {
     static const struct {
         size_t count;
-        double times[9], median, spread;
+        double times[9], least, spread;
     } known[] = {
         {1, {7}, 7, 0},
-        {2, {30, 10}, 20, 0.25},                         /* quartiles 15 and 25 */
-        {3, {9, 1, 4}, 4, 0.5},                          /* 2.5 and 6.5 */
-        {4, {8, 2, 16, 4}, 6, 6.5 / 2 / 6},              /* between 4 and 8; 3.5 and 10 */
-        {5, {50, 10, 40, 20, 100}, 40, 0.375},           /* 20 and 50; the mean is 44 */
-        {9, {1, 2, 3, 4, 5, 6, 7, 8, 1000}, 5, 0.4},     /* 3 and 7: an outlier changes nothing */
-        {9, {1000, 9, 8, 7, 6, 5, 4, 3, 2}, 6, 1.0 / 3}, /* 4 and 8 */
+        {2, {30, 10}, 10, 0.5},                    /* the quartile is 15 */
+        {3, {9, 1, 4}, 1, 1.5},                    /* 2.5 */
+        {4, {8, 2, 16, 4}, 2, 0.75},               /* 3.5 */
+        {5, {50, 10, 40, 20, 100}, 10, 1},         /* 20 */
+        {9, {1, 2, 3, 4, 5, 6, 7, 8, 1000}, 1, 2}, /* 3: an outlier changes nothing */
         {6, {3, 3, 3, 3, 3, 3}, 3, 0},
     };
     tally t = {.name = "statistics"};
@@ -211,8 +241,8 @@ TEST(statistics_by_hand) {
         for (size_t k = 0; k < known[i].count; k++)
             times[k] = known[i].times[k];
         const bench_times got = bench_statistics(times, known[i].count);
-        TALLY(&t, fabs(got.median - known[i].median) <= 1e-12 && fabs(got.spread - known[i].spread) <= 1e-12,
-              "row %zu: median %g, spread %g", i, got.median, got.spread);
+        TALLY(&t, fabs(got.least - known[i].least) <= 1e-12 && fabs(got.spread - known[i].spread) <= 1e-12,
+              "row %zu: least %g, spread %g", i, got.least, got.spread);
     }
     tally_end(&t);
 }

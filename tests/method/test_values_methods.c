@@ -29,7 +29,7 @@ static void want_method(values *v, const method_family_row *family, const bench_
     want(v, "relative=%f relative_at=%f absolute=%f", worst->relative, r->at_relative, worst->absolute);
     want(v, "absolute_at=%f ulp=%f ulp_at=%f", r->at_absolute, worst->ulp, r->at_ulp);
     want(v, "claim=%f bound=%f pareto=%d", r->claim, r->bound, r->front);
-    want(v, "~percent=%f ~preparing=%f", 100 * r->spread, r->setup > 0 ? r->setup : NAN);
+    want(v, "~percent=%f ~preparing=%f", rint(1000 * r->spread) / 10, r->setup > 0 ? r->setup : NAN);
     want(v, "~at=%f ~chosen=%d", family->steps ? r->at_ulp : r->at_relative, r->row == choice);
 }
 
@@ -79,7 +79,9 @@ static void check_text(values *v, const method_family_row *family, const method_
     char label[64];
     values_under(v, "%s", "");
     check_line(v, text, family->cases[asked_which].name, "near:15, far:15");
-    check_line(v, text, "ns: per element, median; x memory: multiple of the time to move the same bytes,",
+    check_line(v, text,
+               "ns: per element, the least of 25 turns; +- %: of which a quarter took at most so much more; x memory: "
+               "multiple of the time to move the same bytes,",
                "limit_ns:3");
     for (size_t i = 0; i < walked_count; i++) {
         snprintf(label, sizeof label, "%s%s%-19s ", timed[i].front ? "*" : "",

@@ -85,7 +85,7 @@ static void *next_method(void *of, size_t i) {
                 .breaks = isinf(w->breaks) ? (double)NAN : w->breaks,
                 .name = r->row->name,
                 .limits = r->ns / r->limit,
-                .percent = 100 * r->spread,
+                .percent = rint(1000 * r->spread) / 10,
                 .error = measured_error(b->asked.family, &r->measured),
                 .setup = r->setup > 0 ? r->setup : (double)NAN,
                 .front = r->front,
@@ -150,11 +150,15 @@ static void say_mine(page *p, const measuring *b) {
 
 static void say_marks(page *p, void *item) {
     const measuring *b = item;
-    page_line(p, "ns: per element, median; x memory: multiple of the time to move the same bytes, %.3g ns", b->limit);
+    page_line(p,
+              "ns: per element, the least of %d turns; +- %%: of which a quarter took at most so much more; x memory: "
+              "multiple of the time to move the same bytes, %.3g ns",
+              BENCH_REPETITIONS, b->limit);
     if ((conditions(b) & BOUNDED) != 0)
         page_line(p, "bound: proven for any depth of this camera; claim: for any camera with this far/near");
     page_line(p, "fails from: the far/near from which its error exceeds its claim; -: none up to 1e12");
-    page_line(p, "* Pareto front: no other method is both faster and more accurate");
+    page_line(p, "* Pareto front: keeps its claim, and no other that does is faster and more accurate; of two as fast, "
+                 "within 10 %% or their spread, the more accurate one");
     for (size_t i = 0; i < b->count; i++)
         if (b->results[i].row->timed != NULL)
             page_line(p,
@@ -212,7 +216,7 @@ static const column line_columns[] = {
     {FIELD(line, of.ns, "ns", ""), SHOWN("ns", 8, 3)},
     {FIELD(line, limits, "limits", ""), SHOWN("x memory", 10, 3), .only = AS_JSON | AS_TEXT, .spare = 5},
     {FIELD(line, of.spread, "spread", "")},
-    {TEXT_FIELD(line, percent, "+- %", 8, 2), .spare = 2},
+    {TEXT_FIELD(line, percent, "+- %", 6, 2)},
     {FIELD(line, of.setup, "setup_ns", ""), .only = AS_JSON},
     {FIELD(line, of.setup, "setup", "ns"), .only = AS_CSV},
     {TEXT_FIELD(line, setup, "set-up ns", 10, 3), .spare = 1},
