@@ -65,7 +65,7 @@ chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, si
         return NULL;
     }
     chart_series *s = &panel->series[panel->series_count];
-    *s = (chart_series){.kind = kind, .style = {.marker = -1}, .count = count};
+    *s = (chart_series){.kind = kind, .style = {.marker = -1}, .count = count, .certain_to = (double)NAN};
     s->x = chart_memory(c, count, sizeof *s->x);
     s->y = chart_memory(c, count, sizeof *s->y);
     if (s->x == NULL || s->y == NULL)
@@ -197,6 +197,7 @@ static void rescale(chart_series *s, double x, double y) {
         s->x[i] *= x;
         s->y[i] *= y;
     }
+    s->certain_to *= x;
     if (x != 1)
         s->note[0] = '\0'; /* it has lengths */
 }
@@ -293,6 +294,7 @@ void chart_digest(const chart *c, char out[17]) {
             mix(&h, panel->series[s].name);
             mix_numbers(&h, panel->series[s].x, panel->series[s].count);
             mix_numbers(&h, panel->series[s].y, panel->series[s].count);
+            mix_numbers(&h, &panel->series[s].certain_to, isnan(panel->series[s].certain_to) ? 0U : 1U);
         }
         mix_numbers(&h, panel->map.x, (size_t)panel->map.columns);
         mix_numbers(&h, panel->map.y, (size_t)panel->map.rows);

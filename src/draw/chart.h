@@ -37,7 +37,7 @@ typedef struct chart_axis {
 
 /** How a series is drawn; the index of its row in series.c. */
 typedef enum chart_kind {
-    CHART_LINE = 0, /**< through the points; a point at y = INFINITY ends it with an arrow to the top */
+    CHART_LINE = 0, /**< through the points; y = INFINITY ends it with an arrow to the top, NaN interrupts it */
     CHART_DROPS,    /**< each point joined to both axes: the codes of a small format */
     CHART_LEVELS,   /**< broad lines below all others, each from one point to the next of equal y */
     CHART_BARS,     /**< from each point to the next of equal x, which has a cross stroke wider than a marker */
@@ -63,6 +63,7 @@ typedef struct chart_series {
     bool behind;        /**< of points: under the lines, which stay visible where they run through one */
     const char *method; /**< what it was computed by where that is not the exact engine; else null */
     bool second;        /**< CHART_LINE: y is measured on the panel's second axis */
+    double certain_to;  /**< CHART_LINE: x where it ends, with a bar: beyond, nothing is certain; NaN: it does not */
     size_t count;
     double *x, *y;
     char (*labels)[CHART_TEXT]; /**< CHART_POINTS: a label each, or null */

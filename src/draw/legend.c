@@ -15,6 +15,7 @@
 #define BETWEEN 22.0
 
 static const char arrow_note[] = "unbounded from here: nothing beyond is resolved";
+static const char end_note[] = "ends here: nothing behind it up to far is certain";
 
 static bool listed(const legend *l, const chart_series *s) {
     for (size_t i = 0; i < l->count; i++)
@@ -91,6 +92,15 @@ static bool has_blind(const chart *c) {
     return false;
 }
 
+/* Does a line end in a bar? */
+static bool has_end(const chart *c) {
+    for (size_t p = 0; p < c->panel_count; p++)
+        for (size_t s = 0; s < c->panels[p].series_count; s++)
+            if (!isnan(c->panels[p].series[s].certain_to))
+                return true;
+    return false;
+}
+
 /* Lists the series of a panel that mark what others show, or, without `marks`, the others. */
 static void list(legend *l, const chart *c, const chart_panel *panel, bool marks) {
     for (size_t k = 0; k < panel->series_count && l->count < LEGEND_MAX; k++) {
@@ -109,6 +119,7 @@ legend legend_make(const pencil *p, const chart *c, double width) {
         list(&l, c, &c->panels[i % c->panel_count], i >= c->panel_count);
     l.width = width;
     l.arrows = l.count > 0 && has_blind(c);
+    l.ends = l.count > 0 && has_end(c);
     /* The fewest rows that fit; then as many more as keep each group in one column. */
     size_t rows = 1, group = group_size(&l);
     while (rows < l.count && !arrange(p, &l, rows, width))
@@ -133,10 +144,17 @@ double legend_draw(const pencil *p, const legend *l, double x, double y) {
             series_swatch(p, l->entries[i], x, middle, SWATCH * p->scale);
             draw_text(p, l->text[i], x + before, middle, left + l->width - x - before);
         }
+    const double middle = left + SWATCH / 2 * p->scale;
     y += (double)l->rows * height;
-    if (!l->arrows)
-        return y;
-    series_arrow(p, left + SWATCH / 2 * p->scale, y + (height - 9 * p->scale) / 2, p->theme->faint);
-    draw_text(p, arrow_note, left + before, y + height / 2, l->width - before);
-    return y + height;
+    if (l->arrows) {
+        series_arrow(p, middle, y + (height - 9 * p->scale) / 2, p->theme->faint);
+        draw_text(p, arrow_note, left + before, y + height / 2, l->width - before);
+        y += height;
+    }
+    if (l->ends) {
+        series_end(p, middle, y + height / 2, p->theme->faint);
+        draw_text(p, end_note, left + before, y + height / 2, l->width - before);
+        y += height;
+    }
+    return y;
 }

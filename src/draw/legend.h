@@ -12,7 +12,7 @@ typedef struct legend {
     const chart_series *entries[LEGEND_MAX];
     char text[LEGEND_MAX][LEGEND_TEXT];
     double column_width[LEGEND_MAX], width;
-    bool arrows; /**< a last line says what the arrows mean */
+    bool arrows, ends; /**< last lines say what the arrows mean, and bars at the ends of curves */
 } legend;
 
 /** Arranges the legend in the given width. A series that comes in several panels under one name is listed once. */

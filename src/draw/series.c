@@ -11,6 +11,7 @@
 #define LEVEL_WIDTH    6.0
 #define LEVEL_LENGTH   22.0 /* at least */
 #define BAR_END        9.0  /* to either side */
+#define LINE_END       6.0  /* up and down */
 
 static canvas_pen pen_of(const pencil *p, const chart_series *s) {
     return theme_pen(p->theme, s->style.colour, s->style.stroke, s->style.thin ? 0.5 * p->scale : p->scale);
@@ -19,6 +20,11 @@ static canvas_pen pen_of(const pencil *p, const chart_series *s) {
 void series_arrow(const pencil *p, double x, double y, canvas_colour colour) {
     double half = 4.5 * p->scale, length = 9 * p->scale;
     canvas_polygon(p->c, (canvas_point[]){{x, y}, {x + half, y + length}, {x - half, y + length}}, 3, colour);
+}
+
+void series_end(const pencil *p, double x, double y, canvas_colour colour) {
+    const canvas_pen pen = {.colour = colour, .width = 1.25 * p->theme->line_width * p->scale};
+    canvas_segment(p->c, x, y - LINE_END * p->scale, x, y + LINE_END * p->scale, &pen);
 }
 
 /* Every second stroke has hollow markers: two curves of one colour that lie on each other still show. */
@@ -65,6 +71,15 @@ static double stroke_line(const pencil *p, const axes *a, const chart_series *s,
     return end;
 }
 
+/* At the last point that a curve has. */
+static void draw_end(const pencil *p, const axes *a, const chart_series *s, canvas_colour colour) {
+    size_t k = s->count;
+    while (k > 0 && !isfinite(s->y[k - 1]))
+        k--;
+    if (k > 0 && !isnan(s->certain_to))
+        series_end(p, axes_x(a, s->x[k - 1]), axes_y(a, s->y[k - 1]), colour);
+}
+
 static void draw_line(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
     canvas_pen pen = pen_of(p, s);
@@ -75,6 +90,7 @@ static void draw_line(const pencil *p, const axes *a, const chart_panel *panel, 
     double end = stroke_line(p, a, s, &pen);
     if (!isnan(end))
         series_arrow(p, end, a->frame.y, pen.colour);
+    draw_end(p, a, s, pen.colour);
     if (s->style.marker >= 0)
         draw_markers(p, a, panel, index);
 }

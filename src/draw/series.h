@@ -17,4 +17,7 @@ void labels_draw(const pencil *p, const axes *a, const chart_panel *panel);
 /** The arrow that ends a curve where its value grows without bound; its tip is at (x, y). */
 void series_arrow(const pencil *p, double x, double y, canvas_colour colour);
 
+/** The bar across (x, y) at which a curve ends: see chart_series.certain_to. */
+void series_end(const pencil *p, double x, double y, canvas_colour colour);
+
 #endif

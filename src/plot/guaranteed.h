@@ -18,13 +18,29 @@ bool guaranteed_has(const figure_request *request, size_t i);
 chart_panel *guaranteed_begin(const figure_request *request, chart *out, chart_axis y, const char *guaranteed,
                               envelope_value value, bool interval);
 
+/** A separation at a depth. */
+typedef double guaranteed_function(const void *of, double z);
+
+/**
+ * The farthest depth along the axis of a curve behind which something is certain up to far: a separation is left there.
+ * Just before the axis begins where none is; NaN where the curve need not end, as it is so up to its last column, or
+ * far is infinite.
+ */
+double guaranteed_certain_to(const refine_request *q, const dp_setup *setup, guaranteed_function *separation,
+                             const void *of);
+
+/** The separation of a set-up as the panel's next series, to where nothing behind is certain. Null when out of memory.
+ *  @param q  of envelope_request(); afterwards as it was asked */
+chart_series *guaranteed_separation(chart *out, chart_panel *panel, refine_request *q, const dp_setup *setup);
+
 /**
  * The thick curve of set-up i as the panel's next series, in the style of the set-up; the note in the legend says where
  * it ends. Null where the set-up has no such curve, or when out of memory.
- * @param setup  itself, as `sample` takes it; it knows more than `request` where surfaces slant
+ * @param setup  itself, as `error` takes it; it knows more than `request` where surfaces slant
+ * @param error  the curve's samples; null: it is guaranteed_separation()
  */
 chart_series *guaranteed_add(const figure_request *request, chart *out, chart_panel *panel, size_t i,
-                             const dp_setup *setup, refine_function *sample);
+                             const dp_setup *setup, refine_function *error);
 
 /** Fits the axes. Where a set-up has both, an empty title becomes the given one, and the subtitle says what is thin. */
 void guaranteed_end(const figure_request *request, chart *out, const char *title);

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "plot/envelope.h"
+#include "plot/guaranteed.h"
 
 /* From the axis upwards: first what no arithmetic could do without. */
 static const dp_cause stack[DP_CAUSE_COUNT] = {
@@ -35,9 +35,17 @@ typedef struct stacked {
     const dp_budget_terms *terms;
     int count;
     int layer[DP_CAUSE_COUNT];
+    double certain_to; /* where the separation ends; NaN: with its axis */
 } stacked;
 
 _Static_assert((int)DP_CAUSE_COUNT < (int)REFINE_VALUES, "all causes and the separation are sampled at once");
+
+static double separation_at(const void *context, double z) {
+    const stacked *s = context;
+    dp_budget b = {.separation = NAN};
+    dp_budget_at(s->setup, z, s->terms, &b);
+    return b.separation;
+}
 
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const stacked *s = context;
@@ -48,7 +56,7 @@ static void sample(const void *context, double from, double to, refine_sample *o
     double sum = 0; /* the line that is drawn is the upper rim of a band */
     for (int k = 0; k < s->count; k++)
         out->y[k] = sum += isfinite(b.separation) ? 100 * b.cause[stack[s->layer[k]]] / b.separation : (double)NAN;
-    out->y[s->count] = b.separation;
+    out->y[s->count] = from > s->certain_to ? (double)NAN : b.separation;
     /* It jumps where the depth that is a separation away passes a power of two, and back soon: each column counts. */
     out->flicker[s->count] = INFINITY;
 }
@@ -93,6 +101,7 @@ static void add_bands(chart *out, chart_panel *panel, const stacked *split, cons
         return;
     line->style.colour = -1;
     line->second = true;
+    line->certain_to = split->certain_to;
     snprintf(line->name, sizeof line->name, "separation, right axis");
 }
 
@@ -111,6 +120,7 @@ static void add_panel(const figure_request *request, chart *out, size_t i) {
             q.axis[split.count] = panel->y;
             split.layer[split.count++] = layer;
         }
+    split.certain_to = guaranteed_certain_to(&q, split.setup, separation_at, &split);
     q.axis[split.count] = panel->second;
     q.values = split.count + 1;
     if (!refine_begin(&r, &q, out))

@@ -56,7 +56,7 @@ static found *count_all(const figure_request *request, const chart_axis *x, char
 
 static void add_separation(const figure_request *request, chart *out, chart_panel *panel, size_t i, const found *f) {
     const dp_setup setup = dp_setup_facing(&request->setups[i]);
-    chart_series *s = guaranteed_add(request, out, panel, i, &setup, envelope_separation);
+    chart_series *s = guaranteed_add(request, out, panel, i, &setup, NULL);
     if (s != NULL && f != NULL && f->count > 0)
         s->style.marker = -1; /* its points have it */
 }
@@ -66,7 +66,7 @@ static void add_slanted(const figure_request *request, chart *out, chart_panel *
     const dp_spec *spec = &request->setups[i].spec;
     if (spec->triangles.width == 0 || spec->model != DP_MODEL_FLOAT)
         return;
-    chart_series *s = guaranteed_add(request, out, panel, i, &request->setups[i], envelope_separation);
+    chart_series *s = guaranteed_add(request, out, panel, i, &request->setups[i], NULL);
     if (s == NULL)
         return;
     int strokes = 0;

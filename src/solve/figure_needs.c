@@ -10,7 +10,7 @@
 #include "core/append.h"
 #include "core/elementary.h"
 #include "draw/notes.h"
-#include "plot/envelope.h"
+#include "plot/guaranteed.h"
 #include "solve/check.h"
 #include "solve/model.h"
 #include "system/posix.h"
@@ -90,11 +90,13 @@ static void add_curve(const figure_request *r, chart *out, chart_panel *panel, c
     spec.model = DP_MODEL_STAGED; /* an error is judged in this one where float, which has none, is the fullest */
     const bool other = is_error && given->spec.model == DP_MODEL_FLOAT && dp_setup_init(&staged, &spec) == DP_OK;
     const dp_setup *setup = other ? &staged : given;
-    refine_request q = envelope_request(r, setup, out, panel, is_error ? error_of : envelope_separation, setup);
+    refine_request q = envelope_request(r, setup, out, panel, error_of, setup);
     q.lo = fmax(q.lo, setup->spec.znear);
     q.hi = fmin(q.hi, setup->spec.zfar);
     q.slices = true;
-    chart_series *s = q.lo < q.hi ? envelope_curve(out, panel, &q) : NULL;
+    chart_series *s = !(q.lo < q.hi) ? NULL
+                      : is_error     ? envelope_curve(out, panel, &q)
+                                     : guaranteed_separation(out, panel, &q, setup);
     if (s == NULL)
         return;
     s->style = (chart_style){is_error ? COLOUR_ERROR : COLOUR_SEPARATION, is_error ? 1 : 0, -1, false};

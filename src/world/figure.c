@@ -9,6 +9,7 @@
 #include "camera/unit.h"
 #include "core/append.h"
 #include "core/elementary.h"
+#include "core/engine.h"
 #include "plot/figure.h"
 #include "world/reach.h"
 
@@ -20,6 +21,17 @@ static const double nearest = 100.0, farthest = 1e8, degree = 0.0174532925199432
 /* A length in metres, in scene units; as it is where nobody says what they are. */
 static double of_metres(const chart *c, double length) {
     return c->unit != NULL ? unit_convert(length, unit_find("m"), unit_find(c->unit)) : length;
+}
+
+/* The separation ends where nothing is certain behind the depth that it is of. */
+static void end_line(chart_series *line, const world_asked *a) {
+    bool ends = false;
+    for (size_t i = 0; i < line->count && isfinite(a->setup->spec.zfar); i++) {
+        if (!ends && !dp_is_certain(a->setup, a->z, line->y[i]))
+            line->certain_to = line->x[i > 0 ? i - 1 : 0];
+        ends = !isnan(line->certain_to);
+        line->y[i] = ends ? (double)NAN : line->y[i];
+    }
 }
 
 static void add_schemes(chart *out, chart_panel *panel, const world_asked *a, world_loss *loss) {
@@ -37,6 +49,8 @@ static void add_schemes(chart *out, chart_panel *panel, const world_asked *a, wo
             line->x[i] = nearest * dp_pow(farthest / nearest, i / (double)(POINTS - 1));
             line->y[i] = loss(&s, a, line->x[i]);
         }
+        if (loss == world_separation)
+            end_line(line, a);
     }
 }
 

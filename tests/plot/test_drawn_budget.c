@@ -34,8 +34,10 @@ static bool true_rim(const void *context, double from, double to, double *lo, do
     return sampled(context, from, to, false, lo, hi);
 }
 
+/* Where nothing behind is certain there is nothing. */
 static bool true_guarantee(const void *context, double from, double to, double *lo, double *hi) {
-    return sampled(context, from, to, true, lo, hi);
+    const stacked *s = context;
+    return sampled(s, from, to, true, lo, hi) && *lo < s->setup->spec.zfar - from;
 }
 
 static dp_cause cause_of(const char *name) {
@@ -117,6 +119,14 @@ static bool named(const drawn *d, const drawn_panel *p, const drawn_entry *e, co
     return true;
 }
 
+/* The entry of the separation, behind those of the bands. */
+static size_t line_of(const drawn *d) {
+    size_t i = 0;
+    while (i + 1 < d->entry_count && strcmp(d->entries[i].text, "separation, right axis") != 0)
+        i++;
+    return i;
+}
+
 static void check_line(const drawn *d, const drawn_panel *p, const stacked *s, const svg_mark *line) {
     const svg_mark *under[2];
     svg_mark rim = *line;
@@ -130,7 +140,7 @@ static void check_line(const drawn *d, const drawn_panel *p, const stacked *s, c
 /* @return how many bands are named */
 static int check_panel(const drawn *d, const drawn_panel *p, const dp_setup *setup, const dp_budget_terms *terms) {
     stacked s = {.setup = setup, .terms = *terms};
-    const drawn_entry *last = &d->entries[d->entry_count - 1];
+    const drawn_entry *last = &d->entries[line_of(d)];
     const svg_mark *line = drawn_curve(d, p, last);
     svg_mark rim = {.count = 0}, below = rim;
     size_t order = SIZE_MAX, next = 0;
@@ -140,7 +150,7 @@ static int check_panel(const drawn *d, const drawn_panel *p, const dp_setup *set
     assert_px(drawn_px(&p->y, 0), p->frame.y1, 1);
     assert_px(drawn_px(&p->y, 100), p->frame.y0, 1);
     assert_true(p->x.log && !p->y.log && p->second.log);
-    for (size_t i = 0; i + 1 < d->entry_count; i++) {
+    for (size_t i = 0; i < line_of(d); i++) {
         const drawn_entry *e = &d->entries[i];
         s.causes[s.count++] = cause_of(e->text);
         rim = band_of(d, p, e, &next);
@@ -169,7 +179,7 @@ static void check_legend(const drawn *d, const dp_budget_terms *terms, bool slan
         true, true, true, true, terms->world > 0, terms->interpolation > 0, terms->linearize != 0, slanted, slanted};
     double last_at = -1;
     unsigned colours = 0;
-    for (size_t i = 0; i + 1 < d->entry_count; i++) {
+    for (size_t i = 0; i < line_of(d); i++) {
         assert_non_null(d->entries[i].area);
         const int tint = tint_of(d, d->entries[i].area->fill);
         assert_int_equal(colours >> tint & 1, 0);
@@ -177,7 +187,7 @@ static void check_legend(const drawn *d, const dp_budget_terms *terms, bool slan
     }
     for (size_t k = 0; k < sizeof upwards / sizeof upwards[0]; k++) {
         double at = -1;
-        for (size_t i = 0; i + 1 < d->entry_count; i++)
+        for (size_t i = 0; i < line_of(d); i++)
             if (strcmp(d->entries[i].text, upwards[k]) == 0)
                 at = (double)i;
         assert_int_equal(at >= 0, wanted[k]);
@@ -186,7 +196,7 @@ static void check_legend(const drawn *d, const dp_budget_terms *terms, bool slan
             last_at = at;
         }
     }
-    const drawn_entry *last = &d->entries[d->entry_count - 1];
+    const drawn_entry *last = &d->entries[line_of(d)];
     assert_string_equal(last->text, "separation, right axis");
     drawn_style_is(d, last, -1, 0, DRAWN_NONE, false);
 }
@@ -213,7 +223,7 @@ static void check_figure(const drawn_theme *look, const char *formats, const cha
         assert_string_equal(d->panels[i].heading, c.count > 1 ? c.names[i] : "");
         if (c.count > 1)
             snprintf(shown + before, sizeof shown - before, " %s.", c.names[i]);
-        for (size_t k = 0; k < d->entry_count; k++)
+        for (size_t k = 0; k <= line_of(d); k++)
             snprintf(shown + strlen(shown), sizeof shown - strlen(shown), "%s %s", k == 0 ? " Shown:" : ";",
                      d->entries[k].text);
         snprintf(shown + strlen(shown), sizeof shown - strlen(shown), ".");

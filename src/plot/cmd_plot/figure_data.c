@@ -23,6 +23,7 @@ typedef struct plotted {
     char digest[17];
     const chart_panel *panel;
     const char *panel_title, *name, *method;
+    double certain_to;
     const chart_series *series; /* null: the map */
     point point;
     size_t field; /* of a map that lies on another */
@@ -49,6 +50,7 @@ static void *next_series(void *of, size_t i) {
     p->series = i < p->panel->series_count ? &p->panel->series[i] : NULL;
     p->name = p->series != NULL ? p->series->name : "map";
     p->method = p->series != NULL ? p->series->method : NULL;
+    p->certain_to = p->series != NULL ? p->series->certain_to : (double)NAN;
     return p;
 }
 
@@ -110,6 +112,7 @@ void figure_data_write(output *out, output_form form, const char *command, const
     const column series[] = {{FIELD(plotted, name, "name", ""), .only = AS_JSON},
                              {FIELD(plotted, name, "series", ""), .only = AS_CSV},
                              {FIELD(plotted, method, "method", ""), .only = AS_JSON, .optional = true},
+                             {FIELD(plotted, certain_to, "certain_to", "scene"), .only = AS_JSON, .optional = true},
                              {LIST("points", points, next_point)},
                              {.kind = COLUMN_END}};
     const column panels[] = {{FIELD(plotted, panel_title, "title", ""), .only = AS_JSON},
