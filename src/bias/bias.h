@@ -57,6 +57,9 @@ typedef struct bias_api {
     const char *call;       /**< how a program sets it: U stands for the units, F for the factor */
     const char *sloped;     /**< what follows where there is a factor, likewise; "" where `call` has it */
     double scale_least, scale_most; /**< what the units are multiplied by on the way, at least and at most; 0, 0: 1 */
+    const char *language;           /**< of its shaders, a name of `list languages` */
+    const char *mapping;            /**< the one that its clip range has; null where its programs have several */
+    const char *format;             /**< what its windows have; null where a program chooses */
 } bias_api;
 
 /** Whether the convention of the exponent is open for that format. */

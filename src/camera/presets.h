@@ -25,6 +25,7 @@ typedef struct preset {
     preset_axis axis;        /**< of `fov` */
     const char *raster;      /**< a name of `list rasterizers`: what the APIs it runs on promise at least */
     const char *api;         /**< a name of `list apis`: what its users, or the engine itself, write a bias for */
+    const char *language;    /**< what its users write, a name of `list languages` */
     const char *unconfirmed; /**< the values without a source of first hand, "near, fov"; "" when there are none */
     const char *checked;     /**< the day on which source and values were compared, ISO 8601 */
 } preset;

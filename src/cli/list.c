@@ -102,9 +102,9 @@ static void tell_preset(const void *of, list_item *item) {
     const preset *row = of;
     const bool confirmed = row->unconfirmed[0] == '\0';
     snprintf(item->bound, sizeof item->bound,
-             "near %s, far %s, %s, %s, fov %s %s, %s, bias of %s, scene in %s; checked %s, %s%s",
+             "near %s, far %s, %s, %s, fov %s %s, %s, bias of %s, code in %s, scene in %s; checked %s, %s%s",
              number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
-             number_full(row->fov).text, axes[row->axis], row->raster, row->api, row->unit, row->checked,
+             number_full(row->fov).text, axes[row->axis], row->raster, row->api, row->language, row->unit, row->checked,
              confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
 }
 
@@ -144,6 +144,9 @@ static void tell_api(const void *of, list_item *item) {
     if (row->real == BIAS_EXPONENT)
         append(item->bound, sizeof item->bound, "; in [2^n, 2^(n+1)) e is %s",
                row->exponent == BIAS_EXPONENT_N ? "n" : "n or n+1, which is open");
+    if (row->format != NULL)
+        append(item->bound, sizeof item->bound, "; brings %s%s%s", row->mapping != NULL ? row->mapping : "",
+               row->mapping != NULL ? ", " : "", row->format);
 }
 
 static void tell_rasterizer(const void *of, list_item *item) {

@@ -192,7 +192,8 @@ TEST(test_no_units) {
     options_release(&o);
 }
 
-/* What a browser stores takes the place of a preset's format, not of what is given. */
+/* What a browser stores takes the place of a preset's format, not of what is given; what an API brings takes neither's.
+ */
 TEST(test_platforms) {
     static const struct {
         const char *line, *formats, *mapping, *arith, *api, *raster;
@@ -202,6 +203,17 @@ TEST(test_platforms) {
         {"bias|--platform|chrome-metal", "fp32", "d3d", "ieee", "webgpu", NULL},
         {"bias|--platform|webgl-d3d", "unorm24", "gl", "ieee-remap", "gl", NULL},
         {"bias|--platform|webgl-d3d|--api|metal", "unorm24", "gl", "ieee-remap", "metal", NULL},
+        /* an API brings what its programs have, where nothing else says it; of two what they have in common */
+        {"bias|--api|OpenGL", "unorm24", "gl", "ieee", "gl", NULL},
+        {"bias|--api|three|-m|reversed", "unorm24", "reversed", "ieee", "three", NULL},
+        {"bias|--api|gl|-F|fp32", "fp32", "gl", "ieee", "gl", NULL},
+        {"bias|-m|d3d|--api|d3d9", "unorm24", "d3d", "ieee", "d3d9", NULL},
+        {"bias|--api|vulkan|-m|d3d", "fp32", "d3d", "ieee", "vulkan", NULL},
+        {"bias|--api|gl|--preset|unity", "fp32", "reversed", "ieee", "gl", NULL},
+        {"bias|--api|gl,three", "unorm24", "gl", "ieee", NULL, NULL},
+        {"bias|--api|gl,vulkan|-m|d3d", "fp32", "d3d", "ieee", NULL, NULL},
+        {"shadow|--api|gl", "fp32", "gl", "ieee", NULL, NULL}, /* a shadow map is no window */
+        {"scene|x.obj|--api|gl", "unorm24", "gl", "ieee", NULL, NULL},
         {"budget|--platform|webgl-metal|-F|fp16|-m|reversed|--arith|mesa", "fp16", "reversed", "mesa", NULL, NULL},
         {"table|--platform|safari|--preset|three", "fp32", "gl", "ieee", NULL, NULL},
         {"table|--platform|firefox-d3d|--preset|bevy", "unorm24", "reversed", "ieee", NULL, NULL},

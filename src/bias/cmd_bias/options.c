@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command bias and its options. */
 #include <math.h>
+#include <string.h>
 
 #include "bias/cmd_bias/request.h"
 #include "cli/list.h"
@@ -51,7 +52,8 @@ static int parse_units(asked_line *line, const option_row *row, const char *valu
 /* clang-format off */
 static const option_row bias_rows[] = {
     {"api", 0, "NAME[,NAME...]",
-        "the API whose depth-bias rule applies: @; several, or all, are compared, each with its call",
+        "the API whose depth-bias rule applies: @; several, or all, are compared, each with its call. It brings its "
+        "mapping, and the format of its windows, where they are not given",
         .parse = parse_apis, INTO(unsigned, apis), .names = &apis, .standard = "d3d11",
         .group = "The bias"},
     {"units", 0, "U",
@@ -74,6 +76,32 @@ static const option_row bias_rows[] = {
 /* clang-format on */
 
 const option_table bias_options = {.rows = bias_rows};
+
+/* Sets an option that nobody has given, and remembers who chose it. */
+static void bring(asked_line *line, const bias_asked *b, const char *option, const char *value) {
+    const char *const chosen[] = {option, NULL};
+    if (value == NULL || option_given(line, option))
+        return;
+    option_chosen(line, "api", bias_asked_api(b, 0)->name, chosen);
+    option_set(line, option, value);
+}
+
+static const char *common(const char *a, const char *b) {
+    return a != NULL && b != NULL && strcmp(a, b) == 0 ? a : NULL;
+}
+
+void bias_bring(asked_line *line, const bias_asked *b, const camera_asked *camera, bool window) {
+    if (!option_given(line, "api") || camera->preset_count > 0 || camera->platform != NULL)
+        return;
+    const bias_api *api = bias_asked_api(b, 0);
+    const char *mapping = api->mapping, *format = api->format;
+    for (size_t i = 1; (api = bias_asked_api(b, i)) != NULL; i++) {
+        mapping = common(mapping, api->mapping);
+        format = common(format, api->format);
+    }
+    bring(line, b, "mapping", mapping);
+    bring(line, b, "format", window ? format : NULL);
+}
 
 int bias_complete(asked_line *line, const camera_asked *camera) {
     const char *api = camera_api(camera);
@@ -106,6 +134,7 @@ static const option_place places[] = {CAMERA_PLACES(bias_request, camera),
 
 static int complete(void *request) {
     bias_request *o = request;
+    bias_bring(o->line, &o->bias, &o->camera, true);
     const int status = camera_complete(&o->camera, &(camera_use){.measured = true});
     return status == EXIT_FINE ? bias_complete(o->line, &o->camera) : status;
 }

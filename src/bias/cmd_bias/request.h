@@ -28,6 +28,10 @@ typedef struct bias_request {
 /** The API of that index among those that are asked for; null behind the last. */
 const bias_api *bias_asked_api(const bias_asked *b, size_t index);
 
+/** What an API brings where none is given, nor a preset or platform: its mapping and, of a window, its format; of
+ * several what they have in common. It comes before camera_complete(). */
+void bias_bring(asked_line *line, const bias_asked *b, const camera_asked *camera, bool window);
+
 /** The rule of the preset or platform, where --api was not given. @return as a parser does */
 int bias_complete(asked_line *line, const camera_asked *camera);
 

@@ -91,6 +91,9 @@ int camera_complete(camera_asked *c, const camera_use *use);
 /** The API of its presets and platform, which says the rule of a bias; null where none does. */
 const char *camera_api(const camera_asked *c);
 
+/** The language of its preset, else of its platform's API; null where neither is given. */
+const char *camera_language(const camera_asked *c);
+
 /** How many cameras there are: as many as presets, at least one. */
 static inline size_t camera_count(const camera_asked *c) {
     return c->preset_count > 1 ? c->preset_count : 1;

@@ -14,6 +14,12 @@ const char *camera_api(const camera_asked *c) {
     return c->platform != NULL ? c->platform->api : c->preset_count == 1 ? c->presets[0]->api : NULL;
 }
 
+const char *camera_language(const camera_asked *c) {
+    return c->preset_count == 1  ? c->presets[0]->language
+           : c->platform != NULL ? bias_api_find(c->platform->api)->language
+                                 : NULL;
+}
+
 /* Gives an option its value as if it had been typed. */
 static void take(camera_asked *c, const char *name, const char *value) {
     const option_row *row = option_find(c->line->command, name);

@@ -34,6 +34,8 @@ const option_table code_options = {.rows = code_rows};
 static const option_use uses[] = {
     ROWS(code_rows),
     OWN("format", DEFAULT("fp32")), OWN("mapping", HELP("mappings: @"), DEFAULT("reversed")),
+    OWN("preset", ALSO("for code also the language of its users")),
+    OWN("platform", ALSO("for code also the language of its API")),
     OWN("fov", ALSO("of a matrix and of places")),
     OWN("viewport", HELP("the pixels of the view, of a matrix their shape"), DEFAULT("1920x1080")),
     OWN("ortho", .optional = "H",
@@ -50,6 +52,9 @@ static const option_place places[] = {CAMERA_PLACES(code_request, camera),
 
 static int complete(void *request) {
     code_request *o = request;
+    const char *language = camera_language(&o->camera);
+    if (language != NULL && !option_given(o->line, "language"))
+        option_set(o->line, "language", language);
     return camera_complete(&o->camera, &(camera_use){.shape = true});
 }
 

@@ -116,6 +116,7 @@ static const option_place places[] = {
 static int complete(void *request) {
     scene_request *o = request;
     const camera_use use = {.pictured = o->scene.render != NULL, .seen = scene_is_seen(o->line)};
+    bias_bring(o->line, &o->bias, &o->camera, true);
     const int status = camera_complete(&o->camera, &use);
     return status == EXIT_FINE ? bias_complete(o->line, &o->camera) : status;
 }

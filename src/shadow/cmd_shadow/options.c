@@ -158,6 +158,7 @@ static size_t asked_part(const void *request) {
 
 static int complete(void *request) {
     shadow_request *o = request;
+    bias_bring(o->line, &o->bias, &o->camera, false);
     return camera_complete(&o->camera, &(camera_use){.mapped = true});
 }
 
