@@ -198,6 +198,16 @@ unnamed_options() {
 }
 check "options are named as their rows are" empty unnamed_options
 
+# A sentence names values by the keys of columns, behind those of the parts that they are in.
+unnamed_values() {
+    find src -name '*.c' >"$scratch/files"
+    xargs grep -hoE '(FIELD|PART|GROUP|LIST)\([^()"]*"[a-z0-9_]+"' <"$scratch/files" | sed 's/.*"\(.*\)"/\1/' |
+        sort -u >"$scratch/named" && grep -q '^near$' "$scratch/named" || return
+    xargs grep -lF '#include "report/sentence.h"' src/*/cmd*/*.h <"$scratch/files" | xargs grep -hE '"[^"]*\{[a-z]' |
+        grep -oE '\{[a-z][a-z0-9_.]*[:}]' | tr -d '{}:' | tr . '\n' | sort -u | comm -23 - "$scratch/named"
+}
+check "sentences name columns" empty unnamed_values
+
 # ---- Lines and functions -----------------------------------------------------------------------------------------
 
 long_lines() { lines -rnE --include='*.[ch]' '^.{121,}' src include tests; }

@@ -6,14 +6,18 @@
 #ifndef REPORT_PAGE_H
 #define REPORT_PAGE_H
 
+#include "report/number.h"
 #include "report/output.h"
 
 typedef struct page {
     output *out;
-    int label;                         /**< characters that the labels of notes take */
-    int width;                         /**< characters in a line: those of a terminal, else 80; output.width if set */
-    bool fitted;                       /**< a terminal's: nothing is wider */
-    const char *unit;                  /**< of lengths, for number_in(); null where nothing says it */
+    int label;        /**< characters that the labels of notes take */
+    int width;        /**< characters in a line: those of a terminal, else 80; output.width if set */
+    bool fitted;      /**< a terminal's: nothing is wider */
+    const char *unit; /**< of lengths, for number_in(); null where nothing says it */
+    /** A length as it was asked for, "10 cm", where it is one of those; null: with the unit above. */
+    number_text (*as_given)(const void *lengths, double value, int digits);
+    const void *lengths;
     const char *strong, *soft, *plain; /**< bold and dim on a terminal; "" elsewhere, see output.colour */
     const char *good, *bad;            /**< of verdicts: green, and bold red */
 } page;

@@ -18,8 +18,7 @@ static bool column_shows(const column *c, unsigned form, unsigned when) {
     return (c->only == 0 || (c->only & form) != 0) && (c->when & ~when) == 0;
 }
 
-/* The item of a part; null where it does not exist, or the outer item does not. */
-static void *column_part(const column *c, void *item) {
+void *column_part(const column *c, void *item) {
     if (item == NULL)
         return NULL;
     void *at = (char *)item + c->offset;
@@ -61,6 +60,28 @@ static column_value column_of(const column *c, const void *item) {
 
 static bool column_exists(const column_value *v) {
     return v->is_number ? !isnan(v->number) : v->is_count || v->word != NULL;
+}
+
+bool column_has(const column *c, const void *item) {
+    const column_value v = column_of(c, item);
+    return column_exists(&v);
+}
+
+const char *column_text(const column *c, const void *item, number_text *number) {
+    const column_value v = column_of(c, item);
+    const int digits = c->digits_at > 0 ? *(const int *)((const char *)item + c->digits_at) : c->digits;
+    *number = (number_text){"-"};
+    if (v.is_count)
+        number_count(v.count, number->text);
+    else if (v.is_number && c->fixed && !isnan(v.number))
+        snprintf(number->text, sizeof number->text, "%.*f", digits, v.number);
+    else if (v.is_number && digits == 0)
+        *number = isnan(v.number) ? *number : number_full(v.number);
+    else if (v.is_number)
+        *number = (c->upward ? number_up : c->downward ? number_down : number_of)(v.number, digits);
+    if (c->brief)
+        *number = number_brief(*number);
+    return v.word != NULL ? v.word : number->text;
 }
 
 /* ---- Text: tables of the lists whose columns have titles, sections of the others --------------------------------- */
@@ -130,25 +151,9 @@ static void spare(text_walk *w, const column *list) {
     } while (width > w->page.width && last > 0);
 }
 
-/* The text of a value; `number` holds it where it is no word. */
-static const char *value_text(const column *c, const void *item, number_text *number) {
-    const column_value v = column_of(c, item);
-    const int digits = c->digits_at > 0 ? *(const int *)((const char *)item + c->digits_at) : c->digits;
-    *number = (number_text){"-"};
-    if (v.is_count)
-        number_count(v.count, number->text);
-    else if (v.is_number && c->fixed && !isnan(v.number))
-        snprintf(number->text, sizeof number->text, "%.*f", digits, v.number);
-    else if (v.is_number)
-        *number = (c->upward ? number_up : c->downward ? number_down : number_of)(v.number, digits);
-    if (c->brief)
-        *number = number_brief(*number);
-    return v.word != NULL ? v.word : number->text;
-}
-
 static void put_value(text_line *line, const column *c, const void *item) {
     number_text number;
-    put(line, c, value_text(c, item, &number));
+    put(line, c, column_text(c, item, &number));
 }
 
 /* "z 10; code 16611104": what stands in a line of a table that is wider than the page, value by value. @return the
@@ -163,7 +168,7 @@ static int put_record(text_walk *w, const column *c, void *item, int at) {
             continue;
         const char *const title = c->title + strspn(c->title, " ");
         const int length =
-            snprintf(text, sizeof text, "%s%s%s", title, *title != '\0' ? " " : "", value_text(c, item, &number));
+            snprintf(text, sizeof text, "%s%s%s", title, *title != '\0' ? " " : "", column_text(c, item, &number));
         const bool goes_on = at > 0 && at + 3 + length <= w->page.width; /* "; ", and one behind it */
         output_text(w->page.out, at == 0 ? "" : goes_on ? "; " : ";\n");
         if (goes_on || (at == 0 && length < w->page.width)) {

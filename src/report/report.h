@@ -26,6 +26,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "report/number.h"
 #include "report/output.h"
 #include "report/page.h"
 
@@ -55,7 +56,7 @@ typedef struct column {
     size_t offset;    /**< in the item */
     size_t digits_at; /**< where the item holds the digits, an int; 0: they are in `digits` */
     int width;        /**< characters, with the blank before it; negative: aligned to the left, without */
-    int digits;       /**< significant ones of a number */
+    int digits;       /**< significant ones of a number; 0: all */
     bool fixed;       /**< ... or, after the point */
     bool upward;      /**< what holds as it is printed: text rounds a number up */
     bool downward;    /**< the same, down */
@@ -63,6 +64,7 @@ typedef struct column {
     bool optional;    /**< JSON leaves it out where it does not exist; of a pointer, where that is null */
     bool names;       /**< a word of words parted by one space: an array of strings in JSON */
     bool pointed;     /**< the item holds a pointer to the value or part, null where it does not exist */
+    bool given;       /**< a length that may be one that was asked for: a sentence writes it as that was */
     int spare;        /**< text leaves it out where the table is wider than the page, the highest first; 0: never */
     unsigned only;    /**< the forms that have it; 0: all */
     unsigned when;    /**< conditions of the report, bits that must all be set */
@@ -113,6 +115,16 @@ typedef struct report_spec {
     void (*head)(page *p, void *item);  /**< what text says first, */
     void (*notes)(page *p, void *item); /**< and last; null: nothing */
 } report_spec;
+
+/** The item of a part; null where it does not exist, or the outer item does not. */
+void *column_part(const column *c, void *item);
+
+/** Whether the value of a column that is no part and no list exists. */
+bool column_has(const column *c, const void *item);
+
+/** Its text, a number's with the digits and the direction of the column, all digits where it says none; `number` holds
+ * what is no word. */
+const char *column_text(const column *c, const void *item, number_text *number);
 
 /** Writes a report. Failures are the output's to remember. */
 void report_write(const report_spec *spec, output *out, output_form form);

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "bias/cmd_bias/bias_all.h"
+#include "bias/cmd_bias/call.h"
 #include "core/append.h"
 #include "draw/notes.h"
 #include "report/number.h"

@@ -3,7 +3,7 @@
 #ifndef SHADOW_CMD_SHADOW_ROWS_H
 #define SHADOW_CMD_SHADOW_ROWS_H
 
-#include "bias/cmd_bias/bias_all.h"
+#include "bias/cmd_bias/call.h"
 #include "report/number.h"
 #include "shadow/cmd_shadow/maps.h"
 

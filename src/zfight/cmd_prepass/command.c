@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "bias/cmd_bias/bias_all.h"
+#include "bias/cmd_bias/call.h"
 #include "camera/cmd/each_setup.h"
 #include "report/number.h"
 #include "zfight/cmd_prepass/request.h"
