@@ -41,6 +41,7 @@ typedef enum chart_kind {
     CHART_DROPS,    /**< each point joined to both axes: the codes of a small format */
     CHART_LEVELS,   /**< broad lines below all others, each from one point to the next of equal y */
     CHART_BARS,     /**< from each point to the next of equal x, which has a cross stroke wider than a marker */
+    CHART_SPANS,    /**< thin lines, each from one point to the next of equal y */
     CHART_POINTS,   /**< markers; their labels where given, each where it is free of points, lines and other labels */
     CHART_AREA,     /**< a band as thick as y, standing on the bands before it; its name is written into it */
     CHART_KIND_COUNT
@@ -67,6 +68,7 @@ typedef struct chart_series {
     size_t count;
     double *x, *y;
     char (*labels)[CHART_TEXT]; /**< CHART_POINTS: a label each, or null */
+    bool unwritten;             /**< the labels are for the data alone */
 } chart_series;
 
 /** Numbers of a grid that are made, a row at a time, when they are wanted: of large ones, so that no copy is held. */
@@ -113,6 +115,7 @@ typedef struct chart {
     bool grey;          /**< the values of the maps go from black to white */
     bool stacked;       /**< panels lie below each other and share x; each has a y of its own, on one scale */
     bool bare;          /**< a field without a value shows the page, not a hatch */
+    bool apart;         /**< panels have axes of their own, of which each shows its numbers; not stacked */
     bool classes;       /**< they are indices of the panel's series, areas, whose tints they have; no colour bar */
 } chart;
 

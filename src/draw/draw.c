@@ -157,7 +157,8 @@ static double common_heading(const pencil *p, const chart *c, const grid *g) {
 static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index) {
     const chart_panel *panel = &c->panels[index];
     axes a = {&panel->x, &panel->y, panel_frame(g, index)}, right = {&panel->x, &panel->second, a.frame};
-    bool lowest = (size_t)(index + g->columns) >= c->panel_count, leftmost = index % g->columns == 0;
+    bool lowest = c->apart || (size_t)(index + g->columns) >= c->panel_count;
+    bool leftmost = c->apart || index % g->columns == 0;
     bool rightmost = (index + 1) % g->columns == 0 || (size_t)index + 1 == c->panel_count;
     if (g->heading > 0) {
         const words w = heading_of(p, panel, a.frame.w);
@@ -210,8 +211,8 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     const int labels = axes_room_y(p, g.area.h / g.rows - g.heading);
     double left = widest_y(p, c, labels) + TICK_ROOM * s;
     double x_label = axes_widest_label(p, x, axes_room_x(p, g.area.w / g.columns)), right = x_label / 2;
-    g.gap_x = fmax(PANEL_GAP * s, x_label + SPACE * s); /* two neighbours' end labels meet there */
-    g.gap_y = PANEL_GAP * s;
+    g.gap_x = fmax(PANEL_GAP * s, x_label + SPACE * s) + (c->apart ? left : 0); /* two neighbours' end labels meet */
+    g.gap_y = PANEL_GAP * s + (c->apart ? label + TICK_ROOM * s - HEADING_GAP * s : 0);
     double bar = c->classes ? 0
                  : c->value.label != NULL
                      ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_widest_label(p, &c->value, labels)

@@ -109,7 +109,7 @@ void labels_draw(const pencil *p, const axes *a, const chart_panel *panel) {
                     continue;
                 if (pass == 0)
                     occupy(&g, (canvas_rect){x - half, y - half, 2 * half, 2 * half});
-                else if (points->labels != NULL)
+                else if (points->labels != NULL && !points->unwritten)
                     draw_label(&g, x, y, points->labels[i]);
             }
         }

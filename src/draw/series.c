@@ -146,6 +146,14 @@ static void draw_levels(const pencil *p, const axes *a, const chart_panel *panel
     }
 }
 
+static void draw_spans(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    const chart_series *s = &panel->series[index];
+    const canvas_pen pen = pen_of(p, s);
+    for (size_t i = 0; i + 1 < s->count; i += 2)
+        canvas_path_segment(p->c, axes_x(a, s->x[i]), axes_y(a, s->y[i]), axes_x(a, s->x[i + 1]), axes_y(a, s->y[i]));
+    canvas_path_end(p->c, &pen);
+}
+
 static void draw_bars(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
     const canvas_pen pen = pen_of(p, s);
@@ -200,6 +208,7 @@ static const struct {
     [CHART_LINE] = {draw_line, swatch_line},       [CHART_DROPS] = {draw_drops, swatch_drops},
     [CHART_POINTS] = {draw_points, swatch_points}, [CHART_LEVELS] = {draw_levels, swatch_levels},
     [CHART_AREA] = {area_draw, swatch_area},       [CHART_BARS] = {draw_bars, swatch_bars},
+    [CHART_SPANS] = {draw_spans, swatch_line},
 };
 
 void series_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {

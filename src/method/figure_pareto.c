@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "core/elementary.h"
 #include "draw/notes.h"
@@ -8,6 +9,7 @@
 
 /* A log axis has no 0: what is exact is drawn here, and the legend says so. */
 static const double exact = 1e-17;
+static const char dominated[] = "dominated", on_front[] = "on the Pareto front";
 
 /* Bits for a method's kind. Those judged by the pipeline answer a question of their own. */
 enum { FRONT = 1, PIPELINE = 2, MINE = 4 };
@@ -23,6 +25,7 @@ typedef struct field {
     size_t count;
     timed methods[BENCH_METHODS_MAX];
     chart_extent time, error;
+    double limit; /* of all methods */
 } field;
 
 static field gather(const method_family_row *family, const bench_result *results, size_t count) {
@@ -35,7 +38,8 @@ static field gather(const method_family_row *family, const bench_result *results
         if (!isfinite(error) || !isfinite(r->ns) || !(r->ns > 0))
             continue;
         f.methods[f.count++] = (timed){r, error, is};
-        f.time = (chart_extent){fmin(f.time.lo, r->ns), fmax(f.time.hi, r->ns)};
+        f.limit = r->limit;
+        f.time = (chart_extent){fmin(f.time.lo, r->limit > 0 ? fmin(r->limit, r->ns) : r->ns), fmax(f.time.hi, r->ns)};
         f.error = (chart_extent){fmin(f.error.lo, fmax(error, exact)), fmax(f.error.hi, error)};
         if (isfinite(r->bound))
             f.error.hi = fmax(f.error.hi, r->bound);
@@ -103,7 +107,7 @@ static void add_points(const field *f, chart *out, chart_panel *panel, int bits,
     s->style = set == MINE    ? (chart_style){3, 2, 2, true}
                : set == FRONT ? (chart_style){0, 0, 0, false}
                               : (chart_style){1, 1, 1, false};
-    snprintf(s->name, sizeof s->name, "%s", set == MINE ? "yours" : set == FRONT ? "on the Pareto front" : "dominated");
+    snprintf(s->name, sizeof s->name, "%s", set == MINE ? "yours" : set == FRONT ? on_front : dominated);
     s->labels = chart_memory(out, s->count, sizeof *s->labels);
     for (size_t i = 0, k = 0; i < f->count && s->labels != NULL; i++) {
         const timed *t = &f->methods[i];
@@ -111,6 +115,39 @@ static void add_points(const field *f, chart *out, chart_panel *panel, int bits,
             snprintf(s->labels[k++], sizeof *s->labels, "%s%s", t->of->row->name,
                      t->is & PIPELINE ? " (pipeline)" : "");
     }
+}
+
+/* From the least time of each method to that of a quarter of its turns. */
+static void add_whiskers(const field *f, chart *out, chart_panel *panel) {
+    size_t count = 0;
+    for (size_t i = 0; i < f->count; i++)
+        count += f->methods[i].of->spread > 0;
+    chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_SPANS, 2 * count) : NULL;
+    if (s == NULL)
+        return;
+    s->style = (chart_style){-1, 0, -1, true};
+    snprintf(s->name, sizeof s->name, "spread of the times");
+    for (size_t i = 0, k = 0; i < f->count; i++) {
+        const timed *t = &f->methods[i];
+        if (!(t->of->spread > 0))
+            continue;
+        s->x[k] = t->of->ns;
+        s->x[k + 1] = t->of->ns * (1 + t->of->spread);
+        s->y[k] = s->y[k + 1] = fmax(t->error, exact);
+        k += 2;
+    }
+}
+
+/* What none can beat. */
+static void add_memory(const field *f, chart *out, chart_panel *panel) {
+    chart_series *s = f->limit > 0 ? chart_add_series(out, panel, CHART_LINE, 2) : NULL;
+    if (s == NULL)
+        return;
+    s->style = (chart_style){-1, 1, -1, true};
+    snprintf(s->name, sizeof s->name, "moving the same bytes");
+    s->x[0] = s->x[1] = f->limit;
+    s->y[0] = panel->y.lo;
+    s->y[1] = panel->y.hi;
 }
 
 /* Whole decades round the data, 1, 2 or 5 of one where they span less, with room for the names. */
@@ -124,11 +161,12 @@ static void fit(chart_axis *axis, chart_extent e) {
     }
 }
 
-const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out) {
+/* A panel of a family. @return false: it has nothing to show */
+static bool add_family(const method_family_row *family, const bench_result *results, size_t count, chart *out) {
     const field f = gather(family, results, count);
     chart_panel *panel = chart_add_panel(out);
-    if (f.count == 0)
-        return "no method of this family has a time and a finite error here";
+    if (f.count == 0 || panel == NULL)
+        return false;
     panel->x = (chart_axis){.scale = CHART_LOG, .label = "time per element", .key = "time", .unit = "ns"};
     panel->y = (chart_axis){.scale = CHART_LOG, .label = "worst error", .key = "error", .unit = family->measure};
     add_front(&f, out, panel, 0);
@@ -139,6 +177,46 @@ const char *pareto_draw(const method_family_row *family, const bench_result *res
     add_points(&f, out, panel, MINE, MINE);
     fit(&panel->x, f.time);
     fit(&panel->y, f.error);
+    add_whiskers(&f, out, panel);
+    add_memory(&f, out, panel);
+    return true;
+}
+
+const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out) {
+    return add_family(family, results, count, out) ? NULL
+                                                   : "no method of this family has a time and a finite error here";
+}
+
+/* Small panels have room for the names on the front. */
+static void name_panel(const method_family_row *family, chart_panel *panel) {
+    const bool relative = strcmp(family->measure, "relative error") == 0;
+    bool front = false;
+    for (size_t i = 0; i < panel->series_count; i++) {
+        panel->series[i].unwritten = strcmp(panel->series[i].name, dominated) == 0;
+        front = front || strcmp(panel->series[i].name, on_front) == 0;
+    }
+    snprintf(panel->title, sizeof panel->title, "%s, %s%s%s%s", family->name, family->cases[0].name,
+             relative ? "" : ": ", relative ? "" : family->measure, front ? "" : "; no claim is kept");
+    panel->y.label = "worst error, relative where no unit is named";
+    panel->y.unit = "";
+}
+
+static const char *build_all(const figure_request *request, chart *out, bench_result *results) {
+    const dp_spec *planes = &request->setups[0].spec;
+    snprintf(out->subtitle, sizeof out->subtitle, "%s. Lower left is better", request->where);
+    out->apart = true;
+    for (size_t i = 0; i < METHOD_FAMILY_COUNT; i++) {
+        const method_family_row *family = method_family_get(i);
+        dp_setup setup;
+        if (method_setup(family, 0, planes->znear, planes->zfar, false, &setup) != DP_OK)
+            return NULL;
+        const size_t count = bench_run(family, 0, &setup, BENCH_REPETITIONS, results);
+        if (count == 0)
+            return "no memory for the methods";
+        if (!add_family(family, results, count, out))
+            return "a family has no method with a time and a finite error here";
+        name_panel(family, &out->panels[out->panel_count - 1]);
+    }
     return NULL;
 }
 
@@ -148,7 +226,11 @@ const char *pareto_build(const figure_request *request, chart *out) {
     char subtitle[2 * CHART_TEXT];
     dp_setup setup;
     bench_result *results = chart_memory(out, BENCH_METHODS_MAX, sizeof *results);
-    if (results == NULL || method_setup(family, request->which, planes->znear, planes->zfar, false, &setup) != DP_OK)
+    if (results == NULL)
+        return NULL;
+    if (family == NULL)
+        return build_all(request, out, results);
+    if (method_setup(family, request->which, planes->znear, planes->zfar, false, &setup) != DP_OK)
         return NULL;
     snprintf(subtitle, sizeof subtitle, "%s: %s; %s, %s", family->name, family->summary,
              family->cases[request->which].name, request->where);

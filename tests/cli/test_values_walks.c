@@ -53,6 +53,26 @@ static size_t want_bars(values *v, size_t series, size_t count) {
     return series + 1;
 }
 
+/* From the least time to that of a quarter of the turns; then the line of moving bytes, over the whole axis. */
+static void want_spread(values *v, size_t series, size_t count, const json_t *root) {
+    for (size_t i = 0; i < count; i++) {
+        const bench_result *r = &timed[i];
+        const double error = fmax(r->measured.worst.relative, 1e-17);
+        want_point(v, 0, series, 2 * i, "time", r->ns, "error", error);
+        want_point(v, 0, series, 2 * i + 1, "time", r->ns * (1 + r->spread), "error", error);
+    }
+    values_under(v, "panels[0].series[%zu].", series);
+    want_text(v, "name", "spread of the times");
+    for (size_t k = 0; k < 2; k++) {
+        const double end = number_at(root, "panels[0].series[%zu].points[%zu].error", series + 1, k);
+        want_point(v, 0, series + 1, k, "time", timed[0].limit, "error", end);
+        for (size_t i = 0; i < count; i++)
+            assert_true(k == 0 ? end < timed[i].measured.worst.relative : end > timed[i].measured.worst.relative);
+    }
+    values_under(v, "panels[0].series[%zu].", series + 1);
+    want_text(v, "name", "moving the same bytes");
+}
+
 static int by_time(const void *a, const void *b) {
     const double x = timed[*(const size_t *)a].ns, y = timed[*(const size_t *)b].ns;
     return (x > y) - (x < y);
@@ -79,11 +99,40 @@ TEST(pareto) {
     size_t series = want_times(&v, 0, "front", -1, order, fronts);
     series = want_bars(&v, series, count);
     series = want_times(&v, series, "dominated", 0, NULL, count);
-    want_times(&v, series, "on the Pareto front", 1, NULL, count);
+    series = want_times(&v, series, "on the Pareto front", 1, NULL, count);
+    want_spread(&v, series, count, root);
     check_json_text(&v, text);
     json_decref(root);
     free(text);
     values_free(&v);
+}
+
+/* A panel for each family, in its first case; in the last what was timed last. */
+TEST(pareto_of_all) {
+    char *text = command_output(cmd_plot, 0, "plot pareto --json -n 0.2 -f 800");
+    json_t *root = json_of(text);
+    assert_non_null(strstr(text_at(root, "subtitle"), "near 0.2, far 800"));
+    assert_int_equal(json_array_size(json_object_get(root, "panels")), METHOD_FAMILY_COUNT);
+    for (size_t i = 0; i < METHOD_FAMILY_COUNT; i++) {
+        const method_family_row *family = method_family_get(i);
+        char title[192], path[64];
+        const bool relative = strcmp(family->measure, "relative error") == 0;
+        snprintf(title, sizeof title, "%s, %s%s%s", family->name, family->cases[0].name, relative ? "" : ": ",
+                 relative ? "" : family->measure);
+        snprintf(path, sizeof path, "panels[%zu].title", i);
+        assert_string_equal(text_at(root, path), title);
+    }
+    assert_true(asked_which == 0 && asked.spec.znear == 0.2 && asked.spec.zfar == 800);
+    for (size_t i = 0, k = 0; i < *normal_family.method_count; i++)
+        if (timed[i].front)
+            assert_true(number_at(root, "panels[%d].series[0].points[%zu].time", METHOD_FAMILY_COUNT - 1, k++) > 0);
+    json_decref(root);
+    free(text);
+    for (size_t i = 0; i < 2; i++) {
+        printed p = print_of("plot pareto --json %s", i == 0 ? "-F d24" : "-m gl");
+        assert_true(p.status == EXIT_USAGE && strstr(p.errors, "needs one family: plot pareto FAMILY") != NULL);
+        printed_free(&p);
+    }
 }
 
 /* Decimal digits that an error leaves. */

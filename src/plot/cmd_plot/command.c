@@ -183,6 +183,16 @@ static void subtitle_of(const plot_request *o, const figure_request *request, bo
     append(out, size, "%s%s", unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
 }
 
+/* Each family in its first case. */
+static int resolve_all(plotting *p) {
+    static const char *const of_one[] = {"format", "mapping", "mine"};
+    for (size_t i = 0; i < sizeof of_one / sizeof of_one[0]; i++)
+        if (option_given(p->o->line, of_one[i]))
+            return option_error(of_one[i], "needs one family: plot %s FAMILY", p->row->name);
+    p->asked.setup = p->all.items[0];
+    return EXIT_FINE;
+}
+
 /* Which family and, where it is timed, in which case; the figure measures that and not the set-ups. */
 static int resolve_methods(plotting *p) {
     const plot_request *o = p->o;
@@ -191,10 +201,11 @@ static int resolve_methods(plotting *p) {
                          : o->judge.mine_count > 0  ? linearize_family.name
                                                     : p->row->family;
     const name_list families = {.get = list_family};
+    const bool all = p->row->build == pareto_build && strcmp(family, "all") == 0;
     list_item item;
-    int status = check_operand(o->line->command, "FAMILY", &families, family, &item);
+    int status = all ? EXIT_FINE : check_operand(o->line->command, "FAMILY", &families, family, &item);
     if (status == EXIT_FINE)
-        status = methods_resolve(&p->judge, item.row, &p->asked);
+        status = all ? resolve_all(p) : methods_resolve(&p->judge, item.row, &p->asked);
     if (status == EXIT_FINE && o->judge.mine_count > 0)
         status = mine_open(&p->judge, &p->asked, p->row->build == pareto_build, &p->mine);
     if (status != EXIT_FINE)
