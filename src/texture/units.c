@@ -21,26 +21,39 @@ static const struct candidate {
     double metres;      /* of 1 in a sample; 0: disparity */
     const char *device; /* of that */
     bool integers, numbers;
+    bool dense; /* of what fills most of a picture */
 } candidates[] = {
-    {"--metric 1m", 1, NULL, false, true},
-    {"--metric mm", 0.001, NULL, true, true},
-    {"--stereo kitti-stereo", 0, "kitti-stereo", true, false},
-    {"--metric tum", 0.0002, NULL, true, false},
-    {"--metric kitti", 1.0 / 256, NULL, true, false},
-    {"--stereo middlebury", 0, "middlebury", false, true},
-    {"--metric 0.25mm", 0.00025, NULL, true, false},
-    {"--metric 1cm", 0.01, NULL, true, true},
+    {"--metric 1m", 1, NULL, false, true, false},
+    {"--metric mm", 0.001, NULL, true, true, false},
+    {"--stereo kitti-stereo", 0, "kitti-stereo", true, false, false},
+    {"--metric tum", 0.0002, NULL, true, false, true},
+    {"--metric kitti", 1.0 / 256, NULL, true, false, false},
+    {"--stereo middlebury", 0, "middlebury", false, true, false},
+    {"--metric 0.25mm", 0.00025, NULL, true, false, true},
+    {"--metric 1cm", 0.01, NULL, true, true, true},
+    {"--stereo cityscapes", 0, "cityscapes", true, false, true},
 };
 
+/* Samples above 0, of which the two least differ. */
+typedef struct extent {
+    double least, next, most;
+    size_t count;
+} extent;
+
+/* Infinite where there is no disparity. */
 static double depth_of(const device_row *d, double x) {
     return d->focal * d->baseline / (d->offset + d->step * x);
 }
 
-static unit_reading read_as(const struct candidate *c, double lo, double hi) {
-    unit_reading out = {c->option, lo * c->metres, hi * c->metres};
-    for (size_t i = 0; c->device != NULL && device_get(i) != NULL; i++)
-        if (strcmp(device_get(i)->name, c->device) == 0)
-            out = (unit_reading){c->option, depth_of(device_get(i), hi), depth_of(device_get(i), lo)};
+static unit_reading read_as(const struct candidate *c, const extent *e) {
+    unit_reading out = {c->option, e->least * c->metres, e->most * c->metres};
+    for (size_t i = 0; c->device != NULL && device_get(i) != NULL; i++) {
+        const device_row *d = device_get(i);
+        if (strcmp(d->name, c->device) != 0)
+            continue;
+        const double hi = depth_of(d, e->least);
+        out = (unit_reading){c->option, depth_of(d, e->most), isfinite(hi) ? hi : depth_of(d, e->next)};
+    }
     return out;
 }
 
@@ -58,19 +71,15 @@ static bool fits(const struct candidate *c, const unit_reading *r) {
     return !known && r->lo >= RENDERED_LEAST && r->hi <= RENDERED_MOST;
 }
 
-/* Samples above 0. */
-typedef struct extent {
-    double least, most;
-    size_t count;
-} extent;
-
 static extent extent_of(const image *img) {
     const double top = metric_find_top(img);
-    extent e = {(double)INFINITY, 0, 0};
+    extent e = {(double)INFINITY, (double)INFINITY, 0, 0};
     for (size_t i = 0; i < (size_t)img->width * img->height; i++) {
         const double x = image_sample(img, i);
         if (!(x > 0) || !isfinite(x) || x == top)
             continue;
+        if (x != e.least)
+            e.next = x < e.least ? e.least : fmin(e.next, x);
         e.least = fmin(e.least, x);
         e.most = fmax(e.most, x);
         e.count++;
@@ -80,11 +89,13 @@ static extent extent_of(const image *img) {
 
 size_t units_find(const image *img, unit_reading out[UNITS_MAX]) {
     const extent e = extent_of(img);
+    const bool sparse = 2 * e.count < (size_t)img->width * img->height;
     size_t count = 0;
     for (int fit = 1; fit >= 0 && e.count > 0; fit--) /* then others, so that none stands alone */
         for (const struct candidate *c = candidates; c < candidates + sizeof candidates / sizeof *candidates; c++) {
-            const unit_reading r = read_as(c, e.least, e.most);
-            if ((img->type < IMAGE_F16 ? c->integers : c->numbers) && fits(c, &r) == (fit == 1) &&
+            const unit_reading r = read_as(c, &e);
+            const bool likely = fits(c, &r) && !(sparse && c->dense);
+            if ((img->type < IMAGE_F16 ? c->integers : c->numbers) && likely == (fit == 1) &&
                 count < (fit == 1 ? UNITS_MAX : UNITS_LEAST))
                 out[count++] = r;
         }

@@ -358,6 +358,44 @@ TEST(what_is_a_unit) {
     }
 }
 
+/* Frames as data sets have them: what they are is among the readings, with the depths of its formula; Cityscapes' 1 is
+ * no disparity, so nearly every frame has it; a laser leaves most pixels empty; what is rendered has no holes. */
+TEST(what_data_sets_hold) {
+    static const struct frame_of {
+        const char *option;
+        double least, most, holes; /* samples, and the share of pixels at 0 */
+        double ones;               /* at 1 */
+        const char *said;
+    } all[] = {{"--stereo cityscapes", 300, 28000, 0.2, 0.1, " 0 for holes: --stereo cityscapes reads"},
+               {"--metric kitti", 256 * 5, 256 * 80, 0.8, 0, "--metric kitti"},
+               {"--metric tum", 8215, 17160, 0, 0, "whole numbers without holes: "}};
+    static double data[PIXELS];
+    rng r = rng_make("data sets");
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+        char text[128];
+        double least = (double)INFINITY, most = 0;
+        for (int i = 0; i < PIXELS; i++) {
+            const double share = (i + 0.5) / PIXELS;
+            const double x = share < all[k].holes                 ? 0
+                             : share < all[k].holes + all[k].ones ? 1
+                                                                  : rint(rng_uniform(&r, all[k].least, all[k].most));
+            least = x > 1 ? fmin(least, x) : least;
+            most = fmax(most, x);
+            truth_store(data, IMAGE_U16, (size_t)i, x);
+        }
+        truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+        const char *const words[] = {truth_path("in.npy"), "-o", truth_path("said.csv")};
+        assert_int_equal(truth_run(words, 3), 0);
+        if (!truth_said(all[k].said))
+            fail_msg("not said: %s", all[k].said);
+        const double unit = k == 1 ? 1.0 / 256 : 0.0002, view = 2262.52 * 0.209313 * 256;
+        snprintf(text, sizeof text, "%s%s %.3g to %.3g m", all[k].option, k == 0 ? " reads" : "",
+                 k == 0 ? view / (most - 1) : least * unit, k == 0 ? view / (least - 1) : most * unit);
+        if (!truth_said(text))
+            fail_msg("not said: %s", text);
+    }
+}
+
 int main(void) {
     return run_listed(truth_folder, truth_folder_end);
 }

@@ -250,12 +250,13 @@ const char *texture_zeros_of(const texture_request *o, const texture_source *s, 
     return out;
 }
 
-/* Whole numbers that are larger than millimetres are may be of a finer unit, where nobody says that they are codes. */
+/* Whole numbers that are larger than millimetres are may be of a finer unit, where nobody says that they are codes.
+ * Some are holes; or nothing of them shows a buffer, neither sky at an end nor mass near 1. */
 bool texture_may_be_metric(const texture_source *s) {
     const dp_recognised *r = &s->found;
     const bool open = s->mapping_from == ORIGIN_ASSUMED && s->format_from == ORIGIN_ASSUMED;
-    return r->metric ||
-           (open && s->type == IMAGE_U16 && s->channels == 1 && r->at_one == 0 && r->at_zero > r->samples / 1000);
+    const bool some = r->at_zero > r->samples / 1000, plain = r->at_zero == 0 && r->sky < 0 && r->mass != 0;
+    return r->metric || (open && s->type == IMAGE_U16 && s->channels == 1 && r->at_one == 0 && (some || plain));
 }
 
 static void warn(const texture_request *o, const texture_source *s) {
@@ -269,8 +270,8 @@ static void warn(const texture_request *o, const texture_source *s) {
     if (s->reading_count == 0 && o->image.metric == 0 && s->mapping_from == ORIGIN_ASSUMED)
         message("depthprec: %s: the mapping is assumed; --mapping sets it", s->path);
     if (o->image.metric == 0 && texture_may_be_metric(s))
-        message("depthprec: %s: may be metric depth, whole numbers with 0 for holes: %s", s->path,
-                units_say(&s->picture, units));
+        message("depthprec: %s: may be metric depth, whole numbers with%s: %s", s->path,
+                s->found.at_zero > 0 ? " 0 for holes" : "out holes", units_say(&s->picture, units));
 }
 
 void texture_read_on(const texture_request *o, texture_source *s) {
