@@ -216,16 +216,6 @@ void setup_say_code(page *p, const dp_spec *spec) {
                   number_full(spec->zfar).text, mapping->name);
 }
 
-void setups_say_rg(page *p, const dp_setup *some, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (dp_format_is_rg(&some[i].spec.format)) {
-            page_text(
-                p, "rg is depth of Unity's DepthNormals, eye depth over far. Far itself becomes 0 by frac, and reads "
-                   "as the camera.");
-            return;
-        }
-}
-
 clipping clipping_of(const dp_setup *setup) {
     dp_pipeline p;
     float znear;

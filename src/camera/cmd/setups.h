@@ -86,8 +86,9 @@ void setup_title(page *p, const dp_setup *setup, const setup_fields *fields);
 /** The line that prints the code of a camera; nothing of one without a projection matrix, or orthographic. */
 void setup_say_code(page *p, const dp_spec *spec);
 
-/** Explains rg, where a set-up has it. */
-void setups_say_rg(page *p, const dp_setup *some, size_t count);
+/** Explains rg, where dp_format_is_rg(). */
+#define RG_NOTE                                                                                                        \
+    "rg is depth of Unity's DepthNormals, eye depth over far. Far itself becomes 0 by frac, and reads as the camera."
 
 /** The depths between the planes that binary32 clipping draws. */
 typedef struct clipping {

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "quantity/cmd/resolved.h"
-#include "report/number.h"
+#include "report/sentence.h"
 
 /* The fullest model that the set-up has: what the others are measured by. */
 static int fullest(const dp_choice *choice) {
@@ -77,48 +77,6 @@ void setup_choose(const camera_asked *c, const depths *at, dp_setup *setup) {
     dp_setup_init(setup, &spec); /* the choice is among the models that the set-up has */
 }
 
-/* "makes this 3.03 times worse at z = 316.228"; what is less than double is said in percent. */
-static void effect(double share, number_text depth, bool at_most, char *out, size_t size) {
-    const char *most = at_most ? "at most " : "";
-    if (isinf(share))
-        snprintf(out, size, "leaves nothing resolved at z = %s", depth.text);
-    else if (share >= 1.0)
-        snprintf(out, size, "makes this %s%s times worse at z = %s", most, number_of(share + 1.0, 3).text, depth.text);
-    else
-        snprintf(out, size, "makes this %s%s %% worse at z = %s", most, number_of(100.0 * share, 3).text, depth.text);
-}
-
-static choice_words shader_sentence(const choosing *c, const char *unit) {
-    const bool enough = c->shader_share <= c->tolerance;
-    char what[sizeof(choice_words) / 2];
-    choice_words out;
-    effect(c->shader_share, number_in(number_of(c->shader_z, 6), unit), enough, what, sizeof what);
-    snprintf(out.text, sizeof out.text, "the arithmetic of the shader %s: %s", what,
-             enough ? "the lattice suffices" : "'depthprec budget' shows the causes");
-    return out;
-}
-
-choice_words choice_sentence(const choosing *c, const char *unit) {
-    if (c->full.shader)
-        return shader_sentence(c, unit);
-    const dp_choice *choice = &c->choice;
-    const bool arithmetic = fullest(choice) == DP_MODEL_FLOAT;
-    const double share = choice->share[DP_MODEL_EXACT];
-    char subject[64] = "rounding to binary32";
-    char what[sizeof(choice_words) / 2];
-    choice_words out;
-    if (arithmetic)
-        snprintf(subject, sizeof subject, c->setup->spec.arith != 0 ? "float arithmetic (%s)" : "float arithmetic",
-                 dp_arith_get(c->setup->spec.arith)->name);
-    effect(share, number_in(number_of(choice->share_z[DP_MODEL_EXACT], 6), unit), choice->model == DP_MODEL_EXACT, what,
-           sizeof what);
-    snprintf(out.text, sizeof out.text, "%s %s: %s", subject, share > 0.0 ? what : "adds nothing",
-             choice->model == DP_MODEL_EXACT    ? "the lattice suffices"
-             : choice->model == DP_MODEL_STAGED ? "--model staged captures this"
-                                                : "--model float is needed");
-    return out;
-}
-
 static const column share_columns[] = {
     {FIELD(choice_share, share, "share", "")}, {FIELD(choice_share, z, "z", "scene")}, {.kind = COLUMN_END}};
 
@@ -150,4 +108,54 @@ void choice_fields_of(const choosing *c, choice_fields *out) {
                            .shader_share = {c->shader_share, c->shader_share > 0.0 ? c->shader_z : (double)NAN}};
     out->staged = fullest(&c->choice) > DP_MODEL_STAGED ? &out->staged_share : NULL;
     out->shader = c->full.shader ? &out->shader_share : NULL;
+}
+
+/* ---- In a sentence ----------------------------------------------------------------------------------------------- */
+
+/* The worst that the simplest model leaves out, and what follows. */
+typedef struct told {
+    const char *before, *subject, *arith, *most, *verdict;
+    double times, percent, z;
+} told;
+
+static const column told_columns[] = {{FIELD(told, before, "before", "")},
+                                      {FIELD(told, subject, "subject", "")},
+                                      {FIELD(told, arith, "arith", "")},
+                                      {FIELD(told, most, "most", "")},
+                                      {FIELD(told, verdict, "verdict", "")},
+                                      {FIELD(told, times, "times", ""), .digits = 3},
+                                      {FIELD(told, percent, "percent", ""), .digits = 3},
+                                      {FIELD(told, z, "z", "scene"), .digits = 6},
+                                      {.kind = COLUMN_END}};
+
+enum { ADDS_NOTHING = 1, LEAVES_NOTHING = 2, DOUBLES = 4 };
+
+static const sentence told_words[] = {
+    LINE("{before}{subject}{arith} adds nothing: {verdict}", ADDS_NOTHING),
+    ELSE("{before}{subject}{arith} leaves nothing resolved at z = {z}: {verdict}", LEAVES_NOTHING),
+    ELSE("{before}{subject}{arith} makes this {most}{times} times worse at z = {z}: {verdict}", DOUBLES),
+    ELSE("{before}{subject}{arith} makes this {most}{percent} % worse at z = {z}: {verdict}", 0), SENTENCE_END};
+
+void choice_say(page *p, const choosing *c, const char *before) {
+    static const char *const verdicts[DP_MODEL_COUNT] = {"the lattice suffices", "--model staged captures this",
+                                                         "--model float is needed"};
+    const bool shader = c->full.shader, arithmetic = fullest(&c->choice) == DP_MODEL_FLOAT && !shader;
+    const double share = shader ? c->shader_share : c->choice.share[DP_MODEL_EXACT];
+    const bool enough = shader ? share <= c->tolerance : c->choice.model == DP_MODEL_EXACT;
+    char arith[64] = "";
+    if (arithmetic && c->setup->spec.arith != 0)
+        snprintf(arith, sizeof arith, " (%s)", dp_arith_get(c->setup->spec.arith)->name);
+    told t = {before,
+              shader       ? "the arithmetic of the shader"
+              : arithmetic ? "float arithmetic"
+                           : "rounding to binary32",
+              arith,
+              enough ? "at most " : "",
+              shader && !enough ? "'depthprec budget' shows the causes" : verdicts[enough ? 0 : c->choice.model],
+              share + 1.0,
+              100.0 * share,
+              shader ? c->shader_z : c->choice.share_z[DP_MODEL_EXACT]};
+    page_say(p, told_words, told_columns, &t,
+             (share > 0.0 || shader ? 0 : ADDS_NOTHING) | (isinf(share) ? LEAVES_NOTHING : 0) |
+                 (share >= 1.0 ? DOUBLES : 0));
 }

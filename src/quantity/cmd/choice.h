@@ -40,16 +40,8 @@ choosing choose_at(const dp_setup *setup, double tolerance, const depths *at);
 /** Under --model auto, gives a set-up the model that is enough at these depths; else leaves it as it is. */
 void setup_choose(const camera_asked *c, const depths *at, dp_setup *setup);
 
-/** One sentence without a line end. */
-typedef struct choice_words {
-    char text[256];
-} choice_words;
-
-/**
- * Which model is enough and what decides it. The set-up's own model is taken into account: it is not recommended again.
- * The unit of depths may be null.
- */
-choice_words choice_sentence(const choosing *c, const char *unit);
+/** Says which model is enough and what decides it, behind `before`. */
+void choice_say(page *p, const choosing *c, const char *before);
 
 /** The share of the separation that a model neglects, and the depth where it does; NaN where it neglects nothing. */
 typedef struct choice_share {

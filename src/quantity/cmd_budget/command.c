@@ -281,11 +281,8 @@ static void say_notes(page *p, void *item) {
         say_staged(p, b);
         return;
     }
-    page_line(p, "%s%s",
-              (conditions(b) & ~(unsigned)(COMPOSED | WITH_LOG | WITH_MATRIX | WITH_DIVIDE)) != 0
-                  ? "without the added terms "
-                  : "",
-              choice_sentence(&b->choice, p->unit).text);
+    const unsigned added = conditions(b) & ~(unsigned)(COMPOSED | WITH_LOG | WITH_MATRIX | WITH_DIVIDE);
+    choice_say(p, &b->choice, added != 0 ? "without the added terms " : "");
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */

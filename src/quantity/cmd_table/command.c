@@ -20,6 +20,7 @@
 #include "quantity/cmd_table/per_vertex.h"
 #include "quantity/cmd_table/request.h"
 #include "report/number.h"
+#include "report/sentence.h"
 
 /* Beyond fifteen digits a decimal shows its own rounding (0.10000000000000001). */
 enum {
@@ -48,6 +49,11 @@ typedef struct guarantee {
     dp_separation_worst worst;
 } guarantee;
 
+typedef struct worst {
+    dp_worst of;
+    int digits; /* that show where the interval ends */
+} worst;
+
 /* The state of a table; the fields below the range are of the set-up at hand. */
 typedef struct table {
     each_setup each;
@@ -57,8 +63,8 @@ typedef struct table {
     dp_setup setup, exact, full; /* of surfaces that face the camera: as asked for, and in two models */
     dp_setup slanted;            /* `full` with triangles */
     row row;
-    dp_worst worst_case;
-    const dp_worst *worst; /* null in a model without cells */
+    worst worst_case;
+    const worst *worst; /* null in a model without cells */
     guarantee over_range, slanted_over_range;
     slant_fields slant;
     const slant_fields *triangles;                  /* null: surfaces face the camera */
@@ -66,6 +72,7 @@ typedef struct table {
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
     per_vertex_worst written;
+    char at_slant[NUMBER_SIZE + 4]; /* "at any slant" */
     double uncertain; /* the nearest depth shown before far whose guarantee is more than is left up to far; NaN: none */
     choosing choice;
     choice_fields chosen;
@@ -149,19 +156,21 @@ static void *next_setup(void *of, size_t i) {
     t->triangles = slant_fields_of(t->each.here, &t->slant);
     t->setup = dp_setup_facing(t->each.setup);
     t->slanted = dp_setup_guaranteed(t->each.setup);
+    snprintf(t->at_slant, sizeof t->at_slant, "at %s", slant_words(&t->slanted.spec.triangles).text);
     range_resolve(t->each.here, &t->lo, &t->hi);
     t->exact = resolved_in(setup, DP_MODEL_EXACT);
     t->full = dp_setup_guaranteed(setup);
     t->uncertain = (double)NAN;
-    t->written = per_vertex_none();
+    t->written = per_vertex_none(t->slant.triangles.depth);
     t->choice = choosing_start(setup, o->camera.tolerance);
     if (option_given(o->line, "tolerance"))
         t->interval = way_choose(setup, o->camera.tolerance, has_cut_cells(t, setup));
     if (o->out.form == FORM_CSV)
         return t;
-    t->worst_case = (dp_worst){0};
-    dp_worst_over(setup, t->lo, t->hi, &t->worst_case);
-    t->worst = isnan(t->worst_case.error) ? NULL : &t->worst_case;
+    t->worst_case = (worst){.digits = 0};
+    dp_worst_over(setup, t->lo, t->hi, &t->worst_case.of);
+    t->worst_case.digits = digits_to_see(t->worst_case.of.interval_lo, t->worst_case.of.interval);
+    t->worst = isnan(t->worst_case.of.error) ? NULL : &t->worst_case;
     t->guarantee = guarantee_over(t, &t->full, &t->over_range);
     const bool has_slanted = t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FLOAT;
     t->guarantee_slanted = has_slanted ? guarantee_over(t, &t->slanted, &t->slanted_over_range) : NULL;
@@ -174,17 +183,16 @@ static void *next_setup(void *of, size_t i) {
 
 /* The answer first: how far one can trust the set-up. */
 static void say_reach_of(page *p, const dp_setup *full, const unit_row *unit, const char *which) {
-    char text[RESOLVED_TEXT_SIZE], sentence[RESOLVED_TEXT_SIZE] = "";
+    char text[RESOLVED_TEXT_SIZE], said[RESOLVED_TEXT_SIZE] = "";
     double up_to[RESOLVED_LIMITS];
     resolved_up_to(full, unit, up_to);
     /* A separation wider than one that holds everywhere goes without saying. */
     for (size_t i = 0; i < RESOLVED_LIMITS && (i == 0 || !(up_to[i - 1] >= full->spec.zfar)); i++)
         if (!isnan(up_to[i]))
-            append(sentence, sizeof sentence, "%s %s up to %s%s", *sentence != '\0' ? "," : "",
-                   resolved_limit_text(i, unit).text, up_to[i] < full->spec.zfar ? "z = " : "",
-                   resolved_text(full->spec.zfar, up_to[i], unit, text));
-    if (*sentence != '\0')
-        page_text(p, "Guaranteed to be resolved%s:%s.", which, sentence);
+            append(said, sizeof said, "%s %s up to %s%s", *said != '\0' ? "," : "", resolved_limit_text(i, unit).text,
+                   up_to[i] < full->spec.zfar ? "z = " : "", resolved_text(full->spec.zfar, up_to[i], unit, text));
+    if (*said != '\0')
+        page_text(p, "Guaranteed to be resolved%s:%s.", which, said);
     else
         page_text(p, "%s is not guaranteed to be resolved%s, even at the near plane.",
                   resolved_limit_text(RESOLVED_LIMITS - 1, unit).text, which);
@@ -199,79 +207,9 @@ static void say_reach(page *p, void *item) {
         return;
     say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");
     char slanted[NUMBER_SIZE + 8];
-    snprintf(slanted, sizeof slanted, ", at %s", slant_words(&t->slanted.spec.triangles).text);
+    snprintf(slanted, sizeof slanted, ", %s", t->at_slant);
     if (t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FLOAT)
         say_reach_of(p, &t->slanted, unit, slanted);
-}
-
-static void say_worst(page *p, const dp_worst *w) {
-    if (w == NULL)
-        return;
-    if (isinf(w->error))
-        page_note(p, "worst error", "unbounded, code %u", w->error_code);
-    else
-        page_note(p, "worst error", "%s at z = %s, code %u", number_in(number_of(w->error, DIGITS_FEW), p->unit).text,
-                  number_in(number_of(w->error_z, DIGITS_USUAL), p->unit).text, w->error_code);
-    const int digits = digits_to_see(w->interval_lo, w->interval);
-    const number_text lo = number_in(number_of(w->interval_lo, digits), p->unit);
-    if (isinf(w->interval))
-        page_note(p, "worst interval", "unbounded, from %s on, code %u", lo.text, w->interval_code);
-    else
-        page_note(p, "worst interval", "%s from %s to %s, code %u",
-                  number_in(number_of(w->interval, DIGITS_FEW), p->unit).text, lo.text,
-                  number_in(number_of(w->interval_hi, digits), p->unit).text, w->interval_code);
-    if (!isnan(w->blind_from))
-        page_note(p, "blind", "from z = %s: nothing beyond is resolved",
-                  number_in(number_of(w->blind_from, DIGITS_USUAL), p->unit).text);
-}
-
-static void say_drawn(page *p, const clipping *c) {
-    if (isnan(c->znear) && c->loses)
-        page_note(p, "clip range", "empty: clipping removes all depths");
-    else if (!isnan(c->znear))
-        page_note(p, "clip range", "effectively %s to %s%s", number_in(number_of(c->znear, DIGITS_USUAL), p->unit).text,
-                  number_in(number_of(c->zfar, DIGITS_USUAL), p->unit).text,
-                  c->loses ? ": clipping removes the rest" : "");
-}
-
-static void say_way(page *p, const way *w, double tolerance) {
-    const number_text allowed = number_of(tolerance, 3);
-    if (w->name == NULL)
-        page_line(p, "interval: no method's bound is within %s of it in this set-up", allowed.text);
-    else if (w->claim == 0)
-        page_line(p, "interval by %s, exact", w->name);
-    else
-        page_line(p, "interval by %s, the cheapest within %s of it: bound %s", w->name, allowed.text,
-                  number_of(w->claim, 3).text);
-}
-
-static void say_guarantee(page *p, const guarantee *g, const char *label, const char *what) {
-    if (g != NULL)
-        page_note(p, label, "%s at z = %s, %s", number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
-                  number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text, what);
-}
-
-static void say_notes(page *p, void *item) {
-    const table *t = item;
-    say_worst(p, t->worst);
-    if (!isnan(t->uncertain) && isfinite(t->full.spec.zfar))
-        page_note(p, "no room", "at z = %s nothing behind it up to far is certain",
-                  number_in(number_of(t->uncertain, DIGITS_USUAL), p->unit).text);
-    say_guarantee(p, t->guarantee, "worst separation",
-                  t->full.shader             ? "guaranteed for every log2 that a shader may use"
-                  : dp_is_computed(&t->full) ? "guaranteed in binary32 (model float)"
-                                             : "in model staged");
-    char slanted[NUMBER_SIZE + 8];
-    snprintf(slanted, sizeof slanted, "at %s", slant_words(&t->slanted.spec.triangles).text);
-    say_guarantee(p, t->guarantee_slanted, slanted, "of the farther surface");
-    setups_say_rg(p, &t->setup, 1);
-    say_drawn(p, &t->planes);
-    per_vertex_say(p, &t->written, t->slant.triangles.depth);
-    page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
-    if (option_given(t->o->line, "tolerance"))
-        say_way(p, &t->interval, t->o->camera.tolerance);
-    if (t->each.all.count == 1)
-        setup_say_code(p, &t->each.setup->spec);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -312,28 +250,30 @@ static const column row_columns[] = {
     {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {.kind = COLUMN_END}};
 
-static const column worst_columns[] = {{FIELD(dp_worst, lo, "lo", "scene")},
-                                       {FIELD(dp_worst, hi, "hi", "scene")},
-                                       {FIELD(dp_worst, error, "error", "scene")},
-                                       {FIELD(dp_worst, error_z, "error_z", "scene")},
-                                       {FIELD(dp_worst, error_code, "error_code", "")},
-                                       {FIELD(dp_worst, interval, "interval", "scene")},
-                                       {FIELD(dp_worst, interval_lo, "interval_lo", "scene")},
-                                       {FIELD(dp_worst, interval_hi, "interval_hi", "scene")},
-                                       {FIELD(dp_worst, interval_code, "interval_code", "")},
-                                       {FIELD(dp_worst, blind_from, "blind_from", "scene")},
+#define CELL_END .digits_at = offsetof(worst, digits)
+static const column worst_columns[] = {{FIELD(worst, of.lo, "lo", "scene")},
+                                       {FIELD(worst, of.hi, "hi", "scene")},
+                                       {FIELD(worst, of.error, "error", "scene"), .digits = DIGITS_FEW},
+                                       {FIELD(worst, of.error_z, "error_z", "scene"), .digits = DIGITS_USUAL},
+                                       {FIELD(worst, of.error_code, "error_code", "")},
+                                       {FIELD(worst, of.interval, "interval", "scene"), .digits = DIGITS_FEW},
+                                       {FIELD(worst, of.interval_lo, "interval_lo", "scene"), CELL_END},
+                                       {FIELD(worst, of.interval_hi, "interval_hi", "scene"), CELL_END},
+                                       {FIELD(worst, of.interval_code, "interval_code", "")},
+                                       {FIELD(worst, of.blind_from, "blind_from", "scene"), .digits = DIGITS_USUAL},
                                        {.kind = COLUMN_END}};
 
-static const column guarantee_columns[] = {{FIELD(guarantee, model, "model", "")},
-                                           {FIELD(guarantee, worst.lo, "lo", "scene")},
-                                           {FIELD(guarantee, worst.hi, "hi", "scene")},
-                                           {FIELD(guarantee, worst.bound, "bound", "scene")},
-                                           {FIELD(guarantee, worst.separation, "separation", "scene")},
-                                           {FIELD(guarantee, worst.z, "z", "scene")},
-                                           {.kind = COLUMN_END}};
+static const column guarantee_columns[] = {
+    {FIELD(guarantee, model, "model", "")},
+    {FIELD(guarantee, worst.lo, "lo", "scene")},
+    {FIELD(guarantee, worst.hi, "hi", "scene")},
+    {FIELD(guarantee, worst.bound, "bound", "scene"), .digits = DIGITS_FEW, .upward = true},
+    {FIELD(guarantee, worst.separation, "separation", "scene")},
+    {FIELD(guarantee, worst.z, "z", "scene"), .digits = DIGITS_USUAL},
+    {.kind = COLUMN_END}};
 
-static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective", "scene")},
-                                       {FIELD(clipping, zfar, "far_effective", "scene")},
+static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective", "scene"), .digits = DIGITS_USUAL},
+                                       {FIELD(clipping, zfar, "far_effective", "scene"), .digits = DIGITS_USUAL},
                                        {.kind = COLUMN_END}};
 
 static const column setup_report[] = {
@@ -342,7 +282,7 @@ static const column setup_report[] = {
      .when = WITH_PRESETS},
     {FIELD(table, each.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
-    {FIELD(table, interval.claim, "claim", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
+    {FIELD(table, interval.claim, "claim", ""), .digits = 3, .only = AS_JSON, .when = WITH_TOLERANCE},
     {LIST("rows", row_columns, next_row)},
     {FIELD(table, interval.name, "method", ""), .only = AS_CSV, .when = WITH_TOLERANCE},
     {FIELD(table, each.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
@@ -353,7 +293,70 @@ static const column setup_report[] = {
      .optional = true},
     {PART(table, drawn, NULL, drawn_columns), .only = AS_JSON, .pointed = true},
     {PART(table, chosen, "auto", choice_columns), .only = AS_JSON},
+    {FIELD(table, uncertain, "uncertain", "scene"), .digits = DIGITS_USUAL, .only = AS_TEXT},
+    {FIELD(table, at_slant, "at_slant", ""), .only = AS_TEXT},
+    {PART(table, written, "written", per_vertex_columns), .only = AS_TEXT},
     {.kind = COLUMN_END}};
+
+/* Conditions of sentences. */
+enum {
+    NO_ERROR_BOUND = 1,
+    NO_INTERVAL_BOUND = 2,
+    FAR_IS_FINITE = 4,
+    IS_SHADER = 8,
+    IS_COMPUTED = 16,
+    IS_RG = 32,
+    LOSES = 64,
+    BELOW_SEPARATION = 128,
+    TOLERANCE = 256,
+    EXACTLY = 512
+};
+
+#define GUARANTEED "{worst_separation.bound} at z = {worst_separation.z}, "
+#define TOO_FAR    " {written.error} too far at z = {written.z} in triangles from z/{written.class} to {written.class} z: "
+static const sentence words[] = {
+    NOTE("worst error", "unbounded, code {worst.error_code}", NO_ERROR_BOUND),
+    ELSE("{worst.error} at z = {worst.error_z}, code {worst.error_code}", 0),
+    NOTE("worst interval", "unbounded, from {worst.interval_lo} on, code {worst.interval_code}", NO_INTERVAL_BOUND),
+    ELSE("{worst.interval} from {worst.interval_lo} to {worst.interval_hi}, code {worst.interval_code}", 0),
+    NOTE("blind", "from z = {worst.blind_from}: nothing beyond is resolved", 0),
+    NOTE("no room", "at z = {uncertain} nothing behind it up to far is certain", FAR_IS_FINITE),
+    NOTE("worst separation", GUARANTEED "guaranteed for every log2 that a shader may use", IS_SHADER),
+    ELSE(GUARANTEED "guaranteed in binary32 (model float)", IS_COMPUTED),
+    ELSE(GUARANTEED "in model staged", 0),
+    NOTE("{at_slant}", "{worst_separation_slanted.bound} at z = {worst_separation_slanted.z}, of the farther surface",
+         0),
+    PROSE(RG_NOTE, IS_RG),
+    NOTE("clip range", "effectively {near_effective} to {far_effective}: clipping removes the rest", LOSES),
+    ELSE("effectively {near_effective} to {far_effective}", 0),
+    ELSE("empty: clipping removes all depths", LOSES),
+    LINE("written per vertex, depth is at most" TOO_FAR "less than the separation", BELOW_SEPARATION),
+    ELSE("written per vertex, depth is up to" TOO_FAR
+         "write it per fragment, unless all triangles lie within z/k and k z, k = 1 + {written.beyond}",
+         0),
+    SENTENCE_END};
+static const sentence words_of_interval[] = {
+    LINE("interval by {method}, exact", TOLERANCE | EXACTLY),
+    ELSE("interval by {method}, the cheapest within {auto.tolerance:3} of it: bound {claim}", TOLERANCE),
+    ELSE("interval: no method's bound is within {auto.tolerance:3} of it in this set-up", TOLERANCE), SENTENCE_END};
+
+static unsigned conditions_of_words(const table *t) {
+    return (isinf(t->worst_case.of.error) ? NO_ERROR_BOUND : 0) |
+           (isinf(t->worst_case.of.interval) ? NO_INTERVAL_BOUND : 0) |
+           (isfinite(t->full.spec.zfar) ? FAR_IS_FINITE : 0) | (t->full.shader ? IS_SHADER : 0) |
+           (dp_is_computed(&t->full) ? IS_COMPUTED : 0) | (dp_format_is_rg(&t->setup.spec.format) ? IS_RG : 0) |
+           (t->planes.loses ? LOSES : 0) | (t->written.class <= t->written.depth ? BELOW_SEPARATION : 0) |
+           (option_given(t->o->line, "tolerance") ? TOLERANCE : 0) | (t->interval.claim == 0 ? EXACTLY : 0);
+}
+
+static void say_notes(page *p, void *item) {
+    const table *t = item;
+    page_say(p, words, setup_report, item, conditions_of_words(t));
+    choice_say(p, &t->choice, "");
+    page_say(p, words_of_interval, setup_report, item, conditions_of_words(t));
+    if (t->each.all.count == 1)
+        setup_say_code(p, &t->each.setup->spec);
+}
 
 static const column columns[] = {{PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true,
                                   .optional = true, .when = ONE_CAMERA},

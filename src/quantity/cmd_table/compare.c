@@ -249,7 +249,11 @@ static void say_notes(page *p, void *item) {
                             !dp_format_is_rg(&c->rows[i].setup->spec.format));
     if (linear)
         page_text(p, "linear is judged without the arithmetic of its shader (model staged).");
-    setups_say_rg(p, c->each->all.items, c->each->all.count);
+    size_t rg = 0;
+    while (rg < c->each->all.count && !dp_format_is_rg(&c->rows[rg].setup->spec.format))
+        rg++;
+    if (rg < c->each->all.count)
+        page_text(p, RG_NOTE);
     for (size_t i = 0; i < c->each->all.count; i++)
         if (c->rows[i].cost.buffer == 0) {
             page_text(p, "No API has %s as a depth buffer.", c->rows[i].setup->spec.format.name);

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#include "report/number.h"
-
 enum { DIGITS = 4, DIGITS_Z = 9 };
 
 bool per_vertex_matters(const dp_setup *setup) {
@@ -22,8 +20,8 @@ per_vertex per_vertex_at(const dp_setup *setup, double z, double depth, double s
     return here;
 }
 
-per_vertex_worst per_vertex_none(void) {
-    return (per_vertex_worst){(double)NAN, (double)NAN, (double)NAN};
+per_vertex_worst per_vertex_none(double depth) {
+    return (per_vertex_worst){depth, (double)NAN, (double)NAN, (double)NAN, (double)NAN};
 }
 
 void per_vertex_add(per_vertex_worst *worst, const per_vertex *here, double z) {
@@ -34,22 +32,12 @@ void per_vertex_add(per_vertex_worst *worst, const per_vertex *here, double z) {
         worst->z = z;
     }
     worst->depth = fmin(worst->depth, here->depth); /* the other one where one is NaN */
+    worst->beyond = worst->depth - 1.0;
 }
 
-void per_vertex_say(page *p, const per_vertex_worst *w, double depth) {
-    if (isnan(w->z))
-        return;
-    const number_text class = number_full(depth);
-    const number_text error = number_in(number_up(w->error, DIGITS), p->unit);
-    const number_text z = number_in(number_of(w->z, DIGITS_Z), p->unit);
-    if (depth <= w->depth)
-        page_line(p,
-                  "written per vertex, depth is at most %s too far at z = %s in triangles from z/%s to %s z: less than "
-                  "the separation",
-                  error.text, z.text, class.text, class.text);
-    else
-        page_line(p,
-                  "written per vertex, depth is up to %s too far at z = %s in triangles from z/%s to %s z: write it "
-                  "per fragment, unless all triangles lie within z/k and k z, k = 1 + %s",
-                  error.text, z.text, class.text, class.text, number_down(w->depth - 1.0, 2).text);
-}
+const column per_vertex_columns[] = {
+    {FIELD(per_vertex_worst, z, "z", "scene"), .digits = DIGITS_Z},
+    {FIELD(per_vertex_worst, error, "error", "scene"), .digits = DIGITS, .upward = true},
+    {FIELD(per_vertex_worst, class, "class", "")},
+    {FIELD(per_vertex_worst, beyond, "beyond", ""), .digits = 2, .downward = true},
+    {.kind = COLUMN_END}};

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "depthprec/depthprec.h"
-#include "report/page.h"
+#include "report/report.h"
 
 /** At a depth; NaN where the mapping is affine on the screen, or no viewport was asked for. */
 typedef struct per_vertex {
@@ -16,8 +16,11 @@ typedef struct per_vertex {
 
 /** The worst of several depths: the greatest share of z, the smallest class. z is NaN while there are none. */
 typedef struct per_vertex_worst {
-    double z, error, depth;
+    double class;                   /**< the one that was asked for */
+    double z, error, depth, beyond; /**< beyond: of `depth`, above 1 */
 } per_vertex_worst;
+
+extern const column per_vertex_columns[];
 
 /** Is depth written per vertex wrong between vertices? */
 bool per_vertex_matters(const dp_setup *setup);
@@ -25,10 +28,7 @@ bool per_vertex_matters(const dp_setup *setup);
 /** @param depth  of the class, as in dp_triangles @param separation  what is told apart at z */
 per_vertex per_vertex_at(const dp_setup *setup, double z, double depth, double separation);
 
-per_vertex_worst per_vertex_none(void);
+per_vertex_worst per_vertex_none(double depth);
 void per_vertex_add(per_vertex_worst *worst, const per_vertex *here, double z);
-
-/** One sentence, when it has to be written per fragment; nothing where there is nothing to say. */
-void per_vertex_say(page *p, const per_vertex_worst *worst, double depth);
 
 #endif
