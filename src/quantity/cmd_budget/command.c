@@ -13,7 +13,7 @@
 #include "quantity/cmd/choice.h"
 #include "quantity/cmd_budget/remedy.h"
 #include "quantity/cmd_budget/request.h"
-#include "report/number.h"
+#include "report/sentence.h"
 #include "world/reach.h"
 
 enum { DIGITS_PART = 2, DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
@@ -31,7 +31,7 @@ typedef struct worst {
     double z; /* NaN while there is none */
     double separation;
     const char *cause;
-    double share;
+    double share, percent, step; /* step: of binary32 depths */
     remedy_result remedy;
     double remedy_separation; /* NaN where nothing helps */
 } worst;
@@ -54,7 +54,7 @@ typedef struct budget {
     worst found;
     const worst *worst; /* null where there is none */
     bool shader; /* of a logarithmic mapping, which has no model to choose: what it adds to the model staged is said */
-    double staged_share, staged_z;
+    double staged_times, staged_z;
     choosing choice;
     choice_fields chosen_fields;
     const choice_fields *chosen; /* null of a shader */
@@ -139,9 +139,9 @@ static void note_staged(budget *b, const row *r) {
     spec.model = DP_MODEL_STAGED;
     if (dp_setup_init(&staged, &spec) != DP_OK)
         return;
-    const double share = r->parts.separation / dp_separation(&staged, r->z) - 1.0;
-    if (!(share <= b->staged_share)) {
-        b->staged_share = share;
+    const double times = r->parts.separation / dp_separation(&staged, r->z);
+    if (!(times <= b->staged_times)) {
+        b->staged_times = times;
         b->staged_z = r->z;
     }
 }
@@ -176,6 +176,8 @@ static const worst *find_worst(budget *b) {
                        .separation = r->parts.separation,
                        .cause = position ? "position" : dp_cause_name((dp_cause)cause),
                        .share = share_of(r, cause),
+                       .percent = 100.0 * share_of(r, cause),
+                       .step = remedy_step(r->z),
                        .remedy = remedy,
                        .remedy_separation = remedy.text != NULL ? remedy.separation : (double)NAN};
     return &b->found;
@@ -224,7 +226,7 @@ static void *next_setup(void *of, size_t i) {
     setup_fields_budget(b->each.setup, &b->each.fields);
     b->shader = b->each.setup->curve == DP_CURVE_LOG;
     b->chosen = b->shader ? NULL : &b->chosen_fields;
-    b->staged_share = (double)NAN;
+    b->staged_times = (double)NAN;
     b->facing = dp_setup_facing(b->each.setup);
     b->choice = choosing_start(&b->facing, b->o->camera.tolerance);
     b->hopeless = b->largest.z = b->largest.parts.separation = (double)NAN;
@@ -246,43 +248,6 @@ static void say_setup(page *p, void *item) {
     if (b->shader)
         page_title(p, "log2 %s: %s", dp_log2_get(b->terms.log2)->name, dp_log2_get(b->terms.log2)->note);
     slant_say(p, page_title, &b->o->camera, b->each.setup);
-}
-
-static void say_worst(page *p, const worst *w) {
-    const double step = remedy_step(w->z);
-    char taken[128];
-    snprintf(taken, sizeof taken, "at z = %s %s takes %.0f %%: ", number_in(number_of(w->z, DIGITS_MORE), p->unit).text,
-             w->cause, 100.0 * w->share);
-    if (w->remedy.text != NULL)
-        page_line(p, "%s%s would need %s in place of %s", taken, w->remedy.text,
-                  number_in(number_up(w->remedy.separation, DIGITS), p->unit).text,
-                  number_in(number_up(w->separation, DIGITS), p->unit).text);
-    else if (w->separation < 2.0 * step)
-        page_line(p, "%snothing to gain: binary32 depths themselves are %s apart there", taken,
-                  number_in(number_of(step, DIGITS), p->unit).text);
-    else
-        page_line(p, "%sno other format or mapping helps", taken);
-}
-
-static void say_staged(page *p, const budget *b) {
-    page_line(p, "model staged leaves the shader out: with it this is %s times worse at z = %s",
-              number_of(b->staged_share + 1.0, 3).text, number_in(number_of(b->staged_z, DIGITS_MORE), p->unit).text);
-}
-
-static void say_notes(page *p, void *item) {
-    const budget *b = item;
-    if (!isnan(b->hopeless))
-        page_line(p, "at z = %s no separation is guaranteed: everything %s may share its code",
-                  number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text,
-                  b->triangles != NULL ? "nearer" : "farther");
-    if (b->worst != NULL)
-        say_worst(p, b->worst);
-    if (b->shader) {
-        say_staged(p, b);
-        return;
-    }
-    const unsigned added = conditions(b) & ~(unsigned)(COMPOSED | WITH_LOG | WITH_MATRIX | WITH_DIVIDE);
-    choice_say(p, &b->choice, added != 0 ? "without the added terms " : "");
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -328,23 +293,51 @@ static const column row_columns[] = {
     {FIELD(row, certain, "certain", "")},
     {.kind = COLUMN_END}};
 
-static const column worst_columns[] = {{FIELD(worst, z, "z", "scene")},
-                                       {FIELD(worst, separation, "separation", "scene")},
-                                       {FIELD(worst, cause, "cause", "")},
-                                       {FIELD(worst, share, "share", "")},
-                                       {FIELD(worst, remedy.text, "remedy", "")},
-                                       {FIELD(worst, remedy_separation, "remedy_separation", "scene")},
-                                       {.kind = COLUMN_END}};
+static const column worst_columns[] = {
+    {FIELD(worst, z, "z", "scene"), .digits = DIGITS_MORE},
+    {FIELD(worst, separation, "separation", "scene"), .digits = DIGITS, .upward = true},
+    {FIELD(worst, cause, "cause", "")},
+    {FIELD(worst, share, "share", "")},
+    {FIELD(worst, percent, "percent", ""), .fixed = true, .only = AS_TEXT},
+    {FIELD(worst, remedy.text, "remedy", "")},
+    {FIELD(worst, remedy_separation, "remedy_separation", "scene"), .digits = DIGITS, .upward = true},
+    {FIELD(worst, step, "step", "scene"), .digits = DIGITS, .only = AS_TEXT},
+    {.kind = COLUMN_END}};
 
-static const column setup_report[] = {{PART(budget, each.fields, NULL, setup_columns)},
-                                      {FIELD(budget, each.fields.arith, "arith", ""), .only = AS_CSV},
-                                      {LIST("rows", row_columns, next_row)},
-                                      {FIELD(budget, composition, "composition", ""), .only = AS_CSV},
-                                      {FIELD(budget, scheme_name, "scheme", ""), .only = AS_CSV, .when = WITH_SCHEME},
-                                      {FIELD(budget, log2, "log2", ""), .only = AS_CSV, .when = WITH_LOG},
-                                      {PART(budget, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
-                                      {PART(budget, chosen, "auto", choice_columns), .only = AS_JSON, .pointed = true},
-                                      {.kind = COLUMN_END}};
+static const column setup_report[] = {
+    {PART(budget, each.fields, NULL, setup_columns)},
+    {FIELD(budget, each.fields.arith, "arith", ""), .only = AS_CSV},
+    {LIST("rows", row_columns, next_row)},
+    {FIELD(budget, composition, "composition", ""), .only = AS_CSV},
+    {FIELD(budget, scheme_name, "scheme", ""), .only = AS_CSV, .when = WITH_SCHEME},
+    {FIELD(budget, log2, "log2", ""), .only = AS_CSV, .when = WITH_LOG},
+    {PART(budget, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
+    {PART(budget, chosen, "auto", choice_columns), .only = AS_JSON, .pointed = true},
+    {FIELD(budget, hopeless, "hopeless", "scene"), .digits = DIGITS_MORE, .only = AS_TEXT},
+    {FIELD(budget, staged_times, "staged_times", ""), .digits = 3, .only = AS_TEXT},
+    {FIELD(budget, staged_z, "staged_z", "scene"), .digits = DIGITS_MORE, .only = AS_TEXT},
+    {.kind = COLUMN_END}};
+
+enum { NO_GAIN = 512 };
+
+#define TAKEN "at z = {worst.z} {worst.cause} takes {worst.percent} %: "
+static const sentence words[] = {
+    LINE("at z = {hopeless} no separation is guaranteed: everything nearer may share its code", WITH_TRIANGLES),
+    ELSE("at z = {hopeless} no separation is guaranteed: everything farther may share its code", 0),
+    LINE(TAKEN "{worst.remedy} would need {worst.remedy_separation} in place of {worst.separation}", 0),
+    ELSE(TAKEN "nothing to gain: binary32 depths themselves are {worst.step} apart there", NO_GAIN),
+    ELSE(TAKEN "no other format or mapping helps", 0),
+    LINE("model staged leaves the shader out: with it this is {staged_times} times worse at z = {staged_z}", 0),
+    SENTENCE_END};
+
+static void say_notes(page *p, void *item) {
+    const budget *b = item;
+    const unsigned added = conditions(b) & ~(unsigned)(COMPOSED | WITH_LOG | WITH_MATRIX | WITH_DIVIDE);
+    page_say(p, words, setup_report, item,
+             conditions(b) | (b->worst != NULL && b->worst->separation < 2.0 * b->worst->step ? NO_GAIN : 0));
+    if (!b->shader)
+        choice_say(p, &b->choice, added != 0 ? "without the added terms " : "");
+}
 
 static const column term_columns[] = {{FIELD(budget, terms.interpolation, "interpolation", "")},
                                       {FIELD(budget, terms.world, "from_origin", "scene")},
