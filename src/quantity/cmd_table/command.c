@@ -313,7 +313,8 @@ enum {
 };
 
 #define GUARANTEED "{worst_separation.bound} at z = {worst_separation.z}, "
-#define TOO_FAR    " {written.error} too far at z = {written.z} in triangles from z/{written.class} to {written.class} z: "
+#define TOO_FAR    "{written.error} too far at z = {written.z} " IN_CLASS
+#define IN_CLASS   "in triangles from z/{written.class} to {written.class} z: "
 static const sentence words[] = {
     NOTE("worst error", "unbounded, code {worst.error_code}", NO_ERROR_BOUND),
     ELSE("{worst.error} at z = {worst.error_z}, code {worst.error_code}", 0),
@@ -330,8 +331,8 @@ static const sentence words[] = {
     NOTE("clip range", "effectively {near_effective} to {far_effective}: clipping removes the rest", LOSES),
     ELSE("effectively {near_effective} to {far_effective}", 0),
     ELSE("empty: clipping removes all depths", LOSES),
-    LINE("written per vertex, depth is at most" TOO_FAR "less than the separation", BELOW_SEPARATION),
-    ELSE("written per vertex, depth is up to" TOO_FAR
+    LINE("written per vertex, depth is at most " TOO_FAR "less than the separation", BELOW_SEPARATION),
+    ELSE("written per vertex, depth is up to " TOO_FAR
          "write it per fragment, unless all triangles lie within z/k and k z, k = 1 + {written.beyond}",
          0),
     SENTENCE_END};
