@@ -67,6 +67,26 @@ check "standard D24" says 'standard D24 31 m' 'unorm24 d3d' 31
 check "reversed D24" says 'reversed D24 stays at 15 m' 'unorm24 reversed' 15
 check "standard fp32" says 'standard fp32 at 31 m' 'fp32 d3d' 31
 check "at a slant" says '86 mm at 5 km' 'fp32 reversed' 0.086 --viewport 1920x1080
+# The table of models: each number is the one that the program has for it, in three digits.
+models() {
+    sed -n 's/^| `\(exact\|staged\|float\|--viewport\)` | [^|]* | \([0-9.]*\) mm | \([0-9.]*\) m | \([0-9.]*\) m .*/\1 \2 \3 \4/p' README.md >"$scratch/models"
+    [ "$(wc -l <"$scratch/models")" -eq 4 ] || return
+    while read -r model fp32 reversed standard; do
+        case $model in --viewport) set -- "guarantee_slanted [scene]" --viewport 1920x1080 ;; *) set -- "separation [scene]" --model "$model" ;; esac
+        column=$1
+        shift
+        "$DEPTHPREC" table -n 0.1 -f 10000 -F d24,fp32 -m d3d,reversed --at 5000 --csv "$@" 2>/dev/null |
+            awk -F, -v column="$column" -v want="$fp32 $reversed $standard" '
+                NR == 1 { for (i = 1; i <= NF; i++) if ($i == column) at = i; next }
+                { got[$5 $4] = $at }
+                END {
+                    line = sprintf("%.3g %.3g %.3g", 1000 * got["fp32reversed"], got["unorm24reversed"], got["unorm24d3d"])
+                    split(line, a, " "); split(want, b, " ")
+                    for (i = 1; i <= 3; i++) if (a[i] == 0 || (a[i] - b[i]) / a[i] > 0.003 || (b[i] - a[i]) / a[i] > 0.003) { print line, "not", want; exit 1 }
+                }' || return
+    done <"$scratch/models"
+}
+check "the table of models" models
 half_of_floats() { # the codes of 1e-19 and of 1, which are window depths near/z
     grep -q 'half of those$' README.md && grep -q 'below 1e-19' README.md || return
     "$DEPTHPREC" table -n 1e-12 -f inf -F fp32 -m reversed --at 1e-12,1e7 --csv >"$scratch/csv" || return
