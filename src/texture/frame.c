@@ -213,28 +213,32 @@ static bool run_start(run *r, const frame *f) {
            dp_batch_init(&r->stored, &c->setup, DP_TASK_EYE, DP_REAL_DOUBLE, DP_WORD_32, path) == DP_OK;
 }
 
-/* Row i of the strip that begins at row `first`, margins counted: its codes and eye depths. Beyond the image is NaN. */
+static void decode_inside(const run *r, uint32_t row, uint32_t *codes, float *eyes) {
+    frame_codes(r->f, row, codes);
+    if (!camera_is_shared(r->f->camera))
+        pixel_eyes(r->f->camera, row, codes, eyes);
+    else
+        dp_batch_run(&r->eye, codes, eyes, r->width);
+    for (uint32_t x = 0; x < r->width; x++)
+        eyes[x] = codes[x] == UINT32_MAX ? NAN : eyes[x];
+}
+
+/* Row i of the strip that begins at row `first`, margins counted: its codes and eye depths. Beyond the image is NaN,
+ * and there are no codes. */
 static void decode_row_of(const run *r, const desk *d, uint32_t first, uint32_t i) {
     const int64_t row = (int64_t)first + i - NORMAL_REACH;
-    uint32_t *codes = d->codes + (size_t)i * r->width;
-    float *eyes = d->eyes + (size_t)i * r->stride + NORMAL_REACH;
+    const uint32_t *codes = d->codes + (size_t)i * r->width;
+    float *all = d->eyes + (size_t)i * r->stride, *eyes = all + NORMAL_REACH;
     const dp_setup *setup = &r->f->camera->setup;
     const uint32_t flip = setup->reversed ? setup->spec.format.code_max : 0, sky = r->sky;
     const bool inside = row >= 0 && row < r->height;
-    if (inside) {
-        frame_codes(r->f, (uint32_t)row, codes);
-        if (!camera_is_shared(r->f->camera))
-            pixel_eyes(r->f->camera, (uint32_t)row, codes, eyes);
-        else
-            dp_batch_run(&r->eye, codes, eyes, r->width);
-    }
-    for (uint32_t x = 0; x < r->width; x++)
-        eyes[x] = !inside || codes[x] == UINT32_MAX ? NAN : eyes[x];
-    for (int k = 0; k < NORMAL_REACH; k++)
-        eyes[-1 - k] = eyes[(int64_t)r->width + k] = NAN;
+    for (uint32_t x = 0; x < r->stride; x++)
+        all[x] = NAN;
+    if (inside)
+        decode_inside(r, (uint32_t)row, d->codes + (size_t)i * r->width, eyes);
     if (d->seen != NULL)
-        memcpy(d->seen + (size_t)i * r->stride, eyes - NORMAL_REACH, r->stride * sizeof *eyes);
-    for (uint32_t x = 0; x < r->width; x++) {
+        memcpy(d->seen + (size_t)i * r->stride, all, r->stride * sizeof *all);
+    for (uint32_t x = 0; inside && x < r->width; x++) {
         const uint32_t rank = flip != 0 ? flip - codes[x] : codes[x];
         eyes[x] = rank >= sky ? NAN : eyes[x];
     }
