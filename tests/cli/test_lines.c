@@ -172,6 +172,9 @@ TEST(test_no_units) {
                                         "texture|x|--eye|1m,2m,3",
                                         "texture|x|--eye|1m,2m,3q",
                                         "bias|--slope|1m/s",
+                                        "bias|--slope|1e-320nm", /* 0 is fine, but not what was typed */
+                                        "texture|x|--eye|0m,1e-320nm,1m",
+                                        "texture|x|--eye|0m,0m,-1e308km",
                                         "texture|x|--metric|1 millimetre"};
     tally t = {.name = "no units"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
@@ -190,6 +193,21 @@ TEST(test_no_units) {
     options_release(&o);
     tally_end(&t);
     options_release(&o);
+}
+
+/* Numbers that are none, or too large, are not told of units, in which nobody typed them. */
+TEST(test_no_hint) {
+    static const char *const words[] = {"table|-n|1e400", "table|-n|1E400", "table|-n|0x", "table|-n|0x1p9999",
+                                        "table|-n|1,5",   "table|-n|--5",   "table|-n|5e", "table|-n|"};
+    tally t = {.name = "no hint"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        char line[1024];
+        asked_line o = {.request = NULL};
+        TALLY(&t, parse_line(&o, words[i], line) == EXIT_USAGE && strstr(line, "mm, cm") == NULL, "%s: %s", words[i],
+              line);
+        options_release(&o);
+    }
+    tally_end(&t);
 }
 
 /* What a browser stores takes the place of a preset's format, not of what is given; what an API brings takes neither's.

@@ -217,47 +217,85 @@ TEST(test_planes_of_floats) {
     tally_end(&t);
 }
 
-/* Oblique near planes, rounded to binary32: the nearest and the farthest plane of the picture were between. */
+/* The nearest near plane and the farthest far plane over the corners of a picture, of an oblique matrix for [0, 1]. */
+static void oblique_by_hand(const long double m[ENTRIES], long double planes[2]) {
+    planes[0] = INFINITY;
+    planes[1] = 0;
+    for (int i = 0; i < 4; i++) {
+        const long double u = ((i & 1 ? 1 : -1) - m[2]) / m[0], v = ((i & 2 ? 1 : -1) - m[6]) / m[5];
+        const long double c = m[10] + m[8] * u + m[9] * v;
+        planes[0] = fminl(planes[0], m[11] / -c);
+        planes[1] = fmaxl(planes[1], 1 - c < 0 ? m[11] / (1 - c) : (long double)INFINITY);
+    }
+}
+
+static void any_oblique(rng *r, double m[ENTRIES]) {
+    const double all[ENTRIES] = {rng_uniform(r, 0.5, 3),
+                                 0,
+                                 rng_uniform(r, -0.5, 0.5),
+                                 0,
+                                 0,
+                                 rng_uniform(r, 0.5, 3),
+                                 rng_uniform(r, -0.5, 0.5),
+                                 0,
+                                 rng_log(r, 1e-6, 0.05),
+                                 -rng_log(r, 1e-6, 0.05),
+                                 rng_uniform(r, 1.2, 2),
+                                 -rng_uniform(r, 0.1, 2),
+                                 0,
+                                 0,
+                                 1,
+                                 0};
+    memcpy(m, all, sizeof all);
+}
+
+/* An entry half a unit in the last place below or above, of binary32 or of binary64. */
+static long double half_unit(double x, bool single, int side) {
+    const double way = side == 0 ? (double)-INFINITY : (double)INFINITY;
+    if (x == 0)
+        return 0;
+    return ((long double)x + (single ? (long double)nextafterf((float)x, (float)way) : nextafter(x, way))) / 2;
+}
+
+/*
+ * Oblique near planes: no end within what half a unit of each entry makes by hand, whatever is rounded on the way; of
+ * binary32 that is all.
+ */
 TEST(test_planes_of_oblique) {
+    static const int shaping[] = {0, 2, 5, 6, 8, 9, 10, 11};
     tally t = {.name = "planes of oblique matrices"};
     rng r = rng_make("oblique planes");
-    for (uint64_t k = test_cases(1000, 20000, 200000); k > 0; k--) {
-        double m[ENTRIES] = {rng_uniform(&r, 0.5, 3),
-                             0,
-                             rng_uniform(&r, -0.5, 0.5),
-                             0,
-                             0,
-                             rng_uniform(&r, 0.5, 3),
-                             rng_uniform(&r, -0.5, 0.5),
-                             0,
-                             rng_uniform(&r, -0.05, 0.05),
-                             rng_uniform(&r, -0.05, 0.05),
-                             rng_uniform(&r, 1.2, 2),
-                             -rng_uniform(&r, 0.1, 2),
-                             0,
-                             0,
-                             1,
-                             0};
-        long double near = INFINITY, far = 0;
-        for (int i = 0; i < 4; i++) {
-            const long double u = ((i & 1 ? 1 : -1) - (long double)m[2]) / m[0];
-            const long double v = ((i & 2 ? 1 : -1) - (long double)m[6]) / m[5];
-            const long double c = m[10] + m[8] * u + m[9] * v;
-            near = fminl(near, m[11] / -c);
-            far = fmaxl(far, 1 - c < 0 ? m[11] / (1 - c) : (long double)INFINITY);
-        }
-        for (int i = 0; i < ENTRIES; i++)
-            m[i] = (double)(float)m[i];
+    for (uint64_t k = test_cases(600, 4000, 100000); k > 0; k--) {
+        const bool single = k % 2 == 0;
+        double m[ENTRIES];
+        long double least[2] = {INFINITY, INFINITY}, most[2] = {0, 0};
         dp_projection p;
         dp_planes at;
+        any_oblique(&r, m);
+        for (int i = 0; i < ENTRIES; i++)
+            m[i] = single ? (double)(float)m[i] : m[i];
         if (dp_projection_init(&p, m, 0, 0, NULL) != DP_OK)
             continue;
-        TALLY(&t,
-              dp_projection_planes(&at, &p, m, NULL, NULL) == DP_OK && at.near_least <= near && near <= at.near_most &&
-                  at.far_least <= far && far <= at.far_most,
-              "%.17Lg, %.17Lg not in %.17g to %.17g, %.17g to %.17g", near, far, at.near_least, at.near_most,
-              at.far_least, at.far_most);
-        TALLY(&t, at.near_most - at.near_least < 2e-5 * at.near_most, "near %.9g to %.9g", at.near_least, at.near_most);
+        for (int corner = 0; corner < 256; corner++) {
+            long double entries[ENTRIES], planes[2];
+            for (int i = 0; i < ENTRIES; i++)
+                entries[i] = (long double)m[i];
+            for (int i = 0; i < 8; i++)
+                entries[shaping[i]] = half_unit(m[shaping[i]], single, corner >> i & 1);
+            oblique_by_hand(entries, planes);
+            for (int j = 0; j < 2; j++) {
+                least[j] = fminl(least[j], planes[j]);
+                most[j] = fmaxl(most[j], planes[j]);
+            }
+        }
+        assert_int_equal(dp_projection_planes(&at, &p, m, NULL, NULL), DP_OK);
+        const double is[4] = {at.near_least, at.near_most, at.far_least, at.far_most};
+        for (int i = 0; i < 4; i++) {
+            const long double ends[2] = {least[i / 2], most[i / 2]}, width = ends[1] - ends[0];
+            const long double beyond = i % 2 == 0 ? ends[0] - is[i] : is[i] - ends[1];
+            TALLY(&t, is[i] == ends[i % 2] || (beyond >= 0 && (!single || beyond <= 1e-5L * width)),
+                  "end %d: %.17g, not %.20Lg", i, is[i], ends[i % 2]);
+        }
     }
     tally_end(&t);
 }

@@ -60,12 +60,12 @@ const unit_row *option_unit(const asked_line *line, const char *name) {
     return *end != '\0' && unit_find(end) != NULL ? unit_find(end) : line->lengths->unit;
 }
 
-/* Letters behind digits make one expect a unit; those of 1e400 and 0x10 do not. */
+/* Letters behind digits make one expect a unit; those of 1e400, 0x10 and 0X1p9 do not. */
 const char *length_hint(const char *text, size_t length) {
     const size_t digits = strcspn(text, "0123456789");
     bool letter = false;
     for (size_t i = digits; i < length; i++)
-        letter = letter || (is_letter(text[i]) && strchr("eEx", text[i]) == NULL);
+        letter = letter || (is_letter(text[i]) && strchr("eExXpP", text[i]) == NULL);
     return letter ? "; " UNITS_ARE : "";
 }
 
