@@ -169,6 +169,19 @@ unknown_options() { # the options that README.md and the pages name and that no 
         grep -oE -e '(^|[^a-z-])--[a-z][a-z0-9-]*' | sed 's/^[^-]*//' | sort -u | comm -13 "$scratch/options" -
 }
 
+# Of plot, whose options depend on the figure, help lists those of some.
+takers() { # where `help options` and the help of a command part over whether it takes an option; none takes --help
+    "$DEPTHPREC" help options | awk '
+        /^  ....--/ { name = $0; sub(/^  ..../, "", name); sub(/[ =[].*/, "", name); takes = 0 }
+        /^ +Taken by/ { takes = 1; sub(/Taken by/, "") }
+        takes { ends = /[.]$/; gsub(/[.,]/, " "); if (NF == 0) print name, "nobody"; for (i = 1; i <= NF; i++) print name, $i; takes = !ends }' |
+        grep -v ' plot$' | sort >"$scratch/said"
+    verbs | grep -vx plot >"$scratch/verbs" && while read -r verb; do
+        "$DEPTHPREC" help "$verb" | sed -n "s/^  ....\\(--[a-z0-9-]*\\).*/\\1 $verb/p"
+    done <"$scratch/verbs" | grep -vE -e '^--(help|version) ' | sort >"$scratch/taken" && [ -s "$scratch/taken" ] || return
+    comm -3 "$scratch/said" "$scratch/taken"
+}
+
 found() { # what of the pages `man -k depth` does not find, by the tools of mandoc
     rm -rf "$scratch/share"
     for page in "$scratch"/man/*.[0-9]; do
@@ -211,6 +224,7 @@ for verb in $(verbs); do
     check "depthprec-$verb(1): every option" complete "$verb"
 done
 check "the pages name no option that no command has" empty unknown_options
+check "help says of each option which commands take it" empty takers
 PATH=$PATH:/usr/sbin
 apropos=$(command -v mapropos || command -v apropos) # Debian's name for that of mandoc
 if command -v makewhatis >/dev/null; then
