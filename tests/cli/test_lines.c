@@ -29,7 +29,7 @@ static double number_at(const asked_line *o, size_t field) {
 
 /* ---- Units of length --------------------------------------------------------------------------------------------- */
 
-enum { WORDS_MAX = 16 };
+enum { WORDS_MAX = 48 };
 
 /* A whole command line, words parted by '|'; `line` as parsed() has it. */
 static int parse_line(asked_line *o, const char *words, char line[1024]) {
@@ -207,6 +207,28 @@ TEST(test_no_hint) {
               line);
         options_release(&o);
     }
+    tally_end(&t);
+}
+
+/* What may be given several times is taken as often as there is room for, and no more often. */
+TEST(test_repeated) {
+    static const struct {
+        const char *line, *word;
+        int most;
+    } repeated[] = {{"methods|linearize", "|--mine|a.glsl:f", 8}, {"judge|a.glsl:f", "|--define|a=1", 16}};
+    tally t = {.name = "repeated options"};
+    for (size_t i = 0; i < sizeof repeated / sizeof repeated[0]; i++)
+        for (int count = repeated[i].most; count <= repeated[i].most + 1; count++) {
+            char words[512], line[1024];
+            asked_line o = {.request = NULL};
+            snprintf(words, sizeof words, "%s", repeated[i].line);
+            for (int k = 0; k < count; k++)
+                strcat(words, repeated[i].word);
+            const bool fine = parse_line(&o, words, line) == EXIT_FINE;
+            TALLY(&t, fine == (count == repeated[i].most) && (fine || strstr(line, "must not be more than") != NULL),
+                  "%s, %d times: %s", words, count, line);
+            options_release(&o);
+        }
     tally_end(&t);
 }
 
