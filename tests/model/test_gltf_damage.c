@@ -160,6 +160,32 @@ TEST(claims) {
 }
 #endif
 
+/* Blanks of JSON, and a mark of the order of bytes, may stand in front; what else is no glTF. */
+TEST(blanks_in_front) {
+    static const struct {
+        const char *front;
+        bool read;
+    } rows[] = {{" ", true},
+                {"\t", true},
+                {"\r", true},
+                {"\n", true},
+                {"\r\n \t", true},
+                {"\xef\xbb\xbf", true},
+                {"\xef\xbb\xbf\r\n", true},
+                {"\v", false},
+                {"\f", false},
+                {"\xbf", false}};
+    const model_asked asked = {0};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char text[64];
+        model m;
+        model_error error;
+        snprintf(text, sizeof text, "%s%s\"scene\":0}", rows[i].front, ASSET);
+        assert_false(model_parse(text, strlen(text), false, NULL, &asked, &m, &error)); /* it has nothing */
+        assert_int_equal(strstr(error.text, "is neither") == NULL, rows[i].read);
+    }
+}
+
 /* A .glb is what its .gltf is; cut anywhere it is refused, and whatever byte is changed it is read or refused. */
 TEST(containers) {
     static made f;
@@ -188,6 +214,18 @@ TEST(containers) {
     model_free(&m);
     for (size_t size = 0; size < f.used; size++)
         assert_false(model_parse(f.bytes, size, false, NULL, &asked, &m, &error));
+    made longer = f; /* of chunks of binary data the first counts, and what else there is does not */
+    for (uint32_t kind = 0x004E4942; kind <= 0x004E4943; kind++) {
+        put(&longer, 60, 4);
+        put(&longer, kind, 4);
+        for (int i = 0; i < 15; i++)
+            put_float(&longer, 7);
+    }
+    for (int i = 0; i < 4; i++)
+        longer.bytes[8 + i] = (unsigned char)(longer.used >> 8 * i);
+    assert_true(model_parse(longer.bytes, longer.used, false, NULL, &asked, &m, &error));
+    assert_true(m.triangles == 1 && m.position[2][1] == 4.0);
+    model_free(&m);
     for (uint64_t run = 0; run < test_cases(2000, 20000, 1000000); run++) {
         memcpy(glb, f.bytes, f.used);
         glb[rng_below(&r, f.used)] ^= (unsigned char)(1U << rng_below(&r, 8));
