@@ -17,8 +17,10 @@ static size_t count(void) {
 }
 
 TEST(test_required) {
-    static const char *const names[] = {"unity", "unity-gl",     "unreal", "godot-forward", "godot-mobile",
-                                        "three", "three-webgpu", "bevy",   "cesium",        "mujoco"};
+    static const char *const names[] = {
+        "unity",        "unity-gl", "unreal",    "godot-forward", "godot-mobile",        "three",
+        "three-webgpu", "bevy",     "cesium",    "mujoco",        "godot-compatibility", "r3f",
+        "aframe",       "babylon",  "playcanvas"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_non_null(preset_find(names[i]));
     const name_list presets = {.rows = &preset_table};
@@ -75,6 +77,12 @@ TEST(test_known_values) {
     dp_format formats[2];
     assert_int_equal(dp_format_parse(preset_find("three-webgpu")->format, formats), 2); /* depth24plus */
     assert_string_equal(preset_find("unreal")->unit, "cm");
+    /* reversed, with NDC depth in [-1, 1]; fov = 0.8 radians; planes of its own */
+    assert_int_equal(preset_find("godot-gl")->mapping, DP_MAPPING_GL_REVERSED);
+    assert_true(fabs(preset_find("babylonjs")->fov * acos(-1.0) / 180.0 - 0.8) < 1e-15);
+    assert_true(preset_find("react-three-fiber")->zfar == 1000 && preset_find("three.js")->zfar == 2000);
+    assert_true(preset_find("godot") == preset_find("godot-forward"));
+    assert_true(preset_find("Unity-HDRP") == preset_find("unity"));
     assert_true(isinf(preset_find("unreal")->zfar) && isinf(preset_find("bevy")->zfar));
     assert_int_equal(preset_find("unity")->mapping, DP_MAPPING_REVERSED);
     assert_int_equal(preset_find("unity-gl")->mapping, DP_MAPPING_GL);

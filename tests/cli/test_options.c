@@ -353,7 +353,8 @@ TEST(test_rows) {
          "safari"},
         {"bias", "api", AT(bias, bias.api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
         {"bias", "api", AT(bias, bias.api), "all", NULL, 0, "metall", "metal"},
-        {"bias", "api", AT(bias, bias.api), "direct3d12", "d3d12", offsetof(bias_api, name), "d3d14", "d3d11"},
+        {"bias", "api", AT(bias, bias.api), "direct3d12", "d3d12", offsetof(bias_api, name), "d3d14",
+         "d3d11' or 'd3d12"},
         {"bias", "api", AT(bias, bias.api), "gl,d3d12", NULL, 0, "gl,d3d14", "d3d11"},
         {"prepass", "program", AT(prepass, program), "FMA", "fma", offsetof(vertex_program, name), "separatr",
          "separate"},
@@ -390,7 +391,7 @@ TEST(test_rows) {
         TALLY(&t, rows[i].name == NULL ? row == NULL : name != NULL && strcmp(name, rows[i].name) == 0, "--%s %s: %s",
               rows[i].id, rows[i].given, name != NULL ? name : "no row");
         TALLY(&t, parse(&o, rows[i].command, rows[i].id, rows[i].near, line) == EXIT_USAGE, "%s", rows[i].near);
-        snprintf(meant, sizeof meant, "; did you mean '%s'?", rows[i].meant);
+        snprintf(meant, sizeof meant, "; did you mean '%s'", rows[i].meant);
         TALLY(&t, strstr(line, meant) != NULL, "%s: %s", meant, line);
         parse(&o, rows[i].command, "quiet", NULL, line);
         memcpy(&row, (const char *)o.request + rows[i].field, sizeof row);

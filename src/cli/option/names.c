@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <string.h>
+#include <strings.h>
 
 #include "core/append.h"
 
@@ -86,44 +87,71 @@ static int edits(const char *a, size_t a_length, const char *b, size_t b_length)
     return above[b_length];
 }
 
-/* The name nearest to one that is not known. */
+/* The two names nearest to one that is not known. */
+enum { NEAREST = 2 };
 typedef struct nearest {
     const char *given;
-    int distance; /* edits to it */
-    char name[LENGTH_MAX + 1];
+    size_t count;
+    struct {
+        int distance;
+        char name[LENGTH_MAX + 1];
+    } best[NEAREST];
 } nearest;
 
-/* Offers names that are separated by spaces. */
-static void offer(nearest *s, const char *list) {
-    const size_t given_length = strlen(s->given);
-    /* One letter in four may be wrong, and one more: more than that is another word. */
-    int limit = min(1 + (int)given_length / 4, s->distance - 1);
-    while (list != NULL && *list != '\0') {
-        const size_t length = strcspn(list, " ");
-        if (length > 1 && length <= LENGTH_MAX) {
-            const int distance = edits(s->given, given_length, list, length);
-            if (distance <= limit && distance < (int)length) {
-                s->distance = distance;
-                limit = distance - 1;
-                memcpy(s->name, list, length);
-                s->name[length] = '\0';
-            }
+/* Edits to a name; one where that begins so, the most where it is longer than a name. LENGTH_MAX: another word. */
+static int distance_to(const char *given, size_t given_length, const char *name, size_t length) {
+    const int limit = 1 + (int)given_length / 4; /* one letter in four may be wrong, and one more */
+    const size_t common = given_length < length ? given_length : length;
+    const bool begins = common > 2 && strncasecmp(given, name, common) == 0;
+    if (length <= 1 || length > LENGTH_MAX)
+        return LENGTH_MAX;
+    if (begins && given_length < length)
+        return 1;
+    const int distance = edits(given, given_length, name, length);
+    return distance <= limit && distance < (int)length ? distance : begins && given[length] == '-' ? limit : LENGTH_MAX;
+}
+
+/* Keeps a name where it is among the nearest; of those as near the first. */
+static void keep(nearest *s, int distance, const char *name, size_t length) {
+    size_t at = s->count;
+    while (at > 0 && s->best[at - 1].distance > distance)
+        at--;
+    if (at == NEAREST || distance >= LENGTH_MAX)
+        return;
+    s->count += s->count < NEAREST;
+    memmove(&s->best[at + 1], &s->best[at], (s->count - at - 1) * sizeof s->best[0]);
+    s->best[at].distance = distance;
+    memcpy(s->best[at].name, name, length);
+    s->best[at].name[length] = '\0';
+}
+
+/* Offers the nearest name or other spelling of one thing. */
+static void offer(nearest *s, const list_item *item) {
+    const char *const lists[] = {item->name, item->aliases};
+    int least = LENGTH_MAX;
+    const char *best = NULL;
+    for (size_t i = 0; i < 2; i++)
+        for (const char *name = lists[i]; name != NULL && *name != '\0'; name += strspn(name, " ")) {
+            const size_t length = strcspn(name, " ");
+            const int distance = distance_to(s->given, strlen(s->given), name, length);
+            best = distance < least ? name : best;
+            least = distance < least ? distance : least;
+            name += length;
         }
-        list += length;
-        list += strspn(list, " ");
-    }
+    if (best != NULL)
+        keep(s, least, best, strcspn(best, " "));
 }
 
 const char *names_nearest(const name_list *n, const char *prefix, const char *given, char out[NAMES_SIZE]) {
-    nearest s = {.given = given, .distance = LENGTH_MAX};
+    nearest s = {.given = given};
     list_item item;
     out[0] = '\0';
-    for (size_t i = 0; *given != '\0' && strlen(given) <= LENGTH_MAX && names_get(n, i, &item); i++) {
-        offer(&s, item.name);
-        offer(&s, item.aliases);
-    }
-    if (s.name[0] != '\0')
-        append(out, NAMES_SIZE, "; did you mean '%s%s'?", prefix, s.name);
+    for (size_t i = 0; *given != '\0' && strlen(given) <= LENGTH_MAX && names_get(n, i, &item); i++)
+        offer(&s, &item);
+    s.count -= s.count == NEAREST && s.best[1].distance > s.best[0].distance + 1; /* the first is meant */
+    for (size_t i = 0; i < s.count; i++)
+        append(out, NAMES_SIZE, "%s'%s%s'", i == 0 ? "; did you mean " : " or ", prefix, s.best[i].name);
+    append(out, NAMES_SIZE, "%s", s.count > 0 ? "?" : "");
     return out;
 }
 

@@ -104,20 +104,14 @@ static int unknown_option(const asked_line *line, const known *k, int refused, c
     if (refused != 0)
         return usage_error("unknown option '-%c'; 'depthprec help %s' lists its options", refused, line->command->name);
     const int length = (int)strcspn(argument, "=");
-    const char *taken[OPTIONS_MAX + 1], *begun[OPTIONS_MAX + 1];
-    size_t taken_count = 0, begun_count = 0;
-    for (size_t i = 0; i < k->count; i++) {
-        const char *name = k->rows[i]->name;
-        if (length > 2 && strncmp(name, argument + 2, (size_t)length - 2) == 0)
-            begun[begun_count++] = name;
-        if (option_used(line->command, ~0U, option_find(line->command, name)).row != NULL)
-            taken[taken_count++] = name;
-    }
-    begun[begun_count] = taken[taken_count] = NULL;
+    const char *taken[OPTIONS_MAX + 1];
+    size_t count = 0;
+    for (size_t i = 0; i < k->count; i++)
+        if (option_used(line->command, ~0U, option_find(line->command, k->rows[i]->name)).row != NULL)
+            taken[count++] = k->rows[i]->name;
+    taken[count] = NULL;
     char text[NAMES_SIZE], given[64] = "";
-    const name_list all = {.words = begun_count > 1 ? begun : taken};
-    if (begun_count > 1)
-        return usage_error("option '%.*s' could be --%s", length, argument, names_join(&all, ", --", " or --", text));
+    const name_list all = {.words = taken};
     append(given, sizeof given, "%.*s", length > 2 ? length - 2 : 0, argument + (length > 2 ? 2 : 0));
     dp_mapping mapping;
     if (dp_mapping_parse(given, &mapping) == DP_OK)
@@ -204,7 +198,13 @@ static int ask_for_help(asked_line *line, const option_row *row, const command_r
  */
 static int read_words(asked_line *line, const known *k, int argc, char **argv, const command_row *about, bool early) {
     optind = 0; /* start anew, also when an earlier call stopped half-way */
-    for (int value; (value = getopt_long(argc, argv, k->letters + 1, k->longs, NULL)) != -1;) {
+    int found = -1;
+    for (int value; (value = getopt_long(argc, argv, k->letters + 1, k->longs, &found)) != -1; found = -1) {
+        const char *const word = argv[optind > 1 && optarg == argv[optind - 1] ? optind - 2 : optind - 1];
+        /* The beginning of an option is none: of other tools it is a word of its own. */
+        const bool cut = found >= 0 && strcspn(word, "=") != strlen(k->longs[found].name) + 2;
+        if (cut)
+            value = '?';
         const option_row *row = row_of_value(k, value == ':' ? optopt : value, line->command);
         /* An argument that is missing behind a word: musl's getopt returns the option itself, without one. */
         const bool lacks = value == ':' || (value != '?' && takes_argument(row) && optarg == NULL);
@@ -212,7 +212,7 @@ static int read_words(asked_line *line, const known *k, int argc, char **argv, c
         if (early && ends)
             return EXIT_FINE;
         if (value == '?')
-            return unknown_option(line, k, optopt, argv[optind > 1 ? optind - 1 : 1]);
+            return unknown_option(line, k, cut ? 0 : optopt, cut ? word : argv[optind > 1 ? optind - 1 : 1]);
         if (lacks)
             return needs_argument(line, row);
         if (ends)
