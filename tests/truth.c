@@ -70,8 +70,6 @@ int truth_run(const char *const *arguments, size_t count) {
     assert_non_null(freopen(truth_path("said"), "w", stderr));
     int status = options_parse(&o, (int)count + 2, argv);
     if (status == EXIT_FINE)
-        status = option_check_rules(&o);
-    if (status == EXIT_FINE)
         status = cmd_texture(o.request);
     options_release(&o);
     fflush(stderr);

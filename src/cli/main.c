@@ -48,8 +48,6 @@ int main(int argc, char **argv) {
     method_start();
     int status = options_parse(&line, argc, argv);
     if (status == EXIT_FINE)
-        status = option_check_rules(&line);
-    if (status == EXIT_FINE)
         status = refuse_overwriting(&line);
     if (status == EXIT_FINE)
         status = run(&line);

@@ -27,23 +27,39 @@
 
 static const char *tried[OPTIONS_MAX]; /* names, each once */
 
+/* Some are refused alone. */
+static const struct {
+    const char *command, *names, *beside;
+} needing[] = {{"", " hfov raster subpixel slant triangle-class ", "--viewport=64x48"},
+               {"texture", " radial lattice ", "--metric=1m"},
+               {"texture", " tint ", "--picture=a.png"},
+               {"scene", " look ", "--eye=0,0,0"},
+               {"scene", " eye ", "--look=0,0,0"}};
+
+static const char *needed(const char *command, const char *name) {
+    char spaced[64];
+    snprintf(spaced, sizeof spaced, " %s ", name);
+    for (size_t i = 0; i < sizeof needing / sizeof needing[0]; i++)
+        if (strncmp(command, needing[i].command, strlen(needing[i].command)) == 0 &&
+            strstr(needing[i].names, spaced) != NULL)
+            return needing[i].beside;
+    return NULL;
+}
+
 /* One option behind a command, and its operand; `line` is what was said on stderr, without its line feed. */
 static int parse(asked_line *o, const char *command, const char *id, const char *value, char line[1024]) {
-    char words[32], name[64], given[128], viewport[] = "--viewport=64x48";
-    static const char *const of_view[] = {"hfov", "raster", "subpixel", "slant", "triangle-class"};
-    bool slants = false;
-    for (size_t k = 0; k < sizeof of_view / sizeof of_view[0]; k++)
-        slants = slants || strcmp(of_view[k], id) == 0;
+    char words[32], name[64], given[128], beside[32];
     snprintf(words, sizeof words, "%s", command);
     snprintf(name, sizeof name, "--%s", id);
     snprintf(given, sizeof given, "%s", value != NULL ? value : "");
+    snprintf(beside, sizeof beside, "%s", needed(command, id) != NULL ? needed(command, id) : "");
     char *const operand = strchr(words, ' ');
     char *argv[7] = {(char[]){"depthprec"}, words, name};
     int argc = 3;
     if (value != NULL)
         argv[argc++] = given;
-    if (slants)
-        argv[argc++] = viewport;
+    if (*beside != '\0')
+        argv[argc++] = beside;
     if (operand != NULL) {
         argv[argc++] = operand + 1;
         *operand = '\0';
@@ -607,7 +623,7 @@ TEST(test_places) {
     assert_int_equal(parse(&o, "scene m.obj", "look", "-5m,60cm,7m", line), EXIT_FINE);
     assert_true(ASKED(scene, o)->scene.look[0] == -5 && ASKED(scene, o)->scene.look[1] == 0.6 &&
                 ASKED(scene, o)->scene.look[2] == 7 && ASKED(scene, o)->scene.eye[0] == 0 &&
-                ASKED(scene, o)->camera.triangles.width == 0);
+                ASKED(scene, o)->camera.triangles.width == 1920);
     assert_int_equal(parse(&o, "texture", "eye", "1,-2,3e4", line), EXIT_FINE);
     assert_true(ASKED(texture, o)->image.eye[0] == 1 && ASKED(texture, o)->image.eye[1] == -2 &&
                 ASKED(texture, o)->image.eye[2] == 3e4 && ASKED(texture, o)->camera.triangles.width == 0);

@@ -268,7 +268,9 @@ static int finish(asked_line *line) {
     set_own_defaults(line);
     if (v->part != NULL)
         status = option_check_parts(line, v, v->part(line->request));
-    return status == EXIT_FINE && v->complete != NULL ? v->complete(line->request) : status;
+    if (status == EXIT_FINE && v->complete != NULL)
+        status = v->complete(line->request);
+    return status == EXIT_FINE ? option_check_rules(line) : status;
 }
 
 int options_parse(asked_line *line, int argc, char **argv) {
