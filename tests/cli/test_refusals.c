@@ -190,6 +190,7 @@ static const refusal refusals[] = {
     {"plot map -o x.svg --axes 1:2,1:2", "axes", 2},
     {"plot error -o x.svg --beside '-n -1'", "near", 2},
     {"plot error -o x.svg --beside '-n 1 --title x'", "beside", 2},
+    {"plot interval -F d24 -o x.svg --beside '--viewport 640x480 --fov 40 --hfov 50'", "hfov", 2},
     {"plot distribution -o x.svg -F unorm24 --beside '-F unorm2'", "beside", 2},
     {"plot map -o x.svg --at 5 --range 1:2", "at", 2},
     {"plot error -o x.svg --from-origin 5", "from-origin", 2},

@@ -76,14 +76,14 @@ const range = (r, c) => {
 const view = (r) => [["--viewport", r.of(["1920x1080", "640x360", "7x5"])],
     ...(r.chance(0.3) ? [["--fov", written(r, r.between(10, 120))]] : []),
     ...(r.chance(0.3) ? [["--raster", r.of(names.rasters)]] : []),
-    ...(r.chance(0.3) ? [["--subpixel", String(r.below(9))]] : []),
+    ...(r.chance(0.3) ? [["--subpixel", String(1 + r.below(8))]] : []),
     ...(r.chance(0.3) ? [["--slant", `${r.below(40)}:${40 + r.below(50)}`]] : [])].flat();
 const model = (r) => ["--model", r.of(["exact", "float", "staged", "auto"]),
     ...(r.chance(0.4) ? ["--arith", r.of(names.ariths)] : [])];
 const some = (r, share, words) => (r.chance(share) ? words() : []);
 const terms = (r) => [some(r, 0.3, () => ["--from-origin", written(r, r.spread(1, 1e5))]),
     some(r, 0.3, () => ["--interpolation", written(r, r.spread(0.1, 10))]), some(r, 0.2, () => ["--linearize"])].flat();
-const form = (r) => r.of([[], ["--json"], ["--json"], ["--csv"], ["--csv"], ["--full"], ["-v"]]);
+const form = (r) => r.of([[], ["--json"], ["--json"], ["--csv"], ["--csv"], ["--full"]]);
 const planned = (r) => [some(r, 0.05, () => ["--ortho"]), some(r, 0.08, () => ["--preset", r.of(names.presets)]),
     some(r, 0.05, () => ["--unit", r.of(["m", "cm", "ft"])])].flat();
 
@@ -101,7 +101,7 @@ const commands = {
             ...some(r, 0.3, () => ["--sample", String(1 + r.below(300)), "--seed", String(r.below(1000))]), ...some(r, 0.2, () => view(r))];
     },
     prepass: (r, c) => [...c.words, "--against", r.of(["fma", "separate,right", "all"]), ...some(r, 0.3, () => ["--program", r.of(["fma", "pairs"])]),
-        "--sample", String(1 + r.below(2000)), ...some(r, 0.3, () => ["--vertices", "box", "--world", written(r, r.spread(1, 1e4))]),
+        "--sample", String(1 + r.below(2000)), ...some(r, 0.3, () => ["--vertices", "box", "--from-origin", written(r, r.spread(1, 1e4))]),
         ...some(r, 0.3, () => ["--range", range(r, c)]), ...some(r, 0.3, () => ["--seed", String(r.below(1000))])],
     budget: (r, c) => [...c.words, ...planned(r), ...some(r, 0.3, () => ["--arith", r.of(names.ariths)]),
         ...some(r, 0.6, () => ["--at", depths(r, c)]), ...terms(r), ...some(r, 0.4, () => view(r))],
@@ -113,9 +113,10 @@ const commands = {
             ...some(r, 0.1, () => ["--error", written(r, r.spread(1e-6, 1))])];
     },
     bias: (r, c) => [...c.words, ...planned(r), "--api", r.of(names.apis), ...some(r, 0.6, () => ["--at", depths(r, c)]),
-        ...some(r, 0.4, () => ["--units", written(r, r.between(-20, 20))]), ...some(r, 0.3, () => ["--factor", written(r, r.between(-4, 4))]),
-        ...some(r, 0.3, () => ["--slope", written(r, r.spread(1e-4, 1))]), ...some(r, 0.2, () => ["--clamp", written(r, r.between(-0.1, 0.1))]),
-        ...some(r, 0.5, () => ["--separation", written(r, r.spread(1e-5, 1), true)]), ...some(r, 0.2, () => view(r))],
+        ...(r.chance(0.4) ? ["--units", written(r, r.between(-20, 20)), ...some(r, 0.3, () => ["--clamp", written(r, r.between(-0.1, 0.1))])]
+            : [...some(r, 0.5, () => ["--separation", written(r, r.spread(1e-5, 1), true)]), ...some(r, 0.2, () => view(r))]),
+        ...some(r, 0.3, () => ["--factor", written(r, r.between(-4, 4))]),
+        ...some(r, 0.3, () => ["--slope", written(r, r.spread(1e-4, 1))])],
     plot: (r, c) => {
         const figure = r.of(FIGURES);
         return [figure, ...c.words, ...some(r, 0.4, () => model(r)), ...some(r, 0.2, () => ["--at", depths(r, c)]),
