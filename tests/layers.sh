@@ -201,8 +201,8 @@ check "options are named as their rows are" empty unnamed_options
 # A sentence names values by the keys of columns, behind those of the parts that they are in.
 unnamed_values() {
     find src -name '*.c' >"$scratch/files"
-    xargs grep -hoE '(FIELD|PART|GROUP|LIST)\([^()"]*"[a-z0-9_]+"' <"$scratch/files" | sed 's/.*"\(.*\)"/\1/' |
-        sort -u >"$scratch/named" && grep -q '^near$' "$scratch/named" || return
+    xargs grep -hoE '(FIELD|PART|GROUP|LIST)\([^()"]*"[a-z0-9_]+"|(WORD|LENGTH|NUMBER)\([a-z_]+, [a-z0-9_]+' <"$scratch/files" |
+        sed 's/"$//; s/.*[" ]//' | sort -u >"$scratch/named" && grep -q '^near$' "$scratch/named" || return
     xargs grep -lF '#include "report/sentence.h"' src/*/cmd*/*.h <"$scratch/files" | xargs grep -hE '"[^"]*\{[a-z]' |
         grep -oE '\{[a-z][a-z0-9_.]*[:}]' | tr -d '{}:' | tr . '\n' | sort -u | comm -23 - "$scratch/named"
 }

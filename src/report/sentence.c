@@ -104,11 +104,11 @@ void page_say(page *p, const sentence *rows, const column *columns, void *item, 
     }
 }
 
-const char *sentence_first(const sentence *rows, const column *columns, void *item, unsigned when,
+const char *sentence_first(const page *p, const sentence *rows, const column *columns, void *item, unsigned when,
                            char out[SENTENCE_SIZE]) {
     const page bare = {.unit = NULL};
     for (; rows->form != SENTENCE_NONE; rows++)
-        if ((rows->when & ~when) == 0 && fill(rows->words, columns, item, &bare, out, SENTENCE_SIZE))
+        if ((rows->when & ~when) == 0 && fill(rows->words, columns, item, p != NULL ? p : &bare, out, SENTENCE_SIZE))
             return out;
     out[0] = '\0';
     return out;

@@ -44,13 +44,22 @@ typedef struct sentence {
 #define SENTENCE_END                                                                                                   \
     { .form = SENTENCE_NONE }
 
+/* Columns that sentences alone name, by the member. */
+#define WORD(type, member)                                                                                             \
+    { FIELD(type, member, #member, "") }
+#define LENGTH(type, member, its_digits)                                                                               \
+    { FIELD(type, member, #member, "scene"), .digits = (its_digits), .given = true }
+#define NUMBER(type, member) /* a number_text, which is as it is told */                                               \
+    { FIELD(type, member.text, #member, "") }
+
 /** Says them in order. A name that no column has is left in its braces. */
 void page_say(page *p, const sentence *rows, const column *columns, void *item, unsigned when);
 
 enum { SENTENCE_SIZE = 1024 };
 
-/** The first of them that is said, without label, form and units; "" where none is. @return out */
-const char *sentence_first(const sentence *rows, const column *columns, void *item, unsigned when,
+/** The first of them that is said, without label and form; "" where none is. The page tells units, or is null.
+ * @return out */
+const char *sentence_first(const page *p, const sentence *rows, const column *columns, void *item, unsigned when,
                            char out[SENTENCE_SIZE]);
 
 #endif

@@ -107,7 +107,7 @@ TEST(one_of_alternatives) {
                  dear && seeded ? "  of 0.5\n" : "", sweet ? "ripe\n" : "");
         assert_string_equal(said(rows, f, (sweet ? SWEET : 0) | (dear ? DEAR : 0), NULL, NULL), want);
         char first[SENTENCE_SIZE];
-        sentence_first(rows, columns, &f, (sweet ? SWEET : 0) | (dear ? DEAR : 0), first);
+        sentence_first(NULL, rows, columns, &f, (sweet ? SWEET : 0) | (dear ? DEAR : 0), first);
         assert_string_equal(first, sweet && massive ? "sweet, 0.5"
                                    : seeded         ? "seed 4"
                                    : sweet && dear  ? "sweet and dear"

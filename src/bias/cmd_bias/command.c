@@ -93,7 +93,7 @@ static void write_call(const biasing *b, bias_row *r) {
     if (!isnan(units))
         append(r->call, sizeof r->call, "%s", bias_call(&b->api, units, r->factor).text);
     if (isnan(units))
-        sentence_first(no_call, bias_need_columns, &r->gap, bias_need_place(&r->gap), r->said);
+        sentence_first(NULL, no_call, bias_need_columns, &r->gap, bias_need_place(&r->gap), r->said);
     else /* a factor that is chosen is long, and the same for all */
         append(r->said, sizeof r->said, "%s",
                b->chosen ? bias_call_of(&b->api, bias_short(units).text, "F").text : r->call);

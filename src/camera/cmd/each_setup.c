@@ -55,13 +55,8 @@ bool each_setup_depth(each_setup *w, size_t i, double *z) {
     return true;
 }
 
-static number_text as_given(const void *of, double value, int digits) {
-    return lengths_text(of, value, digits);
-}
-
 void each_setup_title(page *p, void *item) {
     const each_setup *w = item;
-    p->as_given = as_given;
-    p->lengths = &w->here->lengths;
+    camera_page(p, w->here);
     setup_title(p, w->setup, &w->fields);
 }

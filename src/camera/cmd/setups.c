@@ -201,6 +201,16 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
     return out;
 }
 
+static number_text as_given(const void *of, double value, int digits) {
+    return lengths_text(of, value, digits);
+}
+
+void camera_page(page *p, const camera_asked *c) {
+    p->unit = camera_unit(c);
+    p->as_given = as_given;
+    p->lengths = &c->lengths;
+}
+
 void setup_title(page *p, const dp_setup *setup, const setup_fields *fields) {
     char label[SETUP_LABEL_SIZE];
     const char *engine = fields->preset, *unit = fields->unit;

@@ -80,6 +80,9 @@ void setup_fields_budget(const dp_setup *setup, setup_fields *fields);
 /** The label as such fields have model and arithmetic. @return out */
 const char *setup_label_as(const dp_setup *setup, const setup_fields *fields, char out[SETUP_LABEL_SIZE]);
 
+/** Tells a page the unit of a camera's lengths, and those that were asked for as they were written. */
+void camera_page(page *p, const camera_asked *c);
+
 /** Writes a set-up's label and unit, which is that of the page from here on. */
 void setup_title(page *p, const dp_setup *setup, const setup_fields *fields);
 

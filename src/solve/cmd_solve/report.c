@@ -9,6 +9,7 @@
 #include "camera/cmd/slant.h"
 #include "core/append.h"
 #include "core/elementary.h"
+#include "report/sentence.h"
 #include "solve/cmd_solve/report.h"
 #include "solve/cmd_solve/request.h"
 
@@ -28,59 +29,7 @@ double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool s
                : (double)NAN;
 }
 
-enum { DIGITS_MOST = 17, UNITS = 8, PHRASE_SIZE = 256 };
-
-/* A part of a sentence; lives until the statement ends. */
-typedef struct phrase {
-    char text[PHRASE_SIZE];
-} phrase;
-
-static bool is_slanted(const solve_report *r) {
-    return r->o->camera.triangles.width > 0;
-}
-
-static bool is_near(const solve_candidate *c) {
-    return c->unknown == SOLVE_NEAR;
-}
-
-static const char *target_name(const solve_report *r) {
-    return option_word("for", r->target);
-}
-
-/* Lengths, with the unit where it is known. */
-static number_text in_unit(const solve_report *r, number_text number) {
-    return number_in(number, camera_unit(&r->o->camera));
-}
-
-static number_text whole(const solve_report *r, double value) {
-    return camera_length(&r->o->camera, value, 0);
-}
-
-static number_text digits(const solve_report *r, double value) {
-    return camera_length(&r->o->camera, value, SOLVE_DIGITS);
-}
-
-static number_text up(const solve_report *r, double value) {
-    return in_unit(r, number_up(value, SOLVE_DIGITS));
-}
-
-static number_text bound(const solve_report *r, double value, bool upward) {
-    return upward ? up(r, value) : in_unit(r, number_down(value, SOLVE_DIGITS));
-}
-
-/* The measured value in the unit of the one wanted, and that beside it. */
-static number_two against_wanted(const solve_report *r, double value) {
-    const solve_request *o = r->o;
-    const unit_row *unit = option_unit(o->line, r->kind == MEASURE_ERROR ? "error" : "separation");
-    const char *name = unit != NULL ? unit->name : NULL;
-    const number_two out = number_compared(unit_convert(value, o->camera.lengths.unit, unit),
-                                           unit_convert(r->limit, o->camera.lengths.unit, unit), SOLVE_DIGITS);
-    return (number_two){number_in(out.value, name), number_in(out.limit, name)};
-}
-
-static number_text measured(const solve_report *r, double value) {
-    return against_wanted(r, value).value;
-}
+enum { DIGITS_MOST = 17, UNITS = 8, PHRASES = 6 };
 
 /* ---- Numbers that keep what they promise, as they are printed ---------------------------------------------------- */
 
@@ -104,238 +53,252 @@ number_text solve_safe_digits(const solve_report *r, const solve_candidate *c, d
     return number_full(value);
 }
 
-static number_text safe_digits(const solve_report *r, const solve_candidate *c, double value, double until) {
+/* ---- What is told ------------------------------------------------------------------------------------------------ */
+
+/* The answer in words, and in numbers as they keep what they promise; null and "" where they are not told. */
+typedef struct told {
+    const solve_report *report;
+    const solve_candidate *answer;
+    const char *target, *measure, *mapping, *ortho, *at_slant, *property, *manner, *model, *effort;
+    number_text goal, wanted, best, from, to, facing, lattice_best, guaranteed, short_of;
+    double plane, throughout;
+    const char *given, *goals, *fight, *ideal; /* phrases */
+    char text[PHRASES][SENTENCE_SIZE];         /* of phrases */
+} told;
+
+static const column asked_columns[] = {
+    LENGTH(solve_report, limit, 0),
+    LENGTH(solve_report, lo, 0),
+    LENGTH(solve_report, hi, 0),
+    {FIELD(solve_report, fight.first, "first", "scene"), .digits = SOLVE_DIGITS, .downward = true},
+    {FIELD(solve_report, fight.searched, "searched", "scene"), .digits = SOLVE_DIGITS, .downward = true},
+    {.kind = COLUMN_END}};
+static const column answer_columns[] = {
+    {FIELD(solve_candidate, spec.format.name, "format", "")},
+    {FIELD(solve_candidate, spec.znear, "near", "scene"), .given = true},
+    {FIELD(solve_candidate, spec.zfar, "far", "scene"), .given = true},
+    {FIELD(solve_candidate, reached.z, "z", "scene"), .digits = SOLVE_DIGITS, .given = true},
+    {FIELD(solve_candidate, reached.z, "z_down", "scene"), .digits = SOLVE_DIGITS, .downward = true},
+    {FIELD(solve_candidate, distance.value, "up_to", "scene"), .digits = SOLVE_DIGITS, .downward = true},
+    {FIELD(solve_candidate, lattice.reached.z, "lattice_z", "scene"), .digits = SOLVE_DIGITS, .given = true},
+    {FIELD(solve_candidate, lattice.value, "ideal_least", "scene"), .digits = SOLVE_DIGITS, .upward = true},
+    {FIELD(solve_candidate, lattice.value, "ideal_most", "scene"), .digits = SOLVE_DIGITS, .downward = true},
+    {.kind = COLUMN_END}};
+/* clang-format off */
+static const column told_columns[] = {
+    {PART(told, report, NULL, asked_columns), .pointed = true},
+    {PART(told, answer, NULL, answer_columns), .pointed = true},
+    WORD(told, target), WORD(told, measure), WORD(told, mapping), WORD(told, ortho), WORD(told, at_slant),
+    WORD(told, property), WORD(told, manner), WORD(told, model), WORD(told, effort), LENGTH(told, plane, 0),
+    LENGTH(told, throughout, 0), NUMBER(told, goal), NUMBER(told, wanted), NUMBER(told, best), NUMBER(told, from),
+    NUMBER(told, to), NUMBER(told, facing), NUMBER(told, lattice_best), NUMBER(told, guaranteed),
+    NUMBER(told, short_of), WORD(told, given), WORD(told, goals), WORD(told, fight), WORD(told, ideal),
+    {.kind = COLUMN_END}};
+/* clang-format on */
+
+/* Conditions of sentences: of the question, of the answer, and of what stands behind it. */
+enum { OF_DISTANCE = 1, OF_NEAR = 2, OF_FAR = 4, OF_ERROR = 8, OVER_RANGE = 16 };
+enum { POSSIBLE = 32, SOLVED = 64, AS_IT_IS = 128, IS_NEAR = 256, CERTAIN = 512, UNCERTAIN = 1024, ANY_PASSES = 2048 };
+enum { UNBOUNDED = 1 << 12, CHEAPEST = 1 << 13, ALONE = 1 << 14, EXACT = 1 << 15, NOT_IDEAL = 1 << 16 };
+enum { NO_NEAR = 1 << 17, NO_FAR = 1 << 18, BESIDE = 1 << 19, NOT_ENOUGH = 1 << 20, NOTHING_SAFE = 1 << 21 };
+
+static const sentence given_words[] = {PROSE("{format} {mapping}{ortho}, far {far},", OF_NEAR),
+                                       ELSE("{format} {mapping}{ortho}, near {near},", OF_FAR),
+                                       ELSE("{format} {mapping}{ortho}, near {near}, far {far}", 0), SENTENCE_END};
+
+/* Behind "keeps" or "to keep": {goals} says which. */
+static const sentence goal_words[] = {
+    PROSE("keep{goals} the error within {goal} from z = {lo} to {hi}", OF_ERROR | OVER_RANGE),
+    ELSE("keep{goals} the error within {goal} at z = {lo}", OF_ERROR),
+    ELSE("resolve{goals} {goal}{at_slant} from z = {lo} to {hi}", OVER_RANGE),
+    ELSE("resolve{goals} {goal}{at_slant} at z = {lo}", 0), SENTENCE_END};
+
+static const sentence fight_words[] = {PROSE("; first found to z-fight at z = {first}", 0),
+                                       ELSE("; no z-fighting found up to z = {searched}", 0),
+                                       ELSE("; nothing up to z = {hi} lies that far behind it", ALONE), SENTENCE_END};
+
+static const sentence ideal_words[] = {PROSE("", EXACT), ELSE("; nor in the lattice", NOT_IDEAL),
+                                       ELSE("; in the lattice up to {ideal_most}", 0), SENTENCE_END};
+
+static const sentence answer_words[] = {
+    PROSE("{given}: {property} {limit}{at_slant} {manner} from z = {lo} up to z = {throughout}{fight}{ideal}.",
+          OF_DISTANCE | POSSIBLE),
+    ELSE("{given}: {property} {limit}{at_slant} {manner} from z = {lo} up to z = {up_to}{fight}{ideal}.",
+         OF_DISTANCE | POSSIBLE),
+    ELSE("Impossible: {given}: {property} {limit}{at_slant} {manner} even at z = {lo}{fight}{ideal}.", OF_DISTANCE),
+    ELSE("{given} {goals}, the cheapest that does.", POSSIBLE | AS_IT_IS | CHEAPEST),
+    ELSE("{given} {goals}.", POSSIBLE | AS_IT_IS),
+    ELSE("Near {from} suffices for {given} to {goals}, and so does any larger one up to {to}.",
+         POSSIBLE | UNCERTAIN | IS_NEAR),
+    ELSE("Far {to} suffices for {given} to {goals}, and so does any smaller one down to {from}.", POSSIBLE | UNCERTAIN),
+    ELSE("Any {target} from {from} to {to} suffices for {given} to {goals}.", POSSIBLE | ANY_PASSES),
+    ELSE("Near must be at least {from} for {given} to {goals}.", POSSIBLE | IS_NEAR),
+    ELSE("Far may be at most {to} for {given} to {goals}.", POSSIBLE),
+    ELSE("Impossible: {given} has no {target} that {goals}: nothing farther is guaranteed to be resolved.", UNBOUNDED),
+    ELSE("Impossible: with this near and far no {target} {goals}; {given} comes nearest, with {best}.", AS_IT_IS),
+    ELSE("Impossible: no {target} of {given} {goals}; {target} {plane:6} comes near, with {best}.", CERTAIN),
+    ELSE("No {target} of {given} was found that {goals}; {target} {plane:6} comes near, with {best}.", 0),
+    SENTENCE_END};
+
+static const sentence note_words[] = {
+    NOTE("assumed", "near {near}, far {far}: not given", NO_NEAR | NO_FAR),
+    ELSE("near {near}: not given", NO_NEAR),
+    ELSE("far {far}: not given", NO_FAR),
+    NOTE("{target}", "{plane} exactly", SOLVED | POSSIBLE | CERTAIN),
+    ELSE("{plane} exactly; a smaller one may suffice", SOLVED | POSSIBLE | IS_NEAR),
+    ELSE("{plane} exactly; a larger one may suffice", SOLVED | POSSIBLE),
+    NOTE("passes", "every {target} from {from} to {to}", SOLVED | POSSIBLE),
+    NOTE("{measure}", "{best} at z = {z_down}, wanted {wanted}", OF_DISTANCE),
+    ELSE("{best} at z = {z}, wanted {wanted}", 0),
+    ELSE("{best} at z = {z}", 0),
+    NOTE("facing", "{facing} there", 0),
+    NOTE("model", "{model}", 0),
+    NOTE("cost", "{effort}", 0),
+    NOTE("lattice", "{lattice_best} at z = {lattice_z}", BESIDE | AS_IT_IS),
+    ELSE("ideal arithmetic has no such {target} either", BESIDE | NOT_IDEAL),
+    ELSE("ideal arithmetic needs only {target} {ideal_least}", BESIDE | IS_NEAR),
+    ELSE("ideal arithmetic needs only {target} {ideal_most}", BESIDE),
+    NOTE("guaranteed", "nothing there: 'depthprec budget' says why", NOTHING_SAFE),
+    ELSE("only {guaranteed}, short of {short_of}: 'depthprec budget' says why", NOT_ENOUGH),
+    ELSE("{guaranteed} there", 0),
+    SENTENCE_END};
+
+static bool is_slanted(const solve_report *r) {
+    return r->o->camera.triangles.width > 0;
+}
+
+/* The measured value in the unit of the one wanted, and that beside it. */
+static number_two against_wanted(const solve_report *r, double value) {
+    const solve_request *o = r->o;
+    const unit_row *unit = option_unit(o->line, r->kind == MEASURE_ERROR ? "error" : "separation");
+    const char *name = unit != NULL ? unit->name : NULL;
+    const number_two out = number_compared(unit_convert(value, o->camera.lengths.unit, unit),
+                                           unit_convert(r->limit, o->camera.lengths.unit, unit), SOLVE_DIGITS);
+    return (number_two){number_in(out.value, name), number_in(out.limit, name)};
+}
+
+static number_text measured(const solve_report *r, double value) {
+    return against_wanted(r, value).value;
+}
+
+/* An end of the values that pass. */
+static number_text passing(const solve_report *r, const solve_candidate *c, double value, double until) {
     if (value == r->lo || value == r->hi) /* the run ends at a depth that was asked about */
-        return whole(r, value);
-    return in_unit(r, solve_safe_digits(r, c, value, until));
-}
-
-/* The ends of the values that pass, the lower first, or the upper. */
-static number_text passing(const solve_report *r, const solve_candidate *c, bool lower) {
-    const double lo = fmin(solve_plane_of(c), c->plane.until), hi = fmax(solve_plane_of(c), c->plane.until);
-    return lower ? safe_digits(r, c, lo, hi) : safe_digits(r, c, hi, lo);
-}
-
-/* ---- Phrases ----------------------------------------------------------------------------------------------------- */
-
-/* "resolve 0.01 at z = 5000", "keep the error within 0.01 from z = 10 to 5000" */
-static phrase goal_phrase(const solve_report *r, double value, const char *ending) {
-    phrase out;
-    const number_text text = isnan(r->limit) ? measured(r, value) : whole(r, value);
-    if (r->kind == MEASURE_ERROR)
-        snprintf(out.text, PHRASE_SIZE, "keep%s the error within %s ", ending, text.text);
-    else
-        snprintf(out.text, PHRASE_SIZE, "resolve%s %s%s%s ", ending, text.text, is_slanted(r) ? " at " : "",
-                 is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "");
-    if (r->lo < r->hi)
-        append(out.text, PHRASE_SIZE, "from z = %s to %s", whole(r, r->lo).text, whole(r, r->hi).text);
-    else
-        append(out.text, PHRASE_SIZE, "at z = %s", whole(r, r->lo).text);
-    return out;
-}
-
-/* "unorm24 d3d, far 10000", without what is solved for */
-static phrase given_phrase(const solve_report *r, const solve_candidate *c) {
-    phrase out;
-    snprintf(out.text, PHRASE_SIZE, "%s %s%s", c->spec.format.name, dp_mapping_get(c->spec.mapping)->name,
-             c->spec.ortho ? " orthographic" : "");
-    if (r->target != SOLVE_FOR_NEAR)
-        append(out.text, PHRASE_SIZE, ", near %s", whole(r, c->spec.znear).text);
-    if (r->target != SOLVE_FOR_FAR)
-        append(out.text, PHRASE_SIZE, ", far %s", whole(r, c->spec.zfar).text);
-    if (r->target == SOLVE_FOR_NEAR || r->target == SOLVE_FOR_FAR)
-        append(out.text, PHRASE_SIZE, ",");
-    return out;
+        return camera_length(&r->o->camera, value, 0);
+    return number_in(solve_safe_digits(r, c, value, until), camera_unit(&r->o->camera));
 }
 
 static bool is_cheapest(const solve_report *r) {
     for (size_t i = 1; i < r->count; i++)
         if (r->items[i].possible && !r->items[i].solved && cost_compare(&r->items[i].price, &r->items[0].price) < 0)
             return false;
-    return r->count > 1;
+    return r->count > 1 && r->target != SOLVE_FOR_SEPARATION;
 }
 
-/* ---- The sentence ------------------------------------------------------------------------------------------------ */
-
-static void sentence_of_distance(const solve_report *r, const solve_candidate *c, output *out) {
-    static const char *const manners[DP_MODEL_COUNT][2] = {
-        [DP_MODEL_EXACT] = {"does not hold in the lattice", "holds in the lattice"},
-        [DP_MODEL_STAGED] = {"does not hold in model staged", "holds in model staged"},
-        [DP_MODEL_FLOAT] = {"is not guaranteed", "is guaranteed"},
-    };
-    const distance_answer *d = &c->distance;
-    output_format(out, "%s%s: %s %s%s%s %s", c->possible ? "" : "Impossible: ", given_phrase(r, c).text,
-                  r->kind == MEASURE_ERROR ? "an error within" : "a separation of", whole(r, r->limit).text,
-                  is_slanted(r) ? " at " : "", is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "",
-                  manners[c->spec.model][c->possible]);
-    if (c->possible)
-        output_format(out, " from z = %s up to z = %s", whole(r, r->lo).text,
-                      (d->throughout ? whole(r, d->value) : bound(r, d->value, false)).text);
-    else
-        output_format(out, " even at z = %s", whole(r, r->lo).text);
-    if (!isnan(r->fight.first))
-        output_format(out, "; first found to z-fight at z = %s", bound(r, r->fight.first, false).text);
-    else if (!isnan(r->fight.searched))
-        output_format(out, "; no z-fighting found up to z = %s", bound(r, r->fight.searched, false).text);
-    else if (c->possible && !d->throughout && r->kind == MEASURE_SEPARATION && !is_slanted(r) &&
-             d->value + r->limit > r->hi)
-        output_format(out, "; nothing up to z = %s lies that far behind it", whole(r, r->hi).text);
-    if (c->spec.model == DP_MODEL_EXACT)
-        output_text(out, ".\n");
-    else if (!c->lattice.possible)
-        output_text(out, "; nor in the lattice.\n");
-    else
-        output_format(out, "; in the lattice up to %s.\n", bound(r, c->lattice.value, false).text);
+static bool nobody_gave(const solve_report *r, const char *option, solve_target solved) {
+    return !option_given(r->o->line, option) && r->o->camera.preset_count == 0 && r->target != solved;
 }
 
-static void sentence_of_nothing(const solve_report *r, const solve_candidate *c, output *out) {
-    const phrase given = given_phrase(r, c), goal = goal_phrase(r, r->limit, "s");
-    const number_text plane = digits(r, solve_plane_of(c)), best = measured(r, c->reached.value);
-    const char *what = target_name(r);
-    if (isinf(c->reached.value))
-        output_format(out, "Impossible: %s has no %s that %s: nothing farther is guaranteed to be resolved.\n",
-                      given.text, what, goal.text);
-    else if (!c->solved)
-        output_format(out, "Impossible: with this near and far no %s %s; %s comes nearest, with %s.\n", what, goal.text,
-                      given.text, best.text);
-    else
-        output_format(out, "%s %s of %s %s%s; %s %s comes near, with %s.\n", c->plane.certain ? "Impossible: no" : "No",
-                      what, given.text, c->plane.certain ? "" : "was found that ", goal.text, what, plane.text,
-                      best.text);
-}
-
-/* "larger one up to 5000", on the safe side of the answer */
-static phrase beyond_phrase(const solve_report *r, const solve_candidate *c) {
-    phrase out;
-    snprintf(out.text, PHRASE_SIZE, "%s one %s to %s", is_near(c) ? "larger" : "smaller", is_near(c) ? "up" : "down",
-             passing(r, c, !is_near(c)).text);
-    return out;
-}
-
-static void sentence_of_plane(const solve_report *r, const solve_candidate *c, output *out) {
-    const phrase given = given_phrase(r, c), goal = goal_phrase(r, r->limit, "");
+static unsigned conditions(const solve_report *r, const solve_candidate *c, double binary32) {
     const plane_answer *p = &c->plane;
-    const double value = solve_plane_of(c);
-    const number_text safe = safe_digits(r, c, value, p->until);
-    const char *name = is_near(c) ? "Near" : "Far";
-    if (!p->certain)
-        output_format(out, "%s %s suffices for %s to %s, and so does any %s.\n", name, safe.text, given.text, goal.text,
-                      beyond_phrase(r, c).text);
-    else if (value == (is_near(c) ? p->least : p->most))
-        output_format(out, "Any %s from %s to %s suffices for %s to %s.\n", target_name(r), passing(r, c, true).text,
-                      passing(r, c, false).text, given.text, goal.text);
-    else
-        output_format(out, "%s %s for %s to %s.\n", is_near(c) ? "Near must be at least" : "Far may be at most",
-                      safe.text, given.text, goal.text);
-}
-
-static void say_sentence(const solve_report *r, const solve_candidate *c, output *out) {
-    const bool asked = r->target == SOLVE_FOR_SEPARATION;
-    if (r->target == SOLVE_FOR_DISTANCE)
-        sentence_of_distance(r, c, out);
-    else if (!c->possible)
-        sentence_of_nothing(r, c, out);
-    else if (c->solved)
-        sentence_of_plane(r, c, out);
-    else
-        output_format(out, "%s %s%s.\n", given_phrase(r, c).text,
-                      goal_phrase(r, asked ? c->reached.value : r->limit, "s").text,
-                      !asked && is_cheapest(r) ? ", the cheapest that does" : "");
-}
-
-/* ---- What stands behind it --------------------------------------------------------------------------------------- */
-
-static void say_plane(const solve_report *r, const solve_candidate *c, page *p) {
-    const char *what = target_name(r);
-    page_note(p, what, "%s exactly%s", whole(r, solve_plane_of(c)).text,
-              c->plane.certain ? ""
-              : is_near(c)     ? "; a smaller one may suffice"
-                               : "; a larger one may suffice");
-    page_note(p, "passes", "every %s from %s to %s", what, passing(r, c, true).text, passing(r, c, false).text);
+    const bool near = c->unknown == SOLVE_NEAR, distance = r->target == SOLVE_FOR_DISTANCE;
+    return (distance ? OF_DISTANCE : 0) | (r->target == SOLVE_FOR_NEAR ? OF_NEAR : 0) |
+           (r->target == SOLVE_FOR_FAR ? OF_FAR : 0) | (r->kind == MEASURE_ERROR ? OF_ERROR : 0) |
+           (r->lo < r->hi ? OVER_RANGE : 0) | (c->possible ? POSSIBLE : 0) | (c->solved ? SOLVED : AS_IT_IS) |
+           (near ? IS_NEAR : 0) | (p->certain ? CERTAIN : UNCERTAIN) |
+           (solve_plane_of(c) == (near ? p->least : p->most) ? ANY_PASSES : 0) |
+           (isinf(c->reached.value) ? UNBOUNDED : 0) | (is_cheapest(r) ? CHEAPEST : 0) |
+           (c->possible && !c->distance.throughout && r->kind == MEASURE_SEPARATION && !is_slanted(r) &&
+                    c->distance.value + r->limit > r->hi
+                ? ALONE
+                : 0) |
+           (c->spec.model == DP_MODEL_EXACT ? EXACT : 0) | (c->lattice.possible ? 0 : NOT_IDEAL) |
+           (nobody_gave(r, "near", SOLVE_FOR_NEAR) ? NO_NEAR : 0) |
+           (nobody_gave(r, "far", SOLVE_FOR_FAR) ? NO_FAR : 0) |
+           (!distance && c->spec.model != DP_MODEL_EXACT ? BESIDE : 0) | (isinf(binary32) ? NOTHING_SAFE : 0) |
+           (binary32 > r->limit * (1.0 + 1e-6) ? NOT_ENOUGH : 0);
 }
 
 /* The model, and why it is not the fullest that there is. */
-static void say_model(const solve_report *r, const solve_candidate *c, page *p) {
+static const char *model_words(const solve_report *r, const solve_candidate *c, char out[SENTENCE_SIZE]) {
     static const char *const words[DP_MODEL_COUNT] = {
         [DP_MODEL_EXACT] = "exact: real arithmetic, the lattice alone",
         [DP_MODEL_STAGED] = "staged: NDC and window depth each rounded to binary32",
         [DP_MODEL_FLOAT] = "float: guaranteed in binary32 arithmetic, ",
     };
     const bool chosen = r->o->camera.model_auto || !option_given(r->o->line, "model");
-    const char *more = "";
-    if (c->spec.model == DP_MODEL_FLOAT)
-        more = dp_arith_get(c->spec.arith)->name;
-    else if (c->spec.model == DP_MODEL_STAGED && chosen)
-        more = r->kind == MEASURE_ERROR ? "; model float has no cells, so no error"
-                                        : "; model float does not cover this mapping";
-    const bool shader = c->spec.model == DP_MODEL_FLOAT && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
-    page_note(p, "model", "%s%s%s%s", words[c->spec.model], more,
-              shader          ? ", for every log2 that a shader may use"
-              : is_slanted(r) ? ", at "
-                              : "",
-              !shader && is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "");
+    const bool computed = c->spec.model == DP_MODEL_FLOAT;
+    const bool shader = computed && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
+    const char *more = computed                                     ? dp_arith_get(c->spec.arith)->name
+                       : !chosen || c->spec.model == DP_MODEL_EXACT ? ""
+                       : r->kind == MEASURE_ERROR                   ? "; model float has no cells, so no error"
+                                                                    : "; model float does not cover this mapping";
+    snprintf(out, SENTENCE_SIZE, "%s%s%s%s", words[c->spec.model], more,
+             shader          ? ", for every log2 that a shader may use"
+             : is_slanted(r) ? ", at "
+                             : "",
+             !shader && is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "");
+    return out;
 }
 
-/* The lattice beside a fuller model, and the guarantee beside the lattice. */
-static void say_beside(const solve_report *r, const solve_candidate *c, page *p) {
-    const double binary32 = solve_in_binary32(r, c, false);
-    if (r->target == SOLVE_FOR_DISTANCE)
-        return;
-    if (c->spec.model != DP_MODEL_EXACT) {
-        if (!c->solved)
-            page_note(p, "lattice", "%s at z = %s", measured(r, c->lattice.reached.value).text,
-                      digits(r, c->lattice.reached.z).text);
-        else if (c->lattice.possible)
-            page_note(p, "lattice", "ideal arithmetic needs only %s %s", target_name(r),
-                      bound(r, c->lattice.value, is_near(c)).text);
-        else
-            page_note(p, "lattice", "ideal arithmetic has no such %s either", target_name(r));
+static void tell_numbers(const solve_report *r, const solve_candidate *c, double binary32, told *t) {
+    const double plane = solve_plane_of(c), until = c->plane.until;
+    t->plane = plane;
+    t->throughout = c->distance.throughout ? c->distance.value : (double)NAN;
+    t->best = measured(r, c->reached.value);
+    t->lattice_best = measured(r, c->lattice.reached.value);
+    t->goal = isnan(r->limit) ? t->best : camera_length(&r->o->camera, r->limit, 0);
+    if (!isnan(r->limit))
+        t->wanted = against_wanted(r, c->reached.value).limit;
+    if (is_slanted(r))
+        t->facing = measured(r, solve_in_binary32(r, c, false));
+    if (c->solved && c->possible) {
+        t->from = plane < until ? passing(r, c, plane, until) : passing(r, c, until, plane);
+        t->to = plane < until ? passing(r, c, until, plane) : passing(r, c, plane, until);
     }
-    if (c->spec.model == DP_MODEL_FLOAT || isinf(c->reached.value))
-        return;
-    if (isinf(binary32))
-        page_note(p, "guaranteed", "nothing there: 'depthprec budget' says why");
-    else if (binary32 > r->limit * (1.0 + 1e-6))
-        page_note(p, "guaranteed", "only %s, short of %s: 'depthprec budget' says why", measured(r, binary32).text,
-                  against_wanted(r, binary32).limit.text);
-    else if (!isnan(binary32))
-        page_note(p, "guaranteed", "%s there", measured(r, binary32).text);
-}
-
-/* The planes that nobody gave. */
-static void say_assumed(const solve_report *r, page *p) {
-    const bool no_near =
-        !option_given(r->o->line, "near") && r->o->camera.preset_count == 0 && r->target != SOLVE_FOR_NEAR;
-    const bool no_far =
-        !option_given(r->o->line, "far") && r->o->camera.preset_count == 0 && r->target != SOLVE_FOR_FAR;
-    const number_text near = whole(r, r->items[0].spec.znear), far = whole(r, r->items[0].spec.zfar);
-    if (no_near && no_far)
-        page_note(p, "assumed", "near %s, far %s: not given", near.text, far.text);
-    else if (no_near || no_far)
-        page_note(p, "assumed", "%s %s: not given", no_near ? "near" : "far", (no_near ? near : far).text);
+    if (!isnan(binary32)) {
+        t->guaranteed = measured(r, binary32);
+        t->short_of = against_wanted(r, binary32).limit;
+    }
 }
 
 void solve_report_answer(page *p, void *item) {
+    static const char *const manners[DP_MODEL_COUNT][2] = {
+        [DP_MODEL_EXACT] = {"does not hold in the lattice", "holds in the lattice"},
+        [DP_MODEL_STAGED] = {"does not hold in model staged", "holds in model staged"},
+        [DP_MODEL_FLOAT] = {"is not guaranteed", "is guaranteed"},
+    };
     const solve_report *r = item;
     const solve_candidate *c = &r->items[0];
-    char wanted[NUMBER_SIZE + 16] = "";
-    output sentence = {.fd = -1}; /* never flushed: what is written stays in its buffer */
-    say_sentence(r, c, &sentence);
-    page_text(p, "%.*s", (int)sentence.used - 1, sentence.buffer);
+    const dp_mapping_row *mapping = dp_mapping_get(c->spec.mapping);
+    const bool fuller = r->target == SOLVE_FOR_DISTANCE || c->spec.model == DP_MODEL_FLOAT || isinf(c->reached.value);
+    const double binary32 = fuller ? (double)NAN : solve_in_binary32(r, c, false);
+    const unsigned when = conditions(r, c, binary32);
+    told t = {.report = r,
+              .answer = c,
+              .target = option_word("for", r->target),
+              .measure = solve_measure_name(r),
+              .mapping = mapping->name,
+              .ortho = c->spec.ortho ? " orthographic" : "",
+              .at_slant = "",
+              .property = r->kind == MEASURE_ERROR ? "an error within" : "a separation of",
+              .manner = manners[c->spec.model][c->possible],
+              .effort = mapping->curve != DP_CURVE_PERSPECTIVE ? c->price.effort : NULL,
+              .goals = c->solved && c->possible ? "" : "s"};
+    if (is_slanted(r)) {
+        snprintf(t.text[0], SENTENCE_SIZE, " at %s", slant_words(&r->o->camera.triangles).text);
+        t.at_slant = t.text[0];
+    }
+    camera_page(p, &r->o->camera);
+    tell_numbers(r, c, binary32, &t);
+    t.model = model_words(r, c, t.text[1]);
+    t.given = sentence_first(p, given_words, told_columns, &t, when, t.text[2]);
+    t.goals = sentence_first(p, goal_words, told_columns, &t, when, t.text[3]);
+    t.fight = sentence_first(p, fight_words, told_columns, &t, when, t.text[4]);
+    t.ideal = sentence_first(p, ideal_words, told_columns, &t, when, t.text[5]);
+    page_say(p, answer_words, told_columns, &t, when);
     solve_say_beyond(p, r);
-    say_assumed(r, p);
-    if (c->solved && c->possible)
-        say_plane(r, c, p);
-    if (!isnan(r->limit))
-        snprintf(wanted, sizeof wanted, ", wanted %s", against_wanted(r, c->reached.value).limit.text);
-    page_note(p, solve_measure_name(r), "%s at z = %s%s", measured(r, c->reached.value).text,
-              (r->target == SOLVE_FOR_DISTANCE ? bound(r, c->reached.z, false) : digits(r, c->reached.z)).text, wanted);
-    if (is_slanted(r))
-        page_note(p, "facing", "%s there", measured(r, solve_in_binary32(r, c, false)).text);
-    say_model(r, c, p);
-    if (dp_mapping_get(c->spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
-        page_note(p, "cost", "%s", c->price.effort);
-    say_beside(r, c, p);
+    page_say(p, note_words, told_columns, &t, when);
     slant_say(p, page_line, &r->o->camera, &(dp_setup){.spec = c->spec});
     if (c->possible)
         setup_say_code(p, &c->spec);
