@@ -18,7 +18,7 @@ INSTALL_PROGRAM ?= $(INSTALL) -m 755
 INSTALL_DATA ?= $(INSTALL) -m 644
 
 # What pkg-config is asked for: by the full program, and by the tests. src/packages.sh knows who has them.
-PKGS_build := cairo gsl jansson libconfig libpng zlib
+PKGS_build := cairo gsl jansson libpng zlib
 # Whose headers are used where they are there, as those of libtiff are; the libraries are opened when a file needs them.
 PKGS_opened := OpenEXR assimp vulkan egl gl
 PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
@@ -170,7 +170,7 @@ wheel:
 wheel-parts: $(B)/libdepthprec.so.0 $(B)/plain/depthprec
 
 PLAIN_O := $(filter-out %/draw/canvas.o,$(ROOMS_O)) $(call objects,src/web/canvas.c src/web/plain.c)
-PLAIN_LIBS := -lgsl -lgslcblas -ljansson -lconfig -lpng16 -lz $(if $(findstring clang,$(CC)),,-lgomp)
+PLAIN_LIBS := -lgsl -lgslcblas -ljansson -lpng16 -lz $(if $(findstring clang,$(CC)),,-lgomp)
 $(B)/plain/depthprec: $(PLAIN_O) $(B)/libdepthprec.a
 	@mkdir -p $(@D)
 	$(call say,LD)
@@ -194,7 +194,7 @@ WINDOWS_FLAGS := -Wall -Wextra -Wno-format -Wno-format-extra-args $(OPTIMIZE_rel
     -Wa,-muse-unaligned-vector-move -D__USE_MINGW_ANSI_STDIO=1 -D_FILE_OFFSET_BITS=64
 WINDOWS_LINK = $(WINDOWS_CC) -s -static -fopenmp -Wl,--no-insert-timestamp,--stack,8388608
 WINDOWS_CANVAS := src/web/canvas.c src/web/plain.c
-WINDOWS_HEADERS := -DLIBCONFIG_STATIC -isystem $(WINDOWS_ROOT)/include
+WINDOWS_HEADERS := -isystem $(WINDOWS_ROOT)/include
 # In a shell of MSYS2 it is the whole program, with the libraries there.
 ifdef MSYSTEM
 WINDOWS_CC := gcc
@@ -239,7 +239,7 @@ $(B)/windows/depthprec.dll: $(WINDOWS_CORE_O) $(HEADERS)
 # ---- For the web -------------------------------------------------------------------------------------------------
 
 # The program as WebAssembly, for the page: the same files, with the same bits; src/web stands in for what needs files,
-# threads, cairo, GSL, libconfig or jansson. And the core alone: `samples` prints its bits, here and there (tests/web.sh).
+# threads, cairo, GSL or jansson. And the core alone: `samples` prints its bits, here and there (tests/web.sh).
 .PHONY: web
 web:
 	@sh src/packages.sh web
@@ -252,7 +252,7 @@ WEB_FROM := code/language method/choose method/estimate method/families method/i
 WEB_NOT := camera/profile_file camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions draw/canvas draw/pixels \
     judge/listing judge/read_pairs judge/written judge/cmd_judge/shader probe/compile probe/opengl probe/probe probe/vulkan \
     probe/vulkan_compute quantity/cmd_table/constants quantity/cmd_table/levels report/output_file report/terminal solve/camera \
-    solve/check solve/figure_needs solve/reader solve/requirement solve/view solve/cmd_check/check_report solve/cmd_check/command \
+    solve/check solve/figure_needs solve/reader solve/requirement solve/setting solve/view solve/cmd_check/check_report solve/cmd_check/command \
     web/plain world/figure world/cmd_world/command zfight/figure
 WEB_SOURCES := $(sort $(filter-out $(patsubst %,src/%.c,$(patsubst %,%/%,$(WEB_LESS)) $(WEB_NOT)),$(CORE) $(ROOMS) $(wildcard src/web/*.c)) \
     $(wildcard src/*/cmd_*/options.c) $(patsubst %,src/%.c,$(WEB_FROM)))
@@ -318,7 +318,7 @@ NPM_NOT := $(patsubst %,src/%.c,draw/canvas draw/pixels image/png method/cmd_met
     probe/opengl probe/vulkan probe/vulkan_compute probe/compile \
     report/output_file report/terminal system/dynload system/sandbox)
 NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still) \
-    src/npm/config.c src/npm/standin.c)
+    src/npm/standin.c)
 NPM_DOOR_O := $(call web_objects,src/npm/door.c)
 NPM_FILES := $(wildcard src/npm/*.js src/npm/*.ts src/npm/*.md) src/web/engine.js src/web/command.js LICENSE LICENSE.MIT \
     LICENSE.GPL-3.0 $(B)/npm/core.data.js $(B)/npm/program.data.js

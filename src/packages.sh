@@ -21,7 +21,6 @@ build | command pkg-config                            | pkg-config            | 
 build | library cairo                                 | libcairo2-dev         | cairo-devel        | cairo
 build | library gsl                                   | libgsl-dev            | gsl-devel          | gsl
 build | library jansson                               | libjansson-dev        | jansson-devel      | jansson
-build | library libconfig                             | libconfig-dev         | libconfig-devel    | libconfig
 build | library libpng                                | libpng-dev            | libpng-devel       | libpng
 build | library zlib                                  | zlib1g-dev            | zlib-devel         | zlib
 build | library OpenEXR                               | libopenexr-dev        | openexr-devel      | openexr

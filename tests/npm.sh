@@ -62,7 +62,7 @@ walk_python() {
 part=3 least=30 # every third of those commands; but zfight, which takes ten seconds each
 [ -z "${DEPTHPREC_FULL-}" ] || part=1 least=50
 
-# A requirement file with all that libconfig reads, and some that it refuses.
+# A requirement file with all that its grammar has, and some that it refuses.
 grammar() {
     cat >"$1/rich.need" <<'END'
 /* two

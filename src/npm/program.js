@@ -95,7 +95,7 @@ export function begin({ Camera, DepthprecError, USUAL, only }) {
         return `"${bytes.join("")}"`;
     }
 
-    // An object as libconfig writes it.
+    // An object in the grammar of requirement files.
     const group = (of, end) => Object.entries(of).map(([name, value]) => {
         if (!/^[A-Za-z*][-\w*]*$/.test(name)) throw new DepthprecError(`a name must be letters, digits, - and _, and begin with a letter, got ${JSON.stringify(name)}`);
         return `${name} = ${setting(value)};${end}`;

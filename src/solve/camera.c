@@ -48,7 +48,7 @@ static int index_of(const char *text, const char *(*name)(size_t)) {
 }
 
 /* The same after an error that lists the names. */
-static int among(reader *r, const config_setting_t *s, const char *text, const char *(*name)(size_t)) {
+static int among(reader *r, const setting *s, const char *text, const char *(*name)(size_t)) {
     const int index = index_of(text, name);
     if (index >= 0)
         return index;
@@ -57,11 +57,11 @@ static int among(reader *r, const config_setting_t *s, const char *text, const c
         reader_known(r, text, name(i));
         append(all, sizeof all, "%s%s", i > 0 ? ", " : "", name(i));
     }
-    reader_fail(r, s, "%s: must be one of %s, got '%.40s'", config_setting_name(s), all, text);
+    reader_fail(r, s, "%s: must be one of %s, got '%.40s'", s->name, all, text);
     return -1;
 }
 
-static int word_among(reader *r, const config_setting_t *s, const char *(*name)(size_t)) {
+static int word_among(reader *r, const setting *s, const char *(*name)(size_t)) {
     const char *text;
     return reader_string(r, s, &text) ? among(r, s, text, name) : -1;
 }
@@ -78,7 +78,7 @@ static bool has_arith(const char *name) {
     return index_of(name, arith_name) >= 0;
 }
 
-static int read_arith(reader *r, const config_setting_t *s, need_camera *out) {
+static int read_arith(reader *r, const setting *s, need_camera *out) {
     char name[PROFILE_NAME_SIZE];
     return reader_row(r, s, "arith", has_arith, out, name) ? among(r, s, name, arith_name) : -1;
 }
@@ -87,7 +87,7 @@ static const char *preset_name(size_t i) {
     return preset_get(i) != NULL ? preset_get(i)->name : NULL;
 }
 
-static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
+static bool read_preset(reader *r, const setting *s, draft *d) {
     const int index = word_among(r, s, preset_name);
     if (index < 0)
         return false;
@@ -102,7 +102,7 @@ static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
     return true;
 }
 
-static bool read_mapping(reader *r, const config_setting_t *s, draft *d) {
+static bool read_mapping(reader *r, const setting *s, draft *d) {
     const char *text;
     if (!reader_string(r, s, &text))
         return false;
@@ -115,7 +115,7 @@ static bool read_mapping(reader *r, const config_setting_t *s, draft *d) {
     return reader_fail(r, s, "mapping: must be one of " DP_MAPPING_NAMES ", got '%.40s'", text);
 }
 
-static bool read_format(reader *r, const config_setting_t *s, draft *d) {
+static bool read_format(reader *r, const setting *s, draft *d) {
     const char *text;
     if (!reader_string(r, s, &text))
         return false;
@@ -130,14 +130,14 @@ static bool read_format(reader *r, const config_setting_t *s, draft *d) {
                        text);
 }
 
-static bool read_ortho(reader *r, const config_setting_t *s, draft *d) {
-    if (config_setting_type(s) != CONFIG_TYPE_BOOL)
+static bool read_ortho(reader *r, const setting *s, draft *d) {
+    if (s->kind != SETTING_WORD)
         return reader_fail(r, s, "ortho: must be true or false, got %s", reader_shown(r, s));
-    d->spec.ortho = config_setting_get_bool(s);
+    d->spec.ortho = s->number != 0.0;
     return true;
 }
 
-static bool read_words(reader *r, config_setting_t *const *found, draft *d, need_camera *out) {
+static bool read_words(reader *r, setting *const *found, draft *d, need_camera *out) {
     const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
     const int model =
         rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_word) : DP_MODEL_COUNT;
@@ -153,7 +153,7 @@ static bool read_words(reader *r, config_setting_t *const *found, draft *d, need
 }
 
 /* A named GPU's profile must store the formats: nothing is known of others. */
-static bool gpu_suits(reader *r, config_setting_t *const *found, const draft *d, const need_camera *camera) {
+static bool gpu_suits(reader *r, setting *const *found, const draft *d, const need_camera *camera) {
     char names[PROFILE_FORMATS_SIZE], chosen[64] = "";
     if (found[KEY_FORMAT] == NULL)
         snprintf(chosen, sizeof chosen, "; preset %s chose it", d->preset->name);
@@ -166,12 +166,12 @@ static bool gpu_suits(reader *r, config_setting_t *const *found, const draft *d,
 }
 
 /* A rasterizer that is known brings its own arithmetic; a GPU's profile in its place has both. */
-static bool take_arith(reader *r, config_setting_t *const *found, draft *d, need_camera *out) {
-    const config_setting_t *const named = found[KEY_VIEW + VIEW_RASTER];
+static bool take_arith(reader *r, setting *const *found, draft *d, need_camera *out) {
+    const setting *const named = found[KEY_VIEW + VIEW_RASTER];
     char name[PROFILE_NAME_SIZE];
     if (found[KEY_ARITH] != NULL || out->raster == NULL)
         return true;
-    if (named == NULL || !profile_is_file(config_setting_get_string(named))) {
+    if (named == NULL || !profile_is_file(named->string)) {
         raster_arith(out->raster, false, &d->spec.arith); /* a specification leaves it as it is */
         return true;
     }
@@ -182,7 +182,7 @@ static bool take_arith(reader *r, config_setting_t *const *found, draft *d, need
 }
 
 /* Refuses formats whose codes the rasterizer steps, as softpipe does: they have no bound. */
-static bool raster_suits(reader *r, const config_setting_t *s, const draft *d, const need_camera *camera) {
+static bool raster_suits(reader *r, const setting *s, const draft *d, const need_camera *camera) {
     for (size_t i = 0; i < d->format_count && camera->raster != NULL; i++)
         if (!raster_bounded(camera->raster, &d->formats[i]))
             return reader_fail(r, s, "raster: %s steps the codes of %s from pixel to pixel, which has no bound",
@@ -190,7 +190,7 @@ static bool raster_suits(reader *r, const config_setting_t *s, const draft *d, c
     return true;
 }
 
-static bool make_setups(reader *r, const config_setting_t *group, const draft *d, need_camera *out) {
+static bool make_setups(reader *r, const setting *group, const draft *d, need_camera *out) {
     out->count = d->format_count;
     for (size_t i = 0; i < d->format_count; i++) {
         dp_spec spec = d->spec;
@@ -209,8 +209,8 @@ static bool make_setups(reader *r, const config_setting_t *group, const draft *d
 }
 
 /* Places far from the origin: both keys, and a pipeline of depths at a point. */
-static bool read_world(reader *r, config_setting_t *const *found, const draft *d, need_camera *out) {
-    config_setting_t *const origin = found[KEY_FROM_ORIGIN], *const scheme = found[KEY_SCHEME];
+static bool read_world(reader *r, setting *const *found, const draft *d, need_camera *out) {
+    setting *const origin = found[KEY_FROM_ORIGIN], *const scheme = found[KEY_SCHEME];
     const char *text;
     if (origin == NULL && scheme == NULL)
         return true;
@@ -242,11 +242,11 @@ static unsigned planes_of(const draft *d) {
     return d->spec.ortho ? READER_SIGNED : READER_POSITIVE;
 }
 
-bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
-    config_setting_t *found[KEY_COUNT];
+bool reader_camera(reader *r, setting *group, need_camera *out) {
+    setting *found[KEY_COUNT];
     draft d = {.spec = dp_spec_default()};
-    out->line = (int)config_setting_source_line(group);
-    out->name = config_setting_name(group);
+    out->line = group->line;
+    out->name = group->name;
     if (!reader_name(r, group, out->name) || !reader_keys(r, group, "camera", keys, found))
         return false;
     for (int k = KEY_NEAR; k <= KEY_FORMAT && found[KEY_PRESET] == NULL; k++)
@@ -264,7 +264,7 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
     const dp_mapping_row *row = dp_mapping_get(d.spec.mapping);
     if (good && found[KEY_LOG_C] != NULL && (row->curve != DP_CURVE_LOG || row->log_over_near))
         return reader_fail(r, found[KEY_LOG_C], "log_c: is for the mappings with a constant C only, got %s", row->name);
-    if (good && found[KEY_LOG_C] != NULL && config_setting_type(found[KEY_LOG_C]) == CONFIG_TYPE_STRING)
+    if (good && found[KEY_LOG_C] != NULL && found[KEY_LOG_C]->kind == SETTING_STRING)
         return reader_fail(r, found[KEY_LOG_C], "log_c: must be a number per scene unit, got %s",
                            reader_shown(r, found[KEY_LOG_C]));
     out->automatic = d.automatic;

@@ -10,14 +10,14 @@
 
 enum { PATH_SIZE = 4096 };
 
-bool reader_fail(reader *r, const config_setting_t *s, const char *format, ...) {
+bool reader_fail(reader *r, const setting *s, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(r->error->text, sizeof r->error->text, format, arguments);
     va_end(arguments);
     r->error->unreadable = false;
     if (s != NULL)
-        r->error->line = (int)config_setting_source_line(s);
+        r->error->line = s->line;
     for (char *c = r->error->text; *c != '\0'; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f)
             *c = '?';
@@ -31,53 +31,49 @@ void reader_known(reader *r, const char *given, const char *name) {
         append(known, NEED_KNOWN_SIZE, "%s%s", *known != '\0' ? " " : "", name);
 }
 
-const char *reader_shown(reader *r, const config_setting_t *s) {
-    switch (config_setting_type(s)) {
-    case CONFIG_TYPE_INT:
-    case CONFIG_TYPE_INT64:
-        snprintf(r->shown, sizeof r->shown, "%lld", config_setting_get_int64(s));
+const char *reader_shown(reader *r, const setting *s) {
+    switch (s->kind) {
+    case SETTING_INTEGER:
+        snprintf(r->shown, sizeof r->shown, "%lld", s->integer);
         break;
-    case CONFIG_TYPE_FLOAT:
-        snprintf(r->shown, sizeof r->shown, "%.15g", config_setting_get_float(s));
+    case SETTING_REAL:
+        snprintf(r->shown, sizeof r->shown, "%.15g", s->number);
         break;
-    case CONFIG_TYPE_BOOL:
-        snprintf(r->shown, sizeof r->shown, "%s", config_setting_get_bool(s) ? "true" : "false");
+    case SETTING_WORD:
+        snprintf(r->shown, sizeof r->shown, "%s", s->number != 0.0 ? "true" : "false");
         break;
-    case CONFIG_TYPE_STRING:
-        snprintf(r->shown, sizeof r->shown, "'%.60s'", config_setting_get_string(s));
+    case SETTING_STRING:
+        snprintf(r->shown, sizeof r->shown, "'%.60s'", s->string);
         break;
-    case CONFIG_TYPE_GROUP:
+    case SETTING_GROUP:
         return "a group";
     default:
-        snprintf(r->shown, sizeof r->shown, "%d values", config_setting_length(s));
+        snprintf(r->shown, sizeof r->shown, "%zu values", s->count);
     }
     return r->shown;
 }
 
-bool reader_keys(reader *r, const config_setting_t *group, const char *what, const char *const *names,
-                 config_setting_t **found) {
+bool reader_keys(reader *r, const setting *group, const char *what, const char *const *names, setting **found) {
     for (int k = 0; names[k] != NULL; k++)
         found[k] = NULL;
-    for (unsigned i = 0; i < (unsigned)config_setting_length(group); i++) {
-        config_setting_t *s = config_setting_get_elem(group, i);
-        const char *name = config_setting_name(s);
+    for (setting *s = group->first; s != NULL; s = s->next) {
         int k = 0;
-        while (names[k] != NULL && strcmp(names[k], name) != 0)
+        while (names[k] != NULL && strcmp(names[k], s->name) != 0)
             k++;
         if (names[k] == NULL) {
             for (k = 0; names[k] != NULL; k++)
-                reader_known(r, name, names[k]);
-            return reader_fail(r, s, "%s: has no key '%.40s'", what, name);
+                reader_known(r, s->name, names[k]);
+            return reader_fail(r, s, "%s: has no key '%.40s'", what, s->name);
         }
         found[k] = s;
     }
     return true;
 }
 
-bool reader_string(reader *r, const config_setting_t *s, const char **out) {
-    if (config_setting_type(s) != CONFIG_TYPE_STRING)
-        return reader_fail(r, s, "%s: must be a word in quotes, got %s", config_setting_name(s), reader_shown(r, s));
-    *out = config_setting_get_string(s);
+bool reader_string(reader *r, const setting *s, const char **out) {
+    if (s->kind != SETTING_STRING)
+        return reader_fail(r, s, "%s: must be a word in quotes, got %s", s->name, reader_shown(r, s));
+    *out = s->string;
     return true;
 }
 
@@ -87,8 +83,8 @@ static void beside(const reader *r, const char *name, char *out, size_t size) {
     snprintf(out, size, "%.*s%s", path_is_absolute(name) ? 0 : (int)(path_name(path) - path), path, name);
 }
 
-bool reader_row(reader *r, const config_setting_t *s, const char *key, bool (*known)(const char *name),
-                need_camera *camera, char name[PROFILE_NAME_SIZE]) {
+bool reader_row(reader *r, const setting *s, const char *key, bool (*known)(const char *name), need_camera *camera,
+                char name[PROFILE_NAME_SIZE]) {
     const char *text = "";
     char path[PATH_SIZE], error[PROFILE_ERROR_SIZE];
     if (!reader_string(r, s, &text))
@@ -103,7 +99,7 @@ bool reader_row(reader *r, const config_setting_t *s, const char *key, bool (*kn
     return known(name) || reader_fail(r, s, "%s: '%.120s' names what is not known here, '%.40s'", key, path, name);
 }
 
-bool reader_name(reader *r, const config_setting_t *s, const char *name) {
+bool reader_name(reader *r, const setting *s, const char *name) {
     const size_t length = strlen(name);
     bool good = length >= 1 && length <= 64;
     for (const char *c = name; *c != '\0'; c++)
@@ -111,7 +107,7 @@ bool reader_name(reader *r, const config_setting_t *s, const char *name) {
     return good || reader_fail(r, s, "name: must be 1 to 64 printable ASCII characters, no blanks, got '%.70s'", name);
 }
 
-bool reader_unit(reader *r, const config_setting_t *s) {
+bool reader_unit(reader *r, const setting *s) {
     const char *name = "";
     if (!reader_string(r, s, &name))
         return false;
@@ -133,18 +129,8 @@ static bool leading_number(const char *text, double *value, const char **rest) {
     return end != text && isfinite(*value);
 }
 
-static bool is_number(const config_setting_t *s) {
-    const int type = config_setting_type(s);
-    return type == CONFIG_TYPE_INT || type == CONFIG_TYPE_INT64 || type == CONFIG_TYPE_FLOAT;
-}
-
-static double number_of(const config_setting_t *s) {
-    return config_setting_type(s) == CONFIG_TYPE_FLOAT ? config_setting_get_float(s)
-                                                       : (double)config_setting_get_int64(s);
-}
-
 /* A number alone is in scene units; with a unit behind it, it is converted into them. */
-static bool length_text(reader *r, const config_setting_t *s, const char *key, const char *text, double *out) {
+static bool length_text(reader *r, const setting *s, const char *key, const char *text, double *out) {
     const char *unit;
     double value;
     if (!leading_number(text, &value, &unit))
@@ -165,20 +151,20 @@ static bool length_text(reader *r, const config_setting_t *s, const char *key, c
     return true;
 }
 
-bool reader_length(reader *r, const config_setting_t *s, const char *key, unsigned allowed, double *out) {
-    const bool text = config_setting_type(s) == CONFIG_TYPE_STRING;
-    if (text && (allowed & READER_INFINITE) != 0 && strcmp(config_setting_get_string(s), "inf") == 0) {
+bool reader_length(reader *r, const setting *s, const char *key, unsigned allowed, double *out) {
+    const bool text = s->kind == SETTING_STRING;
+    if (text && (allowed & READER_INFINITE) != 0 && strcmp(s->string, "inf") == 0) {
         *out = HUGE_VAL;
         return true;
     }
     if (text) {
-        const char *value = config_setting_get_string(s);
+        const char *value = s->string;
         const bool negative = (allowed & READER_SIGNED) != 0 && *value == '-';
         if (!length_text(r, s, key, value + negative, out))
             return false;
         *out = negative ? -*out : *out;
-    } else if (is_number(s)) {
-        *out = number_of(s);
+    } else if (setting_is_number(s)) {
+        *out = s->number;
     } else {
         return reader_fail(r, s, "%s: must be a length such as 0.1 or \"10 cm\", got %s", key, reader_shown(r, s));
     }
@@ -190,20 +176,20 @@ bool reader_length(reader *r, const config_setting_t *s, const char *key, unsign
     return true;
 }
 
-bool reader_number_within(const config_setting_t *s, double least, double most, double *out) {
-    if (!is_number(s))
+bool reader_number_within(const setting *s, double least, double most, double *out) {
+    if (!setting_is_number(s))
         return false;
-    *out = number_of(s);
+    *out = s->number;
     return *out >= least && *out <= most;
 }
 
-bool reader_share(reader *r, const config_setting_t *s, const char *key, double *out) {
+bool reader_share(reader *r, const setting *s, const char *key, double *out) {
     const char *rest = "";
-    bool good = is_number(s);
+    bool good = setting_is_number(s);
     if (good)
-        *out = number_of(s);
-    else if (config_setting_type(s) == CONFIG_TYPE_STRING)
-        good = leading_number(config_setting_get_string(s), out, &rest) && (*rest == '\0' || strcmp(rest, "%") == 0);
+        *out = s->number;
+    else if (s->kind == SETTING_STRING)
+        good = leading_number(s->string, out, &rest) && (*rest == '\0' || strcmp(rest, "%") == 0);
     if (good && *rest == '%')
         *out /= 100.0;
     return (good && *out >= 0.0 && *out <= 1.0) ||

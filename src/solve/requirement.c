@@ -27,7 +27,7 @@ enum { KEY_NAME, KEY_CAMERA, KEY_AT, KEY_RANGE, KEY_SEPARATION, KEY_ERROR, KEY_T
 
 static const char *const keys[] = {"name", "camera", "at", "range", "separation", "error", "ties", NULL};
 
-static bool known_camera(reader *r, const config_setting_t *s, size_t *out) {
+static bool known_camera(reader *r, const setting *s, size_t *out) {
     const char *name;
     if (!reader_string(r, s, &name))
         return false;
@@ -46,29 +46,28 @@ static unsigned sign_of(const reader *r, const need *n) {
     return r->file->cameras[n->camera].setups[0].spec.znear <= 0.0 ? READER_SIGNED : 0;
 }
 
-static bool read_range(reader *r, config_setting_t *s, need *n) {
-    if ((!config_setting_is_array(s) && !config_setting_is_list(s)) || config_setting_length(s) != 2)
+static bool read_range(reader *r, setting *s, need *n) {
+    if ((s->kind != SETTING_ARRAY && s->kind != SETTING_LIST) || s->count != 2)
         return reader_fail(r, s, "range: must be two depths, [LO, HI], got %s", reader_shown(r, s));
-    return reader_length(r, config_setting_get_elem(s, 0), "range", sign_of(r, n), &n->lo) &&
-           reader_length(r, config_setting_get_elem(s, 1), "range", sign_of(r, n) | READER_INFINITE, &n->hi) &&
+    return reader_length(r, s->first, "range", sign_of(r, n), &n->lo) &&
+           reader_length(r, s->first->next, "range", sign_of(r, n) | READER_INFINITE, &n->hi) &&
            (n->lo < n->hi || reader_fail(r, s,
                                          "range: its near end must be below its far end, got %g and %g; a single "
                                          "depth is written at = %g",
                                          n->lo, n->hi, n->lo));
 }
 
-static bool in_planes(reader *r, const config_setting_t *s, const need *n) {
+static bool in_planes(reader *r, const setting *s, const need *n) {
     const need_camera *camera = &r->file->cameras[n->camera];
     const dp_spec *spec = &camera->setups[0].spec;
     if (n->lo >= spec->znear && n->hi <= spec->zfar)
         return true;
-    return reader_fail(r, s, "%s: must lie within near and far of the camera '%s', %.15g and %.15g, got %.15g",
-                       config_setting_name(s), camera->name, spec->znear, spec->zfar,
-                       n->lo >= spec->znear ? n->hi : n->lo);
+    return reader_fail(r, s, "%s: must lie within near and far of the camera '%s', %.15g and %.15g, got %.15g", s->name,
+                       camera->name, spec->znear, spec->zfar, n->lo >= spec->znear ? n->hi : n->lo);
 }
 
 /* Whether a camera suits a kind of limit. */
-static bool suits(reader *r, const config_setting_t *s, const need *n) {
+static bool suits(reader *r, const setting *s, const need *n) {
     const need_camera *camera = &r->file->cameras[n->camera];
     const dp_spec *spec = &camera->setups[0].spec;
     if (n->kind == NEED_ERROR && spec->model == DP_MODEL_FLOAT)
@@ -91,15 +90,14 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
     return true;
 }
 
-static bool read_limit(reader *r, config_setting_t *s, need *n) {
+static bool read_limit(reader *r, setting *s, need *n) {
     if (!kinds[n->kind].is_length)
         return reader_share(r, s, kinds[n->kind].name, &n->limit);
     return reader_length(r, s, kinds[n->kind].name, READER_POSITIVE, &n->limit);
 }
 
 /* Exactly one of some keys: which, or -1 after an error. */
-static int one_of(reader *r, const config_setting_t *group, config_setting_t *const *found, int first, int last,
-                  const char *names) {
+static int one_of(reader *r, const setting *group, setting *const *found, int first, int last, const char *names) {
     int which = -1;
     for (int k = first; k <= last; k++)
         if (found[k] != NULL) {
@@ -114,10 +112,10 @@ static int one_of(reader *r, const config_setting_t *group, config_setting_t *co
     return which;
 }
 
-static bool read_need(reader *r, config_setting_t *group, bool listed, need *n) {
-    config_setting_t *found[KEY_COUNT] = {NULL};
-    n->line = (int)config_setting_source_line(group);
-    n->name = config_setting_name(group);
+static bool read_need(reader *r, setting *group, bool listed, need *n) {
+    setting *found[KEY_COUNT] = {NULL};
+    n->line = group->line;
+    n->name = group->name;
     if (!reader_keys(r, group, "requirement", listed ? keys : keys + 1, listed ? found : found + 1))
         return false;
     if (listed && (found[KEY_NAME] == NULL ? !reader_fail(r, group, "requirement: needs a name")
@@ -156,7 +154,7 @@ static int by_name(const void *a, const void *b) {
     return order != 0 ? order : ((*x)->line > (*y)->line) - ((*x)->line < (*y)->line);
 }
 
-/* libconfig refuses a name given twice in a group, but in a list `name` is only a key like others. */
+/* The grammar refuses a name given twice in a group, but in a list `name` is only a key like others. */
 static bool names_differ(reader *r) {
     const size_t count = r->file->count;
     const need **sorted = malloc(count * sizeof *sorted);
@@ -177,19 +175,17 @@ static bool names_differ(reader *r) {
     return good;
 }
 
-static bool read_needs(reader *r, config_setting_t *s) {
-    const bool listed = config_setting_is_list(s);
-    if (!listed && !config_setting_is_group(s))
+static bool read_needs(reader *r, setting *s) {
+    const bool listed = s->kind == SETTING_LIST;
+    if (!listed && s->kind != SETTING_GROUP)
         return reader_fail(r, s, "requirements: must be a group { NAME = { ... }; } or a list ( { name = ... }, ... )");
-    const unsigned count = (unsigned)config_setting_length(s);
-    if (count == 0)
+    if (s->count == 0)
         return reader_fail(r, s, "requirements: must hold at least one");
-    r->file->needs = calloc(count, sizeof *r->file->needs);
+    r->file->needs = calloc(s->count, sizeof *r->file->needs);
     if (r->file->needs == NULL)
-        return reader_fail(r, s, "no memory for %u requirements", count);
-    for (unsigned i = 0; i < count; i++) {
-        config_setting_t *group = config_setting_get_elem(s, i);
-        if (!config_setting_is_group(group))
+        return reader_fail(r, s, "no memory for %zu requirements", s->count);
+    for (setting *group = s->first; group != NULL; group = group->next) {
+        if (group->kind != SETTING_GROUP)
             return reader_fail(r, group, "requirement: must be a group { ... }, got %s", reader_shown(r, group));
         if (!read_need(r, group, listed, &r->file->needs[r->file->count]))
             return false;
@@ -198,30 +194,29 @@ static bool read_needs(reader *r, config_setting_t *s) {
     return names_differ(r);
 }
 
-static bool read_cameras(reader *r, config_setting_t *s) {
-    const unsigned count = config_setting_is_group(s) ? (unsigned)config_setting_length(s) : 0;
+static bool read_cameras(reader *r, setting *s) {
+    const size_t count = s->kind == SETTING_GROUP ? s->count : 0;
     if (count == 0)
         return reader_fail(r, s, "cameras: must be a group { NAME = { ... }; } with at least one camera");
     r->file->cameras = calloc(count, sizeof *r->file->cameras);
     if (r->file->cameras == NULL)
-        return reader_fail(r, s, "no memory for %u cameras", count);
-    for (unsigned i = 0; i < count; i++) {
-        config_setting_t *group = config_setting_get_elem(s, i);
-        if (!config_setting_is_group(group))
+        return reader_fail(r, s, "no memory for %zu cameras", count);
+    for (setting *group = s->first; group != NULL; group = group->next) {
+        if (group->kind != SETTING_GROUP)
             return reader_fail(r, group, "camera: must be a group { ... }, got %s", reader_shown(r, group));
-        if (!reader_camera(r, group, &r->file->cameras[i]))
+        if (!reader_camera(r, group, &r->file->cameras[r->file->camera_count]))
             return false;
         r->file->camera_count++;
     }
     return true;
 }
 
-static bool read_all(reader *r, config_setting_t *root) {
+static bool read_all(reader *r, setting *root) {
     static const char *const names[] = {"unit", "cameras", "requirements", NULL};
-    config_setting_t *found[3];
+    setting *found[3];
     if (!reader_keys(r, root, "file", names, found) || (found[0] != NULL && !reader_unit(r, found[0])))
         return false;
-    bool (*const parts[])(reader *, config_setting_t *) = {NULL, read_cameras, read_needs};
+    bool (*const parts[])(reader *, setting *) = {NULL, read_cameras, read_needs};
     for (int k = 1; k < 3; k++) {
         if (found[k] == NULL)
             return reader_fail(r, NULL, "needs a group '%s'", names[k]);
@@ -231,26 +226,13 @@ static bool read_all(reader *r, config_setting_t *root) {
     return true;
 }
 
-/* Refuses text that libconfig would follow or stop at without a word. */
-static bool is_plain(reader *r, const char *text, size_t size) {
-    static const char include[] = "@include";
-    int line = 1;
-    for (const char *at = text; at < text + size; line++) {
-        const char *end = memchr(at, '\n', size - (size_t)(at - text));
-        if (end == NULL)
-            end = text + size;
-        if (memchr(at, '\0', (size_t)(end - at)) != NULL) {
-            r->error->line = line;
-            return reader_fail(r, NULL, "holds a null byte: not text");
-        }
-        at += strspn(at, " \t\r\f\v");
-        if (strncmp(at, include, sizeof include - 1) == 0) {
-            r->error->line = line;
-            return reader_fail(r, NULL, "@include is not allowed in requirement files");
-        }
-        at = end + 1;
-    }
-    return true;
+/* The line of a null byte, at which the grammar would stop without a word; 0 where there is none. */
+static int null_line(const char *text, size_t size) {
+    const char *end = memchr(text, '\0', size);
+    int line = end != NULL;
+    for (const char *at = text; end != NULL && at < end; at++)
+        line += *at == '\n';
+    return line;
 }
 
 bool need_parse(const char *path, const char *text, size_t size, need_file *out, need_error *error) {
@@ -259,22 +241,19 @@ bool need_parse(const char *path, const char *text, size_t size, need_file *out,
     reader r = {.file = out, .error = error};
     if (size > NEED_BYTES_MAX)
         return reader_fail(&r, NULL, "must be at most %d bytes, got %zu", NEED_BYTES_MAX, size);
-    config_t *config = malloc(sizeof *config);
-    if (config == NULL)
+    error->line = null_line(text, size);
+    if (error->line > 0)
+        return reader_fail(&r, NULL, "holds a null byte: not text");
+    setting_fault fault;
+    bool good = true;
+    out->memory = malloc(sizeof *out->memory);
+    if (out->memory == NULL)
         return reader_fail(&r, NULL, "no memory");
-    config_init(config);
-    out->memory = config;
-    bool good = is_plain(&r, text, size);
-    if (good && !config_read_string(config, text)) {
-        error->line = config_error_line(config);
-        const char *text_of = config_error_text(config);
-        /* libconfig's arrays hold values of one type, and 50 is not of the type of 0.5 */
-        good =
-            reader_fail(&r, NULL, "%s; expected %s", text_of,
-                        strstr(text_of, "element type") != NULL ? "two numbers of one kind, [0.5, 50.0], or (0.5, 50)"
-                                                                : "KEY = VALUE; as depthprec(5) describes");
+    if (!setting_parse(text, out->memory, &fault)) {
+        error->line = fault.line;
+        good = reader_fail(&r, NULL, "%s", fault.text);
     }
-    good = good && read_all(&r, config_root_setting(config));
+    good = good && read_all(&r, out->memory->root);
     if (!good)
         need_release(out);
     return good;
@@ -323,7 +302,7 @@ void need_release(need_file *file) {
     free(file->cameras);
     free(file->needs);
     if (file->memory != NULL)
-        config_destroy(file->memory);
+        setting_release(file->memory);
     free(file->memory);
     *file = (need_file){.path = file->path, .unit = ""};
 }

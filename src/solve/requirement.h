@@ -65,7 +65,7 @@ typedef struct need_file {
     size_t camera_count, count;
     need_camera *cameras;
     need *needs;
-    void *memory; /**< what the names live in */
+    struct settings *memory; /**< what the names live in */
 } need_file;
 
 enum { NEED_TEXT_SIZE = 256, NEED_KNOWN_SIZE = 1024, NEED_BYTES_MAX = 1 << 26 };

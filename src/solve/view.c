@@ -8,14 +8,14 @@
 #include "solve/reader.h"
 
 /* Two numbers, [A, B], each from `least` to `most`. */
-static bool read_pair(reader *r, config_setting_t *s, double least, double most, const char *form, double out[2]) {
-    bool good = (config_setting_is_array(s) || config_setting_is_list(s)) && config_setting_length(s) == 2;
-    for (unsigned i = 0; i < 2 && good; i++)
-        good = reader_number_within(config_setting_get_elem(s, i), least, most, &out[i]);
-    return good || reader_fail(r, s, "%s: must be %s, got %s", config_setting_name(s), form, reader_shown(r, s));
+static bool read_pair(reader *r, setting *s, double least, double most, const char *form, double out[2]) {
+    bool good = (s->kind == SETTING_ARRAY || s->kind == SETTING_LIST) && s->count == 2;
+    for (setting *end = s->first; good && end != NULL; end = end->next)
+        good = reader_number_within(end, least, most, out++);
+    return good || reader_fail(r, s, "%s: must be %s, got %s", s->name, form, reader_shown(r, s));
 }
 
-static bool read_viewport(reader *r, config_setting_t *s, dp_triangles *t) {
+static bool read_viewport(reader *r, setting *s, dp_triangles *t) {
     static const char form[] = "[WIDTH, HEIGHT], each a whole number from 1 to 32768 pixels";
     double sides[2];
     if (!read_pair(r, s, 1, 32768, form, sides))
@@ -27,7 +27,7 @@ static bool read_viewport(reader *r, config_setting_t *s, dp_triangles *t) {
     return true;
 }
 
-static bool read_slant(reader *r, config_setting_t *s, dp_triangles *t) {
+static bool read_slant(reader *r, setting *s, dp_triangles *t) {
     static const char form[] = "[LO, HI], from 0 to 90 degrees";
     double ends[2];
     if (!read_pair(r, s, 0, 90, form, ends))
@@ -40,17 +40,16 @@ static bool read_slant(reader *r, config_setting_t *s, dp_triangles *t) {
 }
 
 /* Degrees, as the options take them. */
-static bool read_angle(reader *r, config_setting_t *s, double *out) {
+static bool read_angle(reader *r, setting *s, double *out) {
     return reader_number_within(s, 0.01, 179, out) ||
-           reader_fail(r, s, "%s: must be a number from 0.01 to 179 degrees, got %s", config_setting_name(s),
-                       reader_shown(r, s));
+           reader_fail(r, s, "%s: must be a number from 0.01 to 179 degrees, got %s", s->name, reader_shown(r, s));
 }
 
-static bool read_fov(reader *r, config_setting_t *s, dp_triangles *t) {
+static bool read_fov(reader *r, setting *s, dp_triangles *t) {
     return read_angle(r, s, &t->fov_y);
 }
 
-static bool read_hfov(reader *r, config_setting_t *s, dp_triangles *t) {
+static bool read_hfov(reader *r, setting *s, dp_triangles *t) {
     double fov_x;
     if (!read_angle(r, s, &fov_x))
         return false;
@@ -59,7 +58,7 @@ static bool read_hfov(reader *r, config_setting_t *s, dp_triangles *t) {
            reader_fail(r, s, "hfov: makes a vertical angle of %g degrees, which must be from 0.001 to 179.9", t->fov_y);
 }
 
-static bool read_subpixel(reader *r, config_setting_t *s, dp_triangles *t) {
+static bool read_subpixel(reader *r, setting *s, dp_triangles *t) {
     double bits;
     if (!reader_number_within(s, 1, 8, &bits) || bits != floor(bits))
         return reader_fail(r, s, "subpixel: must be a whole number from 1 to 8 bits, got %s", reader_shown(r, s));
@@ -67,11 +66,11 @@ static bool read_subpixel(reader *r, config_setting_t *s, dp_triangles *t) {
     return true;
 }
 
-static bool read_class(reader *r, config_setting_t *group, dp_triangles *t) {
+static bool read_class(reader *r, setting *group, dp_triangles *t) {
     static const char *const names[] = {"depth", "pixels", "slim", NULL};
     double *const fields[] = {&t->depth, &t->pixels, &t->slim};
-    config_setting_t *found[3];
-    if (!config_setting_is_group(group))
+    setting *found[3];
+    if (group->kind != SETTING_GROUP)
         return reader_fail(r, group, "triangle: must be a group { depth = 2; pixels = 512; slim = 16; }, got %s",
                            reader_shown(r, group));
     if (!reader_keys(r, group, "triangle", names, found))
@@ -90,8 +89,7 @@ static bool has_raster(const char *name) {
 }
 
 /* The rasterizer's grid and set-up; the bits of those that have at least so many may be said, too. */
-static bool read_raster(reader *r, config_setting_t *s, const config_setting_t *bits, need_camera *out,
-                        dp_triangles *t) {
+static bool read_raster(reader *r, setting *s, const setting *bits, need_camera *out, dp_triangles *t) {
     const int asked = t->subpixel;
     char name[PROFILE_NAME_SIZE];
     if (!reader_row(r, s, "raster", has_raster, out, name))
@@ -115,7 +113,7 @@ static bool read_raster(reader *r, config_setting_t *s, const config_setting_t *
 }
 
 /* Triangles must be drawn by a pipeline that interpolates linearly, and judged by its guarantee. */
-static bool suits(reader *r, const config_setting_t *s, const need_camera *camera, const dp_spec *spec) {
+static bool suits(reader *r, const setting *s, const need_camera *camera, const dp_spec *spec) {
     if (spec->ortho)
         return reader_fail(r, s, "viewport: does not apply to an orthographic camera");
     if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
@@ -127,8 +125,7 @@ static bool suits(reader *r, const config_setting_t *s, const need_camera *camer
 }
 
 /* The view and the rasterizer that a preset has, where nothing else is said. */
-static bool complete(reader *r, config_setting_t *const found[VIEW_COUNT], const preset *of, need_camera *out,
-                     dp_triangles *t) {
+static bool complete(reader *r, setting *const found[VIEW_COUNT], const preset *of, need_camera *out, dp_triangles *t) {
     const bool angle = found[VIEW_FOV] != NULL || found[VIEW_HFOV] != NULL;
     const bool grid = found[VIEW_RASTER] != NULL || found[VIEW_SUBPIXEL] != NULL;
     if (of == NULL && !angle)
@@ -144,10 +141,9 @@ static bool complete(reader *r, config_setting_t *const found[VIEW_COUNT], const
     return true;
 }
 
-bool reader_view(reader *r, config_setting_t *const found[VIEW_COUNT], const preset *of, need_camera *out,
-                 dp_spec *spec) {
+bool reader_view(reader *r, setting *const found[VIEW_COUNT], const preset *of, need_camera *out, dp_spec *spec) {
     static const char *const names[VIEW_COUNT + 1] = {VIEW_KEYS, NULL};
-    static bool (*const readers[VIEW_COUNT])(reader *, config_setting_t *, dp_triangles *) = {
+    static bool (*const readers[VIEW_COUNT])(reader *, setting *, dp_triangles *) = {
         [VIEW_VIEWPORT] = read_viewport, [VIEW_FOV] = read_fov,           [VIEW_HFOV] = read_hfov,
         [VIEW_SLANT] = read_slant,       [VIEW_SUBPIXEL] = read_subpixel, [VIEW_TRIANGLE] = read_class};
     dp_triangles *t = &spec->triangles;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Stand-ins for what the page lacks: the commands and figures that need files, threads, GSL, libconfig or jansson, and
+ * Stand-ins for what the page lacks: the commands and figures that need files, threads, GSL or jansson, and
  * the rows that their options name. Each refuses in a sentence; the program has them all.
  */
 #include <stdio.h>

@@ -10,7 +10,7 @@ rm -rf "$out"
 mkdir -p "$out/apt/lists/partial" "$out/apt/archives/partial" "$out/include" "$out/lib" "$out/o"
 cd "$out"
 
-sources='zlib libpng1.6 jansson libconfig gsl'
+sources='zlib libpng1.6 jansson gsl'
 release=$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)
 keys=/usr/share/keyrings/debian-archive-keyring.gpg
 echo "deb-src [signed-by=$keys] http://deb.debian.org/debian ${release:-stable} main" >apt/list
@@ -46,13 +46,13 @@ known="$known|HAVE_(INLINE|MEM.*|STD.*|STR.*|IEEE_.*S)"
 sed -E "s/^#undef ($known)\$/#define \\1 1/" gsl/config.h.in >gsl/config.h
 
 parts='block blas cblas cheb err interpolation linalg matrix permutation sort statistics sys vector'
-ls zlib/*.c libpng1.6/*.c jansson/src/*.c libconfig/lib/*.c $(printf 'gsl/%s/*.c ' $parts) |
+ls zlib/*.c libpng1.6/*.c jansson/src/*.c $(printf 'gsl/%s/*.c ' $parts) |
     grep -vE '/(test[^/]*|[^/]*_source|source_[^/]*|example|pngtest|apply_givens|cholesky_common|svdstep)\.c$' >files
 nice xargs -P"${JOBS:-$(nproc)}" -n1 sh -c '
     top=${1%%/*}
-    $0 -O2 -w -D__USE_MINGW_ANSI_STDIO=1 -DLIBCONFIG_STATIC -include stdint.h -ffp-contract=off -I$top -I${1%/*} -Izlib \
+    $0 -O2 -w -D__USE_MINGW_ANSI_STDIO=1 -include stdint.h -ffp-contract=off -I$top -I${1%/*} -Izlib \
         -c -o "o/$(echo "${1%.c}" | tr / _).o" "$1"' \
     "$cc" <files 2>>log || { tail -n 5 log >&2 && exit 1; }
 "$ar" rcsD lib/libwindows.a o/*.o
-cp -r zlib/zlib.h zlib/zconf.h libpng1.6/png*.h jansson/src/jansson*.h libconfig/lib/libconfig.h gsl/gsl include
+cp -r zlib/zlib.h zlib/zconf.h libpng1.6/png*.h jansson/src/jansson*.h gsl/gsl include
 rm -rf apt o $sources ./*.dsc ./*.tar.*

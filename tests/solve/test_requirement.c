@@ -40,6 +40,19 @@ TEST(example_is_read) {
     need_release(&f);
 }
 
+/* A whole number is read as such whatever its size; libconfig 1.5 kept its lower 32 bits. */
+TEST(large_whole_numbers_are_read) {
+    need_file f;
+    need_error e;
+    assert_true(parse(
+        "cameras = { a = { near = 4294967297; far = 5000000000; mapping = \"d3d\"; format = \"fp32\"; }; };" NEEDS(
+            "at = 4500000000; error = 3000000000;"),
+        &f, &e));
+    assert_true(f.cameras[0].setups[0].spec.znear == 4294967297.0 && f.cameras[0].setups[0].spec.zfar == 5e9);
+    assert_true(f.needs[0].lo == 4.5e9 && f.needs[0].limit == 3e9);
+    need_release(&f);
+}
+
 /* Each length in scene units of each unit. */
 TEST(units_are_converted) {
     static const char *const names[] = {"mm", "cm", "m", "km"};

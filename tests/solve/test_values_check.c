@@ -5,7 +5,7 @@
 #include "solve/check.h"
 #include "zfight/census.h"
 
-/* A name with a quote and a backslash, in the file as libconfig wants it. */
+/* A name with a quote and a backslash, in the file as the grammar wants it. */
 static const char *const name_in_file = "a\\\"quoted\\\"na\\\\me,<more>&less";
 static const char *const name = "a\"quoted\"na\\me,<more>&less";
 

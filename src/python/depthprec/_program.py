@@ -136,7 +136,7 @@ def _asked(camera, command, options):
 
 
 def _group(group, end=" "):
-    """A dict as libconfig writes it."""
+    """A dict in the grammar of requirement files."""
     return "".join("%s = %s;%s" % (_name(key), _setting(value), end) for key, value in group.items())
 
 
