@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value that prepass prints, against a comparison of the same vertices. */
-#include "bias/cmd_bias/bias_all.h"
+#include "bias/cmd_bias/call.h"
 #include "named.h"
 #include "printed.h"
 #include "raster/vertex_compare.h"

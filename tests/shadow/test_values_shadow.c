@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every number that shadow prints, against the room shadow with a light of the test's own; the split and the sphere of
  * a cascade by closed forms. */
-#include "bias/cmd_bias/bias_all.h"
+#include "bias/cmd_bias/call.h"
 #include "named.h"
 #include "printed.h"
 #include "shadow/shadow.h"
@@ -579,3 +579,32 @@ TEST(each_number) {
 }
 
 LIST_TEST(check_apart)
+
+/*
+ * Where a unit of bias is worth nothing at window depth 0 light begins twice the way of a constant bias from there, or
+ * 1/256 of the box where that is more; not where that would be half of the box, and not in unorm formats.
+ */
+TEST(light_keeps_off_zero) {
+    static const double widths[] = {0.25, 0.75, 4, 8, 20, 40, 80, 90, 100, 110, 130, 200, 400};
+    tally t = {.name = "lit"};
+    int seen[3] = {0};
+    for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++)
+        for (int k = 0; k < 4; k++) {
+            const char *const format = k % 2 == 0 ? "fp32" : "unorm24", *const mapping = k < 2 ? "d3d" : "reversed";
+            const double depth = 64;
+            json_t *root = json_printed(0, "shadow --light-box %gx%gx%g --size 64x64 -F %s -m %s --api d3d11",
+                                        widths[i], widths[i], depth, format, mapping);
+            const double from = number_at(root, "setups[0].lit_from"), to = number_at(root, "setups[0].lit_to");
+            const double covered = 2 * depth * number_at(root, "setups[0].rows[0].constant_bias");
+            const int way = k % 2 != 0 || covered >= depth / 2 ? 0 : covered > depth / 256 ? 1 : 2;
+            const double away = way == 0 ? 0 : way == 1 ? covered : depth / 256;
+            seen[way]++;
+            TALLY(&t, k < 2 ? to == depth : from == 0, "%g, %s %s: from %g to %g", widths[i], format, mapping, from,
+                  to);
+            TALLY(&t, fabs((k < 2 ? from : depth - to) - away) <= 1e-9 * depth, "%g, %s %s: from %g to %g, not %g away",
+                  widths[i], format, mapping, from, to, away);
+            json_decref(root);
+        }
+    assert_true(seen[0] >= 24 && seen[1] >= 4 && seen[2] >= 1);
+    tally_end(&t);
+}
