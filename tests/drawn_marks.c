@@ -115,7 +115,7 @@ const svg_mark *drawn_label(const drawn *d, const drawn_panel *p, svg_point at, 
     const double gap = right ? words->at.x - at.x : at.x - words->box.x1;
     assert_int_equal(svg_rgb(words->fill), d->theme->text);
     if (gap < 4 * d->scale) { /* where the frame ends, above the point or below it */
-        assert_true(fmin(fabs(words->box.x1 - p->frame.x1), fabs(words->box.x0 - p->frame.x0)) < 2 * d->scale);
+        assert_true(fmin(fabs(words->box.x1 - p->frame.x1), fabs(words->box.x0 - p->frame.x0)) < 6 * d->scale);
         assert_true(is_led(d, at, fmin(fmax(at.x, words->box.x0), words->box.x1),
                            middle + (middle < at.y ? 0.625 : -0.625) * words->size));
         return words;

@@ -53,7 +53,7 @@ alike alike_find(const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
     alike best = {.other = NULL};
     double longest = enough;
-    for (size_t k = 0; k < index && takes_part(s); k++) {
+    for (size_t k = index + 1; k < panel->series_count && takes_part(s); k++) {
         const chart_series *other = &panel->series[k];
         const double lo = s->x[0], hi = s->x[s->count - 1];
         chart_extent at = {INFINITY, -INFINITY};

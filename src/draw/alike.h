@@ -5,15 +5,16 @@
 
 #include "draw/chart.h"
 
-/** Another curve that hides this one, or is hidden by it. */
+/** Another curve, which hides this one. */
 typedef struct alike {
     const chart_series *other; /**< null: none does */
     double from, to;           /**< where along x; NaN for the end of the curve, one at least */
 } alike;
 
 /**
- * The listed line before line `index` of a panel with fitted axes that lies within half a stroke of it: everywhere, or
- * along half of the axis at least, the longest first. Of points likewise, but only where all are alike.
+ * The listed line behind line `index` of a panel with fitted axes, so drawn over it, that lies within half a stroke of
+ * it: everywhere, or along half of the axis at least, the longest first. Of points likewise, but only where all are
+ * alike.
  */
 alike alike_find(const chart_panel *panel, size_t index);
 

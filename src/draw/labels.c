@@ -58,13 +58,14 @@ static double cost_of(const ground *g, canvas_rect box) {
 
 static canvas_rect best_place(const ground *g, double x, double y, double width) {
     const canvas_rect frame = g->a->frame;
-    const double high = 1.25 * g->p->small.size, gap = 8 * g->p->scale;
+    const double high = 1.25 * g->p->small.size, gap = 8 * g->p->scale, inset = 4 * g->p->scale;
     canvas_rect best = {0, 0, 0, 0};
     double least = INFINITY;
     for (int line = 0; line <= 2 * LIFTS; line++) {
         double lift = (line + 1) / 2 * (line % 2 == 0 ? 1 : -1) * 0.75 * high;
         for (int side = 0; side < 2; side++) {
-            const double left = side == 0 ? fmin(x + gap, frame.x + frame.w - width) : fmax(x - gap - width, frame.x);
+            const double left =
+                side == 0 ? fmin(x + gap, frame.x + frame.w - inset - width) : fmax(x - gap - width, frame.x + inset);
             canvas_rect box = {left, y - high / 2 + lift, width, high};
             double cost = cost_of(g, box) + 0.3 * (fabs(lift) + side);
             if (cost < least) {

@@ -24,7 +24,7 @@ static bool listed(const legend *l, const chart_series *s) {
     return false;
 }
 
-/* The curve that this one hides in each panel that has it; where along x, as far as that holds in all of them. */
+/* The curve that hides this one in each panel that has it; where along x, as far as that holds in all of them. */
 static alike hidden_by(const chart *c, const chart_panel *panel, size_t index) {
     const char *name = panel->series[index].name;
     alike all = {NULL, (double)NAN, (double)NAN};
@@ -41,16 +41,31 @@ static alike hidden_by(const chart *c, const chart_panel *panel, size_t index) {
     return isnan(all.from) || isnan(all.to) ? all : (alike){.other = NULL};
 }
 
-/* The name, its note, and the curve that it hides. */
+/* A name without the words that another begins or ends with, too: of "unorm24 d3d" beside "fp32 d3d", "unorm24". */
+static void write_apart(const char *name, const char *other, char out[CHART_TEXT]) {
+    size_t begin = 0, end = strlen(name), ends = strlen(other);
+    for (size_t i = 0; name[i] != '\0' && name[i] == other[i]; i++)
+        begin = name[i] == ' ' ? i + 1 : begin;
+    for (size_t back = 1; begin == 0 && back < end && back < ends && name[end - back] == other[ends - back]; back++)
+        if (name[end - back] == ' ') {
+            end -= back;
+            ends -= back;
+            back = 0;
+        }
+    snprintf(out, CHART_TEXT, "%.*s", (int)(end - begin), name + begin);
+}
+
+/* The name, its note, and the curve that hides it. */
 static void write_text(const chart *c, const chart_panel *panel, size_t index, char out[LEGEND_TEXT]) {
     const chart_series *s = &panel->series[index];
     const alike found = hidden_by(c, panel, index);
     const double end = isnan(found.from) ? found.to : found.from;
-    char number[TICKS_TEXT];
+    char number[TICKS_TEXT], other[CHART_TEXT];
     snprintf(out, LEGEND_TEXT, "%s%s", s->name, s->note);
     if (found.other == NULL)
         return;
-    append(out, LEGEND_TEXT, ", over %s", found.other->name);
+    write_apart(found.other->name, s->name, other);
+    append(out, LEGEND_TEXT, ", hidden by %s", other);
     if (isnan(end))
         return;
     ticks_about(end, number);

@@ -78,7 +78,8 @@ static void linear(const chart_axis *axis, int room, ticks *out) {
 
 static void decades(const chart_axis *axis, int room, ticks *out) {
     int first = (int)ceil(dp_log10(axis->lo) - 1e-9), last = (int)floor(dp_log10(axis->hi) + 1e-9);
-    bool powers = first < PLAIN_LO || last > PLAIN_HI;
+    const bool percent = axis->unit != NULL && axis->unit[0] == '%'; /* 100 %, not 10^2 % */
+    const bool wide = first < PLAIN_LO || last > PLAIN_HI;
     int stride = 1;
     while ((last - first) / stride + 1 > room)
         stride++;
@@ -86,7 +87,8 @@ static void decades(const chart_axis *axis, int room, ticks *out) {
      */
     int origin = floor((double)last / stride) - ceil((double)first / stride) < 1 ? first : 0;
     for (int power = first - 1; power <= last; power++) {
-        double decade = dp_pow(10, power);
+        const double decade = dp_pow(10, power);
+        const bool powers = percent ? power < PLAIN_LO || power > PLAIN_HI : wide;
         char text[TICKS_TEXT] = "";
         if ((power - origin) % stride == 0)
             ticks_label(decade, powers, text);

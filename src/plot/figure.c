@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by figures: styles of set-ups, ranges, panels. */
+#include "plot/figure.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "plot/figure.h"
+#include "draw/theme.h"
 
 /* The first set-up with the format (or mapping) of set-up i. */
 static size_t first_alike(const figure_request *r, size_t i, bool mapping) {
@@ -23,12 +25,21 @@ static int kinds(const figure_request *r, size_t count, bool mapping) {
     return found;
 }
 
+/* Odd ones, with hollow markers, are those of reversed mappings. */
+static int stroke_of(const figure_request *r, size_t i) {
+    const size_t first = first_alike(r, i, true);
+    int before = 0;
+    for (size_t k = 0; k < first; k++)
+        before += first_alike(r, k, true) == k && r->setups[k].reversed == r->setups[i].reversed;
+    return 2 * before + (r->setups[i].reversed != 0);
+}
+
 chart_style figure_style(const figure_request *request, size_t i) {
-    if (kinds(request, request->count, false) == 1 || kinds(request, request->count, true) == 1)
-        return (chart_style){(int)i, (int)i, (int)i, false};
-    const int format = kinds(request, first_alike(request, i, false), false);
-    const int mapping = kinds(request, first_alike(request, i, true), true);
-    return (chart_style){format, mapping, format, false};
+    const int formats = kinds(request, request->count, false);
+    const bool own = formats == 1 || kinds(request, request->count, true) == 1;
+    const int colour = own ? (int)i : kinds(request, first_alike(request, i, false), false);
+    return (chart_style){colour, (size_t)formats < request->count ? stroke_of(request, i) : colour / THEME_COLOURS,
+                         colour, false};
 }
 
 bool figure_draws_codes(const dp_format *format) {

@@ -84,8 +84,9 @@ typedef struct figure_row {
 
 NAMED_ROWS(figure_row, figure);
 
-/** Colour, stroke and marker of set-up i: the format decides the colour and the marker, the mapping the stroke;
- *  where all share the one or the other, each set-up has its own of all three. */
+/** Colour, stroke and marker of set-up i: the format decides the colour and the marker; where all share it, or the
+ *  mapping, each set-up has its own. Where a format has several mappings, these decide the stroke: solid or dotted with
+ *  filled markers, or dashed with hollow ones if they are reversed. */
 chart_style figure_style(const figure_request *request, size_t i);
 
 /**

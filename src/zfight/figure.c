@@ -148,7 +148,7 @@ static void add_kinds(chart *out, chart_panel *panel) {
     static const struct {
         const char *name;
         int colour;
-    } kinds[KINDS] = {[PLAIN] = {"wall", 4}, [STRIPE] = {"its stripes", -1}, [COVER] = {"decal before it", 0}};
+    } kinds[KINDS] = {[PLAIN] = {"wall", 4}, [STRIPE] = {"its stripes", -1}, [COVER] = {"decal in front of it", 0}};
     for (int k = 0; k < KINDS; k++) {
         chart_series *s = chart_add_series(out, panel, CHART_AREA, 0);
         if (s == NULL)
@@ -171,8 +171,11 @@ static void add_panel(stage *s, double share, chart *out) {
         return;
     const shot one = draw(s, share, &panel->map);
     const double wrong = one.covered > 0 ? 100.0 * (double)one.wrong / (double)one.covered : 0.0;
-    snprintf(panel->title, sizeof panel->title, "%.3g%s%s, %.3g of the guarantee: %.2g %% wrong", share * s->guaranteed,
-             *unit != '\0' ? " " : "", unit, share, wrong);
+    char part[32] = "";
+    if (share < 1.0)
+        snprintf(part, sizeof part, "%.3g of ", share);
+    snprintf(panel->title, sizeof panel->title, "%.3g%s%s, %sthe guarantee: %.2g %% wrong", share * s->guaranteed,
+             *unit != '\0' ? " " : "", unit, part, wrong);
 }
 
 static const char *build(const figure_request *request, stage *s, chart *out) {

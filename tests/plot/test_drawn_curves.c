@@ -24,20 +24,33 @@ static double apart(const svg_mark *a, const svg_mark *b, double from, double to
     return worst;
 }
 
-/* What the legend says of curve i beside its name: which curve before it lies on it, everywhere or from or up to where.
- * What it says is so, and it says so of each that lies on another. Returns whether it says something. */
+/* The name of set-up k beside that of i: without the format or the mapping that both have. */
+static const char *told_apart(const cameras *c, size_t i, size_t k, char out[48]) {
+    const char *mapping = strchr(c->names[k], ' '), *own = strchr(c->names[i], ' ');
+    const int format = (int)(mapping - c->names[k]);
+    const bool same_format = strncmp(c->names[k], c->names[i], (size_t)format + 1) == 0;
+    snprintf(out, 48, "%.*s%s", same_format ? 0 : format, c->names[k],
+             same_format                 ? mapping + 1
+             : strcmp(mapping, own) == 0 ? ""
+                                         : mapping);
+    return out;
+}
+
+/* What the legend says of curve i beside its name: which curve drawn later hides it, everywhere or from or up to where.
+ * What it says is so, and it says so of each that another lies on. Returns whether it says something. */
 static bool check_alike(const drawn *d, const cameras *c, size_t i) {
     const drawn_panel *p = &d->panels[0];
     const svg_mark *own = drawn_curve(d, p, &d->entries[i]);
-    const char *said = strstr(d->entries[i].text, ", over "), *from = NULL, *to = NULL;
+    const char *said = strstr(d->entries[i].text, ", hidden by "), *from = NULL, *to = NULL;
     const double left = p->frame.x0 + 1, right = p->frame.x1 - 1, seen = 2, width = p->frame.x1 - p->frame.x0;
-    for (size_t k = 0; k < i; k++) {
+    for (size_t k = i + 1; k < c->count; k++) {
         const svg_mark *other = drawn_curve(d, p, &d->entries[k]);
-        const size_t length = strlen(c->names[k]);
+        char name[48];
+        const size_t length = strlen(told_apart(c, i, k, name));
         if (said == NULL) /* each pair parts on both halves */
             assert_true(apart(own, other, left, left + 0.55 * width) > 0.6 &&
                         apart(own, other, right - 0.55 * width, right) > 0.6);
-        if (said == NULL || strncmp(said + 7, c->names[k], length) != 0 || strchr(" ", said[7 + length]) == NULL)
+        if (said == NULL || strncmp(said + 12, name, length) != 0 || strchr(" ", said[12 + length]) == NULL)
             continue;
         from = strstr(said, " from ");
         to = strstr(said, " up to ");
@@ -58,7 +71,7 @@ static size_t legend_names(const drawn *d, const cameras *c) {
     for (size_t i = 0; i < c->count; i++) {
         const char *text = d->entries[i].text;
         assert_int_equal(strncmp(text, c->names[i], strlen(c->names[i])), 0);
-        assert_true(text[strlen(c->names[i])] == '\0' || strncmp(text + strlen(c->names[i]), ", over ", 7) == 0);
+        assert_true(text[strlen(c->names[i])] == '\0' || strncmp(text + strlen(c->names[i]), ", hidden by ", 12) == 0);
         alike += check_alike(d, c, i);
     }
     return alike;
@@ -129,7 +142,7 @@ static void check_curves(const drawn *d, const cameras *c, size_t mappings, cons
     for (size_t i = 0; i < c->count; i++) {
         const drawn_entry *e = drawn_legend(d, c->names[i]);
         const bool both = formats > 1 && mappings > 1;
-        const int format = (int)(both ? i / mappings : i), mapping = (int)(both ? i % mappings : i);
+        const int format = (int)(both ? i / mappings : i), mapping = (int)(both ? i % mappings : mappings > 1 ? i : 0);
         drawn_style_is(d, e, format, mapping, shapes[format], false);
         const svg_mark *curve = drawn_curve(d, p, e);
         drawn_follows(p, &p->y, curve, q->truth, &c->setups[i], 150, 1.3);
@@ -178,6 +191,19 @@ TEST(curves_show_the_library) {
         one_panel(&curve_cases[i], &drawn_light, -100, 500, "unorm16,fp16", "d3d");
         one_panel(&curve_cases[i], &drawn_light, 0, 500, "fp16,unorm8", "reversed");
     }
+}
+
+/* A share is read in percent: 100 and 0.01, not powers of ten, down to where zeros must be counted. */
+TEST(shares_are_percent) {
+    static const char *const labels[] = {"100", "10", "1", "0.1", "0.01", "0.001", "10\u207b\u2074", "10\u207b\u2075"};
+    drawn *d = drawn_run(&drawn_light, "plot share -F fp32,unorm24 -m d3d");
+    const drawn_scale *y = &d->panels[0].y;
+    size_t found = 0;
+    for (int i = 0; i < y->labels; i++)
+        for (size_t k = 0; k < sizeof labels / sizeof labels[0]; k++)
+            found += strcmp(y->at[i]->text, labels[k]) == 0;
+    assert_int_equal(found, sizeof labels / sizeof labels[0]);
+    drawn_close(d);
 }
 
 /* ---- Unbounded cells --------------------------------------------------------------------------------------------- */
@@ -362,7 +388,7 @@ TEST(hidden_points) {
             hidden += found;
         }
     assert_true(points > 6 && hidden == points);
-    assert_string_equal(over->text, "fp32 d3d, census, over unorm24 d3d, census");
+    assert_string_equal(under->text, "unorm24 d3d, census, hidden by fp32");
     assert_string_equal(drawn_legend(d, "unorm24 reversed, census")->text, "unorm24 reversed, census");
     drawn_close(d);
 }

@@ -50,7 +50,7 @@ static int check_points(const drawn *d, const drawn_panel *p, const json_t *root
     for (size_t k = 0; k < d->entry_count; k++) {
         const char *text = d->entries[k].text, *rest = text + strlen(name);
         if (strncmp(text, name, strlen(name)) == 0 &&
-            (*rest == '\0' || strncmp(rest, ", over ", 7) == 0 || strncmp(rest, " (ends at ", 10) == 0))
+            (*rest == '\0' || strncmp(rest, ", hidden by ", 12) == 0 || strncmp(rest, " (ends at ", 10) == 0))
             e = &d->entries[k];
     }
     if (e == NULL || e->lines != 1)

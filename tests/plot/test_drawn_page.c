@@ -117,8 +117,35 @@ TEST(sizes) {
 
 /* ---- Many set-ups ------------------------------------------------------------------------------------------------ */
 
+/* Dashes and hollow markers are of reversed mappings, whatever comes first, and of nothing else. */
+TEST(dashed_is_reversed) {
+    static const struct {
+        const char *setups, *names[4];
+        int strokes[4];
+    } cases[] = {
+        {"-F unorm24,fp32 -m reversed,d3d",
+         {"unorm24 reversed", "unorm24 d3d", "fp32 reversed", "fp32 d3d"},
+         {1, 0, 1, 0}},
+        {"-F rg,d16,d24,d32f -m d3d", {"rg linear", "unorm16 d3d", "unorm24 d3d", "fp32 d3d"}, {0}},
+        {"-F fp32 -m gl-reversed,gl,reversed,d3d",
+         {"fp32 gl-reversed", "fp32 gl ", "fp32 reversed", "fp32 d3d"},
+         {1, 0, 3, 2}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        drawn *d = drawn_run(&drawn_light, "plot share %s", cases[i].setups);
+        for (size_t k = 0; k < 4; k++) {
+            const drawn_entry *e = drawn_legend(d, cases[i].names[k]);
+            const bool hollow = e->marker.inside == d->theme->background;
+            assert_int_equal(hollow, cases[i].strokes[k] % 2);
+            assert_int_equal(e->line->dash_count > 0, cases[i].strokes[k] > 0);
+        }
+        drawn_close(d);
+    }
+}
+
 TEST(many) {
     static const char *const mappings = "d3d,gl,reversed,log";
+    static const int strokes[] = {0, 2, 1, 4}; /* odd: reversed */
     static const drawn_shape shapes[] = {DRAWN_DISC,     DRAWN_SQUARE,        DRAWN_DIAMOND,
                                          DRAWN_TRIANGLE, DRAWN_TRIANGLE_DOWN, DRAWN_HEXAGON};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16,unorm20,unorm24,fp16", mappings);
@@ -128,7 +155,7 @@ TEST(many) {
     for (size_t i = 0; i < c.count; i++) {
         const drawn_entry *e = &d->entries[i];
         assert_ptr_equal(drawn_legend(d, c.names[i]), e);
-        drawn_style_is(d, e, (int)i / 4, (int)i % 4, shapes[i / 4], false);
+        drawn_style_is(d, e, (int)i / 4, strokes[i % 4], shapes[i / 4], false);
         if (i % 4 > 0) /* those of a format stand together */
             assert_px(e->x, d->entries[i - 1].x, 0.1);
         drawn_follows(&d->panels[0], &d->panels[0].y, drawn_curve(d, &d->panels[0], e), true_share, &c.setups[i], 60,
@@ -143,7 +170,7 @@ TEST(many) {
     c = cameras_of(drawn_camera(0.1, 1000), "unorm16,unorm20,unorm24,fp16,fp32,unorm12", "reversed");
     d = drawn_run(&drawn_light, "plot error -F unorm16,unorm20,unorm24,fp16,fp32,unorm12 -m reversed");
     for (size_t i = 0; i < c.count; i++)
-        drawn_style_is(d, drawn_legend(d, c.names[i]), (int)i, (int)i, shapes[i], false);
+        drawn_style_is(d, drawn_legend(d, c.names[i]), (int)i, 0, shapes[i], false);
     drawn_close(d);
 }
 
@@ -267,10 +294,10 @@ static uint32_t pixel_of(cairo_surface_t *image, double x, double y) {
 TEST(the_same_in_png_and_pdf) {
     char path[2][320], command[400], head[64];
     drawn_marker all[256];
-    drawn *d = drawn_run(&drawn_light, "plot share -F unorm24,fp16 -m d3d,reversed");
+    drawn *d = drawn_run(&drawn_light, "plot share -F unorm24,fp32 -m d3d,reversed");
     for (int i = 0; i < 2; i++) {
         snprintf(path[i], sizeof path[i], "%s/drawn.%s", drawn_folder(), i == 0 ? "png" : "pdf");
-        free(drawn_output("plot share -F unorm24,fp16 -m d3d,reversed -o %s", path[i]));
+        free(drawn_output("plot share -F unorm24,fp32 -m d3d,reversed -o %s", path[i]));
     }
     cairo_surface_t *image = cairo_image_surface_create_from_png(path[0]);
     assert_int_equal(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);

@@ -38,7 +38,7 @@ static void check_panel(const drawn *d, const drawn_panel *p, const world_asked 
         snprintf(name, sizeof name, row->size != NULL ? "%s:%.7g" : "%s", row->name, size);
         const drawn_entry *e = drawn_legend(d, name);
         drawn_follows(p, &p->y, drawn_curve(d, p, e), true_loss, &c, 80, 4);
-        drawn_style_is(d, e, (int)k, (int)(k / 4), DRAWN_NONE, false);
+        drawn_style_is(d, e, (int)(k % 4), (int)(k / 4), DRAWN_NONE, false);
     }
 }
 
@@ -86,7 +86,7 @@ TEST(hidden_in_both_panels) {
     drawn *d = drawn_run(&drawn_light, "plot world -F fp32 -m reversed -f inf --unit m");
     json_t *root = json_printed(0, "plot world -F fp32 -m reversed -f inf --unit m");
     double said, parted = 0, next = 0;
-    assert_int_equal(sscanf(drawn_legend(d, "local")->text, "local, over absolute from %lf", &said), 1);
+    assert_int_equal(sscanf(drawn_legend(d, "absolute")->text, "absolute, hidden by local from %lf", &said), 1);
     for (int p = 0; p < 2; p++) {
         const json_t *absolute = node_at(root, "panels[%d].series[0].points", p);
         const json_t *local = node_at(root, "panels[%d].series[1].points", p);

@@ -120,6 +120,35 @@ TEST(every_figure_of_every_kind_of_camera) {
 }
 
 /* The share of what has no end would be 0 everywhere. */
+/* By default from 1 to 20, where a picture shows what the curves are; a preset has planes of its own. */
+TEST(linear01_shows_a_short_range) {
+    static const struct {
+        const char *options;
+        double znear, zfar;
+    } cases[] = {{"", 1, 20}, {"-n 2", 2, 20}, {"-f 40", 1, 40}, {"--preset unity", 0.3, 1000}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const double n = cases[i].znear, f = cases[i].zfar;
+        printed p = print_of("plot linear01 %s --csv", cases[i].options);
+        size_t rows = 0;
+        assert_int_equal(p.status, 0);
+        for (char *line = strchr(p.out, '\n'); line != NULL && line[1] != '\0'; line = strchr(line + 1, '\n')) {
+            char *rest = line;
+            double at[8] = {0};
+            size_t columns = 0;
+            do
+                at[columns++] = strtod(rest + 1, &rest);
+            while (*rest == ',' && columns < 8);
+            assert_true(fabs(at[columns - 2] - at[0] / f) < 1e-12);
+            assert_true(fabs(at[columns - 1] - (at[0] - n) / (f - n)) < 1e-12);
+            assert_true(rows > 0 || at[0] == n);
+            rows += 1;
+            assert_true(strchr(line + 1, '\n')[1] != '\0' || at[0] == f);
+        }
+        assert_true(rows > 100);
+        printed_free(&p);
+    }
+}
+
 TEST(linear01_has_a_finite_far_plane) {
     static const refused_row rows[] = {{"-f inf -o /dev/null --type svg", "must be finite in the figure linear01", 2},
                                        {"-f 100,inf --json", "must be finite in the figure linear01", 2},

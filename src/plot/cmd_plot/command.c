@@ -59,7 +59,7 @@ static plotting plotting_of(const plot_request *o) {
                                     .census = census_depths,
                                     .columns = o->figure.width > 0 ? o->figure.width : WIDTH,
                                     .rows = o->figure.height > 0 ? o->figure.height : HEIGHT,
-                                    .far_count = o->camera.far_count,
+                                    .far_count = option_given(o->line, "far") ? o->camera.far_count : 0,
                                     .fars = o->camera.fars};
     scene_asked scene_of = o->scene;
     scene_of.angle = o->shadow.angle; /* as this is */

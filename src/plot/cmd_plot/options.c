@@ -12,11 +12,14 @@ static const name_list figures = {.rows = &figure_table};
 /* The figures: those of set-ups, and those of a model, of shadow maps and of a requirement file, whose options are
  * those of their own commands. */
 enum { SLANTED = FIGURE_SLANTED | FIGURE_MODEL, VIEWED = SLANTED | FIGURE_DRAWN | FIGURE_SHADOW };
-#define FARS OWN("far", .argument = "Z|inf[,Z...]", ALSO("several in the figure linear01"), .parse = parse_fars)
-static const option_use of_fars[] = {TAKE("near"), FARS, TAKE("mapping"), TAKE("log-c"), END};
+#define FARS OWN("far", .argument = "Z|inf[,Z...]", \
+    ALSO("several in the figure linear01, where it is 20 by default"), .parse = parse_fars)
+static const option_use of_fars[] = {OWN("near", DEFAULT("1")), OWN("far", .argument = "Z[,Z...]", DEFAULT("20"),
+    HELP("distance of the far plane; several are drawn together"), .parse = parse_fars), TAKE("preset"),
+    TAKE("mapping"), TAKE("log-c"), END};
 static const option_use of_cameras[] = {TAKE("near"), FARS, OWN("format", ALSO(CAMERA_OF_RG)), TAKE("mapping"), END};
 static const option_use of_setups[] = {
-    OWN("near", ALSO("with --ortho also 0 or negative")), TAKE("ortho"), OWN("tolerance",
+    OWN("near", ALSO("with --ortho also 0 or negative; in linear01 1 by default")), TAKE("ortho"), OWN("tolerance",
         WITHOUT("5% for the model; intervals are as exact as the picture shows")),
     OWN("model", DEFAULT("exact"), WITHOUT("what is guaranteed, over the lattice, in error and interval; float in "
         "figures of its pipeline; staged in distribution and share with gl and gl-reversed")), END};
