@@ -127,8 +127,8 @@ TEST(dashed_is_reversed) {
          {"unorm24 reversed", "unorm24 d3d", "fp32 reversed", "fp32 d3d"},
          {1, 0, 1, 0}},
         {"-F rg,d16,d24,d32f -m d3d", {"rg linear", "unorm16 d3d", "unorm24 d3d", "fp32 d3d"}, {0}},
-        {"-F fp32 -m gl-reversed,gl,reversed,d3d",
-         {"fp32 gl-reversed", "fp32 gl ", "fp32 reversed", "fp32 d3d"},
+        {"-F fp32 -m gl-reversed,log,reversed,d3d",
+         {"fp32 gl-reversed", "fp32 log", "fp32 reversed", "fp32 d3d"},
          {1, 0, 3, 2}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
