@@ -235,8 +235,8 @@ bool list_device(size_t index, list_item *item) {
                fabs(row->step) > 1 ? "s" : "", number_of(row->focal, 7).text);
     if (row->baseline > 0)
         append(item->bound, sizeof item->bound, ", baseline %s mm", number_of(1000 * row->baseline, 6).text);
-    append(item->bound, sizeof item->bound, "; %s to %s m%s", number_of(row->nearest, 3).text,
-           number_of(row->farthest, 3).text, row->radial ? " along the ray" : "");
+    append(item->bound, sizeof item->bound, "; %s%s to %s m%s", row->usual ? "not published, usual " : "",
+           number_of(row->nearest, 3).text, number_of(row->farthest, 3).text, row->radial ? " along the ray" : "");
     for (size_t i = 0; row->levels != GRAIN_FINE && i < sizeof at / sizeof at[0]; i++)
         append(item->bound, sizeof item->bound, "%s%s at %s m", i == 0 ? "; apart by " : ", ",
                number_of(sensor_gap(&s, at[i]), 4).text, number_of(at[i], 4).text);

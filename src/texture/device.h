@@ -19,6 +19,7 @@ typedef struct device_row {
     double nearest, farthest; /**< metres: what its depths lie between */
     bool radial;              /**< distances along the ray */
     const char *source;
+    bool usual; /**< these depths are usual ones: no sheet has them */
 } device_row;
 
 const device_row *device_get(size_t index); /**< null beyond the last */

@@ -310,6 +310,43 @@ TEST(rows_of_data_sheets) {
     json_decref(list);
 }
 
+/* Depths as the sheets have them, or said to be in none; of RealSense what 126 pixels see, the least there is. */
+TEST(depths_of_data_sheets) {
+    static const struct range {
+        const char *name;
+        double nearest, farthest;
+    } ranges[] = {{"kinect2", 0.5, 8},
+                  {"azure-kinect", 0.25, 5.46},
+                  {"zed2", 0.3, 20},
+                  {"astra", 0.6, 8},
+                  {"oak-d", 882.5 * 0.075 / 190, 15}, /* extended disparity ends there */
+                  {"diode", 0.6, 350},
+                  {"d415", 640 / 0.637070260807493 * 0.055 / 126, 10},
+                  {"d435", 640 / 0.948964938616687 * 0.05 / 126, 10},
+                  {"d455", 640 / 0.948964938616687 * 0.095 / 126, 10}};
+    json_t *list = run_json("list sensors");
+    const json_t *items = json_object_get(list, "items");
+    for (size_t i = 0; i < json_array_size(items); i++) {
+        const json_t *item = json_array_get(items, i);
+        const char *sheet = json_string_value(json_object_get(item, "sheet")), *semicolon = strchr(sheet, ';');
+        assert_non_null(semicolon);
+        const bool usual = strncmp(semicolon, "; not published, usual ", 23) == 0;
+        for (size_t k = 0; k < sizeof ranges / sizeof ranges[0]; k++) {
+            double nearest = 0, farthest = 0;
+            if (strcmp(json_string_value(json_object_get(item, "name")), ranges[k].name) != 0)
+                continue;
+            assert_false(usual);
+            assert_int_equal(sscanf(semicolon, "; %lf to %lf m", &nearest, &farthest), 2);
+            assert_true(fabs(nearest - ranges[k].nearest) < 0.005);
+            assert_true(farthest == ranges[k].farthest);
+        }
+        const char *name = json_string_value(json_object_get(item, "name"));
+        assert_true(strcmp(name, "hypersim") != 0 || usual);
+        assert_non_null(json_string_value(json_object_get(item, "source")));
+    }
+    json_decref(list);
+}
+
 /* Without a word of what 1 in a sample is: the unit where levels or parts of a metre tell it, else two at least. */
 TEST(what_is_a_unit) {
     static double data[PIXELS];
