@@ -3,9 +3,10 @@
 
 #include <math.h>
 
-#define MM            1e-3
-#define MICROSOFT     "Microsoft, "
-#define REALSENSE     "Intel, RealSense D400 Series Product Family Datasheet, 337029: baseline, field of view; " \
+#define MM        1e-3
+#define MICROSOFT "Microsoft, "
+#define REALSENSE                                                                                                      \
+    "Intel, RealSense D400 Series Product Family Datasheet, 337029: baseline, field of view; "                         \
     "librealsense, disparity-transform.cpp: 5 fractional bits; its issue 3039: 126 disparities"
 #define REALSENSE_FOR "focal length at 1280 pixels by the field of view, at which 126 pixels are nearest"
 /* Half the width in pixels over the tangent of half the angle. */
