@@ -10,7 +10,7 @@ layers='
 include/depthprec | depthprec
 src/core          | depthprec core
 src/bias          | depthprec core bias
-src/camera        | depthprec core system bias camera
+src/camera        | depthprec core system raster bias camera
 src/world         | depthprec core world
 src/zfight        | depthprec core zfight
 src/raster        | depthprec core raster

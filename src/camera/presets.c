@@ -77,6 +77,13 @@ static const preset rows[] = {
 };
 /* clang-format on */
 
+void preset_planes(const preset *p, const unit_row *unit, double *znear, double *zfar, double *log_c) {
+    const unit_row *own = unit_find(p->unit);
+    *znear = unit_convert(p->znear, own, unit);
+    *zfar = unit_convert(p->zfar, own, unit);
+    *log_c = 1.0 / unit_convert(1.0, own, unit);
+}
+
 double preset_fov_y(const preset *p, int width, int height) {
     const bool vertical = p->axis == PRESET_VERTICAL || (p->axis == PRESET_LARGER && width <= height);
     return vertical ? p->fov : dp_fov_vertical(p->fov, width, height);

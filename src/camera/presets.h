@@ -8,6 +8,7 @@
 #ifndef CAMERA_PRESETS_H
 #define CAMERA_PRESETS_H
 
+#include "camera/unit.h"
 #include "core/named.h"
 #include "depthprec/depthprec.h"
 
@@ -31,6 +32,10 @@ typedef struct preset {
 } preset;
 
 NAMED_ROWS(preset, preset);
+
+/** Its planes, and the constant C of its logarithm, 1 for a depth in its own unit, in scene units of `unit`; where that
+ * is null, or the preset's is no length, as they are. */
+void preset_planes(const preset *p, const unit_row *unit, double *znear, double *zfar, double *log_c);
 
 /** The vertical field of view in a viewport, degrees. */
 double preset_fov_y(const preset *p, int width, int height);

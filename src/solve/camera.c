@@ -92,11 +92,9 @@ static bool read_preset(reader *r, const setting *s, draft *d) {
     if (index < 0)
         return false;
     const preset *row = preset_get((size_t)index);
-    const unit_row *unit = unit_find(row->unit);
     d->preset = row;
     /* Where the file says what its scene unit is, a preset in metres is converted into it. */
-    d->spec.znear = unit_convert(row->znear, unit, r->unit);
-    d->spec.zfar = unit_convert(row->zfar, unit, r->unit);
+    preset_planes(row, r->unit, &d->spec.znear, &d->spec.zfar, &d->spec.log_c);
     d->spec.mapping = row->mapping;
     d->format_count = dp_format_parse(row->format, d->formats);
     return true;
@@ -152,19 +150,6 @@ static bool read_words(reader *r, setting *const *found, draft *d, need_camera *
     return true;
 }
 
-/* A named GPU's profile must store the formats: nothing is known of others. */
-static bool gpu_suits(reader *r, setting *const *found, const draft *d, const need_camera *camera) {
-    char names[PROFILE_FORMATS_SIZE], chosen[64] = "";
-    if (found[KEY_FORMAT] == NULL)
-        snprintf(chosen, sizeof chosen, "; preset %s chose it", d->preset->name);
-    for (size_t i = 0; i < d->format_count; i++)
-        if (!profile_stores(&camera->gpu, &d->formats[i]))
-            return reader_fail(r, found[KEY_FORMAT] != NULL ? found[KEY_FORMAT] : found[KEY_PRESET],
-                               "format: must be %s with a profile of a GPU that stores no other depth, got %s%s",
-                               profile_formats(&camera->gpu, names), d->formats[i].name, chosen);
-    return true;
-}
-
 /* A rasterizer that is known brings its own arithmetic; a GPU's profile in its place has both. */
 static bool take_arith(reader *r, setting *const *found, draft *d, need_camera *out) {
     const setting *const named = found[KEY_VIEW + VIEW_RASTER];
@@ -181,29 +166,19 @@ static bool take_arith(reader *r, setting *const *found, draft *d, need_camera *
     return true;
 }
 
-/* Refuses formats whose codes the rasterizer steps, as softpipe does: they have no bound. */
-static bool raster_suits(reader *r, const setting *s, const draft *d, const need_camera *camera) {
-    for (size_t i = 0; i < d->format_count && camera->raster != NULL; i++)
-        if (!raster_bounded(camera->raster, &d->formats[i]))
-            return reader_fail(r, s, "raster: %s steps the codes of %s from pixel to pixel, which has no bound",
-                               camera->raster->name, d->formats[i].name);
-    return true;
-}
-
+/* A named GPU's profile must store the formats, for nothing is known of others; a rasterizer must draw them within a
+ * bound; and each must be a format that the rest of the camera can have. */
 static bool make_setups(reader *r, const setting *group, const draft *d, need_camera *out) {
+    camera_fault fault;
     out->count = d->format_count;
     for (size_t i = 0; i < d->format_count; i++) {
         dp_spec spec = d->spec;
         spec.format = d->formats[i];
+        if (!camera_stored(&out->gpu, &spec.format, &fault) || !camera_bounded(out->raster, &spec.format, &fault))
+            return reader_fault(r, group, d->preset, &fault);
         const dp_status status = judge_setup(&spec, &out->setups[i]);
-        if (status == DP_ERROR_MODEL)
-            return reader_fail(r, group,
-                               "camera '%s': model: must be exact, staged or auto with the mapping %s, got float",
-                               out->name, dp_mapping_get(spec.mapping)->name);
         if (status != DP_OK)
-            return reader_fail(r, group, "camera '%s': %s, got near %.15g, far %.15g, %s, %s", out->name,
-                               dp_status_text(status), spec.znear, spec.zfar, dp_mapping_get(spec.mapping)->name,
-                               spec.ortho ? "orthographic" : "perspective");
+            return camera_refused(&spec, status, "", &fault) || reader_fault(r, group, d->preset, &fault);
     }
     return true;
 }
@@ -268,7 +243,6 @@ bool reader_camera(reader *r, setting *group, need_camera *out) {
         return reader_fail(r, found[KEY_LOG_C], "log_c: must be a number per scene unit, got %s",
                            reader_shown(r, found[KEY_LOG_C]));
     out->automatic = d.automatic;
-    return good && read_world(r, found, &d, out) && reader_view(r, found + KEY_VIEW, d.preset, out, &d.spec) &&
-           take_arith(r, found, &d, out) && gpu_suits(r, found, &d, out) &&
-           raster_suits(r, found[KEY_VIEW + VIEW_RASTER], &d, out) && make_setups(r, group, &d, out);
+    return good && read_world(r, found, &d, out) && reader_view(r, group, found + KEY_VIEW, d.preset, out, &d.spec) &&
+           take_arith(r, found, &d, out) && make_setups(r, group, &d, out);
 }

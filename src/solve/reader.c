@@ -24,6 +24,20 @@ bool reader_fail(reader *r, const setting *s, const char *format, ...) {
     return false;
 }
 
+static const setting *key_of(const setting *group, const char *name) {
+    const setting *s = group->first;
+    while (s != NULL && strcmp(s->name, name) != 0)
+        s = s->next;
+    return s;
+}
+
+bool reader_fault(reader *r, const setting *group, const preset *of, const camera_fault *fault) {
+    const setting *given = key_of(group, fault->key), *chosen = of != NULL ? key_of(group, "preset") : NULL;
+    if (given != NULL || chosen == NULL)
+        return reader_fail(r, given != NULL ? given : group, "%s: %s", fault->key, fault->text);
+    return reader_fail(r, chosen, "%s: %s; preset %s chose it", fault->key, fault->text, of->name);
+}
+
 void reader_known(reader *r, const char *given, const char *name) {
     char *known = r->error->known;
     snprintf(r->error->given, sizeof r->error->given, "%s", given);

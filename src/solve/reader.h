@@ -4,6 +4,7 @@
 #define SOLVE_READER_H
 
 #include "camera/presets.h"
+#include "camera/rules.h"
 #include "camera/unit.h"
 #include "solve/requirement.h"
 #include "solve/setting.h"
@@ -20,6 +21,9 @@ enum { READER_POSITIVE = 1 << 0, READER_INFINITE = 1 << 1, READER_SIGNED = 1 << 
 
 /* Notes what is wrong and where; s may be null. @return false */
 bool reader_fail(reader *r, const setting *s, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* The same of a fault of a camera: at its key, or else at the preset, which then chose the value, or the group. */
+bool reader_fault(reader *r, const setting *group, const preset *of, const camera_fault *fault);
 
 /* Adds a name to those that would have been known in place of `given`. */
 void reader_known(reader *r, const char *given, const char *name);
@@ -49,7 +53,8 @@ enum { VIEW_VIEWPORT, VIEW_FOV, VIEW_HFOV, VIEW_RASTER, VIEW_SUBPIXEL, VIEW_SLAN
 #define VIEW_KEYS "viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"
 
 /* The triangles of a specification, by those that were found; what of them is not, a preset may say, or null. */
-bool reader_view(reader *r, setting *const found[VIEW_COUNT], const preset *of, need_camera *camera, dp_spec *spec);
+bool reader_view(reader *r, const setting *group, setting *const found[VIEW_COUNT], const preset *of,
+                 need_camera *camera, dp_spec *spec);
 
 bool reader_camera(reader *r, setting *group, need_camera *out);
 

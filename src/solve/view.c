@@ -49,15 +49,6 @@ static bool read_fov(reader *r, setting *s, dp_triangles *t) {
     return read_angle(r, s, &t->fov_y);
 }
 
-static bool read_hfov(reader *r, setting *s, dp_triangles *t) {
-    double fov_x;
-    if (!read_angle(r, s, &fov_x))
-        return false;
-    t->fov_y = dp_fov_vertical(fov_x, t->width, t->height);
-    return dp_triangles_check(t) == DP_OK ||
-           reader_fail(r, s, "hfov: makes a vertical angle of %g degrees, which must be from 0.001 to 179.9", t->fov_y);
-}
-
 static bool read_subpixel(reader *r, setting *s, dp_triangles *t) {
     double bits;
     if (!reader_number_within(s, 1, 8, &bits) || bits != floor(bits))
@@ -88,9 +79,7 @@ static bool has_raster(const char *name) {
     return raster_find(name) != NULL;
 }
 
-/* The rasterizer's grid and set-up; the bits of those that have at least so many may be said, too. */
-static bool read_raster(reader *r, setting *s, const setting *bits, need_camera *out, dp_triangles *t) {
-    const int asked = t->subpixel;
+static bool read_raster(reader *r, setting *s, need_camera *out) {
     char name[PROFILE_NAME_SIZE];
     if (!reader_row(r, s, "raster", has_raster, out, name))
         return false;
@@ -101,14 +90,17 @@ static bool read_raster(reader *r, setting *s, const setting *bits, need_camera 
         return reader_fail(r, s, "raster: must be a rasterizer as 'depthprec list rasterizers' names them, got '%.40s'",
                            name);
     }
-    if (bits != NULL && !out->raster->at_least)
-        return reader_fail(r, bits, "subpixel: cannot be combined with the rasterizer %s", out->raster->name);
-    if (bits != NULL && asked < out->raster->plane_bits)
-        return reader_fail(r, bits, "subpixel: must be at least %d with the rasterizer %s, got %d",
-                           out->raster->plane_bits, out->raster->name, asked);
-    raster_describe(out->raster, t);
-    if (bits != NULL)
-        t->subpixel = asked;
+    return true;
+}
+
+/* What follows from several keys: the field of view of a horizontal one, the grid of a rasterizer. */
+static bool relate(reader *r, const setting *group, setting *const found[VIEW_COUNT], need_camera *out,
+                   dp_triangles *t) {
+    const int asked = found[VIEW_SUBPIXEL] != NULL ? t->subpixel : 0;
+    camera_fault fault;
+    if ((found[VIEW_HFOV] != NULL && !camera_vertical(t->fov_y, t->width, t->height, &t->fov_y, &fault)) ||
+        (out->raster != NULL && !camera_take_raster(out->raster, asked, t, &fault)))
+        return reader_fault(r, group, NULL, &fault);
     return true;
 }
 
@@ -141,10 +133,11 @@ static bool complete(reader *r, setting *const found[VIEW_COUNT], const preset *
     return true;
 }
 
-bool reader_view(reader *r, setting *const found[VIEW_COUNT], const preset *of, need_camera *out, dp_spec *spec) {
+bool reader_view(reader *r, const setting *group, setting *const found[VIEW_COUNT], const preset *of, need_camera *out,
+                 dp_spec *spec) {
     static const char *const names[VIEW_COUNT + 1] = {VIEW_KEYS, NULL};
     static bool (*const readers[VIEW_COUNT])(reader *, setting *, dp_triangles *) = {
-        [VIEW_VIEWPORT] = read_viewport, [VIEW_FOV] = read_fov,           [VIEW_HFOV] = read_hfov,
+        [VIEW_VIEWPORT] = read_viewport, [VIEW_FOV] = read_fov,           [VIEW_HFOV] = read_fov,
         [VIEW_SLANT] = read_slant,       [VIEW_SUBPIXEL] = read_subpixel, [VIEW_TRIANGLE] = read_class};
     dp_triangles *t = &spec->triangles;
     for (int k = 0; k < VIEW_COUNT && found[VIEW_VIEWPORT] == NULL; k++)
@@ -158,7 +151,8 @@ bool reader_view(reader *r, setting *const found[VIEW_COUNT], const preset *of, 
     for (int k = 0; k < VIEW_COUNT; k++)
         if (found[k] != NULL && readers[k] != NULL && !readers[k](r, found[k], t))
             return false;
-    if (found[VIEW_RASTER] != NULL && !read_raster(r, found[VIEW_RASTER], found[VIEW_SUBPIXEL], out, t))
+    if (found[VIEW_RASTER] != NULL && !read_raster(r, found[VIEW_RASTER], out))
         return false;
-    return complete(r, found, of, out, t) && suits(r, found[VIEW_VIEWPORT], out, spec);
+    return relate(r, group, found, out, t) && complete(r, found, of, out, t) &&
+           suits(r, found[VIEW_VIEWPORT], out, spec);
 }

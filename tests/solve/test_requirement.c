@@ -96,6 +96,31 @@ TEST(presets_are_converted) {
     }
 }
 
+/* C is 1 for a depth in the preset's own unit, metres, as on the command line: 0.001 for one in millimetres. */
+TEST(logarithms_of_presets_are_converted) {
+    static const struct {
+        const char *head, *own;
+        double log_c;
+    } cases[] = {{"", "", 1.0},
+                 {"unit = \"m\";", "", 1.0},
+                 {"unit = \"mm\";", "", 0.001},
+                 {"unit = \"km\";", "", 1000.0},
+                 {"unit = \"km\";", "log_c = 2;", 2.0}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[512];
+        need_file f;
+        need_error e;
+        snprintf(text, sizeof text,
+                 "%s cameras = { a = { preset = \"cesium\"; near = 1; far = 2000; mapping = \"log\"; %s }; };"
+                 "requirements = { r = { camera = \"a\"; at = 2; error = 3; }; };",
+                 cases[i].head, cases[i].own);
+        if (!parse(text, &f, &e))
+            fail_msg("line %d: %s", e.line, e.text);
+        assert_relative(f.cameras[0].setups[0].spec.log_c, cases[i].log_c, 1e-15);
+        need_release(&f);
+    }
+}
+
 TEST(lists_are_read) {
     need_file f;
     need_error e;
@@ -148,7 +173,8 @@ static const struct {
     {"cameras = { a = { near = 0.1;\n far = \"soon\"; mapping = \"d3d\"; format = \"fp32\"; }; };" NEEDS(""), 2,
      "far: must be a length"},
     {"cameras = { a = { near = 5; far = 1; mapping = \"d3d\"; format = \"fp32\"; }; };" NEEDS(""), 1,
-     "far must be greater than near"},
+     "far: must be greater than near and at most 1e18, or 1e28 with near x far and C x far at most 1e30, or inf, got "
+     "near 5, far 1"},
     {"cameras = { a = { near = 0; far = 1; mapping = \"d3d\"; format = \"fp32\"; }; };" NEEDS(""), 1, "near: must be"},
     {"cameras = { a = { near = -1; far = 1; mapping = \"d3d\"; format = \"fp32\"; }; };" NEEDS(""), 1, "near: must be"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"zap\"; format = \"fp32\"; }; };" NEEDS(""), 1,
@@ -156,7 +182,7 @@ static const struct {
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp31\"; }; };" NEEDS(""), 1,
      "format: must be"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"linear\"; format = \"fp32\"; model = \"float\"; }; };" NEEDS(""),
-     1, "model: must be exact, staged or auto with the mapping linear, got float"},
+     1, "model: float is a pipeline's arithmetic, and a shader writes the depth of linear: leave it out, or take one"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; log_c = 1.0; }; };" NEEDS(""), 1,
      "log_c: is for the mappings with a constant C"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"real\"; }; };" NEEDS(""), 1,

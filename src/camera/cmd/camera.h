@@ -10,6 +10,7 @@
 #include "camera/platform.h"
 #include "camera/presets.h"
 #include "camera/profile.h"
+#include "camera/rules.h"
 #include "cli/option/option.h"
 #include "depthprec/depthprec.h"
 #include "raster/raster.h"
@@ -118,6 +119,9 @@ static inline const char *camera_unit(const camera_asked *c) {
 /** Whether the GPUs of the profiles store depth in that format; where not, one line on stderr says what they store.
  * @return EXIT_FINE or EXIT_USAGE */
 int camera_check_stored(const camera_asked *c, const dp_format *format);
+
+/** Says a fault by its option. @return EXIT_USAGE */
+int camera_refuse(const camera_fault *fault);
 
 /** The vertical field of view, degrees, as --fov or --hfov says it of so many pixels. @return EXIT_FINE, or EXIT_USAGE
  * after one line on stderr */

@@ -41,14 +41,15 @@ static void take_logarithm(camera_asked *c, const preset *p) {
 /* A preset gives what the user did not. */
 static void take_preset(camera_asked *c, const preset *p) {
     static const char *const chosen[] = {"near", "far", "format", "mapping", NULL};
-    const unit_row *own = unit_find(p->unit);
+    double znear, zfar, log_c;
     option_chosen(c->line, "preset", p->name, chosen);
+    preset_planes(p, c->lengths.unit, &znear, &zfar, &log_c);
     if (!option_given(c->line, "near"))
-        c->znear = unit_convert(p->znear, own, c->lengths.unit);
+        c->znear = znear;
     if (!option_given(c->line, "far"))
-        c->zfar = unit_convert(p->zfar, own, c->lengths.unit);
-    if (!option_given(c->line, "log-c")) /* 1 for a depth in the preset's own unit */
-        c->log_c /= unit_convert(1.0, own, c->lengths.unit);
+        c->zfar = zfar;
+    if (!option_given(c->line, "log-c"))
+        c->log_c = log_c;
     if (!option_given(c->line, "format"))
         take(c, "format", p->format);
     if (!option_given(c->line, "mapping"))
@@ -124,12 +125,17 @@ static int resolve_each(camera_asked *c) {
     return EXIT_FINE;
 }
 
+int camera_refuse(const camera_fault *fault) {
+    char name[16];
+    snprintf(name, sizeof name, "%s", fault->key);
+    for (char *c = name; *c != '\0'; c++)
+        *c = *c == '_' ? '-' : *c;
+    return option_error(name, "%s", fault->text);
+}
+
 int camera_check_stored(const camera_asked *c, const dp_format *format) {
-    char names[PROFILE_FORMATS_SIZE];
-    if (profile_stores(&c->gpu, format))
-        return EXIT_FINE;
-    return option_error("format", "must be %s with a profile of a GPU that stores no other depth, got %s",
-                        profile_formats(&c->gpu, names), format->name);
+    camera_fault fault;
+    return camera_stored(&c->gpu, format, &fault) ? EXIT_FINE : camera_refuse(&fault);
 }
 
 /* Keeps formats that the GPUs of the profiles store; one that the user named has to be among them. */

@@ -10,43 +10,23 @@
 #include "report/message.h"
 #include "report/number.h"
 
-/* Depth that a shader writes goes through no pipeline; where table is asked, what is counted of that shader is said. */
-static int refuse_float(const camera_asked *c, dp_mapping mapping) {
-    const dp_mapping_row *row = dp_mapping_get(mapping);
-    const bool counted = c->use.counted && row->curve == DP_CURVE_LOG;
-    if (option_given(c->line, "model"))
-        return option_error("model",
-                            "float is a pipeline's arithmetic, and a shader writes the depth of %s: leave it out%s, or "
-                            "take one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
-                            row->name, counted ? " ('guaranteed' counts that shader's log2)" : "");
-    return option_error("mapping",
-                        "must be one of " DP_MAPPING_NAMES_PERSPECTIVE
-                        ", which have a pipeline's arithmetic, got %s, whose depth a shader writes",
-                        row->name);
-}
-
 int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status) {
-    const char *mapping = dp_mapping_get(spec->mapping)->name;
-    if (status == DP_ERROR_MODEL) /* of the models that have a name, float alone is not for all */
-        return refuse_float(c, spec->mapping);
-    /* "--far: must be ..." rather than "--far: far must be ...". */
-    const char *text = dp_status_text(status);
-    if (strncmp(text, "far ", 4) == 0)
-        text += 4;
-    if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
-        return option_error(status == DP_ERROR_ORTHO ? "ortho" : "far", "%s, got %s, %s", text,
-                            spec->ortho ? "orthographic" : "perspective", mapping);
-    return option_error("far", "%s, got near %s, far %s", text, number_full(spec->znear).text,
-                        number_full(spec->zfar).text);
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
+    const bool counted = c->use.counted && row->curve == DP_CURVE_LOG;
+    camera_fault fault;
+    if (status == DP_ERROR_MODEL && !option_given(c->line, "model"))
+        return option_error("mapping",
+                            "must be one of " DP_MAPPING_NAMES_PERSPECTIVE
+                            ", which have a pipeline's arithmetic, got %s, whose depth a shader writes",
+                            row->name);
+    /* Where table is asked, what is counted of that shader is said. */
+    camera_refused(spec, status, counted ? " ('guaranteed' counts that shader's log2)" : "", &fault);
+    return camera_refuse(&fault);
 }
 
 int setup_undrawn(const camera_asked *c, const dp_format *format) {
-    if (c->raster == NULL || raster_bounded(c->raster, format))
-        return EXIT_FINE;
-    return option_error("raster",
-                        "%s steps the codes of %s from pixel to pixel, which has no bound: name other formats with "
-                        "--format",
-                        c->raster->name, format->name);
+    camera_fault fault;
+    return camera_bounded(c->raster, format, &fault) ? EXIT_FINE : camera_refuse(&fault);
 }
 
 /* Refuses what has no budget: terms that the shader of a logarithmic mapping does not have. */

@@ -6,32 +6,18 @@
 
 /* The rasterizer's grid and set-up; --subpixel is instead of it, or says how fine a grid is that has no fixed bits. */
 static int take_raster(camera_asked *c) {
-    const raster_row *row = c->raster;
-    dp_triangles *t = &c->triangles;
-    const int asked = t->subpixel;
-    const bool given = option_given(c->line, "subpixel");
-    if (row == NULL)
-        return EXIT_FINE;
-    if (given && !row->at_least)
-        return option_error("subpixel", "does not apply: %s has its own grid", row->name);
-    if (given && asked < row->plane_bits)
-        return option_error("subpixel", "must be at least %d with --raster %s, got %d", row->plane_bits, row->name,
-                            asked);
-    raster_describe(row, t);
-    if (given)
-        t->subpixel = asked;
-    return EXIT_FINE;
+    const int asked = option_given(c->line, "subpixel") ? c->triangles.subpixel : 0;
+    camera_fault fault;
+    return c->raster == NULL || camera_take_raster(c->raster, asked, &c->triangles, &fault) ? EXIT_FINE
+                                                                                            : camera_refuse(&fault);
 }
 
 int view_vertical(const camera_asked *c, int width, int height, double *fov_y) {
+    camera_fault fault;
     *fov_y = c->spec.fov_y;
-    if (!option_given(c->line, "hfov"))
-        return EXIT_FINE;
-    *fov_y = dp_fov_vertical(c->fov_x, width, height);
-    if (!(*fov_y >= 0.001 && *fov_y <= 179.9)) /* as dp_triangles has it */
-        return option_error("hfov", "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",
-                            number_of(*fov_y, 6).text);
-    return EXIT_FINE;
+    return !option_given(c->line, "hfov") || camera_vertical(c->fov_x, width, height, fov_y, &fault)
+               ? EXIT_FINE
+               : camera_refuse(&fault);
 }
 
 /* Takes a rasterizer whose arithmetic is known, and of the formats those that it has. */
