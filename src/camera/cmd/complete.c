@@ -125,14 +125,6 @@ static int resolve_each(camera_asked *c) {
     return EXIT_FINE;
 }
 
-int camera_refuse(const camera_fault *fault) {
-    char name[16];
-    snprintf(name, sizeof name, "%s", fault->key);
-    for (char *c = name; *c != '\0'; c++)
-        *c = *c == '_' ? '-' : *c;
-    return option_error(name, "%s", fault->text);
-}
-
 int camera_check_stored(const camera_asked *c, const dp_format *format) {
     camera_fault fault;
     return camera_stored(&c->gpu, format, &fault) ? EXIT_FINE : camera_refuse(&fault);
