@@ -10,46 +10,94 @@
 #include "camera/cmd/setups.h"
 #include "camera/cmd/slant.h"
 #include "cli/junit.h"
-#include "core/append.h"
-#include "report/number.h"
-#include "report/report.h"
+#include "report/sentence.h"
 
-enum { DIGITS = 6, SENTENCE_SIZE = 512 };
+enum { DIGITS = 6 };
 
-static bool has_code(const check_verdict *v) {
-    return isfinite(v->z);
-}
+/* A verdict, and what of it is named elsewhere. */
+typedef struct verdict {
+    const char *file, *name, *camera, *kind, *unit, *method; /* unit: null where the file does not say */
+    const char *measured;                                    /* null without a profile */
+    need asked;
+    check_verdict found;
+    setup_fields setup;
+    slant_fields slant;
+    const slant_fields *triangles; /* null where surfaces face the camera */
+    const char *surfaces;
+    double code;                /* NaN where there is none */
+    const char *phrase, *among; /* in a sentence: "separation" ", facing" */
+    number_text shown, allowed;
+} verdict;
 
-/* ---- Text -------------------------------------------------------------------------------------------------------- */
-
-/* A length with the unit of the file behind it, "0.001 m"; a share as it is. */
-static void put(char *out, const char *before, const check_file *f, number_text number, bool is_length) {
-    const bool has_unit = is_length && f->file.unit[0] != '\0';
-    append(out, SENTENCE_SIZE, "%s %s", before, number_in(number, has_unit ? f->file.unit : NULL).text);
-}
+static const column verdict_columns[] = {
+    {FIELD(verdict, file, "file", "")},
+    {FIELD(verdict, asked.line, "line", "")},
+    {FIELD(verdict, name, "name", "")},
+    {FIELD(verdict, camera, "camera", "")},
+    {PART(verdict, setup, "setup", setup_columns)},
+    {FIELD(verdict, kind, "kind", "")},
+    {FIELD(verdict, unit, "unit", "")},
+    {FIELD(verdict, asked.lo, "lo", "scene"), .digits = DIGITS},
+    {FIELD(verdict, asked.hi, "hi", "scene"), .digits = DIGITS},
+    {FIELD(verdict, asked.limit, "limit", "")},
+    {FIELD(verdict, found.value, "value", "")},
+    {FIELD(verdict, found.z, "z", "scene"), .digits = DIGITS},
+    {FIELD(verdict, code, "code", "")},
+    {FIELD(verdict, method, "method", "")},
+    {FIELD(verdict, found.passed, "passed", "")},
+    {FIELD(verdict, surfaces, "surfaces", "")},
+    {FIELD(verdict, measured, "measured", ""), .only = AS_JSON, .optional = true},
+    {PART(verdict, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {.kind = COLUMN_END}};
 
 static number_text surfaces(const check_verdict *v) {
     return check_is_slanted(v) ? slant_words(&v->setup.spec.triangles) : (number_text){"facing"};
 }
 
-/* "separation 0.00149 m at 50 m (code 123), facing, allowed 0.001 m"; what is promised is rounded up */
-static const char *sentence(const check_file *f, const check_verdict *v, char out[SENTENCE_SIZE]) {
+static verdict verdict_of(const check_file *f, const check_verdict *v) {
     const need_kind_row *kind = need_kind_get(v->asked->kind);
+    const char *const unit = f->file.unit[0] != '\0' ? f->file.unit : NULL;
     const number_two compared = number_compared(v->value, v->asked->limit, DIGITS);
-    out[0] = '\0';
-    put(out, kind->phrase, f, compared.value, kind->is_length);
-    if (!kind->is_length) { /* of a range, not of a depth */
-        put(out, " from", f, number_of(v->asked->lo, DIGITS), true);
-        put(out, " to", f, number_of(v->asked->hi, DIGITS), true);
-    } else if (!isnan(v->z)) {
-        put(out, " at", f, number_of(v->z, DIGITS), true);
-    }
-    if (kind->is_length && has_code(v))
-        append(out, SENTENCE_SIZE, " (code %u)", v->code);
+    return (verdict){.file = f->file.path,
+                     .name = v->asked->name,
+                     .camera = v->camera->name,
+                     .kind = kind->name,
+                     .unit = unit,
+                     .method = check_method_name(v->method),
+                     .measured = v->camera->gpu.measured[0] != '\0' ? v->camera->gpu.measured : NULL,
+                     .asked = *v->asked,
+                     .setup = setup_fields_of(&v->setup, unit),
+                     .found = *v,
+                     .slant = {v->setup.spec.triangles, v->camera->raster != NULL ? v->camera->raster->name : NULL,
+                               dp_arith_get(v->setup.spec.arith)->name},
+                     .surfaces = check_is_slanted(v) ? "any slant" : "facing",
+                     .code = isfinite(v->z) ? v->code : (double)NAN,
+                     .phrase = kind->phrase,
+                     .shown = number_in(compared.value, kind->is_length ? unit : NULL),
+                     .allowed = number_in(compared.limit, kind->is_length ? unit : NULL)};
+}
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+static const column said_columns[] = {{GROUP(NULL, verdict_columns)}, WORD(verdict, phrase),    WORD(verdict, among),
+                                      NUMBER(verdict, shown),         NUMBER(verdict, allowed), {.kind = COLUMN_END}};
+
+enum { OF_RANGE = 1 };
+
+static const sentence said[] = {PROSE("{phrase} {shown} from {lo} to {hi}, allowed {allowed}", OF_RANGE),
+                                ELSE("{phrase} {shown} at {z} (code {code}){among}, allowed {allowed}", 0),
+                                ELSE("{phrase} {shown} at {z}{among}, allowed {allowed}", 0),
+                                ELSE("{phrase} {shown}{among}, allowed {allowed}", 0), SENTENCE_END};
+
+/* "separation 0.00149 m at 50 m (code 123), facing, allowed 0.001 m"; what is promised is rounded up */
+static const char *sentence_of(const check_file *f, const check_verdict *v, char out[SENTENCE_SIZE]) {
+    const page p = {.unit = f->file.unit[0] != '\0' ? f->file.unit : NULL};
+    char among[NUMBER_SIZE + 4] = "";
+    verdict x = verdict_of(f, v);
     if (v->asked->kind == NEED_SEPARATION)
-        append(out, SENTENCE_SIZE, ", %s", surfaces(v).text);
-    put(out, ", allowed", f, compared.limit, kind->is_length);
-    return out;
+        snprintf(among, sizeof among, ", %s", surfaces(v).text);
+    x.among = among;
+    return sentence_first(&p, said, said_columns, &x, need_kind_get(v->asked->kind)->is_length ? 0 : OF_RANGE, out);
 }
 
 /* Which GPU the promises for a camera are for. */
@@ -72,7 +120,7 @@ static void write_text(const checks_request *o, bool failures, output *out, cons
             page_text(&p, "%s%s%s  %s:%d: %s: camera %s, %s (%s): %s", v->passed ? p.good : p.bad,
                       v->passed ? "pass" : "FAIL", p.plain, f->file.path, v->asked->line, v->asked->name,
                       v->camera->name, setup_label(&v->setup, false, label),
-                      option_word("model", setup_model(&v->setup)), sentence(f, v, text));
+                      option_word("model", setup_model(&v->setup)), sentence_of(f, v, text));
             if (o->out.full)
                 page_note(&p, "", "decided by %s: %s", check_method_name(v->method),
                           setup_label(&v->setup, true, label));
@@ -100,7 +148,7 @@ static void say_case(output *out, const check_file *f, const check_verdict *v) {
                                  .file = f->file.path,
                                  .line = line,
                                  .type = v->passed ? NULL : need_kind_get(v->asked->kind)->name,
-                                 .message = v->passed ? NULL : sentence(f, v, text),
+                                 .message = v->passed ? NULL : sentence_of(f, v, text),
                                  .detail = detail});
 }
 
@@ -117,19 +165,6 @@ static void write_junit(output *out, const check_file *files, size_t count) {
 
 /* ---- JSON and CSV ------------------------------------------------------------------------------------------------ */
 
-/* A verdict, and what of it is named elsewhere. */
-typedef struct verdict {
-    const char *file, *name, *camera, *kind, *unit, *method; /* unit: null where the file does not say */
-    const char *measured;                                    /* null without a profile */
-    need asked;
-    check_verdict found;
-    setup_fields setup;
-    slant_fields slant;
-    const slant_fields *triangles; /* null where surfaces face the camera */
-    const char *surfaces;
-    double code; /* NaN where there is none */
-} verdict;
-
 typedef struct verdicts {
     const check_file *files;
     size_t count;
@@ -144,46 +179,10 @@ static void *next_verdict(void *of, size_t i) {
         i -= f->count;
     if (f == all->files + all->count)
         return NULL;
-    const check_verdict *v = &f->verdicts[i];
-    all->verdict =
-        (verdict){.file = f->file.path,
-                  .name = v->asked->name,
-                  .camera = v->camera->name,
-                  .kind = need_kind_get(v->asked->kind)->name,
-                  .unit = f->file.unit[0] != '\0' ? f->file.unit : NULL,
-                  .method = check_method_name(v->method),
-                  .measured = v->camera->gpu.measured[0] != '\0' ? v->camera->gpu.measured : NULL,
-                  .asked = *v->asked,
-                  .setup = setup_fields_of(&v->setup, f->file.unit[0] != '\0' ? f->file.unit : NULL),
-                  .found = *v,
-                  .slant = {v->setup.spec.triangles, v->camera->raster != NULL ? v->camera->raster->name : NULL,
-                            dp_arith_get(v->setup.spec.arith)->name},
-                  .surfaces = check_is_slanted(v) ? "any slant" : "facing",
-                  .code = has_code(v) ? v->code : (double)NAN};
-    all->verdict.triangles = check_is_slanted(v) ? &all->verdict.slant : NULL;
+    all->verdict = verdict_of(f, &f->verdicts[i]);
+    all->verdict.triangles = check_is_slanted(&f->verdicts[i]) ? &all->verdict.slant : NULL;
     return &all->verdict;
 }
-
-static const column verdict_columns[] = {
-    {FIELD(verdict, file, "file", "")},
-    {FIELD(verdict, asked.line, "line", "")},
-    {FIELD(verdict, name, "name", "")},
-    {FIELD(verdict, camera, "camera", "")},
-    {PART(verdict, setup, "setup", setup_columns)},
-    {FIELD(verdict, kind, "kind", "")},
-    {FIELD(verdict, unit, "unit", "")},
-    {FIELD(verdict, asked.lo, "lo", "scene")},
-    {FIELD(verdict, asked.hi, "hi", "scene")},
-    {FIELD(verdict, asked.limit, "limit", "")},
-    {FIELD(verdict, found.value, "value", "")},
-    {FIELD(verdict, found.z, "z", "scene")},
-    {FIELD(verdict, code, "code", "")},
-    {FIELD(verdict, method, "method", "")},
-    {FIELD(verdict, found.passed, "passed", "")},
-    {FIELD(verdict, surfaces, "surfaces", "")},
-    {FIELD(verdict, measured, "measured", ""), .only = AS_JSON, .optional = true},
-    {PART(verdict, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
-    {.kind = COLUMN_END}};
 
 static const column columns[] = {{FIELD(verdicts, passed, "passed", ""), .only = AS_JSON},
                                  {LIST("requirements", verdict_columns, next_verdict)},

@@ -9,7 +9,7 @@
 #include "cli/stop.h"
 #include "core/engine.h"
 #include "report/message.h"
-#include "report/number.h"
+#include "report/sentence.h"
 #include "zfight/census.h"
 #include "zfight/cmd_zfight/request.h"
 #include "zfight/cmd_zfight/zfight_triangles.h"
@@ -39,6 +39,9 @@ typedef struct zfight {
     dp_setup facing;               /* the one at hand, of such surfaces */
     const census_result *result;
     band whole, band;
+    double there; /* guaranteed at its longest interval; NaN without one */
+    bool certain; /* something behind that is */
+    const char *surfaces, *chosen;
     int band_index;
 } zfight;
 
@@ -147,67 +150,28 @@ static void *next_setup(void *of, size_t i) {
     z->result = &z->results[i];
     z->whole = band_of(z, &z->result->all);
     z->always = always_from(z);
+    const double at = z->result->all.longest_z;
+    z->there = z->result->all.longest > 0.0 ? dp_separation(&z->facing, at) : (double)NAN;
+    z->certain = dp_is_certain(&z->facing, at, z->there);
+    z->surfaces = z->o->sample > 0 ? "Of the pairs tested, surfaces" : "Surfaces";
+    z->chosen = z->o->sample > 0 ? ", chosen at random" : "";
     return z;
 }
 
-static void say_gap(page *p, const zfight *z) {
-    const census_band *all = &z->result->all;
-    const number_text gap = camera_length(z->each.here, z->gap, 0);
-    const number_text first = number_in(number_down(all->first, DIGITS), p->unit);
-    const number_text always = number_in(number_up(z->always, DIGITS), p->unit);
-    const char *drawn = z->o->sample > 0 ? "Of the pairs tested, surfaces" : "Surfaces";
-    if (isnan(all->first))
-        page_text(p, "%s %s apart never z-fight from %s to %s.", drawn, gap.text,
-                  camera_length(z->each.here, z->lo, 0).text, camera_length(z->each.here, z->hi, 0).text);
-    else if (isnan(z->always))
-        page_text(p, "%s %s apart first z-fight at z = %s, and at no depth do all of them.", drawn, gap.text,
-                  first.text);
-    else
-        page_text(p, "%s %s apart first z-fight at z = %s, and always from z = %s on.", drawn, gap.text, first.text,
-                  always.text);
-    page_line(p, "(z-fight: they are stored as one code, or in the wrong order)");
-}
-
-static void say_neighbours(page *p, const zfight *z) {
-    const census_band *all = &z->result->all;
-    page_text(p, "Neighbouring binary32 depths%s: %s %% tie, %s %% swap. --separation asks about surfaces.",
-              z->o->sample > 0 ? ", chosen at random" : "", number_of(z->whole.ties, 3).text,
-              number_of(z->whole.swaps, 3).text);
-    const double there = dp_separation(&z->facing, all->longest_z);
-    if (all->longest > 0.0)
-        page_line(p, "longest interval %s at z = %s, guaranteed there %s%s",
-                  number_in(number_of(all->longest, DIGITS), p->unit).text,
-                  number_in(number_of(all->longest_z, DIGITS), p->unit).text,
-                  number_in(number_up(there, DIGITS), p->unit).text,
-                  dp_is_certain(&z->facing, all->longest_z, there) ? "" : ": nothing behind is certain");
-}
-
-static void say_answer(page *p, void *item) {
-    const zfight *z = item;
-    each_setup_title(p, item);
-    slant_say(p, page_title, &z->o->camera, z->each.setup);
-    (z->gap > 0.0 ? say_gap : say_neighbours)(p, z);
-}
-
-static void say_planes(page *p, void *item) {
-    const zfight *z = item;
-    const census_result *r = z->result;
-    if (z->triangles != NULL)
-        page_line(p, "the pairs face the camera; --rasterize draws slanted ones");
-    if (isnan(r->near_effective))
-        page_line(p, "clipping removes everything");
-    else
-        page_line(p, "effective clip range%s: %s to %s", option_given(z->o->line, "range") ? " within --range" : "",
-                  number_in(number_of(r->near_effective, PLANE_DIGITS), p->unit).text,
-                  number_in(number_of(r->far_effective, PLANE_DIGITS), p->unit).text);
-}
-
-enum { WITH_INTERVALS = 1, WITH_CLIPPED = 2, WITH_SAMPLE = 4, WITH_GAP = 8, WITH_TRIANGLES = 16 };
+enum {
+    WITH_INTERVALS = 1,
+    WITH_CLIPPED = 2,
+    WITH_SAMPLE = 4,
+    WITH_GAP = 8,
+    WITH_TRIANGLES = 16,
+    WITH_RANGE = 32,
+    CERTAIN = 64 /* of sentences: something behind the longest interval is */
+};
 
 static unsigned conditions(const zfight_request *o) {
     return (o->separation > 0.0 ? WITH_GAP : WITH_INTERVALS) | (o->sample > 0 ? WITH_SAMPLE : 0) |
            (o->sample == 0 && o->separation <= 0.0 ? WITH_CLIPPED : 0) |
-           (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
+           (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0) | (option_given(o->line, "range") ? WITH_RANGE : 0);
 }
 
 static const column count_columns[] = {
@@ -216,8 +180,10 @@ static const column count_columns[] = {
     {FIELD(band, counts.swaps, "swaps", "")},
     {TEXT_FIELD(band, ties, "ties %", 9, 4), .fixed = true},
     {TEXT_FIELD(band, swaps, "swaps %", 9, 4), .fixed = true},
-    {FIELD(band, longest, "longest", "scene")},
-    {FIELD(band, counts.longest_z, "longest_z", "scene")},
+    {FIELD(band, ties, "tie_percent", ""), .digits = 3, .only = AS_TEXT},
+    {FIELD(band, swaps, "swap_percent", ""), .digits = 3, .only = AS_TEXT},
+    {FIELD(band, longest, "longest", "scene"), .digits = DIGITS},
+    {FIELD(band, counts.longest_z, "longest_z", "scene"), .digits = DIGITS},
     {TEXT_FIELD(band, longest, "longest", 12, DIGITS), .when = WITH_INTERVALS},
     {TEXT_FIELD(band, counts.longest_z, "at", 10, DIGITS), .when = WITH_INTERVALS, .spare = 1},
     {FIELD(band, counts.bound, "bound", "scene"), SHOWN("guaranteed", 12, DIGITS), .upward = true},
@@ -236,9 +202,10 @@ static const column band_columns[] = {{FIELD(band, counts.lo, "lo", "scene")},
                                       {FIELD(band, certain, "certain", "")},
                                       {.kind = COLUMN_END}};
 
-static const column plane_columns[] = {{FIELD(census_result, near_effective, "near_effective", "scene")},
-                                       {FIELD(census_result, far_effective, "far_effective", "scene")},
-                                       {.kind = COLUMN_END}};
+static const column plane_columns[] = {
+    {FIELD(census_result, near_effective, "near_effective", "scene"), .digits = PLANE_DIGITS},
+    {FIELD(census_result, far_effective, "far_effective", "scene"), .digits = PLANE_DIGITS},
+    {.kind = COLUMN_END}};
 
 static const column clipped_columns[] = {{FIELD(census_result, all.clipped, "clipped", "")},
                                          {FIELD(census_result, holes, "holes", "")},
@@ -250,19 +217,54 @@ static const column setup_report[] = {
     {FIELD(zfight, each.fields.arith, "arith", ""), .only = AS_CSV},
     {FIELD(zfight, method, "method", "")},
     {FIELD(zfight, seed, "seed", ""), .only = AS_CSV},
-    {FIELD(zfight, gap, "gap", "scene"), .only = AS_CSV},
+    {FIELD(zfight, gap, "gap", "scene"), .given = true, .only = AS_CSV},
     {FIELD(zfight, seed, "seed", ""), .only = AS_JSON, .when = WITH_SAMPLE},
     {FIELD(zfight, gap, "gap", "scene"), .only = AS_JSON, .when = WITH_GAP},
-    {FIELD(zfight, lo, "lo", "scene"), .only = AS_JSON},
-    {FIELD(zfight, hi, "hi", "scene"), .only = AS_JSON},
+    {FIELD(zfight, lo, "lo", "scene"), .given = true, .only = AS_JSON},
+    {FIELD(zfight, hi, "hi", "scene"), .given = true, .only = AS_JSON},
     {PART(zfight, whole, NULL, count_columns), .only = AS_JSON},
-    {FIELD(zfight, whole.counts.first, "first", "scene"), .only = AS_JSON, .when = WITH_GAP},
-    {FIELD(zfight, always, "always_from", "scene"), .only = AS_JSON, .when = WITH_GAP},
+    {FIELD(zfight, whole.counts.first, "first", "scene"), .digits = DIGITS, .downward = true, .only = AS_JSON,
+     .when = WITH_GAP},
+    {FIELD(zfight, always, "always_from", "scene"), .digits = DIGITS, .upward = true, .only = AS_JSON,
+     .when = WITH_GAP},
+    {FIELD(zfight, there, "there", "scene"), .digits = DIGITS, .upward = true, .only = AS_TEXT},
     {PART(zfight, result, NULL, clipped_columns), .only = AS_JSON, .pointed = true, .when = WITH_CLIPPED},
     {PART(zfight, result, NULL, plane_columns), .only = AS_JSON, .pointed = true},
     {LIST("bands", band_columns, next_band)},
     {PART(zfight, result, NULL, plane_columns), .only = AS_CSV, .pointed = true},
+    {FIELD(zfight, surfaces, "surfaces", ""), .only = AS_TEXT},
+    {FIELD(zfight, chosen, "chosen", ""), .only = AS_TEXT},
     {.kind = COLUMN_END}};
+
+#define LONGEST "longest interval {longest} at z = {longest_z}, guaranteed there {there}"
+static const sentence answer_words[] = {
+    PROSE("{surfaces} {gap} apart first z-fight at z = {first}, and always from z = {always_from} on.", WITH_GAP),
+    ELSE("{surfaces} {gap} apart first z-fight at z = {first}, and at no depth do all of them.", WITH_GAP),
+    ELSE("{surfaces} {gap} apart never z-fight from {lo} to {hi}.", WITH_GAP),
+    ELSE("Neighbouring binary32 depths{chosen}: {tie_percent} % tie, {swap_percent} % swap. "
+         "--separation asks about surfaces.",
+         0),
+    LINE("(z-fight: they are stored as one code, or in the wrong order)", WITH_GAP),
+    LINE(LONGEST, WITH_INTERVALS | CERTAIN),
+    ELSE(LONGEST ": nothing behind is certain", WITH_INTERVALS),
+    SENTENCE_END};
+static const sentence plane_words[] = {
+    LINE("the pairs face the camera; --rasterize draws slanted ones", WITH_TRIANGLES),
+    LINE("effective clip range within --range: {near_effective} to {far_effective}", WITH_RANGE),
+    ELSE("effective clip range: {near_effective} to {far_effective}", 0), ELSE("clipping removes everything", 0),
+    SENTENCE_END};
+
+static void say_answer(page *p, void *item) {
+    zfight *z = item;
+    each_setup_title(p, item);
+    slant_say(p, page_title, &z->o->camera, z->each.setup);
+    page_say(p, answer_words, setup_report, z, conditions(z->o) | (z->certain ? CERTAIN : 0));
+}
+
+static void say_planes(page *p, void *item) {
+    const zfight *z = item;
+    page_say(p, plane_words, setup_report, item, conditions(z->o));
+}
 
 static const column columns[] = {
     {PART(zfight, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},

@@ -11,7 +11,7 @@
 #include "camera/cmd/slant.h"
 #include "cli/stop.h"
 #include "raster/fight.h"
-#include "report/number.h"
+#include "report/sentence.h"
 
 enum { DIGITS = 4, SHARE_DIGITS = 3, PAIRS = 500 };
 
@@ -92,33 +92,13 @@ static void *next_setup(void *of, size_t i) {
     return d;
 }
 
-static void say_answer(page *p, void *item) {
-    const drawn *d = item;
-    const draw_fight_band *w = &d->whole;
-    each_setup_title(p, item);
-    slant_say(p, page_title, &d->o->camera, d->each.setup);
-    if (w->pixels == 0)
-        page_text(p, "Nothing was drawn: no separation is guaranteed in this range, or no triangle fits.");
-    else if (isnan(w->used))
-        page_text(p, "No pixel was wrong.");
-    else
-        page_text(p, "A pixel was wrong up to %s of the guarantee.", number_of(w->used, DIGITS).text);
-    if (!isnan(w->used))
-        page_line(p, "there, at z = %s: planes %s apart, guaranteed %s",
-                  number_in(number_of(w->z, DIGITS), p->unit).text,
-                  number_in(number_of(w->separation, DIGITS), p->unit).text,
-                  number_in(number_up(w->guaranteed, DIGITS), p->unit).text);
-    page_line(p, "(wrong: the farther plane is seen; %s pairs of planes drawn, seed %s)",
-              number_full((double)d->pairs).text, number_full((double)d->seed).text);
-}
-
 static const column found_columns[] = {
     {FIELD(draw_fight_band, pixels, "pixels", ""), SHOWN("pixels", 11, 0), .spare = 1},
     {FIELD(draw_fight_band, separation, "separation", "scene"), SHOWN("separation", 11, DIGITS)},
     {FIELD(draw_fight_band, z, "z", "scene"), SHOWN("at", 9, DIGITS)},
     {FIELD(draw_fight_band, slant, "slant", "degrees"), SHOWN("slant", 7, 3)},
     {FIELD(draw_fight_band, guaranteed, "bound", "scene"), SHOWN("guaranteed", 12, DIGITS), .upward = true},
-    {FIELD(draw_fight_band, used, "used", "")},
+    {FIELD(draw_fight_band, used, "used", ""), .digits = DIGITS},
     {TEXT_FIELD(draw_fight_band, used, "used", 7, SHARE_DIGITS), .fixed = true},
     {.kind = COLUMN_END}};
 
@@ -140,6 +120,23 @@ static const column setup_report[] = {{PART(drawn, each.fields, NULL, setup_colu
                                       {PART(drawn, whole, NULL, found_columns), .only = AS_JSON},
                                       {LIST("bands", band_columns, next_band)},
                                       {.kind = COLUMN_END}};
+
+enum { NOTHING_DRAWN = 1 };
+
+static const sentence words[] = {
+    PROSE("Nothing was drawn: no separation is guaranteed in this range, or no triangle fits.", NOTHING_DRAWN),
+    ELSE("A pixel was wrong up to {used} of the guarantee.", 0),
+    ELSE("No pixel was wrong.", 0),
+    LINE("there, at z = {z}: planes {separation} apart, guaranteed {bound}", 0),
+    LINE("(wrong: the farther plane is seen; {pairs} pairs of planes drawn, seed {seed})", 0),
+    SENTENCE_END};
+
+static void say_answer(page *p, void *item) {
+    const drawn *d = item;
+    each_setup_title(p, item);
+    slant_say(p, page_title, &d->o->camera, d->each.setup);
+    page_say(p, words, setup_report, item, d->whole.pixels == 0 ? NOTHING_DRAWN : 0);
+}
 
 static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns), .only = AS_JSON},
                                  {LIST("setups", setup_report, next_setup), .head = say_answer},
