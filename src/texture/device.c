@@ -2,6 +2,8 @@
 #include "texture/device.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <string.h>
 
 #define MM        1e-3
 #define MICROSOFT "Microsoft, "
@@ -92,4 +94,31 @@ sensor device_sensor(const device_row *row) {
         if (sensor_get(i)->levels == row->levels)
             s.row = sensor_get(i);
     return s;
+}
+
+/* Steps of devices that were measured, with what is off, and of files; or of a row. */
+static const struct known_step {
+    grain_levels levels;
+    const char *row; /* null: the step stands here */
+    double step, within;
+    const char *name;
+} known_steps[] = {
+    {GRAIN_INVERSE, "kinect1", 0, 0.004, "Kinect 1: eighths of a pixel, 75 mm apart, 575.8 pixels"},
+    {GRAIN_INVERSE, NULL, 1 / 29.896, 0.002, "OAK-D: whole pixels, baseline times focal length 29.896 m"},
+    {GRAIN_INVERSE, NULL, 1.0 / 10100, 1e-4, "compressedDepth of ROS, quantization 100"},
+};
+
+static double step_of(const struct known_step *k) {
+    double step = k->step;
+    for (size_t i = 0; k->row != NULL && i < sizeof rows / sizeof rows[0]; i++)
+        if (strcmp(rows[i].name, k->row) == 0)
+            step = device_sensor(&rows[i]).step;
+    return step;
+}
+
+const char *device_like(grain_levels levels, double step) {
+    for (const struct known_step *k = known_steps; k < known_steps + sizeof known_steps / sizeof *known_steps; k++)
+        if (k->levels == levels && fabs(step - step_of(k)) <= k->within * step_of(k))
+            return k->name;
+    return NULL;
 }

@@ -24,6 +24,9 @@ typedef struct device_row {
 
 const device_row *device_get(size_t index); /**< null beyond the last */
 
+/** The name of a known device or file with such a step, in metres; null: none. */
+const char *device_like(grain_levels levels, double step);
+
 /** Its levels in metres, wherever they begin; the row is that of samples where there are none. */
 sensor device_sensor(const device_row *row);
 

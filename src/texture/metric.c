@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/recognise_lattice.h"
+#include "texture/device.h"
 #include "texture/image_depths.h"
 
 enum { BITS_MAX = 31, VALUES_LEAST = 16, TOP = 65535, FAR = 30000 /* of sensors, in millimetres */, BEYOND = 100 };
@@ -73,6 +74,7 @@ static void look_at(const image *img, look *l) {
 
 static void look_through(const image *img, const sensor_file *file, const sensor *given, const look *l, metric *out) {
     sensor_find(img, file, &out->seen);
+    out->seen.like = device_like(out->seen.row->levels, out->seen.step);
     out->depths = (double)l->depths;
     out->sensor = out->seen;
     if (given != NULL) {

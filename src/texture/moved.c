@@ -8,6 +8,7 @@
 #include "core/bits.h"
 #include "core/recognise_lattice.h"
 #include "texture/image_depths.h"
+#include "texture/stereo.h"
 
 enum {
     VALUES = 1 << 16,
@@ -19,6 +20,14 @@ enum {
     ONES = 12,      /* values of two remainders of seven */
     BEND = 64       /* of a slope, in a byte, that is no wrap */
 };
+
+/* Of the data set's own toolbox, depth_rel2depth_abs: focal length times baseline, pixels and metres, and the disparity
+ * of 0, whose part of a step is where the levels begin. */
+#define NYU_CONSTANT 351.3
+#define NYU_FROM     1092.5
+#define NYU_PART     0.5
+#define TEXT_OF(x)   #x
+#define TEXT(x)      TEXT_OF(x)
 
 enum { ROTATED, SWAPPED, HALVES, CUT, SCALED, LOST, NYU };
 
@@ -33,7 +42,7 @@ static const moved_row rows[] = {
                 NULL, NULL, 0},
     [LOST] = {"lost", "they wrap round at 256: their upper byte was lost on the way", NULL, NULL, 0},
     [NYU] = {"disparity", "their two bytes were swapped, and they are raw disparities of a Kinect", "nyu-raw",
-             "inverse:351.3,0.5", 8},
+             "inverse:" TEXT(NYU_CONSTANT) "," TEXT(NYU_PART), 8},
 };
 
 const moved_row *moved_get(size_t index) {
@@ -249,12 +258,12 @@ moved moved_find(const image *img) {
     return (moved){.row = NULL};
 }
 
-/* By the constants of the data set's own toolbox, depth_rel2depth_abs: metres. */
 static bool to_metres(image *img) {
+    static const stereo_spec nyu = {.focal = NYU_CONSTANT, .baseline = 1, .offset = NYU_FROM, .step = -1};
     const size_t count = (size_t)img->width * img->height;
     float *metres = malloc(count * sizeof *metres);
     for (size_t i = 0; i < count && metres != NULL; i++) {
-        const double z = 351.3 / (1092.5 - image_sample(img, i));
+        const double z = stereo_depth(&nyu, image_sample(img, i));
         metres[i] = image_sample(img, i) > 0 && z > 0 ? (float)z : 0.0F;
     }
     if (metres == NULL)

@@ -39,17 +39,6 @@ const sensor_row *sensor_get(size_t index) {
     return index < ROWS ? &rows[index] : NULL;
 }
 
-/* Steps that are known, with what is off of the devices that were measured. */
-static const struct known_step {
-    grain_levels levels;
-    double step, within;
-    const char *name;
-} known_steps[] = {
-    {GRAIN_INVERSE, 1 / (8 * 575.816 * 0.075), 0.004, "Kinect 1: eighths of a pixel, 75 mm apart, 575.8 pixels"},
-    {GRAIN_INVERSE, 1 / 29.896, 0.002, "OAK-D: whole pixels, baseline times focal length 29.896 m"},
-    {GRAIN_INVERSE, 1.0 / 10100, 1e-4, "compressedDepth of ROS, quantization 100"},
-};
-
 /* ---- Depths and what the file leaves open of them ---------------------------------------------------------------- */
 
 typedef struct interval {
@@ -419,15 +408,6 @@ static double residual_of(const depths *d, const sensor_file *file, const sensor
     return above >= below ? 0.5 * (above - below) : s->residual;
 }
 
-const char *sensor_like(grain_levels levels, double step) {
-    for (size_t i = 0; i < sizeof known_steps / sizeof known_steps[0]; i++) {
-        const struct known_step *k = &known_steps[i];
-        if (k->levels == levels && fabs(step - k->step) <= k->within * k->step)
-            return k->name;
-    }
-    return NULL;
-}
-
 /* Integers: what all of the values that are not rare are multiples of, and -log2 of the chance that they are. */
 static double common_step(const depths *d, double *bits) {
     uint32_t divisor = 0;
@@ -625,7 +605,6 @@ void sensor_find(const image *img, const sensor_file *file, sensor *out) {
         s.again_seen = again_seen;
         if (count_all(img, &tried, &s) && !is_surface(img, &s, file->scale) && !is_put_together(img, &tried, &s))
             *out = s, out->residual = residual_of(&d, &tried, &s);
-        out->like = sensor_like(out->row->levels, out->step);
     }
     depths_free(&d);
 }

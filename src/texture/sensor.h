@@ -69,9 +69,6 @@ void sensor_scale(sensor *s, double scale);
 /** Where it is known how many levels there are from lo to hi: their step and offset. */
 void sensor_between(double lo, double hi, sensor *s);
 
-/** The name of a known device or file with such a step, in metres; null: none. */
-const char *sensor_like(grain_levels levels, double step);
-
 /** From a level at z to the next farther one, scene units, INFINITY where there is none; NaN where the row is "file"
  * and its samples are numbers. */
 double sensor_gap(const sensor *s, double z);

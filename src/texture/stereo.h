@@ -22,6 +22,11 @@ typedef struct stereo_spec {
     double step;     /**< pixels of 1 in a sample; below 0 where larger samples are farther, as OpenNI has them */
 } stereo_spec;
 
+/** The depth of a sample, scene units: infinite where it is no disparity, below 0 where that is beyond infinity. */
+static inline double stereo_depth(const stereo_spec *of, double sample) {
+    return of->focal * of->baseline / (of->offset + of->step * sample);
+}
+
 /**
  * Converts the image, as metric_convert() does. Holes are samples of 0, those that are not finite, what `top` is of
  * metric depth, and those whose disparity is less than a step: they lie at infinity, or beyond.

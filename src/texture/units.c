@@ -9,6 +9,7 @@
 #include "texture/device.h"
 #include "texture/image_depths.h"
 #include "texture/metric.h"
+#include "texture/stereo.h"
 
 enum { UNITS_LEAST = 2 };
 
@@ -40,9 +41,8 @@ typedef struct extent {
     size_t count;
 } extent;
 
-/* Infinite where there is no disparity. */
 static double depth_of(const device_row *d, double x) {
-    return d->focal * d->baseline / (d->offset + d->step * x);
+    return stereo_depth(&(stereo_spec){d->focal, d->baseline, d->offset, d->step}, x);
 }
 
 static unit_reading read_as(const struct candidate *c, const extent *e) {
@@ -143,7 +143,7 @@ static const char *unit_of_levels(const sensor *seen) {
     const char *found = NULL;
     for (const struct candidate *c = candidates; c < candidates + sizeof candidates / sizeof *candidates; c++) {
         const double scale = seen->row->levels == GRAIN_INVERSE ? 1 / c->metres : c->metres;
-        if (!c->integers || c->metres == 0 || sensor_like(seen->row->levels, seen->step * scale) == NULL)
+        if (!c->integers || c->metres == 0 || device_like(seen->row->levels, seen->step * scale) == NULL)
             continue;
         if (found != NULL)
             return NULL;
