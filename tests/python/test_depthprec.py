@@ -496,7 +496,9 @@ class Memory(unittest.TestCase):
         for code in "BHILQbhilq":
             self.assertEqual(list(c.decode(array.array(code, [0, 100]))), [c.decode(0), c.decode(100)])
         self.assertEqual(list(c.decode([2 ** 32 - 1])), [c.decode(c.code_max)])
-        for wrong in (array.array("q", [-1]), array.array("Q", [2 ** 32]), array.array("b", [-1]), [-5, 3]):
+        below = [array.array(code, [0, -1]) for code in "bhilq"]
+        beyond = [array.array(code, [2 ** 32]) for code in "LQlq" if array.array(code).itemsize == 8]
+        for wrong in (*below, *beyond, [-5, 3]):
             with self.assertRaisesRegex(ValueError, "codes must be from 0 to 4294967295, got (-[15]|4294967296)$"):
                 c.decode(wrong)
         with self.assertRaises((TypeError, OverflowError)):
@@ -565,6 +567,8 @@ class Memory(unittest.TestCase):
         for method in self.methods():
             for given in ([], (), array.array("d"), memoryview(array.array("f")), memoryview(b"").cast("d")):
                 self.assertEqual(len(method(given)), 0)
+            for kind in (ctypes.c_double, ctypes.c_float, ctypes.c_int16):  # of two dimensions, too
+                self.assertEqual(len(method((kind * 5 * 0)())), 0)
         self.assertEqual(len(self.camera.decode(b"")), 0)
 
     def test_nonsense(self):
