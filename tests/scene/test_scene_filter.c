@@ -69,6 +69,38 @@ TEST(test_blended) {
     }
 }
 
+/* A quad that is turned about the first one's edge by nearly the angle asked for, in any place of space: it counts
+ * below that angle, however near to it. */
+TEST(test_angle) {
+    tally t = {.name = "angles"};
+    rng r = rng_make("angles of planes");
+    for (uint64_t i = test_cases(2000, 10000, 200000); i > 0; i--) {
+        const double angle = rng_log(&r, 0.1, FINDER_ANGLE_MAX), off = rng_log(&r, i % 2 == 0 ? 1e-9 : 1e-6, 1e-3);
+        const double turn = angle * (i % 2 == 0 ? 1 - off : 1 + off) * 3.14159265358979323846 / 180;
+        double x[3], y[3], z[3], length = 0, turned[3];
+        for (int k = 0; k < 3; k++)
+            x[k] = rng_uniform(&r, -1, 1);
+        const double across[3] = {rng_uniform(&r, -1, 1), 1, rng_uniform(&r, -1, 1)};
+        for (int k = 0; k < 3; k++)
+            z[k] = x[(k + 1) % 3] * across[(k + 2) % 3] - x[(k + 2) % 3] * across[(k + 1) % 3];
+        for (int k = 0; k < 3; k++)
+            y[k] = z[(k + 1) % 3] * x[(k + 2) % 3] - z[(k + 2) % 3] * x[(k + 1) % 3];
+        length = sqrt((y[0] * y[0] + y[1] * y[1] + y[2] * y[2]) / (z[0] * z[0] + z[1] * z[1] + z[2] * z[2]));
+        for (int k = 0; k < 3; k++)
+            turned[k] = cos(turn) * y[k] + sin(turn) * length * z[k];
+        scene_made_begin(&made);
+        scene_made_surface(&made, "first", "");
+        scene_made_quad(&made, origin, x, y);
+        scene_made_surface(&made, "second", "");
+        scene_made_quad(&made, origin, x, turned);
+        finder_found f = find((finder_asked){.gap = 1e-3, .angle = angle});
+        TALLY(&t, (f.findings == 1) == (i % 2 == 0), "%.17g of %.17g degrees: %zu found", turn * 57.29577951308232,
+              angle, f.findings);
+        finder_free(&f);
+    }
+    tally_end(&t);
+}
+
 /* The second floor begins 2^-10 before the first one's end: an overlap 8 long, and 2^-10 wide in all. */
 TEST(test_thin) {
     scene_made_begin(&made);
