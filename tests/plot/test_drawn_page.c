@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all figures share: words that may be too long, sizes, themes, legends of many set-ups, axes of every length. */
 #include <cairo.h>
+#include <unistd.h>
 
 #include "drawn.h"
 #include "drawn_truth.h"
+#include "printed.h"
 #include "support.h"
 
 /* ---- Words ------------------------------------------------------------------------------------------------------- */
@@ -288,6 +290,34 @@ static uint32_t pixel_of(cairo_surface_t *image, double x, double y) {
     const unsigned char *data = cairo_image_surface_get_data(image);
     memcpy(&pixel, data + (ptrdiff_t)floor(y) * cairo_image_surface_get_stride(image) + 4 * (ptrdiff_t)floor(x), 4);
     return pixel & 0xFFFFFF;
+}
+
+/* What is drawn is what the name ends in, or else what --type says; a name and a type that part are refused, and so is
+ * a name that says nothing alone. */
+TEST(types_and_names) {
+    static const char *const types[] = {"svg", "pdf", "png"}, *const begins[] = {"<?xml", "%PDF", "\x89PNG"};
+    static const char *const names[] = {"a.svg", "a.pdf", "a.png", "a", "a.txt", "-"};
+    for (int type = -1; type < 3; type++)
+        for (int name = 0; name < (type < 1 ? 6 : 5); name++) { /* what print_of() takes is text */
+            const int want = name < 3 ? name : type;
+            const char *path = strcmp(names[name], "-") == 0 ? "-" : scratch_file(names[name]);
+            remove(path);
+            printed p = print_of("plot error -F d16 -m d3d -o %s%s%s", path, type < 0 ? "" : " --type ",
+                                 type < 0 ? "" : types[type]);
+            if (want < 0 ? name == 5 : type < 0 || type == want) {
+                char first[8] = "";
+                FILE *in = name == 5 ? fmemopen(p.out, strlen(p.out) + 1, "rb") : fopen(path, "rb");
+                if (in == NULL)
+                    fail_msg("%s, type %d: %d, %s", path, type, p.status, p.errors);
+                assert_true(fread(first, 1, 5, in) > 0 && fclose(in) == 0);
+                const char *begin = begins[want < 0 ? 0 : want];
+                if (p.status != 0 || strncmp(first, begin, strlen(begin)) != 0)
+                    fail_msg("%s, type %d: %d, %s%s", names[name], type, p.status, first, p.errors);
+            } else if (p.status != 2 || access(path, F_OK) == 0) {
+                fail_msg("%s, type %d: %d, %s", names[name], type, p.status, p.errors);
+            }
+            printed_free(&p);
+        }
 }
 
 /* The PNG shows what the SVG shows, where it shows it; a PDF is as large, in points. */
