@@ -106,11 +106,26 @@ dp_status frusta_solve(const dp_spec *spec, double limit, frusta_plan *out) {
     return DP_OK;
 }
 
+static dp_spec in_exact(const dp_spec *spec) {
+    dp_spec exact = *spec;
+    exact.model = DP_MODEL_EXACT;
+    return exact;
+}
+
+judgement frusta_lattice(const dp_spec *spec, double limit) {
+    const dp_spec exact = in_exact(spec);
+    return judged(&exact, spec->znear, spec->zfar, limit);
+}
+
+double frusta_lattice_near(const dp_spec *spec, double zfar, double limit) {
+    const dp_spec exact = in_exact(spec);
+    return least_near(&exact, zfar, limit);
+}
+
 size_t frusta_at_least(const dp_spec *spec, double limit) {
     if (check(spec, limit) != DP_OK || spec->format.kind != DP_FORMAT_UNORM)
         return 1;
-    dp_spec exact = *spec;
-    exact.model = DP_MODEL_EXACT;
+    const dp_spec exact = in_exact(spec);
     size_t count = 0;
     for (double zfar = spec->zfar; zfar > spec->znear && count < FRUSTA_MAX; count++) {
         zfar = least_near(&exact, zfar, limit * (1.0 + 1e-9)); /* a bound is within 1e-12 of what it bounds */

@@ -104,3 +104,23 @@ TEST(test_refused) {
     spec.zfar = INFINITY;
     assert_int_equal(frusta_solve(&spec, 1, &plan), DP_ERROR_RANGE);
 }
+
+/* The lattice alone, by hand: behind far the next code is that of n f/(n - (f - n)/N). */
+TEST(test_lattice) {
+    const double n = 0.1, f = 100.0, codes = 65535.0;
+    dp_spec spec = dp_spec_default();
+    spec.znear = n;
+    spec.zfar = f;
+    dp_format formats[2];
+    assert_int_equal(dp_format_parse("unorm16", formats), 1);
+    spec.format = formats[0];
+    spec.mapping = DP_MAPPING_D3D;
+    spec.model = DP_MODEL_FLOAT;
+    const double apart = n * f / (n - (f - n) / codes) - f;
+    assert_relative(frusta_lattice(&spec, apart * 0.9999).value, apart, 1e-9);
+    assert_relative(frusta_lattice(&spec, apart * 0.9999).z, f, 1e-9);
+    assert_false(frusta_lattice(&spec, apart * 0.9999).passed);
+    assert_true(frusta_lattice(&spec, apart * 1.0001).passed);
+    assert_relative(frusta_lattice_near(&spec, f, 1.0), (f + 1.0) * f / (codes + f + 1.0), 1e-9);
+    assert_true(isnan(frusta_lattice_near(&spec, f, 1e-9)));
+}

@@ -595,3 +595,19 @@ TEST(soon_beside_0) {
         json_decref(all);
     }
 }
+
+/* Which of lattice and arithmetic asks for frusta: n f/(n - (f - n)/65535) - f = 1.54798; a step of binary32 at 1e7
+ * is 1. */
+TEST(why_frusta) {
+    static const struct {
+        const char *line, *said;
+        int status;
+    } rows[] = {{"-n 0.1 -f 100 -F d16 -m d3d --separation 1", "forbids one frustum: it resolves 1.54798 at", 0},
+                {"-n 0.1 -f 1e4 -F d16 -m d3d --separation 1", "forbids one frustum: it resolves nothing at", 0},
+                {"-n 0.1 -f 1e3 -F d24 -m d3d --separation 0.6", "the lattice alone would allow one frustum", 0},
+                {"-n 0.1 -f 1e7 -F d24 -m d3d --separation 1", "the lattice alone allows it from near", 1},
+                {"-n 0.1 -f 100 -F d16 -m d3d --separation 1e-9", "the lattice alone forbids it, before", 1},
+                {"-n 0.1 -f 1e4 -F fp32 -m reversed --separation 0.01", "!why", 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        check_says(rows[i].status, rows[i].said, "solve --for frusta %s", rows[i].line);
+}

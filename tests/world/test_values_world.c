@@ -223,3 +223,10 @@ TEST(sizes_of_tiles) {
     assert_true(value[0] > 0.1); /* not of a tile of 210 m, 100 times smaller */
     assert_relative(value[0], value[1], 1e-12);
 }
+
+/* A step of binary32 numbers from 2^19 on is 2^-4, from 2^14 on 2^-9. */
+TEST(why) {
+    check_says(0, "0.0625 apart, 6.25 times", "world --from-origin 1e6");
+    check_says(0, "30 km from the origin are 0.00195 m apart; matrices and", "world --unit m --from-origin 30km");
+    check_says(0, "!why", "world --from-origin 10");
+}

@@ -120,7 +120,10 @@ static void say_answer(page *p, void *item) {
     const shadow_whole w = shadow_whole_of(&s->maps, s->api);
     page_text(p, "No acne%s with any one of these:", where);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
-        page_note(p, shadow_way_name((shadow_way)k), "%s", isnan(w.way[k].units) ? "no bias suffices" : w.way[k].call);
+        page_note(p, shadow_way_name((shadow_way)k), "%s",
+                  !isnan(w.way[k].units)   ? w.way[k].call
+                  : isnan(w.way[k].factor) ? "no bias suffices: the smallest triangles may lose half of their slope"
+                                           : "no bias suffices");
 }
 
 static void say_blank(page *p, void *item) {
@@ -140,6 +143,29 @@ static void say_heads(page *p, void *item) {
                   p->plain);
 }
 
+/* What the largest cause is about, and what makes it smaller. */
+static const char *why(const double cause[SHADOW_CAUSE_COUNT]) {
+    static const char filter[] =
+        "steep receivers within the filter: smaller texels, a smaller kernel or angle need less";
+    static const char position[] = "positions in binary32: a box that is less deep, nearer the origin, needs less";
+    static const char *const words[SHADOW_CAUSE_COUNT] = {
+        [SHADOW_CAUSE_TEXEL] = filter,
+        [SHADOW_CAUSE_KERNEL] = filter,
+        [SHADOW_CAUSE_LOOKUP] = "texture coordinates are rounded: a map of fewer texels needs less",
+        [SHADOW_CAUSE_SNAPPING] = "vertices move to the subpixel grid: more --subpixel bits need less",
+        [SHADOW_CAUSE_SETUP] = "planes of thin triangles in binary32: a --triangle-class of stouter ones needs less",
+        [SHADOW_CAUSE_POSITION] = position,
+        [SHADOW_CAUSE_RECEIVER] = "receivers come from the camera's depth: a finer format or a nearer far needs less",
+        [SHADOW_CAUSE_FORMAT] = "codes of the format: more bits, or a box that is less deep, need less"};
+    double of[SHADOW_CAUSE_COUNT];
+    size_t most = 0;
+    for (size_t k = 0; k < SHADOW_CAUSE_COUNT; k++) /* the filter's radius is one thing */
+        of[k] = k == SHADOW_CAUSE_TEXEL ? cause[k] + cause[SHADOW_CAUSE_KERNEL] : cause[k];
+    for (size_t k = 1; k < SHADOW_CAUSE_COUNT; k++)
+        most = of[k] > of[most] ? k : most;
+    return words[most];
+}
+
 /* Says the causes in the map where the least share of the constant bias is needed by any reckoning. */
 static void say_causes(page *p, const shadow *s) {
     char text[256] = "";
@@ -156,6 +182,7 @@ static void say_causes(page *p, const shadow *s) {
         if (least.cause[k] >= 0.0005 * sum)
             append(text, sizeof text, "%s%s %s %%", text[0] != '\0' ? ", " : "", shadow_cause_name((shadow_cause)k),
                    number_of(100.0 * least.cause[k] / sum, 3).text);
+    page_note(p, "why", "%s", why(least.cause));
     if (s->maps.count > 1)
         page_note(p, "causes", "cascade %d: %s", least.cascade, text);
     else

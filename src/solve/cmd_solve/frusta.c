@@ -70,6 +70,30 @@ static void *next_frustum(void *of, size_t i) {
     return &p->line;
 }
 
+/* Which of the two forbids one frustum, or any plan: the lattice, or the arithmetic before it. */
+static void say_why(page *p, const planning *x) {
+    const dp_spec *spec = &x->setup.spec;
+    const char *unit = camera_unit(&x->o->camera);
+    const double near = x->possible ? (double)NAN : frusta_lattice_near(spec, x->stuck, x->limit);
+    const judgement one = frusta_lattice(spec, x->limit);
+    const number_text z = number_in(number_of(one.z, SOLVE_DIGITS), unit);
+    number_text value = {"nothing"};
+    if (isfinite(one.value))
+        value = number_in(number_up(one.value, SOLVE_DIGITS), unit);
+    if (!x->possible && x->plan.count == FRUSTA_MAX)
+        return;
+    if (!x->possible && isnan(near))
+        page_note(p, "why", "the lattice alone forbids it, before any arithmetic");
+    else if (!x->possible)
+        page_note(p, "why", "the lattice alone allows it from near %s on: binary32 arithmetic forbids it",
+                  number_in(number_up(near, SOLVE_DIGITS), unit).text);
+    else if (x->count > 1 && one.passed)
+        page_note(p, "why", "the lattice alone would allow one frustum: %s at z = %s; binary32 arithmetic forbids it",
+                  value.text, z.text);
+    else if (x->count > 1)
+        page_note(p, "why", "the lattice alone forbids one frustum: it resolves %s at z = %s", value.text, z.text);
+}
+
 static void say_plan(page *p, void *item) {
     const planning *x = item;
     const dp_spec *spec = &x->setup.spec;
@@ -93,6 +117,7 @@ static void say_plan(page *p, void *item) {
                                       : "");
     if (x->possible && count != at_least && at_least > 1)
         page_note(p, "at least", "%llu frusta, whatever the arithmetic", at_least);
+    say_why(p, x);
     if (x->fixed_count > 0)
         page_note(p, "ratio 1000", "%llu %s, separation %s at z = %s", (unsigned long long)x->fixed_count,
                   x->fixed_count == 1 ? "frustum" : "frusta",

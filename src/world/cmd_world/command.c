@@ -39,6 +39,7 @@ typedef struct world {
     setup_fields fields;
     world_asked asked;
     double distance;   /* the one at hand; NaN: none */
+    bool fails;        /* a scheme does, there */
     const char *least; /* the first scheme that is enough there; null: none, or no distance */
     char least_label[LABEL_SIZE];
     int width, height;
@@ -78,6 +79,7 @@ static void fill_line(world *w, const world_scheme *s) {
     l->jitter = world_jitter(s, &w->asked, w->distance);
     l->safe = l->gap <= w->wanted;
     l->still = l->jitter < one_pixel;
+    w->fails = w->fails || !l->safe || !l->still;
     l->verdict = verdicts[l->safe][l->still];
 }
 
@@ -97,6 +99,7 @@ static void *next_distance(void *of, size_t i) {
         return NULL;
     w->distance = w->distances.count > 0 ? depths_get(&w->distances, i) : (double)NAN;
     w->least = NULL;
+    w->fails = false;
     for (size_t k = 0; k < w->o.origin.scheme_count && w->distances.count > 0 && w->least == NULL; k++)
         if (is_enough(w, &w->o.origin.schemes[k])) {
             label_of(&w->o.origin.schemes[k], w->least_label);
@@ -133,9 +136,29 @@ static void say_distance(page *p, void *item) {
                w->least != NULL ? w->least : "none", w->least != NULL ? " suffices" : " of them suffices");
 }
 
+/* How far apart the numbers are that a coordinate there may be. */
+static void say_why(page *p, const world *w) {
+    const float at = (float)w->distance;
+    const double step = (double)(nextafterf(at, HUGE_VALF) - at);
+    const number_text apart = number_in(number_of(step, DIGITS), p->unit);
+    if (step > w->wanted)
+        page_line(p,
+                  "why: binary32 numbers %s from the origin are %s apart, %s times the %s that is asked for: a scheme "
+                  "holds only where none of its numbers is so large",
+                  camera_length(&w->o.camera, w->distance, 0).text, apart.text,
+                  number_of(step / w->wanted, DIGITS).text, camera_length(&w->o.camera, w->wanted, 0).text);
+    else
+        page_line(p,
+                  "why: binary32 numbers %s from the origin are %s apart; matrices and sums in which they occur round "
+                  "several times",
+                  camera_length(&w->o.camera, w->distance, 0).text, apart.text);
+}
+
 /* Says the reach; for a single scheme and no distance the answer is a sentence. */
 static void say_reach(page *p, void *item) {
     world *w = item;
+    if (w->fails)
+        say_why(p, w);
     if (!isnan(w->distance) || w->o.origin.scheme_count != 1)
         return;
     const line *l = &w->line;
