@@ -12,8 +12,6 @@
 
 #include "bias/cmd_bias/report.h"
 #include "core/append.h"
-#include "core/engine.h"
-#include "quantity/cmd/resolved.h"
 #include "report/terminal.h"
 
 enum { DIGITS = 6 };
@@ -115,11 +113,8 @@ static void fill_row(biasing *b, double z, bias_row *r) {
     }
     if (b->inverse && !ranged)
         r->apart = need_from(b, "", 0.0, z, z);
-    if (b->triangles != NULL && !ranged) {
-        r->facing = dp_separation(&b->facing, z);
-        r->certain = dp_is_certain(&b->facing, z, r->facing);
-        r->slanted = dp_separation(&b->guarded, z);
-    }
+    if (b->each.triangles != NULL && !ranged)
+        r->guarantee = each_setup_guarantee(&b->each, z);
     if (!ranged)
         r->effect = bias_at(setup, &state, b->o->bias.slope, z);
     r->one_unit = r->effect.limited ? (double)NAN : fabs(r->effect.shift);
@@ -169,10 +164,6 @@ static void *next_setup(void *of, size_t i) {
     if (!each_setup_go(&b->each, i))
         return NULL;
     b->limited = false;
-    if (b->triangles != NULL) {
-        b->guarded = resolved_in(b->each.setup, DP_MODEL_FLOAT);
-        b->facing = dp_setup_facing(&b->guarded);
-    }
     take_api(b, bias_asked_api(&b->o->bias, 0));
     if (b->inverse && (b->when & ONE_API) && b->o->out.form != FORM_CSV)
         take_range(b);
@@ -200,10 +191,10 @@ static const column row_columns[] = {
     {FIELD(bias_row, gap.units, "units_gap", ""), .only = AS_CSV, .when = ONE_API | INVERSE},
     {FIELD(bias_row, gap.units, "units_gap", ""), SHOWN("separated", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
      .when = ONE_API | INVERSE | WITH_GAP},
-    {FIELD(bias_row, facing, "guarantee_facing", "scene"), SHOWN("facing", 11, DIGITS_SHORT), .upward = true,
+    {FIELD(bias_row, guarantee.facing, "guarantee_facing", "scene"), SHOWN("facing", 11, DIGITS_SHORT), .upward = true,
      .when = ONE_API | WITH_TRIANGLES},
-    {FIELD(bias_row, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", 11, DIGITS_SHORT), .upward = true,
-     .when = ONE_API | WITH_TRIANGLES},
+    {FIELD(bias_row, guarantee.slanted, "guarantee_slanted", "scene"), SHOWN("slanted", 11, DIGITS_SHORT),
+     .upward = true, .when = ONE_API | WITH_TRIANGLES},
     {FIELD(bias_row, effect.offset, "bias", ""), SHOWN("bias", 12, DIGITS), .when = EFFECT, .spare = 1},
     {FIELD(bias_row, effect.depth, "depth", ""), .when = EFFECT},
     {FIELD(bias_row, effect.code, "code", ""), SHOWN("code", 11, 0), .when = EFFECT},
@@ -212,7 +203,7 @@ static const column row_columns[] = {
     {FIELD(bias_row, effect.shift, "shift", "scene"), SHOWN("shift", 12, DIGITS), .when = EFFECT},
     {FIELD(bias_row, effect.limited, "limited", ""), .only = AS_JSON, .when = EFFECT},
     {TEXT_FIELD(bias_row, held, "", -1, 0), .when = ONE_API | VERBOSE},
-    {FIELD(bias_row, certain, "certain", ""), .when = ONE_API | WITH_TRIANGLES},
+    {FIELD(bias_row, guarantee.certain, "certain", ""), .when = ONE_API | WITH_TRIANGLES},
     {FIELD(bias_row, gap.units, "units", ""), .when = SEVERAL},
     {FIELD(bias_row, factor, "factor", ""), .when = SEVERAL | WITH_TRIANGLES},
     {FIELD(bias_row, gap.z, "units_z", "scene"), .when = OF_RANGE},
@@ -254,7 +245,7 @@ static const column columns[] = {
     {FIELD(biasing, slope, "slope", ""), .only = AS_JSON},
     {FIELD(biasing, factor, "factor", ""), .only = AS_JSON, .when = SEVERAL},
     {FIELD(biasing, gap, "gap", "scene"), .only = AS_JSON},
-    {PART(biasing, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(biasing, each.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("setups", setup_report, next_setup), .head = bias_say_setup, .notes = bias_say_notes},
     {.kind = COLUMN_END}};
 
@@ -338,7 +329,7 @@ static unsigned conditions(const biasing *b) {
     return (b->inverse ? INVERSE : EFFECT) | (several ? SEVERAL : ONE_API) | (several && b->by_range ? OF_RANGE : 0) |
            (several && !b->by_range ? OF_DEPTHS : 0) | (o->bias.separation > 0.0 ? WITH_GAP : 0) |
            (o->bias.slope > 0.0 ? WITH_SLOPE : 0) | (o->out.full ? VERBOSE : 0) |
-           (b->triangles != NULL ? WITH_TRIANGLES : 0);
+           (b->each.triangles != NULL ? WITH_TRIANGLES : 0);
 }
 
 /* Several APIs, a few set-ups, one place: whether they stand beside each other. */
@@ -348,7 +339,7 @@ static bool suits_beside(const biasing *b) {
     const int wide = terminal_columns(STDOUT_FILENO);
     const bool fits = wide == 0 || wide >= WIDTH_API + WIDTH_UNITS * (int)count;
     return (b->when & SEVERAL) && o->out.form == FORM_TEXT && !o->out.full && count > 1 && count <= BESIDE &&
-           (b->by_range || b->each.at.count == 1) && b->triangles == NULL && fits &&
+           (b->by_range || b->each.at.count == 1) && b->each.triangles == NULL && fits &&
            o->camera.gpu.measured[0] == '\0'; /* what was measured is told of each format */
 }
 
@@ -370,7 +361,6 @@ int cmd_bias(void *request) {
     b.gap = b.inverse ? o->bias.separation : (double)NAN;
     b.factor = b.chosen ? (double)NAN : o->bias.factor;
     b.slope = o->bias.slope;
-    b.triangles = slant_fields_of(&o->camera, &b.slant);
     status = api != NULL ? check_one(o, &b.api) : check_several(o);
     if (status != EXIT_FINE)
         return status;

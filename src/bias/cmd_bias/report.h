@@ -39,12 +39,11 @@ typedef struct bias_need {
 typedef struct bias_row {
     const char *api;
     double z;
-    bias_effect effect;     /**< of the bias given, or of one unit that brings a layer nearer */
-    double one_unit;        /**< what one unit moves; NaN where it is held at a plane */
-    bias_need apart, gap;   /**< inverse: to tell layers apart, and by the gap that is asked for */
-    const char *held;       /**< text: where the biased depth is held at a plane */
-    double facing, slanted; /**< the separations that need no bias */
-    bool certain;           /**< the facing one ends before far */
+    bias_effect effect;   /**< of the bias given, or of one unit that brings a layer nearer */
+    double one_unit;      /**< what one unit moves; NaN where it is held at a plane */
+    bias_need apart, gap; /**< inverse: to tell layers apart, and by the gap that is asked for */
+    const char *held;     /**< text: where the biased depth is held at a plane */
+    guarantee guarantee;  /**< needs no bias */
     double factor;
     char call[BIAS_CALL_SIZE], said[SENTENCE_SIZE]; /**< said: the call, or why there is none */
     char beside[BESIDE][NUMBER_SIZE];               /**< the units of each set-up, short */
@@ -56,19 +55,16 @@ typedef struct biasing {
     const bias_request *o;
     unsigned when;
     const char *apis;
-    bool by_range;     /**< of several APIs */
-    double units_sent; /**< as the platform sends them */
-    bool inverse;      /**< no bias was given: one is asked for */
-    bool chosen;       /**< the factor is the least that is enough at any slant */
-    slant_fields slant;
-    const slant_fields *triangles;    /**< null: surfaces face the camera */
+    bool by_range;                    /**< of several APIs */
+    double units_sent;                /**< as the platform sends them */
+    bool inverse;                     /**< no bias was given: one is asked for */
+    bool chosen;                      /**< the factor is the least that is enough at any slant */
     double units, gap, factor, slope; /**< as asked; NaN where something else is */
     double range_lo, range_hi;
-    bool cuts;                /**< the GPU cuts fractions of units */
-    const bias_api *named;    /**< the API at hand */
-    bias_api api;             /**< as the platform has it, and the GPU that was measured in the set-up's format */
-    bias_state state;         /**< of it */
-    dp_setup facing, guarded; /**< in the model float, without triangles and with them */
+    bool cuts;             /**< the GPU cuts fractions of units */
+    const bias_api *named; /**< the API at hand */
+    bias_api api;          /**< as the platform has it, and the GPU that was measured in the set-up's format */
+    bias_state state;      /**< of it */
     bias_row row;
     bias_need over, gap_over;  /**< inverse, of one API: the same over the range */
     const bias_need *wanted;   /**< the one that is asked for */

@@ -53,9 +53,8 @@ static void say_goal(page *p, const biasing *b) {
 
 void bias_say_setup(page *p, void *item) {
     const biasing *b = item;
-    const dp_setup full = b->when & ONE_API ? b->guarded : dp_setup_guaranteed(b->each.setup);
     each_setup_title(p, item);
-    slant_say(p, page_title, &b->o->camera, &full);
+    slant_say(p, page_title, &b->o->camera, &b->each.slanted);
     (b->when & ONE_API ? say_state : say_goal)(p, b);
 }
 
@@ -210,7 +209,7 @@ void bias_say_notes(page *p, void *item) {
         page_line(p, "a %s bias brings a layer nearer", bias_sign(b->each.setup) < 0 ? "negative" : "positive");
     if (is_missed(b->each.setup))
         page_line(p, "%s", missed);
-    if (b->triangles != NULL)
+    if (b->each.triangles != NULL)
         page_line(p, "resolved: one plane drawn as different triangles, each at least a pixel high");
     if (!one) {
         say_choice(p, b);

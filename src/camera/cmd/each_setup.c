@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "camera/cmd/each_setup.h"
 
+#include <math.h>
 #include <unistd.h>
+
+#include "core/engine.h"
 
 enum { DEFAULT_ROWS = 9 };
 
 /* The depths of set-up i. */
 static int resolve(each_setup *w, size_t i) {
     w->here = camera_of(w->camera, w->all.cameras[i]);
+    w->triangles = slant_fields_of(w->here, &w->slant);
     return depths_resolve(w->here, w->rows > 0 ? w->rows : DEFAULT_ROWS, &w->at);
 }
 
@@ -41,6 +45,9 @@ bool each_setup_go(each_setup *w, size_t i) {
         return false;
     resolve(w, i);
     w->setup = &w->all.items[i];
+    const dp_setup facing = dp_setup_facing(w->setup);
+    w->full = dp_setup_guaranteed(&facing);
+    w->slanted = dp_setup_guaranteed(w->setup);
     w->fields = setup_fields_of(w->setup, camera_unit(w->here));
     w->fields.preset = w->camera->preset_count > 1 ? w->camera->presets[w->all.cameras[i]]->name : NULL;
     return true;
@@ -53,6 +60,16 @@ bool each_setup_depth(each_setup *w, size_t i, double *z) {
         return false;
     *z = depths_get(&w->at, i);
     return true;
+}
+
+bool each_setup_slanted(const each_setup *w) {
+    return w->triangles != NULL && w->slanted.spec.model == DP_MODEL_FLOAT;
+}
+
+guarantee each_setup_guarantee(const each_setup *w, double z) {
+    const double facing = dp_separation(&w->full, z);
+    return (guarantee){facing, each_setup_slanted(w) ? dp_separation(&w->slanted, z) : (double)NAN,
+                       dp_is_certain(&w->full, z, facing)};
 }
 
 void each_setup_title(page *p, void *item) {

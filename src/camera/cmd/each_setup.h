@@ -10,6 +10,7 @@
 #define CAMERA_CMD_EACH_SETUP_H
 
 #include "camera/cmd/setups.h"
+#include "camera/cmd/slant.h"
 #include "cli/output/output.h"
 #include "cli/progress.h"
 
@@ -25,7 +26,17 @@ typedef struct each_setup {
     uint64_t done;
     const dp_setup *setup; /**< the one at hand */
     setup_fields fields;
+    slant_fields slant;
+    const slant_fields *triangles; /**< null: surfaces face the camera */
+    dp_setup full, slanted;        /**< dp_setup_guaranteed() of those that do, and of any that are asked about */
 } each_setup;
+
+/** The guaranteed separation of surfaces, scene units. */
+typedef struct guarantee {
+    double facing;
+    double slanted; /**< at any slant that is asked about; NaN without triangles, or a pipeline */
+    bool certain;   /**< the facing one ends before far */
+} guarantee;
 
 /** Resolves set-ups and depths. @return an exit status, after one line on stderr */
 int each_setup_start(each_setup *w, const camera_asked *camera, const output_asked *how);
@@ -42,6 +53,12 @@ bool each_setup_go(each_setup *w, size_t i);
 
 /** Goes to depth i, each in turn. @return false behind the last, and where nothing more can be written */
 bool each_setup_depth(each_setup *w, size_t i, double *z);
+
+/** In the set-up at hand. */
+guarantee each_setup_guarantee(const each_setup *w, double z);
+
+/** Whether surfaces at a slant have one. */
+bool each_setup_slanted(const each_setup *w);
 
 /** Writes text above a set-up: for reports whose item begins with an each_setup. */
 void each_setup_title(page *p, void *item);

@@ -41,10 +41,8 @@ typedef struct budget {
     each_setup each;
     const budget_request *o;
     dp_budget_terms terms;
-    slant_fields slant;
-    const slant_fields *triangles; /* null: surfaces face the camera */
-    const char *composition;       /* how positions are composed; null where eye depth is given, or a scheme */
-    const world_scheme *scheme;    /* how they come before the camera; null where view and projection are composed */
+    const char *composition;    /* how positions are composed; null where eye depth is given, or a scheme */
+    const world_scheme *scheme; /* how they come before the camera; null where view and projection are composed */
     const char *scheme_name;
     const char *log2; /* what a shader's log2 may be off by */
     bool linearize;
@@ -87,7 +85,7 @@ static unsigned conditions_of_setups(const setups *all) {
 static unsigned conditions(const budget *b) {
     return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->scheme != NULL ? WITH_SCHEME : COMPOSED) |
            (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) | (b->linearize ? WITH_LINEARIZE : 0) |
-           (b->triangles != NULL ? WITH_TRIANGLES : 0) | conditions_of_setups(&b->each.all);
+           (b->each.triangles != NULL ? WITH_TRIANGLES : 0) | conditions_of_setups(&b->each.all);
 }
 
 /* ---- Schemes ----------------------------------------------------------------------------------------------------- */
@@ -207,7 +205,7 @@ static void *next_row(void *of, size_t index) {
     dp_budget_terms terms;
     budget_by(b, b->scheme, b->each.setup, r->z, &terms, &r->parts);
     r->facing = r->parts.separation;
-    if (b->triangles != NULL) {
+    if (b->each.triangles != NULL) {
         dp_budget facing = {0};
         budget_by(b, b->scheme, &b->facing, r->z, &terms, &facing);
         r->facing = facing.separation;
@@ -349,7 +347,7 @@ static const column term_columns[] = {{FIELD(budget, terms.interpolation, "inter
 
 static const column columns[] = {
     {GROUP("terms", term_columns), .only = AS_JSON},
-    {PART(budget, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(budget, each.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
     {.kind = COLUMN_END}};
 
@@ -380,7 +378,6 @@ int cmd_budget(void *request) {
     in_binary32.camera.model = DP_MODEL_FLOAT;
     in_binary32.camera.budgeted = true;
     int status = EXIT_FINE;
-    b.triangles = slant_fields_of(&o->camera, &b.slant);
     if (option_given(o->line, "scheme"))
         status = take_scheme(&b, o);
     if (status != EXIT_FINE)

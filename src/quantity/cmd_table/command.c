@@ -44,10 +44,10 @@ typedef struct row {
 } row;
 
 /* With --range: the separation that can be relied on all over it, in the fullest model that the set-up has. */
-typedef struct guarantee {
+typedef struct promise {
     const char *model;
     dp_separation_worst worst;
-} guarantee;
+} promise;
 
 typedef struct worst {
     dp_worst of;
@@ -59,16 +59,13 @@ typedef struct table {
     each_setup each;
     const table_request *o;
     double lo, hi;
-    way interval;                /* without a row, the exact cell */
-    dp_setup setup, exact, full; /* of surfaces that face the camera: as asked for, and in two models */
-    dp_setup slanted;            /* `full` with triangles */
+    way interval;          /* without a row, the exact cell */
+    dp_setup setup, exact; /* of surfaces that face the camera: as asked for, and as a lattice */
     row row;
     worst worst_case;
     const worst *worst; /* null in a model without cells */
-    guarantee over_range, slanted_over_range;
-    slant_fields slant;
-    const slant_fields *triangles;                  /* null: surfaces face the camera */
-    const guarantee *guarantee, *guarantee_slanted; /* null where there is none, or none is asked for */
+    promise over_range, slanted_over_range;
+    const promise *guarantee, *guarantee_slanted; /* null where there is none, or none is asked for */
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
     per_vertex_worst written;
@@ -101,11 +98,6 @@ static double separation_in(const dp_setup *other, const dp_setup *setup, const 
                                                                                     : dp_separation(other, here->z);
 }
 
-/* NaN where there is no pipeline, or no slant is asked for. */
-static double slanted_at(const table *t, double z) {
-    return t->triangles != NULL && t->full.spec.model == DP_MODEL_FLOAT ? dp_separation(&t->slanted, z) : (double)NAN;
-}
-
 static void set_digits(row *r) {
     const dp_sample *s = &r->sample;
     /* A depth just short of 1 should not look like the far plane's. */
@@ -125,12 +117,12 @@ static void *next_row(void *of, size_t i) {
     }
     dp_sample_at(&t->setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
     r->lattice = separation_in(&t->exact, &t->setup, &r->sample);
-    r->guaranteed = separation_in(&t->full, &t->setup, &r->sample);
-    r->certain = dp_is_certain(&t->full, z, r->guaranteed);
-    if (!(t->uncertain <= z) && z < t->full.spec.zfar && !r->certain)
+    r->guaranteed = separation_in(&t->each.full, &t->setup, &r->sample);
+    r->certain = dp_is_certain(&t->each.full, z, r->guaranteed);
+    if (!(t->uncertain <= z) && z < t->each.full.spec.zfar && !r->certain)
         t->uncertain = z;
-    r->slanted = slanted_at(t, z);
-    r->written = per_vertex_at(&t->setup, z, t->slant.triangles.depth, r->guaranteed); /* no depth of 0 is one */
+    r->slanted = each_setup_slanted(&t->each) ? dp_separation(&t->each.slanted, z) : (double)NAN;
+    r->written = per_vertex_at(&t->setup, z, t->each.slant.triangles.depth, r->guaranteed); /* no depth of 0 is one */
     per_vertex_add(&t->written, &r->written, z);
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, &t->setup, z);
@@ -141,7 +133,7 @@ static void *next_row(void *of, size_t i) {
     return r;
 }
 
-static const guarantee *guarantee_over(const table *t, const dp_setup *full, guarantee *g) {
+static const promise *guarantee_over(const table *t, const dp_setup *full, promise *g) {
     g->model = dp_model_name(setup_model(full));
     return option_given(t->o->line, "range") && dp_separation_over(full, t->lo, t->hi, 0.0, &g->worst) == DP_OK ? g
                                                                                                                 : NULL;
@@ -153,15 +145,12 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     const dp_setup *setup = &t->setup;
     const table_request *o = t->o;
-    t->triangles = slant_fields_of(t->each.here, &t->slant);
     t->setup = dp_setup_facing(t->each.setup);
-    t->slanted = dp_setup_guaranteed(t->each.setup);
-    snprintf(t->at_slant, sizeof t->at_slant, "at %s", slant_words(&t->slanted.spec.triangles).text);
+    snprintf(t->at_slant, sizeof t->at_slant, "at %s", slant_words(&t->each.slanted.spec.triangles).text);
     range_resolve(t->each.here, &t->lo, &t->hi);
     t->exact = resolved_in(setup, DP_MODEL_EXACT);
-    t->full = dp_setup_guaranteed(setup);
     t->uncertain = (double)NAN;
-    t->written = per_vertex_none(t->slant.triangles.depth);
+    t->written = per_vertex_none(t->each.slant.triangles.depth);
     t->choice = choosing_start(setup, o->camera.tolerance);
     if (option_given(o->line, "tolerance"))
         t->interval = way_choose(setup, o->camera.tolerance, has_cut_cells(t, setup));
@@ -171,9 +160,9 @@ static void *next_setup(void *of, size_t i) {
     dp_worst_over(setup, t->lo, t->hi, &t->worst_case.of);
     t->worst_case.digits = digits_to_see(t->worst_case.of.interval_lo, t->worst_case.of.interval);
     t->worst = isnan(t->worst_case.of.error) ? NULL : &t->worst_case;
-    t->guarantee = guarantee_over(t, &t->full, &t->over_range);
-    const bool has_slanted = t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FLOAT;
-    t->guarantee_slanted = has_slanted ? guarantee_over(t, &t->slanted, &t->slanted_over_range) : NULL;
+    t->guarantee = guarantee_over(t, &t->each.full, &t->over_range);
+    t->guarantee_slanted =
+        each_setup_slanted(&t->each) ? guarantee_over(t, &t->each.slanted, &t->slanted_over_range) : NULL;
     t->planes = clipping_of(setup);
     t->drawn = setup->spec.model == DP_MODEL_FLOAT ? &t->planes : NULL;
     return t;
@@ -202,14 +191,14 @@ static void say_reach(page *p, void *item) {
     const table *t = item;
     const unit_row *unit = t->each.here->lengths.unit;
     each_setup_title(p, item);
-    slant_say(p, page_title, t->each.here, &t->full);
+    slant_say(p, page_title, t->each.here, &t->each.full);
     if (t->each.all.count > 1)
         return;
-    say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");
+    say_reach_of(p, &t->each.full, unit, t->each.triangles != NULL ? ", facing the camera" : "");
     char slanted[NUMBER_SIZE + 8];
     snprintf(slanted, sizeof slanted, ", %s", t->at_slant);
-    if (t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FLOAT)
-        say_reach_of(p, &t->slanted, unit, slanted);
+    if (each_setup_slanted(&t->each))
+        say_reach_of(p, &t->each.slanted, unit, slanted);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -264,12 +253,12 @@ static const column worst_columns[] = {{FIELD(worst, of.lo, "lo", "scene")},
                                        {.kind = COLUMN_END}};
 
 static const column guarantee_columns[] = {
-    {FIELD(guarantee, model, "model", "")},
-    {FIELD(guarantee, worst.lo, "lo", "scene")},
-    {FIELD(guarantee, worst.hi, "hi", "scene")},
-    {FIELD(guarantee, worst.bound, "bound", "scene"), .digits = DIGITS_FEW, .upward = true},
-    {FIELD(guarantee, worst.separation, "separation", "scene")},
-    {FIELD(guarantee, worst.z, "z", "scene"), .digits = DIGITS_USUAL},
+    {FIELD(promise, model, "model", "")},
+    {FIELD(promise, worst.lo, "lo", "scene")},
+    {FIELD(promise, worst.hi, "hi", "scene")},
+    {FIELD(promise, worst.bound, "bound", "scene"), .digits = DIGITS_FEW, .upward = true},
+    {FIELD(promise, worst.separation, "separation", "scene")},
+    {FIELD(promise, worst.z, "z", "scene"), .digits = DIGITS_USUAL},
     {.kind = COLUMN_END}};
 
 static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective", "scene"), .digits = DIGITS_USUAL},
@@ -278,7 +267,7 @@ static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective",
 
 static const column setup_report[] = {
     {PART(table, each.fields, NULL, setup_columns)},
-    {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true,
+    {PART(table, each.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true,
      .when = WITH_PRESETS},
     {FIELD(table, each.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
@@ -344,8 +333,8 @@ static const sentence words_of_interval[] = {
 static unsigned conditions_of_words(const table *t) {
     return (isinf(t->worst_case.of.error) ? NO_ERROR_BOUND : 0) |
            (isinf(t->worst_case.of.interval) ? NO_INTERVAL_BOUND : 0) |
-           (isfinite(t->full.spec.zfar) ? FAR_IS_FINITE : 0) | (t->full.shader ? IS_SHADER : 0) |
-           (dp_is_computed(&t->full) ? IS_COMPUTED : 0) | (dp_format_is_rg(&t->setup.spec.format) ? IS_RG : 0) |
+           (isfinite(t->each.full.spec.zfar) ? FAR_IS_FINITE : 0) | (t->each.full.shader ? IS_SHADER : 0) |
+           (dp_is_computed(&t->each.full) ? IS_COMPUTED : 0) | (dp_format_is_rg(&t->setup.spec.format) ? IS_RG : 0) |
            (t->planes.loses ? LOSES : 0) | (t->written.class <= t->written.depth ? BELOW_SEPARATION : 0) |
            (option_given(t->o->line, "tolerance") ? TOLERANCE : 0) | (t->interval.claim == 0 ? EXACTLY : 0);
 }
@@ -359,8 +348,8 @@ static void say_notes(page *p, void *item) {
         setup_say_code(p, &t->each.setup->spec);
 }
 
-static const column columns[] = {{PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true,
-                                  .optional = true, .when = ONE_CAMERA},
+static const column columns[] = {{PART(table, each.triangles, "triangles", slant_columns), .only = AS_JSON,
+                                  .pointed = true, .optional = true, .when = ONE_CAMERA},
                                  {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
                                  {.kind = COLUMN_END}};
 
@@ -368,7 +357,7 @@ static const column columns[] = {{PART(table, triangles, "triangles", slant_colu
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->o->line, "tolerance") ? WITH_TOLERANCE : 0) | (t->o->out.full ? VERBOSE : 0) |
                     (t->o->camera.preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
-                    (t->triangles != NULL ? WITH_TRIANGLES : 0);
+                    (t->each.triangles != NULL ? WITH_TRIANGLES : 0);
     for (size_t i = 0; i < t->each.all.count; i++) {
         when |= t->each.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
         when |= per_vertex_matters(&t->each.all.items[i]) ? PER_VERTEX : 0;
@@ -385,7 +374,6 @@ int cmd_table(void *request) {
     if (lookup_wanted(o))
         return lookup_write(o);
     table t = {.o = o};
-    t.triangles = slant_fields_of(&o->camera, &t.slant);
     int status = each_setup_start(&t.each, &o->camera, &o->out);
     for (size_t i = 0; status == EXIT_FINE && each_setup_go(&t.each, i); i++) {
         status = range_resolve(t.each.here, &t.lo, &t.hi);

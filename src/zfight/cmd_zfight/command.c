@@ -34,9 +34,6 @@ typedef struct zfight {
     double gap, lo, hi;
     double always;   /* of the result: from there on every pair fights; NaN: from nowhere on */
     uint64_t before; /* depths of the set-ups that are finished */
-    slant_fields slant;
-    const slant_fields *triangles; /* null: surfaces face the camera */
-    dp_setup facing;               /* the one at hand, of such surfaces */
     const census_result *result;
     band whole, band;
     double there; /* guaranteed at its longest interval; NaN without one */
@@ -72,8 +69,8 @@ static census_status work(zfight *z, const dp_setup *setup, census_result *resul
 
 static int work_all(zfight *z) {
     for (size_t i = 0; i < z->each.all.count; i++) {
-        z->facing = dp_setup_facing(&z->each.all.items[i]);
-        const census_status status = work(z, &z->facing, &z->results[i]);
+        const dp_setup facing = dp_setup_facing(&z->each.all.items[i]);
+        const census_status status = work(z, &facing, &z->results[i]);
         if (status == CENSUS_NO_MEMORY)
             return usage_error("no memory for the census");
         if (status != CENSUS_DONE) /* interrupted: what else there is was refused before */
@@ -98,7 +95,7 @@ static bool is_empty(const census_band *b) {
 
 static double slanted_over(const zfight *z, double lo, double hi) {
     dp_separation_worst worst = {.bound = (double)NAN};
-    if (z->triangles != NULL)
+    if (z->each.triangles != NULL)
         dp_separation_over(z->each.setup, fmax(lo, z->lo), fmin(hi, z->hi), 0.0, &worst);
     return worst.bound;
 }
@@ -111,7 +108,7 @@ static band band_of(const zfight *z, const census_band *b) {
                 .used = b->slack,
                 .clipped = (double)b->clipped,
                 .slanted = slanted_over(z, b->lo, b->hi),
-                .certain = dp_is_certain(&z->facing, b->lo, dp_separation(&z->facing, b->lo))};
+                .certain = each_setup_guarantee(&z->each, b->lo).certain};
     if (z->o->separation > 0.0)
         out.longest = out.used = (double)NAN;
     if (z->o->separation > 0.0 || z->o->sample > 0) /* a sample would only count those that it drew */
@@ -146,13 +143,12 @@ static void *next_setup(void *of, size_t i) {
     zfight *z = of;
     if (!each_setup_go(&z->each, i))
         return NULL;
-    z->facing = dp_setup_facing(z->each.setup);
     z->result = &z->results[i];
     z->whole = band_of(z, &z->result->all);
     z->always = always_from(z);
-    const double at = z->result->all.longest_z;
-    z->there = z->result->all.longest > 0.0 ? dp_separation(&z->facing, at) : (double)NAN;
-    z->certain = dp_is_certain(&z->facing, at, z->there);
+    const guarantee there = each_setup_guarantee(&z->each, z->result->all.longest_z);
+    z->there = z->result->all.longest > 0.0 ? there.facing : (double)NAN;
+    z->certain = there.certain;
     z->surfaces = z->o->sample > 0 ? "Of the pairs tested, surfaces" : "Surfaces";
     z->chosen = z->o->sample > 0 ? ", chosen at random" : "";
     return z;
@@ -267,7 +263,7 @@ static void say_planes(page *p, void *item) {
 }
 
 static const column columns[] = {
-    {PART(zfight, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(zfight, each.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("setups", setup_report, next_setup), .head = say_answer, .notes = say_planes},
     {.kind = COLUMN_END}};
 
@@ -331,7 +327,7 @@ int cmd_zfight(void *request) {
                 .method = o->sample > 0 ? "sample" : "census",
                 .seed = o->seed,
                 .gap = o->separation};
-    z.triangles = slant_fields_of(&o->camera, &z.slant);
+    z.each.triangles = slant_fields_of(&o->camera, &z.each.slant);
     int status = check(&z);
     if (status == EXIT_FINE) {
         z.results = calloc(z.each.all.count, sizeof *z.results);

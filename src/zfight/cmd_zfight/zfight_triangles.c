@@ -23,7 +23,6 @@ typedef struct drawn {
     const char *method;
     uint64_t pairs, seed; /* pairs: of a set-up */
     double azimuth, lo, hi;
-    slant_fields slant;
     uint64_t before; /* pairs of the set-ups that are finished */
     const draw_fight_result *result;
     draw_fight_band whole, band;
@@ -111,7 +110,7 @@ static const column band_columns[] = {{FIELD(draw_fight_band, lo, "lo", "scene")
 static const column setup_report[] = {{PART(drawn, each.fields, NULL, setup_columns)},
                                       {FIELD(drawn, each.fields.arith, "arith", ""), .only = AS_CSV},
                                       {FIELD(drawn, method, "method", "")},
-                                      {FIELD(drawn, slant.raster, "raster", ""), .only = AS_CSV},
+                                      {FIELD(drawn, each.slant.raster, "raster", ""), .only = AS_CSV},
                                       {FIELD(drawn, seed, "seed", "")},
                                       {FIELD(drawn, pairs, "pairs", "")},
                                       {FIELD(drawn, azimuth, "azimuth", "degrees"), .only = AS_JSON},
@@ -138,7 +137,7 @@ static void say_answer(page *p, void *item) {
     page_say(p, words, setup_report, item, d->whole.pixels == 0 ? NOTHING_DRAWN : 0);
 }
 
-static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns), .only = AS_JSON},
+static const column columns[] = {{PART(drawn, each.slant, "triangles", slant_columns), .only = AS_JSON},
                                  {LIST("setups", setup_report, next_setup), .head = say_answer},
                                  {.kind = COLUMN_END}};
 
@@ -180,7 +179,7 @@ int zfight_triangles(const zfight_request *o) {
                .seed = o->seed,
                .azimuth = o->camera.azimuth};
     int status = check(&d);
-    slant_fields_of(&o->camera, &d.slant);
+    slant_fields_of(&o->camera, &d.each.slant);
     if (status == EXIT_FINE) {
         d.results = calloc(d.each.all.count, sizeof *d.results);
         if (d.results == NULL)
