@@ -348,6 +348,36 @@ double effect_step_usable(const effect_row *row, const effect_view *view, const 
     return has_step(&at) ? usable_in(&at, parameters, levels) : (double)NAN;
 }
 
+/* The critical value `which` of a plane of that slope: its own, the least or the most. */
+static double critical_at(const cell_case *at, const double *parameters, double slope, int which) {
+    double p[PARAMETERS_MAX];
+    critical_values c;
+    memcpy(p, parameters, sizeof p);
+    p[parameter_find(at->row->parameters, "slope")] = slope;
+    if (!critical_of(at, p, &c))
+        return 0;
+    return which == 0 ? c.plane : which == 1 ? c.most : c.least;
+}
+
+effect_slopes effect_slopes_at(const effect_row *row, const effect_view *view, const double *parameters, double z) {
+    const cell_case at = case_at(row, view, parameters, z);
+    double found[3] = {(double)NAN, (double)NAN, (double)NAN};
+    const bool asked = row->kind == EFFECT_STEP && row->smallest && !row->quiet && !row->alone && has_error(&at) &&
+                       parameter_find(row->parameters, "slope") >= 0;
+    const double most = view->setup->spec.zfar - at.first, wanted = parameters[row->wanted];
+    for (int i = 0; i < 3 && asked; i++) {
+        dp_edge e = {.holds = 0, .fails = most};
+        if (critical_at(&at, parameters, 0, i) > wanted)
+            found[i] = 0;
+        if (found[i] == 0 || !(critical_at(&at, parameters, most, i) > wanted))
+            continue;
+        for (double s; dp_edge_between(&e, &s);)
+            *(critical_at(&at, parameters, s, i) > wanted ? &e.fails : &e.holds) = s;
+        found[i] = e.fails;
+    }
+    return (effect_slopes){found[0], found[1], found[2]};
+}
+
 double effect_ceiling(const effect_row *row, const effect_view *view, const double *parameters, double z) {
     const cell_case at = case_at(row, view, parameters, z);
     const texture_parameter *range = &row->parameters[row->ceiling];

@@ -205,6 +205,16 @@ double effect_usable(const effect_row *row, const effect_view *view, const doubl
 double effect_step_usable(const effect_row *row, const effect_view *view, const double *parameters, double z,
                           double levels);
 
+/** Slopes from which on a plane at z's cell shows as an edge: itself, and as it is stored the first with which it does
+ * at one of its places, and the first with which it does at all of them. Between the two an edge comes and goes. */
+typedef struct effect_slopes {
+    double plane, first, last;
+} effect_slopes;
+
+/** For EFFECT_STEP on planes of a `slope` that need not be quiet, with a `smallest` parameter; all NaN for other rows
+ * and in the model float, each NaN where none up to far does. */
+effect_slopes effect_slopes_at(const effect_row *row, const effect_view *view, const double *parameters, double z);
+
 /** The largest value of the parameter `ceiling` with which no place of a plane, at a depth of z's cell, gets another
  *  answer than it should, the others being what they are: every smaller one has none either. NaN for other rows, in the
  *  model float, and where there is none. */

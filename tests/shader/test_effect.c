@@ -452,6 +452,37 @@ TEST(test_edge) {
     tally_end(&t);
 }
 
+/* From which slopes on a plane shows, at some places and at all: of slopes a little below and above. */
+TEST(test_slopes) {
+    const effect_row *row = effect_find("edge");
+    rng r = rng_make("slopes of edges");
+    tally t = {.name = "slopes"};
+    for (uint64_t i = 0; i < test_cases(300, 6000, 100000); i++) {
+        place at;
+        any_place(&r, 1.5, &at);
+        const double wanted = (double)(at.k.hi - at.k.lo) * rng_log(&r, 0.05, 20);
+        double p[PARAMETERS_MAX] = {(double)(wanted / at.c.f), 0.1};
+        const effect_slopes found = effect_slopes_at(row, &at.view, p, at.z);
+        const double slopes[3] = {found.plane, found.first, found.last};
+        if (!(p[0] > 0 && p[0] < 1) || isnan(found.plane) || isnan(found.first) || isnan(found.last)) {
+            t.skipped++;
+            continue;
+        }
+        TALLY(&t, fabs(found.plane - wanted) <= 1e-9 * wanted, "plane: %a, not %a", found.plane, wanted);
+        for (int a = 0; a < 4; a++) { /* the ends of the cell are its extremes: stored depths grow with the slope */
+            const bool last = a / 2 == 1, beyond = a % 2 == 1;
+            const long double slope = (long double)slopes[1 + last] + (beyond ? 1 : -1) * 1e-6L * (at.k.hi - at.k.lo);
+            const long double z1 = at.k.lo + (at.k.hi - at.k.lo) * (last ? 1e-7L : 1 - 1e-7L);
+            if (slope < 0 || z1 + slope > at.c.f)
+                continue;
+            const long double seen = eye_of(&at.c, code_of(&at.c, z1 + slope)) - at.k.stored;
+            TALLY(&t, (seen / at.c.f > p[0]) == beyond, "%s z %a threshold %a slope %La: %La", last ? "last" : "first",
+                  at.z, p[0], slope, seen);
+        }
+    }
+    tally_end(&t);
+}
+
 /* ---- Other steps ------------------------------------------------------------------------------------------------- */
 
 /* Whether the output on a plane is 1: of two stored depths, `seen` and `apart` behind it; or, of a shadow map, of a

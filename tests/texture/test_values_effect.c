@@ -228,3 +228,15 @@ TEST(pixels) {
 }
 
 LIST_TEST(check_apart)
+
+/* A wall is an edge where its slope is more than threshold x far; one code of unorm16 at 1000 is more than that. */
+TEST(slope_of_a_wall) {
+    static const char line[] = "texture --product effect:edge -m d3d -n 0.1";
+    check_says(0, "from a slope of 0.1 on;", "%s -F d24 -f 100", line);
+    check_says(0, "a slope of 0.1 lies between", "%s -F d24 -f 100", line);
+    check_says(0, "!lies between", "%s -F d24 -f 100 --parameter slope=0.2", line);
+    check_says(0, "!lies between", "%s -F d24 -f 100 --parameter slope=0.05", line);
+    check_says(0, "from a slope of 2.5 on;", "%s -F d24 -f 1000 --parameter threshold=0.0025", line);
+    check_says(0, "pixels from 0 on", "%s -F d16 -f 1000", line);
+    check_says(0, "!a flat wall", "texture --product effect:outline -m d3d -n 0.1 -f 100 -F d24");
+}

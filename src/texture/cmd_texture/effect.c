@@ -63,6 +63,8 @@ typedef struct table {
     row row;
     bool begun;
     double usable, z, ceiling, ceiling_z;
+    effect_slopes slopes;   /* the least of the first and the largest of the last, */
+    double first_z, last_z; /* and the depths where they are */
     bool steps;        /* of the stored depth, whose edges show as bands; of the others a plane is drawn right or not */
     double reach;      /* up to which depth no step is more than a level; NaN where one is at near */
     double rounding;   /* the same of the rounding of depths, about half a step */
@@ -118,6 +120,7 @@ static double farthest(const dp_setup *setup) {
 static void *next_setup(void *of, size_t i) {
     table *t = of;
     t->begun = false;
+    t->slopes.plane = (double)NAN;
     if (!each_setup_go(&t->each, i) || make_view(t, t->each.setup) != EXIT_FINE)
         return NULL;
     const dp_setup *setup = t->each.setup;
@@ -128,6 +131,22 @@ static void *next_setup(void *of, size_t i) {
     t->rounding = effect_reach(t->effect, &t->view, t->parameters, false, lo, hi, ONE_LEVEL);
     t->everywhere = effect_usable_over(t->effect, &t->view, t->parameters, t->steps, lo, hi, ONE_LEVEL);
     return t;
+}
+
+/* Over the rows: where the first edge is soonest, and where it is latest that all places have one. */
+static void add_slopes(table *t, double z) {
+    const effect_slopes s = effect_slopes_at(t->effect, &t->view, t->parameters, z);
+    if (isnan(s.first) || isnan(s.last)) /* too near far to be one */
+        return;
+    if (isnan(t->slopes.plane) || s.first < t->slopes.first) {
+        t->slopes.first = s.first;
+        t->first_z = z;
+    }
+    if (isnan(t->slopes.plane) || s.last > t->slopes.last) {
+        t->slopes.last = s.last;
+        t->last_z = z;
+    }
+    t->slopes.plane = s.plane;
 }
 
 static void *next_row(void *of, size_t i) {
@@ -150,6 +169,7 @@ static void *next_row(void *of, size_t i) {
         t->ceiling = x->ceiling;
         t->ceiling_z = x->sample.z;
     }
+    add_slopes(t, z);
     t->begun = true;
     return x;
 }
@@ -247,11 +267,30 @@ static void say_ceiling(page *p, const table *t) {
                   wanted.text, other->name, number_down(t->ceiling, DIGITS).text, z.text);
 }
 
+/* The slope of a wall from which on it is one edge, and between which it is one here and there. */
+static void say_slopes(page *p, const table *t) {
+    const effect_slopes *s = &t->slopes;
+    if (isnan(s->plane))
+        return;
+    const double slope = t->parameters[parameter_find(t->effect->parameters, "slope")];
+    page_line(p,
+              "a flat wall is drawn as an edge from a slope of %s on; as it is stored, at some pixels from %s on "
+              "(z = %s), at all from %s on (z = %s)",
+              number_of(s->plane, DIGITS).text, s->first > s->plane * 1e-6 ? number_down(s->first, DIGITS).text : "0",
+              number_of(t->first_z, DIGITS_Z).text, number_up(s->last, DIGITS).text,
+              number_of(t->last_z, DIGITS_Z).text);
+    if (slope >= s->first && slope < s->last)
+        page_line(p,
+                  "a slope of %s lies between the two: edges come and go, 255 levels, with a pixel's place in its cell",
+                  number_full(slope).text);
+}
+
 /* It is usable as it is printed. At the end of the range no depth decides. */
 static void say_usable(page *p, void *item) {
     const table *t = item;
     const number_text usable = (t->effect->smallest ? number_up : number_down)(t->usable, DIGITS);
     const number_text z = number_of(t->z, DIGITS_Z);
+    say_slopes(p, t);
     char decides[64] = "";
     if (t->usable != (t->effect->smallest ? t->wanted->lo : t->wanted->hi))
         snprintf(decides, sizeof decides, "; z = %s decides", z.text);
