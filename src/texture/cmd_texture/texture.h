@@ -72,6 +72,14 @@ const char *texture_origin_name(texture_origin origin);
 int texture_source_open(texture_request *o, texture_source *out);
 void texture_source_close(texture_source *s);
 
+/** Options of window depth that are given beside samples that are none: before a file is read, and again when it has
+ * said what its samples are. @return an exit status, after one line on stderr */
+int texture_window_check(const texture_request *o);
+
+/** Reads the file: its picture, in the unit, the channel and the packing that are given, or that it says; what was
+ * found of its samples. @return as above */
+int texture_image_read(texture_request *o, texture_source *s);
+
 /** Reads the text of --lattice or --as, a sensor by name, in the unit of a scene, metres where that is open; NaN for
  * what it leaves out, no row where the text is null. @return an exit status, after one line on stderr */
 int texture_lattice(const unit_row *unit, const char *id, const char *text, sensor *out);
