@@ -10,6 +10,25 @@
 #include "texture/cmd_texture/texture.h"
 #include "texture/units.h"
 
+bool texture_is_window(const texture_request *o) {
+    return o->image.metric == 0 && (o->image.packing == NULL || !o->image.packing->linear);
+}
+
+int texture_window_check(const texture_request *o) {
+    static const char *const window[] = {"format", "mapping", "log-c", "product", "sky"};
+    const bool raw = o->image.product != NULL && o->image.product->kind == FRAME_RAW;
+    for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
+        if (option_given(o->line, window[i]) && (o->image.metric > 0 || !option_is(window[i], "sky")) &&
+            (raw || !option_is(window[i], "product")))
+            return option_error(window[i], "%sdoes not apply with --%s%s, which is not window depth",
+                                option_is(window[i], "product") ? "raw " : "",
+                                o->image.stereo.focal > 0 ? "stereo"
+                                : o->image.metric > 0     ? "metric"
+                                                          : "packing ",
+                                o->image.metric > 0 ? "" : o->image.packing->name);
+    return EXIT_FINE;
+}
+
 /* Warns of colours by which a program that obeys them changes the samples. */
 static void warn_of_colours(const texture_request *o, const texture_source *s) {
     static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};

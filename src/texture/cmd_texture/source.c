@@ -59,25 +59,6 @@ bool texture_far_known(const texture_request *o) {
     return o->image.metric == 0 || option_given(o->line, "far") || o->camera.preset_count > 0;
 }
 
-bool texture_is_window(const texture_request *o) {
-    return o->image.metric == 0 && (o->image.packing == NULL || !o->image.packing->linear);
-}
-
-int texture_window_check(const texture_request *o) {
-    static const char *const window[] = {"format", "mapping", "log-c", "product", "sky"};
-    const bool raw = o->image.product != NULL && o->image.product->kind == FRAME_RAW;
-    for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
-        if (option_given(o->line, window[i]) && (o->image.metric > 0 || !option_is(window[i], "sky")) &&
-            (raw || !option_is(window[i], "product")))
-            return option_error(window[i], "%sdoes not apply with --%s%s, which is not window depth",
-                                option_is(window[i], "product") ? "raw " : "",
-                                o->image.stereo.focal > 0 ? "stereo"
-                                : o->image.metric > 0     ? "metric"
-                                                          : "packing ",
-                                o->image.metric > 0 ? "" : o->image.packing->name);
-    return EXIT_FINE;
-}
-
 /* The focal length is the camera's, too: another one is refused, and so are planes without a use. */
 static int check_stereo(const texture_request *o) {
     static const char *const planes[] = {"near", "far", "preset", "platform"};
