@@ -351,7 +351,7 @@ $(B)/dist/depthprec-$(VERSION).tgz: $(NPM_FILES) src/npm/package.json Makefile
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves, programs of others and what clang makes for the web no
 # sanitizer has a say; and of the gallery none that it has not had of the same figures in test_drawn_*.
-ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims python npm web gappa engines \
+ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims cameras python npm web gappa engines \
     public_models vtk plots)
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 

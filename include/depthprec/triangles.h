@@ -82,5 +82,9 @@ DP_API double dp_fov_vertical(double fov_x, int width, int height);
  *  range or no number */
 DP_API dp_status dp_triangles_check(const dp_triangles *triangles);
 
+/** The first field that is out of its range, or no number, as a sentence that begins with what people call it, "fov
+ * must be from 0.001 to 179.9 degrees"; null where dp_triangles_check() finds nothing. Valid forever. */
+DP_API const char *dp_triangles_fault(const dp_triangles *triangles);
+
 DP_END
 #endif

@@ -58,18 +58,36 @@ static int within(double x, double lo, double hi) {
     return x >= lo && x <= hi;
 }
 
-dp_status dp_triangles_check(const dp_triangles *t) {
+const char *dp_triangles_fault(const dp_triangles *t) {
     static const double most = 1e6;
     if (t == NULL)
-        return DP_ERROR_NULL;
+        return dp_status_text(DP_ERROR_NULL);
     const dp_plane_error *p = &t->plane;
-    const int plane =
-        within(p->value, 0, most) && within(p->box, 0, most) && within(p->range, 0, most) && within(p->origin, 0, most);
-    const int view = within(t->width, 1, 32768) && within(t->height, 1, 32768) && within(t->fov_y, 0.001, 179.9) &&
-                     within(t->subpixel, 0, 8);
-    const int slant = within(t->slant_lo, 0, 90) && within(t->slant_hi, t->slant_lo, 90);
-    const int class = within(t->depth, 1, 1e6) && within(t->pixels, 1, 65536) && within(t->slim, 2, 1024);
-    return plane && view && slant && class ? DP_OK : DP_ERROR_TRIANGLES;
+    const struct {
+        int good;
+        const char *sentence;
+    } rules[] = {
+        {within(t->width, 1, 32768) && within(t->height, 1, 32768), "viewport must have sides from 1 to 32768 pixels"},
+        {within(t->fov_y, 0.001, 179.9), "fov must be from 0.001 to 179.9 degrees"},
+        {within(t->subpixel, 0, 8), "subpixel must be from 0 to 8 bits"},
+        {within(p->value, 0, most) && within(p->box, 0, most) && within(p->range, 0, most) &&
+             within(p->origin, 0, most),
+         "plane must have errors from 0 to 1e6"},
+        {within(t->slant_lo, 0, 90) && within(t->slant_hi, t->slant_lo, 90),
+         "slant must be two angles from 0 to 90 degrees, the smaller first"},
+        {within(t->depth, 1, 1e6) && within(t->pixels, 1, 65536) && within(t->slim, 2, 1024),
+         "triangle class must have depth from 1 to 1e6, pixels from 1 to 65536 and slim from 2 to 1024"},
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
+        if (!rules[i].good)
+            return rules[i].sentence;
+    return NULL;
+}
+
+dp_status dp_triangles_check(const dp_triangles *t) {
+    if (t == NULL)
+        return DP_ERROR_NULL;
+    return dp_triangles_fault(t) == NULL ? DP_OK : DP_ERROR_TRIANGLES;
 }
 
 /* ---- What is the same at every depth ----------------------------------------------------------------------------- */

@@ -15,7 +15,7 @@ enum { BLOCK = 1 << 16, NUMBERS = 16, TEXT = 512 };
 _Static_assert(DP_TASK_CODE == 0 && DP_TASK_EYE == 1 && DP_TASK_LO == 5 && DP_TASK_HI == 6 && DP_TASK_WINDOW == 7 &&
                    DP_TASK_SEPARATION == 8 && DP_TASK_INTERVAL == 9 && DP_REAL_DOUBLE == 1 && DP_WORD_32 == 1 &&
                    DP_LAYOUT_ROWS == 1 && DP_LAYOUT_COLUMNS == 2 && DP_ERROR_DEPTH == 13 && DP_ERROR_MATRIX == 20 &&
-                   DP_ERROR_CONVENTION == 21,
+                   DP_ERROR_CONVENTION == 21 && DP_ERROR_TRIANGLES == 19,
                "index.js has these numbers");
 
 static dp_setup setup;
@@ -83,8 +83,8 @@ EXPORT(formats) size_t door_formats(void) {
     return count;
 }
 
-/* Numbers 4 on: whether there are triangles, and their fields. */
-static dp_status read_triangles(dp_triangles *out) {
+/* Numbers 4 on: whether there are triangles, and their fields. @return what is wrong with them, or null */
+static const char *read_triangles(dp_triangles *out) {
     const double *n = numbers + 5;
     *out = dp_triangles_default();
     out->width = (int)n[0];
@@ -96,12 +96,12 @@ static dp_status read_triangles(dp_triangles *out) {
     out->depth = n[6];
     out->pixels = n[7];
     out->slim = n[8];
-    return dp_triangles_check(out);
+    return dp_triangles_fault(out);
 }
 
 /**
  * A set-up of numbers (near, far, ortho, log_c, triangles) and words (format, mapping, arith, rounding, model). The
- * answer is in numbers (code_max, bits) and words (format, mapping, arith).
+ * answer is in numbers (code_max, bits) and words (format, mapping, arith), or of triangles that cannot be a sentence.
  */
 EXPORT(camera) dp_status door_camera(void) {
     dp_spec spec = dp_spec_default();
@@ -118,10 +118,13 @@ EXPORT(camera) dp_status door_camera(void) {
     dp_status status = dp_mapping_parse(word(1), &spec.mapping);
     if (status == DP_OK)
         status = dp_arith_parse(word(2), &spec.arith);
+    const char *fault = NULL;
     if (status == DP_OK && numbers[4] != 0)
-        status = read_triangles(&spec.triangles);
+        fault = read_triangles(&spec.triangles);
     if (status == DP_OK)
-        status = dp_setup_init(&setup, &spec);
+        status = fault != NULL ? DP_ERROR_TRIANGLES : dp_setup_init(&setup, &spec);
+    if (fault != NULL)
+        answer(fault, "", "");
     if (status == DP_OK) {
         numbers[0] = spec.format.code_max;
         numbers[1] = spec.format.bits;

@@ -18,7 +18,7 @@ const blocks = Object.fromEntries(Object.entries(KINDS).map(([name, Kind]) =>
     [name, [0, 1, 2, 3].map((i) => new Kind(buffer, core.at(3) + i * SIZE, COUNT))]));
 const REALS = { Float32Array: 0, Float64Array: 1 }, WORDS = { Uint16Array: 0, Uint32Array: 1 };
 const TASKS = { code: 0, eye: 1, lo: 5, hi: 6, window: 7, separation: 8, lattice: 8, interval: 9 };
-const DEPTH = 13, MATRIX = 20, CONVENTION = 21; // statuses
+const DEPTH = 13, TRIANGLES = 19, MATRIX = 20, CONVENTION = 21; // statuses
 const LAYOUTS = { undefined: 0, rows: 1, columns: 2 };
 const WORST = ["lo", "hi", "error", "errorZ", "errorCode", "interval", "intervalLo", "intervalHi", "intervalCode", "blindFrom",
     "separation", "separationZ"];
@@ -76,10 +76,10 @@ function word(value, what) {
     return value;
 }
 
-function several(value, count) {
-    if (!Array.isArray(value) && !ArrayBuffer.isView(value)) throw new TypeError("viewport, slant and triangleClass must be arrays of numbers");
-    if (value.length !== count) throw new DepthprecError("viewport and slant must have two numbers, triangleClass three");
-    return Array.from(value, (x) => real(x, "each of viewport, slant and triangleClass"));
+function several(value, what, count) {
+    if (!Array.isArray(value) && !ArrayBuffer.isView(value)) throw new TypeError(`${what} must be an array of ${count} numbers, got ${value === null ? "null" : typeof value}`);
+    if (value.length !== count) throw new DepthprecError(`${what} must be ${count} numbers, got ${value.length}`);
+    return Array.from(value, (x) => real(x, what));
 }
 
 function whole(value, what) {
@@ -163,17 +163,19 @@ export class Camera {
         const format = word(given.format, "format");
         const scalars = [real(given.near, "near"), real(given.far, "far"), given.ortho ? 1 : 0, real(given.logC, "logC"), 0];
         if (given.viewport !== undefined) {
-            const [width, height] = several(given.viewport, 2).map((x) => whole(x, "viewport"));
+            const [width, height] = several(given.viewport, "viewport", 2).map((x) => whole(x, "viewport"));
             given.viewport = Object.freeze([width, height]);
-            given.slant = Object.freeze(several(given.slant, 2));
-            given.triangleClass = Object.freeze(several(given.triangleClass, 3));
+            given.slant = Object.freeze(several(given.slant, "slant", 2));
+            given.triangleClass = Object.freeze(several(given.triangleClass, "triangleClass", 3));
             scalars.splice(4, 1, 1, width, height, real(given.fov, "fov"), whole(given.subpixel, "subpixel"), ...given.slant, ...given.triangleClass);
         }
         write([format]);
         if (core.formats() === 2) throw new DepthprecError(`${format} is ${read(2).join(" or ")}, as the implementation chooses: name one`);
         write([format, ...["mapping", "arith", "rounding", "model"].map((name) => word(given[name], name))]);
         numbers.set(scalars);
-        demand(core.camera());
+        const status = core.camera();
+        if (status === TRIANGLES && !given.ortho) throw new DepthprecError(read(1)[0], status);
+        demand(status);
         this.#setups.own = place.slice();
         this.#narrow = numbers[1] <= 16;
         const [named, mapping, arith] = read(3);

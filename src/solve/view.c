@@ -146,7 +146,7 @@ bool reader_view(reader *r, const setting *group, setting *const found[VIEW_COUN
     if (found[VIEW_VIEWPORT] == NULL)
         return true;
     if (found[VIEW_FOV] != NULL && found[VIEW_HFOV] != NULL)
-        return reader_fail(r, found[VIEW_HFOV], "'fov' and 'hfov' must not both be given");
+        return reader_fail(r, found[VIEW_HFOV], "hfov: conflicts with fov");
     *t = dp_triangles_default();
     for (int k = 0; k < VIEW_COUNT; k++)
         if (found[k] != NULL && readers[k] != NULL && !readers[k](r, found[k], t))

@@ -376,6 +376,7 @@ TEST(test_range) {
 static void refused(dp_spec spec, dp_triangles t) {
     dp_setup setup;
     assert_int_equal(dp_triangles_check(&t), DP_ERROR_TRIANGLES);
+    assert_non_null(dp_triangles_fault(&t));
     spec.triangles = t;
     assert_int_equal(dp_setup_init(&setup, &spec), t.width == 0 ? DP_OK : DP_ERROR_TRIANGLES); /* 0: they face it */
 }
@@ -389,6 +390,8 @@ TEST(test_refusals) {
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     assert_int_equal(dp_triangles_check(&good), DP_OK);
     assert_int_equal(dp_triangles_check(NULL), DP_ERROR_NULL);
+    assert_null(dp_triangles_fault(&good));
+    assert_string_equal(dp_triangles_fault(NULL), dp_status_text(DP_ERROR_NULL));
 #define REFUSED(field, value)                                                                                          \
     do {                                                                                                               \
         dp_triangles bad = good;                                                                                       \

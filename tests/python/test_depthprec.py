@@ -662,8 +662,9 @@ class Cameras(unittest.TestCase):
                             ({"arith": "?"}, "binary32"),
                             ({"far": math.inf, "mapping": "log"}, "infinite"),
                             ({"log_c": 0, "mapping": "log"}, "C of the log"),
-                            ({"format": "depth24plus"}, "unorm24 or fp32"), ({"viewport": (0, 5)}, "triangles"),
-                            ({"viewport": (1, 2, 3)}, "two numbers"),
+                            ({"format": "depth24plus"}, "unorm24 or fp32"), ({"viewport": (0, 5)}, "viewport must"),
+                            ({"viewport": (1, 2, 3)}, "viewport must be 2 numbers"),
+                            ({"viewport": (2**32 + 1920, 1080)}, "viewport must have sides"),
                             ({"mapping": "log", "ortho": True}, "orthographic")):
             with self.subTest(given), self.assertRaisesRegex(Error, said):
                 Camera(**given)

@@ -106,7 +106,7 @@ static const struct {
 } mistakes[] = {
     {NULL, "viewport = [640, 480]; subpixel = 8;", "viewport: needs fov or hfov"},
     {NULL, "viewport = [640, 480]; fov = 60;", "viewport: needs raster or subpixel"},
-    {NULL, VIEW "hfov = 60;", "'fov' and 'hfov' must not both be given"},
+    {NULL, VIEW "hfov = 60;", "hfov: conflicts with fov"},
     {NULL, "fov = 60;", "fov: needs a viewport: surfaces face the camera"},
     {NULL, "slant = [0, 60];", "slant: needs a viewport"},
     {NULL, "triangle = { };", "triangle: needs a viewport"},

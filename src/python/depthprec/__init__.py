@@ -408,15 +408,26 @@ def _index(names, name, what, status):
 
 def _triangles(viewport, fov, subpixel, slant, triangle_class):
     made = _core.triangles_default()
-    try:
-        made.width, made.height = viewport
-        made.slant_lo, made.slant_hi = slant
-        made.depth, made.pixels, made.slim = triangle_class
-        made.fov_y, made.subpixel = fov, subpixel
-    except ValueError:
-        raise Error("viewport and slant must have two numbers, triangle_class three") from None
-    _core.demand(_core.triangles_check(made))
+    made.width, made.height = (_arrays.whole(side, "viewport") for side in _several(viewport, "viewport", 2))
+    made.slant_lo, made.slant_hi = (_arrays.real(end, "slant") for end in _several(slant, "slant", 2))
+    made.depth, made.pixels, made.slim = (
+        _arrays.real(most, "triangle_class") for most in _several(triangle_class, "triangle_class", 3))
+    made.fov_y, made.subpixel = _arrays.real(fov, "fov"), _arrays.whole(subpixel, "subpixel")
+    fault = _core.triangles_fault(made)
+    if fault is not None:
+        raise Error(fault.decode(), _core.STATUSES.index("TRIANGLES"))
     return made
+
+
+def _several(values, what, count):
+    """So many numbers."""
+    try:
+        given = tuple(values)
+    except TypeError:
+        raise TypeError("%s must be %d numbers, got %s" % (what, count, type(values).__name__)) from None
+    if len(given) != count:
+        raise Error("%s must be %d numbers, got %d" % (what, count, len(given)))
+    return given
 
 
 def _sixteen(matrix):

@@ -6,6 +6,7 @@ import functools
 import importlib.util
 import math
 import numbers
+import operator
 import sys
 
 # Types of elements, as the struct module and array.array call them; those of this machine's order of bytes.
@@ -53,6 +54,14 @@ def real(value, what):
         return float(value)
     except OverflowError:
         return math.inf if value > 0 else -math.inf
+
+
+def whole(value, what):
+    """A whole number as a C int; beyond what one holds, out of every range that the library has."""
+    try:
+        return max(-1, min(operator.index(value), 0x7fffffff))
+    except TypeError:
+        raise TypeError("%s must be a whole number, got %s" % (what, type(value).__name__)) from None
 
 
 def refuse_mask(values):

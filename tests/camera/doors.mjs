@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each camera of cameras.txt by the npm package, as doors.py does by Python's:  node doors.mjs PACKAGE FILE
+import { readFileSync } from "node:fs";
+const { Camera } = await import(process.argv[2]);
+
+const USUAL = { near: "0.1", far: "1000", mapping: "d3d", format: "fp32", model: "exact" };
+const NAMES = { log_c: "logC", triangle: "triangleClass" }, LACKS = ["hfov", "raster", "preset", "unit"];
+const bits = new DataView(new ArrayBuffer(8));
+const show = (x) => (bits.setFloat64(0, x), bits.getBigUint64(0).toString(16).padStart(16, "0"));
+
+function value(key, text) {
+    const parts = text.split(",").map((part) => (part === "inf" ? Infinity : Number.isNaN(Number(part)) ? part : Number(part)));
+    return key === "ortho" ? text === "true" : parts.length > 1 ? parts : parts[0];
+}
+
+readFileSync(process.argv[3], "utf8").trim().split("\n").forEach((line, i) => {
+    const { at = "5", ...keys } = Object.fromEntries(line.startsWith("#") ? [] : line.split("|")[1].trim().split(" ").map((pair) => pair.split("=")));
+    const given = { ...USUAL, ...keys };
+    let said = "-";
+    if (line.startsWith("#")) return;
+    if (!LACKS.some((key) => key in given))
+        try {
+            const camera = new Camera(Object.fromEntries(Object.entries(given).map(([key, text]) => [NAMES[key] ?? key, value(key, text)])));
+            said = show(camera[given.model === "float" ? "separation" : "lattice"](Number(at)));
+        } catch (error) {
+            said = error.message;
+        }
+    console.log(`${i + 1}\t${said}`);
+});
