@@ -59,6 +59,7 @@ struct world_row {
     double standard;  /**< the size where none is given */
     bool power2;      /**< the size is a power of two */
     bool metres;      /**< `standard` is of metres; else of scene units, whatever they are */
+    bool meshes;      /**< meshes have origins, whose rounding all their vertices share: world_error.mesh */
     void (*view)(const world_scheme *s, const world_camera *camera, const world_place *place, float out[3]);
     world_error (*bound)(const world_scheme *s, const world_where *at);
 };

@@ -265,8 +265,11 @@ static int write_beside(biasing *b, int status) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-/* No bias can be about a viewport with a mapping that is not affine. */
+/* No bias can be about a viewport with a mapping that is not affine; without one the codes are counted, whatever the
+ * arithmetic before them. */
 static int check_slant(const bias_request *o) {
+    if (o->camera.triangles.width == 0 && camera_names_arith(&o->camera))
+        return option_error("arith", "needs --viewport: surfaces that face the camera are told apart by codes alone");
     for (size_t i = 0; i < o->camera.mapping_count && o->camera.triangles.width > 0; i++)
         if (dp_mapping_get(o->camera.mappings[i])->curve != DP_CURVE_PERSPECTIVE)
             return option_error("viewport", "does not apply to %s, which is not affine on the screen",

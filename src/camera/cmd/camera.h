@@ -141,6 +141,9 @@ int camera_read_far(asked_line *line, const option_row *row, const char *value, 
 
 option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
 
+/** --arith is given and is a name: of a profile the formats count, too. */
+bool camera_names_arith(const camera_asked *c);
+
 /** Takes the options of slanted triangles together; without --viewport surfaces face the camera. @return as above */
 int slant_complete(camera_asked *c);
 

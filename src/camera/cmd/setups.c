@@ -95,6 +95,14 @@ bool setups_have_log(const setups *all) {
     return false;
 }
 
+/* A shader writes a linear depth, and what is said of it leaves its arithmetic out. */
+static bool setups_have_arith(const setups *all) {
+    for (size_t i = 0; i < all->count; i++)
+        if (all->items[i].curve != DP_CURVE_LINEAR || all->items[i].spec.ortho)
+            return true;
+    return false;
+}
+
 int setups_make(const camera_asked *c, setups *out) {
     const size_t cameras = camera_count(c), most = cameras * CAMERA_FORMATS_MAX * DP_MAPPING_COUNT;
     int status = EXIT_FINE;
@@ -107,6 +115,8 @@ int setups_make(const camera_asked *c, setups *out) {
         status = option_error("log2", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
     if (status == EXIT_FINE && option_given(c->line, "log-c") && !setups_have_log(out))
         status = option_error("log-c", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
+    if (status == EXIT_FINE && camera_names_arith(c) && !setups_have_arith(out))
+        status = option_error("arith", "has no effect with linear alone, whose depth a shader writes");
     if (status != EXIT_FINE)
         setups_release(out);
     return status;

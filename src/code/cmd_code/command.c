@@ -44,30 +44,24 @@ static int check_needless(const wanted_code *w) {
         MATRIX = 1 << WHAT_PROJECTION,
         PLACES = 1 << WHAT_POSITION,
         CODES = 1 << WHAT_ENCODE,
-        CAMERA = MATRIX | PLACES | CODES | 1 << WHAT_LINEARIZE
+        WRITTEN = 1 << 15, /* the window depth of --what encode where a shader writes it */
+        CAMERA = MATRIX | PLACES | WRITTEN | 1 << WHAT_LINEARIZE
     };
     static const struct {
         const char *id;
         unsigned parts;
-    } rows[] = {{"near", CAMERA},
-                {"far", CAMERA},
-                {"format", CAMERA},
-                {"mapping", CAMERA},
-                {"ortho", CAMERA},
-                {"preset", CAMERA},
-                {"platform", CAMERA},
-                {"log-c", CAMERA},
-                {"fov", MATRIX | PLACES},
-                {"hfov", MATRIX | PLACES},
-                {"viewport", MATRIX | PLACES},
+    } rows[] = {{"near", CAMERA},   {"far", CAMERA},          {"format", CODES},          {"mapping", CAMERA | CODES},
+                {"ortho", CAMERA},  {"unit", CAMERA},         {"preset", CAMERA | CODES}, {"platform", CAMERA | CODES},
+                {"log-c", CAMERA},  {"fov", MATRIX | PLACES}, {"hfov", MATRIX | PLACES},  {"viewport", MATRIX | PLACES},
                 {"rounding", CODES}};
     const unsigned what = w->o->what;
+    const bool encode = what == WHAT_ENCODE;
+    const unsigned part = encode && is_written(&w->setup) ? WRITTEN : 1U << what;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (option_given(w->o->line, rows[i].id) && (rows[i].parts & 1U << what) == 0)
-            return option_error(rows[i].id, "has no effect with --what %s", option_word("what", what));
-    if (option_given(w->o->line, "rounding") && is_written(&w->setup))
-        return option_error("rounding", "has no effect with --mapping %s, whose window depth is not rounded here",
-                            dp_mapping_get(w->setup.spec.mapping)->name);
+        if (option_given(w->o->line, rows[i].id) && (rows[i].parts & part) == 0)
+            return option_error(rows[i].id, "has no effect with --what %s%s%s", option_word("what", what),
+                                encode ? " of --mapping " : "",
+                                encode ? dp_mapping_get(w->setup.spec.mapping)->name : "");
     return EXIT_FINE;
 }
 
@@ -190,6 +184,8 @@ static int find_setup(wanted_code *w) {
 static code_said write_code(const wanted_code *w, output *out) {
     const bool uniforms = w->o->uniforms;
     const unsigned what = w->o->what;
+    if (option_given(w->o->line, "unit"))
+        code_say(out, w->language, "Lengths are in %s.", camera_unit(&w->o->camera));
     return what == WHAT_PROJECTION ? code_projection(out, w->language, &w->camera)
            : what == WHAT_POSITION ? code_places(out, w->language, w->row, &w->camera, uniforms)
            : w->packing != NULL    ? code_packing(out, w->language, w->packing)

@@ -45,6 +45,13 @@ static const option_use uses[] = {
     TAKE("json"), TAKE("output"), TAKE("quiet"), END};
 /* clang-format on */
 
+/* clang-format off */
+static const option_rule rules[] = {
+    CONFLICTS("fov", "ortho", ": --ortho=H says how high the view is"),
+    CONFLICTS("hfov", "ortho", ": --ortho=H says how high the view is"),
+    {.option = NULL}};
+/* clang-format on */
+
 static const option_place places[] = {CAMERA_PLACES(code_request, camera),
                                       PLACE(code_request, out, output_options),
                                       OWN_PLACE(code_options),
@@ -60,7 +67,7 @@ static int complete(void *request) {
 
 /* clang-format off */
 const command_row command_code = {
-    .name = "code", .request = sizeof(code_request), .places = places, .uses = uses,
+    .name = "code", .request = sizeof(code_request), .places = places, .uses = uses, .rules = rules,
     .complete = complete,
     .operand = "[METHOD]", .operand_min = 0, .operand_max = 1,
     .summary = "a method or a projection matrix as code to take away",

@@ -33,7 +33,7 @@ static const option_place places[] = {CAMERA_PLACES(budget_request, camera),
 static int complete(void *request) {
     budget_request *o = request;
     const int status = camera_complete(&o->camera, &(camera_use){0});
-    return status == EXIT_FINE ? origin_complete(o->line) : status;
+    return status == EXIT_FINE ? origin_complete(o->line, &o->origin) : status;
 }
 
 /* clang-format off */

@@ -268,16 +268,18 @@ static void say_notes(page *p, void *item) {
 /* Says what the cameras have in common, and where there are several the planes of each. */
 static void say_cameras(page *p, const comparison *c) {
     const table_request *o = c->o;
-    char planes[1024] = "", unit[32] = "";
+    char planes[1024] = "", more[64] = "";
+    if (option_given(o->line, "rounding"))
+        append(more, sizeof more, ", rounding %s", dp_rounding_name(o->camera.rounding));
     if (p->unit != NULL)
-        snprintf(unit, sizeof unit, ", lengths in %s", p->unit);
+        append(more, sizeof more, ", lengths in %s", p->unit);
     if (o->camera.preset_count < 2) {
         page_title(p, "near %s, far %s, %s%s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
-                   o->camera.ortho ? "orthographic" : "perspective", unit);
+                   o->camera.ortho ? "orthographic" : "perspective", more);
         slant_say(p, page_title, &o->camera, NULL);
         return;
     }
-    page_title(p, "%zu presets, %s%s", o->camera.preset_count, o->camera.ortho ? "orthographic" : "perspective", unit);
+    page_title(p, "%zu presets, %s%s", o->camera.preset_count, o->camera.ortho ? "orthographic" : "perspective", more);
     slant_say(p, page_title, &o->camera, NULL);
     for (size_t k = 0; k < o->camera.preset_count; k++)
         for (size_t i = 0; i < c->each->all.count; i++)

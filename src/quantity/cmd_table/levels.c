@@ -37,7 +37,8 @@ static void say_head(page *p, void *of) {
     const levels *l = of;
     const sensor *s = &l->sensor;
     p->unit = camera_unit(&l->o->camera);
-    page_title(p, "%s: levels %s", l->given, s->row->name);
+    page_title(p, "%s: levels %s%s%s", l->given, s->row->name, p->unit != NULL ? ", lengths in " : "",
+               p->unit != NULL ? p->unit : "");
     if (s->row->levels == GRAIN_INVERSE)
         page_note(p, "", "1/z in steps of %s; baseline times focal length over a step %s", number_of(s->step, 6).text,
                   number_in(number_of(1 / s->step, 6), p->unit).text);

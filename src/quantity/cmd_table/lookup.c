@@ -82,6 +82,8 @@ bool lookup_wanted(const table_request *o) {
 
 /* The value looked up need be no depth of the scene, but a code must be one of each format. */
 static int check(const table_request *o, const setups *all) {
+    if (o->camera.model != DP_MODEL_FLOAT && camera_names_arith(&o->camera))
+        return option_error("arith", "needs --model float with --depth or --code: other models have none");
     for (size_t i = 0; i < all->count && option_given(o->line, "code"); i++) {
         const dp_format *format = &all->items[i].spec.format;
         if (o->looked_up.hi > (double)format->code_max)

@@ -267,6 +267,14 @@ static void add_others(solve_report *r) {
         }
 }
 
+/* Without a goal there are no alternatives, and at a slant none is logarithmic. */
+static int check_log(const solve_report *r) {
+    bool has_log = !option_given(r->o->line, "log-c");
+    for (size_t i = 0; i < r->count; i++)
+        has_log = has_log || is_logarithm(r->items[i].spec.mapping);
+    return has_log ? EXIT_FINE : option_error("log-c", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
+}
+
 /* ---- Order ------------------------------------------------------------------------------------------------------- */
 
 static int compare_numbers(double a, double b) {
@@ -348,6 +356,9 @@ int cmd_solve(void *request) {
         return status;
     if (!isnan(r.limit))
         add_others(&r);
+    status = check_log(&r);
+    if (status != EXIT_FINE)
+        return status;
     arrange(&r);
     solve_look_beyond(&r);
     status = output_start(&o->out, &o->camera, &out);

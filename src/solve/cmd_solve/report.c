@@ -59,7 +59,7 @@ number_text solve_safe_digits(const solve_report *r, const solve_candidate *c, d
 typedef struct told {
     const solve_report *report;
     const solve_candidate *answer;
-    const char *target, *measure, *mapping, *ortho, *at_slant, *property, *manner, *model, *effort;
+    const char *target, *measure, *mapping, *ortho, *at_slant, *property, *manner, *model, *rounding, *effort;
     number_text goal, wanted, best, from, to, facing, lattice_best, guaranteed, short_of;
     double plane, throughout;
     const char *given, *goals, *fight, *ideal; /* phrases */
@@ -89,7 +89,7 @@ static const column told_columns[] = {
     {PART(told, report, NULL, asked_columns), .pointed = true},
     {PART(told, answer, NULL, answer_columns), .pointed = true},
     WORD(told, target), WORD(told, measure), WORD(told, mapping), WORD(told, ortho), WORD(told, at_slant),
-    WORD(told, property), WORD(told, manner), WORD(told, model), WORD(told, effort), LENGTH(told, plane, 0),
+    WORD(told, property), WORD(told, manner), WORD(told, model), WORD(told, rounding), WORD(told, effort), LENGTH(told, plane, 0),
     LENGTH(told, throughout, 0), NUMBER(told, goal), NUMBER(told, wanted), NUMBER(told, best), NUMBER(told, from),
     NUMBER(told, to), NUMBER(told, facing), NUMBER(told, lattice_best), NUMBER(told, guaranteed),
     NUMBER(told, short_of), WORD(told, given), WORD(told, goals), WORD(told, fight), WORD(told, ideal),
@@ -153,6 +153,7 @@ static const sentence note_words[] = {
     ELSE("{best} at z = {z}", 0),
     NOTE("facing", "{facing} there", 0),
     NOTE("model", "{model}", 0),
+    NOTE("rounding", "{rounding}", 0),
     NOTE("cost", "{effort}", 0),
     NOTE("lattice", "{lattice_best} at z = {lattice_z}", BESIDE | AS_IT_IS),
     ELSE("ideal arithmetic has no such {target} either", BESIDE | NOT_IDEAL),
@@ -283,6 +284,7 @@ void solve_report_answer(page *p, void *item) {
               .at_slant = "",
               .property = r->kind == MEASURE_ERROR ? "an error within" : "a separation of",
               .manner = manners[c->spec.model][c->possible],
+              .rounding = c->spec.rounding != DP_ROUND_NEAREST ? dp_rounding_name(c->spec.rounding) : NULL,
               .effort = mapping->curve != DP_CURVE_PERSPECTIVE ? c->price.effort : NULL,
               .goals = c->solved && c->possible ? "" : "s"};
     if (is_slanted(r)) {

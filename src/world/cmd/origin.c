@@ -86,6 +86,12 @@ const option_table origin_options = {.rows = origin_rows};
 const option_use origin_terms[] = {TAKE("interpolation"), TAKE("from-origin"), TAKE("composition"),
                                    TAKE("linearize"),     TAKE("log2"),        END};
 
-int origin_complete(asked_line *line) {
-    return option_given(line, "scheme") ? EXIT_FINE : option_set(line, "scheme", "all");
+int origin_complete(asked_line *line, const origin_asked *o) {
+    bool has_meshes = !option_given(line, "share");
+    if (!option_given(line, "scheme"))
+        return option_set(line, "scheme", "all");
+    for (size_t i = 0; i < o->scheme_count; i++)
+        has_meshes = has_meshes || o->schemes[i].row->meshes;
+    return has_meshes ? EXIT_FINE
+                      : option_error("share", "needs a scheme whose meshes have origins: local, tile, cell or two-sum");
 }

@@ -22,7 +22,8 @@ extern const option_table origin_options;
 /** The terms of a budget. */
 extern const option_use origin_terms[];
 
-/** Sizes of the schemes in what a scene unit is, once that is known. @return as a parser does */
-int origin_complete(asked_line *line);
+/** Sizes of the schemes in what a scene unit is, once that is known; --share needs one of meshes with origins.
+ * @return as a parser does */
+int origin_complete(asked_line *line, const origin_asked *o);
 
 #endif

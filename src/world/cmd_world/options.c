@@ -41,7 +41,7 @@ static const option_place places[] = {CAMERA_PLACES(world_request, camera),
 static int complete(void *request) {
     world_request *o = request;
     const int status = camera_complete(&o->camera, &(camera_use){0});
-    return status == EXIT_FINE ? origin_complete(o->line) : status;
+    return status == EXIT_FINE ? origin_complete(o->line, &o->origin) : status;
 }
 
 /* clang-format off */
