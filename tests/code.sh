@@ -33,10 +33,14 @@ each() { # each LANGUAGE COMMAND: runs COMMAND FILE for each
         "$@" || { echo "$line" && cat "$scratch/code" && return 1; }
     done <"$scratch/more"
     for camera in $cameras; do
-        at="-m ${camera%%:*} -n $(echo "$camera" | cut -d: -f2) -f ${camera##*:} --language $language"
+        mapping="-m ${camera%%:*} --language $language" planes="-n $(echo "$camera" | cut -d: -f2) -f ${camera##*:}"
         for method in $methods; do
+            case $method in # codes of a window depth have no planes
+            *:*) at="$mapping --what encode -F ${method#*:}" ;;
+            *) at="$mapping $planes" ;;
+            esac
             for uniforms in '' --uniforms; do
-                code "${method%:*}" $at $uniforms $(echo "$method" | sed -n 's/.*:/--what encode -F /p') >"$scratch/code" 2>"$scratch/refused" || {
+                code "${method%:*}" $at $uniforms >"$scratch/code" 2>"$scratch/refused" || {
                     [ $? -eq 2 ] && grep -qE "is not in $language: it |--uniforms: conflicts" "$scratch/refused" && continue
                     cat "$scratch/refused"
                     return 1
@@ -198,9 +202,9 @@ fi
 main='int main(void) { for (int i = 0; i <= 999; i++) printf("%a\\n", (double)CALL); return 0; }'
 same_uniforms() {
     for method in $methods; do
-        of=$(echo "$method" | sed -n 's/.*:/--what encode -F /p')
+        case $method in *:*) of="--what encode -F ${method#*:}" ;; *) of='-n 0.3 -f 77' ;; esac
         for uniforms in '' --uniforms; do
-            code "${method%:*}" -m d3d -n 0.3 -f 77 --language c $uniforms $of >"$scratch/code" || return
+            code "${method%:*}" -m d3d --language c $uniforms $of >"$scratch/code" || return
             [ -n "$(called)" ] || return
             { printf '#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n'
                 cat "$scratch/code"

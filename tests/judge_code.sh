@@ -68,7 +68,7 @@ done <"$scratch/cameras"
 for format in unorm8 unorm16 unorm20 unorm24; do
     for method in floor rint floor-double rint-double; do
         for camera in '-m d3d' '-m reversed -f inf' '-m gl --ortho'; do
-            add "$camera -F $format" "$method" --what encode -F $format $camera
+            add "$camera -F $format" "$method" --what encode -F $format ${camera%% -[f-]*}
         done
     done
 done

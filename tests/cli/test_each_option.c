@@ -8,7 +8,7 @@
 #include "cli/option/option.h"
 #include "printed.h"
 
-enum { LINES_MOST = 96, PER_COMMAND = 8 };
+enum { LINES_MOST = 128, PER_COMMAND = 8 };
 
 /* Lines of each command, in which an option is tried in turn until it is seen to do something. */
 static const struct {
@@ -145,6 +145,7 @@ static const struct {
     {"parameter", "distance=7"},
     {"packing", "unity"},
     {"define", "a=3"},
+    {"stereo", "focal=500,baseline=0.1"},
 };
 
 /* What changes nothing by its purpose: where it is written and how fast, and what has files of its own, which the tests
@@ -167,6 +168,12 @@ static const char *value_of(const char *id) {
     return NULL;
 }
 
+static bool is_flag(const command_row *v, const option_row *row) {
+    const option_taken use = option_used(v, ~0U, row);
+    char argument[OPTION_TEXT_SIZE];
+    return option_use_argument(&use, argument)[0] == '\0' || option_use_optional(&use) != NULL;
+}
+
 /* What the lines print as they are. */
 static struct {
     const char *line;
@@ -186,12 +193,16 @@ static const printed *plain(const char *line) {
     return &known[known_count++].p;
 }
 
-/* A line that has the option already tells nothing of it, but of what it is refused beside. */
-static bool does_something(const char *line, const option_row *row, const char *value) {
+static bool has_option(const char *line, const option_row *row) {
     char brief[16], word[64];
     snprintf(brief, sizeof brief, " -%c ", row->letter);
     snprintf(word, sizeof word, " --%s", row->name);
-    if ((row->letter != 0 && strstr(line, brief) != NULL) || strstr(line, word) != NULL)
+    return (row->letter != 0 && strstr(line, brief) != NULL) || strstr(line, word) != NULL;
+}
+
+/* A line that has the option already tells nothing of it, but of what it is refused beside. */
+static bool does_something(const char *line, const option_row *row, const char *value) {
+    if (has_option(line, row))
         return false;
     const printed *without = plain(line);
     printed with = print_of("%s --%s %s", line, row->name, value);
@@ -229,6 +240,7 @@ TEST(has_an_effect_or_is_refused) {
                  strcmp(row->name, "full") == 0)) /* its lines are longer than a page's where a file's are */
                 continue;
             const char *value = value_of(row->name);
+            TALLY(&t, value != NULL || is_flag(v, row), "no value of --%s is tried", row->name);
             bool done = false;
             for (size_t k = 0; k < PER_COMMAND && commands[i].lines[k] != NULL && !done; k++)
                 done = does_something(commands[i].lines[k], row, value != NULL ? value : "");
@@ -238,11 +250,63 @@ TEST(has_an_effect_or_is_refused) {
     tally_end(&t);
 }
 
+/* Parts of commands, in each of which every option does something or is refused. */
+static const char *const parts_of_commands[] = {
+    "table -F d24,fp32 -m d3d",
+    "table -F d24 -m d3d",
+    "table -F d24 -m linear",
+    "table -F d24 -m d3d --preset unity,unreal",
+    "table -F d24 -m d3d --depth .5",
+    "table -F d24 -m log --code 77",
+    "table --lattice even:.1",
+    "table --constants --ortho",
+    "budget -F d24 -m d3d",
+    "budget -F d24 -m d3d --from-origin 100 --scheme split",
+    "budget -F d24 -m d3d --from-origin 100 --scheme tile",
+    "solve -f 1000 -F d24 -m d3d --separation 0.01 --at 50",
+    "solve --for separation -n .1 -f 1000 -F d24 -m d3d --at 50",
+    "solve -f 1000 -F d24 -m d3d --separation 0.01 --at 50 --viewport 640x480",
+    "bias -F d24 -m d3d",
+    "bias -F d24 -m d3d --units -1",
+    "bias -F d24 -m d3d --api all",
+    "bias -F d24 -m linear --range 2:50",
+    "world --from-origin 1e5 --scheme camera-double",
+    "code",
+    "code -m log",
+    "code --what encode -F d16",
+    "code --what encode -m log",
+    "code --what projection --ortho",
+    "code --what position --ortho",
+    "code --what pack",
+    "code --what normal",
+    "code --language gappa",
+};
+
+TEST(in_each_part) {
+    tally t = {.name = "parts"};
+    const option_row *all[OPTIONS_MAX + 1];
+    options_all(all);
+    for (size_t i = 0; i < sizeof parts_of_commands / sizeof parts_of_commands[0]; i++) {
+        const char *line = parts_of_commands[i];
+        char verb[16];
+        snprintf(verb, sizeof verb, "%.*s", (int)strcspn(line, " "), line);
+        for (size_t o = 0; all[o] != NULL; o++) {
+            const char *value = value_of(all[o]->name);
+            const bool shows = strcmp(all[o]->name, "full") == 0; /* what there was no room for, if there is any */
+            if (option_used(command_find(verb), ~0U, all[o]).row != NULL && !is_apart(all[o]->name) && !shows &&
+                !has_option(line, all[o]))
+                TALLY(&t, does_something(line, all[o], value != NULL ? value : ""), "%s --%s %s does nothing", line,
+                      all[o]->name, value != NULL ? value : "");
+        }
+    }
+    TALLY(&t, t.cases > 500, "few options");
+    tally_end(&t);
+}
+
 /* Code is of one thing, and takes what that depends on; see depthprec-code(1). */
 TEST(parts_of_code) {
-    static const char *const parts[] = {"linearize -F fp32", "projection",    "encode -F d16",
-                                        "position",          "pack",          "normal",
-                                        "linearize -m log",  "encode -m log", "encode -m linear"};
+    static const char *const parts[] = {"linearize", "projection",       "encode -F d16", "position",        "pack",
+                                        "normal",    "linearize -m log", "encode -m log", "encode -m linear"};
     static const char *const ids[] = {"rounding", "log-c", "fov", "hfov", "viewport", "ortho"};
     tally t = {.name = "parts of code"};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
@@ -250,9 +314,7 @@ TEST(parts_of_code) {
             const char *value = value_of(ids[k]);
             printed without = print_of("code --what %s", parts[i]),
                     with = print_of("code --what %s --%s %s", parts[i], ids[k], value != NULL ? value : "");
-            const bool codes =
-                strncmp(parts[i], "encode -F", 9) == 0 && strcmp(ids[k], "ortho") == 0; /* of a window depth */
-            TALLY(&t, without.status == 0 && (codes || with.status == 2 || strcmp(with.out, without.out) != 0),
+            TALLY(&t, without.status == 0 && (with.status == 2 || strcmp(with.out, without.out) != 0),
                   "code --what %s --%s does nothing", parts[i], ids[k]);
             printed_free(&without);
             printed_free(&with);

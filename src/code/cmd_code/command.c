@@ -38,15 +38,20 @@ static int refuse_method(const wanted_code *w, const char *given, const char *la
                : usage_error("code: METHOD must be one of %s, got '%s'", all, given);
 }
 
+enum {
+    MATRIX = 1 << WHAT_PROJECTION,
+    PLACES = 1 << WHAT_POSITION,
+    CODES = 1 << WHAT_ENCODE,
+    WRITTEN = 1 << 15, /* the window depth of --what encode where a shader writes it */
+    CAMERA = MATRIX | PLACES | WRITTEN | 1 << WHAT_LINEARIZE
+};
+
+static unsigned part_of(const wanted_code *w) {
+    return w->o->what == WHAT_ENCODE && is_written(&w->setup) ? WRITTEN : 1U << w->o->what;
+}
+
 /* Refuses the first option given that a part has no use for. */
 static int check_needless(const wanted_code *w) {
-    enum {
-        MATRIX = 1 << WHAT_PROJECTION,
-        PLACES = 1 << WHAT_POSITION,
-        CODES = 1 << WHAT_ENCODE,
-        WRITTEN = 1 << 15, /* the window depth of --what encode where a shader writes it */
-        CAMERA = MATRIX | PLACES | WRITTEN | 1 << WHAT_LINEARIZE
-    };
     static const struct {
         const char *id;
         unsigned parts;
@@ -56,9 +61,8 @@ static int check_needless(const wanted_code *w) {
                 {"rounding", CODES}};
     const unsigned what = w->o->what;
     const bool encode = what == WHAT_ENCODE;
-    const unsigned part = encode && is_written(&w->setup) ? WRITTEN : 1U << what;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (option_given(w->o->line, rows[i].id) && (rows[i].parts & part) == 0)
+        if (option_given(w->o->line, rows[i].id) && (rows[i].parts & part_of(w)) == 0)
             return option_error(rows[i].id, "has no effect with --what %s%s%s", option_word("what", what),
                                 encode ? " of --mapping " : "",
                                 encode ? dp_mapping_get(w->setup.spec.mapping)->name : "");
@@ -184,8 +188,9 @@ static int find_setup(wanted_code *w) {
 static code_said write_code(const wanted_code *w, output *out) {
     const bool uniforms = w->o->uniforms;
     const unsigned what = w->o->what;
-    if (option_given(w->o->line, "unit"))
-        code_say(out, w->language, "Lengths are in %s.", camera_unit(&w->o->camera));
+    const char *unit = camera_unit(&w->o->camera);
+    if (unit != NULL && (part_of(w) & CAMERA) != 0)
+        code_say(out, w->language, "Lengths are in %s.", unit);
     return what == WHAT_PROJECTION ? code_projection(out, w->language, &w->camera)
            : what == WHAT_POSITION ? code_places(out, w->language, w->row, &w->camera, uniforms)
            : w->packing != NULL    ? code_packing(out, w->language, w->packing)

@@ -33,7 +33,8 @@ const option_table code_options = {.rows = code_rows};
 /* clang-format off */
 static const option_use uses[] = {
     ROWS(code_rows),
-    OWN("format", DEFAULT("fp32")), OWN("mapping", HELP("mappings: @"), DEFAULT("reversed")),
+    OWN("format", HELP("with --what encode: the format of the codes, unormN of at most 24 bits"), DEFAULT("unorm24")),
+    OWN("mapping", HELP("mappings: @"), DEFAULT("reversed")),
     OWN("preset", ALSO("for code also the language of its users")),
     OWN("platform", ALSO("for code also the language of its API")),
     OWN("fov", ALSO("of a matrix and of places")),

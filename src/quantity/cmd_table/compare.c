@@ -269,7 +269,7 @@ static void say_notes(page *p, void *item) {
 static void say_cameras(page *p, const comparison *c) {
     const table_request *o = c->o;
     char planes[1024] = "", more[64] = "";
-    if (option_given(o->line, "rounding"))
+    if (o->camera.rounding != DP_ROUND_NEAREST)
         append(more, sizeof more, ", rounding %s", dp_rounding_name(o->camera.rounding));
     if (p->unit != NULL)
         append(more, sizeof more, ", lengths in %s", p->unit);
