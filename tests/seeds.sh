@@ -41,25 +41,40 @@ rows() {
         END { exit bad > 0 || !seen }"
 }
 
-# ---- The words of articles, in depthprec-questions(7) ----
+# ---- The words of articles ----
 
 mkdir "$scratch/work"
-awk '/^\.Sh WORDS OF ARTICLES/ { on = 1 }
-    /^\.Ed/ { on = 0 }
-    on && !/^[.A].* .*:$|^\./ { line = $0; more = sub(/ *\\e$/, " ", line); printf "%s%s", line, more ? "" : "\n" }' \
-    man/depthprec-questions.7 >"$scratch/words"
+depthprec list words | grep '^[^ ]' >"$scratch/words"
 runs() { # runs COMMAND: as it stands there, one after the other in a folder
     # Words without quotes or patterns.
     # shellcheck disable=SC2086
     (cd "$scratch/work" && depthprec $1 </dev/null)
 }
-count=0
-while read -r word command; do
-    count=$((count + 1))
-    check "$word is known to help" depthprec help "$word"
-    check "$word: depthprec $command" runs "$command"
+while read -r word; do
+    depthprec help "$word" | sed -n 's/^  depthprec //p' >"$scratch/commands"
+    while read -r command; do
+        check "$word: depthprec $command" runs "$command"
+    done <"$scratch/commands"
+    check "$word has a command" test -s "$scratch/commands"
 done <"$scratch/words"
-check "the table of words has all its lines" [ $count -ge 28 ]
+check "there are words" [ "$(wc -l <"$scratch/words")" -ge 45 ]
+# Those of the articles, however they are written there.
+for word in LinearEyeDepth Linear01Depth Linear01DepthFromNear LinearDepthToEyeDepth _ZBufferParams _ZBufferParams.z _ProjectionParams \
+    UNITY_NEAR_CLIP_VALUE UNITY_REVERSED_Z _CameraDepthTexture SampleSceneDepth SAMPLE_DEPTH_TEXTURE _CameraDepthNormalsTexture \
+    EncodeViewNormalStereo DecodeViewNormalStereo kScale EncodeFloatRG DecodeDepthNormal _CameraNormalsTexture half3 frustumDir LinearizeDepth \
+    ScreenSpaceShadowMap SSAO 'soft particles' Hi-Z W-buffer reversed-z ReconstructNormal ReconstructViewPos _FogColor VerticalFog ScanLine \
+    WaterLine WaterFlooded ForceField IntersectionHighlight EdgeDetection DepthOfField MotionBlur Translucency _CurValue COMPUTE_EYEDEPTH; do
+    # shellcheck disable=SC2086
+    check "help $word: a few lines" sh -c '"$1" help $2 >"$3" && [ "$(wc -l <"$3")" -le 5 ] && grep -q "^  depthprec " "$3"' - \
+        "$DEPTHPREC" "$word" "$scratch/entry"
+done
+check "of the glossary, each" sh -c 'sed -n "/^\.Sh GLOSSARY/,/^\.El/s/^\.It //p" man/depthprec.7 | while read -r term; do
+    "$1" help ${term%%,*} >/dev/null || exit 1; done' - "$DEPTHPREC"
+unknown() { # unknown WORD ANSWER
+    ! depthprec help "$1" 2>"$scratch/errors" && [ "$(wc -l <"$scratch/errors")" -eq 1 ] && grep -q -e "$2" "$scratch/errors"
+}
+check "a word that is nearly known" unknown Linear01Dept "nothing is called 'Linear01Dept'; did you mean 'Linear01Depth'?"
+check "one that is not" unknown xyzzyq "'depthprec help' lists the commands, 'depthprec list words' the words"
 
 # ---- Constants, and what articles say of them that is wrong ----
 
@@ -154,7 +169,7 @@ grey() { # five walls at equal distances: window depth is above .97 from the sec
     done
 }
 check "raw is nearly white, Linear01 even" grey
-check "_CurValue and _FocusDistance are the second depth of their effects" says "needs a second depth" depthprec help _CurValue
+check "_CurValue and _FocusDistance are the second depth of their effects" says "second depth of an effect" depthprec help _CurValue
 check "medium normals take the sky" says "sky at far before all others" depthprec list normals
 
 # ---- Pictures ----

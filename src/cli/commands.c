@@ -39,15 +39,7 @@ const command_row *command_find(const char *name) {
 
 static const name_list shells = {.words = (const char *const[]){"bash", "zsh", "fish", NULL}};
 
-/* The subjects of help: a command, or one of its words, which no command line begins with. */
-static bool list_helped(size_t index, list_item *item) {
-    if (!list_command(index, item))
-        return false;
-    item->aliases = command_get(index)->words;
-    return true;
-}
-
-static const name_list helped = {.words = (const char *const[]){"options", NULL}, .get = list_helped};
+static const name_list helped = {.words = (const char *const[]){"options", NULL}, .get = list_command};
 
 static const option_use uses[] = {END};
 static const option_place places[] = {{.table = NULL}};
@@ -55,10 +47,11 @@ static const option_place places[] = {{.table = NULL}};
 /* clang-format off */
 const command_row command_help = {
     .name = "help", .request = sizeof(help_request), .places = places, .uses = uses, .open = true,
-    .operand = "COMMAND", .operand_min = 0, .operand_max = 1, .names = &helped,
-    .summary = "the options of a command; 'help options': those of all",
+    .operand = "COMMAND|WORD", .operand_min = 0, .operand_max = 3, .names = &helped,
+    .summary = "the options of a command, or what a word means",
     .example = "  depthprec help table\n"
-    "  depthprec help options\n"};
+    "  depthprec help options\n"
+    "  depthprec help _ZBufferParams\n"};
 /* clang-format on */
 
 /* clang-format off */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/list.h"
+#include "cli/words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -284,6 +285,13 @@ bool list_method(size_t index, list_item *item) {
     return true;
 }
 
+static void tell_word(const void *row, list_item *item) {
+    const word_row *w = row;
+    snprintf(item->bound, sizeof item->bound, "depthprec %s", w->commands);
+    for (char *at; (at = strchr(item->bound, '\n')) != NULL;)
+        *at = ';';
+}
+
 /* The topics that can be listed. */
 static const topic topics[] = {
     {"formats", "depth formats and the bounds of their rounding", {.get = list_format}, .bound = "bound"},
@@ -333,6 +341,10 @@ static const topic topics[] = {
      {.rows = &constant_table, .tell = tell_constant},
      .bound = "values",
      .names = LIST_CONSTANTS},
+    {"words",
+     "words of articles, shaders and these pages: what each means, and the command that answers",
+     {.rows = &word_table, .tell = tell_word},
+     .bound = "command"},
     {"traps",
      "depth formulas found in shaders that are wrong",
      {.rows = &trap_table, .tell = tell_trap},

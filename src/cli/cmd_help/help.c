@@ -5,6 +5,8 @@
 
 #include "cli/cmd_help/request.h"
 #include "cli/cmd_list/request.h"
+#include "cli/list.h"
+#include "cli/words.h"
 #include "core/append.h"
 #include "report/page.h"
 
@@ -22,8 +24,8 @@ static void say_examples(page *p, const char *lines) {
     char line[256];
     for (size_t length; *lines != '\0'; lines += length + (lines[length] == '\n')) {
         length = strcspn(lines, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)length, lines + strspn(lines, " "));
-        line[length - strspn(lines, " ")] = '\0';
+        const size_t indent = strspn(lines, " ");
+        snprintf(line, sizeof line, "%s%.*s", indent > 0 ? "" : "depthprec ", (int)(length - indent), lines + indent);
         page_command(p, line);
     }
 }
@@ -156,17 +158,68 @@ static void say_usage(page *p, const command_row *v) {
     page_text(p, "Usage: depthprec %s%s%s [options]", v->name, *v->operand != '\0' ? " " : "", v->operand);
 }
 
+/* What was asked: operands with blanks between them, and of a member of something, as _ZBufferParams.z, the whole. */
+static const word_row *word_of(const asked_line *line, char word[NAMES_SIZE]) {
+    word[0] = '\0';
+    for (int i = 0; i < line->operand_count; i++)
+        append(word, NAMES_SIZE, "%s%s", i > 0 ? " " : "", line->operands[i]);
+    const word_row *row = word_find(word);
+    char *member = strrchr(word, '.');
+    if (row == NULL && member != NULL) {
+        *member = '\0';
+        row = word_find(word);
+        *member = '.';
+    }
+    return row;
+}
+
+/* The commands, the words and the lists, for the nearest. */
+static bool list_all(size_t index, list_item *item) {
+    static const name_list parts[] = {{.get = list_command}, {.rows = &word_table}, {.get = list_topic}};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        size_t count = 0;
+        for (; names_get(&parts[i], count, item); count++)
+            if (count == index)
+                return true;
+        index -= count;
+    }
+    return false;
+}
+
+static int refuse_word(const char *word) {
+    char near[NAMES_SIZE];
+    names_nearest(&(name_list){.get = list_all}, "", word, near);
+    return usage_error("help: nothing is called '%.64s'%s", word,
+                       *near != '\0' ? near
+                                     : "; 'depthprec help' lists the commands, 'depthprec list words' the words");
+}
+
+/* What a word means, and the commands that answer. */
+static int say_word(const word_row *row) {
+    output out;
+    output_open(&out, NULL);
+    page p = page_start(&out, 2);
+    page_text(&p, "%s: %s", row->name, row->note);
+    say_examples(&p, row->commands);
+    return output_close(&out);
+}
+
+static int help_word(const help_request *o) {
+    char word[NAMES_SIZE];
+    const word_row *row = word_of(o->line, word);
+    if (row != NULL)
+        return say_word(row);
+    return o->line->operand_count == 1 && list_knows(word) ? cmd_list(&(list_request){.line = o->line})
+                                                           : refuse_word(word);
+}
+
 int cmd_help(void *request) {
     const help_request *o = request;
     const command_row *v = o->line->operand_row;
     output out;
-    list_item item;
-    const name_list *names = o->line->command->names;
     if (o->line->command == &command_help && o->line->operand_count > 0 &&
-        !names_find(names, o->line->operands[0], NULL, &item))
-        return list_knows(o->line->operands[0])
-                   ? cmd_list(&(list_request){.line = o->line})
-                   : check_operand(o->line->command, o->line->command->operand, names, o->line->operands[0], &item);
+        (o->line->operand_count > 1 || !names_find(o->line->command->names, o->line->operands[0], NULL, NULL)))
+        return help_word(o);
     output_open(&out, NULL);
     page p = page_start(&out, 28);
     if (o->line->version)

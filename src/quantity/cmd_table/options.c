@@ -115,5 +115,5 @@ const command_row command_table = {
     "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"
     "  depthprec table -n 0.3 -f 1000 -m reversed,gl --constants --at 1,10,100\n"
     "  depthprec table -n 0.1 -f 1000 -F d24 -m d3d --link\n",
-    .group = "A camera", .words = LIST_CONSTANTS, .part = asked_part, .parts = parts};
+    .group = "A camera", .part = asked_part, .parts = parts};
 /* clang-format on */

@@ -375,6 +375,6 @@ const command_row command_texture = {
     "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
     "  depthprec texture depth.png -f 1000 --product normal:high -o normals.npy\n"
     "  depthprec texture --synthetic decals --parameter gap=0.01 -F d24 -m reversed\n",
-    .files_from = 1, .words = "COMPUTE_EYEDEPTH Hi-Z HiZ _CameraDepthTexture",
+    .files_from = 1,
     .part = asked_part, .parts = parts};
 /* clang-format on */
