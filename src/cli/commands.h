@@ -41,7 +41,7 @@ typedef struct command_row {
     const command_part *parts;           /**< null where part_get() has them */
     bool (*part_get)(size_t index, command_part *out); /**< part `index`; false behind the last */
     const char *part_of;                               /**< how a refusal begins the words of a part; or null */
-    unsigned shown;    /**< the parts whose options its help describes; 0: all */
+    unsigned shown;                                    /**< the parts whose options its help describes; 0: all */
 } command_row;
 
 /** The commands, in the order of help. */
