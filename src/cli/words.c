@@ -3,7 +3,6 @@
 
 static const char unity[] = "Unity: UnityCG.cginc and the render pipelines' shader libraries";
 
-/* clang-format off */
 static const word_row rows[] = {
     /* ---- A camera in shaders ---- */
     {"_ZBufferParams", "zBufferParams", "four constants that make eye depth of window depth: 1/(z d + w)", unity,
@@ -11,8 +10,8 @@ static const word_row rows[] = {
     {"_ProjectionParams", NULL, "the sign of a flipped projection, near, far, and 1/far", unity,
      "table --constants --preset unity"},
     {"UNITY_NEAR_CLIP_VALUE", NULL, "NDC depth of the near plane: 0, reversed 1, OpenGL -1", unity, "list traps"},
-    {"UNITY_REVERSED_Z", "SystemInfo.usesReversedZBuffer", "1 where near is stored as 1: all of Unity's APIs but OpenGL",
-     unity, "table --preset unity --at 100"},
+    {"UNITY_REVERSED_Z", "SystemInfo.usesReversedZBuffer",
+     "1 where near is stored as 1: all of Unity's APIs but OpenGL", unity, "table --preset unity --at 100"},
     {"LinearEyeDepth", "COMPUTE_EYEDEPTH LinearizeDepth linearize_depth",
      "eye depth of window depth, for perspective cameras alone", unity, "table --constants --at 10"},
     {"LinearDepthToEyeDepth", NULL, "eye depth of window depth, for orthographic cameras", unity,
@@ -33,12 +32,13 @@ static const word_row rows[] = {
      "a view normal in two bytes, stereographic, scaled by kScale = 1.7777", unity, "list encodings"},
     {"EncodeFloatRG", "DecodeFloatRG", "a number below 1 in two bytes, in steps of 1/65025", unity,
      "table -F rg,d16,d24,d32f"},
-    {"_CameraNormalsTexture", "SampleSceneNormals", "normals as a pass of their own stores them", unity, "list packings"},
+    {"_CameraNormalsTexture", "SampleSceneNormals", "normals as a pass of their own stores them", unity,
+     "list packings"},
     {"half3", "half min16float mediump", "three binary16 numbers: 11 bits each, up to 65504", NULL,
      "texture d.npy --product normal:medium-half -o n.npy"},
     /* ---- Buffers ---- */
-    {"Reversed-Z", "reversed-depth reverse-z", "near is stored as 1 and far as 0, so that floats are fine far away", NULL,
-     "plot share -m reversed,gl-reversed -o share.svg"},
+    {"Reversed-Z", "reversed-depth reverse-z", "near is stored as 1 and far as 0, so that floats are fine far away",
+     NULL, "plot share -m reversed,gl-reversed -o share.svg"},
     {"W-buffer", "linear-depth", "eye depth over far, stored as it is: steps alike at every distance", NULL,
      "table -F d16 -m d3d,linear"},
     {"Hi-Z", "HiZ", "a pyramid of the nearest or farthest depth of 2 x 2 pixels", NULL,
@@ -57,11 +57,13 @@ static const word_row rows[] = {
     {"VerticalFog", NULL, "fog by height above the ground", NULL, "texture --product effect:height-fog"},
     {"ScanLine", NULL, "a line that moves through depth", NULL, "texture --product effect:scan-line"},
     {"WaterLine", "WaterFlooded", "where water meets the ground", NULL, "texture --product effect:water-line"},
-    {"ForceField", NULL, "a glow where a surface meets what is behind it", NULL, "texture --product effect:force-field"},
+    {"ForceField", NULL, "a glow where a surface meets what is behind it", NULL,
+     "texture --product effect:force-field"},
     {"IntersectionHighlight", NULL, "a line where two surfaces meet", NULL, "texture --product effect:intersection"},
     {"soft particles", "soft-particles SoftParticles", "particles that fade before they cut into a surface", NULL,
      "texture --product effect:soft-particles"},
-    {"EdgeDetection", NULL, "outlines where neighbouring depths or normals differ", NULL, "texture --product effect:edge"},
+    {"EdgeDetection", NULL, "outlines where neighbouring depths or normals differ", NULL,
+     "texture --product effect:edge"},
     {"DepthOfField", NULL, "blur by the distance from the plane in focus", NULL,
      "texture --product effect:depth-of-field"},
     {"MotionBlur", NULL, "where a pixel was in the last frame, from its depth", NULL,
@@ -72,8 +74,8 @@ static const word_row rows[] = {
     {"ScreenSpaceShadowMap", "ScreenSpaceShadows acne peter-panning",
      "shadows by the position that a pixel's depth gives, looked up in the light's map", NULL,
      "shadow --light-box 40x40x100 -F d16"},
-    {"_CurValue", "_FocusDistance", "the depth at which a scan line or the focus lies: the second depth of an effect", NULL,
-     "list parameters"},
+    {"_CurValue", "_FocusDistance", "the depth at which a scan line or the focus lies: the second depth of an effect",
+     NULL, "list parameters"},
     /* ---- The words of depthprec(7) ---- */
     {"eye depth", "z", "distance along the view axis, in scene units", NULL, "table --at 100"},
     {"window depth", "depth NDC", "the number from 0 to 1 that is rounded to a code", NULL, "table --at 100"},
@@ -91,12 +93,11 @@ static const word_row rows[] = {
      "two surfaces share a code, or the farther one gets the nearer code, and the wrong one shows", NULL,
      "table --at 100\nsolve --separation 0.01 --at 100"},
     {"model", NULL, "how much of the arithmetic before the buffer counts", NULL, "list models"},
-    {"arithmetic variant", "arithmetic", "one way in which a GPU evaluates the model float: fused, by reciprocal, and so on", NULL,
-     "list arithmetic"},
+    {"arithmetic variant", "arithmetic",
+     "one way in which a GPU evaluates the model float: fused, by reciprocal, and so on", NULL, "list arithmetic"},
     {"effective clip range", NULL, "the eye depths that survive clipping in binary32", NULL, "table --model float"},
     {"gap", NULL, "how far behind its caster a shadow begins once a bias is added", NULL,
      "shadow --light-box 40x40x100 -F d16"},
 };
-/* clang-format on */
 
 NAMED_TABLE(word, rows);
