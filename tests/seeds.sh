@@ -73,7 +73,7 @@ check "of the glossary, each" sh -c 'sed -n "/^\.Sh GLOSSARY/,/^\.El/s/^\.It //p
 unknown() { # unknown WORD ANSWER
     ! depthprec help "$1" 2>"$scratch/errors" && [ "$(wc -l <"$scratch/errors")" -eq 1 ] && grep -q -e "$2" "$scratch/errors"
 }
-check "a word that is nearly known" unknown Linear01Dept "nothing is called 'Linear01Dept'; did you mean 'Linear01Depth'"
+check "a word that is nearly known" unknown Linear01Dept "nothing is called 'Linear01Dept'; did you mean .*'Linear01Depth'"
 check "one that is not" unknown xyzzyq "'depthprec help' lists the commands, 'depthprec list words' the words"
 
 # ---- Constants, and what articles say of them that is wrong ----
