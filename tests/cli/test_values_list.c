@@ -83,7 +83,7 @@ static bool figure(size_t i, listed *l) {
 }
 
 static bool preset_row(size_t i, listed *l) {
-    ROW(preset, preset_get(i), "")
+    ROW(preset, preset_get(i), r->aliases)
     add_number(l, r->znear);
     if (isfinite(r->zfar))
         add_number(l, r->zfar);
