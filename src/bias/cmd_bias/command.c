@@ -105,13 +105,13 @@ static void fill_row(biasing *b, double z, bias_row *r) {
     r->api = b->api.name;
     r->z = z;
     r->factor = b->state.factor + 0.0; /* no -0 */
-    if (b->inverse) {
+    if (b->when & INVERSE) {
         state.units = bias_sign(setup);
         state.factor = 0.0;
         r->gap = need_from(b, "", b->o->bias.separation, ranged ? fmin(bias_gap_from(b), b->range_hi) : z,
                            ranged ? b->range_hi : z);
     }
-    if (b->inverse && !ranged)
+    if ((b->when & INVERSE) && !ranged)
         r->apart = need_from(b, "", 0.0, z, z);
     if (b->each.triangles != NULL && !ranged)
         r->guarantee = each_setup_guarantee(&b->each, z);
@@ -133,7 +133,7 @@ static void *next_row(void *of, size_t i) {
     while (bias_asked_api(asked, apis) != NULL)
         apis++;
     if (b->when & ONE_API ? !each_setup_depth(&b->each, i, &z)
-                          : i / apis == (b->by_range ? 1 : b->each.at.count) || output_failed(&b->each.out))
+                          : i / apis == (b->when & OF_RANGE ? 1 : b->each.at.count) || output_failed(&b->each.out))
         return NULL;
     if (b->when & SEVERAL)
         take_api(b, bias_asked_api(asked, i % apis));
@@ -152,7 +152,7 @@ static void *next_beside(void *of, size_t i) {
     for (size_t k = 0; k < b->each.all.count; k++) {
         b->each.setup = &b->each.all.items[k];
         take_api(b, api);
-        fill_row(b, b->by_range ? (double)NAN : depths_get(&b->each.at, 0), &b->row);
+        fill_row(b, b->when & OF_RANGE ? (double)NAN : depths_get(&b->each.at, 0), &b->row);
         append(memset(b->row.beside[k], 0, NUMBER_SIZE), NUMBER_SIZE, "%s", bias_short(b->row.gap.units).text);
         b->fails = b->fails || isnan(b->row.gap.units);
     }
@@ -165,7 +165,7 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     b->limited = false;
     take_api(b, bias_asked_api(&b->o->bias, 0));
-    if (b->inverse && (b->when & ONE_API) && b->o->out.form != FORM_CSV)
+    if ((b->when & INVERSE) && (b->when & ONE_API) && b->o->out.form != FORM_CSV)
         take_range(b);
     return b;
 }
@@ -325,14 +325,12 @@ static double units_sent(const bias_request *o, const bias_api *api) {
     return units;
 }
 
-/* The conditions of columns. */
-static unsigned conditions(const biasing *b) {
-    const bias_request *o = b->o;
-    const bool several = o->bias.api == NULL;
-    return (b->inverse ? INVERSE : EFFECT) | (several ? SEVERAL : ONE_API) | (several && b->by_range ? OF_RANGE : 0) |
-           (several && !b->by_range ? OF_DEPTHS : 0) | (o->bias.separation > 0.0 ? WITH_GAP : 0) |
-           (o->bias.slope > 0.0 ? WITH_SLOPE : 0) | (o->out.full ? VERBOSE : 0) |
-           (b->each.triangles != NULL ? WITH_TRIANGLES : 0);
+/* The conditions of columns, but for how many places there are. */
+static unsigned conditions(const bias_request *o) {
+    const unsigned of_several = SEVERAL | (option_given(o->line, "at") ? OF_DEPTHS : OF_RANGE);
+    return (option_given(o->line, "units") ? EFFECT : INVERSE) | (o->bias.api == NULL ? of_several : ONE_API) |
+           (o->bias.separation > 0.0 ? WITH_GAP : 0) | (o->bias.slope > 0.0 ? WITH_SLOPE : 0) |
+           (o->out.full ? VERBOSE : 0) | (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
 }
 
 /* Several APIs, a few set-ups, one place: whether they stand beside each other. */
@@ -342,35 +340,36 @@ static bool suits_beside(const biasing *b) {
     const int wide = terminal_columns(STDOUT_FILENO);
     const bool fits = wide == 0 || wide >= WIDTH_API + WIDTH_UNITS * (int)count;
     return (b->when & SEVERAL) && o->out.form == FORM_TEXT && !o->out.full && count > 1 && count <= BESIDE &&
-           (b->by_range || b->each.at.count == 1) && b->each.triangles == NULL && fits &&
+           ((b->when & OF_RANGE) || b->each.at.count == 1) && b->each.triangles == NULL && fits &&
            o->camera.gpu.measured[0] == '\0'; /* what was measured is told of each format */
 }
 
 int cmd_bias(void *request) {
     const bias_request *o = request;
     const bias_api *api = o->bias.api;
+    const bool given = option_given(o->line, "units");
     biasing b = {.o = o,
-                 .inverse = !option_given(o->line, "units"),
+                 .when = conditions(o),
                  .chosen = chooses_factor(o),
-                 .state = {.clamp = o->bias.clamp}};
+                 .state = {.clamp = o->bias.clamp},
+                 .gap = given ? (double)NAN : o->bias.separation,
+                 .slope = o->bias.slope};
     int status = check_slant(o);
     if (status != EXIT_FINE)
         return status;
     b.api = platform_bias(o->camera.platform, bias_asked_api(&o->bias, 0));
-    b.by_range = api == NULL && !option_given(o->line, "at");
     b.apis = api != NULL ? api->name : option_text(o->line, "api");
     b.units_sent = units_sent(o, &b.api);
-    b.units = b.inverse ? (double)NAN : isinf(o->bias.units) ? b.units_sent : o->bias.units;
-    b.gap = b.inverse ? o->bias.separation : (double)NAN;
+    b.units = !given ? (double)NAN : isinf(o->bias.units) ? b.units_sent : o->bias.units;
     b.factor = b.chosen ? (double)NAN : o->bias.factor;
-    b.slope = o->bias.slope;
     status = api != NULL ? check_one(o, &b.api) : check_several(o);
     if (status != EXIT_FINE)
         return status;
     status = each_setup_start(&b.each, &o->camera, &o->out);
     if (status == EXIT_FINE)
         status = resolve(&b, o);
-    b.when = conditions(&b) | (api == NULL && !b.by_range && b.each.at.count > 1 ? OF_PLACES : 0);
+    if ((b.when & OF_DEPTHS) && b.each.at.count > 1)
+        b.when |= OF_PLACES;
     if (suits_beside(&b))
         return write_beside(&b, status);
     const report_spec spec = {"bias", columns, &b, .when = b.when, .label = api != NULL ? 12 : 14};

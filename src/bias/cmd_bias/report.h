@@ -55,9 +55,7 @@ typedef struct biasing {
     const bias_request *o;
     unsigned when;
     const char *apis;
-    bool by_range;                    /**< of several APIs */
     double units_sent;                /**< as the platform sends them */
-    bool inverse;                     /**< no bias was given: one is asked for */
     bool chosen;                      /**< the factor is the least that is enough at any slant */
     double units, gap, factor, slope; /**< as asked; NaN where something else is */
     double range_lo, range_hi;

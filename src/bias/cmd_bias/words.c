@@ -17,16 +17,16 @@ static void say_state(page *p, const biasing *b) {
     const bias_state *s = &b->state;
     char text[256] = "";
     append(text, sizeof text, "%s", s->api->name);
-    if (!b->inverse)
+    if (b->when & EFFECT)
         append(text, sizeof text, ", units %s", number_full(s->units).text);
-    if (!b->inverse && isinf(b->o->bias.units) && s->api->whole)
+    if ((b->when & EFFECT) && isinf(b->o->bias.units) && s->api->whole)
         append(text, sizeof text,
                " (%s in 32 bits, as a cast that saturates makes it; in C it is undefined, and x86 "
                "makes -2147483648 of either sign)",
                number_full(b->o->bias.units).text);
     if (s->factor != 0.0 && isfinite(s->factor))
         append(text, sizeof text, ", factor %s", number_full(s->factor).text);
-    if (!b->inverse && s->clamp != 0.0)
+    if ((b->when & EFFECT) && s->clamp != 0.0)
         append(text, sizeof text, ", clamp %s", number_full(s->clamp).text);
     if (b->o->bias.slope > 0.0)
         append(text, sizeof text, ", slope %s per pixel", camera_length(b->each.here, b->o->bias.slope, 0).text);
@@ -40,7 +40,7 @@ static void say_goal(page *p, const biasing *b) {
     if (o->bias.separation > 0.0)
         snprintf(text, sizeof text, "To bring a layer %s nearer",
                  camera_length(&o->camera, o->bias.separation, 0).text);
-    if (b->by_range)
+    if (b->when & OF_RANGE)
         append(text, sizeof text, " from z = %s to %s",
                camera_length(&o->camera, fmin(bias_gap_from(b), b->range_hi), DIGITS_Z).text,
                camera_length(&o->camera, b->range_hi, DIGITS_Z).text);
@@ -188,11 +188,12 @@ static const char missed[] = "no API biases a depth that a fragment shader write
 static void say_factor(page *p, const biasing *b) {
     const double least = bias_factor_least(b->each.setup); /* 0 without triangles */
     const bool one = b->when & ONE_API;
-    if (b->inverse && b->o->bias.slope == 0.0 && isinf(least) && (one || b->chosen))
+    if ((b->when & INVERSE) && b->o->bias.slope == 0.0 && isinf(least) && (one || b->chosen))
         page_line(p, "at any slant no factor suffices; --slope says how steep surfaces are");
     else if (!one && b->chosen)
         page_line(p, "F, the slope factor, is %s", number_full(b->row.factor).text);
-    else if (one && b->inverse && b->o->bias.slope == 0.0 && b->state.factor * bias_sign(b->each.setup) < least)
+    else if (one && (b->when & INVERSE) && b->o->bias.slope == 0.0 &&
+             b->state.factor * bias_sign(b->each.setup) < least)
         page_line(p, "at any slant no units suffice with a factor below %s; --slope says how steep surfaces are",
                   number_full(least).text);
 }
@@ -203,7 +204,7 @@ void bias_say_notes(page *p, void *item) {
     const platform *by = b->o->camera.platform;
     if (!one)
         say_factor(p, b);
-    else if (b->inverse)
+    else if (b->when & INVERSE)
         say_range(p, b);
     else
         page_line(p, "a %s bias brings a layer nearer", bias_sign(b->each.setup) < 0 ? "negative" : "positive");
@@ -216,7 +217,7 @@ void bias_say_notes(page *p, void *item) {
         return;
     }
     say_factor(p, b);
-    if (b->limited && !b->inverse)
+    if (b->limited && (b->when & EFFECT))
         page_line(p, "a biased depth outside [0, 1] is clamped to the plane");
     say_r(p, b);
     if (by != NULL && by->bias[0] != '\0')
