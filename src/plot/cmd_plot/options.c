@@ -107,7 +107,6 @@ static int complete(void *request) {
     plot_request *o = request;
     const figure_row *figure = o->line->operand_row;
     const bool compared = (figure->takes & FIGURE_SETUPS) != 0;
-    bias_bring(o->line, &o->bias, &o->camera, false);
     return camera_complete(&o->camera,
                            &(camera_use){.mapped = true, .compared = compared, .seen = scene_is_seen(o->line)});
 }
