@@ -3,6 +3,8 @@
  * The comparison of several set-ups, and what is said of one: each number against the library. A distance is right when
  * the separation is guaranteed over all depths up to it, and not over those up to one unit of its last digit farther.
  */
+#include <ctype.h>
+
 #include "printed.h"
 
 enum { LIMITS = 3, DEPTHS_MAX = 5, COLUMNS = 24, WORD = 48 };
@@ -301,4 +303,46 @@ TEST(test_one) {
         printed_free(&p);
     }
     tally_end(&t);
+}
+
+enum { SAID = 1024 };
+
+/* What is said of reversing, on one line; empty where nothing is. */
+static void reversing_of(const char *mappings, char out[SAID]) {
+    printed p = print_of("table -F unorm16,fp32,unorm24 --at 1 -m %s", mappings);
+    const char *at = strstr(p.out, "the limit for 0.01:");
+    size_t used = 0;
+    assert_int_equal(p.status, 0);
+    if (at != NULL)
+        for (at = strchr(at, ':') + 1; *at != '\0' && strncmp(at, ".\n", 2) != 0 && used < SAID - 1; at++)
+            if (!isspace((unsigned char)*at) || (used > 0 && out[used - 1] != ' '))
+                out[used++] = *at == '\n' ? ' ' : *at;
+    out[used] = '\0';
+    printed_free(&p);
+}
+
+/* A mapping is reversed within its own NDC, in whatever order the others stand. */
+TEST(reversed_within_its_own_ndc) {
+    static const char *const orders[] = {"gl,d3d,reversed,gl-reversed", "gl-reversed,reversed,gl,d3d",
+                                         "d3d,gl-reversed,gl,reversed"};
+    char pairs[2][SAID], all[SAID];
+    reversing_of("gl,gl-reversed", pairs[0]);
+    reversing_of("d3d,reversed", pairs[1]);
+    for (size_t i = 0; i < 3; i++) {
+        int parts = 0;
+        reversing_of(orders[i], all);
+        for (int k = 0; k < 2; k++) {
+            char copy[SAID];
+            memcpy(copy, pairs[k], sizeof copy);
+            for (char *part = strtok(copy, ","); part != NULL; part = strtok(NULL, ",")) {
+                part += strspn(part, " ");
+                parts++;
+                if (strstr(all, part) == NULL)
+                    fail_msg("%s: '%s' is not in '%s'", orders[i], part, all);
+            }
+        }
+        assert_int_equal(parts, 6);
+    }
+    reversing_of("gl,reversed", all);
+    assert_string_equal(all, "");
 }
