@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the numbers in a PNG mean: by convention, by the JSON beside it, and by what the file says of itself. */
+#include <unistd.h>
+
 #include "image/image.h"
 #include "printed.h"
 
@@ -273,4 +275,39 @@ TEST(no_depths) {
                "%s --product eye -o %s --normal-format directx", SCENE, scratch_file("x.png"));
     check_says(2, "--normal-format: is for the normals in a PNG",
                "%s --product normal:low -o %s --normal-format directx", SCENE, scratch_file("x.npy"));
+}
+
+/* Depths that were written are read back, to the code; a kind of file that cannot hold a format is refused, and then
+ * nothing is written. */
+TEST(what_is_written_comes_back) {
+    static const int widths[] = {1, 7, 8, 9, 15, 16, 17, 23, 24, 25, 30, 31};
+    static const char *const files[] = {"depth.png", "depth.npy", "depth.pfm"};
+    tally t = {.name = "written and read"};
+    for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++)
+        for (int kind = 0; kind < 6; kind++) { /* a unorm or a float, in each file */
+            const char *scene = "--synthetic sphere --parameter wall=20 --size 9x7 -m d3d";
+            const char *path = scratch_file(files[kind / 2]);
+            const int bits = widths[i], file = kind / 2;
+            const bool unorm = kind % 2 == 0;
+            const bool held = file == 1 || (file == 0 ? unorm && (bits == 8 || bits == 16) : !unorm || bits <= 24);
+            char format[32];
+            snprintf(format, sizeof format, unorm ? "unorm%d" : "float%d.%d", unorm ? bits : 2 + bits % 7,
+                     1 + bits % 23);
+            remove(path);
+            printed p = print_of("texture %s -F %s -q -o %s", scene, format, path);
+            TALLY(&t, p.status == (held ? 0 : 2) && (access(path, F_OK) == 0) == held, "%s in %s: %s", format, path,
+                  p.errors);
+            for (int k = 0; k < 2 && held && p.status == 0; k++) {
+                json_t *made =
+                    json_printed(0, "texture %s -F %s --pixel %d,%d --json", scene, format, 7 * k, 2 * k + 1);
+                json_t *read =
+                    json_printed(0, "texture %s -m d3d -F %s --pixel %d,%d --json", path, format, 7 * k, 2 * k + 1);
+                TALLY(&t, number_at(made, "pixels[0].code") == number_at(read, "pixels[0].code"), "%s in %s, %d",
+                      format, path, k);
+                json_decref(made);
+                json_decref(read);
+            }
+            printed_free(&p);
+        }
+    tally_end(&t);
 }
