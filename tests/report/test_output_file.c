@@ -117,3 +117,39 @@ TEST(read_only_is_respected) {
         }
     rmdir(folder);
 }
+
+/* One file by two names, there or not; what can be written by two is none. */
+TEST(same_file) {
+    char a[512], b[512], link_a[512], hard[512], other[512];
+    snprintf(a, sizeof a, "%s", scratch_text("a", "%s", "a"));
+    snprintf(other, sizeof other, "%s", scratch_text("other", "%s", "a"));
+    snprintf(link_a, sizeof link_a, "%s", scratch_file("link"));
+    snprintf(hard, sizeof hard, "%s", scratch_file("hard"));
+    snprintf(b, sizeof b, "%.*s/./a", (int)(strrchr(a, '/') - a), a);
+    remove(link_a);
+    remove(hard);
+    assert_int_equal(symlink(a, link_a), 0);
+    assert_int_equal(link(a, hard), 0);
+    assert_true(output_same_file(a, a) && output_same_file(a, b) && output_same_file(link_a, a));
+    assert_true(output_same_file(a, hard) && output_same_file(hard, link_a));
+    assert_false(output_same_file(a, other) || output_same_file("/dev/null", "/dev/null"));
+    assert_false(output_same_file("/dev", "/dev") || output_same_file(a, "/dev/null"));
+    remove(a);
+    remove(hard);
+    assert_true(output_same_file(a, a) && output_same_file(b, a));
+    assert_false(output_same_file(a, other) || output_same_file(a, hard) || output_same_file(a, "/none/a"));
+}
+
+/* What can be written to later: a file, a new one, a device; not a folder, and nothing within what is none. */
+TEST(checked_beforehand) {
+    const char *const good[] = {scratch_text("old", "%s", "old"), "/dev/null", "/dev/stderr"};
+    assert_int_equal(output_check(good[0]), EXIT_FINE);
+    assert_int_equal(output_check(scratch_file("new")), EXIT_FINE);
+    assert_int_not_equal(access(scratch_file("new"), F_OK), 0); /* it is not made by looking */
+    for (size_t i = 1; i < 3; i++)
+        assert_int_equal(output_check(good[i]), EXIT_FINE);
+    assert_int_not_equal(output_check("/"), EXIT_FINE);
+    assert_int_not_equal(output_check("."), EXIT_FINE);
+    assert_int_not_equal(output_check("/none/there"), EXIT_FINE);
+    assert_int_not_equal(output_check("/dev/null/there"), EXIT_FINE);
+}
