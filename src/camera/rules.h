@@ -14,6 +14,11 @@
 #include "depthprec/depthprec.h"
 #include "raster/raster.h"
 
+/* What is said of a view, on the command line and in files; triangles.h reaches a little further. */
+#define CAMERA_FOV_LEAST 0.01 /**< degrees */
+#define CAMERA_FOV_MOST  179.0
+enum { CAMERA_SIDE_MOST = 32768, CAMERA_SUBPIXEL_MOST = 8 }; /**< pixels of a side; bits */
+
 typedef struct camera_fault {
     const char *key; /**< as requirement files write it: "log_c" */
     char text[512];  /**< a phrase of which the key is the subject: "must be ..., got ..." */

@@ -18,7 +18,7 @@ static bool read_pair(reader *r, setting *s, double least, double most, const ch
 static bool read_viewport(reader *r, setting *s, dp_triangles *t) {
     static const char form[] = "[WIDTH, HEIGHT], each a whole number from 1 to 32768 pixels";
     double sides[2];
-    if (!read_pair(r, s, 1, 32768, form, sides))
+    if (!read_pair(r, s, 1, CAMERA_SIDE_MOST, form, sides))
         return false;
     if (sides[0] != floor(sides[0]) || sides[1] != floor(sides[1]))
         return reader_fail(r, s, "viewport: must be %s, got %g and %g", form, sides[0], sides[1]);
@@ -41,8 +41,9 @@ static bool read_slant(reader *r, setting *s, dp_triangles *t) {
 
 /* Degrees, as the options take them. */
 static bool read_angle(reader *r, setting *s, double *out) {
-    return reader_number_within(s, 0.01, 179, out) ||
-           reader_fail(r, s, "%s: must be a number from 0.01 to 179 degrees, got %s", s->name, reader_shown(r, s));
+    return reader_number_within(s, CAMERA_FOV_LEAST, CAMERA_FOV_MOST, out) ||
+           reader_fail(r, s, "%s: must be a number from %g to %g degrees, got %s", s->name, CAMERA_FOV_LEAST,
+                       CAMERA_FOV_MOST, reader_shown(r, s));
 }
 
 static bool read_fov(reader *r, setting *s, dp_triangles *t) {
@@ -51,8 +52,9 @@ static bool read_fov(reader *r, setting *s, dp_triangles *t) {
 
 static bool read_subpixel(reader *r, setting *s, dp_triangles *t) {
     double bits;
-    if (!reader_number_within(s, 1, 8, &bits) || bits != floor(bits))
-        return reader_fail(r, s, "subpixel: must be a whole number from 1 to 8 bits, got %s", reader_shown(r, s));
+    if (!reader_number_within(s, 1, CAMERA_SUBPIXEL_MOST, &bits) || bits != floor(bits))
+        return reader_fail(r, s, "subpixel: must be a whole number from 1 to %d bits, got %s", CAMERA_SUBPIXEL_MOST,
+                           reader_shown(r, s));
     t->subpixel = (int)bits;
     return true;
 }

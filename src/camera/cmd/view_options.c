@@ -8,8 +8,6 @@
 
 static const name_list rasters = {.rows = &raster_table};
 
-enum { VIEWPORT_MAX = 32768 };
-
 static int parse_intrinsics(asked_line *line, const option_row *row, const char *value, void *group) {
     (void)line;
     static const double limits[][2] = {{1, 1e9}, {1, 1e9}, {-1e6, 1e6}, {-1e6, 1e6}};
@@ -23,7 +21,7 @@ static int parse_viewport(asked_line *line, const option_row *row, const char *v
     camera_asked *c = group;
     (void)line;
     uint64_t sides[2];
-    const int status = option_read_sides(row, value, VIEWPORT_MAX, false, sides);
+    const int status = option_read_sides(row, value, CAMERA_SIDE_MOST, false, sides);
     if (status != EXIT_FINE)
         return status;
     c->triangles.width = (int)sides[0];
@@ -107,9 +105,9 @@ static int parse_triangle(asked_line *line, const option_row *row, const char *v
 /* clang-format off */
 static const option_row view_rows[] = {
     {"fov", 0, "DEG",
-        "vertical field of view", NUMBER(spec.fov_y, 0.01, 179, "degrees"), .standard = "60"},
+        "vertical field of view", NUMBER(spec.fov_y, CAMERA_FOV_LEAST, CAMERA_FOV_MOST, "degrees"), .standard = "60"},
     {"hfov", 0, "DEG",
-        "horizontal field of view, in place of --fov", NUMBER(fov_x, 0.01, 179, "degrees"),
+        "horizontal field of view, in place of --fov", NUMBER(fov_x, CAMERA_FOV_LEAST, CAMERA_FOV_MOST, "degrees"),
         .without = "as --fov says"},
     {"intrinsics", 0, "FX,FY,CX,CY",
         "in place of --fov: focal lengths and where the view axis meets the picture, pixels from its left and upper "
@@ -127,7 +125,7 @@ static const option_row view_rows[] = {
     {"subpixel", 0, "BITS",
         "instead: bits of the subpixel grid that vertices snap to; Direct3D has 8, Vulkan and OpenGL at least 4; "
         "with spec-vulkan and spec-gl how many, if more",
-        WHOLE(triangles.subpixel, 1, 8, "bits"), .standard = "8"},
+        WHOLE(triangles.subpixel, 1, CAMERA_SUBPIXEL_MOST, "bits"), .standard = "8"},
     {"slant", 0, "LO:HI",
         "angles between surface normal and view axis, degrees; 0 faces the camera, 90 is edge-on",
         .parse = parse_slant, .standard = "0:90"},
