@@ -291,8 +291,10 @@ TEST(what_is_written_comes_back) {
             const bool unorm = kind % 2 == 0;
             const bool held = file == 1 || (file == 0 ? unorm && (bits == 8 || bits == 16) : !unorm || bits <= 24);
             char format[32];
-            snprintf(format, sizeof format, unorm ? "unorm%d" : "float%d.%d", unorm ? bits : 2 + bits % 7,
-                     1 + bits % 23);
+            if (unorm)
+                snprintf(format, sizeof format, "unorm%d", bits);
+            else
+                snprintf(format, sizeof format, "float%d.%d", 2 + bits % 7, 1 + bits % 23);
             remove(path);
             printed p = print_of("texture %s -F %s -q -o %s", scene, format, path);
             TALLY(&t, p.status == (held ? 0 : 2) && (access(path, F_OK) == 0) == held, "%s in %s: %s", format, path,
