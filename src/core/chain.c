@@ -274,9 +274,11 @@ static void divide(const dp_chain *c, dp_span r, double q1, double q2, double er
     if (c->pipeline.arith->reciprocal) {
         s->inverse = step_of((magnitude){1.0 / r.lo * raised, 1.0 / r.hi * lowered});
         const dp_reciprocal_error most = dp_reciprocal_error_of(c->pipeline.arith->reciprocal);
+        const int normal = r.hi < 0x1p125;
         /* of w as large as it may be; or relative, of 1/w */
-        const double by_w = r.hi * larger(most.half_ulps * s->inverse.error, r.hi < 0x1p125 ? 0.0 : most.subnormal);
-        s->inverse.error = q.most * (r.hi < 0x1p125 ? smaller(by_w, most.units * DP_UNIT) : by_w);
+        const double by = larger(most.half_ulps * s->inverse.error, normal ? 0.0 : most.subnormal);
+        s->inverse.error = q.most * (normal ? smaller(r.hi * by, most.units * DP_UNIT) : r.hi * by);
+        s->inverse_off = normal ? smaller(by, most.units * DP_UNIT / r.lo * raised) : by;
     }
     /* Quotients above 1 are clamped, and demand.c counts that; the rest have the last place of 1 at most. */
     const magnitude result = {smaller(q.most + s->inverse.error, 1.0 - DP_UNIT_BELOW_ONE),
@@ -322,11 +324,6 @@ static dp_steps steps_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
     s.quotient = scaled(s.quotient, c->per_ndc);
     s.full = c->per_ndc * off + s.inverse.error + s.quotient.error + s.viewport.error;
     return s;
-}
-
-dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
-    const clip_steps clip = clip_steps_of(c, r);
-    return steps_of(c, r, &clip);
 }
 
 /* Errors relative to values over w: those run evenly to the far plane, so they are greatest at one of the two ends. */
@@ -391,32 +388,45 @@ static double on_lattice(double least, double granule) {
     return granule > 0.0 && least < 0x1p50 * granule ? ceil(least / granule) * granule : least;
 }
 
-static dp_numerator numerator_of(const dp_chain *c, dp_span r, const clip_steps *steps) {
-    const int plain = c->pipeline.reversed && !c->pipeline.ndc_signed; /* t is the clip depth itself: A <= 0 */
-    const dp_step product = steps->product;
-    const magnitude clip = steps->before;
-    const double lo = steps->kept_lo, hi = steps->kept_hi;
-    const double end = clip_of(c, r.hi);
-    const double t = plain ? end : c->pipeline.reversed ? r.hi + end : r.hi - end;
-    const double error = product.error + larger(hi, -lo) + (fabs(end) + r.hi) * 0x1p-52 + clip_more_over(c, r);
-    const double granule = clip_granule(c, r, clip);
-    if (plain)
-        return (dp_numerator){.least = on_lattice(t - error, granule), .rise = 0.0};
-
-    dp_numerator n = {.least = on_lattice(t - error, smaller(granule, w_granule(c, r)))};
-    const int binades = dp_exponent(r.hi) - dp_exponent(r.lo);
-    n.rise = binades > 1 ? HUGE_VAL : product_lag(c, r.hi) + sum_lag(c, r, clip, hi - lo);
-    if (binades == 1)
-        n.rise += product_lag(c, dp_power2(dp_exponent(r.hi)) * (1.0 - DP_UNIT));
-    if (c->remap) {
-        const dp_step sum = add_w(c, r, clip, product.error);
-        n.rise += n.rise == 0.0 && c->pipeline.reversed ? 0.0 : 2.0 * sum.error; /* t itself keeps falling */
-        n.least = larger(n.least - sum.error, 0.0);
-    }
-    return n;
+/* Whether t is the clip depth itself, and A <= 0. */
+static int is_plain(const dp_chain *c) {
+    return c->pipeline.reversed && !c->pipeline.ndc_signed;
 }
 
-dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span r, dp_numerator *numerator) {
+/* The least t of a span, as computed: that of its farthest depth, less what it may have lost. */
+static double least_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
+    const double end = clip_of(c, r.hi);
+    const double t = is_plain(c) ? end : c->pipeline.reversed ? r.hi + end : r.hi - end;
+    const double fuzz = (fabs(end) + r.hi) * 0x1p-52 + clip_more_over(c, r);
+    const double granule = clip_granule(c, r, clip->before);
+    const double least = on_lattice(t + clip->kept_lo - clip->product.error - fuzz,
+                                    is_plain(c) ? granule : smaller(granule, w_granule(c, r)));
+    return c->remap ? larger(least - add_w(c, r, clip->before, clip->product.error).error, 0.0) : least;
+}
+
+/* How much greater a farther depth's t may be in a span. */
+static double rise_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
+    if (is_plain(c))
+        return 0.0;
+    const int binades = dp_exponent(r.hi) - dp_exponent(r.lo);
+    if (binades > 1)
+        return HUGE_VAL;
+    double rise = product_lag(c, r.hi) + sum_lag(c, r, clip->before, clip->kept_hi - clip->kept_lo);
+    if (binades == 1)
+        rise += product_lag(c, dp_power2(dp_exponent(r.hi)) * (1.0 - DP_UNIT));
+    if (!c->remap || (rise == 0.0 && c->pipeline.reversed)) /* t itself keeps falling */
+        return rise;
+    return rise + 2.0 * add_w(c, r, clip->before, clip->product.error).error;
+}
+
+dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
+    const clip_steps clip = clip_steps_of(c, r);
+    dp_steps s = steps_of(c, r, &clip);
+    s.numerator = c->pipeline.ortho ? 0.0 : least_of(c, r, &clip);
+    return s;
+}
+
+dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span r, double *rise) {
     clip_steps clip = clip_steps_of(c, r);
     const dp_steps s = steps_of(c, r, &clip);
     const dp_span range = {from, r.hi};
@@ -424,6 +434,6 @@ dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span r, dp_num
         return s;
     if (from != r.lo)
         clip = clip_steps_of(c, range);
-    *numerator = numerator_of(c, range, &clip);
+    *rise = rise_of(c, range, &clip);
     return s;
 }

@@ -69,6 +69,8 @@ typedef struct dp_step {
 typedef struct dp_steps {
     dp_step product, sum, remap, quotient, viewport;
     dp_step inverse; /* 1/w: its lattice in units of 1/w, its error as window depth */
+    double inverse_off; /* the most that 1/w is off by */
+    double numerator;   /* of dp_chain_steps(): t is at least this, see below */
     double kept_lo;  /* what adding B changes, in clip depth and towards near: where all sums of the span are */
     double kept_hi;  /* rounded alike the two are one */
     double full;     /* all errors of one window depth */
@@ -80,16 +82,11 @@ dp_steps dp_chain_steps(const dp_chain *c, dp_span span);
 dp_steps dp_chain_steps_beyond(const dp_chain *c, double z);
 
 /*
- * The numerator t: the window depth's distance from the far end is half t/w, with t = clip where a reversed mapping
- * stores clip/w itself, else t = w - clip or w + clip. As computed it hardly ever rises with z.
+ * The operations at every depth of a span; and by how much the numerator may rise from a depth, before the span or its
+ * nearest, to its end. The numerator t: the window depth's distance from the far end is half t/w, with t = clip where a
+ * reversed mapping stores clip/w itself, else t = w - clip or w + clip. As computed it hardly ever rises with z.
+ * INFINITY: nothing is known; orthographic there is none, and *rise stays.
  */
-typedef struct dp_numerator {
-    double least; /* it is at least this in the span, as computed; 0 when that may be negative */
-    double rise;  /* a farther depth may have a greater one by this; INFINITY: nothing is known */
-} dp_numerator;
-
-/* The operations at every depth of a span, and the numerator from a depth, before it or its nearest, to its end: they
- * have the first operations in common. Orthographic: there is none. */
-dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span span, dp_numerator *numerator);
+dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span span, double *rise);
 
 #endif

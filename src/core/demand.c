@@ -102,16 +102,18 @@ static windows windows_of(const dp_chain *c, double near, double far) {
  * Where the window depth of one of the two leaves [0, 1] it is clamped, and its own errors count no more: the other
  * one's do, all of them, and how far g itself goes beyond.
  */
-static void clamp_either(const dp_chain *c, dp_demand *d, double full1, double full2, const windows *at) {
-    const double g1 = at->near, g2 = at->far;
-    const double off1 = full1 + at->near_more;
-    const double off2 = full2 + at->far_more;
-    const double slope = fabs(c->pipeline.ortho ? c->a : c->b);
+static void clamp_nearer(const dp_chain *c, dp_demand *d, double full2, const windows *at, double off1) {
     const int reversed = c->pipeline.reversed;
-    if (reversed ? g2 - off2 <= 0.0 : g2 + off2 >= 1.0)
-        keep_larger(d, (reversed ? c->below : c->above) + full1 + d->rest, slope);
-    if (reversed ? g1 + off1 >= 1.0 : g1 - off1 <= 0.0)
-        keep_larger(d, (reversed ? c->above : c->below) + full2 + d->rest, slope);
+    const double off = off1 + at->near_more;
+    if (reversed ? at->near + off >= 1.0 : at->near - off <= 0.0)
+        keep_larger(d, (reversed ? c->above : c->below) + full2 + d->rest, fabs(c->pipeline.ortho ? c->a : c->b));
+}
+
+static void clamp_farther(const dp_chain *c, dp_demand *d, double full1, const windows *at, double off2) {
+    const int reversed = c->pipeline.reversed;
+    const double off = off2 + at->far_more;
+    if (reversed ? at->far - off <= 0.0 : at->far + off >= 1.0)
+        keep_larger(d, (reversed ? c->below : c->above) + full1 + d->rest, fabs(c->pipeline.ortho ? c->a : c->b));
 }
 
 /*
@@ -154,21 +156,24 @@ static dp_demand demand_free(const dp_chain *c, const dp_steps *s1, const dp_ste
 }
 
 /*
- * The numerator hardly rises: the distance of two quotients is at least t (1/z1 - 1/z2) with the farther, least t.
- * Where t itself is multiplied with fl(1/w), the lattice of the reciprocals counts, t times as wide; else their errors
- * do.
+ * The numerator hardly rises: the distance of two quotients is at least t (1/z1 - 1/z2) with the nearer one's t, whether
+ * the farther one is clamped or not. Where t itself is multiplied with fl(1/w), the lattice of the reciprocals counts, t
+ * times as wide; or their errors do.
  */
-static dp_demand demand_falling(const dp_chain *c, double nearest, dp_numerator t, const dp_steps *s1,
-                                const dp_steps *s2, double quotient) {
-    if (!(t.least > 0.0) || isinf(t.rise))
+static dp_demand demand_falling(const dp_chain *c, double nearest, double rise, const dp_steps *s1, const dp_steps *s2,
+                                double quotient) {
+    const double t = s1->numerator;
+    if (!(t > 0.0) || isinf(rise))
         return (dp_demand){.window = 1.0, .slope = 0.0};
-    const int multiplied = c->pipeline.reversed && !c->two_stage;
-    const double factor = multiplied && !c->run ? c->half * t.least : 0.0;
-    const double projection = c->half * t.rise / nearest * (1.0 + DP_UNIT);
-    const double window =
-        before_rounding((dp_step){s1->inverse.error, factor * s1->inverse.grid},
-                        (dp_step){s2->inverse.error, factor * s2->inverse.grid}, quotient + projection);
-    return (dp_demand){.projection = projection, .window = window, .slope = t.least};
+    const int multiplied = c->pipeline.reversed && !c->two_stage && !c->run;
+    const double projection = c->half * rise / nearest * (1.0 + DP_UNIT);
+    const double rest = quotient + projection;
+    const double factor = c->half * t;
+    double window = rest + s1->inverse.error + s2->inverse.error;
+    if (multiplied && s1->inverse_off > 0.0)
+        window = smaller(window, before_rounding((dp_step){factor * s1->inverse_off, factor * s1->inverse.grid},
+                                                 (dp_step){factor * s2->inverse_off, factor * s2->inverse.grid}, rest));
+    return (dp_demand){.projection = projection, .window = window, .slope = t};
 }
 
 /* The format's loss between two depths of a span. Where the viewport is exact, it meets only NDC's own lattice. */
@@ -181,8 +186,8 @@ static double format_of(const dp_chain *c, const windows *w, const dp_steps *s1,
 
 /* The demand of a depth of `first` and one of `second`, not nearer. */
 static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra) {
-    dp_numerator t;
-    const dp_steps s2 = dp_chain_steps_behind(c, first.lo, second, &t);
+    double rise = HUGE_VAL;
+    const dp_steps s2 = dp_chain_steps_behind(c, first.lo, second, &rise);
     const windows at = windows_of(c, first.lo, second.hi);
     const double format = format_of(c, &at, s1, &s2);
     const double rest = format + extra;
@@ -191,14 +196,14 @@ static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first,
     const double need = quotient + s1->inverse.error + s2.inverse.error;
     const double w = c->pipeline.ortho ? 1.0 : first.lo;
     dp_demand d = demand_free(c, s1, &s2, w, need);
-    if (!c->pipeline.ortho) {
-        const dp_demand falling = demand_falling(c, first.lo, t, s1, &s2, quotient);
-        if (falling.window * d.slope < d.window * falling.slope)
-            d = falling;
-    }
+    d.rest = rest;
+    clamp_farther(c, &d, s1->full, &at, s2.full);
+    const dp_demand falling = demand_falling(c, first.lo, rise, s1, &s2, quotient);
+    if (falling.window * d.slope < d.window * falling.slope)
+        d = falling;
     d.format = format;
     d.rest = rest;
-    clamp_either(c, &d, s1->full, s2.full, &at);
+    clamp_nearer(c, &d, s2.full, &at, s1->full);
     return d;
 }
 
@@ -213,7 +218,8 @@ static dp_demand demand_beyond(const dp_chain *c, const dp_steps *s1, dp_span fi
                    .rest = format + extra,
                    .window = s1->full + s2.full + format + extra,
                    .slope = fabs(c->pipeline.ortho ? c->a : c->b)};
-    clamp_either(c, &d, s1->full, s2.full, &at);
+    clamp_farther(c, &d, s1->full, &at, s2.full);
+    clamp_nearer(c, &d, s2.full, &at, s1->full);
     return d;
 }
 
