@@ -437,3 +437,16 @@ dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span r, double
     *rise = rise_of(c, range, &clip);
     return s;
 }
+
+/* B is raised by what adding it changes and by products that were rounded towards near. */
+dp_numerator dp_chain_numerator(const dp_chain *c, dp_span r) {
+    const clip_steps clip = clip_steps_of(c, r);
+    const double a = c->pipeline.reversed ? c->a : -c->a;
+    const double b = c->pipeline.reversed ? c->b : -c->b;
+    const double granule = clip_granule(c, r, clip.before);
+    dp_numerator n = {.fall = is_plain(c) ? -a : -1.0 - a,
+                      .granule = is_plain(c) ? granule : smaller(granule, w_granule(c, r))};
+    n.most = b + clip.kept_hi + clip.product.error + clip_more_over(c, r) + (b + n.fall * r.hi) * 0x1p-50;
+    n.off = c->remap ? add_w(c, r, clip.before, clip.product.error).error : 0.0;
+    return n;
+}

@@ -89,4 +89,14 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z);
  */
 dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span span, double *rise);
 
+/*
+ * The numerator of a depth z of the span is at most the largest multiple of `granule`, where that is not 0, that is not
+ * above most - fall z; and `off`. Only where the camera is in perspective.
+ */
+typedef struct dp_numerator {
+    double most, fall, granule, off;
+} dp_numerator;
+
+dp_numerator dp_chain_numerator(const dp_chain *c, dp_span span);
+
 #endif

@@ -102,11 +102,13 @@ static windows windows_of(const dp_chain *c, double near, double far) {
  * Where the window depth of one of the two leaves [0, 1] it is clamped, and its own errors count no more: the other
  * one's do, all of them, and how far g itself goes beyond.
  */
-static void clamp_nearer(const dp_chain *c, dp_demand *d, double full2, const windows *at, double off1) {
+static int clamp_nearer(const dp_chain *c, dp_demand *d, double full2, const windows *at, double off1) {
     const int reversed = c->pipeline.reversed;
     const double off = off1 + at->near_more;
-    if (reversed ? at->near + off >= 1.0 : at->near - off <= 0.0)
+    const int clamped = reversed ? at->near + off >= 1.0 : at->near - off <= 0.0;
+    if (clamped)
         keep_larger(d, (reversed ? c->above : c->below) + full2 + d->rest, fabs(c->pipeline.ortho ? c->a : c->b));
+    return clamped;
 }
 
 static void clamp_farther(const dp_chain *c, dp_demand *d, double full1, const windows *at, double off2) {
@@ -173,7 +175,44 @@ static dp_demand demand_falling(const dp_chain *c, double nearest, double rise, 
     if (multiplied && s1->inverse_off > 0.0)
         window = smaller(window, before_rounding((dp_step){factor * s1->inverse_off, factor * s1->inverse.grid},
                                                  (dp_step){factor * s2->inverse_off, factor * s2->inverse.grid}, rest));
-    return (dp_demand){.projection = projection, .window = window, .slope = t};
+    return (dp_demand){.projection = projection, .window = window, .slope = t, .until = HUGE_VAL};
+}
+
+/*
+ * The farthest depth of a span whose numerator over w may still be `least`, which is above 0; 0 where there is none. A
+ * numerator on a lattice falls by steps, so the depth is where one of them ends, or on the way to that.
+ */
+static double farthest_of(dp_numerator n, dp_span span, double least) {
+    const double per_depth = least + n.fall;
+    const double x = per_depth > 0.0 ? smaller((n.most + n.off) / per_depth, span.hi) : span.hi;
+    const double most = n.most - n.fall * x;
+    if (!(n.fall > 0.0) || !(n.granule > 0.0) || !(fabs(most) < 0x1p50 * n.granule))
+        return x;
+    const double t = floor(most / n.granule) * n.granule;
+    return smaller(x, larger((t + n.off) / least, (n.most - (t + n.granule)) / n.fall));
+}
+
+/*
+ * Where few steps of the numerator are left up to far: from which depth on all numerators are so small that they are in
+ * order. A distance below one of `COARSE` parts of a depth is never asked for, so that a run's is not the shorter one.
+ */
+enum { COARSE = 16 };
+static void keep_stepped(const dp_chain *c, dp_span first, dp_span second, const dp_steps *s1, double need,
+                         dp_demand *d) {
+    const double coarse = c->half / ((COARSE + 1) * first.hi);
+    const double least = s1->numerator / first.hi - need / c->half * DP_OUTWARD;
+    if (d->window <= coarse * d->slope || !(least > 0.0))
+        return;
+    const double slope = fabs(c->b);
+    const double end = farthest_of(dp_chain_numerator(c, second), second, least * (1.0 - DP_ROUNDINGS_6));
+    if (end >= second.hi)
+        return;
+    const double apart = end < second.lo ? 0.0 : end - first.lo;
+    const double by_steps = c->half * slope * apart / (first.hi * (first.hi + apart));
+    const double window = larger(larger(by_steps, coarse * slope), need);
+    if (window * d->slope < d->window * slope)
+        *d = (dp_demand){.projection = window - need, .window = window, .slope = slope};
+    d->until = larger(end, first.hi * (1.0 + 1.0 / COARSE));
 }
 
 /* The format's loss between two depths of a span. Where the viewport is exact, it meets only NDC's own lattice. */
@@ -197,13 +236,17 @@ static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first,
     const double w = c->pipeline.ortho ? 1.0 : first.lo;
     dp_demand d = demand_free(c, s1, &s2, w, need);
     d.rest = rest;
+    d.until = HUGE_VAL;
     clamp_farther(c, &d, s1->full, &at, s2.full);
     const dp_demand falling = demand_falling(c, first.lo, rise, s1, &s2, quotient);
     if (falling.window * d.slope < d.window * falling.slope)
         d = falling;
+    if (!c->pipeline.ortho)
+        keep_stepped(c, first, second, s1, need, &d);
     d.format = format;
     d.rest = rest;
-    clamp_nearer(c, &d, s2.full, &at, s1->full);
+    if (clamp_nearer(c, &d, s2.full, &at, s1->full))
+        d.until = HUGE_VAL;
     return d;
 }
 
@@ -240,22 +283,30 @@ static double distance(const dp_chain *c, double z, const dp_demand *d) {
  */
 enum { REFINED = 3 };
 static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra,
-                             dp_demand *out) {
+                             dp_demand *out, double *until) {
     double best = HUGE_VAL;
     for (int i = 0; i < REFINED; i++) {
         const dp_demand d = demand_of(c, s1, first, second, extra);
         const double s = distance(c, first.hi, &d);
-        if (i > 0 && !(s < best)) /* the first one counts even where it is infinite: *out is what it demands */
-            break;
-        best = s;
-        *out = d;
-        if (first.hi + s >= second.hi || first.hi + s < second.lo)
+        if (i == 0 || s < best) { /* the first one counts even where it is infinite: *out is what it demands */
+            best = s;
+            *out = d;
+        }
+        *until = smaller(first.hi + best, d.until);
+        if (*until >= second.hi || *until < second.lo)
             break;
         if (i > 0 && c->run) /* a camera of the run may end here, where it gains little */
             break;
-        second.hi = first.hi + s;
+        second.hi = *until;
     }
     return best;
+}
+
+/* Of a binade of z from `lo` on: where depths begin whose products are in the same binade as that of `hi`; |A| >= 1. */
+static double products_begin(const dp_chain *c, double lo, double hi) {
+    const double a = fabs(c->a), z = 2.0 * dp_power2(dp_exponent(hi)) / a;
+    const double begin = (double)((double)(float)z < z ? nextafterf((float)z, HUGE_VALF) : (float)z);
+    return begin < hi ? larger(lo, begin) : lo;
 }
 
 /* Where the binade ends whose farthest depth is `hi`, towards near; depths within `tiny` of 0 count as one binade. */
@@ -285,20 +336,24 @@ double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_dema
     if (hi <= first.lo)
         hi = first.hi;
     const double tiny = first.lo > 0.0 ? 0.0 : larger(0x1p-24 * larger(-first.lo, fabs(hi)), 0x1p-126);
+    const int steep = !c->pipeline.ortho && !c->run && fabs(c->a) >= 1.0;
     double longest = 0.0;
     for (double end = HUGE_VAL;; end = hi) {
         double lo = binade_begin(hi, tiny);
+        if (steep)
+            lo = products_begin(c, lo, hi);
         if (lo < first.hi)
             lo = first.lo;
         dp_demand d;
-        const double s = longest_within(c, &s1, first, (dp_span){lo, larger(hi, first.hi)}, extra, &d);
-        const int met = first.hi + s >= lo;
+        double until;
+        const double s = longest_within(c, &s1, first, (dp_span){lo, larger(hi, first.hi)}, extra, &d, &until);
+        const int met = until >= lo;
         const double here = met ? smaller(s, end - first.lo) : 0.0;
         if (met && here >= longest && here < any)
             *out = d;
         longest = larger(longest, here);
         if (met && (first.lo == first.hi || lo <= first.lo))
             return smaller(longest, any);
-        hi = lo;
+        hi = first.lo > 0.0 ? (double)nextafterf((float)lo, 0.0F) : lo;
     }
 }

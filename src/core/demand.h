@@ -12,6 +12,7 @@ typedef struct dp_demand {
     double window;     /* all of it: the rest is the divide, the viewport and what clamping takes */
     double rest;       /* format and what was demanded on top */
     double slope;      /* the distance of two window depths is half slope (1/z1 - 1/z2), or half slope (z2 - z1) */
+    double until;      /* no depth behind it is out of order, wherever the distance ends; INFINITY: nothing is known */
 } dp_demand;
 
 /*
