@@ -184,13 +184,21 @@ static double product_granule(const dp_chain *c, dp_span r) {
     return c->a_exact ? c->a_granule * 2.0 * dp_half_ulp(least) : 2.0 * dp_half_ulp(fabs(c->a) * least);
 }
 
-/* The same for the other end of a run's B: whether all of them are rounded to one multiple. */
-static int last_kept(const dp_chain *c, double ulp, double *lo, double *hi) {
-    const double b = c->b + (c->b < 0.0 ? -c->b_more : c->b_more);
-    const double kept = rint(b / ulp) * ulp - b;
-    *lo = smaller(*lo, c->pipeline.reversed ? kept : -kept);
-    *hi = larger(*hi, c->pipeline.reversed ? kept : -kept);
-    return fabs(kept) != 0.5 * ulp && rint(b / ulp) == rint(c->b / ulp);
+/*
+ * What adding B changes where every sum is rounded to a multiple of `ulp` as B is: of both ends of a run's B, or half
+ * of it either way, as one of several is nearest. Whether sums are rounded so in each camera, `even`: as products are
+ * even multiples; else B may not be in the middle of two.
+ */
+static int keep(const dp_chain *c, double ulp, int even, double *lo, double *hi) {
+    const double last = c->b + (c->b < 0.0 ? -c->b_more : c->b_more);
+    const double nearest[2] = {rint(c->b / ulp), rint(last / ulp)};
+    const double kept[2] = {nearest[0] * ulp - c->b, nearest[1] * ulp - last};
+    const int one = nearest[0] == nearest[1] && fabs(kept[0]) != 0.5 * ulp && fabs(kept[1]) != 0.5 * ulp;
+    const double least = one || !c->run ? smaller(kept[0], kept[1]) : -0.5 * ulp;
+    const double most = one || !c->run ? larger(kept[0], kept[1]) : 0.5 * ulp;
+    *lo = smaller(*lo, c->pipeline.reversed ? least : -most);
+    *hi = larger(*hi, c->pipeline.reversed ? most : -least);
+    return one || even;
 }
 
 /*
@@ -199,8 +207,8 @@ static int last_kept(const dp_chain *c, double ulp, double *lo, double *hi) {
  * the middle of two it goes to the even one where the products are even multiples; else sums are not rounded alike.
  * Next to a power of two there are two such cases, each with its own last place.
  */
-static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, double *hi) {
-    *lo = *hi = 0.0;
+static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, double *hi, double *one) {
+    *lo = *hi = *one = 0.0;
     if (!has_product(c) || (c->b == 0.0 && !c->fused))
         return (dp_step){0.0, 0.0};
     if (c->fused) {
@@ -215,14 +223,9 @@ static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, doub
     int alike = m.least > 0.0 && ulp[1] <= granule && ulp[1] <= 2.0 * ulp[0];
     *lo = HUGE_VAL;
     *hi = -HUGE_VAL;
-    for (int i = 0; i < 2 && alike; i++) {
-        const double kept = rint(c->b / ulp[i]) * ulp[i] - c->b;
-        alike = fabs(kept) != 0.5 * ulp[i] || (!c->run && granule >= 2.0 * ulp[i]);
-        *lo = smaller(*lo, c->pipeline.reversed ? kept : -kept);
-        *hi = larger(*hi, c->pipeline.reversed ? kept : -kept);
-        if (c->run)
-            alike = alike && last_kept(c, ulp[i], lo, hi);
-    }
+    for (int i = 0; i < 2 && alike; i++)
+        alike = keep(c, ulp[i], granule >= 2.0 * ulp[i], lo, hi);
+    *one = alike && ulp[0] == ulp[1] ? ulp[0] : 0.0;
     if (!alike) {
         *hi = dp_half_ulp(m.most);
         *lo = -*hi;
@@ -291,19 +294,23 @@ static void divide(const dp_chain *c, dp_span r, double q1, double q2, double er
 typedef struct clip_steps {
     dp_step product, sum;
     magnitude before; /* before the sum is rounded */
-    double kept_lo, kept_hi;
+    double kept_lo, kept_hi, kept_one;
 } clip_steps;
 
 static clip_steps clip_steps_of(const dp_chain *c, dp_span r) {
     clip_steps s = {.product = product_of(c, r)};
     s.before = clip_over(c, r, s.product.error);
-    s.sum = add_b(c, r, s.before, &s.kept_lo, &s.kept_hi);
+    s.sum = add_b(c, r, s.before, &s.kept_lo, &s.kept_hi, &s.kept_one);
     return s;
 }
 
 static dp_steps steps_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
     const double w = w_of(c, r.lo);
-    dp_steps s = {.product = clip->product, .sum = clip->sum, .kept_lo = clip->kept_lo, .kept_hi = clip->kept_hi};
+    dp_steps s = {.product = clip->product,
+                  .sum = clip->sum,
+                  .kept_lo = clip->kept_lo,
+                  .kept_hi = clip->kept_hi,
+                  .kept_one = clip->kept_one};
     double error = s.product.error + larger(s.kept_hi, -s.kept_lo);
     if (c->remap)
         s.remap = add_w(c, r, clip->before, s.product.error);
@@ -411,7 +418,8 @@ static double rise_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
     const int binades = dp_exponent(r.hi) - dp_exponent(r.lo);
     if (binades > 1)
         return HUGE_VAL;
-    double rise = product_lag(c, r.hi) + sum_lag(c, r, clip->before, clip->kept_hi - clip->kept_lo);
+    double rise =
+        product_lag(c, r.hi) + sum_lag(c, r, clip->before, clip->kept_one > 0.0 ? 0.0 : clip->kept_hi - clip->kept_lo);
     if (binades == 1)
         rise += product_lag(c, dp_power2(dp_exponent(r.hi)) * (1.0 - DP_UNIT));
     if (!c->remap || (rise == 0.0 && c->pipeline.reversed)) /* t itself keeps falling */

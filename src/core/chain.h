@@ -68,12 +68,13 @@ typedef struct dp_step {
 /* The operations at every depth of a span, each as window depth, but for `inverse`. */
 typedef struct dp_steps {
     dp_step product, sum, remap, quotient, viewport;
-    dp_step inverse; /* 1/w: its lattice in units of 1/w, its error as window depth */
+    dp_step inverse;    /* 1/w: its lattice in units of 1/w, its error as window depth */
     double inverse_off; /* the most that 1/w is off by */
     double numerator;   /* of dp_chain_steps(): t is at least this, see below */
-    double kept_lo;  /* what adding B changes, in clip depth and towards near: where all sums of the span are */
-    double kept_hi;  /* rounded alike the two are one */
-    double full;     /* all errors of one window depth */
+    double kept_lo;     /* what adding B changes, in clip depth and towards near: where all sums of the span are */
+    double kept_hi;     /* rounded alike the two are one, but for a run of cameras */
+    double kept_one;    /* the last place of all sums, where each camera rounds its own alike; else 0 */
+    double full;        /* all errors of one window depth */
 } dp_steps;
 
 dp_steps dp_chain_steps(const dp_chain *c, dp_span span);

@@ -142,7 +142,8 @@ static double run_loss(const dp_steps *s1, const dp_steps *s2, double loss) {
 
 /* A demand where numerator or product is followed: what the other operations take, and the slope. */
 static dp_demand demand_free(const dp_chain *c, const dp_steps *s1, const dp_steps *s2, double w, double need) {
-    const double loss = larger(s2->kept_hi - s1->kept_lo, 0.0) * c->per_ndc * c->per_clip / w;
+    const int one = s1->kept_one > 0.0 && s1->kept_one == s2->kept_one;
+    const double loss = one ? 0.0 : larger(s2->kept_hi - s1->kept_lo, 0.0) * c->per_ndc * c->per_clip / w;
     if (c->pipeline.ortho) {
         const int alike = s1->sum.error == 0.0 && s2->sum.error == 0.0;
         const double clip = before_rounding(s1->remap, s2->remap, need);
@@ -158,9 +159,9 @@ static dp_demand demand_free(const dp_chain *c, const dp_steps *s1, const dp_ste
 }
 
 /*
- * The numerator hardly rises: the distance of two quotients is at least t (1/z1 - 1/z2) with the nearer one's t, whether
- * the farther one is clamped or not. Where t itself is multiplied with fl(1/w), the lattice of the reciprocals counts, t
- * times as wide; or their errors do.
+ * The numerator hardly rises: the distance of two quotients is at least t (1/z1 - 1/z2) with the nearer one's t,
+ * whether the farther one is clamped or not. Where t itself is multiplied with fl(1/w), the lattice of the reciprocals
+ * counts, t times as wide; or their errors do.
  */
 static dp_demand demand_falling(const dp_chain *c, double nearest, double rise, const dp_steps *s1, const dp_steps *s2,
                                 double quotient) {
