@@ -434,27 +434,26 @@ dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
     return s;
 }
 
-dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span r, double *rise) {
+/* B is raised by what adding it changes and by products that were rounded towards near. */
+static void falls(const dp_chain *c, dp_span r, const clip_steps *clip, dp_numerator *n) {
+    const double a = c->pipeline.reversed ? c->a : -c->a;
+    const double b = c->pipeline.reversed ? c->b : -c->b;
+    n->fall = -1.0 - a;
+    n->granule = smaller(clip_granule(c, r, clip->before), w_granule(c, r));
+    n->most = b + clip->kept_hi + clip->product.error + clip_more_over(c, r) + (b + n->fall * r.hi) * 0x1p-50;
+    n->off = c->remap ? add_w(c, r, clip->before, clip->product.error).error : 0.0;
+}
+
+dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span r, dp_numerator *numerator) {
     clip_steps clip = clip_steps_of(c, r);
     const dp_steps s = steps_of(c, r, &clip);
     const dp_span range = {from, r.hi};
     if (c->pipeline.ortho)
         return s;
+    if (!is_plain(c))
+        falls(c, r, &clip, numerator);
     if (from != r.lo)
         clip = clip_steps_of(c, range);
-    *rise = rise_of(c, range, &clip);
+    numerator->rise = rise_of(c, range, &clip);
     return s;
-}
-
-/* B is raised by what adding it changes and by products that were rounded towards near. */
-dp_numerator dp_chain_numerator(const dp_chain *c, dp_span r) {
-    const clip_steps clip = clip_steps_of(c, r);
-    const double a = c->pipeline.reversed ? c->a : -c->a;
-    const double b = c->pipeline.reversed ? c->b : -c->b;
-    const double granule = clip_granule(c, r, clip.before);
-    dp_numerator n = {.fall = is_plain(c) ? -a : -1.0 - a,
-                      .granule = is_plain(c) ? granule : smaller(granule, w_granule(c, r))};
-    n.most = b + clip.kept_hi + clip.product.error + clip_more_over(c, r) + (b + n.fall * r.hi) * 0x1p-50;
-    n.off = c->remap ? add_w(c, r, clip.before, clip.product.error).error : 0.0;
-    return n;
 }

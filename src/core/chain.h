@@ -83,21 +83,18 @@ dp_steps dp_chain_steps(const dp_chain *c, dp_span span);
 dp_steps dp_chain_steps_beyond(const dp_chain *c, double z);
 
 /*
- * The operations at every depth of a span; and by how much the numerator may rise from a depth, before the span or its
- * nearest, to its end. The numerator t: the window depth's distance from the far end is half t/w, with t = clip where a
- * reversed mapping stores clip/w itself, else t = w - clip or w + clip. As computed it hardly ever rises with z.
- * INFINITY: nothing is known; orthographic there is none, and *rise stays.
- */
-dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span span, double *rise);
-
-/*
- * The numerator of a depth z of the span is at most the largest multiple of `granule`, where that is not 0, that is not
- * above most - fall z; and `off`. Only where the camera is in perspective.
+ * The numerator t: the window depth's distance from the far end is half t/w, with t = clip where a reversed mapping
+ * stores clip/w itself, else t = w - clip or w + clip. As computed it hardly ever rises with z.
  */
 typedef struct dp_numerator {
+    double rise; /* a farther depth may have a greater one by this; INFINITY: nothing is known */
+    /* As computed at a depth z of the span it is at most the largest multiple of `granule` that is not above
+     * most - fall z, and `off`. Where t is the clip depth itself these stay as they are. */
     double most, fall, granule, off;
 } dp_numerator;
 
-dp_numerator dp_chain_numerator(const dp_chain *c, dp_span span);
+/* The operations at every depth of a span, and its numerators: they have the first operations in common. They rise from
+ * a depth, before the span or its nearest, to its end. Orthographic: there are none, and *numerator stays. */
+dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span span, dp_numerator *numerator);
 
 #endif

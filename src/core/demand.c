@@ -176,44 +176,24 @@ static dp_demand demand_falling(const dp_chain *c, double nearest, double rise, 
     if (multiplied && s1->inverse_off > 0.0)
         window = smaller(window, before_rounding((dp_step){factor * s1->inverse_off, factor * s1->inverse.grid},
                                                  (dp_step){factor * s2->inverse_off, factor * s2->inverse.grid}, rest));
-    return (dp_demand){.projection = projection, .window = window, .slope = t, .until = HUGE_VAL};
+    return (dp_demand){.projection = projection, .window = window, .slope = t};
 }
 
 /*
- * The farthest depth of a span whose numerator over w may still be `least`, which is above 0; 0 where there is none. A
- * numerator on a lattice falls by steps, so the depth is where one of them ends, or on the way to that.
+ * The farthest depth of a span whose numerator over w may still be `least`: it falls by steps of its lattice, so that
+ * is where one of them ends, or on the way to that. INFINITY: nothing is known.
  */
-static double farthest_of(dp_numerator n, dp_span span, double least) {
-    const double per_depth = least + n.fall;
-    const double x = per_depth > 0.0 ? smaller((n.most + n.off) / per_depth, span.hi) : span.hi;
-    const double most = n.most - n.fall * x;
-    if (!(n.fall > 0.0) || !(n.granule > 0.0) || !(fabs(most) < 0x1p50 * n.granule))
-        return x;
-    const double t = floor(most / n.granule) * n.granule;
-    return smaller(x, larger((t + n.off) / least, (n.most - (t + n.granule)) / n.fall));
-}
-
-/*
- * Where few steps of the numerator are left up to far: from which depth on all numerators are so small that they are in
- * order. A distance below one of `COARSE` parts of a depth is never asked for, so that a run's is not the shorter one.
- */
-enum { COARSE = 16 };
-static void keep_stepped(const dp_chain *c, dp_span first, dp_span second, const dp_steps *s1, double need,
-                         dp_demand *d) {
-    const double coarse = c->half / ((COARSE + 1) * first.hi);
-    const double least = s1->numerator / first.hi - need / c->half * DP_OUTWARD;
-    if (d->window <= coarse * d->slope || !(least > 0.0))
-        return;
-    const double slope = fabs(c->b);
-    const double end = farthest_of(dp_chain_numerator(c, second), second, least * (1.0 - DP_ROUNDINGS_6));
-    if (end >= second.hi)
-        return;
-    const double apart = end < second.lo ? 0.0 : end - first.lo;
-    const double by_steps = c->half * slope * apart / (first.hi * (first.hi + apart));
-    const double window = larger(larger(by_steps, coarse * slope), need);
-    if (window * d->slope < d->window * slope)
-        *d = (dp_demand){.projection = window - need, .window = window, .slope = slope};
-    d->until = larger(end, first.hi * (1.0 + 1.0 / COARSE));
+static double until_steps(const dp_numerator *n, dp_span span, double least) {
+    if (n->fall < 0.0 || !(least > 0.0))
+        return HUGE_VAL;
+    const double x = smaller((n->most + n->off) / (least + n->fall), span.hi);
+    const double most = n->most - n->fall * x;
+    if (!(fabs(most) < 0x1p50 * n->granule))
+        return x < span.hi ? x : HUGE_VAL;
+    const double t = floor(most / n->granule) * n->granule;
+    const double before = n->fall > 0.0 ? (n->most - (t + n->granule)) / n->fall : 0.0; /* the end of the step before */
+    const double end = smaller(x, larger((t + n->off) / least, before));
+    return end < span.hi ? end : HUGE_VAL;
 }
 
 /* The format's loss between two depths of a span. Where the viewport is exact, it meets only NDC's own lattice. */
@@ -226,8 +206,8 @@ static double format_of(const dp_chain *c, const windows *w, const dp_steps *s1,
 
 /* The demand of a depth of `first` and one of `second`, not nearer. */
 static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra) {
-    double rise = HUGE_VAL;
-    const dp_steps s2 = dp_chain_steps_behind(c, first.lo, second, &rise);
+    dp_numerator t = {.rise = HUGE_VAL, .fall = -1.0};
+    const dp_steps s2 = dp_chain_steps_behind(c, first.lo, second, &t);
     const windows at = windows_of(c, first.lo, second.hi);
     const double format = format_of(c, &at, s1, &s2);
     const double rest = format + extra;
@@ -237,13 +217,11 @@ static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first,
     const double w = c->pipeline.ortho ? 1.0 : first.lo;
     dp_demand d = demand_free(c, s1, &s2, w, need);
     d.rest = rest;
-    d.until = HUGE_VAL;
     clamp_farther(c, &d, s1->full, &at, s2.full);
-    const dp_demand falling = demand_falling(c, first.lo, rise, s1, &s2, quotient);
+    const dp_demand falling = demand_falling(c, first.lo, t.rise, s1, &s2, quotient);
     if (falling.window * d.slope < d.window * falling.slope)
         d = falling;
-    if (!c->pipeline.ortho)
-        keep_stepped(c, first, second, s1, need, &d);
+    d.until = until_steps(&t, second, s1->numerator / first.hi * (1.0 - DP_ROUNDINGS_6) - need / c->half);
     d.format = format;
     d.rest = rest;
     if (clamp_nearer(c, &d, s2.full, &at, s1->full))
@@ -285,7 +263,7 @@ static double distance(const dp_chain *c, double z, const dp_demand *d) {
 enum { REFINED = 3 };
 static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra,
                              dp_demand *out, double *until) {
-    double best = HUGE_VAL;
+    double best = HUGE_VAL, last = HUGE_VAL;
     for (int i = 0; i < REFINED; i++) {
         const dp_demand d = demand_of(c, s1, first, second, extra);
         const double s = distance(c, first.hi, &d);
@@ -293,14 +271,15 @@ static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span firs
             best = s;
             *out = d;
         }
-        *until = smaller(first.hi + best, d.until);
+        last = smaller(last, d.until);
+        *until = smaller(last, first.hi + best);
         if (*until >= second.hi || *until < second.lo)
             break;
         if (i > 0 && c->run) /* a camera of the run may end here, where it gains little */
             break;
         second.hi = *until;
     }
-    return best;
+    return isinf(last) ? best : smaller(best, larger(last - first.lo, 0.0));
 }
 
 /* Of a binade of z from `lo` on: where depths begin whose products are in the same binade as that of `hi`; |A| >= 1. */
