@@ -57,6 +57,16 @@ static double resolved_up_to(double zfar) {
     return isinf(zfar) ? (double)FLT_MAX : (double)(float)zfar;
 }
 
+/*
+ * In a binade of z, of 2^23 steps, the numerator falls by |A| - 1 of each: by few in all where far is far. Then it
+ * counts where they lie.
+ */
+static int has_few_steps(const dp_chain *c) {
+    enum { FEW = 16 };
+    const double steepest = fabs(c->a) + c->a_more - 1.0;
+    return !c->pipeline.ortho && (!c->pipeline.reversed || c->pipeline.ndc_signed) && steepest < FEW * 0x1p-23;
+}
+
 dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *p) {
     dp_chain c = {.pipeline = *p, .a = (double)p->a, .b = (double)p->b};
     c.a_granule = dp_granule(p->a);
@@ -72,6 +82,7 @@ dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *p) {
     c.reach.hi = resolved_up_to(setup->spec.zfar);
     c.below = larger(excess_below(&c, c.reach.lo), excess_below(&c, c.reach.hi));
     c.above = larger(excess_above(&c, c.reach.lo), excess_above(&c, c.reach.hi));
+    c.few_steps = has_few_steps(&c);
     return c;
 }
 
@@ -116,6 +127,7 @@ dp_chain dp_chain_between(const dp_setup *one, const dp_setup *other, const dp_p
     const double at_far = finite ? excess_at(&c, nearest_far) : 0x1p-51; /* no depth comes as far as infinity */
     c.below = p->reversed ? at_far : at_near;
     c.above = p->reversed ? at_near : at_far;
+    c.few_steps = has_few_steps(&c);
     return c;
 }
 
@@ -450,7 +462,7 @@ dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span r, dp_num
     const dp_span range = {from, r.hi};
     if (c->pipeline.ortho)
         return s;
-    if (!is_plain(c))
+    if (c->few_steps)
         falls(c, r, &clip, numerator);
     if (from != r.lo)
         clip = clip_steps_of(c, range);

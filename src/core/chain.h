@@ -41,6 +41,7 @@ typedef struct dp_chain {
     int fused;           /* A z + B is rounded once, and A z is not exact: else that makes no difference */
     int two_stage;       /* the viewport halves and moves */
     int remap;           /* the vertex shader halves and moves */
+    int few_steps;       /* the numerator, below, falls by so few steps of its lattice that each counts */
     dp_span reach;       /* the depths that enter: near and far in binary32, at most its largest number */
     double below, above; /* how far g leaves [0, 1] inside the planes: it is clamped there */
 } dp_chain;
@@ -89,7 +90,7 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z);
 typedef struct dp_numerator {
     double rise; /* a farther depth may have a greater one by this; INFINITY: nothing is known */
     /* As computed at a depth z of the span it is at most the largest multiple of `granule` that is not above
-     * most - fall z, and `off`. Where t is the clip depth itself these stay as they are. */
+     * most - fall z, and `off`. But for few steps these stay as they are. */
     double most, fall, granule, off;
 } dp_numerator;
 

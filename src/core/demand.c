@@ -316,11 +316,10 @@ double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_dema
     if (hi <= first.lo)
         hi = first.hi;
     const double tiny = first.lo > 0.0 ? 0.0 : larger(0x1p-24 * larger(-first.lo, fabs(hi)), 0x1p-126);
-    const int steep = !c->pipeline.ortho && !c->run && fabs(c->a) >= 1.0;
     double longest = 0.0;
     for (double end = HUGE_VAL;; end = hi) {
         double lo = binade_begin(hi, tiny);
-        if (steep)
+        if (c->few_steps && !c->run)
             lo = products_begin(c, lo, hi);
         if (lo < first.hi)
             lo = first.lo;
@@ -334,6 +333,6 @@ double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_dema
         longest = larger(longest, here);
         if (met && (first.lo == first.hi || lo <= first.lo))
             return smaller(longest, any);
-        hi = first.lo > 0.0 ? (double)nextafterf((float)lo, 0.0F) : lo;
+        hi = c->few_steps ? (double)nextafterf((float)lo, 0.0F) : lo;
     }
 }
