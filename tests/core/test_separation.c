@@ -180,27 +180,39 @@ TEST(census_keeps_the_bound) {
     tally_end(&kept);
 }
 
-/* Where d passes 1/2, at two binary32 depths: the worst of all those about them, of which every pair is tried. */
+/* Where d passes 1/2 two binary32 depths are the worst, half as bad again as all about them: the search finds them, and
+ * no pair of a census is longer. */
 TEST(the_worst_inside) {
     dp_spec spec = dp_spec_default();
     dp_setup s;
     dp_separation_worst w;
     census_result result;
-    spec.znear = 8.7668282620549824;
-    spec.zfar = 245.4046033669436;
+    dp_format found[2];
+    dp_format_parse("unorm24", found);
+    spec.format = found[0];
+    spec.znear = 7.2787258901482721;
+    spec.zfar = 137.34604482931945;
     spec.mapping = DP_MAPPING_D3D;
     spec.ortho = 1;
-    spec.rounding = DP_ROUND_ZERO;
+    spec.rounding = DP_ROUND_EVEN;
     spec.model = DP_MODEL_FLOAT;
-    assert_int_equal(dp_arith_parse("reciprocal", &spec.arith), DP_OK);
+    assert_int_equal(dp_arith_parse("fused", &spec.arith), DP_OK);
     assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
-    const double lo = 127.0;
-    const double hi = 127.2;
+    const double lo = 72.2, hi = 72.4;
+    double most = 0.0, second = 0.0;
+    int count = 0;
+    for (float z = 72.2F; (double)z <= hi; z = nextafterf(z, HUGE_VALF)) {
+        const double here = dp_separation(&s, (double)z);
+        if (here > most)
+            second = most, most = here, count = 0;
+        count += here == most;
+        second = here < most ? fmax(second, here) : second;
+    }
     const census_request request = {.setup = &s, .lo = lo, .hi = hi, .threads = 1};
     assert_int_equal(census_run(&request, &result), CENSUS_DONE);
-    assert_int_equal(dp_separation_over(&s, 126.0, 128.5, 0.0, &w), DP_OK);
-    const double found = dp_separation(&s, 127.08571581460777);
-    assert_true(found <= w.separation && w.separation <= w.bound && w.separation == dp_separation(&s, w.z));
+    assert_int_equal(dp_separation_over(&s, lo, hi, 0.0, &w), DP_OK);
+    assert_true(count == 2 && most >= 1.5 * second);
+    assert_true(w.separation == most && w.bound == most && fabs(w.z - 0.5 * (spec.znear + spec.zfar)) < 0x1p-16);
     assert_true(result.all.longest > 0.0 && result.all.longest + 0x1p-17 <= w.bound);
 }
 
