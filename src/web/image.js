@@ -43,6 +43,15 @@ function unfiltered(bytes, row, step) {
     return bytes;
 }
 
+// One of colours is no depth; grey in three channels is.
+function refuseColours(rows, row, height, step, each) {
+    for (let y = 0; y < height; y++)
+        for (let at = y * row + 1; at < (y + 1) * row; at += step)
+            for (let i = 0; i < each; i++)
+                if (rows[at + i] !== rows[at + each + i] || rows[at + i] !== rows[at + 2 * each + i])
+                    throw new Error("has colours, and depth is one number a pixel: save it as grey, or name its packing to the program");
+}
+
 // Its first channel.
 async function png(bytes) {
     const view = new DataView(bytes.buffer), parts = [], [width, height] = [view.getUint32(16), view.getUint32(20)];
@@ -57,6 +66,7 @@ async function png(bytes) {
     const rows = await inflated(parts, row * height).then((bytes) => unfiltered(bytes, row, step)).catch((error) => {
         throw new Error(`is a damaged PNG: ${error.message}`);
     });
+    if (channels > 2) refuseColours(rows, row, height, step, each);
     for (let y = 0, to = 0; y < height; y++)
         for (let x = 0, at = y * row + 1; x < width; x++, at += step) samples[to++] = each === 1 ? rows[at] : (rows[at] << 8) | rows[at + 1];
     return { type: each - 1, samples, width, height, channels: 1 };

@@ -41,13 +41,13 @@ function chunk(name, content) {
 
 const paeth = (a, b, c) => [a, b, c].reduce((best, one) => (Math.abs(a + b - c - one) < Math.abs(a + b - c - best) ? one : best));
 
-// Its rows have the filters 0 to 4 in turn; the first of its channels is the depth.
-function png(values, { bits = 16, colour = 0, interlaced = 0, cut = 0 } = {}) {
-    const channels = [1, 0, 3, 1, 2, 0, 4][colour], step = (channels * bits) / 8, rows = [];
+// Its rows have the filters 0 to 4 in turn. The depth is in the first channel, or in all three of colours but where they differ.
+function png(values, { bits = 16, colour = 0, interlaced = 0, cut = 0, tint = 0 } = {}) {
+    const channels = [1, 0, 3, 1, 2, 0, 4][colour], same = channels > 2 && tint === 0 ? 3 : 1, step = (channels * bits) / 8, rows = [];
     for (let y = 0, above = Buffer.alloc(WIDTH * step); y < HEIGHT; y++) {
         const row = Buffer.alloc(WIDTH * step), filtered = [y % 5];
         for (let x = 0; x < WIDTH; x++)
-            for (let c = 0; c < channels; c++) row.writeUIntBE(c === 0 ? values[y * WIDTH + x] : (x * 77 + c) % 251, x * step + (c * bits) / 8, bits / 8);
+            for (let c = 0; c < channels; c++) row.writeUIntBE(c < same ? values[y * WIDTH + x] : (x * 77 + c) % 251, x * step + (c * bits) / 8, bits / 8);
         row.forEach((byte, i) => {
             const [a, b, c] = [i >= step ? row[i - step] : 0, above[i], i >= step ? above[i - step] : 0];
             filtered.push((byte - [0, a, b, (a + b) >> 1, paeth(a, b, c)][y % 5]) & 255);
@@ -176,6 +176,7 @@ async function refused() {
     const filter = deflateSync(Buffer.alloc(HEIGHT * (1 + 2 * WIDTH), 9)), head = good.subarray(0, 33);
     for (const [name, bytes, says] of [
         ["interlaced.png", png(words(65535), { interlaced: 1 }), "interlaced"], ["palette.png", png(words(255), { bits: 8, colour: 3 }), "palette"],
+        ["tinted.png", png(words(65535), { colour: 2, tint: 1 }), "has colours"], ["tinted8.png", png(words(255), { bits: 8, colour: 6, tint: 1 }), "has colours"],
         ["short.png", png(words(65535), { cut: 40 }), "damaged PNG"], ["half.png", good.subarray(0, good.length >> 1), "damaged PNG"],
         ["filter.png", Buffer.concat([head, chunk("IDAT", filter), chunk("IEND", [])]), "damaged PNG"], ["wide.png", wide, "70000 x 70000 pixels"],
         ["text.txt", Buffer.from("depth"), "neither PNG nor npy"], ["empty.npy", Buffer.alloc(0), "neither PNG nor npy"], ["cut.npy", cut, "bytes of samples are needed"],
