@@ -200,3 +200,8 @@ int camera_complete(camera_asked *c, const camera_use *use) {
         status = c->preset_count < 2 ? keep_stored(c) : resolve_each(c);
     return status == EXIT_FINE ? check_near(c) : status;
 }
+
+bool camera_names_arith(const camera_asked *c) {
+    const option_row *row = option_find(c->line->command, "arith");
+    return option_given(c->line, "arith") && names_find(row->names, option_text(c->line, "arith"), NULL, NULL);
+}

@@ -21,11 +21,6 @@ int parse_arith(asked_line *line, const option_row *row, const char *value, void
     return parse_profile(line, row, value, group, parse_word);
 }
 
-bool camera_names_arith(const camera_asked *c) {
-    const option_row *row = option_find(c->line->command, "arith");
-    return option_given(c->line, "arith") && names_find(row->names, option_text(c->line, "arith"), NULL, NULL);
-}
-
 /* A profile names the arithmetic beside the rasterizer: see take_arith() of complete.c. */
 int parse_raster(asked_line *line, const option_row *row, const char *value, void *group) {
     camera_asked *c = group;
