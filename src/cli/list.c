@@ -341,10 +341,6 @@ static const topic topics[] = {
      {.rows = &constant_table, .tell = tell_constant},
      .bound = "values",
      .names = LIST_CONSTANTS},
-    {"words",
-     "words of articles, shaders and these pages: what each means, and the command that answers",
-     {.rows = &word_table, .tell = tell_word},
-     .bound = "command"},
     {"traps",
      "depth formulas found in shaders that are wrong",
      {.rows = &trap_table, .tell = tell_trap},
@@ -391,6 +387,10 @@ static const topic topics[] = {
      "methods by family: what each claims, for which set-up and far/near",
      {.get = list_method},
      .bound = "bound"},
+    {"words",
+     "words of articles, shaders and these pages: what each means, and the command that answers",
+     {.rows = &word_table, .tell = tell_word},
+     .bound = "command"},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
 
