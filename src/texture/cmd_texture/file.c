@@ -94,8 +94,8 @@ static int take_note(texture_request *o, texture_source *s) {
             *value++ = '\0';
         if (value != NULL && strcmp(word, "product") == 0 && strcmp(value, "depth") != 0 && !asked)
             return usage_error(
-                "%s: holds %s, as depthprec wrote them, and no depth; --format NAME reads it all the same", s->path,
-                value);
+                "%s: holds %s, as depthprec wrote them, and no depth; --format NAME%s reads it all the same", s->path,
+                value, s->picture.channels > 2 ? " with --channel R" : "");
         for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
             if (!open[i] || strcmp(word, known[i]) != 0 || (value == NULL) != (option_is(known[i], "ortho")))
                 continue;
