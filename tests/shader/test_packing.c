@@ -935,7 +935,7 @@ TEST(notes_of_others) {
     } rows[] = {
         {"product=depth packing=rgb24 near=0.5 far=40 mapping=reversed", 0, NULL},
         {"product=depth packing=rgb25 near=0.5 far=40", 2, "--packing: must be"},
-        {"product=depth packing=rgb24 near=-1 far=40", 2, "near must be from 1e-12 to 1e12"},
+        {"product=depth packing=rgb24 near=-1 far=40", 2, "--near: must be from 1e-12 to 1e12"},
         {"product=\033[31mred", 2, "holds ?[31mred, as depthprec wrote them"},
         {"unknown=1 packing=rgb24 output=/tmp/x ortho=3", 0, NULL},
     };
@@ -961,7 +961,12 @@ TEST(notes_of_others) {
 
 /* What stands against what; what is not known to be safe is never written. */
 TEST(refusals) {
+    static const uint8_t pixels[4 * 2 * 3] = {1, 2, 3};
     const char *in = truth_path("in.png"), *out = truth_path("map.png");
+    handmade h = {.size = 0};
+    handmade_png(&h, 4, 2, 8, 2, 0, 3, pixels);
+    FILE *f = fopen(in, "wb");
+    assert_true(f != NULL && fwrite(h.at, 1, h.size, f) == h.size && fclose(f) == 0);
     const struct {
         const char *words[12];
         const char *said;
