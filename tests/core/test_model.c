@@ -284,8 +284,9 @@ __attribute__((noinline)) static void spoil_stack(void) {
         below[i] = NAN;
 }
 
-/* The shares go on evenly where a binade behind z bounds the separation that the demands alone leave unbounded. From 2^23
- * on the numerator falls in whole numbers, by which the guarantee is counted: one step of d, 2^-24, and nothing else. */
+/* The shares go on evenly where a binade behind z bounds the separation that the demands alone leave unbounded. From
+ * 2^23 on the numerator falls in whole numbers, by which the guarantee is counted: one step of d, 2^-24, and nothing
+ * else. */
 TEST(parts_go_on_where_nothing_bounds) {
     dp_setup setup;
     dp_spec spec = dp_spec_default();
