@@ -250,6 +250,12 @@ static void log_budget(const dp_guarantee *g, double z, const dp_budget_terms *t
     share_out(g, z, longest, d.window, part, out);
 }
 
+int dp_counts_steps(const dp_setup *setup) {
+    dp_pipeline pipeline;
+    return setup->curve != DP_CURVE_LOG && dp_pipeline_init(&pipeline, setup) == DP_OK &&
+           dp_chain_make(setup, &pipeline).few_steps;
+}
+
 /* The guarantee of a mapping whose depth is computed. */
 static dp_guarantee guarantee_of(const dp_setup *setup, const dp_log2_row *log2) {
     dp_guarantee g;

@@ -34,6 +34,12 @@ static inline int dp_is_computed(const dp_setup *setup) {
     return setup->spec.model == DP_MODEL_FLOAT || setup->shader;
 }
 
+/*
+ * Whether the separation of depths computed in binary32 counts the few steps in which a numerator falls: between two of
+ * them it falls as z rises, by no more than z does, and then leaps up. Else it is nearly a straight line.
+ */
+int dp_counts_steps(const dp_setup *setup);
+
 /* dp_separation() of the models exact and staged, at a finite depth. */
 double dp_lattice_separation(const dp_setup *setup, double z);
 

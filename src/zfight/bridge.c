@@ -73,12 +73,14 @@ void census_bridge(const census_parts *c, census_result *result) {
                 continue;
             const double here = census_bound_at(c->request, c->block_first[block]);
             const double last = census_bound_at(c->request, block_last(c, block));
-            if (census_falls(highest_bound, fmin(here, last)))
+            const double least = census_least(c->request, fmin(here, last), c->block_first[block], CENSUS_BLOCK);
+            const bool falls = c->request->falls;
+            if (falls || census_falls(highest_bound, least))
                 highest = INT64_MIN;
             if (top <= highest)
                 continue;
-            if (worth_a_look(c, block, from, fmin(here, last), &result->bands[band]))
-                look_at_block(c, block, from, highest, census_falls(here, last), &result->bands[band]);
+            if (worth_a_look(c, block, from, least, &result->bands[band]))
+                look_at_block(c, block, from, highest, falls || census_falls(here, last), &result->bands[band]);
             highest = top;
             highest_bound = fmax(here, last);
         }

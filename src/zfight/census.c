@@ -129,8 +129,8 @@ static void update_bound(sweep *w, uint32_t first) {
     const uint32_t end = w->last - first < CENSUS_BLOCK ? w->last : first + CENSUS_BLOCK;
     const double above = end == w->edge ? w->bound_edge : census_bound_at(w->c->request, end);
     const double here = census_bound_at(w->c->request, first);
-    w->falling = census_falls(here, above);
-    w->bound = here < above ? here : above;
+    w->falling = w->c->request->falls || census_falls(here, above);
+    w->bound = census_least(w->c->request, here < above ? here : above, first, end - first);
     w->edge = first;
     w->bound_edge = here;
 }

@@ -17,6 +17,8 @@
 #ifndef ZFIGHT_CENSUS_H
 #define ZFIGHT_CENSUS_H
 
+#include <stdbool.h>
+
 #include "depthprec/setup.h"
 #include "zfight/kernel.h"
 
@@ -62,11 +64,14 @@ typedef struct census_request {
     const dp_setup *setup; /**< with spec.arith; spec.model is not read */
     double lo, hi;         /**< scene units, within [near, far], hi finite */
     int threads;           /**< 0: as many as OpenMP would take */
-    /** The guaranteed separation, or null. Taken to be monotone over 1024 neighbouring depths. */
+    /** The guaranteed separation, or null. Taken to be monotone over 1024 neighbouring depths, but where it may fall:
+     */
     double (*bound)(const dp_setup *setup, double z);
+    bool falls; /**< by as much as z rises, at any depth, and leap up behind */
     /** How many neighbouring depths, a multiple of 1024, the bound is calm over, so that the census asks for it only
      * where it may decide. In a binade of depths above 0, but for so many at its beginning, it is nowhere below what it
-     * is at both ends of so many by more than two steps of binary32 and CENSUS_CALM of it. 0: nothing is known. */
+     * is at both ends of so many by more than two steps of binary32 and CENSUS_CALM of it, and, where it falls, by
+     * their width. 0: nothing is known. */
     uint32_t calm;
     /** Told now and then, by one thread at a time, how many depths are done; nonzero stops the census. May be null. */
     int (*progress)(void *context, uint64_t done);

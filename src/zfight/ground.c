@@ -3,15 +3,21 @@
 
 #include <math.h>
 
+#include "core/engine.h"
 #include "depthprec/depth.h"
 #include "zfight/range.h"
 
 census_request census_of_guarantee(const dp_setup *setup, double lo, double hi) {
-    return (census_request){.setup = setup, .lo = lo, .hi = hi, .bound = dp_separation, .calm = 1 << 14};
+    return (census_request){
+        .setup = setup, .lo = lo, .hi = hi, .bound = dp_separation, .falls = dp_counts_steps(setup), .calm = 1 << 14};
 }
 
 double census_bound_at(const census_request *request, uint32_t rank) {
     return request->bound != NULL ? request->bound(request->setup, (double)dp_ranked32(rank)) : HUGE_VAL;
+}
+
+double census_least(const census_request *request, double bound, uint32_t first, uint32_t width) {
+    return request->falls ? fmax(bound - width * census_step(first), 0.0) : bound;
 }
 
 census_ground census_ground_make(const census_request *request, uint32_t first, uint32_t last) {
@@ -34,6 +40,6 @@ double census_ground_at(census_ground *g, uint32_t rank) {
     g->near = near;
     g->far = far;
     const double least = (g->at_near < at_far ? g->at_near : at_far) * (1.0 - CENSUS_CALM) - 2.0 * census_step(near);
-    g->least = least > 0.0 ? least : 0.0;
+    g->least = census_least(g->request, least > 0.0 ? least : 0.0, near, calm);
     return g->least;
 }
