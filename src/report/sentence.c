@@ -59,10 +59,11 @@ static bool put_value(const place *at, const column *columns, void *item, const 
     if (item == NULL || !column_has(&c, item))
         return false;
     const char *const text = column_text(&c, item, &number);
+    const void *const value = (const char *)item + c.offset;
     if (c.unit == NULL || strcmp(c.unit, "scene") != 0)
         append(out, size, "%s", text);
     else if (c.given && p->as_given != NULL)
-        append(out, size, "%s", p->as_given(p->lengths, *(const double *)((char *)item + c.offset), c.digits).text);
+        append(out, size, "%s", p->as_given(p->lengths, *(const double *)value, c.digits).text);
     else
         append(out, size, "%s", number_in(number, p->unit).text);
     return true;

@@ -169,7 +169,7 @@ static bool take_arith(reader *r, setting *const *found, draft *d, need_camera *
 /* A named GPU's profile must store the formats, for nothing is known of others; a rasterizer must draw them within a
  * bound; and each must be a format that the rest of the camera can have. */
 static bool make_setups(reader *r, const setting *group, const draft *d, need_camera *out) {
-    camera_fault fault;
+    camera_fault fault = {.key = NULL};
     out->count = d->format_count;
     for (size_t i = 0; i < d->format_count; i++) {
         dp_spec spec = d->spec;

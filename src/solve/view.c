@@ -99,7 +99,7 @@ static bool read_raster(reader *r, setting *s, need_camera *out) {
 static bool relate(reader *r, const setting *group, setting *const found[VIEW_COUNT], need_camera *out,
                    dp_triangles *t) {
     const int asked = found[VIEW_SUBPIXEL] != NULL ? t->subpixel : 0;
-    camera_fault fault;
+    camera_fault fault = {.key = NULL};
     if ((found[VIEW_HFOV] != NULL && !camera_vertical(t->fov_y, t->width, t->height, &t->fov_y, &fault)) ||
         (out->raster != NULL && !camera_take_raster(out->raster, asked, t, &fault)))
         return reader_fault(r, group, NULL, &fault);

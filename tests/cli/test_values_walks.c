@@ -115,12 +115,11 @@ TEST(pareto_of_all) {
     assert_int_equal(json_array_size(json_object_get(root, "panels")), METHOD_FAMILY_COUNT);
     for (size_t i = 0; i < METHOD_FAMILY_COUNT; i++) {
         const method_family_row *family = method_family_get(i);
-        char title[192], path[64];
+        char title[192];
         const bool relative = strcmp(family->measure, "relative error") == 0;
         snprintf(title, sizeof title, "%s, %s%s%s", family->name, family->cases[0].name, relative ? "" : ": ",
                  relative ? "" : family->measure);
-        snprintf(path, sizeof path, "panels[%zu].title", i);
-        assert_string_equal(text_at(root, path), title);
+        assert_string_equal(text_at(root, "panels[%zu].title", i), title);
     }
     assert_true(asked_which == 0 && asked.spec.znear == 0.2 && asked.spec.zfar == 800);
     for (size_t i = 0, k = 0; i < *normal_family.method_count; i++)

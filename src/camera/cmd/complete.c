@@ -126,7 +126,7 @@ static int resolve_each(camera_asked *c) {
 }
 
 int camera_check_stored(const camera_asked *c, const dp_format *format) {
-    camera_fault fault;
+    camera_fault fault = {.key = NULL};
     return camera_stored(&c->gpu, format, &fault) ? EXIT_FINE : camera_refuse(&fault);
 }
 

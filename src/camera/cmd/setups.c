@@ -13,7 +13,7 @@
 int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status) {
     const dp_mapping_row *row = dp_mapping_get(spec->mapping);
     const bool counted = c->use.counted && row->curve == DP_CURVE_LOG;
-    camera_fault fault;
+    camera_fault fault = {.key = NULL};
     if (status == DP_ERROR_MODEL && !option_given(c->line, "model"))
         return option_error("mapping",
                             "must be one of " DP_MAPPING_NAMES_PERSPECTIVE
@@ -25,7 +25,7 @@ int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status) 
 }
 
 int setup_undrawn(const camera_asked *c, const dp_format *format) {
-    camera_fault fault;
+    camera_fault fault = {.key = NULL};
     return camera_bounded(c->raster, format, &fault) ? EXIT_FINE : camera_refuse(&fault);
 }
 

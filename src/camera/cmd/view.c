@@ -7,13 +7,13 @@
 /* The rasterizer's grid and set-up; --subpixel is instead of it, or says how fine a grid is that has no fixed bits. */
 static int take_raster(camera_asked *c) {
     const int asked = option_given(c->line, "subpixel") ? c->triangles.subpixel : 0;
-    camera_fault fault;
+    camera_fault fault = {.key = NULL};
     return c->raster == NULL || camera_take_raster(c->raster, asked, &c->triangles, &fault) ? EXIT_FINE
                                                                                             : camera_refuse(&fault);
 }
 
 int view_vertical(const camera_asked *c, int width, int height, double *fov_y) {
-    camera_fault fault;
+    camera_fault fault = {.key = NULL};
     *fov_y = c->spec.fov_y;
     return !option_given(c->line, "hfov") || camera_vertical(c->fov_x, width, height, fov_y, &fault)
                ? EXIT_FINE
