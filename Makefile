@@ -493,7 +493,7 @@ lint-man: $(MAN)
 	$(Q)mandoc -T lint -W warning $(MAN)
 
 lint-spell:
-	$(Q)codespell -L nd,eror,arithmetics,positoin $(wildcard README.md) Makefile include src man $(filter tests/%,$(ALL_C) $(ALL_H)) tests/*.sh
+	$(Q)codespell -L nd,eror,arithmetics,positoin,ue $(wildcard README.md) Makefile include src man $(filter tests/%,$(ALL_C) $(ALL_H)) tests/*.sh
 
 lint-scripts:
 	$(Q)for f in $(SCRIPTS); do sh -n $$f || exit 1; done; bash -n .ci/run

@@ -63,7 +63,7 @@ static const struct {
     {"\n= 1;", 2, "syntax error"},
     {"1 = 1;", 1, "syntax error"},
     {"a = b;", 1, "syntax error"},
-    {"a = truely;", 1, "syntax error"},
+    {"a = trueish;", 1, "syntax error"},
     {"a = tru;", 1, "syntax error"},
     {"a = inf;", 1, "syntax error"},
     {"a = +inf;", 1, "syntax error"},
