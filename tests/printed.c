@@ -91,7 +91,7 @@ char *text_of_file(const char *path) {
 static printed run(const char *arguments) {
     char line[9216];
     const char *errors = scratch_file("errors");
-    snprintf(line, sizeof line, "exec '%s' %s 2>'%s' </dev/null", program(), arguments, errors);
+    snprintf(line, sizeof line, "exec ${EMULATOR-} '%s' %s 2>'%s' </dev/null", program(), arguments, errors);
     FILE *in = popen(line, "r");
     assert_non_null(in);
     printed p = {.out = text_of_stream(in)};
