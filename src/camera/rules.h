@@ -14,7 +14,7 @@
 #include "depthprec/depthprec.h"
 #include "raster/raster.h"
 
-/* What is said of a view, on the command line and in files; triangles.h reaches a little further. */
+/* The limits of a view on the command line and in files; those of triangles.h are a little wider. */
 #define CAMERA_FOV_LEAST 0.01 /**< degrees */
 #define CAMERA_FOV_MOST  179.0
 enum { CAMERA_SIDE_MOST = 32768, CAMERA_SUBPIXEL_MOST = 8 }; /**< pixels of a side; bits */

@@ -282,7 +282,7 @@ static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span firs
     return isinf(last) ? best : smaller(best, larger(last - first.lo, 0.0));
 }
 
-/* Of a binade of z from `lo` on: where depths begin whose products are in the same binade as that of `hi`; |A| >= 1. */
+/* The first depth of a binade of z, from `lo` on, whose product lies in the same binade as that of `hi`; |A| >= 1. */
 static double products_begin(const dp_chain *c, double lo, double hi) {
     const double a = fabs(c->a), z = 2.0 * dp_power2(dp_exponent(hi)) / a;
     const double begin = (double)((double)(float)z < z ? nextafterf((float)z, HUGE_VALF) : (float)z);

@@ -49,7 +49,7 @@ static void take(image *img, size_t channel) {
     img->channels = 1;
 }
 
-/* Of channels without names that which is asked for, else the first. */
+/* Channels without names: the one that is asked for is read, else the first. */
 static bool find_channel(image *img, const char *asked, image_error *error) {
     const char *known = letters(img);
     const bool several = img->channels > 1 && img->file != IMAGE_RAW; /* a stencil is none */

@@ -145,7 +145,7 @@ static bool as_fast(const bench_result *a, const bench_result *b) {
     return fmax(a->ns, b->ns) <= fmin(a->ns, b->ns) * (1 + fmin(fmax(fmax(a->spread, b->spread), least), most));
 }
 
-/* Of two as fast the more exact one is the better, and of two as exact, too, neither. */
+/* Between two that are as fast the more exact one wins; if they are as exact, too, neither does. */
 static bool is_beaten(const method_family_row *family, const bench_result *r, const bench_result *by) {
     const double error = measured_error(family, &r->measured), other = measured_error(family, &by->measured);
     return keeps_claim(family, by) && (as_fast(r, by) ? other < error : by->ns < r->ns && other <= error);

@@ -138,7 +138,7 @@ static void add_whiskers(const field *f, chart *out, chart_panel *panel) {
     }
 }
 
-/* What none can beat. */
+/* A method that waits for memory can be no faster than this line. */
 static void add_memory(const field *f, chart *out, chart_panel *panel) {
     chart_series *s = f->limit > 0 ? chart_add_series(out, panel, CHART_LINE, 2) : NULL;
     if (s == NULL)
@@ -196,7 +196,7 @@ static void name_panel(const method_family_row *family, chart_panel *panel) {
         front = front || strcmp(panel->series[i].name, on_front) == 0;
     }
     snprintf(panel->title, sizeof panel->title, "%s, %s%s%s%s", family->name, family->cases[0].name,
-             relative ? "" : ": ", relative ? "" : family->measure, front ? "" : "; no claim is kept");
+             relative ? "" : ": ", relative ? "" : family->measure, front ? "" : "; no claim reaches here");
     panel->y.label = "worst error, relative where no unit is named";
     panel->y.unit = "";
 }
@@ -213,8 +213,11 @@ static const char *build_all(const figure_request *request, chart *out, bench_re
         const size_t count = bench_run(family, 0, &setup, BENCH_REPETITIONS, results);
         if (count == 0)
             return "no memory for the methods";
-        if (!add_family(family, results, count, out))
-            return "a family has no method with a time and a finite error here";
+        if (!add_family(family, results, count, out)) {
+            snprintf(out->title, sizeof out->title, "no method of the family %s has a time and a finite error here",
+                     family->name);
+            return out->title; /* which lasts as long as the chart */
+        }
         name_panel(family, &out->panels[out->panel_count - 1]);
     }
     return NULL;

@@ -59,6 +59,8 @@ enum {
     FIGURE_SETUPS = 1 << 11,     /**< set-ups, as the options of a camera say them */
     FIGURE_SHADOW = 1 << 7,      /**< shadow maps, whose cameras are not that of the view */
     FIGURE_GUARANTEED = 1 << 13, /**< what is guaranteed, unless --model is given */
+    FIGURE_METHODS = 1 << 17,    /**< methods of a family, in one of its cases: a format and a mapping */
+    FIGURE_TIMED = 1 << 18,      /**< between planes that are given; others walk over far/near */
     FIGURE_MINE = 1 << 16,       /**< functions of somebody's among the methods of linearize */
     FIGURE_FARS = 1 << 14,       /**< several far planes, and no formats */
     FIGURE_BESIDE = 1 << 15,     /**< curves that another camera's can stand beside, on axes that can be given */

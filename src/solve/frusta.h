@@ -44,8 +44,8 @@ dp_status frusta_solve(const dp_spec *spec, double limit, frusta_plan *out);
  */
 size_t frusta_at_least(const dp_spec *spec, double limit);
 
-/** What the lattice alone makes of one frustum from near to far: the model exact, whatever that of `spec` is. It has
- * passed where arithmetic, not the lattice, asks for more frusta. */
+/** Judges one frustum from near to far by the lattice alone: in the model exact, whatever that of `spec` is. It passes
+ * where arithmetic, not the lattice, asks for more frusta. */
 judgement frusta_lattice(const dp_spec *spec, double limit);
 
 /** The least near with which the lattice alone meets the limit up to `zfar`; NaN where a bisection finds none. */

@@ -95,7 +95,7 @@ static bool read_raster(reader *r, setting *s, need_camera *out) {
     return true;
 }
 
-/* What follows from several keys: the field of view of a horizontal one, the grid of a rasterizer. */
+/* Decides by several keys at once: the field of view of a horizontal one, the grid of a rasterizer. */
 static bool relate(reader *r, const setting *group, setting *const found[VIEW_COUNT], need_camera *out,
                    dp_triangles *t) {
     const int asked = found[VIEW_SUBPIXEL] != NULL ? t->subpixel : 0;

@@ -21,8 +21,8 @@ enum {
     BEND = 64       /* of a slope, in a byte, that is no wrap */
 };
 
-/* Of the data set's own toolbox, depth_rel2depth_abs: focal length times baseline, pixels and metres, and the disparity
- * of 0, whose part of a step is where the levels begin. */
+/* From the data set's own toolbox, depth_rel2depth_abs: focal length times baseline, pixels and metres, and the
+ * disparity of 0, whose part of a step is where the levels begin. */
 #define NYU_CONSTANT 351.3
 #define NYU_FROM     1092.5
 #define NYU_PART     0.5

@@ -16,7 +16,7 @@ typedef struct census_ground {
 /* The guarantee at a depth; INFINITY where there is none. */
 double census_bound_at(const census_request *request, uint32_t rank);
 
-/* What the guarantee is not below in `width` depths from the rank `first` on, by the least of it at their two ends. */
+/* A floor under the guarantee over `width` depths from the rank `first` on; `bound` is the least of it at both ends. */
 double census_least(const census_request *request, double bound, uint32_t first, uint32_t width);
 
 census_ground census_ground_make(const census_request *request, uint32_t first, uint32_t last);

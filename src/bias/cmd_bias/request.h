@@ -28,8 +28,8 @@ typedef struct bias_request {
 /** The API of that index among those that are asked for; null behind the last. */
 const bias_api *bias_asked_api(const bias_asked *b, size_t index);
 
-/** What an API brings where none is given, nor a preset or platform: its mapping and, of a window, its format; of
- * several what they have in common. It comes before camera_complete(). */
+/** An API brings its mapping and, where a window is asked for, its format, if neither these nor a preset or platform is
+ * given; several APIs bring what they share. To be called before camera_complete(). */
 void bias_bring(asked_line *line, const bias_asked *b, const camera_asked *camera, bool window);
 
 /** The rule of the preset or platform, where --api was not given. @return as a parser does */

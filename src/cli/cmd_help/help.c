@@ -158,7 +158,7 @@ static void say_usage(page *p, const command_row *v) {
     page_text(p, "Usage: depthprec %s%s%s [options]", v->name, *v->operand != '\0' ? " " : "", v->operand);
 }
 
-/* What was asked: operands with blanks between them, and of a member of something, as _ZBufferParams.z, the whole. */
+/* The operands are one word with blanks in it; a member such as _ZBufferParams.z is looked up by what it belongs to. */
 static const word_row *word_of(const asked_line *line, char word[NAMES_SIZE]) {
     word[0] = '\0';
     for (int i = 0; i < line->operand_count; i++)
@@ -194,7 +194,7 @@ static int refuse_word(const char *word) {
                                      : "; 'depthprec help' lists the commands, 'depthprec list words' the words");
 }
 
-/* What a word means, and the commands that answer. */
+/* Prints the meaning of a word and the commands that answer. */
 static int say_word(const word_row *row) {
     output out;
     output_open(&out, NULL);

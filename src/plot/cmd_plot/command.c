@@ -102,6 +102,17 @@ static int check_file_given(const plot_request *o, const figure_row *row) {
                : usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
 }
 
+/* A named arithmetic counts where binary32 depths are shown. */
+static int check_arith(const plot_request *o, const figure_row *row) {
+    const bool guaranteed = (row->takes & FIGURE_GUARANTEED) != 0 && !option_given(o->line, "model");
+    const bool computed = o->camera.model_auto || o->camera.model == DP_MODEL_FLOAT || guaranteed;
+    if ((row->takes & FIGURE_BINARY32) != 0 || computed || !camera_names_arith(&o->camera))
+        return EXIT_FINE;
+    return (row->takes & FIGURE_FLOAT) != 0
+               ? option_error("arith", "needs --model float in the figure %s", row->name)
+               : option_error("arith", "has no effect in the figure %s, which shows no binary32 arithmetic", row->name);
+}
+
 /* Options that this figure has no use for. */
 static int check_options(const plot_request *o, const figure_row *row) {
     if (o->camera.znear <= 0.0 && (row->takes & FIGURE_SIGNED) == 0)
@@ -120,7 +131,10 @@ static int check_options(const plot_request *o, const figure_row *row) {
                             option_text(o->line, "slant"));
     if (option_given(o->line, "tolerance") && !o->camera.model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
         return option_error("tolerance", "needs --model auto in the figure %s", row->name);
-    return EXIT_FINE;
+    if (option_given(o->line, "tolerance") && !o->camera.model_auto && (row->takes & FIGURE_AT) != 0 &&
+        !option_given(o->line, "at"))
+        return option_error("tolerance", "needs --at in the figure %s: the worst of a range is exact", row->name);
+    return check_arith(o, row);
 }
 
 /* --model auto: what is enough over the whole range that the figure shows. Then curves of a quantity that only cells
@@ -200,12 +214,12 @@ static int resolve_methods(plotting *p) {
     const char *family = o->line->operand_count > 1 ? o->line->operands[1]
                          : o->judge.mine_count > 0  ? linearize_family.name
                                                     : p->row->family;
-    const name_list families = {.get = list_family};
-    const bool all = p->row->build == pareto_build && strcmp(family, "all") == 0;
+    static const char *const all[] = {"all", NULL};
+    const name_list families = {.words = p->row->build == pareto_build ? all : NULL, .get = list_family};
     list_item item;
-    int status = all ? EXIT_FINE : check_operand(o->line->command, "FAMILY", &families, family, &item);
+    int status = check_operand(o->line->command, "FAMILY", &families, family, &item);
     if (status == EXIT_FINE)
-        status = all ? resolve_all(p) : methods_resolve(&p->judge, item.row, &p->asked);
+        status = item.row == NULL ? resolve_all(p) : methods_resolve(&p->judge, item.row, &p->asked);
     if (status == EXIT_FINE && o->judge.mine_count > 0)
         status = mine_open(&p->judge, &p->asked, p->row->build == pareto_build, &p->mine);
     if (status != EXIT_FINE)

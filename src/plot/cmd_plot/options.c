@@ -17,6 +17,8 @@ enum { SLANTED = FIGURE_SLANTED | FIGURE_MODEL, VIEWED = SLANTED | FIGURE_DRAWN 
 static const option_use of_fars[] = {OWN("near", DEFAULT("1")), OWN("far", .argument = "Z[,Z...]", DEFAULT("20"),
     HELP("distance of the far plane; several are drawn together"), .parse = parse_fars), TAKE("preset"),
     TAKE("mapping"), TAKE("log-c"), END};
+static const option_use of_methods[] = {TAKE("format"), TAKE("mapping"), END};
+static const option_use of_planes[] = {TAKE("near"), TAKE("far"), END};
 static const option_use of_cameras[] = {TAKE("near"), FARS, OWN("format", ALSO(CAMERA_OF_RG)), TAKE("mapping"), END};
 static const option_use of_setups[] = {
     OWN("near", ALSO("with --ortho also 0 or negative; in linear01 1 by default")), TAKE("ortho"), OWN("tolerance",
@@ -57,6 +59,7 @@ static const option_use uses[] = {
     FOR(FIGURE_TERMS, origin_terms), FOR(FIGURE_MINE, judge_mine),
     FOR(FIGURE_SETUPS, of_setups), FOR(FIGURE_SETUPS | FIGURE_MODEL, of_setups_and_models),
     FOR(FIGURE_SETUPS | FIGURE_MODEL | FIGURE_SHADOW, of_cameras),
+    FOR(FIGURE_METHODS, of_methods), FOR(FIGURE_TIMED, of_planes),
     FOR(FIGURE_FARS, of_fars), FOR(FIGURE_AT, of_one_depth),
     FOR(FIGURE_SETUPS | FIGURE_SHADOW | FIGURE_FILE | FIGURE_FARS, of_ranges),
     FOR(VIEWED, of_views), FOR(SLANTED, of_slants), TAKE("unit"), GROUP_OF(figure_picture),

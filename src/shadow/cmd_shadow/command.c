@@ -143,7 +143,7 @@ static void say_heads(page *p, void *item) {
                   p->plain);
 }
 
-/* What the largest cause is about, and what makes it smaller. */
+/* The largest cause in words, and how to make it smaller. */
 static const char *why(const double cause[SHADOW_CAUSE_COUNT]) {
     static const char filter[] =
         "steep receivers within the filter: smaller texels, a smaller kernel or angle need less";

@@ -40,7 +40,7 @@ static void warn_of_colours(const texture_request *o, const texture_source *s) {
         message("depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong", s->path);
 }
 
-/* Of several channels that do not hold a depth together: which is read. */
+/* Chooses the channel that is read, where several do not hold a depth together. */
 static int choose_channel(const texture_request *o, texture_source *s) {
     image_error error;
     if (o->image.packing != NULL && o->image.channel == NULL)
