@@ -169,7 +169,7 @@ unknown_options() { # the options that README.md and the pages name and that no 
         grep -oE -e '(^|[^a-z-])--[a-z][a-z0-9-]*' | sed 's/^[^-]*//' | sort -u | comm -13 "$scratch/options" -
 }
 
-# Of plot, whose options depend on the figure, help lists those of some.
+# Options of plot depend on the figure: help lists those of some.
 takers() { # where `help options` and the help of a command part over whether it takes an option; none takes --help
     "$DEPTHPREC" help options | awk '
         /^  ....--/ { name = $0; sub(/^  ..../, "", name); sub(/[ =[].*/, "", name); takes = 0 }

@@ -11,7 +11,7 @@
 
 #include "core/reciprocal.h"
 
-/* Of a window depth from 0 to 1. */
+/* Takes a window depth from 0 to 1. */
 static inline double nvidia_code(int bits, float d) {
     if (bits <= 16) {
         const int64_t sixteenths = (int64_t)ldexp((double)d, bits + 4) - (int64_t)ldexp((double)d, 4) + 7;

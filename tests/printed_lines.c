@@ -34,7 +34,7 @@ static bool any_under(const values *v, const char *prefix) {
     return false;
 }
 
-/* Of "a[].b[]" the places of a, and for each of them those of b. */
+/* Counts in "a[].b[]" the places of a, and for each of them those of b. */
 line_places places_of(const values *v, const char *pattern) {
     const char *inner = strchr(pattern, '.');
     const bool sum = pattern[strlen(pattern) - 1] == '+';

@@ -44,7 +44,7 @@ for name, digest, size in rows[:-1]:
     want = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
     assert (digest, int(size)) == ("sha256=" + want, len(data)), name' "$(wheel)"
 }
-# Of the machine it needs the C library, of the package's version as the tag says, and none of its neighbours.
+# The machine gives it the C library; its version is as the tag says, and it needs none of its neighbours.
 alone() {
     for file in "$site"/depthprec/libdepthprec.so.0 "$site"/depthprec/bin/depthprec; do
         readelf -d "$file" >"$scratch/needs" && grep -q 'NEEDED.*libm\.so' "$scratch/needs" || return

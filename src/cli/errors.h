@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file errors.h  What goes wrong with a command line: one line on stderr. */
+/** @file errors.h  Faults of a command line: one line on stderr. */
 #ifndef CLI_ERRORS_H
 #define CLI_ERRORS_H
 

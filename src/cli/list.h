@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file list.h  What `depthprec list WHAT` can list: rows of topics, each a walk over somebody's table.
+ * @file list.h  Topics of `depthprec list`: rows of topics, each a walk over somebody's table.
  */
 #ifndef CLI_LIST_H
 #define CLI_LIST_H

@@ -197,9 +197,9 @@ static double product_granule(const dp_chain *c, dp_span r) {
 }
 
 /*
- * What adding B changes where every sum is rounded to a multiple of `ulp` as B is: of both ends of a run's B, or half
- * of it either way, as one of several is nearest. Whether sums are rounded so in each camera, `even`: as products are
- * even multiples; else B may not be in the middle of two.
+ * The change that adding B makes where every sum is rounded to a multiple of `ulp` as B is: of both ends of a run's B,
+ * or half of it either way, as one of several is nearest. Whether sums are rounded so in each camera, `even`: as
+ * products are even multiples; else B may not be in the middle of two.
  */
 static int keep(const dp_chain *c, double ulp, int even, double *lo, double *hi) {
     const double last = c->b + (c->b < 0.0 ? -c->b_more : c->b_more);

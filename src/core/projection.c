@@ -150,8 +150,7 @@ static int is_long(double x) {
     return bits != floor(bits);
 }
 
-/* What was rounded to each entry: to binary32 if all are such numbers and one is long, else only long ones, to doubles.
- */
+/* Entries were rounded to binary32 if all are such numbers and one is long, else only the long ones, to doubles. */
 static void ends_by_bits(const double m[ENTRIES], double least[ENTRIES], double most[ENTRIES]) {
     int single = 1, any = 0;
     for (int i = 0; i < ENTRIES; i++) {

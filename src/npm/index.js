@@ -205,7 +205,7 @@ export class Camera {
         return new Camera({ near, far, ortho: ortho !== 0, mapping: read(1)[0], ...more }, planes);
     }
 
-    // What Node.js shows: planes in the digits that they have.
+    // Node.js shows the planes in the digits that they have.
     [Symbol.for("nodejs.util.inspect.custom")](depth, options, inspect) {
         const shown = (name) => Number(this[name].toPrecision(this[`${name}Digits`]));
         return `Camera ${inspect({ ...this, near: shown("near"), far: shown("far") }, options)}`;

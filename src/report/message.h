@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file message.h  What is said on stderr. */
+/** @file message.h  Lines on stderr. */
 #ifndef REPORT_MESSAGE_H
 #define REPORT_MESSAGE_H
 

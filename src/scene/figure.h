@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file figure.h  What the figure of a model's fights is made of. */
+/** @file figure.h  Parts of the figure of a model's fights. */
 #ifndef SCENE_FIGURE_H
 #define SCENE_FIGURE_H
 

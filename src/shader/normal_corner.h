@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file normal_corner.h  What normals of an image can be off by that are cross products of three places. */
+/** @file normal_corner.h  Bound of the error of an image's normals that are cross products of three places. */
 #ifndef SHADER_NORMAL_CORNER_H
 #define SHADER_NORMAL_CORNER_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file model.h  What people call the models of arithmetic. */
+/** @file model.h  Names that people give the models of arithmetic. */
 #ifndef SOLVE_MODEL_H
 #define SOLVE_MODEL_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file recognise.h  What is stored in a depth image, in words. */
+/** @file recognise.h  The content of a depth image, in words. */
 #ifndef TEXTURE_RECOGNISE_H
 #define TEXTURE_RECOGNISE_H
 

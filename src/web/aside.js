@@ -110,7 +110,7 @@ export function createAside(module, { here, onSaid, onRun }) {
             next();
         },
 
-        // What a line says, or is recognised in a file, before all that is wanted.
+        // Asks what a line says, or what is recognised in a file, before all that is wanted.
         ask: (line, most = Infinity, file = undefined) => new Promise((resolve) => {
             const key = keyOf(line), said = last.get(key);
             if (said !== undefined && !(said.left > 0)) return resolve(said);
@@ -118,7 +118,7 @@ export function createAside(module, { here, onSaid, onRun }) {
             next();
         }),
 
-        // What a line said counts no more.
+        // The answer to a line counts no more.
         forget: (line) => last.delete(keyOf(line)),
 
         // Nobody wants to know that line any more: it is refused at once, and ends unless it is wanted.

@@ -57,7 +57,7 @@ export function fromFragment(fragment) {
     return commands(line);
 }
 
-// What stands behind the # as a person reads it, even where it is no command.
+// The words behind the # as a person reads it, even where it is no command.
 export function written(fragment) {
     try {
         return decodeURIComponent(fragment);

@@ -69,7 +69,7 @@ function system(memory, streams) {
     };
 }
 
-// Of the module's bytes, or of the module that another thread has compiled; a host knows more of a system.
+// Starts the module's bytes, or the module that another thread has compiled; a host knows more of a system.
 export async function load(from, host = () => ({})) {
     const module = from instanceof WebAssembly.Module ? from : await WebAssembly.compile(from);
 
@@ -110,7 +110,7 @@ export async function load(from, host = () => ({})) {
         run: ([first, ...others], most, cells) =>
             first === "seen" ? call(first, others, most) : call("run", [first, ...others], most, cells),
 
-        // What the program makes of the words: { status, err, verb, operands, options: [{ name, value }] }.
+        // The program reads the words: { status, err, verb, operands, options: [{ name, value }] }.
         parse(words) {
             const { status, out, err } = call("parse", words);
             const [verb, count, ...rest] = out.split("\0").slice(0, -1);

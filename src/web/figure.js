@@ -87,7 +87,7 @@ export function createOver(stage, { onCross, onAsk }) {
     }
 
     return {
-        // Of a figure as readFigure() has it, or null; a depth; a requirement { at, separation, says, reach: [{ letter, distance }] }.
+        // Takes what readFigure() returned, or null; a depth; a requirement { at, separation, says, reach: [{ letter, distance }] }.
         show(figure, depth, wanted) {
             is = figure;
             asked = figure !== null && figure.y.key === "interval" && wanted.at > 0 && wanted.separation > 0 ? wanted : null;

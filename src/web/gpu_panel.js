@@ -4,7 +4,7 @@
 let profile = "";
 export const profileText = () => profile;
 
-// What the page gives: $; aside; lines of the set-up as judge and the picture take it; what is in set-up A; take(options)
+// The page gives $; aside; lines of the set-up as judge and the picture take it; what is in set-up A; take(options)
 // changes it; frame() and place() of the picture.
 export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame, place }) {
     const ask = (line) => (aside.forget(line), aside.ask(line)); // a GPU may answer otherwise the next time
@@ -20,7 +20,7 @@ export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame,
         return said.status === 0;
     }
 
-    // What the page takes for set-up A, and what it is here.
+    // The options of set-up A that the page takes, and what each is here.
     let found = {};
     function compare({ arith, raster, findings }) {
         const stored = findings.filter(({ key, sure }) => key === "stored" && sure === "sure").map(({ format }) => format);

@@ -22,7 +22,7 @@ async function inflated(parts, size) {
     }
 }
 
-// What each filter takes a byte to be: of the byte before it, the one above, and the one before that.
+// Each filter predicts a byte: from the byte before it, the one above, and the one before that.
 const FILTERS = [
     () => 0, (left) => left, (_, up) => up, (left, up) => (left + up) >> 1,
     (left, up, corner) => {

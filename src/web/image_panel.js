@@ -3,7 +3,7 @@
 // set-up A. image.js reads it, in the worker; what a depth means is said by the command.
 import { sheet } from "./sheet.js";
 
-// What the page gives: $; aside; setup() and line(depth) of set-up A, and take(options), which changes it; narrow(), whether there
+// The page gives $; aside; setup() and line(depth) of set-up A, and take(options), which changes it; narrow(), whether there
 // is no room; otherWay, mappings that are turned round.
 export function createImagePanel({ $, aside, setup, line, take, narrow, otherWay }) {
     const canvas = $("#image canvas"), context = canvas.getContext("2d");

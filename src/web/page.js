@@ -48,7 +48,7 @@ const SECOND = "table -n 0.1 -f 1000 -F fp32 -m reversed --unit m";
 
 let engine, aside, picture, gpuPanel, imagePanel;
 const takes = {}; // options of each command
-// What a page shows at first: a link says only what differs from it.
+// A page shows this at first: a link says only what differs from it.
 const start = () => ({
     setups: [], figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]),
     asked: {
@@ -77,7 +77,7 @@ function unwanted(verb, asked) {
     return verb === "bias" ? ["at", "range"] : [];
 }
 
-// Of a figure with the curves of a second set-up beside it.
+// A figure may have the curves of a second set-up beside it.
 function commandOf(verb, setup, b = state.setups[1]) {
     const asked = new Map(state.asked[verb] ?? []), without = unwanted(verb, asked);
     if (asked.get("for") === "distance") asked.delete("at");
@@ -100,7 +100,7 @@ function shown() {
 
 // ---- The address --------------------------------------------------------------------------------------------------
 
-// What is seen beside the commands: the gap of the picture, in thousandths of its slider, how far things are there, in A's scene
+// Beside the commands is seen: the gap of the picture, in thousandths of its slider, how far things are there, in A's scene
 // units, and the colours.
 const SEEN = { gap: /^(1000|\d{1,3})$/, distance: /^\d+(\.\d+)?(e[+-]\d+)?$/, theme: /^(system|light|dark)$/ };
 const SEEN_FIRST = { gap: "300", distance: "", theme: "system" };
@@ -153,7 +153,7 @@ function showAddress() {
 
 // ---- Setting the page ---------------------------------------------------------------------------------------------
 
-// What commands say, put together before anything is taken: one that is refused leaves the page as it was.
+// The words of commands are put together before anything is taken: one that is refused leaves the page as it was.
 async function understand(all, from) {
     const next = { setups: [], asked: { ...from.asked }, figure: from.figure, shown: new Set(["table", "plot"]) };
     if (all.length === 0) throw new Error("there is no command in it: table -n 0.1 -f 1000 is one");
@@ -207,7 +207,7 @@ function refuse(error) {
     at.hidden = error === null;
 }
 
-// Of several the last one counts; a control that is touched counts, too.
+// The last of several counts; a control that is touched counts, too.
 let asking = 0, trying = []; // and the line that the program is asked about
 function supersede() {
     asking++;
@@ -375,7 +375,7 @@ function buildSetup(index) {
     for (const option of Object.keys(STARTS)) own[option].setAttribute("aria-describedby", own.refused.id);
 }
 
-// What the commands' help says of an option stands beside its control.
+// The help of an option, as the commands have it, stands beside its control.
 function explain() {
     const texts = {};
     for (const input of document.querySelectorAll("[data-option], [data-slider]")) {
@@ -398,7 +398,7 @@ const PLAIN = [
     ["32-bit float", "format", /^(fp32|d32f)$/i, () => "fp32"], ["reversed", "mapping", /reversed/, (now) => OTHER_WAY[now] ?? "reversed"],
 ];
 
-// What a command takes where it is given nothing. A preset gives something else.
+// A command takes these where it is given nothing. A preset gives something else.
 const STARTS = {
     near: "0.1", far: "1000", format: "all", mapping: "all", model: "exact", arith: "ieee",
     unit: "", viewport: "", slant: "", at: "",
@@ -619,7 +619,7 @@ function lengthFor(setup, text) {
     return unit === unitOf(setup) || !/[\d.]$/.test(text) ? text : text + unit;
 }
 
-// What the command says of a set-up alone, with other options in place of those about depths.
+// The command's words about a set-up alone, with other options in place of those about depths.
 const ABOUT_DEPTHS = ["at", "range", "depth", "code", "constants", "full"];
 function askedOf(verb, setup, options) {
     const given = new Map([...[...setup].filter(([name]) => !ABOUT_DEPTHS.includes(name)), ...Object.entries(options)]);
@@ -748,7 +748,7 @@ function count() {
     dataset.updates = Number(dataset.updates ?? 0) + 1;
 }
 
-// What the page shows: the set-ups' tables first, which say above what is resolved, then the panels, those on the screen
+// The page shows the set-ups' tables first, which say above what is resolved, then the panels, those on the screen
 // first.
 const onScreen = new Set();
 function outputs(colours) {
@@ -777,7 +777,7 @@ function showKnown() {
     if (state.setups.length > 0) showOver();
 }
 
-// What has been said is shown, while something is dragged once in a frame; what lies over a figure follows it.
+// Answers are shown, while something is dragged once in a frame; what lies over a figure follows it.
 let following = 0;
 function follow() {
     const axes = axesNow();
@@ -828,7 +828,7 @@ function settle() {
     aside.want([...outputs(), ...outputs("print")].map(atMost));
 }
 
-// What takes a second is named, with a way out.
+// An answer that takes a second is named, with a way out.
 const NAMED_MS = 1000;
 let naming = null;
 function showRun(line) {
@@ -991,7 +991,7 @@ function measurer() {
     };
 }
 
-// What was found here, for set-up A.
+// The GPU's findings here, for set-up A.
 function take(options) {
     for (const [option, value] of Object.entries(options)) state.setups[0].set(option, value);
     fill();

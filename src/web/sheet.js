@@ -4,7 +4,7 @@
 
 const CELL = "\x1f", MOST_ROWS = 200; // of longer tables the rest stays text
 const NUMERIC = /^\s*([-+<~.\d]|inf|none|blind)/;
-// What a reader wants to know first, where there is no room for all.
+// A reader wants to know this first, where there is no room for all.
 const KEYS = ["slanted", "guaranteed", "interval", "error"];
 
 export const withoutCells = (text) => text.replaceAll(CELL, "");

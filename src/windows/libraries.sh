@@ -36,7 +36,7 @@ fi
     done
 } >NOTICES.txt
 
-# What configure would have found.
+# These are what configure would have found.
 cp libpng1.6/scripts/pnglibconf.h.prebuilt libpng1.6/pnglibconf.h
 cp jansson/android/jansson_config.h jansson/src
 printf '#define HAVE_STDINT_H 1\n#define INITIAL_HASHTABLE_ORDER 3\n' >jansson/src/jansson_private_config.h

@@ -367,7 +367,7 @@ TEST(test_bias_of_tree) {
     }
 }
 
-/* Of the largest of three depths, the anchor's depth and the differences from it have at least the exponent less 1. */
+/* The anchor's depth and the differences from it have at least the exponent of the largest of three depths less 1. */
 TEST(test_anchor) {
     rng r = rng_make("anchor");
     int less = 0;

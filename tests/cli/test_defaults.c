@@ -233,7 +233,7 @@ static void line_of(const command_row *v, const char *id, char out[256]) {
     snprintf(out, 256, "%s %s", line, more);
 }
 
-/* Of what is timed, what was measured. */
+/* Times differ: what was measured is compared. */
 static void keep_setup(char *text) {
     static const char *const keys[] = {"near", "far", "format", "mapping", "tolerance", "choice", "chosen"};
     json_t *root = json_of(text), *kept = json_object();

@@ -160,7 +160,7 @@ static bool synthetic(size_t i, listed *l) {
     return true;
 }
 
-/* Of depth half a step, and what binary32 adds; of normals degrees; with three digits, rounded up. */
+/* Depths are off by half a step, and what binary32 adds; normals by degrees; with three digits, rounded up. */
 static bool packing_row(size_t i, listed *l) {
     static const double halves[] = {7.81e-06, 0,        0,        7.81e-06, 1.17e-10,
                                     2.33e-10, 2.99e-08, 2.99e-08, 5.97e-08, 0.00197};

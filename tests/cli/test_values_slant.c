@@ -84,7 +84,7 @@ static double separation_of(const slant_case *c, double z, bool slanted) {
     return budget_of(c, z, slanted).separation;
 }
 
-/* Of null, which is no number: no end. */
+/* Null is no number, and means that there is no end. */
 static double at(const json_t *object, const char *key) {
     const double number = number_at(object, "%s", key);
     return isnan(number) ? INFINITY : number;
@@ -203,7 +203,7 @@ TEST(published) {
     }
 }
 
-/* Of text the last column of a table is that at any slant, rounded up. */
+/* The last column of a table in text is that at any slant, rounded up. */
 TEST(text) {
     static const char *const said[] = {"viewport 1920x1080, fov 40, 8 subpixel bits, slant 0 to 90 degrees, ieee\n",
                                        "triangles from z/2 to 2 z, at most 512 pixels, aspect ratio at most 16:1\n",
@@ -282,7 +282,7 @@ TEST(presets) {
         json_decref(root);
     }
     check_says(0, "!triangles", "table --preset godot-forward --at 10 --json");
-    /* Of several each has its own. */
+    /* Each of several cameras has its own. */
     const slant_case bevy = {.line = "-n 0.1 -f inf -F fp32 -m reversed",
                              .triangles = {800, 800, 45, 4, {5, 11, 2, 5}, 0, 90, 2, 512, 16}};
     json_t *root = json_printed(0, "table --preset bevy,three --viewport 800x800 --at 10m");

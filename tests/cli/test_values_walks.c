@@ -38,7 +38,7 @@ static size_t want_times(values *v, size_t series, const char *name, int front, 
     return series + 1;
 }
 
-/* Of those that are proven: from the worst error found to the bound. */
+/* Those that are proven are walked from the worst error found to the bound. */
 static size_t want_bars(values *v, size_t series, size_t count) {
     size_t n = 0;
     for (size_t i = 0; i < count; i++) {

@@ -141,7 +141,7 @@ static double sum_of_products(const double x[3], const double y[3]) {
 }
 
 /*
- * Of axes every third points nearly along a diagonal, where sums are largest, every third mostly along a coordinate,
+ * Every third axis points nearly along a diagonal, where sums are largest, every third mostly along a coordinate,
  * where single products are; of cameras every third stands in the corner before it, every third in some corner.
  */
 pose composed_pose(rng *r) {

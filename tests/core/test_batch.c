@@ -81,7 +81,7 @@ static int same_real(double a, double b) {
     return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
 }
 
-/* Of an eye depth that becomes a number: by dp_sample_at(). Of floats a plane may be the float beside it. */
+/* An eye depth that becomes a number is so by dp_sample_at(). A plane of floats may be the float beside it. */
 static int number_as_promised(const dp_batch *b, double z, double got) {
     const dp_spec *s = &b->setup.spec;
     const int narrow = b->real == DP_REAL_FLOAT;

@@ -40,7 +40,7 @@ static int passes(const cameras *c, double plane, dp_model model) {
     return dp_separation_over(&setup, c->lo, c->hi, c->limit, &worst) == DP_OK && worst.bound <= c->limit;
 }
 
-/* Of a curve; where near is that of a shader, its camera begins at it more often than not. */
+/* Cameras of a curve; where near is that of a shader, its camera begins at it more often than not. */
 static int draw(rng *r, cameras *c, int logarithm) {
     static const char *const formats[] = {"fp32", "unorm24", "unorm16", "fp16"};
     dp_format found[2];

@@ -10,7 +10,7 @@ static double toy_bound(const dp_setup *setup, double z) {
     return 3e-5 * z * z / setup->spec.znear + 1e-6 * z;
 }
 
-/* Of equally long intervals the farthest takes the greatest share of it: the census meets that one first. */
+/* The farthest of equally long intervals takes the greatest share of it: the census meets that one first. */
 static double falling_bound(const dp_setup *setup, double z) {
     return 1e-3 * setup->spec.znear / z;
 }
@@ -225,7 +225,7 @@ TEST(matches_plain) {
     tally_end(&t);
 }
 
-/* Of an orthographic camera, whose depths may be 0 and negative. */
+/* An orthographic camera, whose depths may be 0 and negative. */
 TEST(matches_plain_of_either_sign) {
     tally t = {.name = "census of either sign against plain census"};
     rng r = rng_make("census of either sign");

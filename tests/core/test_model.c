@@ -255,7 +255,7 @@ TEST(parts_add_up) {
         dp_budget plain;
         here.world = 0.0;
         assert_int_equal(dp_budget_at(&setup, z, &here, &plain), DP_OK);
-        /* Of the causes in window depth, that is; the lattice's floor is none, nor is the eye depth. What comes to less
+        /* The causes in window depth are meant; the lattice's floor is none, nor is the eye depth. What comes to less
          * than one step of binary32 takes nothing. */
         const double counted = plain.separation - plain.cause[DP_CAUSE_EYE];
         const int less = counted <= 1e-9 * plain.separation;

@@ -99,7 +99,7 @@ TEST(shots_are_stored_as_there) {
     plan_free(&plan);
 }
 
-/* Of 16 bits a cell has 16 or 17 parts of 2^-20, and codes are off by 9/16 at most; of 24 bits by as much. */
+/* A cell of 16 bits has 16 or 17 parts of 2^-20, and codes are off by 9/16 at most; of 24 bits by as much. */
 TEST(conversions_are_within_what_bounds_take) {
     static const char *const names[] = {"unorm16", "unorm24"};
     const dp_arith_row row = {.conversion = DP_CONVERT_SIXTEENTHS};

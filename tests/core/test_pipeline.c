@@ -213,7 +213,7 @@ TEST(reed) {
 
 /* ---- A view in front --------------------------------------------------------------------------------------------- */
 
-/* Of 10000 neighbours behind a view: equal and swapped, for one order of the dot products. */
+/* Counts of 10000 neighbours behind a view: equal and swapped, for one order of the dot products. */
 static void count_view(const dp_setup *setup, const view_row *view, int precomposed, unsigned order, int *equal,
                        int *swapped) {
     transform t;

@@ -88,7 +88,7 @@ static void has_nothing_between(void **state) {
     }
 }
 
-/* Of binary32 numbers all are asked about that matter, also where the ends are none. */
+/* All binary32 numbers that matter are asked about, also where the ends are none. */
 static void keeps_to_binary32(void **state) {
     (void)state;
     static const double ends[][3] = {{1.0, 2.0, 1.5},

@@ -319,7 +319,7 @@ TEST(test_schemes) {
 }
 
 /*
- * Of meshes about one origin both surfaces are seen farther away than they are, by a share of their depth that their
+ * Both surfaces of meshes about one origin are seen farther away than they are, by a share of their depth that their
  * guarantee must count, where the grid takes most of it.
  */
 TEST(test_seen_farther) {

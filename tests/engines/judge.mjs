@@ -95,7 +95,7 @@ const combined = (text, defines) => new Cesium.ShaderSource({ defines: defines.m
 
 const library = { ...Object.fromEntries(["abs", "min", "max", "log2", "log", "exp", "pow", "floor"].map((name) => [name, Math[name]])), exp2: (x) => 2 ** x, clamp: (x, lo, hi) => Math.min(Math.max(x, lo), hi) };
 
-// Of numbers alone a function of GLSL is one of JavaScript, once the types are gone.
+// A function of GLSL over numbers alone is one of JavaScript, once the types are gone.
 function translated(text, name) {
     const head = new RegExp(`\\bfloat ${name}\\s*\\(([^()]*)\\)\\s*\\{`).exec(text);
     if (head === null) throw new Error(`no function of numbers: ${name}`);

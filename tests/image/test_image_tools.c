@@ -285,7 +285,7 @@ TEST(exr_names) {
     }
 }
 
-/* Of several parts that which holds the depth is read, by the name of the channel or of the part, which both have. */
+/* The part that holds the depth is read of several, by the name of the channel or of the part, which both have. */
 TEST(exr_parts) {
     static const struct {
         exr_channel channels[2];
@@ -647,7 +647,7 @@ static const char *lossy_in(const char *command) {
     return strstr(command, "-c lerc") != NULL ? "LERC" : strstr(command, "-c jpeg") != NULL ? "JPEG" : NULL;
 }
 
-/* Of that name, and ImageMagick's where several programs have it. */
+/* The program of that name, and ImageMagick's where several are called so. */
 static bool has(const char *tool) {
     char command[128];
     snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1", tool);

@@ -63,7 +63,7 @@ TEST(normals) {
     }
 }
 
-/* Of any product a sample means offset + scale x sample; the JSON has both, and the file itself. */
+/* A sample of any product means offset + scale x sample; the JSON has both, and the file itself. */
 TEST(meanings) {
     static const struct {
         const char *options, *product, *unit, *says;

@@ -462,7 +462,7 @@ TEST(test_factor_of_one) {
     assert_int_equal(j.precision, JUDGE_DIFFERENCE);
 }
 
-/* Of a way from near to far their ratio alone is told. */
+/* A way from near to far tells their ratio alone. */
 TEST(test_ratio) {
     rng r = rng_make("ratio");
     for (int i = 0; i < 50; i++) {
@@ -609,7 +609,7 @@ TEST(test_digits) {
         }
 }
 
-/* Of each candidate people are told what it is called and where it is defined. */
+/* People are told what each candidate is called and where it is defined. */
 TEST(candidates_have_sources) {
     for (size_t i = 0; judge_output_get(i) != NULL; i++) {
         const judge_output *o = judge_output_get(i);

@@ -210,7 +210,8 @@ static const written_row of_glsl[] = {
     {"by_macro", "-m reversed", "unknown", "eye depth", "window depth"},
     {"by_macro", "-m reversed --define REVERSED_DEPTH=1", "right", "eye depth", "window depth"},
     {"by_macro", "-m reversed --define REVERSED_DEPTH=0", "another set-up", "eye depth", "window depth"},
-    /* Of the other direction; the sum of far and near is half of what belongs there; a unit; NDC that none is. */
+    /* Constants of the other direction; the sum of far and near, which is half of what belongs there; a unit; NDC that
+       none is. */
     {"swapped", "", "another set-up", "eye depth", "window depth"},
     {"textbook", "-m reversed", "another set-up", "eye depth", "window depth"},
     {"halved", "-m gl", "another set-up", "eye depth", "window depth"},

@@ -153,7 +153,7 @@ static void need_device(bool known) {
         skip();
 }
 
-/* Of the test's functions, or else of ours. */
+/* Looks among the test's functions, or else ours. */
 static json_t *row_of(json_t *root, const char *name) {
     json_t *row, *rows = json_object_get(root, "methods");
     for (size_t i = json_array_size(rows); (row = json_array_get(rows, --i)) != NULL;) {

@@ -49,7 +49,7 @@ static finding worst_found(rng *r, const method_row *row, const dp_setup *setup,
     return f;
 }
 
-/* Of all that was tried. */
+/* The greatest of all that was tried. */
 typedef struct sums {
     double least, most, logs;
     int count;

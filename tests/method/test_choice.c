@@ -96,7 +96,7 @@ TEST(other_set_ups_keep_to_the_engine) {
     }
 }
 
-/* Of the pipeline: no interval near z is longer, by a plain scan. */
+/* No interval of the pipeline near z is longer, by a plain scan. */
 TEST(the_pipeline_has_methods_too) {
     for (int kind = 0; kind < 2; kind++) {
         dp_setup setup = make(kind, 0.1, 1000, false);

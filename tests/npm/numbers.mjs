@@ -86,7 +86,7 @@ test("what a camera refuses", () => {
     refuses(() => small.decode(1.5, { window: true }), /from 0 to 1, got 1.5/);
 });
 
-// Of near 1 and far 4, by rows and for cameras that look along -z.
+// Matrices of near 1 and far 4, by rows and for cameras that look along -z.
 const matrix = (c, e, w = [0, 0, -1, 0]) => [[2, 0, 0, 0], [0, 3, 0, 0], [0, 0, c, e], w];
 const turned = (m) => m[0].flatMap((_, i) => m.map((row) => row[i]));
 

@@ -68,7 +68,7 @@ static void run(const dp_setup *s, dp_task task, dp_real real, const void *in, v
     dp_batch_run(&batch, in, out, count);
 }
 
-/* Of depths in either type; floats are shown as the doubles that they are. */
+/* Walks over depths in either type; floats are shown as the doubles that they are. */
 static void show_depths(const dp_setup *own, const dp_setup *const of[4], dp_real real, const double z[DEPTHS]) {
     static const dp_task tasks[] = {DP_TASK_WINDOW, DP_TASK_SEPARATION, DP_TASK_SEPARATION, DP_TASK_INTERVAL};
     float narrow[DEPTHS], few[DEPTHS];

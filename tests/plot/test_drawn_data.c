@@ -297,7 +297,7 @@ TEST(share_of_signed_ndc) {
     }
 }
 
-/* Of 41 codes [-1, 1] reaches 25, if NDC has as few bits: whole 24ths of them are left behind a depth, those of all NDC
+/* [-1, 1] reaches 25 of 41 codes, if NDC has as few bits: whole 24ths of them are left behind a depth, those of all NDC
  * that are rounded to be as far or farther. */
 TEST(share_of_a_small_float) {
     double ndc[81];

@@ -94,7 +94,7 @@ static double gap_of(const fight_case *c, const drawn_panel *p, double *share) {
     return *share * least;
 }
 
-/* Of unorm16 every pixel of the decal is known, but where a code ends: it is wrong where both have one. */
+/* Every pixel of the decal is known in unorm16, but where a code ends: it is wrong where both have one. */
 static bool is_wrong(const fight_case *c, double z, double gap, bool *known) {
     const double distance = c->at * normal_of(c).z, n = 0.1;
     const double depths[2] = {z, z * (distance - gap) / distance};
@@ -108,7 +108,7 @@ static bool is_wrong(const fight_case *c, double z, double gap, bool *known) {
     return code[0] == code[1];
 }
 
-/* Of one panel: the pixels of the decal, and those of them that show the wall. */
+/* Counts in one panel the pixels of the decal, and those of them that show the wall. */
 static void check_pixels(const fight_case *c, const drawn *d, const drawn_panel *p, double gap, int *covered,
                          int *wrong) {
     const int left = (c->width - c->columns) / 2, low = (c->height - c->rows) / 2;

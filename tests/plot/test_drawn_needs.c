@@ -213,7 +213,8 @@ TEST(needs_of_a_file) {
     drawn_close(d);
 }
 
-/* Of part of the depths: what is asked about others is not there; what reaches beyond them is named at the end. */
+/* Part of the depths is shown: what is asked about others is not there; what reaches beyond them is named at the end.
+ */
 TEST(needs_in_part) {
     char path[320];
     snprintf(path, sizeof path, "%s/street.need", drawn_folder());

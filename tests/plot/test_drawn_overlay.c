@@ -113,7 +113,7 @@ TEST(colours_are_errors_above_the_limit) {
         check_overlay(i);
 }
 
-/* Of a file it is what the depth can be off by. */
+/* For a file it is what the depth can be off by. */
 TEST(a_file) {
     char path[320];
     snprintf(path, sizeof path, "%s/depth.npy", drawn_folder());

@@ -385,7 +385,7 @@ TEST(a_single_value) {
     drawn_close(d);
 }
 
-/* Of a file the subtitle says the name, without its folder; the eye depth is what the image was made of. */
+/* The subtitle says the name of a file, without its folder; the eye depth is what the image was made of. */
 TEST(a_file) {
     char path[320];
     snprintf(path, sizeof path, "%s/depth.png", drawn_folder());

@@ -40,7 +40,7 @@ static const camera_kind kinds[] = {
     {"-m osgearth -n 1 -f 1.001", false},
 };
 
-/* Of the camera that options describe; the others have one of their own. */
+/* Figures of the camera that options describe; the others have one of their own. */
 static bool is_of_camera(const figure_row *figure) {
     return (figure->takes & (FIGURE_SETUPS | FIGURE_FARS)) != 0 && figure->family == NULL;
 }

@@ -208,7 +208,7 @@ TEST(test_map) {
 
 /* ---- every row of the table, in every theme and format, large and small: the same bytes twice ---- */
 
-/* Of two cameras, one requirement is met, one missed and one about the error. */
+/* One requirement of two cameras is met, one missed and one about the error. */
 static const char needs[] =
     "cameras = { a = { near = 0.1; far = 1000.0; mapping = \"d3d\"; format = \"unorm24\"; };"
     "            b = { near = 1.0; far = 100.0; mapping = \"reversed\"; format = \"fp32\"; model = \"float\"; }; };"

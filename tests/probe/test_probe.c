@@ -425,7 +425,7 @@ TEST(test_functions) {
     probe_free(&r);
 }
 
-/* Of hypotheses whose hits are known: which is found, what is said of it, and which comes next. */
+/* The hits of hypotheses are given: which is found, what is said of it, and which comes next. */
 TEST(test_guesses) {
     static const struct {
         uint64_t hits[3], cases;

@@ -36,7 +36,7 @@ static void paint_depths(const double eye[3], const double at[3], double depth[2
     }
 }
 
-/* Of triangles of the default class and larger: how far apart surfaces must be, all slants. */
+/* How far apart surfaces must be, all slants, in triangles of the default class and larger. */
 static double bound_of(const char *format, double lo, double hi, double zfar, bool facing) {
     dp_triangles t = dp_triangles_default();
     dp_separation_worst worst = {0};

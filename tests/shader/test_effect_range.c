@@ -48,8 +48,8 @@ static long double steps_of(const camera *c, long double z) {
 
 enum { MOST = 4000 };
 
-/* Of a pixel in the cell of `steps` and another `slope` behind it. @return how many; 0 where that is too many, or where
- * rounding would decide which */
+/* Takes a pixel in the cell of `steps` and another `slope` behind it. @return how many; 0 where that is too many, or
+ * where rounding would decide which */
 static int differences_of(const camera *c, long double steps, long double slope, long double out[MOST]) {
     const long double ends[2] = {steps_of(c, eye_of(c, steps - 0.5L) + slope),
                                  steps_of(c, eye_of(c, steps + 0.5L) + slope)};

@@ -9,8 +9,8 @@
 
 /* ---- Outlines ---------------------------------------------------------------------------------------------------- */
 
-/* Of a sphere before the sky: depth and normal are known. Packed normals are off by a degree, of edges near the limit
- * nothing is said; sky faces the camera. */
+/* A sphere stands before the sky: its depth and normal are known. Packed normals are off by a degree, of edges near the
+ * limit nothing is said; sky faces the camera. */
 TEST(test_outlines) {
     static float got[PIXELS], off[PIXELS];
     const double distance = 8, radius = 4, depth_sensitivity = 2, normal_sensitivity = 0.25;
@@ -122,7 +122,7 @@ static void judge(const stage *s, const uint8_t *texels, const frame_normals *no
     v->clear = v->clear && fabs(bend - 0.1 / sensitivity) > 4 * square && (most < 0.1) == (least < 0.1);
 }
 
-/* Of an image whose normals came with it: none that its channels and depths allow makes another outline where the map
+/* The normals came with the image: none that its channels and depths allow makes another outline where the map
  * says that there is none, and it says so wherever two squares, twice as large, leave no doubt. */
 TEST(test_outlines_of_images) {
     static float got[PIXELS], off[PIXELS];

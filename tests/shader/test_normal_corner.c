@@ -62,7 +62,7 @@ static bool take_taps(rng *r, const texture_camera *c, const normal_row *method,
     return true;
 }
 
-/* Of the bound, where the true places are those that are stored. */
+/* The bound where the true places are those that are stored. */
 static double share_without_cells(tally *t, const texture_camera *c, const normal_row *method, const normal_tap at[3],
                                   const double found[3]) {
     normal_tap taps[3];

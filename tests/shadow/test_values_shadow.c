@@ -179,7 +179,7 @@ static double radius_of(const shadow_case *c, double from, double to) {
     return 0.5 * sqrt(width * width + 2 * (to * to + from * from) * k2 + (to + from) * (to + from) * k2 * k2);
 }
 
-/* Of a box the light alone. */
+/* A box has the light alone. */
 static shadow_cascade map_of(const shadow_case *c, const char *format, dp_mapping mapping, int i) {
     const shadow_light model = light_of(c, format, mapping);
     dp_triangles drawn = dp_triangles_default();

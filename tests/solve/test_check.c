@@ -115,7 +115,8 @@ TEST(the_default_is_a_guarantee) {
     }
 }
 
-/* Of a logarithmic depth that of the shader: 5 m at 1000 km are enough for the model staged, not for a shader's log2.
+/* The error of a logarithmic depth is that of the shader: 5 m at 1000 km are enough for the model staged, not for a
+ * shader's log2.
  */
 TEST(of_a_shader) {
     static const char camera[] = "near = 1; far = 1e9; mapping = \"log\"; format = \"unorm24\";";

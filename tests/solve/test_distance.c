@@ -273,7 +273,7 @@ TEST(test_again) {
     assert_true(outside.cases > 0 && outside.skipped * 5000 <= outside.cases);
 }
 
-/* Of depths so near 0 that rounding hides how they differ none is certain: little is asked of them. Else it takes
+/* No depth so near 0 that rounding hides how they differ is certain: little is asked of them. Else it takes
  * hours. */
 TEST(test_next_to_zero) {
     distance_span span[8];

@@ -64,7 +64,7 @@ TEST(test_plans) {
     check_plan("unorm16", 65535, DP_MODEL_FLOAT, 1000, 0.05);
 }
 
-/* Of a depth that a shader writes every frustum keeps the separation whatever log2 is, at any depth of it. */
+/* Every frustum of a depth that a shader writes keeps the separation whatever log2 is, at any depth of it. */
 TEST(test_logarithmic) {
     static frusta_plan plan;
     dp_spec spec = dp_spec_default();

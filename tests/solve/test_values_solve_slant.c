@@ -26,7 +26,7 @@ static const solve_case cases[] = {
     {"--for distance -n 0.2 -f 9000 -F unorm24,fp32 -m d3d,reversed --separation 0.01", "distance", 0.01, 0.2, 9000, 0},
 };
 
-/* Of null, which is no number: no end. */
+/* Null is no number, and means that there is no end. */
 static double at(const json_t *object, const char *key) {
     const double number = number_at(object, "%s", key);
     return isnan(number) ? INFINITY : number;

@@ -355,7 +355,7 @@ TEST(an_image_gives_the_same_as_its_scene) {
         free(want);
         free(got);
     }
-    /* Of a scene the error is that of the cell; of an image that of what binary32 has made of the depth. */
+    /* The error of a scene is that of the cell; of an image that of what binary32 has made of the depth. */
     const frame_product effect = all[PRODUCTS - 1];
     assert_true(effect.kind == FRAME_EFFECT && effect.error);
     float *least = frame_made(&s.frame, &effect, false), *bound = frame_made(&seen, &effect, false);

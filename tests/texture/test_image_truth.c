@@ -180,7 +180,7 @@ static void base_command(command *b, const camera *c, const char *path, bool giv
     b->count = 0;
     truth_add(b, path);
     truth_add_number(b, 0, "-f", (double)c->f);
-    /* Of linear and logarithmic depth near is no more than what somebody says. */
+    /* Nothing but what somebody says tells near of linear and logarithmic depth. */
     truth_add_number(b, 1, "-n", (double)(says_near ? c->n : c->n * 1.2L));
     truth_add(b, "-m");
     truth_add(b, c->mapping);

@@ -146,7 +146,7 @@ static void check_statistics(const metric_kind *k, const command *base, size_t h
     json_decref(root);
 }
 
-/* Of so few pixels two roundings one on the other may leave nothing to tell: then the samples are taken as they are, it
+/* In so few pixels two roundings one on the other may leave nothing to tell: then the samples are taken as they are, it
  * is said that a sensor may resolve less, and nothing is promised of it. */
 static bool left_open(const metric_kind *k, const command *base) {
     if (k->first == 0)

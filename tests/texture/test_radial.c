@@ -206,7 +206,7 @@ TEST(depth_of_distances_is_within_what_is_said) {
     tally_end(&t);
 }
 
-/* Of planes the normal is within the bound. */
+/* The normal of planes is within the bound. */
 TEST(normals_of_distances) {
     tally t = {.name = "normals"};
     rng r = rng_make("planes");

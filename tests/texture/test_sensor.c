@@ -308,7 +308,7 @@ static double constant(rng *r, double *z) {
     return 0;
 }
 
-/* Of a level floor 1/z is even from row to row; of a wall along the view axis from column to column. */
+/* 1/z is even from row to row on a level floor, on a wall along the view axis from column to column. */
 static double level_floor(rng *r, double *z) {
     const double least = rng_uniform(r, 0.1, 0.5), step = rng_log(r, 0.001, 0.01);
     const bool wall = rng_below(r, 2) == 0;
@@ -449,7 +449,7 @@ TEST(levels_are_not_counted_over_gaps) {
     tally_end(&t);
 }
 
-/* Of a narrow range 1/z is nearly as even as z: both are named, unless the samples tell, or happen to be multiples of
+/* Over a narrow range 1/z is nearly as even as z: both are named, unless the samples tell, or happen to be multiples of
  * more than the unit, which leaves too few bits for either. */
 TEST(two_kinds_that_fit_are_both_named) {
     const uint64_t rounds = test_cases(4, 40, 1000);

@@ -26,7 +26,7 @@ static bool meets(int column, int row, double distance, double radius) {
     return distance * distance * sine2 < radius * radius;
 }
 
-/* Of a sphere wholly beyond where the sky begins every pixel is hidden, and only these: what is no sphere is sky. */
+/* Every pixel of a sphere wholly beyond where the sky begins is hidden, and only these: what is no sphere is sky. */
 TEST(what_the_sky_hides_is_counted) {
     char words[256];
     long long hidden = 0;

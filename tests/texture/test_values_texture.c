@@ -157,7 +157,7 @@ static void want_pairs(values *v, const frame *f) {
     want(v, "first_tie=%f certain_to=%f", p.first_tie, p.certain_to);
 }
 
-/* Of an orthographic camera half the height, of another the field of view. */
+/* Half the height of an orthographic camera, the field of view of another. */
 static void want_camera(values *v, const texture_case *c, const frame *f) {
     const bool ortho = f->camera->setup.spec.ortho;
     values_under(v, "%s", "");

@@ -59,7 +59,7 @@ static void check_scheme(const json_t *line, const world_asked *a, size_t k, dou
                                                                 : "fights, jitters");
 }
 
-/* Of the gaps the third fights where it stands still, the last jitters. */
+/* The third gap fights where it stands still, the last jitters. */
 TEST(each_number) {
     static const double gaps[] = {0.02, 0.02, 1e-5, 30.0};
     const dp_setup setup = SETUP("unorm24", .znear = 0.25, .zfar = 4000.0, .model = DP_MODEL_FLOAT);

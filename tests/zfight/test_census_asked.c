@@ -51,7 +51,7 @@ TEST(without_a_bound) {
     }
 }
 
-/* Of unorm16 nearly all of a cell is an interval. */
+/* Nearly all of a cell of unorm16 is an interval. */
 TEST(with_the_guarantee) {
     for (size_t i = 0; i < 4; i++) {
         far_binade(i, counting_bound);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file report.h  What bias reports: rows, what is enough over the range, and the words around them. */
+/** @file report.h  The report of bias: rows, what is enough over the range, and the words around them. */
 #ifndef BIAS_CMD_BIAS_REPORT_H
 #define BIAS_CMD_BIAS_REPORT_H
 

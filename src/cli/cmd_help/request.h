@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What help and completions are asked. */
+/** @file request.h  The request of help, which completions are asked by, too. */
 #ifndef CLI_CMD_HELP_REQUEST_H
 #define CLI_CMD_HELP_REQUEST_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What list is asked. */
+/** @file request.h  The request that the options of list fill. */
 #ifndef CLI_CMD_LIST_REQUEST_H
 #define CLI_CMD_LIST_REQUEST_H
 

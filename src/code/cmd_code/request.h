@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What code is asked. */
+/** @file request.h  The request that the options of code fill. */
 #ifndef CODE_CMD_CODE_REQUEST_H
 #define CODE_CMD_CODE_REQUEST_H
 

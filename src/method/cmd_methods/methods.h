@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file methods.h  What methods and its figures share: which family, which case, on which machine. */
+/** @file methods.h  State that methods and its figures share: which family, which case, on which machine. */
 #ifndef METHOD_CMD_METHODS_METHODS_H
 #define METHOD_CMD_METHODS_METHODS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What methods is asked. */
+/** @file request.h  The request that the options of methods fill. */
 #ifndef METHOD_CMD_METHODS_REQUEST_H
 #define METHOD_CMD_METHODS_REQUEST_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What plot is asked: of a camera, of a model, of shadow maps, of methods. */
+/** @file request.h  The request of plot: about a camera, a model, shadow maps or methods. */
 #ifndef PLOT_CMD_PLOT_REQUEST_H
 #define PLOT_CMD_PLOT_REQUEST_H
 

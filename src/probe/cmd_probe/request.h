@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What probe is asked. */
+/** @file request.h  The request that the options of probe fill. */
 #ifndef PROBE_CMD_PROBE_REQUEST_H
 #define PROBE_CMD_PROBE_REQUEST_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What budget is asked. */
+/** @file request.h  The request that the options of budget fill. */
 #ifndef QUANTITY_CMD_BUDGET_REQUEST_H
 #define QUANTITY_CMD_BUDGET_REQUEST_H
 

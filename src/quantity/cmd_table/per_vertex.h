@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file per_vertex.h  What a report says of depth that is written per vertex under a mapping that is not affine. */
+/** @file per_vertex.h  Error of depth that is written per vertex, in reports: under a mapping that is not affine. */
 #ifndef QUANTITY_CMD_TABLE_PER_VERTEX_H
 #define QUANTITY_CMD_TABLE_PER_VERTEX_H
 

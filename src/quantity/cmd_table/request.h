@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What table is asked. */
+/** @file request.h  The request that the options of table fill. */
 #ifndef QUANTITY_CMD_TABLE_REQUEST_H
 #define QUANTITY_CMD_TABLE_REQUEST_H
 

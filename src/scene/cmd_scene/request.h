@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What is asked of a model, by scene and the figure of it. */
+/** @file request.h  The request about a model, of scene and of its figure. */
 #ifndef SCENE_CMD_SCENE_REQUEST_H
 #define SCENE_CMD_SCENE_REQUEST_H
 

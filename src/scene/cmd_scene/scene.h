@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file scene.h  What the parts of the command `scene` share: what was asked, found and judged. */
+/** @file scene.h  State that the parts of the command `scene` share: what was asked, found and judged. */
 #ifndef SCENE_CMD_SCENE_SCENE_H
 #define SCENE_CMD_SCENE_SCENE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What is asked of shadow maps, by shadow and the figure of them. */
+/** @file request.h  The request about shadow maps, of shadow and of their figure. */
 #ifndef SHADOW_CMD_SHADOW_REQUEST_H
 #define SHADOW_CMD_SHADOW_REQUEST_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What check is asked. */
+/** @file request.h  The request that the options of check fill. */
 #ifndef SOLVE_CMD_CHECK_REQUEST_H
 #define SOLVE_CMD_CHECK_REQUEST_H
 

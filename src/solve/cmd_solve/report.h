@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file report.h  What solve found, as text, JSON and CSV. */
+/** @file report.h  The findings of solve, as text, JSON and CSV. */
 #ifndef SOLVE_CMD_SOLVE_REPORT_H
 #define SOLVE_CMD_SOLVE_REPORT_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What solve is asked. */
+/** @file request.h  The request that the options of solve fill. */
 #ifndef SOLVE_CMD_SOLVE_REQUEST_H
 #define SOLVE_CMD_SOLVE_REQUEST_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What texture is asked. */
+/** @file request.h  The request that the options of texture fill. */
 #ifndef TEXTURE_CMD_TEXTURE_REQUEST_H
 #define TEXTURE_CMD_TEXTURE_REQUEST_H
 

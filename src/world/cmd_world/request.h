@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What world is asked. */
+/** @file request.h  The request that the options of world fill. */
 #ifndef WORLD_CMD_WORLD_REQUEST_H
 #define WORLD_CMD_WORLD_REQUEST_H
 

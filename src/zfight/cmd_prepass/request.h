@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What prepass is asked. */
+/** @file request.h  The request that the options of prepass fill. */
 #ifndef ZFIGHT_CMD_PREPASS_REQUEST_H
 #define ZFIGHT_CMD_PREPASS_REQUEST_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file request.h  What zfight is asked. */
+/** @file request.h  The request that the options of zfight fill. */
 #ifndef ZFIGHT_CMD_ZFIGHT_REQUEST_H
 #define ZFIGHT_CMD_ZFIGHT_REQUEST_H
 

@@ -189,7 +189,7 @@ TEST(test_terms) {
     assert_true(got.lost_window == got.window);
     assert_true(bias_factor_least(&setup) >= got.pixels / (1 - got.lost));
     assert_true(bias_factor_least(&setup) <= got.pixels / (1 - got.lost) * 1.002 + 0x1p-12);
-    /* Of slim triangles the arithmetic of the gradients takes more than the grid. */
+    /* In slim triangles the arithmetic of the gradients takes more than the grid. */
     dp_coplanar slim;
     spec.triangles.slim = 1000;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
@@ -198,7 +198,7 @@ TEST(test_terms) {
     assert_relative(slim.lost - slim.pixels, eps * (6 * long_box * 1000 + 2 * long_box + 2), 0.004);
     spec.triangles.slim = 16;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    /* Of a range what holds all over it. */
+    /* Over a range it holds at each depth. */
     assert_int_equal(dp_coplanar_over(&setup, 7, INFINITY, &wide), DP_OK);
     assert_true(wide.window > 5 * got.window && wide.window < 7 * got.window && wide.pixels == got.pixels);
     assert_int_equal(dp_coplanar_over(&setup, 0.1, z, &got), DP_ERROR_DEPTH);
