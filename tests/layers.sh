@@ -12,6 +12,7 @@ src/core          | depthprec core
 src/bias          | depthprec core bias
 src/camera        | depthprec core system raster bias camera
 src/world         | depthprec core world
+src/quantity      | depthprec core quantity
 src/zfight        | depthprec core zfight
 src/raster        | depthprec core raster
 src/shadow        | depthprec core bias image shader shadow
@@ -24,12 +25,12 @@ src/texture       | depthprec core image shader texture
 src/judge         | depthprec core system image shader texture judge
 src/method        | depthprec core shader zfight method
 src/code          | depthprec core image shader zfight method system report code
-src/solve         | depthprec core system bias camera raster world solve
+src/solve         | depthprec core system bias camera quantity raster world solve
 src/model         | core system model
-src/scene         | depthprec core system raster world model bias camera solve scene
+src/scene         | depthprec core system quantity raster world model bias camera solve scene
 src/report        | depthprec core system report
 src/draw          | core draw
-src/plot          | depthprec core zfight raster shader method draw plot
+src/plot          | depthprec core zfight quantity raster shader method draw plot
 '
 computed=$(echo "$layers" | sed -n 's,^src/\([a-z]*\) .*,\1,p' | grep -vE '^(windows|report|draw|plot)$')
 

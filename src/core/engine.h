@@ -29,6 +29,13 @@ void dp_pipeline_prepare(dp_setup *setup);
 /* The right code, decided exactly from any stored code to start from. */
 uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start);
 
+/* The same set-up in another model; 0 where its mapping has none such: *out is then left as it was. May be its own. */
+static inline int dp_setup_in(const dp_setup *setup, dp_model m, dp_setup *out) {
+    dp_spec spec = setup->spec;
+    spec.model = m;
+    return dp_setup_init(out, &spec) == DP_OK;
+}
+
 /* Is the separation that of depths computed in binary32, by dp_budget_at(), and not one of a lattice. */
 static inline int dp_is_computed(const dp_setup *setup) {
     return setup->spec.model == DP_MODEL_FLOAT || setup->shader;

@@ -2,17 +2,8 @@
 /* Which model is enough: judged by the separation, which every model has. */
 #include <math.h>
 
-#include "core/lattice.h"
-#include "core/rounding.h"
+#include "core/engine.h"
 #include "depthprec/budget.h"
-#include "depthprec/depth.h"
-
-/* The set-up with another model; 0 when it has no such model. */
-static int with_model(const dp_setup *setup, dp_model model, dp_setup *out) {
-    dp_spec spec = setup->spec;
-    spec.model = model;
-    return dp_setup_init(out, &spec) == DP_OK;
-}
 
 /*
  * By so much a depth itself is rounded: a cell below it, as at a plane whose code is 0, tells no two apart. Around an
@@ -42,7 +33,7 @@ dp_status dp_model_choose(const dp_setup *setup, const double *z, size_t count, 
     int fullest = DP_MODEL_EXACT;
     dp_choice choice = {0};
     for (int m = 0; m < DP_MODEL_COUNT; m++) {
-        has[m] = with_model(setup, (dp_model)m, &model[m]);
+        has[m] = dp_setup_in(setup, (dp_model)m, &model[m]);
         fullest = has[m] ? m : fullest;
         choice.share[m] = has[m] ? 0.0 : (double)NAN;
         choice.share_z[m] = z[0];

@@ -90,11 +90,12 @@ dp_setup dp_setup_facing(const dp_setup *setup) {
 }
 
 dp_setup dp_setup_guaranteed(const dp_setup *setup) {
+    const int fp32 = dp_mapping_get(setup->spec.mapping)->curve == DP_CURVE_PERSPECTIVE;
+    const dp_model model = fp32 ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
     dp_setup out = *setup;
-    dp_spec spec = setup->spec;
-    spec.model = dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
-    if (spec.model != setup->spec.model)
-        dp_setup_init(&out, &spec); /* cannot fail: the set-up was made, and the model is one that its mapping has */
+    if (model != setup->spec.model)
+        dp_setup_in(setup, model,
+                    &out); /* cannot fail: the set-up was made, and the model is one that its mapping has */
     out.shader = out.curve == DP_CURVE_LOG;
     return out;
 }

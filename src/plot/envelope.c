@@ -35,15 +35,16 @@ static double flicker_of(const dp_setup *setup, const dp_worst *w, double length
 
 /* The cells at both ends of a slice count whole: the error of a depth depends on where in its cell it lies, and that
  * is chance. So the curve runs along the tops of the teeth, as the interval does, in place of a thicket of them. */
-void envelope_slice(const dp_setup *setup, double from, double to, envelope_value value, refine_sample *out) {
+void envelope_slice(const dp_setup *setup, double from, double to, quantity_kind q, refine_sample *out) {
     dp_worst worst;
     if (dp_worst_over(setup, from, to, &worst) != DP_OK) {
         *out = (refine_sample){.y = {(double)NAN}};
         return;
     }
     worst.error = fmax(worst.error, fmax(cell_error(setup, from), cell_error(setup, to)));
-    *out = (refine_sample){
-        .y = {value(&worst)}, .step = {step_of(&worst)}, .flicker = {flicker_of(setup, &worst, to - from)}};
+    *out = (refine_sample){.y = {quantity_get(q)->of_cells(&worst)},
+                           .step = {step_of(&worst)},
+                           .flicker = {flicker_of(setup, &worst, to - from)}};
 }
 
 /* The guarantee of binary32 arithmetic is a whole number of binary32 steps of z, now one more, now one less. */
@@ -53,10 +54,9 @@ static double flicker_of_separation(const dp_setup *setup, double z, double sepa
 }
 
 void envelope_separation(const void *setup, double from, double to, refine_sample *out) {
-    dp_separation_worst w = {.bound = (double)NAN};
-    dp_separation_over(setup, from, to, 0, &w);
+    const double bound = quantity_bound(QUANTITY_SEPARATION, setup, from, to);
     const double size = from > 0 ? from : fmax(-from, to);
-    *out = (refine_sample){.y = {w.bound}, .flicker = {flicker_of_separation(setup, size, w.bound)}};
+    *out = (refine_sample){.y = {bound}, .flicker = {flicker_of_separation(setup, size, bound)}};
 }
 
 /* ---- Knots ------------------------------------------------------------------------------------------------------- */
@@ -139,8 +139,9 @@ refine_request envelope_request(const figure_request *request, const dp_setup *s
 
 /* ---- Curves ------------------------------------------------------------------------------------------------------ */
 
-double envelope_error(const dp_worst *worst) {
-    return worst->error;
+chart_axis envelope_axis(quantity_kind q) {
+    const quantity_row *row = quantity_get(q);
+    return (chart_axis){.scale = CHART_LOG, .label = row->axis, .key = row->name, .unit = row->unit};
 }
 
 bool envelope_way(const dp_setup *setup, double tolerance, way *out) {
@@ -157,7 +158,7 @@ bool envelope_is_cut(const dp_setup *setup, double z) {
 
 typedef struct curve {
     const dp_setup *setup;
-    envelope_value value;
+    quantity_kind q;
     bool by_way;
     way way;
 } curve;
@@ -166,7 +167,7 @@ typedef struct curve {
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const curve *c = context;
     if (!c->by_way || envelope_is_cut(c->setup, from) || envelope_is_cut(c->setup, to))
-        envelope_slice(c->setup, from, to, c->value, out);
+        envelope_slice(c->setup, from, to, c->q, out);
     else
         *out = (refine_sample){.y = {fmax(way_interval(&c->way, c->setup, from), way_interval(&c->way, c->setup, to))}};
 }
@@ -203,18 +204,17 @@ static void add_curve(const figure_request *request, chart *out, chart_panel *pa
     }
 }
 
-chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value,
-                             bool interval) {
-    chart_panel *panel = figure_panel(request, out, y);
+chart_panel *envelope_curves(const figure_request *request, chart *out, quantity_kind q) {
+    chart_panel *panel = figure_panel(request, out, envelope_axis(q));
     curve *curves = chart_memory(out, request->count, sizeof *curves);
     refine *refined = chart_memory(out, request->count, sizeof *refined);
     if (curves == NULL || refined == NULL)
         return NULL;
     for (size_t i = 0; i < request->count; i++) {
-        curves[i] = (curve){.setup = &request->setups[i], .value = value};
-        refine_request q = envelope_request(request, curves[i].setup, out, panel, sample, &curves[i]);
-        q.slices = true;
-        if (!refine_begin(&refined[i], &q, out))
+        curves[i] = (curve){.setup = &request->setups[i], .q = q};
+        refine_request asked = envelope_request(request, curves[i].setup, out, panel, sample, &curves[i]);
+        asked.slices = true;
+        if (!refine_begin(&refined[i], &asked, out))
             return panel;
     }
     refine_share_axis(refined, request->count);
@@ -222,7 +222,7 @@ chart_panel *envelope_curves(const figure_request *request, chart *out, chart_ax
         /* Differences that the axis cannot show need not be computed: half of them are left to the line. */
         const bool unsaid = isnan(request->tolerance);
         const double tolerance = unsaid ? dp_expm1(refine_half_pixel(&refined[i], 0) / 2) : request->tolerance;
-        curves[i].by_way = interval && envelope_way(curves[i].setup, tolerance, &curves[i].way);
+        curves[i].by_way = q == QUANTITY_INTERVAL && envelope_way(curves[i].setup, tolerance, &curves[i].way);
         add_curve(request, out, panel, i, &curves[i], &refined[i]);
     }
     return panel;

@@ -10,21 +10,20 @@
 #include "method/ways.h"
 #include "plot/figure.h"
 #include "plot/refine.h"
+#include "quantity/quantity.h"
 
-/** The value of a curve from the worst case of a slice. */
-typedef double (*envelope_value)(const dp_worst *worst);
-double envelope_error(const dp_worst *worst);
+/** The axis of a quantity. */
+chart_axis envelope_axis(quantity_kind q);
 
 /**
- * One panel with an axis of depth and the given one, and a curve for each set-up, in their order; to be fitted.
- * @param interval  the value is the interval itself, for which cheaper ways may stand in: within a quarter of a pixel
- *                  where the request leaves the tolerance to the picture. Columns that touch a cut cell stay exact.
+ * One panel with an axis of depth and that of a quantity of cells, and a curve for each set-up, in their order; to be
+ * fitted. Cheaper ways may stand in for the interval: within a quarter of a pixel where the request leaves the
+ * tolerance to the picture. Columns that touch a cut cell stay exact.
  */
-chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value,
-                             bool interval);
+chart_panel *envelope_curves(const figure_request *request, chart *out, quantity_kind q);
 
 /** The same for one set-up and a slice of depths: the greatest value in it, over whole cells. NaN without cells. */
-void envelope_slice(const dp_setup *setup, double from, double to, envelope_value value, refine_sample *out);
+void envelope_slice(const dp_setup *setup, double from, double to, quantity_kind q, refine_sample *out);
 
 /** A refine_function of slices: the largest separation in each, certified. Its context is the set-up. */
 void envelope_separation(const void *setup, double from, double to, refine_sample *out);

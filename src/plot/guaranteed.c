@@ -28,21 +28,16 @@ static void into_background(chart_series *s) {
     append(s->name, sizeof s->name, ", lattice");
 }
 
-chart_panel *guaranteed_begin(const figure_request *request, chart *out, chart_axis y, const char *guaranteed,
-                              envelope_value value, bool interval) {
+chart_panel *guaranteed_begin(const figure_request *request, chart *out, quantity_kind q) {
     dp_setup lattice[CHART_SETUPS];
     figure_request cells = *request;
     cells.setups = lattice;
     for (size_t i = 0; i < request->count; i++) {
-        dp_spec spec = request->setups[i].spec;
         lattice[i] = request->setups[i];
-        spec.model = DP_MODEL_EXACT;
         if (guaranteed_has(request, i))
-            dp_setup_init(&lattice[i], &spec);
+            dp_setup_in(&request->setups[i], DP_MODEL_EXACT, &lattice[i]);
     }
-    if (count_of(request) > 0)
-        y.label = guaranteed;
-    chart_panel *panel = envelope_curves(&cells, out, y, value, interval);
+    chart_panel *panel = envelope_curves(&cells, out, q);
     for (size_t i = 0; i < request->count && !chart_failed(out); i++)
         if (guaranteed_has(request, i))
             into_background(&panel->series[i]);

@@ -11,12 +11,8 @@
 /** Whether set-up i has both curves. */
 bool guaranteed_has(const figure_request *request, size_t i);
 
-/**
- * envelope_curves() of the lattice; those of set-ups that have both are thin.
- * @param guaranteed  the label of the axis where there are such, in place of its own
- */
-chart_panel *guaranteed_begin(const figure_request *request, chart *out, chart_axis y, const char *guaranteed,
-                              envelope_value value, bool interval);
+/** envelope_curves() of the lattice; those of set-ups that have both are thin. */
+chart_panel *guaranteed_begin(const figure_request *request, chart *out, quantity_kind q);
 
 /** A separation at a depth. */
 typedef double guaranteed_function(const void *of, double z);

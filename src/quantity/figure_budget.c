@@ -110,8 +110,7 @@ static void add_panel(const figure_request *request, chart *out, size_t i) {
     stacked split = {.setup = &request->setups[i], .terms = &request->terms};
     refine r;
     chart_panel *panel = figure_panel(request, out, y);
-    panel->second =
-        (chart_axis){.scale = CHART_LOG, .label = "guaranteed separation", .key = "separation", .unit = "scene units"};
+    panel->second = envelope_axis(QUANTITY_SEPARATION);
     if (request->count > 1)
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
     refine_request q = envelope_request(request, split.setup, out, panel, sample, &split);

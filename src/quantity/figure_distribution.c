@@ -4,10 +4,6 @@
 
 #include "plot/envelope.h"
 
-static double density(const dp_worst *worst) {
-    return 1 / worst->interval;
-}
-
 /* A linear axis shows the picture of the textbooks, but not beyond a factor of a hundred; only it has 0. */
 static chart_scale scale_of(double lo, double hi) {
     return !(lo > 0) || hi / lo <= 100 ? CHART_LINEAR : CHART_LOG;
@@ -103,8 +99,7 @@ const char *distribution_build(const figure_request *request, chart *out) {
         build_staircases(request, out);
         return NULL;
     }
-    chart_axis y = {.scale = CHART_LOG, .label = "codes, fewest", .key = "density", .unit = "per scene unit of depth"};
-    envelope_curves(request, out, y, density, false);
+    envelope_curves(request, out, QUANTITY_DENSITY);
     chart_fit(out);
     return NULL;
 }

@@ -10,10 +10,6 @@
 #include "plot/guaranteed.h"
 #include "zfight/census.h"
 
-static double widest_cell(const dp_worst *worst) {
-    return worst->interval;
-}
-
 /* Findings of a census of one set-up: the longest interval of each band, at its nearer depth. */
 typedef struct found {
     size_t count;
@@ -90,9 +86,8 @@ static void add_census(const figure_request *request, chart *out, chart_panel *p
 }
 
 const char *interval_build(const figure_request *request, chart *out) {
-    const chart_axis y = {.scale = CHART_LOG, .label = "z-fighting interval", .key = "interval", .unit = "scene units"};
     bool all = true;
-    chart_panel *panel = guaranteed_begin(request, out, y, "separation, interval", widest_cell, true);
+    chart_panel *panel = guaranteed_begin(request, out, QUANTITY_INTERVAL);
     if (panel == NULL)
         return NULL;
     const found *counted = count_all(request, &panel->x, out);
@@ -100,6 +95,7 @@ const char *interval_build(const figure_request *request, chart *out) {
         add_separation(request, out, panel, i, counted != NULL ? &counted[i] : NULL);
         add_slanted(request, out, panel, i);
         all = all && guaranteed_has(request, i);
+        panel->y.label = guaranteed_has(request, i) ? "separation, interval" : panel->y.label;
     }
     for (size_t i = 0; i < request->count && counted != NULL; i++)
         add_census(request, out, panel, i, &counted[i]);

@@ -14,20 +14,18 @@ static const double around = 100, infinite_from = 10, infinite_to = 1e7;
 
 /* The interval at the depth asked about, by a cheaper way where its claim is good enough for this camera. */
 static double interval_at(const figure_request *request, const dp_setup *setup, bool *by_way) {
-    dp_sample sample;
     way cheaper;
     *by_way = request->at >= setup->spec.znear && request->at <= setup->spec.zfar &&
               !envelope_is_cut(setup, request->at) && envelope_way(setup, request->tolerance, &cheaper);
     if (*by_way)
         return way_interval(&cheaper, setup, request->at);
-    return dp_sample_at(setup, request->at, &sample) == DP_OK ? sample.interval : (double)NAN;
+    return quantity_get(QUANTITY_INTERVAL)->at(setup, request->at);
 }
 
 /* The number coloured for one camera; NaN when there is no such camera, or it does not see what was asked. */
 static double cell_value(const dp_setup *like, const figure_request *request, double znear, double zfar, bool *by_way) {
     dp_setup setup;
     dp_spec spec = like->spec;
-    dp_worst worst;
     *by_way = false;
     spec.znear = znear;
     spec.zfar = zfar;
@@ -36,7 +34,7 @@ static double cell_value(const dp_setup *like, const figure_request *request, do
     if (!isnan(request->at))
         return interval_at(request, &setup, by_way);
     double lo = isnan(request->lo) ? znear : request->lo, hi = isnan(request->hi) ? zfar : request->hi;
-    return dp_worst_over(&setup, lo, hi, &worst) == DP_OK ? worst.interval : (double)NAN;
+    return quantity_bound(QUANTITY_INTERVAL, &setup, lo, hi);
 }
 
 /* Returns how many fields were computed by another way than the exact cell. */
@@ -89,10 +87,9 @@ static void add_panel(const figure_request *request, chart *out, size_t i, doubl
 }
 
 const char *map_build(const figure_request *request, chart *out) {
-    out->value = (chart_axis){
-        .scale = CHART_LOG, .label = "worst z-fighting interval", .key = "interval", .unit = "scene units"};
-    if (!isnan(request->at))
-        out->value.label = "z-fighting interval";
+    out->value = envelope_axis(QUANTITY_INTERVAL);
+    if (isnan(request->at))
+        out->value.label = "worst z-fighting interval";
     if (!isnan(request->at) && out->title[0] == '\0')
         snprintf(out->title, sizeof out->title, "Z-fighting interval at depth %.6g for each near and far plane",
                  request->at);

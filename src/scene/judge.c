@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#include "depthprec/bounds.h"
-#include "depthprec/depth.h"
+#include "core/engine.h"
+#include "quantity/quantity.h"
 #include "solve/distance.h"
 
 enum { DIGITS = 6 };
@@ -51,10 +51,8 @@ static piece piece_to(const dp_setup *setup, uint32_t farthest, uint32_t first) 
 }
 
 static double ties_from(const dp_setup *setup, double most, double within) {
-    dp_spec spec = setup->spec;
     dp_setup exact;
-    spec.model = DP_MODEL_EXACT;
-    if (dp_setup_init(&exact, &spec) != DP_OK)
+    if (!dp_setup_in(setup, DP_MODEL_EXACT, &exact))
         return (double)NAN;
     const uint32_t near_end = exact.code_near, far_end = dp_code(&exact, within);
     if ((near_end > far_end ? near_end - far_end : far_end - near_end) < 3)
@@ -67,7 +65,7 @@ static double ties_from(const dp_setup *setup, double most, double within) {
         if (!(dp_cell_of(&exact, p.nearest).width > most))
             return last_narrow(&exact, &p, most).hi;
         if (p.nearest == first)
-            return spec.znear;
+            return setup->spec.znear;
         farthest = towards(p.nearest, near_end, 1);
     }
 }
@@ -76,11 +74,9 @@ static double ties_from(const dp_setup *setup, double most, double within) {
 
 scene_verdict scene_judge(const dp_setup *setup, double least, double most, double within) {
     const double znear = setup->spec.znear, zfar = setup->spec.zfar;
-    dp_separation_worst worst = {.bound = HUGE_VAL};
     scene_verdict v = {.certain_to = (double)NAN, .ties_from = ties_from(setup, most, within)};
     if (least > 0.0)
         v.certain_to = distance_about(setup, znear, zfar, least, DIGITS);
-    dp_separation_over(setup, znear, within, 0.0, &worst); /* the caller has checked the range */
-    v.lift = fmax(worst.bound - least, 0.0);
+    v.lift = fmax(quantity_bound(QUANTITY_SEPARATION, setup, znear, within) - least, 0.0);
     return v;
 }

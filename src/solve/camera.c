@@ -5,8 +5,8 @@
 
 #include "camera/unit.h"
 #include "core/append.h"
+#include "quantity/quantity.h"
 #include "raster/raster.h"
-#include "solve/judge.h"
 #include "solve/model.h"
 #include "solve/reader.h"
 
@@ -176,7 +176,7 @@ static bool make_setups(reader *r, const setting *group, const draft *d, need_ca
         spec.format = d->formats[i];
         if (!camera_stored(&out->gpu, &spec.format, &fault) || !camera_bounded(out->raster, &spec.format, &fault))
             return reader_fault(r, group, d->preset, &fault);
-        const dp_status status = judge_setup(&spec, &out->setups[i]);
+        const dp_status status = quantity_setup(&spec, &out->setups[i]);
         if (status != DP_OK)
             return camera_refused(&spec, status, "", &fault) || reader_fault(r, group, d->preset, &fault);
     }

@@ -5,7 +5,7 @@
 
 #include "core/bits.h"
 #include "core/engine.h"
-#include "solve/judge.h"
+#include "quantity/quantity.h"
 #include "world/reach.h"
 
 /* A limit that the exact lattice misses by this factor, no arithmetic can save: see check.h. */
@@ -20,21 +20,14 @@ const char *check_method_name(check_method method) {
 }
 
 bool check_is_slanted(const check_verdict *v) {
-    return v->asked->kind == NEED_SEPARATION && v->setup.spec.triangles.width > 0;
-}
-
-static bool with_model(const dp_setup *setup, dp_model model, dp_setup *out) {
-    dp_spec spec = setup->spec;
-    spec.model = model;
-    return dp_setup_init(out, &spec) == DP_OK;
+    return v->asked->kind == QUANTITY_SEPARATION && v->setup.spec.triangles.width > 0;
 }
 
 /* The verdict that a set-up gives in its own model. */
 static void judge_in(const need *n, const dp_setup *setup, check_verdict *v) {
     static const check_method methods[DP_MODEL_COUNT] = {
         [DP_MODEL_EXACT] = CHECK_LATTICE, [DP_MODEL_STAGED] = CHECK_STAGED, [DP_MODEL_FLOAT] = CHECK_GUARANTEE};
-    const measure_kind kind = n->kind == NEED_ERROR ? MEASURE_ERROR : MEASURE_SEPARATION;
-    const judgement j = judge(kind, setup, n->lo, n->hi, n->limit);
+    const quantity_worst j = quantity_over(n->kind, setup, n->lo, n->hi, n->limit);
     v->setup = *setup;
     v->method = setup->shader ? CHECK_GUARANTEE : methods[setup->spec.model];
     v->passed = j.passed;
@@ -46,7 +39,7 @@ static void judge_in(const need *n, const dp_setup *setup, check_verdict *v) {
 /* Judges places of a world: no farther from its origin than a corner of its box, within 60 degrees of the axis. */
 static void judge_world(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
     static const double root3 = 1.7320508075688774;
-    with_model(asked, DP_MODEL_FLOAT, &v->setup); /* need_read() has refused mappings that have none */
+    dp_setup_in(asked, DP_MODEL_FLOAT, &v->setup); /* need_read() has refused mappings that have none */
     const world_asked a = {.setup = &v->setup, .z = n->hi, .ray_ratio = 2.0};
     const double distance = root3 * camera->world;
     v->method = CHECK_GUARANTEE;
@@ -63,7 +56,7 @@ static void judge_separation(const need *n, const need_camera *camera, const dp_
         return;
     }
     const bool heavy = camera->automatic || dp_is_computed(asked);
-    if (!heavy || !with_model(asked, DP_MODEL_EXACT, &setup)) {
+    if (!heavy || !dp_setup_in(asked, DP_MODEL_EXACT, &setup)) {
         judge_in(n, asked, v);
         return;
     }
@@ -78,7 +71,7 @@ static void judge_error(const need *n, const need_camera *camera, const dp_setup
     const dp_setup full = dp_setup_guaranteed(asked);
     dp_setup setup;
     judge_in(n, asked, v);
-    if (camera->automatic && v->passed && with_model(asked, DP_MODEL_STAGED, &setup))
+    if (camera->automatic && v->passed && dp_setup_in(asked, DP_MODEL_STAGED, &setup))
         judge_in(n, full.shader ? &full : &setup, v);
 }
 
@@ -101,7 +94,7 @@ static bool never_ties(const dp_setup *setup, double lo, double hi) {
 }
 
 static bool judge_ties(const check_request *request, const need *n, const dp_setup *asked, check_verdict *v) {
-    if (!with_model(asked, DP_MODEL_FLOAT, &v->setup))
+    if (!dp_setup_in(asked, DP_MODEL_FLOAT, &v->setup))
         return false;                      /* need_read() has refused it */
     v->setup = dp_setup_facing(&v->setup); /* of depths at a point */
     v->method = CHECK_GUARANTEE;
@@ -132,13 +125,13 @@ long check_all(const check_request *request, check_verdict *out) {
         const need_camera *camera = &file->cameras[n->camera];
         for (size_t k = 0; k < camera->count; k++, out++) {
             *out = (check_verdict){.asked = n, .camera = camera};
-            if (n->kind == NEED_SEPARATION)
+            if (n->kind == QUANTITY_SEPARATION)
                 judge_separation(n, camera, &camera->setups[k], out);
-            else if (n->kind == NEED_ERROR)
+            else if (n->kind == QUANTITY_ERROR)
                 judge_error(n, camera, &camera->setups[k], out);
             else if (!judge_ties(request, n, &camera->setups[k], out))
                 return -1;
-            if (n->kind != NEED_ERROR && isfinite(out->z))
+            if (n->kind != QUANTITY_ERROR && isfinite(out->z))
                 out->code = dp_code(&out->setup, out->z);
             failed += !out->passed;
         }

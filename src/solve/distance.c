@@ -11,7 +11,7 @@
 static const double farthest = 1e18;
 
 typedef struct ruler {
-    measure_kind kind;
+    quantity_kind kind;
     const dp_setup *setup;
     dp_guarantee guarantee;
     double limit;
@@ -36,16 +36,16 @@ static bool between(const dp_edge *e, double *z) {
  */
 static void extend(ruler *r, double end) {
     dp_edge *e = &r->edge;
-    const double begin = r->kind == MEASURE_ERROR ? r->lo : e->holds;
-    if (r->kind == MEASURE_SEPARATION &&
+    const double begin = r->kind == QUANTITY_ERROR ? r->lo : e->holds;
+    if (r->kind == QUANTITY_SEPARATION &&
         dp_guarantee_at(&r->guarantee, end) > r->limit) { /* cheaper than to judge them all */
         e->fails = end;
         return;
     }
-    const judgement j = judge(r->kind, r->setup, begin, end, r->limit);
+    const quantity_worst j = quantity_over(r->kind, r->setup, begin, end, r->limit);
     if (j.passed)
         e->holds = end;
-    else if (r->kind == MEASURE_SEPARATION && j.z > e->holds && dp_guarantee_at(&r->guarantee, j.z) > r->limit)
+    else if (r->kind == QUANTITY_SEPARATION && j.z > e->holds && dp_guarantee_at(&r->guarantee, j.z) > r->limit)
         e->fails = j.z;
     else
         e->fails = end;
@@ -81,7 +81,7 @@ static void search(ruler *r, int digits) {
         extend(r, z);
 }
 
-static ruler ruler_of(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit) {
+static ruler ruler_of(quantity_kind kind, const dp_setup *setup, double lo, double hi, double limit) {
     return (ruler){.kind = kind,
                    .setup = setup,
                    .guarantee = dp_guarantee_make(setup),
@@ -91,7 +91,7 @@ static ruler ruler_of(measure_kind kind, const dp_setup *setup, double lo, doubl
 }
 
 double distance_about(const dp_setup *setup, double lo, double hi, double limit, int digits) {
-    ruler r = ruler_of(MEASURE_SEPARATION, setup, lo, hi, limit);
+    ruler r = ruler_of(QUANTITY_SEPARATION, setup, lo, hi, limit);
     if (!(dp_guarantee_at(&r.guarantee, lo) <= limit))
         return (double)NAN;
     search(&r, digits);
@@ -104,25 +104,25 @@ static void confirm(const ruler *r, distance_answer *out) {
     const double reach = r->edge.holds;
     out->value = reach;
     for (double share = 0x1p-48;; share *= 2.0) {
-        out->reached = judge(r->kind, r->setup, r->lo, out->value, r->limit);
+        out->reached = quantity_over(r->kind, r->setup, r->lo, out->value, r->limit);
         if (out->reached.passed || out->value == r->lo)
             return;
         out->value = share < 1.0 ? fmax(reach - fabs(reach) * share, r->lo) : r->lo;
     }
 }
 
-dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit,
+dp_status distance_solve(quantity_kind kind, const dp_setup *setup, double lo, double hi, double limit,
                          distance_answer *out) {
     if (setup == NULL || out == NULL)
         return DP_ERROR_NULL;
-    if (kind == MEASURE_ERROR && setup->spec.model == DP_MODEL_FLOAT)
+    if (kind == QUANTITY_ERROR && setup->spec.model == DP_MODEL_FLOAT)
         return DP_ERROR_MODEL;
     if (!(limit > 0.0 && lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || lo > farthest)
         return DP_ERROR_RANGE;
     ruler r = ruler_of(kind, setup, lo, hi, limit);
     const double end = r.edge.fails;
     *out = (distance_answer){.value = lo, .fails = lo};
-    out->reached = judge(kind, setup, lo, lo, limit);
+    out->reached = quantity_over(kind, setup, lo, lo, limit);
     out->possible = out->reached.passed;
     if (!out->possible)
         return DP_OK;
@@ -181,16 +181,16 @@ size_t distance_again(const dp_setup *setup, double after, double hi, double lim
     for (size_t i = 0; i < t.count && count < room && points < POINTS_MOST; i++) {
         if (count > 0 && t.z[i] <= out[count - 1].hi)
             continue;
-        if (!judge(MEASURE_SEPARATION, setup, t.z[i], t.z[i], limit).passed) {
+        if (!quantity_over(QUANTITY_SEPARATION, setup, t.z[i], t.z[i], limit).passed) {
             fails = t.z[i];
             continue;
         }
         dp_edge e = edge_of(setup, t.z[i], fails);
         for (double z; between(&e, &z);)
-            *(judge(MEASURE_SEPARATION, setup, z, z, limit).passed ? &e.holds : &e.fails) = z;
+            *(quantity_over(QUANTITY_SEPARATION, setup, z, z, limit).passed ? &e.holds : &e.fails) = z;
         distance_answer answer;
         fails = e.holds;
-        if (distance_solve(MEASURE_SEPARATION, setup, e.holds, t.end, limit, &answer) != DP_OK || !answer.possible)
+        if (distance_solve(QUANTITY_SEPARATION, setup, e.holds, t.end, limit, &answer) != DP_OK || !answer.possible)
             continue;
         fails = answer.value;
         const bool is_point = answer.value <= e.holds * (1.0 + SHORTEST); /* which passes by how it was rounded */

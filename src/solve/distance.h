@@ -3,27 +3,27 @@
 #ifndef SOLVE_DISTANCE_H
 #define SOLVE_DISTANCE_H
 
-#include "solve/judge.h"
+#include "quantity/quantity.h"
 
 typedef struct distance_answer {
-    bool possible;     /**< it holds at `lo` at least */
-    bool throughout;   /**< it holds up to `hi`, or 1e18 where that is infinite */
-    double value;      /**< certified: it holds at every depth from lo to here */
-    double fails;      /**< a depth beyond `value` where it does not, or is not certain to; NaN where throughout */
-    judgement reached; /**< what is worst from lo to `value`; impossible: at lo */
+    bool possible;          /**< it holds at `lo` at least */
+    bool throughout;        /**< it holds up to `hi`, or 1e18 where that is infinite */
+    double value;           /**< certified: it holds at every depth from lo to here */
+    double fails;           /**< a depth beyond `value` where it does not, or is not certain to; NaN where throughout */
+    quantity_worst reached; /**< what is worst from lo to `value`; impossible: at lo */
 } distance_answer;
 
 /**
  * The largest depth of [lo, hi] up to which a requirement holds at every depth, in the model of the set-up: what lies
  * beyond `fails` and holds again, as binades of a float may, is left out.
  *
- * Bound: judge() passes [lo, value]. `fails` is the next binary32 depth in fp32, and within 2^-48 of `value` in the
- * other models, unless the search for a certain bound was given up.
+ * Bound: quantity_over() passes [lo, value]. `fails` is the next binary32 depth in fp32, and within 2^-48 of `value` in
+ * the other models, unless the search for a certain bound was given up.
  *
  * @param lo, hi  near <= lo <= hi <= far; hi may be INFINITY
  * @return DP_OK, DP_ERROR_NULL, DP_ERROR_RANGE (depths, limit), DP_ERROR_MODEL (an error in float)
  */
-dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit,
+dp_status distance_solve(quantity_kind kind, const dp_setup *setup, double lo, double hi, double limit,
                          distance_answer *out);
 
 /**

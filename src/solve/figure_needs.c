@@ -9,6 +9,7 @@
 
 #include "core/append.h"
 #include "core/elementary.h"
+#include "core/engine.h"
 #include "draw/notes.h"
 #include "plot/guaranteed.h"
 #include "solve/check.h"
@@ -41,7 +42,7 @@ static void check_requirements(needs *s, chart *out) {
         return;
     check_all(&(check_request){.file = file, .count = no_ties}, s->verdicts);
     for (size_t i = 0; i < all; i++)
-        if (s->verdicts[i].asked->kind == NEED_TIES) {
+        if (s->verdicts[i].asked->kind == QUANTITY_TIES) {
             s->ties++;
         } else {
             s->passed += s->verdicts[i].passed;
@@ -58,10 +59,8 @@ static dp_setup curve_setup(const check_verdict *v) {
     const need_camera *camera = v->camera;
     const bool second = strcmp(camera->setups[0].spec.format.name, v->setup.spec.format.name) != 0;
     dp_setup setup = camera->setups[second];
-    dp_spec spec = setup.spec;
-    spec.model = DP_MODEL_FLOAT;
-    if (camera->automatic && dp_setup_init(&setup, &spec) != DP_OK)
-        setup = camera->setups[second];
+    if (camera->automatic)
+        dp_setup_in(&camera->setups[second], DP_MODEL_FLOAT, &setup);
     return setup;
 }
 
@@ -81,14 +80,12 @@ static void find_range(needs *s) {
 }
 
 static void error_of(const void *context, double from, double to, refine_sample *out) {
-    envelope_slice(context, from, to, envelope_error, out);
+    envelope_slice(context, from, to, QUANTITY_ERROR, out);
 }
 
 static void add_curve(const figure_request *r, chart *out, chart_panel *panel, const dp_setup *given, bool is_error) {
-    dp_setup staged;
-    dp_spec spec = given->spec;
-    spec.model = DP_MODEL_STAGED; /* an error is judged in this one where float, which has none, is the fullest */
-    const bool other = is_error && given->spec.model == DP_MODEL_FLOAT && dp_setup_init(&staged, &spec) == DP_OK;
+    dp_setup staged; /* in which an error is judged where float, which has none, is the fullest */
+    const bool other = is_error && given->spec.model == DP_MODEL_FLOAT && dp_setup_in(given, DP_MODEL_STAGED, &staged);
     const dp_setup *setup = other ? &staged : given;
     refine_request q = envelope_request(r, setup, out, panel, error_of, setup);
     q.lo = fmax(q.lo, setup->spec.znear);
@@ -132,7 +129,8 @@ static void add_needs(const needs *s, chart *out, chart_panel *panel, const chec
         memcpy(&levels->y[2 * k], (double[]){n->limit, n->limit}, 2 * sizeof hi);
         points->x[k] = fmin(isfinite(v->z) ? v->z : hi, hi);
         points->y[k] = n->limit;
-        snprintf(points->labels[k++], sizeof *points->labels, "%s%s", n->name, n->kind == NEED_ERROR ? " (error)" : "");
+        snprintf(points->labels[k++], sizeof *points->labels, "%s%s", n->name,
+                 n->kind == QUANTITY_ERROR ? " (error)" : "");
     }
 }
 
@@ -140,7 +138,7 @@ static void add_panel(needs *s, chart *out, const check_verdict *first) {
     const chart_axis y = {.scale = CHART_LOG, .label = "allowed and given", .key = "length", .unit = "scene units"};
     const dp_setup setup = curve_setup(first);
     const dp_spec *spec = &setup.spec;
-    bool wanted[NEED_KIND_COUNT] = {false};
+    bool wanted[QUANTITY_COUNT] = {false};
     s->request.setups = &setup;
     chart_panel *panel = figure_panel(&s->request, out, y);
     snprintf(panel->title, sizeof panel->title, "%s: %s %s, %s%s", first->camera->name, spec->format.name,
@@ -149,7 +147,7 @@ static void add_panel(needs *s, chart *out, const check_verdict *first) {
     for (size_t i = 0; i < s->count; i++)
         wanted[s->verdicts[i].asked->kind] |= same_setup(first, &s->verdicts[i]);
     for (int is_error = 0; is_error < 2; is_error++)
-        if (wanted[is_error ? NEED_ERROR : NEED_SEPARATION])
+        if (wanted[is_error ? QUANTITY_ERROR : QUANTITY_SEPARATION])
             add_curve(&s->request, out, panel, &setup, is_error);
     add_needs(s, out, panel, first, true);
     add_needs(s, out, panel, first, false);

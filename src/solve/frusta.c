@@ -10,14 +10,14 @@
 
 enum { HALVINGS = 48, DIGITS = 6, DIGITS_MOST = 17, TEXT_SIZE = 32 };
 
-static judgement judged(const dp_spec *whole, double znear, double zfar, double limit) {
+static quantity_worst judged(const dp_spec *whole, double znear, double zfar, double limit) {
     dp_spec spec = *whole;
     dp_setup setup;
     spec.znear = znear;
     spec.zfar = zfar;
-    if (judge_setup(&spec, &setup) != DP_OK)
-        return (judgement){.value = HUGE_VAL, .z = zfar};
-    return judge(MEASURE_SEPARATION, &setup, znear, zfar, limit);
+    if (quantity_setup(&spec, &setup) != DP_OK)
+        return (quantity_worst){.value = HUGE_VAL, .z = zfar};
+    return quantity_over(QUANTITY_SEPARATION, &setup, znear, zfar, limit);
 }
 
 static bool passes(const dp_spec *whole, double znear, double zfar, double limit) {
@@ -65,7 +65,7 @@ static dp_status check(const dp_spec *spec, double limit) {
         return DP_ERROR_NULL;
     if (!(limit > 0.0) || isinf(spec->zfar))
         return DP_ERROR_RANGE;
-    return judge_setup(spec, &setup);
+    return quantity_setup(spec, &setup);
 }
 
 static void find_worst(frusta_plan *plan) {
@@ -112,7 +112,7 @@ static dp_spec in_exact(const dp_spec *spec) {
     return exact;
 }
 
-judgement frusta_lattice(const dp_spec *spec, double limit) {
+quantity_worst frusta_lattice(const dp_spec *spec, double limit) {
     const dp_spec exact = in_exact(spec);
     return judged(&exact, spec->znear, spec->zfar, limit);
 }

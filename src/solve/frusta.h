@@ -10,13 +10,13 @@
 
 #include <stddef.h>
 
-#include "solve/judge.h"
+#include "quantity/quantity.h"
 
 enum { FRUSTA_MAX = 64 };
 
 typedef struct frustum {
-    double znear, zfar; /**< scene units */
-    judgement reached;  /**< over all of it: the certified separation where it is worst */
+    double znear, zfar;     /**< scene units */
+    quantity_worst reached; /**< over all of it: the certified separation where it is worst */
 } frustum;
 
 typedef struct frusta_plan {
@@ -46,7 +46,7 @@ size_t frusta_at_least(const dp_spec *spec, double limit);
 
 /** Judges one frustum from near to far by the lattice alone: in the model exact, whatever that of `spec` is. It passes
  * where arithmetic, not the lattice, asks for more frusta. */
-judgement frusta_lattice(const dp_spec *spec, double limit);
+quantity_worst frusta_lattice(const dp_spec *spec, double limit);
 
 /** The least near with which the lattice alone meets the limit up to `zfar`; NaN where a bisection finds none. */
 double frusta_lattice_near(const dp_spec *spec, double zfar, double limit);

@@ -12,7 +12,7 @@ static const double near_least = 1e-12, near_most = 1e12, far_most = 1e18, plane
 /* Shares: of boxes that are not divided, in the model exact, in others and there next to the inner end. */
 static const double finest = 0x1p-24, coarsest = 0x1p-4, fine = 0x1p-10;
 /* Where a bisection ends: next to the end of a code an error moves fast. */
-static const double settled[] = {[MEASURE_SEPARATION] = 1.0 + 0x1p-32, [MEASURE_ERROR] = 1.0 + 0x1p-38};
+static const double settled[] = {[QUANTITY_SEPARATION] = 1.0 + 0x1p-32, [QUANTITY_ERROR] = 1.0 + 0x1p-38};
 
 typedef struct search {
     const solve_problem *problem;
@@ -30,14 +30,14 @@ typedef struct search {
 dp_status solve_setup(const solve_problem *p, double value, dp_setup *out) {
     dp_spec spec = p->spec;
     *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = value;
-    return judge_setup(&spec, out);
+    return quantity_setup(&spec, out);
 }
 
-static judgement reached_at(const solve_problem *p, double value) {
+static quantity_worst reached_at(const solve_problem *p, double value) {
     dp_setup setup;
     if (solve_setup(p, value, &setup) != DP_OK)
-        return (judgement){.value = HUGE_VAL, .z = p->hi};
-    return judge(p->kind, &setup, p->lo, p->hi, p->limit);
+        return (quantity_worst){.value = HUGE_VAL, .z = p->hi};
+    return quantity_over(p->kind, &setup, p->lo, p->hi, p->limit);
 }
 
 /* Over a range the ends are judged first: they are looked at anyhow, and where one fails so does the range. */
@@ -45,10 +45,10 @@ bool plane_passes(const solve_problem *p, double value) {
     dp_setup setup;
     if (solve_setup(p, value, &setup) != DP_OK)
         return false;
-    if (p->lo < p->hi && p->kind == MEASURE_SEPARATION &&
+    if (p->lo < p->hi && p->kind == QUANTITY_SEPARATION &&
         (dp_separation(&setup, p->hi) > p->limit || dp_separation(&setup, p->lo) > p->limit))
         return false;
-    return judge(p->kind, &setup, p->lo, p->hi, p->limit).passed;
+    return quantity_over(p->kind, &setup, p->lo, p->hi, p->limit).passed;
 }
 
 /* ---- All cameras between two ------------------------------------------------------------------------------------- */
@@ -91,7 +91,7 @@ static bool is_aligned(const solve_problem *p, const dp_setup *outer, const dp_s
 
 static bool all_pass(const search *s, const dp_setup *outer, const dp_setup *inner) {
     const solve_problem *p = s->problem;
-    if (p->kind == MEASURE_SEPARATION)
+    if (p->kind == QUANTITY_SEPARATION)
         return dp_separation_within(outer, inner, p->lo, p->hi, p->limit);
     return s->aligned ? is_aligned(p, outer, inner) : dp_error_within(outer, inner, p->lo, p->hi, p->limit);
 }
@@ -107,7 +107,7 @@ static solve_problem in_lattice(const solve_problem *p) {
 /* Whether no plane can pass, by the far end of the range or just before the middle's worst depth: there binades end. */
 static bool none_passes(const solve_problem *p, double outer, double inner, double middle) {
     const solve_problem exact = in_lattice(p);
-    const int half = p->kind == MEASURE_ERROR;
+    const int half = p->kind == QUANTITY_ERROR;
     dp_setup one, other;
     if (solve_setup(&exact, outer, &one) != DP_OK || solve_setup(&exact, inner, &other) != DP_OK)
         return false;
@@ -133,8 +133,8 @@ static bool is_smallest(const search *s, double outer, double inner) {
 
 /* Keeps, in case nothing is found, the outermost plane that passes alone, or what comes near. */
 static void offer(search *s, double value) {
-    const bool by_chance = s->problem->kind == MEASURE_ERROR && value != s->inner;
-    const judgement j = reached_at(s->problem, value);
+    const bool by_chance = s->problem->kind == QUANTITY_ERROR && value != s->inner;
+    const quantity_worst j = reached_at(s->problem, value);
     if ((j.passed && by_chance) ||
         (s->met ? !j.passed || s->outer > s->inner : !(j.passed || j.value < s->out->reached.value)))
         return;
@@ -196,7 +196,7 @@ static double judged(const search *s, double value, double towards) {
 static bool none_beyond(const search *s) {
     const double value = s->out->value;
     const double x = s->inner > s->outer ? value * (1.0 - 1e-9) : value * (1.0 + 1e-9);
-    const solve_problem p = s->problem->kind == MEASURE_SEPARATION ? in_lattice(s->problem) : *s->problem;
+    const solve_problem p = s->problem->kind == QUANTITY_SEPARATION ? in_lattice(s->problem) : *s->problem;
     return value == s->outer || ratio_of(value, s->outer) <= 1.0 + 1e-9 || !plane_passes(&p, x);
 }
 
@@ -220,7 +220,7 @@ static void search_planes(search *s) {
         offer(s, s->inner);
     a->possible = found || s->met;
     a->until = a->value;
-    a->certain = inert || (!s->open && s->problem->kind == MEASURE_SEPARATION);
+    a->certain = inert || (!s->open && s->problem->kind == QUANTITY_SEPARATION);
     if (!a->possible) {
         a->reached = reached_at(s->problem, a->value);
         return;
@@ -229,7 +229,7 @@ static void search_planes(search *s) {
         box[0] = box[1] = a->value;
     a->until = inert ? s->inner : reach_from(s, box[1], s->inner);
     a->value = inert ? s->outer : reach_from(s, box[0], s->outer);
-    s->aligned = s->problem->kind == MEASURE_ERROR && s->problem->spec.model != DP_MODEL_FLOAT;
+    s->aligned = s->problem->kind == QUANTITY_ERROR && s->problem->spec.model != DP_MODEL_FLOAT;
     if (s->aligned && !inert) {
         a->until = reach_from(s, a->until, s->inner);
         a->value = reach_from(s, a->value, s->outer);
@@ -265,7 +265,7 @@ dp_status plane_solve(const solve_problem *p, plane_answer *out) {
     if (p == NULL || out == NULL)
         return DP_ERROR_NULL;
     const bool logarithm = dp_mapping_get(p->spec.mapping)->curve == DP_CURVE_LOG;
-    if (p->kind == MEASURE_ERROR && p->spec.model == DP_MODEL_FLOAT && !logarithm)
+    if (p->kind == QUANTITY_ERROR && p->spec.model == DP_MODEL_FLOAT && !logarithm)
         return DP_ERROR_MODEL;
     /* A near plane is looked for among the positive ones; a far one behind the depths, which may begin anywhere. */
     const double first = p->unknown == SOLVE_FAR && p->spec.ortho ? p->hi : p->lo;

@@ -9,25 +9,25 @@
 #ifndef SOLVE_PLANE_H
 #define SOLVE_PLANE_H
 
-#include "solve/judge.h"
+#include "quantity/quantity.h"
 
 typedef enum solve_unknown { SOLVE_NEAR = 0, SOLVE_FAR } solve_unknown;
 
 typedef struct solve_problem {
     dp_spec spec; /**< all but the unknown, whose value in it is not read */
     solve_unknown unknown;
-    measure_kind kind;
+    quantity_kind kind;
     double limit;  /**< the measure may be at most this, scene units, positive */
     double lo, hi; /**< at these depths, lo <= hi, finite; lo = hi for one depth */
 } solve_problem;
 
 typedef struct plane_answer {
     bool possible;
-    double value;       /**< the least near, or the largest far, from which on all pass; else one that comes near */
-    double until;       /**< the other end of the values that pass with it */
-    bool certain;       /**< a part in 10^9 beyond `value` none passes, or there is none; impossible: that is certain */
-    judgement reached;  /**< at `value` */
-    double least, most; /**< the values looked at: near from 1e-12 to lo, far from hi to 1e18 or INFINITY */
+    double value; /**< the least near, or the largest far, from which on all pass; else one that comes near */
+    double until; /**< the other end of the values that pass with it */
+    bool certain; /**< a part in 10^9 beyond `value` none passes, or there is none; impossible: that is certain */
+    quantity_worst reached; /**< at `value` */
+    double least, most;     /**< the values looked at: near from 1e-12 to lo, far from hi to 1e18 or INFINITY */
 } plane_answer;
 
 /** The set-up of a problem with its unknown filled in. */

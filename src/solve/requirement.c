@@ -11,16 +11,6 @@
 #include "solve/reader.h"
 #include "system/input.h"
 
-static const need_kind_row kinds[NEED_KIND_COUNT] = {
-    [NEED_SEPARATION] = {"separation", "separation", true},
-    [NEED_ERROR] = {"error", "error of the stored depth", true},
-    [NEED_TIES] = {"ties", "share of ties and swaps", false},
-};
-
-const need_kind_row *need_kind_get(need_kind kind) {
-    return (unsigned)kind < NEED_KIND_COUNT ? &kinds[kind] : NULL;
-}
-
 /* ---- A requirement, key by key ----------------------------------------------------------------------------------- */
 
 enum { KEY_NAME, KEY_CAMERA, KEY_AT, KEY_RANGE, KEY_SEPARATION, KEY_ERROR, KEY_TIES, KEY_COUNT };
@@ -70,10 +60,10 @@ static bool in_planes(reader *r, const setting *s, const need *n) {
 static bool suits(reader *r, const setting *s, const need *n) {
     const need_camera *camera = &r->file->cameras[n->camera];
     const dp_spec *spec = &camera->setups[0].spec;
-    if (n->kind == NEED_ERROR && spec->model == DP_MODEL_FLOAT)
+    if (n->kind == QUANTITY_ERROR && spec->model == DP_MODEL_FLOAT)
         return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has %s",
                            camera->name, model_word(spec->model));
-    if (n->kind != NEED_TIES)
+    if (n->kind != QUANTITY_TIES)
         return true;
     if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(
@@ -91,9 +81,9 @@ static bool suits(reader *r, const setting *s, const need *n) {
 }
 
 static bool read_limit(reader *r, setting *s, need *n) {
-    if (!kinds[n->kind].is_length)
-        return reader_share(r, s, kinds[n->kind].name, &n->limit);
-    return reader_length(r, s, kinds[n->kind].name, READER_POSITIVE, &n->limit);
+    const quantity_row *kind = quantity_get(n->kind);
+    return kind->unit != NULL ? reader_length(r, s, kind->name, READER_POSITIVE, &n->limit)
+                              : reader_share(r, s, kind->name, &n->limit);
 }
 
 /* Exactly one of some keys: which, or -1 after an error. */
@@ -141,7 +131,7 @@ static bool read_need(reader *r, setting *group, bool listed, need *n) {
     const int what = one_of(r, group, found, KEY_SEPARATION, KEY_TIES, "one of separation, error and ties");
     if (what < 0)
         return false;
-    n->kind = (need_kind)(what - KEY_SEPARATION);
+    n->kind = (quantity_kind)(what - KEY_SEPARATION);
     return read_limit(r, found[what], n) && suits(r, found[what], n);
 }
 

@@ -16,24 +16,9 @@
 
 #include "camera/profile.h"
 #include "depthprec/depthprec.h"
+#include "quantity/quantity.h"
 #include "raster/raster.h"
 #include "world/world.h"
-
-/** The quantity that a requirement limits; the index of its row in need_kind_get(). */
-typedef enum need_kind {
-    NEED_SEPARATION = 0, /**< the separation of two surfaces, at the depth or at every depth of the range */
-    NEED_ERROR,          /**< the view-space error of the stored depth */
-    NEED_TIES,           /**< the share of neighbouring binary32 depths that are not stored in order */
-    NEED_KIND_COUNT
-} need_kind;
-
-typedef struct need_kind_row {
-    const char *name;   /**< the key in a file */
-    const char *phrase; /**< what is measured, for reports */
-    bool is_length;     /**< else a share of 1 */
-} need_kind_row;
-
-const need_kind_row *need_kind_get(need_kind kind);
 
 enum { NEED_SETUPS_MAX = 2 };
 
@@ -53,10 +38,10 @@ typedef struct need_camera {
 typedef struct need {
     const char *name;
     int line;
-    size_t camera; /**< index into the file's cameras */
-    need_kind kind;
-    double limit;  /**< largest that passes; a length or a share */
-    double lo, hi; /**< the range; equal for a single depth */
+    size_t camera;      /**< index into the file's cameras */
+    quantity_kind kind; /**< that it limits */
+    double limit;       /**< largest that passes; a length or a share */
+    double lo, hi;      /**< the range; equal for a single depth */
 } need;
 
 typedef struct need_file {

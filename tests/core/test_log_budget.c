@@ -9,7 +9,7 @@
 
 #include "depthprec/depthprec.h"
 #include "nvidia.h"
-#include "solve/judge.h"
+#include "quantity/quantity.h"
 #include "support.h"
 
 enum { BITS = 256, RULES = 3 };
@@ -431,9 +431,9 @@ TEST(errors) {
         dp_setup asked;
         dp_spec model = spec;
         model.model = DP_MODEL_FLOAT;
-        assert_int_equal(judge_setup(&model, &asked), DP_OK);
-        const judgement range = judge(MEASURE_ERROR, &asked, lo, z, NAN),
-                        here = judge(MEASURE_ERROR, &asked, z, z, NAN);
+        assert_int_equal(quantity_setup(&model, &asked), DP_OK);
+        const quantity_worst range = quantity_over(QUANTITY_ERROR, &asked, lo, z, NAN),
+                             here = quantity_over(QUANTITY_ERROR, &asked, z, z, NAN);
         for (int top = -1; top <= 1; top++) {
             shader s = shader_of(&spec, 0, top);
             s.fused[0] = s.fused[1] = rng_below(&r, 2) == 0;
@@ -447,7 +447,7 @@ TEST(errors) {
         }
         TALLY(&never,
               range.z >= lo && range.z <= z &&
-                  judge(MEASURE_ERROR, &asked, range.z, range.z, NAN).value <= range.value * (1 + 1e-9),
+                  quantity_over(QUANTITY_ERROR, &asked, range.z, range.z, NAN).value <= range.value * (1 + 1e-9),
               "%.17g to %.17g: worst at %.17g", lo, z, range.z);
     }
     for (size_t m = 0; m < MAPPINGS; m++) {

@@ -147,7 +147,7 @@ TEST(of_a_shader) {
         assert_int_equal(dp_budget_at(&v->setup, 1e6, NULL, &b), DP_OK);
         if (v->method != cases[i].method || v->passed != cases[i].passed)
             fail_msg("%s, %s: %s, %g", cases[i].model, cases[i].what, check_method_name(v->method), v->value);
-        const bool error = v->asked->kind == NEED_ERROR; /* one of two depths, that of test_log_budget.c */
+        const bool error = v->asked->kind == QUANTITY_ERROR; /* one of two depths, that of test_log_budget.c */
         assert_true(
             v->method != CHECK_GUARANTEE ||
             (error ? v->value > 0.5 * b.separation && v->value < 0.75 * b.separation : v->value == b.separation));

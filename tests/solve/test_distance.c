@@ -10,7 +10,7 @@
 
 typedef struct question {
     dp_setup setup;
-    measure_kind kind;
+    quantity_kind kind;
     double lo, hi, limit;
 } question;
 
@@ -18,11 +18,11 @@ static const char *describe(const question *q, char text[320]) {
     const dp_spec *s = &q->setup.spec;
     snprintf(text, 320, "%s %s%s near %.17g far %.17g %s %s, %s %.17g from %.17g to %.17g", s->format.name,
              dp_mapping_get(s->mapping)->name, s->ortho ? " ortho" : "", s->znear, s->zfar, dp_model_name(s->model),
-             dp_arith_get(s->arith)->name, q->kind == MEASURE_ERROR ? "error" : "separation", q->limit, q->lo, q->hi);
+             dp_arith_get(s->arith)->name, quantity_get(q->kind)->name, q->limit, q->lo, q->hi);
     return text;
 }
 
-static int draw(rng *r, dp_model model, measure_kind kind, question *q) {
+static int draw(rng *r, dp_model model, quantity_kind kind, question *q) {
     static const char *const formats[] = {"fp16", "fp32", "unorm16", "unorm24", "unorm24", "unorm8", "float4.6"};
     dp_format found[2];
     dp_spec spec = dp_spec_default();
@@ -51,7 +51,7 @@ static int draw(rng *r, dp_model model, measure_kind kind, question *q) {
     }
     const double end = either_sign ? q->hi : fmin(q->hi, 1e5 * q->lo);
     const double z = either_sign ? rng_depth(r, q->lo, end) : fmin(fmax(rng_log(r, q->lo, end), q->lo), end);
-    q->limit = judge(kind, &q->setup, z, z, NAN).value * rng_log(r, 0.7, 1.5);
+    q->limit = quantity_over(kind, &q->setup, z, z, NAN).value * rng_log(r, 0.7, 1.5);
     return q->limit > 0.0 && q->limit < INFINITY;
 }
 
@@ -60,7 +60,8 @@ static int draw(rng *r, dp_model model, measure_kind kind, question *q) {
  * error at a depth is never above the bound over a range.
  */
 static double at(const question *q, double z) {
-    return q->kind == MEASURE_ERROR ? fabs(dp_error(&q->setup, dp_code(&q->setup, z), z)) : dp_separation(&q->setup, z);
+    return q->kind == QUANTITY_ERROR ? fabs(dp_error(&q->setup, dp_code(&q->setup, z), z))
+                                     : dp_separation(&q->setup, z);
 }
 
 static double slack_of(const question *q) {
@@ -99,8 +100,8 @@ static void check_densely(const question *q, const distance_answer *a, tally *de
     }
 }
 
-static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
-    rng r = rng_make(kind == MEASURE_ERROR ? "distance error" : dp_model_name(model));
+static void in_model(dp_model model, quantity_kind kind, uint64_t cases) {
+    rng r = rng_make(kind == QUANTITY_ERROR ? "distance error" : dp_model_name(model));
     tally whole = {.name = "the range up to the answer passes as check judges"};
     tally dense = {.name = "no depth up to the answer fails"};
     tally beyond = {.name = "beyond the answer it fails, next to it"};
@@ -119,7 +120,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
             tally_fail(&whole, "%s: refused", text);
             continue;
         }
-        if (kind == MEASURE_SEPARATION)
+        if (kind == QUANTITY_SEPARATION)
             check_about(&q, &a, &about);
         if (!a.possible) {
             TALLY(&none, at(&q, q.lo) > q.limit, "%s: %.17g there", text, at(&q, q.lo));
@@ -127,7 +128,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
         }
         dp_separation_worst worst = {.bound = 0.0};
         dp_worst error = {.error = 0.0};
-        if (kind == MEASURE_ERROR && q.lo < a.value)
+        if (kind == QUANTITY_ERROR && q.lo < a.value)
             dp_worst_over(&q.setup, q.lo, a.value, &error);
         else if (q.lo < a.value)
             dp_separation_over(&q.setup, q.lo, a.value, q.limit, &worst);
@@ -148,7 +149,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
         dp_worst_over(&q.setup, q.lo, a.fails, &error);
         TALLY(&beyond,
               a.fails > a.value && a.fails <= fmax(next, (double)nextafterf((float)next, INFINITY)) &&
-                  (kind == MEASURE_ERROR ? error.error > q.limit : worst.bound > q.limit),
+                  (kind == QUANTITY_ERROR ? error.error > q.limit : worst.bound > q.limit),
               "%s: %.17g passes, said to fail after %.17g", text, a.fails, a.value);
     }
     printf("# %s: %llu questions, %llu hold throughout, %llu not at all\n", dp_model_name(model),
@@ -156,27 +157,27 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
     tally_end(&whole);
     tally_end(&dense);
     tally_end(&beyond);
-    if (kind == MEASURE_SEPARATION)
+    if (kind == QUANTITY_SEPARATION)
         tally_end(&about);
     if (none.cases > 0)
         tally_end(&none);
 }
 
 TEST(test_fp32) {
-    in_model(DP_MODEL_FLOAT, MEASURE_SEPARATION, test_cases(50, 500, 10000));
+    in_model(DP_MODEL_FLOAT, QUANTITY_SEPARATION, test_cases(50, 500, 10000));
 }
 
 TEST(test_staged) {
-    in_model(DP_MODEL_STAGED, MEASURE_SEPARATION, test_cases(50, 500, 10000));
+    in_model(DP_MODEL_STAGED, QUANTITY_SEPARATION, test_cases(50, 500, 10000));
 }
 
 TEST(test_exact) {
-    in_model(DP_MODEL_EXACT, MEASURE_SEPARATION, test_cases(100, 1000, 20000));
+    in_model(DP_MODEL_EXACT, QUANTITY_SEPARATION, test_cases(100, 1000, 20000));
 }
 
 TEST(test_error) {
-    in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(20, 200, 2000));
-    in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(10, 100, 1000));
+    in_model(DP_MODEL_EXACT, QUANTITY_ERROR, test_cases(20, 200, 2000));
+    in_model(DP_MODEL_STAGED, QUANTITY_ERROR, test_cases(10, 100, 1000));
 }
 
 /* UNORM under a perspective: s = z g/(1 - g) with g = z kappa h, so z^2 kappa h + z S kappa h - S = 0. */
@@ -187,7 +188,7 @@ TEST(test_closed_form) {
     for (uint64_t i = 0; i < cases; i++) {
         static const char *const names[] = {"unorm8", "unorm16", "unorm24", "unorm32"};
         dp_format found[2];
-        question q = {.kind = MEASURE_SEPARATION};
+        question q = {.kind = QUANTITY_SEPARATION};
         distance_answer a;
         char text[320];
         dp_spec spec = dp_spec_default();
@@ -261,7 +262,7 @@ TEST(test_again) {
     for (uint64_t i = 0; i < cases;) {
         question q;
         distance_answer a;
-        if (!draw(&r, models[i % 3], MEASURE_SEPARATION, &q) ||
+        if (!draw(&r, models[i % 3], QUANTITY_SEPARATION, &q) ||
             distance_solve(q.kind, &q.setup, q.lo, q.hi, q.limit, &a) != DP_OK || a.throughout)
             continue;
         i++;
@@ -292,7 +293,7 @@ TEST(test_next_to_zero) {
     spec.format = format[0];
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     const double limit = 0x1.86aa77b50d68fp-22, lo = 0x1.ab87b087e0227p-339;
-    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, lo, spec.zfar, limit, &a), DP_OK);
+    assert_int_equal(distance_solve(QUANTITY_SEPARATION, &setup, lo, spec.zfar, limit, &a), DP_OK);
     assert_false(a.possible);
     const size_t count = distance_again(&setup, lo, spec.zfar, limit, span, 8);
     for (size_t i = 0; i < count; i++) {
@@ -307,12 +308,12 @@ TEST(test_door) {
     dp_spec spec = dp_spec_default();
     spec.model = DP_MODEL_FLOAT;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    assert_int_equal(distance_solve(MEASURE_SEPARATION, NULL, 1.0, 2.0, 0.1, &a), DP_ERROR_NULL);
-    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 2.0, 0.1, NULL), DP_ERROR_NULL);
-    assert_int_equal(distance_solve(MEASURE_ERROR, &setup, 1.0, 2.0, 0.1, &a), DP_ERROR_MODEL);
-    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 0.01, 2.0, 0.1, &a), DP_ERROR_RANGE);
-    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 2000.0, 0.1, &a), DP_ERROR_RANGE);
-    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 2.0, 0.0, &a), DP_ERROR_RANGE);
-    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 1.0, 10.0, &a), DP_OK);
+    assert_int_equal(distance_solve(QUANTITY_SEPARATION, NULL, 1.0, 2.0, 0.1, &a), DP_ERROR_NULL);
+    assert_int_equal(distance_solve(QUANTITY_SEPARATION, &setup, 1.0, 2.0, 0.1, NULL), DP_ERROR_NULL);
+    assert_int_equal(distance_solve(QUANTITY_ERROR, &setup, 1.0, 2.0, 0.1, &a), DP_ERROR_MODEL);
+    assert_int_equal(distance_solve(QUANTITY_SEPARATION, &setup, 0.01, 2.0, 0.1, &a), DP_ERROR_RANGE);
+    assert_int_equal(distance_solve(QUANTITY_SEPARATION, &setup, 1.0, 2000.0, 0.1, &a), DP_ERROR_RANGE);
+    assert_int_equal(distance_solve(QUANTITY_SEPARATION, &setup, 1.0, 2.0, 0.0, &a), DP_ERROR_RANGE);
+    assert_int_equal(distance_solve(QUANTITY_SEPARATION, &setup, 1.0, 1.0, 10.0, &a), DP_OK);
     assert_true(a.possible && a.throughout && a.value == 1.0);
 }

@@ -181,7 +181,7 @@ static check_verdict judge_one(const char *camera, const char *view, const char 
     const long failed = check_all(&request, &v);
     assert_true(failed == !v.passed);
     const bool slanted = check_is_slanted(&v);
-    assert_true(slanted == (*view != '\0' && v.asked->kind == NEED_SEPARATION));
+    assert_true(slanted == (*view != '\0' && v.asked->kind == QUANTITY_SEPARATION));
     need_release(&f);
     return v;
 }

@@ -10,8 +10,7 @@ static const char *describe(const solve_problem *p, char text[320]) {
     snprintf(text, 320, "%s of %s %s%s near %.17g far %.17g %s %s, %s %.17g over %.17g..%.17g",
              p->unknown == SOLVE_NEAR ? "near" : "far", p->spec.format.name, dp_mapping_get(p->spec.mapping)->name,
              p->spec.ortho ? " ortho" : "", p->spec.znear, p->spec.zfar, dp_model_name(p->spec.model),
-             dp_arith_get(p->spec.arith)->name, p->kind == MEASURE_ERROR ? "error" : "separation", p->limit, p->lo,
-             p->hi);
+             dp_arith_get(p->spec.arith)->name, quantity_get(p->kind)->name, p->limit, p->lo, p->hi);
     return text;
 }
 
@@ -36,7 +35,7 @@ static int meets(const solve_problem *p, double value) {
     *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = value;
     if (set_up(&spec, &setup) != DP_OK)
         return 0;
-    if (p->kind == MEASURE_SEPARATION)
+    if (p->kind == QUANTITY_SEPARATION)
         return p->lo == p->hi
                    ? dp_separation(&setup, p->lo) <= p->limit
                    : dp_separation_over(&setup, p->lo, p->hi, p->limit, &worst) == DP_OK && worst.bound <= p->limit;
@@ -45,7 +44,7 @@ static int meets(const solve_problem *p, double value) {
 }
 
 /* A problem made from a camera that can be: its own value, times something near 1, is what is wanted. */
-static int draw(rng *r, dp_model model, measure_kind kind, solve_problem *p) {
+static int draw(rng *r, dp_model model, quantity_kind kind, solve_problem *p) {
     static const char *const formats[] = {"fp16", "fp32", "unorm16", "unorm24", "unorm24", "unorm8", "float4.6"};
     dp_format found[2];
     dp_setup setup;
@@ -68,7 +67,7 @@ static int draw(rng *r, dp_model model, measure_kind kind, solve_problem *p) {
     p->lo = rng_below(r, 4) == 0 ? fmin(fmax(rng_log(r, p->spec.znear, p->hi), p->spec.znear), p->hi) : p->hi;
     if (set_up(&p->spec, &setup) != DP_OK)
         return 0;
-    const judgement j = judge(kind, &setup, p->lo, p->hi, NAN);
+    const quantity_worst j = quantity_over(kind, &setup, p->lo, p->hi, NAN);
     p->limit = j.value * rng_log(r, 0.5, 2.0);
     return p->limit > 0.0 && p->limit < INFINITY;
 }
@@ -104,7 +103,7 @@ static void judge_beyond(const solve_problem *p, const plane_answer *a, sides *s
     char text[320];
     const double share = 2.0 * share_beyond(p, a->value),
                  x = a->value * (p->unknown == SOLVE_NEAR ? 1 - share : 1 + share);
-    if (isinf(a->value) || x < a->least || x > a->most || p->spec.model != DP_MODEL_EXACT || p->kind == MEASURE_ERROR)
+    if (isinf(a->value) || x < a->least || x > a->most || p->spec.model != DP_MODEL_EXACT || p->kind == QUANTITY_ERROR)
         return;
     TALLY(&s->beyond, !meets(p, x) && (a->certain || share > 2e-9), "%s: %.17g beyond %.17g passes", describe(p, text),
           x, a->value);
@@ -126,13 +125,13 @@ static void judge_answer(const solve_problem *p, const plane_answer *a, rng *r, 
         const double x = fmin(fmax(rng_log(r, a->least, most), a->least), most);
         if (a->certain)
             TALLY(&s->nothing, !meets(p, x), "%s: nothing is said to pass, but %.17g does", describe(p, text), x);
-        else if (p->spec.model == DP_MODEL_EXACT && p->kind == MEASURE_SEPARATION)
+        else if (p->spec.model == DP_MODEL_EXACT && p->kind == QUANTITY_SEPARATION)
             TALLY(&s->nothing, !meets(p, x), "%s: nothing was found, but %.17g passes", describe(p, text), x);
     }
 }
 
-static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
-    rng r = rng_make(kind == MEASURE_ERROR ? "plane error" : dp_model_name(model));
+static void in_model(dp_model model, quantity_kind kind, uint64_t cases) {
+    rng r = rng_make(kind == QUANTITY_ERROR ? "plane error" : dp_model_name(model));
     sides s = {.answer = {.name = "the answer passes as check judges"},
                .proof = {.name = "all that is said to pass passes"},
                .beyond = {.name = "next beyond an answer of the lattice nothing passes"},
@@ -161,20 +160,20 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
 }
 
 TEST(test_fp32) {
-    in_model(DP_MODEL_FLOAT, MEASURE_SEPARATION, test_cases(60, 250, 20000));
+    in_model(DP_MODEL_FLOAT, QUANTITY_SEPARATION, test_cases(60, 250, 20000));
 }
 
 TEST(test_staged) {
-    in_model(DP_MODEL_STAGED, MEASURE_SEPARATION, test_cases(100, 250, 10000));
+    in_model(DP_MODEL_STAGED, QUANTITY_SEPARATION, test_cases(100, 250, 10000));
 }
 
 TEST(test_exact) {
-    in_model(DP_MODEL_EXACT, MEASURE_SEPARATION, test_cases(100, 250, 10000));
+    in_model(DP_MODEL_EXACT, QUANTITY_SEPARATION, test_cases(100, 250, 10000));
 }
 
 TEST(test_error) {
-    in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(50, 120, 10000));
-    in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(30, 60, 3000));
+    in_model(DP_MODEL_EXACT, QUANTITY_ERROR, test_cases(50, 120, 10000));
+    in_model(DP_MODEL_STAGED, QUANTITY_ERROR, test_cases(30, 60, 3000));
 }
 
 /* |stored - z| of UNORM under an infinite or finite perspective, in long double, without the library. */
@@ -203,7 +202,7 @@ TEST(test_error_by_hand) {
         const int k = (int)rng_below(&r, 3);
         dp_format found[2];
         plane_answer a;
-        solve_problem p = {.spec = dp_spec_default(), .kind = MEASURE_ERROR, .unknown = SOLVE_NEAR};
+        solve_problem p = {.spec = dp_spec_default(), .kind = QUANTITY_ERROR, .unknown = SOLVE_NEAR};
         dp_format_parse(names[k], found);
         p.spec.format = found[0];
         p.spec.mapping = rng_below(&r, 2) == 0 ? DP_MAPPING_D3D : DP_MAPPING_REVERSED;
@@ -233,7 +232,7 @@ TEST(test_error_by_hand) {
 TEST(test_half_code) {
     plane_answer a;
     dp_format found[2];
-    solve_problem p = {.spec = dp_spec_default(), .kind = MEASURE_ERROR, .limit = 4000.0, .lo = 1000.0, .hi = 1000.0};
+    solve_problem p = {.spec = dp_spec_default(), .kind = QUANTITY_ERROR, .limit = 4000.0, .lo = 1000.0, .hi = 1000.0};
     dp_format_parse("unorm16", found);
     p.spec.format = found[0];
     p.spec.zfar = INFINITY;
@@ -243,7 +242,7 @@ TEST(test_half_code) {
     p.spec.model = DP_MODEL_FLOAT;
     assert_int_equal(plane_solve(&p, &a), DP_ERROR_MODEL);
     assert_int_equal(plane_solve(NULL, &a), DP_ERROR_NULL);
-    p.kind = MEASURE_SEPARATION;
+    p.kind = QUANTITY_SEPARATION;
     p.spec.mapping = DP_MAPPING_LINEAR;
     p.spec.zfar = 1e4;
     assert_int_equal(plane_solve(&p, &a), DP_ERROR_MODEL);
@@ -483,7 +482,7 @@ TEST(test_infinite_far) {
     for (int i = 0; i < 4; i++) {
         solve_problem p = camera(SOLVE_FAR, "unorm8", mappings[i % 2], 1.0);
         p.spec.model = models[i / 2];
-        p.kind = MEASURE_ERROR;
+        p.kind = QUANTITY_ERROR;
         p.limit = 1.342;
         p.lo = p.hi = 25.5;
         assert_int_equal(plane_solve(&p, &a), DP_OK);

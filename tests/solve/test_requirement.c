@@ -33,10 +33,10 @@ TEST(example_is_read) {
     assert_true(f.cameras[3].setups[0].spec.ortho);
     assert_string_equal(f.needs[0].name, "decals");
     assert_int_equal(f.needs[0].line, 14);
-    assert_true(f.needs[0].kind == NEED_SEPARATION && f.needs[0].lo == 0.5 && f.needs[0].hi == 50.0);
+    assert_true(f.needs[0].kind == QUANTITY_SEPARATION && f.needs[0].lo == 0.5 && f.needs[0].hi == 50.0);
     assert_true(f.needs[0].limit == 0.1 / 1000.0);
     assert_true(f.needs[1].lo == 2000.0 && f.needs[1].hi == 2000.0);
-    assert_true(f.needs[2].kind == NEED_TIES && f.needs[2].limit == 0.4);
+    assert_true(f.needs[2].kind == QUANTITY_TIES && f.needs[2].limit == 0.4);
     need_release(&f);
 }
 

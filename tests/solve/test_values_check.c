@@ -79,7 +79,7 @@ static int line_of(const char *text, const char *found) {
 static double code_of(const check_verdict *verdict) {
     const need *n = verdict->asked;
     dp_worst worst;
-    if (n->kind != NEED_ERROR)
+    if (n->kind != QUANTITY_ERROR)
         return isfinite(verdict->z) ? (double)dp_code(&verdict->setup, verdict->z) : NAN;
     assert_int_equal(dp_worst_over(&verdict->setup, n->lo, n->hi, &worst), DP_OK);
     return worst.error_code;
@@ -107,7 +107,7 @@ static void want_verdict(values *v, const char *path, const char *text, const ch
     want_setup(v, &verdict->setup);
     values_under(v, "requirements[%zu].", i);
     want(v, "file=%s line=%u name=%s", path, (unsigned)line_of(text, strstr(text, key)), n->name);
-    want(v, "camera=%s kind=%s unit=%s", verdict->camera->name, need_kind_get(n->kind)->name, "m");
+    want(v, "camera=%s kind=%s unit=%s", verdict->camera->name, quantity_get(n->kind)->name, "m");
     want(v, "lo=%f hi=%f limit=%f value=%f", n->lo, n->hi, n->limit, verdict->value);
     want(v, "z=%f code=%f method=%s", verdict->z, code_of(verdict), check_method_name(verdict->method));
     want(v, "passed=%d surfaces=%s", verdict->value <= n->limit, is_slope(verdict) ? "any slant" : "facing");
@@ -142,19 +142,19 @@ static void check_text(values *v, const char *text, const need_file *file, const
         const check_verdict *d = &verdicts[i];
         char said_of[64];
         label_of(&d->setup, setup);
-        const need_kind_row *kind = need_kind_get(d->asked->kind);
+        const quantity_row *kind = quantity_get(d->asked->kind);
         snprintf(label, sizeof label, "%s  %s:%d: %s: camera %s, %s (%s): %s ", d->passed ? "pass" : "FAIL", file->path,
                  d->asked->line, d->asked->name, d->camera->name, setup, dp_model_name(d->setup.spec.model),
-                 kind->phrase);
+                 kind->note);
         /* A share is of a range, anything else of a depth, if there is one. */
         values_under(v, "requirements[%zu].", i);
         check_line(v, text, label,
-                   !kind->is_length ? "value:6, lo:6, hi:6, limit:6"
-                   : isnan(d->z)    ? "value:6, limit:6"
-                                    : "value:6, z:6, code:6, limit:6");
+                   kind->unit == NULL ? "value:6, lo:6, hi:6, limit:6"
+                   : isnan(d->z)      ? "value:6, limit:6"
+                                      : "value:6, z:6, code:6, limit:6");
         snprintf(said_of, sizeof said_of, ", %s, allowed ", is_slope(d) ? "any slant" : "facing");
         const char *said = strstr(strstr(text, label), said_of), *end = strchr(strstr(text, label), '\n');
-        assert_true((said != NULL && said < end) == (d->asked->kind == NEED_SEPARATION));
+        assert_true((said != NULL && said < end) == (d->asked->kind == QUANTITY_SEPARATION));
     }
     snprintf(label, sizeof label, "%s: %ld passed, %ld failed\n", file->path, (long)check_count(file) - failed, failed);
     assert_non_null(strstr(text, label));
@@ -199,7 +199,7 @@ static void check_junit(const char *path, const char *text, const need_file *fil
             snprintf(expected + used, sizeof expected - used, "/>\n");
         else
             snprintf(expected + used, sizeof expected - used, ">\n      <failure type=\"%s\" message=\"%s\">",
-                     need_kind_get(d->asked->kind)->name, escaped(line, message));
+                     quantity_get(d->asked->kind)->name, escaped(line, message));
         if (strstr(p.out, expected) == NULL)
             fail_msg("not in the report: %s", expected);
     }

@@ -12,7 +12,7 @@
 
 typedef struct solve_case {
     const char *arguments, *target;
-    measure_kind kind;
+    quantity_kind kind;
     double limit; /* NaN: what is reached is asked */
     double lo, hi;
     bool possible;
@@ -21,49 +21,49 @@ typedef struct solve_case {
 } solve_case;
 
 static const solve_case cases[] = {
-    {"-F unorm24,fp32 -m d3d,reversed -f 10000 --separation 0.01 --at 5000", "near", MEASURE_SEPARATION, 0.01, 5000,
+    {"-F unorm24,fp32 -m d3d,reversed -f 10000 --separation 0.01 --at 5000", "near", QUANTITY_SEPARATION, 0.01, 5000,
      5000, true, NAN, 10000, "exact"},
-    {"-n 0.1 -F unorm16 -m d3d --for far --error 0.024 --at 17.77", "far", MEASURE_ERROR, 0.024, 17.77, 17.77, true,
+    {"-n 0.1 -F unorm16 -m d3d --for far --error 0.024 --at 17.77", "far", QUANTITY_ERROR, 0.024, 17.77, 17.77, true,
      0.1, NAN, "exact"},
-    {"--for far -n 0.1 -F fp16 -m log --log-c 2.5 --error 0.0036 --range 2:5", "far", MEASURE_ERROR, 0.0036, 2, 5, true,
-     0.1, NAN, "exact"},
-    {"-F fp16 -m reversed -f 1000 --error 0.01 --range 1:100", "near", MEASURE_ERROR, 0.01, 1, 100, false, NAN, 1000,
+    {"--for far -n 0.1 -F fp16 -m log --log-c 2.5 --error 0.0036 --range 2:5", "far", QUANTITY_ERROR, 0.0036, 2, 5,
+     true, 0.1, NAN, "exact"},
+    {"-F fp16 -m reversed -f 1000 --error 0.01 --range 1:100", "near", QUANTITY_ERROR, 0.01, 1, 100, false, NAN, 1000,
      "exact"},
-    {"-F fp16 -m reversed -f 4000 --rounding even --separation 0.5 --range 10:700", "near", MEASURE_SEPARATION, 0.5, 10,
-     700, true, NAN, 4000, "exact"},
-    {"-n 0.1 -f 4000 -F unorm16 --separation 0.001 --at 100", "mapping", MEASURE_SEPARATION, 0.001, 100, 100, false,
+    {"-F fp16 -m reversed -f 4000 --rounding even --separation 0.5 --range 10:700", "near", QUANTITY_SEPARATION, 0.5,
+     10, 700, true, NAN, 4000, "exact"},
+    {"-n 0.1 -f 4000 -F unorm16 --separation 0.001 --at 100", "mapping", QUANTITY_SEPARATION, 0.001, 100, 100, false,
      0.1, 4000, "exact"},
-    {"-n 0.1 -f 4000 --separation 0.001 --range 0.1:100", "format", MEASURE_SEPARATION, 0.001, 0.1, 100, true, 0.1,
+    {"-n 0.1 -f 4000 --separation 0.001 --range 0.1:100", "format", QUANTITY_SEPARATION, 0.001, 0.1, 100, true, 0.1,
      4000, "exact"},
-    {"-n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed --rounding zero --range 3:50", "separation", MEASURE_SEPARATION,
+    {"-n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed --rounding zero --range 3:50", "separation", QUANTITY_SEPARATION,
      NAN, 3, 50, true, 0.1, 1000, "exact"},
-    {"-F unorm24,fp32 -m d3d,reversed -f 10000 --separation 0.013 --range 20:4000", "near", MEASURE_SEPARATION, 0.013,
+    {"-F unorm24,fp32 -m d3d,reversed -f 10000 --separation 0.013 --range 20:4000", "near", QUANTITY_SEPARATION, 0.013,
      20, 4000, true, NAN, 10000, "float"},
-    {"-F unorm24 -m reversed -f 10000 --separation 0.013 --at 4000", "near", MEASURE_SEPARATION, 0.013, 4000, 4000,
+    {"-F unorm24 -m reversed -f 10000 --separation 0.013 --at 4000", "near", QUANTITY_SEPARATION, 0.013, 4000, 4000,
      true, NAN, 10000, "float"},
-    {"-F fp32 -m d3d -f 10000 --separation 0.013 --at 4000", "near", MEASURE_SEPARATION, 0.013, 4000, 4000, true, NAN,
+    {"-F fp32 -m d3d -f 10000 --separation 0.013 --at 4000", "near", QUANTITY_SEPARATION, 0.013, 4000, 4000, true, NAN,
      10000, "float"},
-    {"--for far -n 0.25 -F unorm24 -m gl --separation 0.5 --at 700", "far", MEASURE_SEPARATION, 0.5, 700, 700, true,
+    {"--for far -n 0.25 -F unorm24 -m gl --separation 0.5 --at 700", "far", QUANTITY_SEPARATION, 0.5, 700, 700, true,
      0.25, NAN, "float"},
-    {"-F unorm24 -m d3d -f 2000 --error 0.01 --range 1:300", "near", MEASURE_ERROR, 0.01, 1, 300, true, NAN, 2000,
+    {"-F unorm24 -m d3d -f 2000 --error 0.01 --range 1:300", "near", QUANTITY_ERROR, 0.01, 1, 300, true, NAN, 2000,
      "staged"},
-    {"--for distance -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,gl --separation 0.01", "distance", MEASURE_SEPARATION, 0.01,
+    {"--for distance -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,gl --separation 0.01", "distance", QUANTITY_SEPARATION, 0.01,
      0.1, 1000, true, 0.1, 1000, "float"},
     {"--for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01 --range 0.2:121.4", "distance",
-     MEASURE_SEPARATION, 0.01, 0.2, 121.4, true, 0.1, 1000, "float"},
-    {"--for distance -n 0.1 -f 2e5 -F fp32 -m reversed --separation 0.01", "distance", MEASURE_SEPARATION, 0.01, 0.1,
+     QUANTITY_SEPARATION, 0.01, 0.2, 121.4, true, 0.1, 1000, "float"},
+    {"--for distance -n 0.1 -f 2e5 -F fp32 -m reversed --separation 0.01", "distance", QUANTITY_SEPARATION, 0.01, 0.1,
      2e5, true, 0.1, 2e5, "float"},
-    {"--for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01", "distance", MEASURE_SEPARATION, 0.01, 0.1,
+    {"--for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01", "distance", QUANTITY_SEPARATION, 0.01, 0.1,
      1000, true, 0.1, 1000, "exact"},
     {"--for distance -n 0.1 -f 1000 -F fp32 -m reversed --separation 0.01 --range 0.5:1000", "distance",
-     MEASURE_SEPARATION, 0.01, 0.5, 1000, true, 0.1, 1000, "exact"},
-    {"--for distance -n 0.1 -f 1000 -F unorm24 -m log --separation 0.001", "distance", MEASURE_SEPARATION, 0.001, 0.1,
+     QUANTITY_SEPARATION, 0.01, 0.5, 1000, true, 0.1, 1000, "exact"},
+    {"--for distance -n 0.1 -f 1000 -F unorm24 -m log --separation 0.001", "distance", QUANTITY_SEPARATION, 0.001, 0.1,
      1000, true, 0.1, 1000, "float"},
-    {"--for near -f 1e7 -F unorm24 -m three-webgpu --separation 1 --at 1e5", "near", MEASURE_SEPARATION, 1, 1e5, 1e5,
+    {"--for near -f 1e7 -F unorm24 -m three-webgpu --separation 1 --at 1e5", "near", QUANTITY_SEPARATION, 1, 1e5, 1e5,
      true, NAN, 1e7, "float"},
-    {"--for near -f 1e4 -F unorm24 -m d3d --separation 0.0001 --at 5000", "near", MEASURE_SEPARATION, 0.0001, 5000,
+    {"--for near -f 1e4 -F unorm24 -m d3d --separation 0.0001 --at 5000", "near", QUANTITY_SEPARATION, 0.0001, 5000,
      5000, false, NAN, 1e4, "float"},
-    {"--for distance -n 0.1 -f 1000 -F fp16 -m d3d --error 0.02 --range 0.2:900", "distance", MEASURE_ERROR, 0.02, 0.2,
+    {"--for distance -n 0.1 -f 1000 -F fp16 -m d3d --error 0.02 --range 0.2:900", "distance", QUANTITY_ERROR, 0.02, 0.2,
      900, true, 0.1, 1000, "exact"},
 };
 
@@ -87,7 +87,7 @@ static dp_setup setup_of(const json_t *o) {
         if (strcmp(dp_model_name((dp_model)m), text_at(o, "model")) == 0)
             spec.model = (dp_model)m;
     spec.log_c = node_at(o, "log_c") != NULL ? number_at(o, "log_c") : 1;
-    assert_int_equal(judge_setup(&spec, &setup), DP_OK);
+    assert_int_equal(quantity_setup(&spec, &setup), DP_OK);
     return setup;
 }
 
@@ -104,9 +104,9 @@ static double with_plane(const solve_case *c, const dp_setup *setup, bool near_a
     dp_spec spec = spec_of(setup);
     dp_setup other;
     *(near_asked ? &spec.znear : &spec.zfar) = plane;
-    if (spec.znear > c->lo || spec.zfar < c->hi || judge_setup(&spec, &other) != DP_OK)
+    if (spec.znear > c->lo || spec.zfar < c->hi || quantity_setup(&spec, &other) != DP_OK)
         return INFINITY;
-    return judge(c->kind, &other, c->lo, c->hi, NAN).value;
+    return quantity_over(c->kind, &other, c->lo, c->hi, NAN).value;
 }
 
 /* Both ends pass; outward of each nothing does, unless it is as far as a plane can go. */
@@ -114,7 +114,7 @@ static void check_island(const solve_case *c, const dp_setup *setup, bool near_a
     const double outward = 1e-7;
     assert_true(lo <= hi);
     assert_true(with_plane(c, setup, near_asked, lo) <= c->limit && with_plane(c, setup, near_asked, hi) <= c->limit);
-    if (c->kind == MEASURE_ERROR) /* which may pass again where it is aligned otherwise */
+    if (c->kind == QUANTITY_ERROR) /* which may pass again where it is aligned otherwise */
         return;
     if (lo > 1e-12 && (near_asked || lo > c->hi))
         assert_true(with_plane(c, setup, near_asked, lo * (1 - outward)) > c->limit);
@@ -124,7 +124,7 @@ static void check_island(const solve_case *c, const dp_setup *setup, bool near_a
 
 static double in_binary32(const solve_case *c, const dp_setup *setup, double z) {
     dp_budget b;
-    return c->kind == MEASURE_SEPARATION && dp_budget_at(setup, z, NULL, &b) == DP_OK ? b.separation : NAN;
+    return c->kind == QUANTITY_SEPARATION && dp_budget_at(setup, z, NULL, &b) == DP_OK ? b.separation : NAN;
 }
 
 /* Was a plane solved for? By default it is the target; among alternatives it may be another near plane. */
@@ -141,7 +141,7 @@ static bool is_distance(const solve_case *c) {
 }
 
 static const char *measure_of(const solve_case *c) {
-    return c->kind == MEASURE_ERROR ? "error" : "separation";
+    return quantity_get(c->kind)->name;
 }
 
 static plane_answer solve_again(const solve_case *c, const dp_setup *setup) {
@@ -160,7 +160,7 @@ static bool passes_at(const solve_case *c, const dp_setup *setup, double plane) 
     dp_spec spec = spec_of(setup);
     dp_setup other;
     *(near_is_asked(c) ? &spec.znear : &spec.zfar) = plane;
-    return judge_setup(&spec, &other) == DP_OK && judge(c->kind, &other, c->lo, c->hi, c->limit).passed;
+    return quantity_setup(&spec, &other) == DP_OK && quantity_over(c->kind, &other, c->lo, c->hi, c->limit).passed;
 }
 
 /* Its own ends pass, as does all between them, planes of few bits among them. */
@@ -188,7 +188,7 @@ static void want_plane(values *v, const solve_case *c, const dp_setup *setup, do
     want(v, "~from=%f ~to=%f", fmin(plane, p.until), fmax(plane, p.until));
     assert_true(p.possible && p.value == plane);
     check_plane(c, setup, plane, &p);
-    if (setup->spec.model == DP_MODEL_EXACT && c->kind == MEASURE_SEPARATION)
+    if (setup->spec.model == DP_MODEL_EXACT && c->kind == QUANTITY_SEPARATION)
         check_island(c, setup, near_is_asked(c), fmin(plane, p.until), fmax(plane, p.until));
 }
 
@@ -198,9 +198,10 @@ static distance_answer want_distance(values *v, const solve_case *c, const dp_se
     assert_int_equal(distance_solve(c->kind, setup, c->lo, c->hi, c->limit, &d), DP_OK);
     want_number(v, "distance", d.possible ? d.value : NAN);
     if (d.possible)
-        assert_true(judge(c->kind, setup, c->lo, d.value, c->limit).passed && (!d.throughout || d.value == c->hi));
+        assert_true(quantity_over(c->kind, setup, c->lo, d.value, c->limit).passed &&
+                    (!d.throughout || d.value == c->hi));
     if (!d.throughout)
-        assert_true(d.fails > d.value && !judge(c->kind, setup, c->lo, d.fails, c->limit).passed);
+        assert_true(d.fails > d.value && !quantity_over(c->kind, setup, c->lo, d.fails, c->limit).passed);
     if (whole)
         want(v, "throughout=%d fails_from=%f", d.throughout, d.fails);
     want_bool(v, "possible", d.possible);
@@ -238,7 +239,7 @@ static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
     values_under(v, "fight.");
     want(v, "first=%f searched_to=%f", first, end);
     const size_t count =
-        c->kind == MEASURE_SEPARATION && !d.throughout ? distance_again(setup, from, c->hi, c->limit, again, 32) : 0;
+        c->kind == QUANTITY_SEPARATION && !d.throughout ? distance_again(setup, from, c->hi, c->limit, again, 32) : 0;
     for (size_t i = 0; i < count; i++) {
         values_under(v, "again[%zu].", i);
         want(v, "lo=%f hi=%f", again[i].lo, again[i].hi);
@@ -248,7 +249,7 @@ static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
 /* What real arithmetic would need: the same question in the model exact. */
 static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, bool solved) {
     const dp_setup exact = setup_in(setup, DP_MODEL_EXACT);
-    judgement reached;
+    quantity_worst reached;
     double value = NAN;
     values_under(v, "%.60slattice.", v->prefix);
     if (is_distance(c)) {
@@ -261,7 +262,7 @@ static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, 
         want_number(v, near_is_asked(c) ? "near" : "far", value = p.value);
         reached = p.reached;
     } else {
-        reached = judge(c->kind, &exact, c->lo, c->hi, c->limit);
+        reached = quantity_over(c->kind, &exact, c->lo, c->hi, c->limit);
         want_bool(v, "possible", isnan(c->limit) || reached.passed);
     }
     want_number(v, measure_of(c), reached.value);
@@ -272,7 +273,7 @@ static void want_candidate(values *v, const solve_case *c, const json_t *o, cons
     const dp_setup setup = setup_of(o);
     const cost price = cost_of(&setup.spec.format, setup.spec.mapping);
     const double plane = near_is_asked(c) ? setup.spec.znear : setup.spec.zfar;
-    judgement worst = judge(c->kind, &setup, c->lo, c->hi, c->limit);
+    quantity_worst worst = quantity_over(c->kind, &setup, c->lo, c->hi, c->limit);
     bool passes = isnan(c->limit) || worst.passed;
     values_under(v, "%s", under);
     want_setup(v, &(dp_setup){.spec = spec_of(&setup)});

@@ -16,6 +16,13 @@ typedef struct slant_fields {
 
 extern const column slant_columns[];
 
+/** Columns of the separation guaranteed to surfaces that face the camera and to any asked for; text has the latter. */
+#define GUARANTEES(type, facing, slanted, width, digits, its_when)                                                     \
+    {FIELD(type, facing, "guarantee_facing", "scene"), .when = (its_when)}, {                                          \
+        FIELD(type, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", width, digits), .upward = true,           \
+                                                                                             .when = (its_when)        \
+    }
+
 /** The surfaces for which a guarantee holds: "any slant", "87 degrees". */
 number_text slant_words(const dp_triangles *t);
 

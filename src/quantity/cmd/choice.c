@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "quantity/cmd/resolved.h"
+#include "core/engine.h"
 #include "report/sentence.h"
 
 /* The fullest model that the set-up has: what the others are measured by. */
@@ -21,10 +21,9 @@ static dp_model simplest(const dp_choice *choice, double tolerance) {
 }
 
 choosing choosing_start(const dp_setup *setup, double tolerance) {
-    return (choosing){.setup = setup,
-                      .tolerance = tolerance,
-                      .exact = resolved_in(setup, DP_MODEL_EXACT),
-                      .full = dp_setup_guaranteed(setup)};
+    choosing c = {.setup = setup, .tolerance = tolerance, .full = dp_setup_guaranteed(setup)};
+    dp_setup_in(setup, DP_MODEL_EXACT, &c.exact); /* which all mappings have */
+    return c;
 }
 
 /* A shader is no model: it has no codes. */
@@ -70,11 +69,8 @@ choosing choose_at(const dp_setup *setup, double tolerance, const depths *at) {
 }
 
 void setup_choose(const camera_asked *c, const depths *at, dp_setup *setup) {
-    dp_spec spec = setup->spec;
-    if (!c->model_auto)
-        return;
-    spec.model = choose_at(setup, c->tolerance, at).choice.model;
-    dp_setup_init(setup, &spec); /* the choice is among the models that the set-up has */
+    if (c->model_auto) /* the choice is among the models that the set-up has */
+        dp_setup_in(setup, choose_at(setup, c->tolerance, at).choice.model, setup);
 }
 
 static const column share_columns[] = {

@@ -19,15 +19,6 @@ number_text resolved_limit_text(size_t i, const unit_row *unit) {
     return unit != NULL ? number_in(number_full(limits[i].value), limits[i].unit) : number_full(limits[i].bare);
 }
 
-dp_setup resolved_in(const dp_setup *setup, dp_model model) {
-    dp_setup out = *setup;
-    dp_spec spec = setup->spec;
-    spec.model = model;
-    if (model != setup->spec.model)
-        dp_setup_init(&out, &spec); /* cannot fail: the set-up was made, and the model is one that its mapping has */
-    return out;
-}
-
 /* Where a smaller separation is guaranteed a larger one is: each is sought behind the one before. */
 void resolved_up_to(const dp_setup *full, const unit_row *unit, double up_to[RESOLVED_LIMITS]) {
     double from = full->spec.znear;

@@ -12,9 +12,6 @@ enum { RESOLVED_LIMITS = 3, RESOLVED_MIDDLE = 1, RESOLVED_DIGITS = 3, RESOLVED_T
 double resolved_limit(size_t i, const unit_row *unit);
 number_text resolved_limit_text(size_t i, const unit_row *unit);
 
-/** The same set-up in another model. */
-dp_setup resolved_in(const dp_setup *setup, dp_model model);
-
 /** For dp_setup_guaranteed(): the depth up to which each separation is guaranteed; NaN: not even at near. */
 void resolved_up_to(const dp_setup *full, const unit_row *unit, double up_to[RESOLVED_LIMITS]);
 

@@ -132,10 +132,8 @@ static double share_of(const row *r, int cause) {
 
 /* How much more the shader needs than the model staged says, which leaves it out. */
 static void note_staged(budget *b, const row *r) {
-    dp_spec spec = b->each.setup->spec;
     dp_setup staged;
-    spec.model = DP_MODEL_STAGED;
-    if (dp_setup_init(&staged, &spec) != DP_OK)
+    if (!dp_setup_in(b->each.setup, DP_MODEL_STAGED, &staged))
         return;
     const double times = r->parts.separation / dp_separation(&staged, r->z);
     if (!(times <= b->staged_times)) {

@@ -148,7 +148,7 @@ static void *next_setup(void *of, size_t i) {
     t->setup = dp_setup_facing(t->each.setup);
     snprintf(t->at_slant, sizeof t->at_slant, "at %s", slant_words(&t->each.slanted.spec.triangles).text);
     range_resolve(t->each.here, &t->lo, &t->hi);
-    t->exact = resolved_in(setup, DP_MODEL_EXACT);
+    dp_setup_in(setup, DP_MODEL_EXACT, &t->exact); /* which all mappings have */
     t->uncertain = (double)NAN;
     t->written = per_vertex_none(t->each.slant.triangles.depth);
     t->choice = choosing_start(setup, o->camera.tolerance);
@@ -228,9 +228,7 @@ static const column row_columns[] = {
     {FIELD(row, lattice, "lattice", "scene"), SHOWN("lattice", 11, DIGITS_SHORT), .upward = true,
      .only = AS_TEXT | AS_JSON},
     {FIELD(row, guaranteed, "guaranteed", "scene"), SHOWN("guaranteed", 11, DIGITS_SHORT), .upward = true},
-    {FIELD(row, guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
-    {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", 11, DIGITS_SHORT), .upward = true,
-     .when = WITH_TRIANGLES},
+    GUARANTEES(row, guaranteed, slanted, 11, DIGITS_SHORT, WITH_TRIANGLES),
     {FIELD(row, written.error, "per_vertex", "scene"), SHOWN("per vertex", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES | PER_VERTEX},
     {FIELD(row, written.depth, "per_vertex_depth", ""), .when = WITH_TRIANGLES | PER_VERTEX},

@@ -9,6 +9,7 @@
 #include "cli/progress.h"
 #include "cli/stop.h"
 #include "quantity/cmd/resolved.h"
+#include "quantity/quantity.h"
 #include "report/number.h"
 #include "scene/cmd_scene/request.h"
 #include "scene/cmd_scene/scene.h"
@@ -115,13 +116,12 @@ static void shorten(scene *s, double gap) {
 static int take_limits(scene *s) {
     const double znear = s->setup.spec.znear, zfar = s->setup.spec.zfar;
     const model_box b = model_box_of(&s->model);
-    dp_separation_worst worst = {.bound = HUGE_VAL};
     s->extent = model_box_diagonal(&b);
     s->within = option_given(s->o.line, "within") ? s->o.scene.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
     if (!(s->within >= znear && s->within <= zfar))
         return option_error("within", "must lie between near and far, got '%s'", number_full(s->within).text);
-    dp_separation_over(&s->setup, znear, s->within, 0.0, &worst);
-    s->gap = option_given(s->o.line, "separation") ? s->o.scene.separation : worst.bound;
+    s->gap = option_given(s->o.line, "separation") ? s->o.scene.separation
+                                                   : quantity_bound(QUANTITY_SEPARATION, &s->setup, znear, s->within);
     if (!option_given(s->o.line, "separation") && !option_given(s->o.line, "within") && s->eyes.count == 0)
         shorten(s, COARSEST * s->extent);
     return EXIT_FINE;

@@ -55,7 +55,7 @@ static number_text surfaces(const check_verdict *v) {
 }
 
 static verdict verdict_of(const check_file *f, const check_verdict *v) {
-    const need_kind_row *kind = need_kind_get(v->asked->kind);
+    const quantity_row *kind = quantity_get(v->asked->kind);
     const char *const unit = f->file.unit[0] != '\0' ? f->file.unit : NULL;
     const number_two compared = number_compared(v->value, v->asked->limit, DIGITS);
     return (verdict){.file = f->file.path,
@@ -72,9 +72,9 @@ static verdict verdict_of(const check_file *f, const check_verdict *v) {
                                dp_arith_get(v->setup.spec.arith)->name},
                      .surfaces = check_is_slanted(v) ? "any slant" : "facing",
                      .code = isfinite(v->z) ? v->code : (double)NAN,
-                     .phrase = kind->phrase,
-                     .shown = number_in(compared.value, kind->is_length ? unit : NULL),
-                     .allowed = number_in(compared.limit, kind->is_length ? unit : NULL)};
+                     .phrase = kind->note,
+                     .shown = number_in(compared.value, kind->unit != NULL ? unit : NULL),
+                     .allowed = number_in(compared.limit, kind->unit != NULL ? unit : NULL)};
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
@@ -94,10 +94,10 @@ static const char *sentence_of(const check_file *f, const check_verdict *v, char
     const page p = {.unit = f->file.unit[0] != '\0' ? f->file.unit : NULL};
     char among[NUMBER_SIZE + 4] = "";
     verdict x = verdict_of(f, v);
-    if (v->asked->kind == NEED_SEPARATION)
+    if (v->asked->kind == QUANTITY_SEPARATION)
         snprintf(among, sizeof among, ", %s", surfaces(v).text);
     x.among = among;
-    return sentence_first(&p, said, said_columns, &x, need_kind_get(v->asked->kind)->is_length ? 0 : OF_RANGE, out);
+    return sentence_first(&p, said, said_columns, &x, v->asked->kind != QUANTITY_TIES ? 0 : OF_RANGE, out);
 }
 
 /* Which GPU the promises for a camera are for. */
@@ -147,7 +147,7 @@ static void say_case(output *out, const check_file *f, const check_verdict *v) {
                                  .name = name,
                                  .file = f->file.path,
                                  .line = line,
-                                 .type = v->passed ? NULL : need_kind_get(v->asked->kind)->name,
+                                 .type = v->passed ? NULL : quantity_get(v->asked->kind)->name,
                                  .message = v->passed ? NULL : sentence_of(f, v, text),
                                  .detail = detail});
 }

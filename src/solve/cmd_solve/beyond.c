@@ -47,12 +47,12 @@ void solve_look_beyond(solve_report *r) {
     const solve_candidate *c = &r->items[0];
     dp_setup setup;
     r->fight = (solve_fight){(double)NAN, (double)NAN};
-    if (r->target != SOLVE_FOR_DISTANCE || judge_setup(&c->spec, &setup) != DP_OK)
+    if (r->target != SOLVE_FOR_DISTANCE || quantity_setup(&c->spec, &setup) != DP_OK)
         return;
     const double from = c->possible ? c->distance.value : r->lo;
     if (setup.spec.model == DP_MODEL_FLOAT && setup.spec.triangles.width == 0) /* the census knows depths at a point */
         r->fight = find_fight(&setup, from, r->hi, r->limit);
-    if (!c->distance.throughout && r->kind == MEASURE_SEPARATION)
+    if (!c->distance.throughout && r->kind == QUANTITY_SEPARATION)
         r->again_count = distance_again(&setup, from, r->hi, r->limit, r->again, SOLVE_AGAIN_MAX);
 }
 

@@ -28,7 +28,7 @@ static bool is_known(const solve_request *o, const char *id) {
 
 /* At a slant there is a guarantee of separations, and only of what is affine on the screen. */
 static int check_slanted(const solve_request *o, const solve_report *r) {
-    if (r->kind == MEASURE_ERROR)
+    if (r->kind == QUANTITY_ERROR)
         return option_error("error", "is that at a point, and conflicts with --viewport");
     if (option_given(o->line, "model") && !o->camera.model_auto && o->camera.model != DP_MODEL_FLOAT)
         return option_error("model", "must be float or auto with --viewport, got '%s', which knows no slant",
@@ -45,8 +45,8 @@ static int check_slanted(const solve_request *o, const solve_report *r) {
 static int check_target(const solve_request *o, solve_report *r) {
     static const char *const givens[] = {"near", "far", "format", "mapping"};
     const bool limited = option_given(o->line, "separation") || option_given(o->line, "error");
-    r->kind = option_given(o->line, "error") ? MEASURE_ERROR : MEASURE_SEPARATION;
-    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->error : o->separation;
+    r->kind = option_given(o->line, "error") ? QUANTITY_ERROR : QUANTITY_SEPARATION;
+    r->limit = !limited ? (double)NAN : r->kind == QUANTITY_ERROR ? o->error : o->separation;
     r->target = o->target;
     if (r->target == SOLVE_FOR_ANY && !limited)
         r->target = SOLVE_FOR_SEPARATION;
@@ -57,8 +57,7 @@ static int check_target(const solve_request *o, solve_report *r) {
         return usage_error("solve: nothing is left to solve for: leave out --near, --far, --format, --mapping or "
                            "--separation, or name one with --for");
     if (r->target == SOLVE_FOR_SEPARATION && limited)
-        return option_error("for", "solves for separation: leave out --%s",
-                            r->kind == MEASURE_ERROR ? "error" : "separation");
+        return option_error("for", "solves for separation: leave out --%s", solve_measure_name(r));
     if (r->target == SOLVE_FOR_DISTANCE && option_given(o->line, "at"))
         return option_error("at", "does not apply to --for distance: --range LO:HI says from where");
     if (r->target != SOLVE_FOR_SEPARATION && !limited)
@@ -67,7 +66,7 @@ static int check_target(const solve_request *o, solve_report *r) {
         return option_error("for", "solves for %s: leave out --%s", option_word("for", r->target),
                             option_word("for", r->target));
     for (size_t m = 0; m < o->camera.mapping_count; m++)
-        if (r->kind == MEASURE_ERROR && option_given(o->line, "model") && o->camera.model == DP_MODEL_FLOAT &&
+        if (r->kind == QUANTITY_ERROR && option_given(o->line, "model") && o->camera.model == DP_MODEL_FLOAT &&
             !is_logarithm(o->camera.mappings[m]))
             return option_error("model", "must be exact or staged for an error of %s, got 'float', which has no cells",
                                 dp_mapping_get(o->camera.mappings[m])->name);
@@ -111,7 +110,7 @@ static bool asks_for_choice(solve_target target) {
 static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) {
     const solve_request *o = r->o;
     const bool given = option_given(o->line, "model") && !o->camera.model_auto;
-    const bool has_fp32 = is_logarithm(mapping) || (r->kind == MEASURE_SEPARATION && has_pipeline(mapping));
+    const bool has_fp32 = is_logarithm(mapping) || (r->kind == QUANTITY_SEPARATION && has_pipeline(mapping));
     if (given && (asked || o->camera.model != DP_MODEL_FLOAT))
         return o->camera.model;
     return has_fp32 ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
@@ -142,12 +141,12 @@ static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_un
 /* Answers with the planes as they are: how far it holds, or whether it does. */
 static dp_status answer_as_is(const solve_report *r, const dp_spec *spec, distance_answer *out) {
     dp_setup setup;
-    const dp_status status = judge_setup(spec, &setup);
+    const dp_status status = quantity_setup(spec, &setup);
     if (status != DP_OK)
         return status;
     if (r->target == SOLVE_FOR_DISTANCE)
         return distance_solve(r->kind, &setup, r->lo, r->hi, r->limit, out);
-    *out = (distance_answer){.value = (double)NAN, .reached = judge(r->kind, &setup, r->lo, r->hi, r->limit)};
+    *out = (distance_answer){.value = (double)NAN, .reached = quantity_over(r->kind, &setup, r->lo, r->hi, r->limit)};
     out->possible = isnan(r->limit) || out->reached.passed;
     return DP_OK;
 }

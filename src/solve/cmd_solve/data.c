@@ -165,8 +165,7 @@ static const column line_columns[] = {
     {FIELD(solving, candidate.found.price.available, "available", "")},
     {FIELD(solving, candidate.found.lattice.value, "lattice", "scene")},
     {FIELD(solving, candidate.found.lattice.reached.value, "lattice value", "scene")},
-    {FIELD(solving, candidate.guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
-    {FIELD(solving, candidate.slanted, "guarantee_slanted", "scene"), .when = WITH_TRIANGLES},
+    GUARANTEES(solving, candidate.guaranteed, candidate.slanted, 0, 0, WITH_TRIANGLES),
     {.kind = COLUMN_END}};
 
 static const column span_columns[] = {
@@ -198,8 +197,7 @@ void solve_report_write(const solve_report *r, output *out) {
                             {FIELD(candidate, found.reached.value, s.measure, "scene")},
                             {FIELD(candidate, found.reached.z, "z", "scene")},
                             {FIELD(candidate, guaranteed, "guaranteed", "scene")},
-                            {FIELD(candidate, guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
-                            {FIELD(candidate, slanted, "guarantee_slanted", "scene"), .when = WITH_TRIANGLES},
+                            GUARANTEES(candidate, guaranteed, slanted, 0, 0, WITH_TRIANGLES),
                             {PART(candidate, plane, NULL, plane_columns), .pointed = true},
                             {FIELD(candidate, distance, "distance", "scene"), .when = OF_DISTANCE},
                             {FIELD(candidate, found.distance.throughout, "throughout", ""), .when = OF_DISTANCE},

@@ -75,7 +75,7 @@ static void say_why(page *p, const planning *x) {
     const dp_spec *spec = &x->setup.spec;
     const char *unit = camera_unit(&x->o->camera);
     const double near = x->possible ? (double)NAN : frusta_lattice_near(spec, x->stuck, x->limit);
-    const judgement one = frusta_lattice(spec, x->limit);
+    const quantity_worst one = frusta_lattice(spec, x->limit);
     const number_text z = number_in(number_of(one.z, SOLVE_DIGITS), unit);
     number_text value = {"nothing"};
     if (isfinite(one.value))

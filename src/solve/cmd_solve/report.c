@@ -14,7 +14,7 @@
 #include "solve/cmd_solve/request.h"
 
 const char *solve_measure_name(const solve_report *r) {
-    return r->kind == MEASURE_ERROR ? "error" : "separation";
+    return quantity_get(r->kind)->name;
 }
 
 double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool slanted) {
@@ -23,7 +23,7 @@ double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool s
     dp_budget budget;
     if (!slanted)
         spec.triangles.width = 0;
-    return r->kind == MEASURE_SEPARATION && judge_setup(&spec, &setup) == DP_OK &&
+    return r->kind == QUANTITY_SEPARATION && quantity_setup(&spec, &setup) == DP_OK &&
                    dp_budget_at(&setup, c->reached.z, NULL, &budget) == DP_OK
                ? budget.separation
                : (double)NAN;
@@ -172,7 +172,7 @@ static bool is_slanted(const solve_report *r) {
 /* The measured value in the unit of the one wanted, and that beside it. */
 static number_two against_wanted(const solve_report *r, double value) {
     const solve_request *o = r->o;
-    const unit_row *unit = option_unit(o->line, r->kind == MEASURE_ERROR ? "error" : "separation");
+    const unit_row *unit = option_unit(o->line, solve_measure_name(r));
     const char *name = unit != NULL ? unit->name : NULL;
     const number_two out = number_compared(unit_convert(value, o->camera.lengths.unit, unit),
                                            unit_convert(r->limit, o->camera.lengths.unit, unit), SOLVE_DIGITS);
@@ -205,12 +205,12 @@ static unsigned conditions(const solve_report *r, const solve_candidate *c, doub
     const plane_answer *p = &c->plane;
     const bool near = c->unknown == SOLVE_NEAR, distance = r->target == SOLVE_FOR_DISTANCE;
     return (distance ? OF_DISTANCE : 0) | (r->target == SOLVE_FOR_NEAR ? OF_NEAR : 0) |
-           (r->target == SOLVE_FOR_FAR ? OF_FAR : 0) | (r->kind == MEASURE_ERROR ? OF_ERROR : 0) |
+           (r->target == SOLVE_FOR_FAR ? OF_FAR : 0) | (r->kind == QUANTITY_ERROR ? OF_ERROR : 0) |
            (r->lo < r->hi ? OVER_RANGE : 0) | (c->possible ? POSSIBLE : 0) | (c->solved ? SOLVED : AS_IT_IS) |
            (near ? IS_NEAR : 0) | (p->certain ? CERTAIN : UNCERTAIN) |
            (solve_plane_of(c) == (near ? p->least : p->most) ? ANY_PASSES : 0) |
            (isinf(c->reached.value) ? UNBOUNDED : 0) | (is_cheapest(r) ? CHEAPEST : 0) |
-           (c->possible && !c->distance.throughout && r->kind == MEASURE_SEPARATION && !is_slanted(r) &&
+           (c->possible && !c->distance.throughout && r->kind == QUANTITY_SEPARATION && !is_slanted(r) &&
                     c->distance.value + r->limit > r->hi
                 ? ALONE
                 : 0) |
@@ -233,7 +233,7 @@ static const char *model_words(const solve_report *r, const solve_candidate *c, 
     const bool shader = computed && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
     const char *more = computed                                     ? dp_arith_get(c->spec.arith)->name
                        : !chosen || c->spec.model == DP_MODEL_EXACT ? ""
-                       : r->kind == MEASURE_ERROR                   ? "; model float has no cells, so no error"
+                       : r->kind == QUANTITY_ERROR                  ? "; model float has no cells, so no error"
                                                                     : "; model float does not cover this mapping";
     snprintf(out, SENTENCE_SIZE, "%s%s%s%s", words[c->spec.model], more,
              shader          ? ", for every log2 that a shader may use"
@@ -283,7 +283,7 @@ void solve_report_answer(page *p, void *item) {
               .mapping = mapping->name,
               .ortho = c->spec.ortho ? " orthographic" : "",
               .at_slant = "",
-              .property = r->kind == MEASURE_ERROR ? "an error within" : "a separation of",
+              .property = r->kind == QUANTITY_ERROR ? "an error within" : "a separation of",
               .manner = manners[c->spec.model][c->possible],
               .rounding = c->spec.rounding != DP_ROUND_NEAREST ? dp_rounding_name(c->spec.rounding) : NULL,
               .effort = mapping->curve != DP_CURVE_PERSPECTIVE ? c->price.effort : NULL,

@@ -13,8 +13,8 @@
 /** The need of real arithmetic: the same question in the model exact. */
 typedef struct solve_lattice {
     bool possible;
-    double value;      /**< the plane or distance; NaN where neither is asked */
-    judgement reached; /**< there, or with the set-up as it is */
+    double value;           /**< the plane or distance; NaN where neither is asked */
+    quantity_worst reached; /**< there, or with the set-up as it is */
 } solve_lattice;
 
 /** A format with a mapping, and what it can do. */
@@ -22,7 +22,7 @@ typedef struct solve_candidate {
     dp_spec spec; /**< with the answer filled in, or what comes nearest to it; its model is what the answer holds in */
     bool asked;   /**< the user named it, or left the choice open */
     bool possible;
-    judgement reached; /**< with `spec` */
+    quantity_worst reached; /**< with `spec` */
     cost price;
     size_t place;          /**< before they are put in order: which of two that are alike comes first */
     solve_unknown unknown; /**< the plane that was solved for, where one was */
@@ -45,7 +45,7 @@ enum { SOLVE_CANDIDATES_MAX = CAMERA_FORMATS_MAX * DP_MAPPING_COUNT + 16 };
 typedef struct solve_report {
     const solve_request *o;
     solve_target target; /**< never SOLVE_FOR_ANY */
-    measure_kind kind;
+    quantity_kind kind;
     double limit; /**< NaN when what is reached is asked */
     double lo, hi;
     size_t count;           /**< at least 1 */

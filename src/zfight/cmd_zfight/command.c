@@ -8,6 +8,7 @@
 #include "camera/cmd/slant.h"
 #include "cli/stop.h"
 #include "core/engine.h"
+#include "quantity/quantity.h"
 #include "report/message.h"
 #include "report/sentence.h"
 #include "zfight/census.h"
@@ -94,10 +95,9 @@ static bool is_empty(const census_band *b) {
 }
 
 static double slanted_over(const zfight *z, double lo, double hi) {
-    dp_separation_worst worst = {.bound = (double)NAN};
-    if (z->each.triangles != NULL)
-        dp_separation_over(z->each.setup, fmax(lo, z->lo), fmin(hi, z->hi), 0.0, &worst);
-    return worst.bound;
+    return z->each.triangles != NULL
+               ? quantity_bound(QUANTITY_SEPARATION, z->each.setup, fmax(lo, z->lo), fmin(hi, z->hi))
+               : (double)NAN;
 }
 
 static band band_of(const zfight *z, const census_band *b) {
@@ -183,9 +183,7 @@ static const column count_columns[] = {
     {TEXT_FIELD(band, longest, "longest", 12, DIGITS), .when = WITH_INTERVALS},
     {TEXT_FIELD(band, counts.longest_z, "at", 10, DIGITS), .when = WITH_INTERVALS, .spare = 1},
     {FIELD(band, counts.bound, "bound", "scene"), SHOWN("guaranteed", 12, DIGITS), .upward = true},
-    {FIELD(band, counts.bound, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
-    {FIELD(band, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", 12, DIGITS), .upward = true,
-     .when = WITH_TRIANGLES},
+    GUARANTEES(band, counts.bound, slanted, 12, DIGITS, WITH_TRIANGLES),
     {FIELD(band, used, "used", "")},
     {TEXT_FIELD(band, used, "used", 8, 3), .fixed = true, .when = WITH_INTERVALS, .spare = 1},
     {.kind = COLUMN_END}};
