@@ -127,10 +127,8 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(bias_request, camera),
-                                      PLACE(bias_request, out, output_options),
-                                      PLACE(bias_request, bias, bias_options),
-                                      {.table = NULL}};
+static const option_place places[] = {
+    CAMERA_PLACES(bias_request), PLACE(bias_request, bias, bias_options), {.table = NULL}};
 
 static int complete(void *request) {
     bias_request *o = request;
@@ -142,8 +140,7 @@ static int complete(void *request) {
 /* clang-format off */
 const command_row command_bias = {
     .name = "bias", .request = sizeof(bias_request), .places = places, .uses = uses, .rules = rules,
-    .complete = complete,
-    .operand = "", .operand_min = 0, .operand_max = 0,
+    .complete = complete, .operand = "",
     .summary = "what a depth bias does and how much is needed, per API",
     .example = "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
     "  depthprec bias --api all --separation 0.02 --at 300\n"

@@ -4,7 +4,6 @@
 #define BIAS_CMD_BIAS_REQUEST_H
 
 #include "bias/bias.h"
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 
 typedef struct bias_asked {
@@ -19,9 +18,7 @@ typedef struct bias_asked {
 extern const option_table bias_options;
 
 typedef struct bias_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     bias_asked bias;
 } bias_request;
 

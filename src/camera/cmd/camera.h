@@ -74,8 +74,6 @@ extern const option_table camera_options, view_options;
 /** The options that several commands take. */
 extern const option_use camera_planes[], camera_uses[], camera_projected[], camera_slanted[], camera_beside_viewport[];
 
-#define CAMERA_PLACES(request, member) PLACE(request, member, camera_options), PLACE(request, member, view_options)
-
 /** Texts of help about mappings, and about what a view changes. */
 #define CAMERA_PERSPECTIVE     "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
 #define CAMERA_ALL_PERSPECTIVE CAMERA_PERSPECTIVE "; all are d3d and reversed"

@@ -82,3 +82,10 @@ int output_start(const output_asked *o, const camera_asked *camera, output *out)
     out->measured = camera != NULL && camera->gpu.measured[0] != '\0' ? camera->gpu.measured : NULL;
     return status;
 }
+
+int camera_request_complete(void *request) {
+    struct {
+        CAMERA_REQUEST;
+    } *o = request;
+    return camera_complete(&o->camera, &(camera_use){0});
+}

@@ -30,4 +30,17 @@ extern const option_use output_written[];
  * or EXIT_IO after one line on stderr */
 int output_start(const output_asked *o, const camera_asked *camera, output *out);
 
+/** The beginning of a request about a camera. */
+#define CAMERA_REQUEST                                                                                                 \
+    asked_line *line;                                                                                                  \
+    camera_asked camera;                                                                                               \
+    output_asked out
+
+/** The places of its tables. */
+#define CAMERA_PLACES(request)                                                                                         \
+    PLACE(request, camera, camera_options), PLACE(request, camera, view_options), PLACE(request, out, output_options)
+
+/** camera_complete() of such a request that says no more of its camera. */
+int camera_request_complete(void *request);
+
 #endif

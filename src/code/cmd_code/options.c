@@ -53,10 +53,7 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(code_request, camera),
-                                      PLACE(code_request, out, output_options),
-                                      OWN_PLACE(code_options),
-                                      {.table = NULL}};
+static const option_place places[] = {CAMERA_PLACES(code_request), OWN_PLACE(code_options), {.table = NULL}};
 
 static int complete(void *request) {
     code_request *o = request;

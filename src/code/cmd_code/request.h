@@ -3,14 +3,11 @@
 #ifndef CODE_CMD_CODE_REQUEST_H
 #define CODE_CMD_CODE_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 #include "code/language.h"
 
 typedef struct code_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     const code_language *language;
     unsigned what; /**< linearize, projection: in the order of the names */
     bool uniforms;

@@ -62,10 +62,8 @@ static const option_use uses[] = {
     GROUP_OF(output_written), END};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(judge_request, camera),
-                                      PLACE(judge_request, out, output_options),
-                                      PLACE(judge_request, judge, judge_options),
-                                      {.table = NULL}};
+static const option_place places[] = {
+    CAMERA_PLACES(judge_request), PLACE(judge_request, judge, judge_options), {.table = NULL}};
 
 static const command_part parts[] = {
     {"with FILE", PART_FILE}, {"with --pairs", PART_PAIRS}, {"with --pairs-for", PART_ASKED}, {NULL, 0}};
@@ -75,15 +73,10 @@ static size_t asked_part(const void *request) {
     return o->judge.depths > 0 ? 2 : o->judge.pairs != NULL;
 }
 
-static int complete(void *request) {
-    judge_request *o = request;
-    return camera_complete(&o->camera, &(camera_use){0});
-}
-
 /* clang-format off */
 const command_row command_judge = {
     .name = "judge", .request = sizeof(judge_request), .places = places, .uses = uses,
-    .complete = complete,
+    .complete = camera_request_complete,
     .operand = "[FILE]", .operand_min = 0, .operand_max = 1,
     .summary = "what a function of yours computes, and what it loses",
     .example = "  depthprec judge depth.glsl:linearDepth -n 0.1 -f 1000 -F d24\n"

@@ -3,7 +3,6 @@
 #ifndef JUDGE_CMD_JUDGE_REQUEST_H
 #define JUDGE_CMD_JUDGE_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 
 enum { JUDGE_DEFINES_MAX = 16, JUDGE_MINE_MAX = 8 };
@@ -24,9 +23,7 @@ extern const option_table judge_options;
 extern const option_use judge_mine[];
 
 typedef struct judge_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     judge_asked judge;
 } judge_request;
 

@@ -26,20 +26,13 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(methods_request, camera),
-                                      PLACE(methods_request, out, output_options),
-                                      PLACE(methods_request, judge, judge_options),
-                                      {.table = NULL}};
-
-static int complete(void *request) {
-    methods_request *o = request;
-    return camera_complete(&o->camera, &(camera_use){0});
-}
+static const option_place places[] = {
+    CAMERA_PLACES(methods_request), PLACE(methods_request, judge, judge_options), {.table = NULL}};
 
 /* clang-format off */
 const command_row command_methods = {
     .name = "methods", .request = sizeof(methods_request), .places = places, .uses = uses, .rules = rules,
-    .complete = complete,
+    .complete = camera_request_complete,
     .operand = "FAMILY", .operand_min = 0, .operand_max = 1, .names = &families,
     .summary = "methods compared: time, worst error, where each fails",
     .example = "  depthprec methods\n"

@@ -3,8 +3,6 @@
 #ifndef METHOD_CMD_METHODS_REQUEST_H
 #define METHOD_CMD_METHODS_REQUEST_H
 
-#include "camera/cmd/camera.h"
-#include "cli/output/output.h"
 #include "judge/cmd_judge/request.h"
 
 /** As judge does, it takes functions of somebody's. */

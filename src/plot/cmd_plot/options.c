@@ -78,8 +78,7 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(plot_request, camera),
-                                      PLACE(plot_request, out, output_options),
+static const option_place places[] = {CAMERA_PLACES(plot_request),
                                       PLACE(plot_request, figure, figure_options),
                                       PLACE(plot_request, origin, origin_options),
                                       PLACE(plot_request, shadow, shadow_options),

@@ -3,7 +3,6 @@
 #ifndef PLOT_CMD_PLOT_REQUEST_H
 #define PLOT_CMD_PLOT_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 #include "judge/cmd_judge/request.h"
 #include "plot/cmd/request.h"
@@ -12,9 +11,7 @@
 #include "world/cmd/origin.h"
 
 typedef struct plot_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     figure_asked figure;
     origin_asked origin;
     shadow_asked shadow; /**< its angle is the model's, too, and its from-origin that of `origin` */

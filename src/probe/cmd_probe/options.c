@@ -34,7 +34,7 @@ static const option_place places[] = {
 /* clang-format off */
 const command_row command_probe = {
     .name = "probe", .request = sizeof(probe_request), .places = places, .uses = uses,
-    .operand = "", .operand_min = 0, .operand_max = 0,
+    .operand = "",
     .summary = "what this machine's GPU does to depth, measured",
     .example = "  depthprec probe\n"
     "  depthprec probe --device 1 --keep codes.csv\n"

@@ -25,10 +25,8 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(budget_request, camera),
-                                      PLACE(budget_request, out, output_options),
-                                      PLACE(budget_request, origin, origin_options),
-                                      {.table = NULL}};
+static const option_place places[] = {
+    CAMERA_PLACES(budget_request), PLACE(budget_request, origin, origin_options), {.table = NULL}};
 
 static int complete(void *request) {
     budget_request *o = request;
@@ -39,8 +37,7 @@ static int complete(void *request) {
 /* clang-format off */
 const command_row command_budget = {
     .name = "budget", .request = sizeof(budget_request), .places = places, .uses = uses, .rules = rules,
-    .complete = complete,
-    .operand = "", .operand_min = 0, .operand_max = 0,
+    .complete = complete, .operand = "",
     .summary = "how much of the separation each cause takes",
     .example = "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
     "  depthprec budget -F fp32 -m reversed --from-origin 5km --linearize --at 10m\n"

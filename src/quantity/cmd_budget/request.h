@@ -3,14 +3,11 @@
 #ifndef QUANTITY_CMD_BUDGET_REQUEST_H
 #define QUANTITY_CMD_BUDGET_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 #include "world/cmd/origin.h"
 
 typedef struct budget_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     origin_asked origin;
 } budget_request;
 

@@ -80,11 +80,8 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(table_request, camera),
-                                      PLACE(table_request, out, output_options),
-                                      OWN_PLACE(table_options),
-                                      OWN_PLACE(level_options),
-                                      {.table = NULL}};
+static const option_place places[] = {
+    CAMERA_PLACES(table_request), OWN_PLACE(table_options), OWN_PLACE(level_options), {.table = NULL}};
 
 static const command_part parts[] = {{"to the table of depths", TABLE_OF_DEPTHS},
                                      {"with --depth or --code", TABLE_OF_CODES},
@@ -105,8 +102,7 @@ static int complete(void *request) {
 /* clang-format off */
 const command_row command_table = {
     .name = "table", .request = sizeof(table_request), .places = places, .uses = uses, .rules = rules,
-    .complete = complete,
-    .operand = "", .operand_min = 0, .operand_max = 0,
+    .complete = complete, .operand = "",
     .summary = "codes, errors, and how far surfaces are resolved",
     .example = "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
     "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"

@@ -3,13 +3,10 @@
 #ifndef QUANTITY_CMD_TABLE_REQUEST_H
 #define QUANTITY_CMD_TABLE_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 
 typedef struct table_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     depths looked_up;    /**< window depths of --depth in [0, 1], or codes of --code; count is 0 without them */
     const char *lattice; /**< of a sensor whose levels are asked for; null when not given */
     bool constants;      /**< what shaders are given; the view's shape is then in camera.spec */

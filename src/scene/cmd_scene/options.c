@@ -108,10 +108,11 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {
-    CAMERA_PLACES(scene_request, camera),           PLACE(scene_request, out, output_options),
-    PLACE(scene_request, scene, scene_eye_options), PLACE(scene_request, scene, scene_options),
-    PLACE(scene_request, bias, bias_options),       {.table = NULL}};
+static const option_place places[] = {CAMERA_PLACES(scene_request),
+                                      PLACE(scene_request, scene, scene_eye_options),
+                                      PLACE(scene_request, scene, scene_options),
+                                      PLACE(scene_request, bias, bias_options),
+                                      {.table = NULL}};
 
 static int complete(void *request) {
     scene_request *o = request;

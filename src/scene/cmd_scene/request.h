@@ -4,7 +4,6 @@
 #define SCENE_CMD_SCENE_REQUEST_H
 
 #include "bias/cmd_bias/request.h"
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 
 typedef struct scene_asked {
@@ -28,9 +27,7 @@ extern const option_use scene_model[];
 #define SCENE_ANGLE "judge surfaces whose planes meet at no more than this angle"
 
 typedef struct scene_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     scene_asked scene;
     bias_asked bias;
 } scene_request;

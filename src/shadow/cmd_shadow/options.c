@@ -144,10 +144,11 @@ static const option_use uses[] = {
     GROUP_OF(output_written), END};
 /* clang-format on */
 
-static const option_place places[] = {
-    CAMERA_PLACES(shadow_request, camera),         PLACE(shadow_request, out, output_options),
-    PLACE(shadow_request, shadow, shadow_options), PLACE(shadow_request, shadow, shadow_size_options),
-    PLACE(shadow_request, bias, bias_options),     {.table = NULL}};
+static const option_place places[] = {CAMERA_PLACES(shadow_request),
+                                      PLACE(shadow_request, shadow, shadow_options),
+                                      PLACE(shadow_request, shadow, shadow_size_options),
+                                      PLACE(shadow_request, bias, bias_options),
+                                      {.table = NULL}};
 
 static const command_part parts[] = {{"to cascades", PART_CASCADES}, {"with --light-box", PART_BOX}, {NULL, 0}};
 
@@ -165,8 +166,7 @@ static int complete(void *request) {
 /* clang-format off */
 const command_row command_shadow = {
     .name = "shadow", .request = sizeof(shadow_request), .places = places, .uses = uses,
-    .complete = complete,
-    .operand = "", .operand_min = 0, .operand_max = 0,
+    .complete = complete, .operand = "",
     .summary = "shadow maps: the bias that prevents acne, and its gap",
     .example = "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
     "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"

@@ -4,7 +4,6 @@
 #define SHADOW_CMD_SHADOW_REQUEST_H
 
 #include "bias/cmd_bias/request.h"
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 
 typedef struct shadow_asked {
@@ -30,9 +29,7 @@ extern const option_use shadow_map_uses[], shadow_cascade_uses[];
 #define SHADOW_FROM_ORIGIN_OUT "positions are relative to the centre of the light's box"
 
 typedef struct shadow_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     shadow_asked shadow;
     bias_asked bias;
 } shadow_request;

@@ -61,10 +61,7 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(solve_request, camera),
-                                      PLACE(solve_request, out, output_options),
-                                      OWN_PLACE(solve_options),
-                                      {.table = NULL}};
+static const option_place places[] = {CAMERA_PLACES(solve_request), OWN_PLACE(solve_options), {.table = NULL}};
 
 static const command_part parts[] = {
     {"without --for frusta", SOLVE_ONE}, {"with --for frusta", SOLVE_FRUSTA}, {NULL, 0}};
@@ -74,16 +71,10 @@ static size_t asked_part(const void *request) {
     return o->target == SOLVE_FOR_FRUSTA;
 }
 
-static int complete(void *request) {
-    solve_request *o = request;
-    return camera_complete(&o->camera, &(camera_use){0});
-}
-
 /* clang-format off */
 const command_row command_solve = {
     .name = "solve", .request = sizeof(solve_request), .places = places, .uses = uses, .rules = rules,
-    .complete = complete,
-    .operand = "", .operand_min = 0, .operand_max = 0,
+    .complete = camera_request_complete, .operand = "",
     .summary = "near, far, format, mapping or distance for a separation",
     .example = "  depthprec solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01\n"
     "  depthprec solve -F unorm24 -m d3d -f 10000 --separation 0.01 --at 5000\n"

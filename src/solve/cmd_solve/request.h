@@ -3,7 +3,6 @@
 #ifndef SOLVE_CMD_SOLVE_REQUEST_H
 #define SOLVE_CMD_SOLVE_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 
 /** Values of --for, and SOLVE_FOR_ANY when it was not given. The planes come first. */
@@ -19,9 +18,7 @@ typedef enum solve_target {
 } solve_target;
 
 typedef struct solve_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     solve_target target;
     double separation, error; /**< scene units; 0 when not given */
 } solve_request;

@@ -332,8 +332,7 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(texture_request, camera),
-                                      PLACE(texture_request, out, output_options),
+static const option_place places[] = {CAMERA_PLACES(texture_request),
                                       PLACE(texture_request, figure, figure_options),
                                       PLACE(texture_request, image, texture_options),
                                       {.table = NULL}};

@@ -3,7 +3,6 @@
 #ifndef TEXTURE_CMD_TEXTURE_REQUEST_H
 #define TEXTURE_CMD_TEXTURE_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 #include "plot/cmd/request.h"
 #include "shader/effect.h"
@@ -64,9 +63,7 @@ typedef struct texture_asked {
 extern const option_table texture_options;
 
 typedef struct texture_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     figure_asked figure;
     texture_asked image;
 } texture_request;

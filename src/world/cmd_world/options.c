@@ -32,8 +32,7 @@ static const option_use uses[] = {
     GROUP_OF(camera_uses), GROUP_OF(output_written), END};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(world_request, camera),
-                                      PLACE(world_request, out, output_options),
+static const option_place places[] = {CAMERA_PLACES(world_request),
                                       OWN_PLACE(world_options),
                                       PLACE(world_request, origin, origin_options),
                                       {.table = NULL}};
@@ -47,8 +46,7 @@ static int complete(void *request) {
 /* clang-format off */
 const command_row command_world = {
     .name = "world", .request = sizeof(world_request), .places = places, .uses = uses,
-    .complete = complete,
-    .operand = "", .operand_min = 0, .operand_max = 0,
+    .complete = complete, .operand = "",
     .summary = "precision far from the origin, by world-to-view scheme",
     .example = "  depthprec world --from-origin 100km --separation 1cm --at 10m\n"
     "  depthprec world --scheme camera-float,split --at 1m\n"};

@@ -3,14 +3,11 @@
 #ifndef WORLD_CMD_WORLD_REQUEST_H
 #define WORLD_CMD_WORLD_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 #include "world/cmd/origin.h"
 
 typedef struct world_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     origin_asked origin;
     depths distances;  /**< of the camera from the world's origin; count is 0 when not given */
     double separation; /**< scene units; 0 when not given */

@@ -63,21 +63,12 @@ static const option_use uses[] = {
     GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(prepass_request, camera),
-                                      PLACE(prepass_request, out, output_options),
-                                      OWN_PLACE(prepass_options),
-                                      {.table = NULL}};
-
-static int complete(void *request) {
-    prepass_request *o = request;
-    return camera_complete(&o->camera, &(camera_use){0});
-}
+static const option_place places[] = {CAMERA_PLACES(prepass_request), OWN_PLACE(prepass_options), {.table = NULL}};
 
 /* clang-format off */
 const command_row command_prepass = {
     .name = "prepass", .request = sizeof(prepass_request), .places = places, .uses = uses,
-    .complete = complete,
-    .operand = "", .operand_min = 0, .operand_max = 0,
+    .complete = camera_request_complete, .operand = "",
     .summary = "is EQUAL safe after a depth prepass, and what LEQUAL needs",
     .example = "  depthprec prepass -F d24 -m d3d\n"
     "  depthprec prepass --program once --against separate,fma -F fp32 -m reversed\n"

@@ -3,15 +3,12 @@
 #ifndef ZFIGHT_CMD_PREPASS_REQUEST_H
 #define ZFIGHT_CMD_PREPASS_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 #include "raster/vertex_compare.h"
 
 /** Vertices, and the vertex programs that place them. */
 typedef struct prepass_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     uint64_t sample, seed;
     double world;                                 /**< no coordinate of a camera exceeds it, scene units */
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */

@@ -48,10 +48,7 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(zfight_request, camera),
-                                      PLACE(zfight_request, out, output_options),
-                                      OWN_PLACE(zfight_options),
-                                      {.table = NULL}};
+static const option_place places[] = {CAMERA_PLACES(zfight_request), OWN_PLACE(zfight_options), {.table = NULL}};
 
 static int complete(void *request) {
     zfight_request *o = request;
@@ -61,8 +58,7 @@ static int complete(void *request) {
 /* clang-format off */
 const command_row command_zfight = {
     .name = "zfight", .request = sizeof(zfight_request), .places = places, .uses = uses, .rules = rules,
-    .complete = complete,
-    .operand = "", .operand_min = 0, .operand_max = 0,
+    .complete = complete, .operand = "",
     .summary = "where surfaces start to z-fight, by a census of every depth",
     .example = "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
     "  depthprec zfight -F d24 -m gl --arith mesa --separation 0.01\n"

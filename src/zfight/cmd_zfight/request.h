@@ -3,13 +3,10 @@
 #ifndef ZFIGHT_CMD_ZFIGHT_REQUEST_H
 #define ZFIGHT_CMD_ZFIGHT_REQUEST_H
 
-#include "camera/cmd/camera.h"
 #include "cli/output/output.h"
 
 typedef struct zfight_request {
-    asked_line *line;
-    camera_asked camera;
-    output_asked out;
+    CAMERA_REQUEST;
     uint64_t sample; /**< pairs to draw; 0 when not given */
     uint64_t seed;
     bool drawn;        /**< --rasterize: the surfaces are drawn */
