@@ -44,7 +44,7 @@ static const way ways[] = {
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-/* What a process took: seconds, of all cores, and bytes. */
+/* The cost of a process: seconds, of all cores, and bytes. */
 typedef struct cost {
     double wall, cpu, memory;
 } cost;

@@ -159,7 +159,7 @@ sh tests/run.sh $programs || failed=1
 wait # not at the end of a pipe, which Wine's services hold open
 sed -i '/^encode,f16c,/d' "$scratch/there.txt"
 
-# What is refused must be refused there too, but a command that does not run at all proves nothing.
+# A refusal here must be one there, too, but a command that does not run at all proves nothing.
 lines=$(wc -l <"$scratch/here.txt")
 if grep '^exit status 1[0-9][0-9]' "$scratch/here.txt" || [ "$lines" -lt 100000 ]; then
     echo "  FAILED  the commands do not run here ($lines lines)"

@@ -15,7 +15,7 @@
 
 enum { DRAWN_LABELS = 64, DRAWN_ENTRIES = 40, DRAWN_PANELS = 8, DRAWN_LINES = 8 };
 
-/** What a mark was recognised as, in svg_mark.used. */
+/** The kind that a mark was recognised as, in svg_mark.used. */
 enum { DRAWN_NEW = 0, DRAWN_PAGE, DRAWN_AXIS, DRAWN_LEGEND, DRAWN_DATA };
 
 /** The colours that a theme promises. */
@@ -143,7 +143,8 @@ void drawn_description_is(const drawn *d, const char *shown);
 /** Every marker on the panel that looks like the entry's lies on its curve, and there are some, evenly spaced. */
 void drawn_markers_on(const drawn *d, const drawn_panel *p, const drawn_entry *e, const svg_mark *curve);
 
-/** What a curve should be over the depths of a slice: its least and its greatest. false: nothing is to be there */
+/** The values that a curve should have over the depths of a slice: its least and its greatest. false: nothing is to be
+ * there */
 typedef bool (*drawn_truth)(const void *context, double from, double to, double *lo, double *hi);
 
 /** Fails unless a line shows the truth at `places` places of its panel, within `slack` px. */

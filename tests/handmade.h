@@ -21,7 +21,7 @@ void handmade_number(handmade *h, uint64_t number, int size, int little);
 /** npy: magic, version, a header padded by one newline; samples follow. */
 void handmade_npy(handmade *h, int version, const char *header);
 
-/** What a DDS says of its pixels. */
+/** The header of a DDS about its pixels. */
 typedef struct handmade_dds_of {
     uint32_t flags, fourcc, bits, masks[4]; /**< of the pixel format */
     uint32_t dxgi;                          /**< 0: no second header, else fourcc is DX10 */

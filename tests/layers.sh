@@ -121,7 +121,7 @@ inexact() {
 }
 check "of libm only functions whose every bit is given: none that differs between C libraries" empty inexact
 
-# What the library may take from outside itself: the C library's memory and string functions, these, and what compilers
+# The library may take this from outside itself: the C library's memory and string functions, these, and what compilers
 # add by themselves.
 outside='mem(cpy|move|set|cmp|chr)|str(len|n?cmp|n?cpy|n?cat|r?chr|spn|cspn|pbrk|str|tod|toull?|toll?)'
 outside="$outside|$exact|fe[gs]etround"

@@ -199,7 +199,7 @@ static size_t *entry_of(const values *v, const char *path) {
     return &v->table[at];
 }
 
-/* What is wanted twice is found as it was at first. */
+/* A value wanted twice is found as it was at first. */
 static void enter(values *v, size_t i) {
     size_t *entry = entry_of(v, v->items[i].path);
     *entry = *entry != 0 ? *entry : i + 1;

@@ -24,7 +24,7 @@
 
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
 
-/** What a run left behind; printed_free() when done. */
+/** The remains of a run; printed_free() when done. */
 typedef struct printed {
     int status;         /**< exit status; 128 and more: killed by a signal */
     char *out, *errors; /**< stdout, stderr */
@@ -43,8 +43,8 @@ const char *scratch_file(const char *name);
 /** The same, holding the text that is given. */
 const char *scratch_text(const char *name, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** What a run says, found out in one call: it ends with `status`, any where that is -1, having said this on stdout, or
- * where it fails stderr; behind a '!' what it does not say. */
+/** Finds out in one call that a run says this: it ends with `status`, any where that is -1, having said this on stdout,
+ * or where it fails stderr; behind a '!' what it does not say. */
 void check_says(int status, const char *said, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /** The same of several, in one run: check_says_all(0, "table -q", SAID("this", "!and not that")). */
@@ -94,7 +94,7 @@ typedef struct values {
 values values_of(const char *line);
 void values_free(values *v);
 
-/** What stands before the fields that follow; "" for the top. */
+/** Stands before the fields that follow; "" for the top. */
 void values_under(values *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /**
@@ -113,7 +113,8 @@ void want_derived(values *v, const char *field, double number);
 /** The fields of a set-up, as commands begin it. */
 void want_setup(values *v, const dp_setup *setup);
 
-/** What --model auto says under `under`: the choice, and what share of the separation each simpler model leaves out. */
+/** The words of --model auto under `under`: the choice, and what share of the separation each simpler model leaves out.
+ */
 void want_choice(values *v, const char *under, const dp_setup *setup, const double *z, size_t count, double tolerance);
 
 /** The value of a path; null where there is none. */
@@ -130,7 +131,7 @@ json_t *json_of(const char *text);
 /** That of `depthprec LINE --json`, which must exit with `status`; any where that is negative. */
 json_t *json_printed(int status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** What stands at a path like "setups[0].rows[2].z"; null where nothing does. */
+/** The node at a path like "setups[0].rows[2].z"; null where nothing does. */
 json_t *node_at(const json_t *root, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /** The same of a kind; fails the test where it is another, or nothing. Of null: NaN, and no text. */

@@ -223,7 +223,7 @@ everything() { # the text of README.md and the pages, of help and of every list,
     [ "$(find "$scratch/text" -size +0 | wc -l)" -ge 30 ]
 }
 
-# What the glossary has better words for. A list by hand, because words like "one" are retired in one sense only.
+# Words for which the glossary has better ones. A list by hand, because words like "one" are retired in one sense only.
 retired='to be had|drawn from|a limit is|an element|different codes|stands for|stand for|too much:|arithmetic adds
 |nothing is monotone|ariths|to us|hangs on|an octave of|ought to|in spite of|has no meaning'
 

@@ -8,7 +8,7 @@
 #include "raster/raster.h"
 #include "support.h"
 
-/** What a rasterizer draws into; fails the test when it cannot. */
+/** The target that a rasterizer draws into; fails the test when it cannot. */
 static inline raster_target target_of(const char *name, const char *format, int width, int height, dp_path path) {
     raster_target target;
     dp_format formats[2];

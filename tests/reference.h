@@ -106,7 +106,7 @@ void reference_judge(const dp_setup *setup, const reference_pipe *p, const refer
 /** A line that brings the pair back: the command, the pair, the codes, the bound. */
 void reference_line(const reference_pair *pair, char *text, size_t size);
 
-/** What kind of pair it is, as a few words. */
+/** The kind of the pair, as a few words. */
 const char *reference_class(const reference_pair *pair);
 
 /* ---- Tightness --------------------------------------------------------------------------------------------------- */

@@ -20,7 +20,7 @@ typedef struct scene_made {
 
 /** Empties it. */
 void scene_made_begin(scene_made *made);
-/** What is added from here on is of a new surface: its number. */
+/** Triangles added from here on are of a new surface: its number. */
 uint32_t scene_made_surface(scene_made *made, const char *node, const char *material);
 void scene_made_triangle(scene_made *made, const double a[3], const double b[3], const double c[3]);
 /** Two triangles, a parallelogram: at, at + u, at + u + v, at + v. */

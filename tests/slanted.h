@@ -10,7 +10,7 @@
 #include "support.h"
 #include "world/world.h"
 
-/** What draws them. */
+/** The rasterizer that draws them. */
 typedef struct slanted_kind {
     const char *name;
     dp_anchor anchor; /**< none: an error of one rounding */

@@ -17,7 +17,7 @@ typedef struct matrix {
 static const matrix identity = {1, 0, 0, 1, 0, 0};
 static const svg_box nothing = {INFINITY, INFINITY, -INFINITY, -INFINITY};
 
-/* What a mark takes from the elements around it. */
+/* A mark takes this from the elements around it. */
 typedef struct around {
     matrix to_page;
     svg_box clip;

@@ -47,7 +47,7 @@ void truth_greys(const char *name, double out[PIXELS]);
 json_t *truth_statistics(const command *base);
 bool truth_said(const char *words);
 
-/** What the statistics say eye depth can be off by; INFINITY when it has no bound. */
+/** The error of eye depth that the statistics say; INFINITY when it has no bound. */
 double truth_maximum(const command *base);
 
 #endif

@@ -179,7 +179,7 @@ TEST(each_number) {
     }
 }
 
-/* What a browser does to units before they arrive, times what fp32 makes of one at a depth of 0.01: 2^(-7 - 23). */
+/* A browser changes units before they arrive: by this, times what fp32 makes of one at a depth of 0.01: 2^(-7 - 23). */
 TEST(platforms) {
     static const struct {
         const char *platform, *units;

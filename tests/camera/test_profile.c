@@ -194,7 +194,7 @@ TEST(test_told) {
 #define PIXEL         "the depth of the pixel"
 #define ANCHOR        "the anchor's depth and the others' differences from it"
 
-/* What is found, and what r is by that: times 2^(n - 23), n the exponent of the pixel, or codes. */
+/* The findings, and r by each: times 2^(n - 23), n the exponent of the pixel, or codes. */
 static const struct {
     const char *found32, *found16, *sure, *device;
     double least32, most32, codes;

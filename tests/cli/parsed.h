@@ -8,7 +8,7 @@
 /** options_parse(); `line` becomes the first line that it says on stderr, "" for none. */
 int parsed(asked_line *o, int argc, char **argv, char line[1024]);
 
-/** What the command of that name was asked on it. */
+/** The request of the command of that name on it. */
 #define ASKED(command, line) ((const command##_request *)(line).request)
 
 #endif

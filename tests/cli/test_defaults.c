@@ -143,7 +143,7 @@ static const struct {
     {BIT(world), IDS("from-origin"), NULL, NULL, ""},
 };
 
-/* What a command takes where nothing was said and help spells it out; of two rows the first holds. */
+/* The default that a command takes where help spells it out; of two rows the first holds. */
 static const struct {
     const char *id;
     unsigned verbs;

@@ -148,8 +148,8 @@ static const struct {
     {"stereo", "focal=500,baseline=0.1"},
 };
 
-/* What changes nothing by its purpose: where it is written and how fast, and what has files of its own, which the tests
- * of those are for. */
+/* Options that change nothing by their purpose: where it is written and how fast, and what has files of its own, which
+ * the tests of those are for. */
 static const char *const apart[] = {"help",   "version",   "output", "quiet",         "threads", "device", "keep",
                                     "render", "emit-need", "figure", "histogram",     "path",    "camera", "picture",
                                     "matrix", "mine",      "type",   "normal-format", "pairs",   "color"};
@@ -174,7 +174,7 @@ static bool is_flag(const command_row *v, const option_row *row) {
     return option_use_argument(&use, argument)[0] == '\0' || option_use_optional(&use) != NULL;
 }
 
-/* What the lines print as they are. */
+/* The output of the lines as they are. */
 static struct {
     const char *line;
     printed p;

@@ -48,7 +48,7 @@ static const camera_asked *camera_on(const asked_line *o) {
     return option_group(o, option_find(o->command, "near"));
 }
 
-/* What a line makes of a field, converted by hand. */
+/* A field as a line makes it, converted by hand. */
 static const struct {
     const char *words;
     size_t field;

@@ -22,7 +22,7 @@ static const char *const commands[] = {"table",
                                        "texture --product effect:fog",
                                        "solve --separation 0.1 --at 5 --for format"};
 
-/* What is wrong with the planes themselves: near is named for near, far for far. */
+/* Faults of the planes themselves: near is named for near, far for far. */
 static const struct {
     const char *planes, *option;
 } planes[] = {{"-n 0 -f 10", "near"},  {"-n x -f 10", "near"},       {"-n 1e13 -f 1e14", "near"},

@@ -11,7 +11,7 @@ static bool format_is(dp_spec *spec, const char *name) {
     return finer;
 }
 
-/* What the words say, done to a set-up; false where it changes nothing. */
+/* Does to a set-up as the words say; false where it changes nothing. */
 static bool do_it(const char *words, dp_spec *spec, dp_budget_terms *terms) {
     const dp_spec before = *spec;
     const dp_budget_terms given = *terms;
@@ -69,7 +69,8 @@ static bool is_against(size_t i, dp_cause cause) {
     return cause == DP_CAUSE_LINEARIZATION && strcmp(changes[i].words, "reversed depth") == 0;
 }
 
-/* What a change leaves, not below one binary32 step of z; INFINITY where it cannot be had or changes nothing. */
+/* The separation that a change leaves, not below one binary32 step of z; INFINITY where it cannot be had or changes
+ * nothing. */
 static double left_by(const char *words, const dp_setup *setup, const dp_budget_terms *given, double z) {
     dp_spec spec = setup->spec;
     dp_budget_terms terms = *given;

@@ -307,7 +307,7 @@ TEST(test_one) {
 
 enum { SAID = 1024 };
 
-/* What is said of reversing, on one line; empty where nothing is. */
+/* The sentence about reversing, on one line; empty where nothing is. */
 static void reversing_of(const char *mappings, char out[SAID]) {
     printed p = print_of("table -F unorm16,fp32,unorm24 --at 1 -m %s", mappings);
     const char *at = strstr(p.out, "the limit for 0.01:");

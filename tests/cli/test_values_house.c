@@ -66,7 +66,7 @@ static const json_t *finding_of(const json_t *root, const char *a, const char *b
     return found;
 }
 
-/* What the script prints: as `name`, in the folder of this run. */
+/* The output of the script: as `name`, in the folder of this run. */
 static const char *make_house(const char *name, const char *lifts) {
     const char *path = scratch_file(name);
     char line[4096];

@@ -184,7 +184,7 @@ TEST(world) {
     }
 }
 
-/* What the subpixel grid costs at the worst slant, per depth, as published for these views; 28.8 mm at 5 km. */
+/* The cost of the subpixel grid at the worst slant, per depth, as published for these views; 28.8 mm at 5 km. */
 TEST(published) {
     static const struct {
         const char *view;
@@ -336,7 +336,7 @@ TEST(bias) {
     check_bias(&cases[1], "", 0, NAN);
     check_bias(&cases[1], "--factor -0.5", 0, 0.5);
     check_bias(&cases[3], "--slope 0.01 --factor 0.25", 0.01, 0.25);
-    /* What no units are enough for. */
+    /* Slopes for which no units are enough. */
     check_says(0, "no bias suffices at z = 3", "bias %s --factor 0.001 --at 3", line);
     check_says(0, "no units suffice with a factor below 0.0", "bias %s --factor 0.001 --at 3", line);
     check_says(0, "gl, factor 0.0", "bias %s --at 3 --api gl", line);

@@ -33,7 +33,7 @@ static void want_worst(values *v, const dp_setup *setup, double lo, double hi) {
     want(v, "interval_code=%u blind_from=%f", w.interval_code, w.blind_from);
 }
 
-/* What is guaranteed of the set-up, whatever the rows are in: of linear it is a lattice. */
+/* The guarantee of the set-up, whatever the rows are in: of linear it is a lattice. */
 static void want_separation(values *v, const dp_setup *setup, double lo, double hi) {
     dp_separation_worst w;
     const dp_setup full = dp_setup_guaranteed(setup);
@@ -77,7 +77,8 @@ static void want_row(values *v, const dp_setup *setup, const method_row *method,
     want_bool(v, "certain", isfinite(guaranteed) && (long double)z + guaranteed <= setup->spec.zfar);
 }
 
-/* What --tolerance takes for a set-up: the cheapest claim for these planes, in the pipeline or on its lattice. */
+/* The method that --tolerance takes for a set-up: the cheapest claim for these planes, in the pipeline or on its
+ * lattice. */
 static const method_row *method_of(const dp_setup *setup, double tolerance, bool cut, double *claim,
                                    const char **name) {
     const method_family_row *family = method_family_find("interval");

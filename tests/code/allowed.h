@@ -8,7 +8,7 @@
 
 #include "support.h"
 
-/** What a language may make of an exact number: a binary32 number within so many units in the last place. */
+/** The numbers that a language may make of an exact one: a binary32 number within so many units in the last place. */
 typedef struct device {
     rng *r;
     double sums, quotients; /**< ulp; 0.5: to nearest */
@@ -21,7 +21,7 @@ float rounded(const device *v, long double x, double ulps);
 /** Within an absolute error. */
 float within(const device *v, long double x, long double most);
 
-/** What each language promises. */
+/** The promises of each language. */
 typedef struct promise {
     const char *name;
     double sums, quotients;
@@ -30,8 +30,8 @@ typedef struct promise {
 enum { PROMISES = 6 };
 extern const promise promises[PROMISES];
 
-/** What a language says of exp2 and log2: relative, that for each unit of |x|, and absolute from 0.5 to 2; of those
- * that say something. */
+/** The errors of exp2 and log2 that a language allows: relative, that for each unit of |x|, and absolute from 0.5 to 2;
+ * of those that say something. */
 typedef struct promised_powers {
     double exp2, each, log2, inside;
 } promised_powers;

@@ -793,7 +793,7 @@ static float given_depth(const void *of, uint64_t i) {
     return ((const float *)of)[i];
 }
 
-/* What an expression of d gives for each depth, behind `functions`. */
+/* The value of an expression of d for each depth, behind `functions`. */
 static void run_glsl(const char *expression) {
     static char shader[OUTPUT_BUFFER_SIZE + 1024];
     compute_run run = {.count = DEPTHS, .depth = given_depth, .of = depths};

@@ -288,7 +288,7 @@ static int channels_of(const packing *p, int channel[4]) {
     return count;
 }
 
-/* What is outside the range is at its end. */
+/* A depth outside the range is taken at its end. */
 static void check_packing(tally *t, rng *r, size_t p, const packing *row) {
     float d[SPECIAL + 4];
     size_t count = special_depths(r, d);

@@ -28,7 +28,7 @@ typedef struct camera {
     bool paired;
 } camera;
 
-/* What a camera is made of; each number in [-1, 1]. */
+/* The parts of a camera; each number in [-1, 1]. */
 typedef struct pose {
     double axis[3], eye[3], side[3], wide;
     int order[4];

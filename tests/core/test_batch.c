@@ -111,7 +111,7 @@ static int end_as_promised(const dp_batch *b, uint32_t code, double got) {
     return b->task == DP_TASK_LO ? got < want && (double)inward > want : got > want && (double)inward < want;
 }
 
-/* What the header promises of one element. */
+/* The header's promise for one element. */
 static int as_promised(const dp_batch *b, const void *in, const void *out, size_t i) {
     const dp_spec *s = &b->setup.spec;
     if (b->task == DP_TASK_CODE)

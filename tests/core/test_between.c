@@ -135,7 +135,7 @@ TEST(test_shaders) {
     in_curve(1);
 }
 
-/* What a shader's stored depth is off by, in each camera of a run. */
+/* The error of a shader's stored depth, in each camera of a run. */
 TEST(test_shader_errors) {
     rng r = rng_make("errors of shaders between two");
     tally all = {.name = "no shader's error is above that of its run"};

@@ -135,7 +135,7 @@ static void claims(const dp_row_off *row, double out[CAUSES]) {
     memcpy(out, each, sizeof each);
 }
 
-/* What a row was off by at a point, cause by cause. scale and b: its real value is scale z + b. */
+/* The error of a row at a point, cause by cause. scale and b: its real value is scale z + b. */
 static void row_off(const set_up *s, const camera *c, const float row[4], double scale, double b, double z,
                     double out[CAUSES]) {
     const bool relative = s->terms.composition == DP_COMPOSITION_RELATIVE;
@@ -167,7 +167,7 @@ static void row_off(const set_up *s, const camera *c, const float row[4], double
 enum { OWN, SHARED, OWN_TILT, SHARED_TILT, TOTALS };
 static const char *const totals[TOTALS] = {"own", "shared", "own tilt", "shared tilt"};
 
-/* What the eye depth of the point was off by, from the rows of w and clip z. */
+/* The error of the eye depth of the point, from the rows of w and clip z. */
 static void eye_off(const dp_composing *in, const double w[CAUSES], const double clip[CAUSES], double out[TOTALS]) {
     /* in `products` clip z is off its product with w's rounded entries, whose own errors cancel */
     const double shared = in->composition == DP_COMPOSITION_PRODUCTS ? 0.0 : in->a * w[MATRIX];

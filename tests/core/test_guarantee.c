@@ -176,7 +176,7 @@ static double awkward(rng *r, double x) {
     return rng_below(r, 2) ? power * (1 + rng_log(r, 0x1p-24, 0.5)) : x;
 }
 
-/* What reading back in binary32 makes of a window depth: 1/(zb d + wb), or the start and so much of the way. */
+/* A window depth read back in binary32: 1/(zb d + wb), or the start and so much of the way. */
 static double read_back(const dp_setup *setup, double d) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
     const double from = setup->reversed ? f : n, to = setup->reversed ? n : f;

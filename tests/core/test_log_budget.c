@@ -145,7 +145,7 @@ static float written(const shader *s, float w, int sign) {
     return s->arith->remap ? ndc : sum(product(0.5F, ndc), 0.5F);
 }
 
-/* What is stored: a code of a UNORM, the value of a float, which is as good to compare. */
+/* The stored value: a code of a UNORM, the value of a float, which is as good to compare. */
 static double stored(const shader *s, float d) {
     const dp_format *f = &s->setup.spec.format;
     const float x = d > 0.0F ? (d < 1.0F ? d : 1.0F) : 0.0F;
@@ -397,7 +397,7 @@ TEST(each_needed) {
 
 /* ---- The error --------------------------------------------------------------------------------------------------- */
 
-/* What a depth is read back as, with the constants that wrote it; three-webgpu's ratio as it really is. */
+/* A depth as it is read back, with the constants that wrote it; three-webgpu's ratio as it really is. */
 static long double read_back(const shader *s, double code) {
     const dp_format *f = &s->setup.spec.format;
     const long double d = (long double)code / (f->kind == DP_FORMAT_FLOAT ? 1 : (long double)f->code_max);

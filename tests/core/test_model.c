@@ -277,7 +277,7 @@ TEST(parts_add_up) {
     tally_end(&t);
 }
 
-/* What an unset variable would hold afterwards. */
+/* A variable that was not set would show afterwards. */
 __attribute__((noinline)) static void spoil_stack(void) {
     volatile double below[4096];
     for (size_t i = 0; i < sizeof below / sizeof below[0]; i++)

@@ -31,7 +31,8 @@ TEST(all_reciprocals_are_the_hardwares) {
     assert_true(h == 0xF6C4479B058C7200U);
 }
 
-/* What core/reciprocal.h says: 1.95 half units in the last place, which is 2^-24 above 1/2, and 1.65 2^-24 of itself.
+/* The bounds of core/reciprocal.h: 1.95 half units in the last place, which is 2^-24 above 1/2, and 1.65 2^-24 of
+ * itself.
  */
 TEST(reciprocals_are_within_what_bounds_take) {
     const dp_reciprocal_error most = dp_reciprocal_error_of(DP_RECIPROCAL_UNIT);

@@ -317,7 +317,7 @@ TEST(test_order) {
 
 /* ---- A range ----------------------------------------------------------------------------------------------------- */
 
-/* What a range has to tell apart at its far end at least, by the page: snapping at the steepest slant alone. */
+/* The least separation at the far end of a range, by the page: snapping at the steepest slant alone. */
 static double least_of(const dp_triangles *t, double z) {
     const double tau = 2.0 * tan(t->fov_y * pi / 360.0) / t->height;
     const double grid = t->subpixel > 0 ? ldexp(1.0, -t->subpixel - 1) : 0.0;

@@ -25,7 +25,7 @@ static float snapped(float x, int bits) {
     return bits < 0 ? x : (float)ldexp(rint(ldexp((double)x, bits)), -bits);
 }
 
-/* What is set up of clip coordinates. */
+/* The plane set up of clip coordinates. */
 static corner projected(const slanted_camera *c, raster_vertex v) {
     const float inverse = 1.0F / v.w;
     return (corner){snapped(window_of(c, v.x, v.w, c->width), c->bits),
@@ -96,7 +96,7 @@ static bool modelled(const slanted *s, const raster_vertex v[3], double *depth) 
     return true;
 }
 
-/* What is stored of one of the planes; false where that is nothing. */
+/* The code that is stored of one of the planes; false where that is nothing. */
 static bool stored(const slanted *s, plane_order *value, int which, double c, double *code) {
     raster_vertex clip[3];
     corner v[3];

@@ -6,7 +6,7 @@
 
 enum { WIDE = 5, HIGH = 3, PIXELS = WIDE * HIGH };
 
-/* What the last pixel has that is unlike all others, whose colours are the same. */
+/* The sample of the last pixel that is unlike all others, whose colours are the same. */
 typedef enum odd { NOTHING = 0, GREEN, BLUE, ALPHA } odd;
 
 /* A sample in bytes that any type has: of floats a small number, of others a code. */

@@ -642,7 +642,7 @@ static const tool_row tools[] = {
      IMAGE_U8},
 };
 
-/* What may have changed samples. LERC has not here, but nothing in the file says so. */
+/* The filters that may have changed samples. LERC has not here, but nothing in the file says so. */
 static const char *lossy_in(const char *command) {
     return strstr(command, "-c lerc") != NULL ? "LERC" : strstr(command, "-c jpeg") != NULL ? "JPEG" : NULL;
 }

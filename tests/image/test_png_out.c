@@ -251,7 +251,7 @@ TEST(eye_depths_come_back) {
         image_free(all[i]);
 }
 
-/* What is no depth says so, unless somebody insists. */
+/* A picture that is no depth says so, unless somebody insists. */
 TEST(no_depths) {
     static const char *const products[][2] = {{"--product position:exact", "positions"},
                                               {"--product normal:low", "normals"},

@@ -266,7 +266,7 @@ TEST(test_wrong) {
     }
 }
 
-/* What is none of them, too few, constant, out of order. */
+/* Pairs that are none of them, too few, constant, out of order. */
 TEST(test_unknown) {
     const dp_setup setup = camera(0.1, 1000, DP_MAPPING_D3D);
     rng r = rng_make("unknown");

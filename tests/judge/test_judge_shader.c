@@ -234,7 +234,7 @@ static const written_row of_hlsl[] = {
 
 #define CAMERA "-n 0.1 -f 1000 -F d16"
 
-/* What a function needs is not there: nothing can be told. */
+/* A function's needs are not met: nothing can be told. */
 static void need_device(void) {
     static int there = -1;
     if (there < 0) {
@@ -287,7 +287,7 @@ TEST(test_hlsl) {
     judge_all(scratch_text("depth.hlsl", "%s", hlsl), of_hlsl, sizeof of_hlsl / sizeof of_hlsl[0]);
 }
 
-/* What it was given and where it ran is said. */
+/* It says what the function was given and where it ran. */
 TEST(test_said) {
     need_device();
     const char *path = scratch_text("depth.glsl", "%s", glsl);

@@ -74,7 +74,7 @@ static float literal(int k, float n, float f, float d) {
     return over(k, 100.0F, plus(k, -d, 999.9F, 1000.0F));
 }
 
-/* What a value is of eye depth. */
+/* The function of eye depth that a value is. */
 enum { EYE, BEHIND, OF_FAR, FROM_NEAR };
 static const struct function {
     const char *name, *verdict, *computes;

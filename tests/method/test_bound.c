@@ -31,7 +31,7 @@ static void look(const method_row *row, const dp_setup *setup, method_run *run, 
     }
 }
 
-/* What the family is walked with, then depths around the worst so far, nearer and nearer. */
+/* The depths of the family's walk, then depths around the worst so far, nearer and nearer. */
 static finding worst_found(rng *r, const method_row *row, const dp_setup *setup, method_run *run,
                            const method_inputs *in, const method_outputs *out) {
     finding f = {-1, 0};

@@ -64,7 +64,7 @@ TEST(this_processor_keeps_the_guarantee) {
 #endif
 }
 
-/* What bench times and what it judges: two ways to one claim, the instruction nowhere beyond it. */
+/* Bench times and judges two ways: two ways to one claim, the instruction nowhere beyond it. */
 TEST(the_timed_method_keeps_the_claim) {
     tally t = {.name = "timed"};
     method_inputs in;

@@ -163,7 +163,7 @@ TEST(left_out) {
     free(full);
 }
 
-/* What there is, when no family is named. */
+/* The list, when no family is named. */
 TEST(families) {
     for (int form = 0; form < 2; form++) {
         values v = values_of("methods");

@@ -14,7 +14,7 @@ svg_point drawn_map_place(const svg_mark *image, int column, int row);
 /** The pixel 0xAARRGGBB of an image that shows at a place of the page. */
 uint32_t drawn_map_pixel(const svg_mark *image, svg_point place);
 
-/** What shows at a place of a panel: the image, or the last field painted over it. @return 0xAARRGGBB, 0 of nothing */
+/** The colour at a place of a panel: the image, or the last field painted over it. @return 0xAARRGGBB, 0 of nothing */
 uint32_t drawn_map_shown(const drawn *d, const drawn_panel *p, svg_point place);
 
 /** The height, px, of the place on the bar that has this colour; fails the test when none has. */

@@ -275,7 +275,7 @@ static void check_points_behind(const drawn *d, const drawn_entry *e, const svg_
     assert_true(behind >= 6);
 }
 
-/* What `zfight` prints of each power of two, as points. */
+/* The intervals that `zfight` prints of each power of two, as points. */
 static void check_census(const drawn *d, const drawn_entry *e, const char *format, const char *mapping) {
     drawn_marker all[256];
     const drawn_panel *p = &d->panels[0];

@@ -14,7 +14,7 @@ typedef struct map_case {
 
 static int borders; /* at which lines were seen to end */
 
-/* What the map says of one camera; NaN where it does not see what is asked about, or is none. */
+/* The value of the map for one camera; NaN where it does not see what is asked about, or is none. */
 static double true_value(const dp_setup *like, const map_case *q, double znear, double zfar) {
     dp_spec spec = like->spec;
     dp_setup setup;

@@ -322,7 +322,7 @@ static double digits_of(const char *which) {
     return NAN;
 }
 
-/* What the walk of a method in a case found, in the panel of the case and the row of the method. */
+/* The digits that the walk of a method in a case found, in the panel of the case and the row of the method. */
 static void check_field(const drawn *d, const method_family_row *of, const stability_result *r,
                         bool seen[DRAWN_PANELS][DRAWN_LABELS]) {
     drawn_marker all[64];

@@ -50,7 +50,7 @@ static void write_needs(const char *path) {
     fclose(out);
 }
 
-/* What a set-up gives over a range, and where that is worst. */
+/* The worst that a set-up gives over a range, and where that is worst. */
 static double given(const dp_setup *s, const need *n, double *z) {
     dp_worst w;
     dp_separation_worst far;
@@ -120,7 +120,7 @@ static void check_clear(const drawn *d, const drawn_panel *p, const svg_mark *wo
     }
 }
 
-/* What is allowed, and a mark with the name where it is worst. */
+/* The level that is allowed, and a mark with the name where it is worst. */
 static void check_need(const drawn *d, const drawn_panel *p, const dp_setup *setup, const need *n, size_t *met,
                        size_t *inner) {
     double z;

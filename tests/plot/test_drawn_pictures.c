@@ -168,7 +168,7 @@ static uint32_t direction(const numbers *n, int column, int row) {
            (uint32_t)lrint(127.5 * (1 - z));
 }
 
-/* What a field stands for: the largest of its pixels, or the one in its middle. */
+/* The pixel that a field stands for: the largest of its pixels, or the one in its middle. */
 static double field_value(const picture_case *q, const numbers *n, int column, int row, int channel) {
     const int side = q->fields;
     if (!q->largest)

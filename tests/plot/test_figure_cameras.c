@@ -45,7 +45,7 @@ static bool is_of_camera(const figure_row *figure) {
     return (figure->takes & (FIGURE_SETUPS | FIGURE_FARS)) != 0 && figure->family == NULL;
 }
 
-/* What takes long is looked at in one format, and the slowest of some kinds. */
+/* A figure that takes long is looked at in one format, and the slowest of some kinds. */
 static bool is_slow(const char *figure) {
     return strcmp(figure, "normals") == 0 || strcmp(figure, "map") == 0;
 }

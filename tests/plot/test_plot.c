@@ -325,7 +325,7 @@ TEST(test_digest) {
     chart_free(c);
 }
 
-/* What is grey is drawn, too. */
+/* A grey curve is drawn, too. */
 TEST(test_digest_under) {
     double under[4] = {1, 2, 3, 4};
     char before[17], after[17];

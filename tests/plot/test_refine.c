@@ -54,7 +54,7 @@ static chart *build(const asked *a, const char *figure) {
     return c;
 }
 
-/* What a line shows at x, on its axes; INFINITY where it has left through the top, NaN in a gap. */
+/* The value that a line shows at x, on its axes; INFINITY where it has left through the top, NaN in a gap. */
 static double line_at(const chart_axis *x_axis, const chart_axis *y_axis, const chart_series *s, double x) {
     const double at = chart_axis_share(x_axis, x);
     size_t before = 0; /* a point that is not right of x */

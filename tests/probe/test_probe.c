@@ -13,7 +13,7 @@
 
 enum { ACROSS = SHOT_SIZE / PLAN_TILE };
 
-/* What a made-up device does. */
+/* Faults of a made-up device. */
 typedef struct device {
     int conversion; /* 0 exact, ties up; 1 product to even; 2 product truncated; 3 exact truncated; 4 NVIDIA's */
     bool reciprocal, unit, fused, finer, flushes;
@@ -98,7 +98,7 @@ static double larger_slope(const device *d, const plan_tile *t) {
     return d->slope == 0 ? fmax(x, y) : d->slope == 1 ? sqrt(x * x + y * y) : x + y;
 }
 
-/* What a bias adds at a pixel of that depth. */
+/* The offset that a bias adds at a pixel of that depth. */
 static double bias_of(const device *d, const shot *s, const plan_tile *t, double depth) {
     const double side = 6.0 * (fabs((double)t->slope_x) - (double)t->slope_y), up = 6.0 * (double)t->slope_y;
     const double largest = (double)t->z + fmax(side, up);

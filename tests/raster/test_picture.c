@@ -217,7 +217,7 @@ TEST(each_pixel) {
 
 /* ---- The guarantee ----------------------------------------------------------------------------------------------- */
 
-/* What is guaranteed at the farthest depths of the three planes, by the budget. */
+/* The guarantee at the farthest depths of the three planes, by the budget. */
 static double by_budget(const draw_picture *p) {
     static const double farthest[3][2] = {{45.0, 1.56}, {30.0, 1.6}, {90.0, 1.6}};
     double worst = 0.0;

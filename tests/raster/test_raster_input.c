@@ -136,7 +136,7 @@ static long double det3(const long double m[3][3]) {
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* What is seen of a plane at a place: its depth, and of the weights of vertices the least, and the sum of their sizes.
+/* A plane as it is seen at a place: its depth, and of the weights of vertices the least, and the sum of their sizes.
  */
 typedef struct sight {
     double depth, least, sum;

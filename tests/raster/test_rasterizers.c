@@ -104,8 +104,8 @@ static void judge_order(target *t, const vector_row *row) {
 }
 
 /*
- * What the arithmetic may do to a code, as measured over the whole data: one code of 16 bits, three of 24 (a truncated
- * product loses another), 4 x 2^-24 of the window depth.
+ * The most that the arithmetic may do to a code, as measured over the whole data: one code of 16 bits, three of 24 (a
+ * truncated product loses another), 4 x 2^-24 of the window depth.
  */
 static int near_ideal(const target *t, float z, uint32_t code, int truncated) {
     const uint32_t ideal = dp_code(&t->setup, (double)z);

@@ -19,7 +19,7 @@ static const struct {
     const char *name, *arith;
 } drawn_by[] = {{"llvmpipe", "mesa"}, {"lavapipe", "mesa"}, {"softpipe", "softpipe"}, {"swiftshader", "mesa"}};
 
-/* What the pixels of one rasterizer and format came to. */
+/* Tallies of the pixels of one rasterizer and format. */
 typedef struct outcome {
     tally pixels;
     uint64_t pairs, cut;

@@ -15,7 +15,7 @@ static dp_setup setup_of(dp_mapping mapping, const char *format, double n, doubl
 
 /* ---- Operations -------------------------------------------------------------------------------------------------- */
 
-/* What each name stands for, written down again: F fused. */
+/* The meaning of each name, written down again: F fused. */
 static const struct {
     const char *name;
     char matrices, order;
@@ -231,7 +231,7 @@ static void check_bias(tally *t, const dp_setup *setup, const vertex_difference 
     }
 }
 
-/* What is to be found, vertex by vertex; `codes` and `all` have room for each. */
+/* The codes to be found, vertex by vertex; `codes` and `all` have room for each. */
 static vertex_difference count_by_one(const vertex_request *r, const vertex_program *other, uint32_t *codes,
                                       passes *all) {
     const dp_format *format = &r->setup->spec.format;

@@ -23,7 +23,7 @@ static const char *target_of(size_t writer) {
     return scratch_text(names[writer], "old");
 }
 
-/* What lies beside a file in its folder. */
+/* The files beside a file in its folder. */
 static int neighbours(const char *path) {
     char line[600];
     int count = -1;
@@ -140,7 +140,7 @@ TEST(same_file) {
     assert_false(output_same_file(a, other) || output_same_file(a, hard) || output_same_file(a, "/none/a"));
 }
 
-/* What can be written to later: a file, a new one, a device; not a folder, and nothing within what is none. */
+/* Places that can be written to later: a file, a new one, a device; not a folder, and nothing within what is none. */
 TEST(checked_beforehand) {
     const char *const good[] = {scratch_text("old", "%s", "old"), "/dev/null", "/dev/stderr"};
     assert_int_equal(output_check(good[0]), EXIT_FINE);

@@ -105,7 +105,7 @@ static fruit nothing = {.mass = NAN, .guarantee = NAN, .share = NAN, .digits = 3
 static fruit endless = {
     .mass = INFINITY, .guarantee = INFINITY, .share = -INFINITY, .digits = 3, .word = "", .names = ""};
 
-/* What a report writes; lost with the next call. */
+/* The text that a report writes; lost with the next call. */
 static const char *written_by(const report_spec *spec, output_form form) {
     static char text[4096];
     char path[] = "/tmp/depthprec-report-XXXXXX";
@@ -358,7 +358,7 @@ TEST(pointed) {
 }
 
 /* Notes break between words: the last that fits ends in column 96. */
-/* What a page of that width makes of a label, of words, and of the columns of a table; 0: as wide as nothing says. */
+/* A page of that width with a label, of words, and of the columns of a table; 0: as wide as nothing says. */
 static void check_page(int width, void (*write)(page *p), const char *want) {
     static output out;
     char text[1024] = "", path[] = "/tmp/depthprec-report-XXXXXX";

@@ -19,7 +19,7 @@ static const double degree = 3.14159265358979323846 / 180.0;
 static const char *const rasterizers[] = {"llvmpipe", "lavapipe", "softpipe", "swiftshader"};
 static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
 
-/* What the drawings of one rasterizer and format came to. */
+/* Tallies of the drawings of one rasterizer and format. */
 typedef struct outcome {
     tally pixels, found;
     uint64_t drawings, wrong; /* and those with wrong pixels */

@@ -159,7 +159,7 @@ static void turn_round(size_t from) {
     }
 }
 
-/* What is no body, or none that hides. */
+/* Shapes that are no body, or none that hides. */
 TEST(test_not_hidden) {
     const finder_asked exactly = {.gap = 0.0};
     rug_at(5);

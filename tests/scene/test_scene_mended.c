@@ -88,7 +88,7 @@ static double number_or_nan(const json_t *object, const char *key) {
     return json_is_number(value) ? json_number_value(value) : (double)NAN;
 }
 
-/* What the one finding says; nothing where there is none. */
+/* The answer of the one finding; nothing where there is none. */
 static said ask(const char *path, const char *options) {
     said s = {.lift = (double)NAN};
     printed p = print_of("scene %s --also facing,blended,hidden --json -q %s", path, options);
@@ -228,7 +228,7 @@ TEST(class_of_a_sliver) {
     assert_true(slim >= 1000 && slim < 1050);
 }
 
-/* What can fight fails, by the same camera in the file. */
+/* A pair that can fight fails, by the same camera in the file. */
 TEST(requirements) {
     rng r = rng_make("requirements of models");
     tally t = {.name = "fails"};

@@ -108,7 +108,7 @@ static long double clipped(long double n, long double f, long double half, long 
     return (c[2] * z + c[3]) * (isinf(f) ? 1 : f) / corner / z;
 }
 
-/* What each of them does, step by step. */
+/* The steps of each of them. */
 static long double trapped(const char *name, long double n, long double f, long double half, long double z, bool ortho,
                            bool reversed) {
     const long double d = stored(n, f, z, ortho, reversed);
@@ -159,7 +159,7 @@ TEST(traps_read_what_they_read) {
     tally_end(&t);
 }
 
-/* What the articles' cameras show. */
+/* The numbers of the articles' cameras. */
 TEST(known_traps) {
     const dp_setup gl = setup_of(DP_MAPPING_GL, false, 0.1, 1000), d3d = setup_of(DP_MAPPING_D3D, false, 0.3, 1000);
     assert_scene(trap_reads(trap_find("ndc-as-depth"), &gl, 1, 10), 5.0251256, 1e-6);

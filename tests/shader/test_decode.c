@@ -226,7 +226,7 @@ TEST(the_hardest_depths_need_each_term) {
     tally_end(&t);
 }
 
-/* What the bound of log-eye takes for granted: exp2f within 0.55 ulp, expm1f within 1. */
+/* The bound of log-eye takes this for granted: exp2f within 0.55 ulp, expm1f within 1. */
 TEST(exponentials_are_as_exact_as_assumed) {
     rng r = rng_make("library");
     tally t = {.name = "exp2f, expm1f"};

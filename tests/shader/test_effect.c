@@ -696,7 +696,7 @@ TEST(test_rows) {
         }
         assert_true(parameters >= 1 && parameters <= PARAMETERS_MAX && row->wanted < parameters);
         assert_true(effect_find(names[i])->parameters[effect_find(names[i])->wanted].value == wanted[i]);
-        /* What needs z/far says so. */
+        /* An effect that needs z/far says so. */
         const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_REVERSED, "fp32");
         const effect_view view = view_of(&infinite);
         double p[PARAMETERS_MAX];

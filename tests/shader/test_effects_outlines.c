@@ -102,7 +102,7 @@ typedef struct verdict {
     bool close, clear;    /* next to the limit; no doubt even if channels stood for squares twice as large */
 } verdict;
 
-/* What two opposite corners add to it. */
+/* The sum that two opposite corners add to it. */
 static void judge(const stage *s, const uint8_t *texels, const frame_normals *normals, double sensitivity, int a, int b,
                   verdict *v) {
     const double square = (normals->truncated ? 4 : 2) * 1.7777 / 255;

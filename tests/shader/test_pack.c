@@ -113,7 +113,7 @@ TEST(test_rg_exact) {
     tally_end(&t);
 }
 
-/* What the shader does, a line each; no product and sum may be fused. */
+/* The steps of the shader, a line each; no product and sum may be fused. */
 static texel shader_texel(float v, bool truncates) {
     volatile float product = 255.0F * v;
     volatile float fine = product - floorf(product);

@@ -11,7 +11,7 @@
 
 /* ---- Every code ---------------------------------------------------------------------------------------------------*/
 
-/* What each texel stands for, written apart from the table. */
+/* The value of each texel, written apart from the table. */
 static long double rg(const uint8_t *t) {
     return t[0] / 255.0L + t[1] / 65025.0L;
 }
@@ -135,7 +135,7 @@ static uint8_t stored(float x) { /* what a render target makes of it, or one tha
     return (uint8_t)floor(fmin(fmax((double)x, 0), 1) * 255 + (truncates ? 0 : 0.5));
 }
 
-/* What a shader multiplies channels by: a quotient, which may be off by an ulp. Truncation shows that. */
+/* The weight by which a shader multiplies a channel: a quotient, which may be off by an ulp. Truncation shows that. */
 static float quotient(float x) {
     return truncates ? nextafterf(x, 0) : x;
 }
@@ -959,7 +959,7 @@ TEST(notes_of_others) {
     }
 }
 
-/* What stands against what; what is not known to be safe is never written. */
+/* Options stand against others; what is not known to be safe is never written. */
 TEST(refusals) {
     static const uint8_t pixels[4 * 2 * 3] = {1, 2, 3};
     const char *in = truth_path("in.png"), *out = truth_path("map.png");

@@ -104,7 +104,7 @@ static bool reads(const shadow_stage *s, float t, int size, int texel) {
     return at <= s->light.kernel;
 }
 
-/* What an API adds for the units and the factor that it takes; the greatest depth of the primitive decides their worth.
+/* The offset that an API adds for its units and its factor; the greatest depth of the primitive decides their worth.
  */
 static float added_by(const shadow_stage *s, const shadow_state *state, const bias_api *api, float slope) {
     const dp_format *format = &s->light.setup.spec.format;

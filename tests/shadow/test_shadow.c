@@ -145,7 +145,8 @@ static double lifted(const lengths *l, const shadow_bias *b, double slant, doubl
     return b->window + (b->factor > 0 ? b->factor * m : 0) + b->offset * slope / l->depth;
 }
 
-/* What a triangle's gradients may be off by: a part of both, and window depth, a texel, which vertices are off by. */
+/* The error that a triangle's gradients may have: a part of both, and window depth, a texel, which vertices are off by.
+ */
 typedef struct drawn {
     double part, whole;
 } drawn;

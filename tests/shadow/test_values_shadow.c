@@ -74,7 +74,7 @@ static double length_behind(const char *line, const char *option) {
     return is_given(line, option) ? length_in(word_behind(line, option), &end) : 0;
 }
 
-/* What is left out is as the help has it. */
+/* An option that is left out is as the help has it. */
 static shadow_case case_of(size_t i) {
     const char *line = given[i].line, *formats = word_behind(line, "-F"), *mappings = word_behind(line, "-m");
     const char *api = word_behind(line, "--api");
@@ -386,7 +386,7 @@ static const char *line_behind(const char *text, int lines) {
     return text;
 }
 
-/* What stands behind a label, its lines joined. */
+/* The text behind a label, its lines joined. */
 static void note_of(const char *at, const char *label, char out[512]) {
     size_t used = 0;
     const char *line = strstr(at, label);
@@ -454,7 +454,7 @@ static void check_notes(const values *v, const shadow_case *c, const char *at, s
         assert_true(gap[k] == 0 ? isnan(shown[k]) : enough(shown[k], gap[k], "gap"));
 }
 
-/* What is said of this set-up alone, in one line. */
+/* The words about this set-up alone, in one line. */
 static void joined(const char *at, char out[4096]) {
     const char *const next = strstr(at, "\nNo acne");
     size_t used = 0;

@@ -270,7 +270,7 @@ TEST(test_again) {
     }
     assert_true(inside.cases > 0);
     tally_end(&inside);
-    /* What is so short that no depth of it was tried: a depth in five thousand. */
+    /* A span so short that no depth of it was tried: a depth in five thousand. */
     assert_true(outside.cases > 0 && outside.skipped * 5000 <= outside.cases);
 }
 

@@ -154,7 +154,7 @@ TEST(orthographic_depths_have_either_sign) {
     "cameras = { a = { near = -1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"float\"; ortho = true; }; " \
     "};\n"
 
-/* What is wrong, on which line, and a piece of what is said. */
+/* The fault, on which line, and a piece of what is said. */
 static const struct {
     const char *text;
     int line;

@@ -91,7 +91,7 @@ static dp_setup setup_of(const json_t *o) {
     return setup;
 }
 
-/* What a set-up was made from: of a logarithmic depth it has the model that its codes have. */
+/* The spec that a set-up was made from: of a logarithmic depth it has the model that its codes have. */
 static dp_spec spec_of(const dp_setup *setup) {
     dp_spec spec = setup->spec;
     if (setup->shader)
@@ -221,7 +221,7 @@ static double first_fight(const dp_setup *setup, double from, double to, double 
     return NAN;
 }
 
-/* What lies beyond the distance: 2^14 depths are looked at, then twice as many, and so on until some fight. */
+/* Fights beyond the distance: 2^14 depths are looked at, then twice as many, and so on until some fight. */
 static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
     distance_span again[32];
     distance_answer d;
@@ -246,7 +246,7 @@ static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
     }
 }
 
-/* What real arithmetic would need: the same question in the model exact. */
+/* The need of real arithmetic: the same question in the model exact. */
 static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, bool solved) {
     const dp_setup exact = setup_in(setup, DP_MODEL_EXACT);
     quantity_worst reached;

@@ -101,7 +101,7 @@ TEST(products_of_one_pass_are_those_of_many) {
         free(w.each[i].values);
 }
 
-/* What a pixel of the frame is, one by one, from the scalar functions alone. */
+/* The pixels of the frame, one by one, from the scalar functions alone. */
 static bool is_sky(const dp_setup *setup, uint32_t code) {
     const double d = dp_format_value(&setup->spec.format, code);
     return (setup->reversed ? d : 1 - d) <= FRAME_SKY;
@@ -258,7 +258,7 @@ TEST(normals_do_not_know_of_strips) {
 
 /* ---- Beside the sky: ReconstructNormal as it stands, in double, whose depth texture holds the far plane there ---- */
 
-/* What the shader reads at a pixel: where it is, in view space. */
+/* The place that the shader reads at a pixel: where it is, in view space. */
 static double shader_place(const synthetic_stage *s, uint32_t column, uint32_t row, double place[3]) {
     uint32_t codes[96];
     frame_codes(&s->frame, row, codes);

@@ -48,7 +48,7 @@ static real quantum(const char *format) {
     return strcmp(format, "unorm16") == 0 ? 65535 : strcmp(format, "unorm24") == 0 ? 16777215 : 0;
 }
 
-/* What the buffer holds, as a number. */
+/* The depth that the buffer holds, as a number. */
 static real stored(const camera *c, real z) {
     const real d = window(c, z), most = quantum(c->format);
     return most > 0 ? rounded(d * most, 0) / most : to_float(d, 24, -149, 0);

@@ -57,7 +57,7 @@ static double half_of(double x, int mode) {
     return ldexp(mode == 0 ? rint(ldexp(x, -shift)) : floor(ldexp(x, -shift)), shift);
 }
 
-/* What the sensor makes of a depth. */
+/* The level that the sensor makes of a depth. */
 static double level_of(const metric_kind *k, double z, int mode) {
     return k->lattice == NULL                ? z
            : *k->lattice == 'b'              ? half_of(z, mode)

@@ -148,7 +148,7 @@ TEST(halves_of_numbers_are_joined) {
         }
 }
 
-/* What is random, or has few values, or is no depth: nothing is certain. */
+/* Nothing is certain of noise, of few values and of what is no depth. */
 TEST(nothing_is_certain_where_nothing_was_moved) {
     const uint64_t rounds = test_cases(8, 60, 3000);
     static uint16_t samples[N];

@@ -9,7 +9,7 @@
 #include "support.h"
 #include "truth.h"
 
-/* What says the rays: focal lengths and the middle, pixels from the left and upper edge. */
+/* The options that say the rays: focal lengths and the middle, pixels from the left and upper edge. */
 typedef struct rays {
     const char *option, *value;
     long double fx, fy, cx, cy;
@@ -37,7 +37,7 @@ static long double ray(const rays *k, int i) {
     return sqrtl(1 + s[0] * s[0] + s[1] * s[1]);
 }
 
-/* What became of the distance. */
+/* The distance after what was done to it. */
 typedef struct storing {
     const char *name;
     image_type type;

@@ -36,7 +36,7 @@ static dp_format format_of(const char *name) {
     return f[0];
 }
 
-/* What a code stands for, by the definition alone. */
+/* The depth of a code, by the definition alone. */
 static double value_of(const dp_format *format, uint32_t code) {
     mpq_t q;
     mpq_init(q);

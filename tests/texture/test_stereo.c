@@ -52,7 +52,7 @@ static double half_of(double x) {
     return ldexp(rint(ldexp(x, 11 - e)), e - 11);
 }
 
-/* What is stored of a depth: to nearest, or cut off. */
+/* The sample that is stored of a depth: to nearest, or cut off. */
 static double sample_of(const stereo_kind *k, double z, bool cut) {
     const double x = (k->constant / z - k->offset) / k->step;
     return k->grid > 0            ? k->grid * (cut ? floor(x / k->grid) : rint(x / k->grid))

@@ -46,7 +46,7 @@ TEST(what_the_sky_hides_is_counted) {
     json_decref(root);
 }
 
-/* What unorm16 d3d with near 0.1 and far 1000 gives back for a depth. */
+/* The depth that unorm16 d3d with near 0.1 and far 1000 gives back. */
 static double stored16(double z) {
     const double code = floor(65535 * 1000 * (z - 0.1) / (z * 999.9) + 0.5), d = code / 65535;
     return 1 / ((1 - d) / 0.1 + d / 1000);

@@ -52,7 +52,7 @@ static size_t want_product(values *v, const frame *f, size_t i, const char *name
     return i + 1;
 }
 
-/* What a decoding in binary32 adds to what is stored, over the pixels that are not sky. */
+/* The error that a decoding in binary32 adds to what is stored, over the pixels that are not sky. */
 static size_t want_decoding(values *v, const frame *f, size_t i, const decode_row *row) {
     const dp_setup *setup = &f->camera->setup;
     uint32_t codes[WIDTH];

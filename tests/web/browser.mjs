@@ -39,7 +39,7 @@ export async function open({ fragment = "", theme = "light", width = 1600, heigh
 
 export const close = (page) => page.context().close();
 
-// What the page shows: its error, its commands, and each output with the words that made it.
+// The page as it is shown: its error, its commands, and each output with the words that made it.
 export const shown = (page) => page.evaluate(() => {
     const error = document.querySelector("#error");
     return {

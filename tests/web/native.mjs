@@ -12,7 +12,7 @@ function one(words) {
     });
 }
 
-// What the program makes of each command line, in order: [{ status, out, err }].
+// The program's answer to each command line, in order: [{ status, out, err }].
 export async function native(commands) {
     const results = new Array(commands.length);
     let next = 0;

@@ -252,6 +252,6 @@ export async function gpu() {
         demand(violations.length === 0, JSON.stringify(violations.map(({ id, nodes }) => [id, nodes[0].html])));
     });
     await close(page);
-    // What this file did itself: a lost context, and reading back.
+    // The work of this file itself: a lost context, and reading back.
     for (let i = said.length; i-- > 0;) if (/CONTEXT_LOST_WEBGL|GPU stall|willReadFrequently/.test(said[i])) said.splice(i, 1);
 }

@@ -161,7 +161,7 @@ async function others() {
     const box = await page.locator("#image canvas").boundingBox();
     await page.mouse.move(box.x + ((10.5 / WIDTH) * box.width), box.y + (4.5 / HEIGHT) * box.height);
     await page.waitForFunction(() => document.querySelector("#pixel").innerText.startsWith("Pixel 10,4"));
-    // What a set-up says follows it.
+    // The words about a pixel follow the set-up.
     const before = (await shown(page)).pixel;
     await page.fill("#near-A", "0.7");
     await page.waitForFunction((old) => document.querySelector("#pixel").innerText !== old, before);

@@ -33,7 +33,7 @@ async function drag(page) {
 
 const SLOW = encodeURIComponent("table -n 0.2 -f 1000 -F d24 -m d3d ; plot map ; zfight -n 0.2 -f 1000 -F d24 -m d3d");
 
-// What the slow panels show once all is there, beside what the module says on the page's own thread.
+// The slow panels once all is there, beside what the module says on the page's own thread.
 const slow = (page) => page.evaluate(() => {
     const { engine } = window.depthprec;
     const text = document.querySelector("[data-panel=zfight] [data-run]"), svg = document.querySelector("[data-panel=plot] [data-run]");

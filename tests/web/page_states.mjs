@@ -38,7 +38,7 @@ async function engines(page, r, count) {
     return `${count} commands, ${fine} of them run, the others are refused alike`;
 }
 
-// What is said of a refusal, in the page without the name of the program.
+// The sentence of a refusal, in the page without the name of the program.
 const refusal = ({ status, err }) => (status === 2 ? err.trim().replace(/^depthprec: /, "") : "");
 
 // A command that its time ended: how much of it there is, a busy machine decides.
@@ -141,7 +141,7 @@ async function thereAndBack(page, r, count) {
     return `${count} links`;
 }
 
-// What is saved: the bytes that the program prints.
+// Files saved: the bytes that the program prints.
 async function files(r, count) {
     let saved = 0;
     for (let i = 0; i < count; i++) {

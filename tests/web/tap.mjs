@@ -4,7 +4,7 @@ let tests = 0, failures = 0;
 
 export const note = (text) => console.log(String(text).replaceAll(/^/gm, "# "));
 
-// What the check returns, if anything, is noted: what was measured.
+// The value that the check returns, if any, is noted: what was measured.
 export async function test(name, check) {
     tests++;
     try {

@@ -132,7 +132,7 @@ TEST(each_number) {
     }
 }
 
-/* What stderr says about geometry that is not drawn: how many holes, between which planes. */
+/* The warning about geometry that is not drawn: how many holes, between which planes. */
 TEST(warnings) {
     static const char *const said[][2] = {
         {"depthprec: warning: unorm24 d3d: clipping in binary32 keeps only", "near_effective:9, far_effective:9"},
