@@ -52,9 +52,7 @@ const command_row command_help = {
     .example = "  depthprec help table\n"
     "  depthprec help options\n"
     "  depthprec help _ZBufferParams\n"};
-/* clang-format on */
 
-/* clang-format off */
 const command_row command_completions = {
     .name = "completions", .request = sizeof(help_request), .places = places, .uses = uses,
     .operand = "SHELL", .operand_min = 1, .operand_max = 1, .names = &shells,

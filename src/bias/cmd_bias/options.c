@@ -109,17 +109,17 @@ int bias_complete(asked_line *line, const camera_asked *camera) {
 }
 
 /* clang-format off */
-static const option_use uses[] = {
-    ROWS(bias_rows),
-    OWN("format", DEFAULT("fp32")),
+const option_use bias_brought[] = {
     OWN("preset", ALSO("for a bias also the API of its users; " CAMERA_OF_VIEW)),
-    OWN("platform", ALSO("for a bias also its API; with --viewport also its rasterizer")),
+    OWN("platform", ALSO("for a bias also its API; with --viewport also its rasterizer")), END};
+
+static const option_use uses[] = {
+    ROWS(bias_rows), GROUP_OF(bias_brought),
+    OWN("format", DEFAULT("fp32")),
     TAKE("at"), TAKE("range"), TAKE("log-c"), TAKE("viewport"), TAKE("link"),
     OWN("full", HELP("all columns, however wide; and where a biased depth is clamped")),
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     CONFLICTS("viewport", "units", ": it says how many suffice"),
     CONFLICTS("units", "separation", ", which solves for them"),

@@ -17,6 +17,9 @@ typedef struct bias_asked {
 
 extern const option_table bias_options;
 
+/** Preset and platform, which bring an API, too. */
+extern const option_use bias_brought[];
+
 typedef struct bias_request {
     CAMERA_REQUEST;
     bias_asked bias;

@@ -80,6 +80,11 @@ extern const option_use camera_planes[], camera_uses[], camera_projected[], came
 #define CAMERA_OF_VIEW         "with --viewport also its field of view and rasterizer"
 #define CAMERA_OF_RG           "rg, of Unity's DepthNormals, is linear"
 
+/** The unit where no preset brings one. */
+#define CAMERA_UNIT_ALONE                                                                                              \
+    OWN("unit", HELP("the length of a scene unit; any length can have a unit: 10cm"),                                  \
+        WITHOUT("m where a length has a unit"))
+
 /** Languages that some commands have in place of the rows'. */
 option_parser parse_presets, parse_fars, parse_slant_or_plane;
 

@@ -44,9 +44,7 @@ static const option_use uses[] = {
         WITHOUT("perspective; H 5")),
     TAKE("log-c"), TAKE("hfov"), GROUP_OF(camera_projected),
     TAKE("json"), TAKE("output"), TAKE("quiet"), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     CONFLICTS("fov", "ortho", ": --ortho=H says how high the view is"),
     CONFLICTS("hfov", "ortho", ": --ortho=H says how high the view is"),

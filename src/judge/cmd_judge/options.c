@@ -43,9 +43,7 @@ const option_table judge_options = {.rows = judge_rows};
 
 /* clang-format off */
 const option_use judge_mine[] = {TAKE("mine"), TAKE("define"), TAKE("device"), END};
-/* clang-format on */
 
-/* clang-format off */
 enum { PART_FILE = 1, PART_PAIRS = 2, PART_ASKED = 4 };
 static const option_use of_device[] = {
     TAKE("define"), OWN("device",

@@ -12,14 +12,11 @@ static const option_use uses[] = {
     GROUP_OF(judge_mine),
     OWN("format", WITHOUT("that of the family's first case")),
     OWN("mapping", WITHOUT("that of the family's first case")),
-    OWN("unit", HELP("the length of a scene unit; any length can have a unit: 10cm"),
-        WITHOUT("m where a length has a unit")),
+    CAMERA_UNIT_ALONE,
     OWN("tolerance", HELP("mark the cheapest method whose bound is at most 0.05, or 5%"), WITHOUT("none")),
     OWN("full", HELP("all columns, however wide; and methods that another beats in both speed and accuracy")),
     GROUP_OF(camera_planes), GROUP_OF(output_written), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     NEEDS("define", "mine", ", a function of yours"),
     NEEDS("device", "mine", ", a function of yours"),

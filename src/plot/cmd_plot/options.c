@@ -51,9 +51,7 @@ static const option_use of_views[] = {
 static const option_use of_slants[] = {OWN("slant",
     ALSO("in fight SLANT,AZIMUTH, by default 60,45: one angle, and the direction of the normal on the screen, 0 right "
         "and 90 up")), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_use uses[] = {
     FOR(FIGURE_MODEL, of_scene), FOR(FIGURE_SHADOW, of_shadow), FOR(FIGURE_DRAWN, of_fight),
     FOR(FIGURE_TERMS, origin_terms), FOR(FIGURE_MINE, judge_mine),
@@ -68,9 +66,7 @@ static const option_use uses[] = {
         "--json and --csv go to stdout, or to a FILE of another ending"), WITHOUT("")),
     TAKE("json"), TAKE("csv"), TAKE("quiet"), TAKE("color"),
     OWN("full", HELP("also say how many values were computed")), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     NEEDS("define", "mine", ", a function of yours"),
     NEEDS("device", "mine", ", a function of yours"),

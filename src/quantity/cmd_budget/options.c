@@ -17,9 +17,7 @@ static const option_use uses[] = {
     OWN("share", HELP("with --scheme: the meshes of both surfaces have one origin")),
     GROUP_OF(origin_terms), TAKE("viewport"), TAKE("link"), GROUP_OF(camera_slanted), GROUP_OF(camera_projected),
     GROUP_OF(output_written), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     NEEDS("share", "scheme", ": without one no mesh has an origin"),
     {.option = NULL}};

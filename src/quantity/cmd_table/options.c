@@ -57,9 +57,7 @@ static const option_use compared[] = {
     END};
 static const option_use of_levels[] = {
     OWN("at", WITHOUT("1, 2, 5 and 10")), TAKE("unit"), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_use uses[] = {
     FOR(TABLE_OF_DEPTHS | TABLE_OF_CODES | TABLE_OF_CONSTANTS, compared),
     FOR(TABLE_OF_DEPTHS, of_depths), FOR(TABLE_OF_DEPTHS | TABLE_OF_CODES, of_stored),
@@ -68,9 +66,7 @@ static const option_use uses[] = {
     OWN("full", HELP("all columns, however wide, and the cell of each depth; a table for each set-up in place of a "
         "comparison")),
     GROUP_OF(output_written), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     CONFLICTS("code", "depth", NULL),
     CONFLICTS("lattice", "constants", NULL),

@@ -72,9 +72,7 @@ static const option_row scene_eye_rows[] = {
         "view the model from one of its own cameras; near, far and field of view are that camera's where not given",
         TEXT(camera)},
     END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule eye_rules[] = {
     CONFLICTS("path", "eye camera", NULL),
     CONFLICTS("camera", "eye", NULL),
@@ -90,19 +88,13 @@ const option_use scene_model[] = {
     TAKE("separation"), TAKE("angle"),
     TAKE("eye"), TAKE("look"), TAKE("path"), TAKE("camera"), TAKE("within"), TAKE("also"), TAKE("transforms"),
     TAKE("threads"), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_use uses[] = {
-    OWN("format", DEFAULT("fp32")), OWN("mapping", DEFAULT("reversed")),
-    OWN("preset", ALSO("for a bias also the API of its users; " CAMERA_OF_VIEW)),
-    OWN("platform", ALSO("for a bias also its API; with --viewport also its rasterizer")),
+    OWN("format", DEFAULT("fp32")), OWN("mapping", DEFAULT("reversed")), GROUP_OF(bias_brought),
     OWN("viewport", WITHOUT("1920x1080 from an eye, else surfaces face the camera")),
     TAKE("log-c"), GROUP_OF(scene_model), TAKE("api"), TAKE("render"), TAKE("emit-need"), TAKE("report"),
     GROUP_OF(camera_slanted), GROUP_OF(camera_uses), GROUP_OF(output_written), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     CONFLICTS("render", "path", ": a picture has one eye"),
     {.option = NULL}};

@@ -130,14 +130,11 @@ static const option_use of_cascades[] = {
 static const option_use of_box[] = {
     OWN("range", HELP("with --light-box: where receivers lie along the light, from the front of the box"),
         WITHOUT("the whole box, less 1/256 where units have no effect at window depth 0")), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_use uses[] = {
     TAKE("from-origin"),
     OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_ALL_PERSPECTIVE), DEFAULT("d3d")),
-    OWN("unit", HELP("the length of a scene unit; any length can have a unit: 10cm"),
-        WITHOUT("m where a length has a unit")),
+    CAMERA_UNIT_ALONE,
     OWN("arith", ALSO("by default that of --raster where known")),
     FOR(PART_CASCADES, of_cascades), FOR(PART_BOX, of_box), GROUP_OF(shadow_map_uses),
     TAKE("raster"), TAKE("subpixel"), TAKE("triangle-class"), TAKE("curvature"), TAKE("api"),

@@ -39,9 +39,7 @@ static const option_use solve_one[] = {
     OWN("at", HELP("the depth at which it must hold"), WITHOUT("")),
     OWN("range", HELP("the depths throughout which it must hold"), WITHOUT("near to far for a distance, else --at")),
     TAKE("error"), TAKE("viewport"), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_use uses[] = {
     OWN("near", ALSO("with --ortho also 0 or negative"),
         WITHOUT("solved for, or 0.1 where --for names another")),
@@ -52,9 +50,7 @@ static const option_use uses[] = {
     FOR(SOLVE_ONE, solve_one),
     TAKE("log-c"), TAKE("for"), TAKE("separation"), TAKE("link"),
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     CONFLICTS("error", "separation", NULL),
     CONFLICTS("range", "at", NULL),

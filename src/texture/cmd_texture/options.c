@@ -285,9 +285,7 @@ static const option_use of_image[] = {
 static const option_use of_position[] = {
     TAKE("fov"), TAKE("hfov"),
     TAKE("eye"), TAKE("look"), TAKE("size"), TAKE("pixel"), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_use uses[] = {
     OWN("format", WITHOUT("as the image has it; unorm24 with --synthetic; all with an effect alone")),
     OWN("mapping", WITHOUT("as the image has it; d3d with --synthetic; all with an effect alone")),
@@ -301,9 +299,7 @@ static const option_use uses[] = {
     OWN("full", HELP("all columns, however wide; of an image Unity's _ZBufferParams, the condition of its matrix and "
         "what decodings are off by, too")),
     GROUP_OF(camera_projected), GROUP_OF(output_written), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     CONFLICTS("product", "hi-z", ", which keeps window depth"),
     CONFLICTS("figure", "hi-z", ", which keeps window depth"),

@@ -39,9 +39,7 @@ static const option_use uses[] = {
         "that draws: llvmpipe, lavapipe, softpipe or swiftshader"), WITHOUT("llvmpipe with --rasterize")),
     TAKE("threads"), TAKE("link"),
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
-/* clang-format on */
 
-/* clang-format off */
 static const option_rule rules[] = {
     NEEDS("seed", "sample rasterize", NULL),
     CONFLICTS("separation", "rasterize", ", which looks for the separation"),
