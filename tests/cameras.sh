@@ -36,7 +36,7 @@ judge() { # judge FIRST_DOOR FIELDS
     awk -F '\t' -v first="$1" -v fields="$2" '{
         for (i = first; i <= fields; i++)
             if ($i != "-" && ($2 == "right" ? $i !~ /^[0-9a-f]+$/ || length($i) != 16 || $i != $3 : $i != $2)) print
-    } END { if (NR < 90) print "only " NR " cameras" }' "$scratch/said" >"$scratch/wrong"
+    } END { if (NR < 150) print "only " NR " cameras" }' "$scratch/said" >"$scratch/wrong"
     cat "$scratch/wrong"
     [ ! -s "$scratch/wrong" ]
 }

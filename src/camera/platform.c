@@ -2,6 +2,7 @@
 #include "camera/platform.h"
 
 #include <string.h>
+#include <strings.h>
 
 #define DAWN   "2026-08"
 #define ANGLE  "2026-08"
@@ -108,4 +109,12 @@ bias_api platform_bias(const platform *p, const bias_api *api) {
     out.clamps = api->clamps && !p->drops_clamp;
     out.whole = api->whole || p->cuts;
     return out;
+}
+
+const char *platform_stores(const platform *p, const char *given) {
+    if (given == NULL || strcmp(p->asks, "depth24plus") != 0)
+        return NULL;
+    return strcasecmp(given, "depth24plus-stencil8") == 0 ? p->stencil
+           : strcasecmp(given, "depth24plus") == 0        ? p->stored
+                                                          : NULL;
 }

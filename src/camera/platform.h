@@ -42,6 +42,9 @@ typedef struct platform {
 
 NAMED_ROWS(platform, platform);
 
+/** Its format for a name that leaves the choice to the browser, depth24plus or depth24plus-stencil8; null of others. */
+const char *platform_stores(const platform *p, const char *given);
+
 /** A bias of that API as it arrives there: its own API's row as the platform has it; any other, and null, unchanged. */
 bias_api platform_bias(const platform *p, const bias_api *api);
 

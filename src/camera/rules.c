@@ -6,15 +6,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool refuse(camera_fault *fault, const char *key, const char *format, ...) __attribute__((format(printf, 3, 4)));
+#include "core/append.h"
 
-static bool refuse(camera_fault *fault, const char *key, const char *format, ...) {
+bool camera_fails(camera_fault *fault, const char *key, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(fault->text, sizeof fault->text, format, arguments);
     va_end(arguments);
     fault->key = key;
     return false;
+}
+
+const char *camera_fault_text(const camera_fault *fault, const char *mark, char out[CAMERA_FAULT_SIZE]) {
+    *out = '\0';
+    for (const char *at = fault->text; *at != '\0'; at++)
+        append(out, CAMERA_FAULT_SIZE, "%.*s%s", *at != '@', at, *at == '@' ? mark : "");
+    return out;
 }
 
 /* The fewest digits from 15 on that are read as the same number. */
@@ -39,48 +46,24 @@ bool camera_refused(const dp_spec *spec, dp_status status, const char *aside, ca
     const char *mapping = dp_mapping_get(spec->mapping)->name;
     char znear[32], zfar[32];
     if (status == DP_ERROR_MODEL) /* of the models that have a name, float alone is not for all */
-        return refuse(fault, key,
-                      "float is a pipeline's arithmetic, and a shader writes the depth of %s: leave it out%s, or take "
-                      "one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
-                      mapping, aside);
+        return camera_fails(
+            fault, key,
+            "float is a pipeline's arithmetic, and a shader writes the depth of %s: leave it out%s, or take "
+            "one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
+            mapping, aside);
     if (strncmp(text, key, strlen(key)) == 0 && text[strlen(key)] == ' ') /* "far: must be", not "far: far must be" */
         text += strlen(key) + 1;
     if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
-        return refuse(fault, key, "%s, got %s, %s", text, spec->ortho ? "orthographic" : "perspective", mapping);
+        return camera_fails(fault, key, "%s, got %s, %s", text, spec->ortho ? "orthographic" : "perspective", mapping);
     if (status == DP_ERROR_LOG_C)
-        return refuse(fault, key, "%s, got %s", text, shortest(spec->log_c, znear));
-    return refuse(fault, key, "%s, got near %s, far %s", text, shortest(spec->znear, znear),
-                  shortest(spec->zfar, zfar));
+        return camera_fails(fault, key, "%s, got %s", text, shortest(spec->log_c, znear));
+    return camera_fails(fault, key, "%s, got near %s, far %s", text, shortest(spec->znear, znear),
+                        shortest(spec->zfar, zfar));
 }
 
 bool camera_vertical(double fov_x, int width, int height, double *fov_y, camera_fault *fault) {
     *fov_y = dp_fov_vertical(fov_x, width, height);
     return (*fov_y >= 0.001 && *fov_y <= 179.9) || /* as dp_triangles has it */
-           refuse(fault, "hfov", "makes a vertical angle of %.6g degrees, which must be from 0.001 to 179.9", *fov_y);
-}
-
-bool camera_take_raster(const raster_row *raster, int asked, dp_triangles *triangles, camera_fault *fault) {
-    if (asked > 0 && !raster->at_least)
-        return refuse(fault, "subpixel", "does not apply: %s has its own grid", raster->name);
-    if (asked > 0 && asked < raster->plane_bits)
-        return refuse(fault, "subpixel", "must be at least %d with the rasterizer %s, got %d", raster->plane_bits,
-                      raster->name, asked);
-    raster_describe(raster, triangles);
-    if (asked > 0)
-        triangles->subpixel = asked;
-    return true;
-}
-
-bool camera_bounded(const raster_row *raster, const dp_format *format, camera_fault *fault) {
-    return raster == NULL || raster_bounded(raster, format) ||
-           refuse(fault, "raster",
-                  "%s steps the codes of %s from pixel to pixel, which has no bound: name other formats", raster->name,
-                  format->name);
-}
-
-bool camera_stored(const profile *gpu, const dp_format *format, camera_fault *fault) {
-    char names[PROFILE_FORMATS_SIZE];
-    return profile_stores(gpu, format) ||
-           refuse(fault, "format", "must be %s with a profile of a GPU that stores no other depth, got %s",
-                  profile_formats(gpu, names), format->name);
+           camera_fails(fault, "hfov", "makes a vertical angle of %.6g degrees, which must be from 0.001 to 179.9",
+                        *fov_y);
 }

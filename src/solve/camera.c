@@ -1,69 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The cameras of a requirement file. */
+/* The cameras of a requirement file: its words into keys, and a camera made of them. */
 #include <math.h>
 #include <string.h>
 
-#include "camera/unit.h"
 #include "core/append.h"
 #include "quantity/quantity.h"
-#include "raster/raster.h"
 #include "solve/model.h"
 #include "solve/reader.h"
 
-enum {
-    KEY_PRESET,
-    KEY_NEAR,
-    KEY_FAR,
-    KEY_MAPPING,
-    KEY_FORMAT,
-    KEY_ORTHO,
-    KEY_ROUNDING,
-    KEY_MODEL,
-    KEY_ARITH,
-    KEY_LOG_C,
-    KEY_FROM_ORIGIN,
-    KEY_SCHEME,
-    KEY_VIEW,
-    KEY_COUNT = KEY_VIEW + VIEW_COUNT
-};
+enum { KEY_FROM_ORIGIN = CAMERA_KEYS, KEY_SCHEME, KEY_COUNT };
 
-static const char *const keys[KEY_COUNT + 1] = {"preset",      "near",     "far",     "mapping", "format",
-                                                "ortho",       "rounding", "model",   "arith",   "log_c",
-                                                "from_origin", "scheme",   VIEW_KEYS, NULL};
-
-typedef struct draft {
-    dp_spec spec;
-    dp_format formats[NEED_SETUPS_MAX];
-    size_t format_count;
-    bool automatic;
-    const preset *preset; /* null: none */
-} draft;
-
-/* The index of a name, or -1. */
-static int index_of(const char *text, const char *(*name)(size_t)) {
-    for (size_t i = 0; name(i) != NULL; i++)
-        if (strcmp(name(i), text) == 0)
-            return (int)i;
-    return -1;
-}
-
-/* The same after an error that lists the names. */
-static int among(reader *r, const setting *s, const char *text, const char *(*name)(size_t)) {
-    const int index = index_of(text, name);
-    if (index >= 0)
-        return index;
-    char all[NEED_TEXT_SIZE / 2] = "";
-    for (size_t i = 0; name(i) != NULL; i++) {
-        reader_known(r, text, name(i));
-        append(all, sizeof all, "%s%s", i > 0 ? ", " : "", name(i));
-    }
-    reader_fail(r, s, "%s: must be one of %s, got '%.40s'", s->name, all, text);
-    return -1;
-}
-
-static int word_among(reader *r, const setting *s, const char *(*name)(size_t)) {
-    const char *text;
-    return reader_string(r, s, &text) ? among(r, s, text, name) : -1;
+/* The index of a name in any case; that of null where there is none. */
+static size_t index_of(const char *text, const char *(*name)(size_t)) {
+    size_t i = 0;
+    while (name(i) != NULL && strcasecmp(name(i), text) != 0)
+        i++;
+    return i;
 }
 
 static const char *rounding_name(size_t i) {
@@ -74,117 +26,160 @@ static const char *arith_name(size_t i) {
     return i < dp_arith_count() ? dp_arith_get(i)->name : NULL;
 }
 
-static bool has_arith(const char *name) {
-    return index_of(name, arith_name) >= 0;
+/* Names of rows and, behind each, its other spellings. */
+static const char *name_of(const char *name, const char *aliases, size_t i) {
+    return i % 2 == 0 || aliases == NULL ? name : aliases;
 }
 
-static int read_arith(reader *r, const setting *s, need_camera *out) {
-    char name[PROFILE_NAME_SIZE];
-    return reader_row(r, s, "arith", has_arith, out, name) ? among(r, s, name, arith_name) : -1;
+static const char *mapping_name(size_t i) {
+    const dp_mapping_row *row = i / 2 < DP_MAPPING_COUNT ? dp_mapping_get((dp_mapping)(i / 2)) : NULL;
+    return row != NULL ? name_of(row->name, row->aliases, i) : NULL;
 }
 
-static const char *preset_name(size_t i) {
-    return preset_get(i) != NULL ? preset_get(i)->name : NULL;
+static const char *format_name(size_t i) {
+    const dp_format_row *row = dp_format_get(i / 2);
+    return row != NULL ? name_of(row->format.name, row->aliases, i) : NULL;
 }
 
-static bool read_preset(reader *r, const setting *s, draft *d) {
-    const int index = word_among(r, s, preset_name);
-    if (index < 0)
-        return false;
-    const preset *row = preset_get((size_t)index);
-    d->preset = row;
-    /* Where the file says what its scene unit is, a preset in metres is converted into it. */
-    preset_planes(row, r->unit, &d->spec.znear, &d->spec.zfar, &d->spec.log_c);
-    d->spec.mapping = row->mapping;
-    d->format_count = dp_format_parse(row->format, d->formats);
-    return true;
+static bool take_preset(camera_said *c, const char *word) {
+    c->presets[0] = preset_find(word);
+    c->preset_count = 1;
+    return c->presets[0] != NULL;
 }
 
-static bool read_mapping(reader *r, const setting *s, draft *d) {
+static bool take_mapping(camera_said *c, const char *word) {
+    return dp_mapping_parse(word, &c->mappings[0]) == DP_OK;
+}
+
+static bool take_format(camera_said *c, const char *word) {
+    c->format_count = dp_format_parse(word, c->formats);
+    return c->format_count > 0;
+}
+
+static bool take_rounding(camera_said *c, const char *word) {
+    c->rounding = (dp_rounding)index_of(word, rounding_name);
+    return c->rounding < DP_ROUNDING_COUNT;
+}
+
+static bool take_model(camera_said *c, const char *word) {
+    c->model = (dp_model)index_of(word, model_word);
+    return c->model <= DP_MODEL_COUNT;
+}
+
+static bool take_arith(camera_said *c, const char *word) {
+    return dp_arith_parse(word, &c->arith) == DP_OK;
+}
+
+static bool take_raster(camera_said *c, const char *word) {
+    c->raster = raster_find(word);
+    return c->raster != NULL;
+}
+
+static const struct word_key {
+    bool (*take)(camera_said *c, const char *word);
+    const char *(*name)(size_t index); /* null behind the last */
+    const named_table *rows;           /* or their names */
+    const char *allowed;               /* null: the names */
+} word_keys[CAMERA_KEYS] = {
+    [CAMERA_PRESET] = {take_preset, NULL, &preset_table, "a preset as 'depthprec list presets' names them"},
+    [CAMERA_MAPPING] = {take_mapping, mapping_name, NULL, "one of " DP_MAPPING_NAMES},
+    [CAMERA_FORMAT] = {take_format, format_name, NULL, "a depth format as 'depthprec list formats' names them"},
+    [CAMERA_ROUNDING] = {take_rounding, rounding_name, NULL, NULL},
+    [CAMERA_MODEL] = {take_model, model_word, NULL, NULL},
+    [CAMERA_ARITH] = {take_arith, arith_name, NULL, NULL},
+    [CAMERA_RASTER] = {take_raster, NULL, &raster_table, "a rasterizer as 'depthprec list rasterizers' names them"},
+};
+
+static const char *name_at(const struct word_key *w, size_t i) {
+    const named_row *row = w->rows != NULL ? named_at(w->rows, i / 2) : NULL;
+    return w->rows == NULL ? w->name(i) : row != NULL ? name_of(row->name, row->aliases, i) : NULL;
+}
+
+static bool read_word(reader *r, const setting *s, camera_key key, camera_said *c) {
+    const struct word_key *w = &word_keys[key];
     const char *text;
+    char name[PROFILE_NAME_SIZE], all[NEED_TEXT_SIZE / 2] = "one of ";
     if (!reader_string(r, s, &text))
         return false;
-    if (dp_mapping_parse(text, &d->spec.mapping) == DP_OK)
+    if (profile_is_file(text) && (key == CAMERA_ARITH || key == CAMERA_RASTER))
+        return reader_profile(r, s, key, c, name) &&
+               (w->take(c, name) ||
+                reader_fail(r, s, "%s: '%.120s' names what is not known here, '%.40s'", s->name, text, name));
+    if (w->take(c, text))
         return true;
-    for (int i = 0; i < DP_MAPPING_COUNT; i++) {
-        reader_known(r, text, dp_mapping_get((dp_mapping)i)->name);
-        reader_known(r, text, dp_mapping_get((dp_mapping)i)->aliases);
+    for (size_t i = 0; name_at(w, i) != NULL; i++) {
+        reader_known(r, text, name_at(w, i));
+        append(all, sizeof all, "%s%s", i > 0 ? ", " : "", name_at(w, i));
     }
-    return reader_fail(r, s, "mapping: must be one of " DP_MAPPING_NAMES ", got '%.40s'", text);
+    return reader_fail(r, s, "%s: must be %s, got '%.40s'", s->name, w->allowed != NULL ? w->allowed : all, text);
 }
 
-static bool read_format(reader *r, const setting *s, draft *d) {
-    const char *text;
-    if (!reader_string(r, s, &text))
-        return false;
-    d->format_count = dp_format_parse(text, d->formats);
-    if (d->format_count > 0)
-        return true;
-    for (size_t i = 0; i < dp_format_count(); i++) {
-        reader_known(r, text, dp_format_get(i)->format.name);
-        reader_known(r, text, dp_format_get(i)->aliases);
-    }
-    return reader_fail(r, s, "format: must be a depth format as 'depthprec list formats' names them, got '%.40s'",
-                       text);
+static bool read_plane(reader *r, setting *s, camera_said *c) {
+    const bool is_far = strcmp(s->name, "far") == 0;
+    return reader_length(r, s, s->name, READER_SIGNED | (is_far ? READER_INFINITE : 0), is_far ? &c->zfar : &c->znear);
 }
 
-static bool read_ortho(reader *r, const setting *s, draft *d) {
+static bool read_ortho(reader *r, setting *s, camera_said *c) {
     if (s->kind != SETTING_WORD)
         return reader_fail(r, s, "ortho: must be true or false, got %s", reader_shown(r, s));
-    d->spec.ortho = s->number != 0.0;
+    c->ortho = s->number != 0.0;
     return true;
 }
 
-static bool read_words(reader *r, setting *const *found, draft *d, need_camera *out) {
-    const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
-    const int model =
-        rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_word) : DP_MODEL_COUNT;
-    const int arith =
-        rounding >= 0 && model >= 0 && found[KEY_ARITH] != NULL ? read_arith(r, found[KEY_ARITH], out) : 0;
-    if (rounding < 0 || model < 0 || arith < 0)
-        return false;
-    d->automatic = model == DP_MODEL_COUNT;
-    d->spec.rounding = (dp_rounding)rounding;
-    d->spec.model = d->automatic ? DP_MODEL_EXACT : (dp_model)model;
-    d->spec.arith = (dp_arith)arith;
+static bool read_log_c(reader *r, setting *s, camera_said *c) {
+    if (s->kind == SETTING_STRING)
+        return reader_fail(r, s, "log_c: must be a number per scene unit, got %s", reader_shown(r, s));
+    return reader_length(r, s, s->name, READER_POSITIVE, &c->log_c);
+}
+
+static reader_key *const number_keys[CAMERA_KEYS] = {
+    [CAMERA_NEAR] = read_plane,       [CAMERA_FAR] = read_plane,           [CAMERA_ORTHO] = read_ortho,
+    [CAMERA_LOG_C] = read_log_c,      [CAMERA_VIEWPORT] = reader_viewport, [CAMERA_FOV] = reader_angle,
+    [CAMERA_HFOV] = reader_angle,     [CAMERA_SUBPIXEL] = reader_subpixel, [CAMERA_SLANT] = reader_slant,
+    [CAMERA_TRIANGLE] = reader_class,
+};
+
+/* Nothing that the verdict hangs on has a silent default: a camera names it, itself or by a preset. */
+static bool is_complete(reader *r, const setting *group, setting *const *found) {
+    const bool viewed = found[CAMERA_VIEWPORT] != NULL;
+    for (int k = CAMERA_NEAR; k <= CAMERA_FORMAT; k++)
+        if (found[k] == NULL)
+            return reader_fail(r, group, "camera '%s': needs %s, or a preset", group->name, camera_keys[k]);
+    if (viewed && found[CAMERA_FOV] == NULL && found[CAMERA_HFOV] == NULL)
+        return reader_fail(r, found[CAMERA_VIEWPORT], "viewport: needs fov or hfov");
+    if (viewed && found[CAMERA_RASTER] == NULL && found[CAMERA_SUBPIXEL] == NULL)
+        return reader_fail(r, found[CAMERA_VIEWPORT], "viewport: needs raster or subpixel");
     return true;
 }
 
-/* A rasterizer that is known brings its own arithmetic; a GPU's profile in its place has both. */
-static bool take_arith(reader *r, setting *const *found, draft *d, need_camera *out) {
-    const setting *const named = found[KEY_VIEW + VIEW_RASTER];
-    char name[PROFILE_NAME_SIZE];
-    if (found[KEY_ARITH] != NULL || out->raster == NULL)
-        return true;
-    if (named == NULL || !profile_is_file(named->string)) {
-        raster_arith(out->raster, false, &d->spec.arith); /* a specification leaves it as it is */
-        return true;
-    }
-    if (!reader_row(r, named, "arith", has_arith, out, name))
-        return false;
-    d->spec.arith = (dp_arith)index_of(name, arith_name);
+/* Triangles must be drawn by a pipeline that interpolates linearly, and judged by its guarantee. */
+static bool suits(reader *r, const setting *viewport, const camera_said *c) {
+    const dp_mapping_row *mapping = dp_mapping_get(c->mappings[0]);
+    if (viewport != NULL && mapping->curve != DP_CURVE_PERSPECTIVE)
+        return reader_fail(r, viewport, "viewport: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
+                           mapping->name);
+    if (viewport != NULL && c->model != DP_MODEL_FLOAT && !c->model_auto)
+        return reader_fail(r, viewport, "viewport: needs the model float or auto, got %s", dp_model_name(c->model));
     return true;
 }
 
-/* A named GPU's profile must store the formats, for nothing is known of others; a rasterizer must draw them within a
- * bound; and each must be a format that the rest of the camera can have. */
-static bool make_setups(reader *r, const setting *group, const draft *d, need_camera *out) {
-    camera_fault fault = {.key = NULL};
-    out->count = d->format_count;
-    for (size_t i = 0; i < d->format_count; i++) {
-        dp_spec spec = d->spec;
-        spec.format = d->formats[i];
-        if (!camera_stored(&out->gpu, &spec.format, &fault) || !camera_bounded(out->raster, &spec.format, &fault))
-            return reader_fault(r, group, d->preset, &fault);
+static bool make_setups(const camera_said *c, need_camera *out, camera_fault *fault) {
+    dp_spec spec = camera_to_spec(c);
+    out->count = c->format_count;
+    for (size_t i = 0; i < c->format_count; i++) {
+        spec.format = c->formats[i];
+        if (!camera_keeps(c, &spec.format, fault))
+            return false;
         const dp_status status = quantity_setup(&spec, &out->setups[i]);
         if (status != DP_OK)
-            return camera_refused(&spec, status, "", &fault) || reader_fault(r, group, d->preset, &fault);
+            return camera_refused(&spec, status, "", fault);
     }
-    return true;
+    return camera_serves(c, CAMERA_LOG_C, &spec, sizeof spec, 1, fault) &&
+           camera_serves(c, CAMERA_ARITH, &spec, sizeof spec, 1, fault);
 }
 
 /* Places far from the origin: both keys, and a pipeline of depths at a point. */
-static bool read_world(reader *r, setting *const *found, const draft *d, need_camera *out) {
+static bool read_world(reader *r, setting *const *found, const camera_said *c, need_camera *out) {
     setting *const origin = found[KEY_FROM_ORIGIN], *const scheme = found[KEY_SCHEME];
     const char *text;
     if (origin == NULL && scheme == NULL)
@@ -202,47 +197,40 @@ static bool read_world(reader *r, setting *const *found, const draft *d, need_ca
     }
     if (out->scheme.row->metres && strchr(text, ':') == NULL)
         out->scheme.size = unit_convert(out->scheme.size, unit_find("m"), r->unit);
-    if (d->spec.ortho || dp_mapping_get(d->spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
+    if (c->ortho || dp_mapping_get(c->mappings[0])->curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(r, origin,
                            "from_origin: needs a perspective and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE);
-    if (!d->automatic && d->spec.model != DP_MODEL_FLOAT)
+    if (!c->model_auto && c->model != DP_MODEL_FLOAT)
         return reader_fail(r, origin, "from_origin: needs the model auto or float");
-    if (found[KEY_VIEW] != NULL)
+    if (found[CAMERA_VIEWPORT] != NULL)
         return reader_fail(r, origin, "from_origin: is of surfaces that face the camera, not with viewport");
     return true;
 }
 
-/* An orthographic camera may have planes at its place and behind it. */
-static unsigned planes_of(const draft *d) {
-    return d->spec.ortho ? READER_SIGNED : READER_POSITIVE;
-}
-
 bool reader_camera(reader *r, setting *group, need_camera *out) {
+    const char *keys[KEY_COUNT + 1] = {[KEY_FROM_ORIGIN] = "from_origin", "scheme"};
     setting *found[KEY_COUNT];
-    draft d = {.spec = dp_spec_default()};
+    camera_said c = {.mapping_count = 1, .log_c = 1.0, .model = DP_MODEL_COUNT, .triangles = dp_triangles_default()};
+    camera_fault fault = {.key = NULL};
+    c.triangles.width = 0;
+    memcpy(keys, camera_keys, CAMERA_KEYS * sizeof *keys);
     out->line = group->line;
     out->name = group->name;
-    if (!reader_name(r, group, out->name) || !reader_keys(r, group, "camera", keys, found))
+    if (!reader_name(r, group, out->name) || !reader_keys(r, group, "camera", keys, found) ||
+        (found[CAMERA_PRESET] == NULL && !is_complete(r, group, found)))
         return false;
-    for (int k = KEY_NEAR; k <= KEY_FORMAT && found[KEY_PRESET] == NULL; k++)
+    for (camera_key k = 0; k < CAMERA_KEYS; k++) {
         if (found[k] == NULL)
-            return reader_fail(r, group, "camera '%s': needs %s, or a preset", out->name, keys[k]);
-    const bool good =
-        (found[KEY_PRESET] == NULL || read_preset(r, found[KEY_PRESET], &d)) &&
-        (found[KEY_ORTHO] == NULL || read_ortho(r, found[KEY_ORTHO], &d)) &&
-        (found[KEY_NEAR] == NULL || reader_length(r, found[KEY_NEAR], "near", planes_of(&d), &d.spec.znear)) &&
-        (found[KEY_FAR] == NULL ||
-         reader_length(r, found[KEY_FAR], "far", planes_of(&d) | READER_INFINITE, &d.spec.zfar)) &&
-        (found[KEY_MAPPING] == NULL || read_mapping(r, found[KEY_MAPPING], &d)) &&
-        (found[KEY_FORMAT] == NULL || read_format(r, found[KEY_FORMAT], &d)) && read_words(r, found, &d, out) &&
-        (found[KEY_LOG_C] == NULL || reader_length(r, found[KEY_LOG_C], "log_c", READER_POSITIVE, &d.spec.log_c));
-    const dp_mapping_row *row = dp_mapping_get(d.spec.mapping);
-    if (good && found[KEY_LOG_C] != NULL && (row->curve != DP_CURVE_LOG || row->log_over_near))
-        return reader_fail(r, found[KEY_LOG_C], "log_c: is for the mappings with a constant C only, got %s", row->name);
-    if (good && found[KEY_LOG_C] != NULL && found[KEY_LOG_C]->kind == SETTING_STRING)
-        return reader_fail(r, found[KEY_LOG_C], "log_c: must be a number per scene unit, got %s",
-                           reader_shown(r, found[KEY_LOG_C]));
-    out->automatic = d.automatic;
-    return good && read_world(r, found, &d, out) && reader_view(r, group, found + KEY_VIEW, d.preset, out, &d.spec) &&
-           take_arith(r, found, &d, out) && make_setups(r, group, &d, out);
+            continue;
+        c.words[k] = found[k]->kind == SETTING_STRING ? found[k]->string : "";
+        if (word_keys[k].take != NULL ? !read_word(r, found[k], k, &c) : !number_keys[k](r, found[k], &c))
+            return false;
+    }
+    if (!camera_make(&c, r->unit, &fault))
+        return reader_fault(r, group, c.preset_count > 0 ? c.presets[0] : NULL, &fault);
+    out->automatic = c.model_auto;
+    out->raster = c.raster;
+    out->gpu = c.gpu;
+    return read_world(r, found, &c, out) && suits(r, found[CAMERA_VIEWPORT], &c) &&
+           (make_setups(&c, out, &fault) || reader_fault(r, group, c.preset_count > 0 ? c.presets[0] : NULL, &fault));
 }

@@ -33,9 +33,11 @@ static const setting *key_of(const setting *group, const char *name) {
 
 bool reader_fault(reader *r, const setting *group, const preset *of, const camera_fault *fault) {
     const setting *given = key_of(group, fault->key), *chosen = of != NULL ? key_of(group, "preset") : NULL;
+    char text[CAMERA_FAULT_SIZE];
+    camera_fault_text(fault, "", text);
     if (given != NULL || chosen == NULL)
-        return reader_fail(r, given != NULL ? given : group, "%s: %s", fault->key, fault->text);
-    return reader_fail(r, chosen, "%s: %s; preset %s chose it", fault->key, fault->text, of->name);
+        return reader_fail(r, given != NULL ? given : group, "%s: %s", fault->key, text);
+    return reader_fail(r, chosen, "%s: %s; preset %s chose it", fault->key, text, of->name);
 }
 
 void reader_known(reader *r, const char *given, const char *name) {
@@ -91,26 +93,12 @@ bool reader_string(reader *r, const setting *s, const char **out) {
     return true;
 }
 
-/* Where the requirement file lies; an absolute path stays. */
-static void beside(const reader *r, const char *name, char *out, size_t size) {
-    const char *path = r->file->path;
-    snprintf(out, size, "%.*s%s", path_is_absolute(name) ? 0 : (int)(path_name(path) - path), path, name);
-}
-
-bool reader_row(reader *r, const setting *s, const char *key, bool (*known)(const char *name), need_camera *camera,
-                char name[PROFILE_NAME_SIZE]) {
-    const char *text = "";
+bool reader_profile(reader *r, const setting *s, camera_key key, camera_said *c, char name[PROFILE_NAME_SIZE]) {
+    const char *here = r->file->path; /* an absolute path stays */
     char path[PATH_SIZE], error[PROFILE_ERROR_SIZE];
-    if (!reader_string(r, s, &text))
-        return false;
-    if (!profile_is_file(text)) {
-        snprintf(name, PROFILE_NAME_SIZE, "%s", text);
-        return true;
-    }
-    beside(r, text, path, sizeof path);
-    if (!profile_add(&camera->gpu, path, key, name, error))
-        return reader_fail(r, s, "%s: %s", key, error);
-    return known(name) || reader_fail(r, s, "%s: '%.120s' names what is not known here, '%.40s'", key, path, name);
+    snprintf(path, sizeof path, "%.*s%s", path_is_absolute(s->string) ? 0 : (int)(path_name(here) - here), here,
+             s->string);
+    return camera_profile(c, path, key, name, error) || reader_fail(r, s, "%s: %s", s->name, error);
 }
 
 bool reader_name(reader *r, const setting *s, const char *name) {

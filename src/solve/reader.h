@@ -3,8 +3,7 @@
 #ifndef SOLVE_READER_H
 #define SOLVE_READER_H
 
-#include "camera/presets.h"
-#include "camera/rules.h"
+#include "camera/make.h"
 #include "camera/unit.h"
 #include "solve/requirement.h"
 #include "solve/setting.h"
@@ -35,11 +34,8 @@ const char *reader_shown(reader *r, const setting *s);
 bool reader_keys(reader *r, const setting *group, const char *what, const char *const *names, setting **found);
 
 bool reader_string(reader *r, const setting *s, const char **out);
-/* The name of a row, or of that which a profile has under `key`, a file beside the requirement file: its GPU is
- * then added to the camera's. `known` says whether a row has that name; one that the file spells out is not asked for.
- */
-bool reader_row(reader *r, const setting *s, const char *key, bool (*known)(const char *name), need_camera *camera,
-                char name[PROFILE_NAME_SIZE]);
+/* The name that a profile, a file beside the requirement file, has in place of one. */
+bool reader_profile(reader *r, const setting *s, camera_key key, camera_said *c, char name[PROFILE_NAME_SIZE]);
 bool reader_name(reader *r, const setting *s, const char *name); /* fit for a line of a report */
 bool reader_unit(reader *r, const setting *s);
 bool reader_length(reader *r, const setting *s, const char *key, unsigned allowed, double *out);
@@ -48,13 +44,9 @@ bool reader_number_within(const setting *s, double least, double most, double *o
 
 bool reader_share(reader *r, const setting *s, const char *key, double *out);
 
-/* The keys of slanted triangles, in the order in which they are read. */
-enum { VIEW_VIEWPORT, VIEW_FOV, VIEW_HFOV, VIEW_RASTER, VIEW_SUBPIXEL, VIEW_SLANT, VIEW_TRIANGLE, VIEW_COUNT };
-#define VIEW_KEYS "viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"
-
-/* The triangles of a specification, by those that were found; what of them is not, a preset may say, or null. */
-bool reader_view(reader *r, const setting *group, setting *const found[VIEW_COUNT], const preset *of,
-                 need_camera *camera, dp_spec *spec);
+/* Reads what a key of a camera says. */
+typedef bool reader_key(reader *r, setting *s, camera_said *c);
+reader_key reader_viewport, reader_angle, reader_subpixel, reader_slant, reader_class;
 
 bool reader_camera(reader *r, setting *group, need_camera *out);
 

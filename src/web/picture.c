@@ -36,13 +36,8 @@ static int make(const camera_asked *all) {
     const raster_row *row = c->raster != NULL ? c->raster : raster_find("llvmpipe");
     while (format + 1 < c->format_count && !raster_draws(row, &c->formats[format]))
         format++;
-    const dp_spec spec = {.znear = c->znear,
-                          .zfar = c->zfar,
-                          .ortho = c->ortho,
-                          .mapping = c->mappings[0],
-                          .format = c->formats[format],
-                          .rounding = c->rounding,
-                          .log_c = c->log_c};
+    dp_spec spec = camera_to_spec(&c->said);
+    spec.format = c->formats[format];
     const double z = c->at.count > 0 ? depths_get(&c->at, 0) : (double)NAN;
     const char *wrong = draw_picture_open(&picture, &spec, row, z);
     unit = camera_unit(c);

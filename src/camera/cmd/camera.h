@@ -7,62 +7,31 @@
 #define CAMERA_CMD_CAMERA_H
 
 #include "camera/cmd/depths.h"
-#include "camera/platform.h"
-#include "camera/presets.h"
-#include "camera/profile.h"
-#include "camera/rules.h"
+#include "camera/make.h"
 #include "cli/option/option.h"
 #include "depthprec/depthprec.h"
 #include "raster/raster.h"
 #include "shader/camera.h"
 
-enum { CAMERA_FORMATS_MAX = 64, CAMERA_FARS_MAX = 4, CAMERA_PRESETS_MAX = 16 };
-
-/** How a command uses a camera. */
-typedef struct camera_use {
-    bool shape;    /**< --viewport is the shape of the view alone: nothing slants */
-    bool drawn;    /**< a rasterizer draws */
-    bool mapped;   /**< --viewport is the view that shadow maps cover */
-    bool measured; /**< the profile of a GPU is of use without a view, too */
-    bool pictured; /**< a picture takes view and rasterizer, see view_drawn() */
-    bool seen;     /**< from an eye surfaces slant, whether --viewport is given or not */
-    bool counted;  /**< the report counts what a shader's log2 may be off by */
-    bool compared; /**< rg, which is no depth buffer, is shown beside buffers */
-} camera_use;
+enum { CAMERA_FARS_MAX = 4 };
 
 typedef struct camera_asked {
     asked_line *line;
-    camera_use use; /**< by camera_complete() */
+    union {
+        camera_said said; /**< by camera_complete(); of several presets see camera_of() */
+        struct {
+            CAMERA_FIELDS;
+        };
+    };
     lengths lengths;
-    double znear;                 /**< scene units */
-    double zfar;                  /**< scene units or INFINITY; of several the farthest */
     double fars[CAMERA_FARS_MAX]; /**< of the figures that take several, in the order given */
     size_t far_count;
-    bool ortho;
-    dp_format formats[CAMERA_FORMATS_MAX]; /**< in the order given, each once */
-    size_t format_count;
-    dp_mapping mappings[DP_MAPPING_COUNT]; /**< in the order given, each once */
-    size_t mapping_count;
-    double log_c;
-    dp_rounding rounding;
-    dp_model model;
-    bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
-    bool budgeted;   /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in binary32 */
-    dp_arith arith;
-    dp_arith raster_arith; /**< of the GPU whose profile --raster names */
-    bool has_raster_arith;
-    double tolerance;         /**< a share */
-    profile gpu;              /**< of --arith and --raster */
-    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle-class; width 0
-                                   without the first */
-    double fov_x;             /**< --hfov, degrees */
-    double azimuth;           /**< of one plane of --slant, degrees from right to up; NaN when not given */
-    double intrinsics[4];     /**< focal lengths across and down, where the view axis meets the picture, pixels */
-    camera_spec spec;         /**< the view's shape: --fov, --ortho; its size is the command's to fill in */
-    const raster_row *raster; /**< --raster; null when not given */
-    const preset *presets[CAMERA_PRESETS_MAX]; /**< --preset, in the order given, each once */
-    size_t preset_count; /**< of one, what the user did not give is already filled in; of several see camera_of() */
-    const platform *platform;  /**< --platform; null when not given, and what the user did not give is filled in */
+    bool budgeted;             /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in
+                                    binary32 */
+    double tolerance;          /**< a share */
+    double azimuth;            /**< of one plane of --slant, degrees from right to up; NaN when not given */
+    double intrinsics[4];      /**< focal lengths across and down, where the view axis meets the picture, pixels */
+    camera_spec spec;          /**< the view's shape: --fov, --ortho; its size is the command's to fill in */
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
     struct camera_asked *each; /**< of several presets this camera with each alone; else null */
@@ -119,10 +88,6 @@ static inline const char *camera_unit(const camera_asked *c) {
     return lengths_unit(&c->lengths);
 }
 
-/** Whether the GPUs of the profiles store depth in that format; where not, one line on stderr says what they store.
- * @return EXIT_FINE or EXIT_USAGE */
-int camera_check_stored(const camera_asked *c, const dp_format *format);
-
 /** Says a fault by its option. @return EXIT_USAGE */
 int camera_refuse(const camera_fault *fault);
 
@@ -147,12 +112,11 @@ option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
 /** --arith is given and is a name: of a profile the formats count, too. */
 bool camera_names_arith(const camera_asked *c);
 
-/** Takes the options of slanted triangles together; without --viewport surfaces face the camera. @return as above */
+/** Takes from a view what a command has no use for; without --viewport surfaces face the camera. @return as above */
 int slant_complete(camera_asked *c);
 
-/** With --viewport: a preset's field of view and rasterizer, where none were given. */
-void slant_take_preset(camera_asked *c, const preset *p);
-/** With --viewport: the rasterizer of a name of raster_find(), where none was given. */
-void slant_take_raster(camera_asked *c, const char *name);
+enum { CAMERA_NAME_SIZE = 16 };
+/** A key as the option that says it: "log-c". @return out */
+const char *camera_option(const char *key, char out[CAMERA_NAME_SIZE]);
 
 #endif

@@ -8,18 +8,12 @@
 
 static const char open_name[] = "depth24plus", with_stencil[] = "depth24plus-stencil8";
 
-const char *depth24plus_on(const platform *p, const char *given) {
-    if (given == NULL || strcmp(p->asks, open_name) != 0)
-        return NULL;
-    return strcasecmp(given, with_stencil) == 0 ? p->stencil : strcasecmp(given, open_name) == 0 ? p->stored : NULL;
-}
-
 /* "chrome-d3d, safari and firefox-d3d": those that store that format. */
 static void name_all(const char *given, const char *format, char *out, size_t size) {
     const char *names[64];
     size_t count = 0;
     for (size_t i = 0; platform_get(i) != NULL && count < sizeof names / sizeof *names; i++) {
-        const char *stored = depth24plus_on(platform_get(i), given);
+        const char *stored = platform_stores(platform_get(i), given);
         if (stored != NULL && strcmp(stored, format) == 0)
             names[count++] = platform_get(i)->name;
     }

@@ -6,9 +6,6 @@
 #include "camera/cmd/camera.h"
 #include "report/page.h"
 
-/** The format of that platform for the name that was given with --format; null where it is no such name. */
-const char *depth24plus_on(const platform *p, const char *given);
-
 /** A sentence where --format names depth24plus or depth24plus-stencil8 and no platform is named; else nothing. */
 void depth24plus_say(page *p, const camera_asked *c);
 

@@ -102,7 +102,7 @@ int parse_presets(asked_line *line, const option_row *row, const char *value, vo
     return parse_names(line, row, value, group, add_preset);
 }
 
-/* A near plane that is not positive needs --ortho, which may come later: check_near() of complete.c. */
+/* A near plane that is not positive needs --ortho, which may come later: camera_make(). */
 static int parse_near(asked_line *line, const option_row *row, const char *value, void *group) {
     camera_asked *c = group;
     if (!length_read(&(length_reader){.in = line->lengths}, value, strlen(value), NUMBER_FINITE, &c->znear) ||
@@ -186,7 +186,7 @@ static void early(asked_line *line, void *group) {
 static const option_row camera_rows[] = {
     {"near", 'n', "Z",
         "near plane", .parse = parse_near, INTO(double, znear),
-        LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1",
+        LIMITS(CAMERA_NEAR_LEAST, CAMERA_NEAR_MOST, "scene units"), .standard = "0.1",
         .group = "The camera"},
     {"far", 'f', "Z|inf",
         "far plane, up to 1e28 scene units and at least 1e-6 of near beyond it, or inf",

@@ -4,13 +4,13 @@
 #include "report/output.h"
 
 /* Looks up the name that the profile has of the option, as if the user had given it. */
-static int parse_profile(asked_line *line, const option_row *row, const char *value, void *group,
+static int parse_profile(asked_line *line, const option_row *row, const char *value, void *group, camera_key key,
                          option_parser *parse) {
     camera_asked *c = group;
     char name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
     if (names_find(row->names, value, NULL, NULL) || !profile_is_file(value))
         return parse(line, row, value, group);
-    if (!profile_add(&c->gpu, value, row->name, name, error))
+    if (!camera_profile(&c->said, value, key, name, error))
         return option_refuse(row, "%s", error);
     if (!names_find(row->names, name, NULL, NULL))
         return option_refuse(row, "'%s' names what is not known here, '%.40s'", value, name);
@@ -18,16 +18,9 @@ static int parse_profile(asked_line *line, const option_row *row, const char *va
 }
 
 int parse_arith(asked_line *line, const option_row *row, const char *value, void *group) {
-    return parse_profile(line, row, value, group, parse_word);
+    return parse_profile(line, row, value, group, CAMERA_ARITH, parse_word);
 }
 
-/* A profile names the arithmetic beside the rasterizer: see take_arith() of complete.c. */
 int parse_raster(asked_line *line, const option_row *row, const char *value, void *group) {
-    camera_asked *c = group;
-    char name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
-    const int status = parse_profile(line, row, value, group, parse_row);
-    if (status == EXIT_FINE && !names_find(row->names, value, NULL, NULL))
-        c->has_raster_arith =
-            profile_add(&c->gpu, value, "arith", name, error) && dp_arith_parse(name, &c->raster_arith) == DP_OK;
-    return status;
+    return parse_profile(line, row, value, group, CAMERA_RASTER, parse_row);
 }

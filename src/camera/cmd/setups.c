@@ -24,9 +24,9 @@ int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status) 
     return camera_refuse(&fault);
 }
 
-int setup_undrawn(const camera_asked *c, const dp_format *format) {
+int setup_kept(const camera_asked *c, const dp_format *format) {
     camera_fault fault = {.key = NULL};
-    return camera_bounded(c->raster, format, &fault) ? EXIT_FINE : camera_refuse(&fault);
+    return camera_keeps(&c->said, format, &fault) ? EXIT_FINE : camera_refuse(&fault);
 }
 
 /* Refuses what has no budget: terms that the shader of a logarithmic mapping does not have. */
@@ -59,14 +59,7 @@ int setup_decided(const camera_asked *c) {
 }
 
 static int add_setups(const camera_asked *c, size_t camera, setups *out) {
-    dp_spec spec = {.znear = c->znear,
-                    .zfar = c->zfar,
-                    .ortho = c->ortho,
-                    .rounding = c->rounding,
-                    .model = c->model,
-                    .arith = c->arith,
-                    .log_c = c->log_c,
-                    .triangles = c->triangles};
+    dp_spec spec = camera_to_spec(&c->said);
     for (size_t f = 0; f < c->format_count; f++)
         for (size_t m = 0; m < c->mapping_count; m++) {
             const bool rg = dp_format_is_rg(&c->formats[f]); /* linear, whatever the camera's buffer is */
@@ -78,7 +71,7 @@ static int add_setups(const camera_asked *c, size_t camera, setups *out) {
             spec.model = c->budgeted && shader ? DP_MODEL_EXACT : c->model;
             if (c->budgeted && check_budget(c, &spec) != EXIT_FINE)
                 return EXIT_USAGE;
-            if (camera_check_stored(c, &spec.format) != EXIT_FINE || setup_undrawn(c, &spec.format) != EXIT_FINE)
+            if (setup_kept(c, &spec.format) != EXIT_FINE)
                 return EXIT_USAGE;
             out->cameras[out->count] = camera;
             const dp_status status = dp_setup_init(&out->items[out->count++], &spec);
@@ -95,17 +88,10 @@ bool setups_have_log(const setups *all) {
     return false;
 }
 
-/* A shader writes a linear depth, and what is said of it leaves its arithmetic out. */
-static bool setups_have_arith(const setups *all) {
-    for (size_t i = 0; i < all->count; i++)
-        if (all->items[i].curve != DP_CURVE_LINEAR || all->items[i].spec.ortho)
-            return true;
-    return false;
-}
-
 int setups_make(const camera_asked *c, setups *out) {
     const size_t cameras = camera_count(c), most = cameras * CAMERA_FORMATS_MAX * DP_MAPPING_COUNT;
     int status = EXIT_FINE;
+    camera_fault fault = {.key = NULL};
     *out = (setups){.items = malloc(most * sizeof *out->items), .cameras = malloc(most * sizeof *out->cameras)};
     if (out->items == NULL || out->cameras == NULL)
         status = usage_error("no memory for %zu set-ups", most);
@@ -113,10 +99,9 @@ int setups_make(const camera_asked *c, setups *out) {
         status = add_setups(camera_of(c, i), i, out);
     if (status == EXIT_FINE && c->budgeted && option_given(c->line, "log2") && !setups_have_log(out))
         status = option_error("log2", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
-    if (status == EXIT_FINE && option_given(c->line, "log-c") && !setups_have_log(out))
-        status = option_error("log-c", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
-    if (status == EXIT_FINE && camera_names_arith(c) && !setups_have_arith(out))
-        status = option_error("arith", "has no effect with linear alone, whose depth a shader writes");
+    for (camera_key k = CAMERA_ARITH; k <= CAMERA_LOG_C && status == EXIT_FINE; k++)
+        if (!camera_serves(&c->said, k, &out->items[0].spec, sizeof out->items[0], out->count, &fault))
+            status = camera_refuse(&fault);
     if (status != EXIT_FINE)
         setups_release(out);
     return status;
@@ -158,10 +143,9 @@ void setup_fields_budget(const dp_setup *setup, setup_fields *fields) {
 
 setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
     const dp_spec *spec = &setup->spec;
-    const dp_mapping_row *row = dp_mapping_get(spec->mapping); /* of alternatives the rest of the set-up may be open */
     setup_fields f = {.znear = spec->znear,
                       .zfar = spec->zfar,
-                      .log_c = row->curve == DP_CURVE_LOG && !row->log_over_near ? spec->log_c : (double)NAN,
+                      .log_c = camera_has(spec, CAMERA_LOG_C) ? spec->log_c : (double)NAN,
                       .projection = spec->ortho ? "orthographic" : "perspective",
                       .mapping = dp_mapping_get(spec->mapping)->name,
                       .format = spec->format.name,

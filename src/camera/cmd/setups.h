@@ -36,8 +36,10 @@ bool setups_have_log(const setups *all);
  */
 int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status);
 
-/** The same where the rasterizer that was named draws a format without a bound. @return EXIT_FINE or EXIT_USAGE */
-int setup_undrawn(const camera_asked *c, const dp_format *format);
+/** The same of a format that a GPU's profile does not store, or that a rasterizer draws without a bound:
+ * camera_keeps().
+ * @return EXIT_FINE or EXIT_USAGE */
+int setup_kept(const camera_asked *c, const dp_format *format);
 
 /**
  * Refuses a platform that stores one of two formats, as the device has it, where neither was named and one is wanted.

@@ -4,24 +4,19 @@
 #include "report/number.h"
 #include "report/output.h"
 
-/* The rasterizer's grid and set-up; --subpixel is instead of it, or says how fine a grid is that has no fixed bits. */
-static int take_raster(camera_asked *c) {
-    const int asked = option_given(c->line, "subpixel") ? c->triangles.subpixel : 0;
-    camera_fault fault = {.key = NULL};
-    return c->raster == NULL || camera_take_raster(c->raster, asked, &c->triangles, &fault) ? EXIT_FINE
-                                                                                            : camera_refuse(&fault);
+static int status_of(bool good, const camera_fault *fault) {
+    return good ? EXIT_FINE : camera_refuse(fault);
 }
 
 int view_vertical(const camera_asked *c, int width, int height, double *fov_y) {
     camera_fault fault = {.key = NULL};
     *fov_y = c->spec.fov_y;
-    return !option_given(c->line, "hfov") || camera_vertical(c->fov_x, width, height, fov_y, &fault)
-               ? EXIT_FINE
-               : camera_refuse(&fault);
+    return status_of(!option_given(c->line, "hfov") || camera_vertical(c->fov_x, width, height, fov_y, &fault), &fault);
 }
 
 /* Takes a rasterizer whose arithmetic is known, and of the formats those that it has. */
 static int take_drawn(camera_asked *c) {
+    camera_fault fault = {.key = NULL};
     size_t kept = 0;
     if (c->raster == NULL)
         c->raster = raster_find("llvmpipe");
@@ -35,7 +30,7 @@ static int take_drawn(camera_asked *c) {
             return option_error("format", "must be one that %s has and that can be bounded, got %s", c->raster->name,
                                 c->formats[i].name);
     c->format_count = kept;
-    return take_raster(c);
+    return status_of(camera_grid(&c->said, &fault), &fault);
 }
 
 int view_drawn(camera_asked *c) {
@@ -51,19 +46,11 @@ int view_drawn(camera_asked *c) {
 }
 
 int slant_view(camera_asked *c) {
-    static const char *const beside[] = {"fov", "hfov", "raster", "subpixel", "slant", "triangle-class"};
-    enum { OF_RASTER = 2, OF_PICTURES = 3 }; /* the first of them, which a picture takes, too: see view_drawn() */
-    const bool slanted = c->triangles.width > 0;
-    const bool measured = c->use.measured && c->gpu.measured[0] != '\0'; /* of r, at any slant */
+    camera_fault fault = {.key = NULL};
     const bool by_preset = c->preset_count == 1 && !option_given(c->line, "fov") && !option_given(c->line, "hfov");
-    for (size_t i = c->use.pictured ? OF_PICTURES : 0; i < sizeof beside / sizeof beside[0]; i++)
-        if (option_given(c->line, beside[i]) && !slanted && !(i == OF_RASTER && measured))
-            return option_error(beside[i], "needs --viewport: surfaces face the camera");
-    if (!slanted)
-        return EXIT_FINE;
-    if (c->ortho)
-        return option_error(c->use.drawn ? "rasterize" : "viewport", "conflicts with --ortho");
-    return by_preset ? EXIT_FINE : view_vertical(c, c->triangles.width, c->triangles.height, &c->triangles.fov_y);
+    if (!by_preset && c->triangles.width > 0)
+        c->triangles.fov_y = c->spec.fov_y;
+    return status_of(camera_viewed(&c->said, &fault), &fault);
 }
 
 /* How the part of the command that is asked for takes an option; from an eye in a model surfaces slant. */
@@ -84,33 +71,15 @@ static int take_shape(camera_asked *c) {
 }
 
 int slant_complete(camera_asked *c) {
+    const option_taken viewport = taken(c, "viewport");
+    const bool viewed = viewport.row != NULL || taken(c, "raster").row != NULL;
+    for (int k = CAMERA_VIEWPORT; k < CAMERA_KEYS && (c->use.shape || !viewed); k++)
+        c->words[k] = NULL; /* of another meaning to this command */
     if (c->use.shape)
         return take_shape(c);
-    const option_taken viewport = taken(c, "viewport");
     if (viewport.row == NULL || !is_slanted(c, &viewport))
         c->triangles.width = 0;
-    if (viewport.row == NULL && taken(c, "raster").row == NULL)
-        return EXIT_FINE;
-    if (c->use.mapped)
-        return take_raster(c);
-    const int status = slant_view(c);
-    if (status != EXIT_FINE)
-        return status;
-    return c->use.drawn ? take_drawn(c) : take_raster(c);
-}
-
-void slant_take_raster(camera_asked *c, const char *name) {
-    if (c->triangles.width == 0 || c->use.drawn || option_given(c->line, "raster") || option_given(c->line, "subpixel"))
-        return;
-    c->raster = raster_find(name);
-    raster_describe(c->raster, &c->triangles);
-}
-
-void slant_take_preset(camera_asked *c, const preset *p) {
-    dp_triangles *t = &c->triangles;
-    if (t->width == 0)
-        return;
-    if (!option_given(c->line, "fov") && !option_given(c->line, "hfov"))
-        t->fov_y = preset_fov_y(p, t->width, t->height);
-    slant_take_raster(c, p->raster);
+    if (c->triangles.width > 0)
+        c->triangles.fov_y = c->spec.fov_y;
+    return c->use.drawn && viewed ? take_drawn(c) : EXIT_FINE;
 }

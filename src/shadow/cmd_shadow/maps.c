@@ -131,7 +131,7 @@ int shadow_maps_make(const shadow_request *o, const dp_format *format, dp_mappin
     const bool box = option_given(o->line, "light-box");
     int status = check_together(o);
     if (status == EXIT_FINE)
-        status = setup_undrawn(&o->camera, format);
+        status = setup_kept(&o->camera, format);
     *out = (shadow_maps){.count = box ? 1 : o->shadow.cascades};
     if (status != EXIT_FINE)
         return status;

@@ -189,13 +189,10 @@ static bool listed(const solve_report *r, const dp_spec *spec) {
 }
 
 static dp_spec spec_of(const solve_request *o) {
-    return (dp_spec){.znear = o->camera.znear,
-                     .zfar = is_known(o, "far") ? o->camera.zfar : (double)HUGE_VAL,
-                     .ortho = o->camera.ortho,
-                     .rounding = o->camera.rounding,
-                     .arith = o->camera.arith,
-                     .log_c = o->camera.log_c,
-                     .triangles = o->camera.triangles};
+    dp_spec spec = camera_to_spec(&o->camera.said);
+    if (!is_known(o, "far"))
+        spec.zfar = (double)HUGE_VAL;
+    return spec;
 }
 
 static int refused(const solve_report *r, const solve_candidate *c, dp_status status) {
@@ -219,7 +216,7 @@ static int add_asked(solve_report *r) {
             spec.format = o->camera.formats[f];
             spec.mapping = o->camera.mappings[m];
             spec.model = model_of(r, spec.mapping, is_known(o, "mapping"));
-            if (setup_undrawn(&o->camera, &spec.format) != EXIT_FINE)
+            if (setup_kept(&o->camera, &spec.format) != EXIT_FINE)
                 return EXIT_USAGE;
             solve_candidate *c = add_candidate(r, &spec, true);
             const dp_status status = try_candidate(r, c);
@@ -268,10 +265,10 @@ static void add_others(solve_report *r) {
 
 /* Without a goal there are no alternatives, and at a slant none is logarithmic. */
 static int check_log(const solve_report *r) {
-    bool has_log = !option_given(r->o->line, "log-c");
-    for (size_t i = 0; i < r->count; i++)
-        has_log = has_log || is_logarithm(r->items[i].spec.mapping);
-    return has_log ? EXIT_FINE : option_error("log-c", "needs one of the mappings " DP_MAPPING_NAMES_LOG);
+    camera_fault fault = {.key = NULL};
+    const bool used =
+        camera_serves(&r->o->camera.said, CAMERA_LOG_C, &r->items[0].spec, sizeof r->items[0], r->count, &fault);
+    return used ? EXIT_FINE : camera_refuse(&fault);
 }
 
 /* ---- Order ------------------------------------------------------------------------------------------------------- */

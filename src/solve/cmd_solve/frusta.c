@@ -44,18 +44,10 @@ static int check_frusta(const solve_request *o) {
 static dp_spec spec_of(const solve_request *o) {
     const bool chosen = option_given(o->line, "model") && !o->camera.model_auto;
     const bool linear = dp_mapping_get(o->camera.mappings[0])->curve == DP_CURVE_LINEAR;
-    return (dp_spec){.znear = o->camera.znear,
-                     .zfar = o->camera.zfar,
-                     .ortho = o->camera.ortho,
-                     .rounding = o->camera.rounding,
-                     .arith = o->camera.arith,
-                     .log_c = o->camera.log_c,
-                     .format = o->camera.formats[0],
-                     .mapping = o->camera.mappings[0],
-                     .triangles = o->camera.triangles,
-                     .model = chosen   ? o->camera.model
-                              : linear ? DP_MODEL_STAGED
-                                       : DP_MODEL_FLOAT};
+    dp_spec spec = camera_to_spec(&o->camera.said);
+    if (!chosen)
+        spec.model = linear ? DP_MODEL_STAGED : DP_MODEL_FLOAT;
+    return spec;
 }
 
 /* ---- The report -------------------------------------------------------------------------------------------------- */

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "camera/make.h"
+
+#include <string.h>
+#include <strings.h>
+
+#include "core/append.h"
+#include "core/engine.h"
+
+const char *const camera_keys[CAMERA_KEYS + 1] = {"preset",   "near",   "far",      "mapping", "format",   "ortho",
+                                                  "rounding", "model",  "arith",    "log_c",   "viewport", "fov",
+                                                  "hfov",     "raster", "subpixel", "slant",   "triangle", NULL};
+
+static bool said(const camera_said *c, camera_key key) {
+    return c->words[key] != NULL;
+}
+
+bool camera_viewed(camera_said *c, camera_fault *fault) {
+    static const camera_key beside[] = {CAMERA_FOV,      CAMERA_HFOV,  CAMERA_RASTER,
+                                        CAMERA_SUBPIXEL, CAMERA_SLANT, CAMERA_TRIANGLE};
+    enum { OF_PICTURES = 3 }; /* the first of them that a picture does not take, too */
+    dp_triangles *t = &c->triangles;
+    const bool slanted = t->width > 0;
+    const bool measured = c->use.measured && c->gpu.measured[0] != '\0'; /* of r, at any slant */
+    for (size_t i = c->use.pictured ? OF_PICTURES : 0; i < sizeof beside / sizeof beside[0] && !slanted; i++)
+        if (said(c, beside[i]) && !(beside[i] == CAMERA_RASTER && measured))
+            return camera_fails(fault, camera_keys[beside[i]], "needs @viewport: surfaces face the camera");
+    if (!slanted)
+        return true;
+    if (c->ortho)
+        return camera_fails(fault, c->use.drawn ? "rasterize" : "viewport", "conflicts with @ortho");
+    if (said(c, CAMERA_FOV) && said(c, CAMERA_HFOV))
+        return camera_fails(fault, "hfov", "conflicts with @fov");
+    return !said(c, CAMERA_HFOV) || camera_vertical(c->fov_x, t->width, t->height, &t->fov_y, fault);
+}
+
+bool camera_grid(camera_said *c, camera_fault *fault) {
+    const raster_row *raster = c->raster;
+    const int asked = said(c, CAMERA_SUBPIXEL) ? c->triangles.subpixel : 0;
+    if (raster == NULL)
+        return true;
+    if (asked > 0 && !raster->at_least)
+        return camera_fails(fault, "subpixel", "does not apply: %s has its own grid", raster->name);
+    if (asked > 0 && asked < raster->plane_bits)
+        return camera_fails(fault, "subpixel", "must be at least %d with the rasterizer %s, got %d", raster->plane_bits,
+                            raster->name, asked);
+    raster_describe(raster, &c->triangles);
+    if (asked > 0)
+        c->triangles.subpixel = asked;
+    return true;
+}
+
+/* With a viewport: the rasterizer of that name, where none was said. */
+static void bring_raster(camera_said *c, const char *name) {
+    if (c->triangles.width == 0 || c->use.drawn || said(c, CAMERA_RASTER) || said(c, CAMERA_SUBPIXEL))
+        return;
+    c->raster = raster_find(name);
+    raster_describe(c->raster, &c->triangles);
+}
+
+/* three.js has one word for the logarithms of two renderers. */
+static void take_logarithm(camera_said *c, const preset *p) {
+    static const char word[] = "logarithmicDepthBuffer";
+    const char *given = said(c, CAMERA_MAPPING) && strcmp(p->api, "webgpu") == 0 ? c->words[CAMERA_MAPPING] : "";
+    while (*given != '\0' && strncasecmp(given, word, sizeof word - 1) != 0)
+        given++;
+    for (size_t i = 0; i < c->mapping_count && *given != '\0'; i++)
+        if (c->mappings[i] == DP_MAPPING_THREE_WEBGL)
+            c->mappings[i] = DP_MAPPING_THREE_WEBGPU;
+}
+
+static void bring_mapping(camera_said *c, dp_mapping mapping) {
+    c->mappings[0] = mapping;
+    c->mapping_count = 1;
+}
+
+static void take_preset(camera_said *c, const preset *p, const unit_row *unit) {
+    double znear, zfar, log_c;
+    preset_planes(p, unit, &znear, &zfar, &log_c);
+    if (!said(c, CAMERA_NEAR))
+        c->znear = znear;
+    if (!said(c, CAMERA_FAR))
+        c->zfar = zfar;
+    if (!said(c, CAMERA_LOG_C))
+        c->log_c = log_c;
+    if (!said(c, CAMERA_FORMAT))
+        c->format_count = dp_format_parse(p->format, c->formats);
+    if (!said(c, CAMERA_MAPPING))
+        bring_mapping(c, p->mapping);
+    take_logarithm(c, p);
+    if (c->triangles.width > 0 && !said(c, CAMERA_FOV) && !said(c, CAMERA_HFOV))
+        c->triangles.fov_y = preset_fov_y(p, c->triangles.width, c->triangles.height);
+    bring_raster(c, p->raster);
+}
+
+/* What a platform stores; a preset's format and rasterizer give way to it, its mapping stays. */
+static void take_platform(camera_said *c, const platform *p) {
+    const char *stored = platform_stores(p, c->words[CAMERA_FORMAT]);
+    if (!said(c, CAMERA_FORMAT) || stored != NULL)
+        c->format_count = dp_format_parse(stored != NULL ? stored : p->stored, c->formats);
+    if (!said(c, CAMERA_MAPPING) && c->preset_count == 0)
+        bring_mapping(c, strcmp(p->api, "gl") == 0 ? DP_MAPPING_GL : DP_MAPPING_D3D);
+    bool remapped = false;
+    for (size_t i = 0; i < c->mapping_count && p->remap != PLATFORM_REMAPS_NOT; i++)
+        remapped = remapped || dp_mapping_get(c->mappings[i])->ndc_signed;
+    if (!said(c, CAMERA_ARITH) && remapped)
+        dp_arith_parse("ieee-remap", &c->arith);
+    bring_raster(c, p->raster);
+}
+
+/* The arithmetic of a known rasterizer, with the remap of the platform. */
+static bool take_arith(camera_said *c, camera_fault *fault) {
+    const bool known = c->raster != NULL && c->raster->model != NULL, remapped = dp_arith_get(c->arith)->remap;
+    if (said(c, CAMERA_ARITH))
+        return true;
+    if (c->raster_profiled && !c->has_raster_arith && c->triangles.width > 0)
+        return camera_fails(fault, "arith", "must be given: the profile of @raster names none that is known");
+    if (c->has_raster_arith && dp_arith_get(c->raster_arith)->remap == remapped)
+        c->arith = c->raster_arith;
+    else if (known && !raster_arith(c->raster, remapped, &c->arith))
+        return camera_fails(fault, "raster",
+                            "%s was not measured with [-1, 1] remapped in the vertex shader, as on %s: name its "
+                            "arithmetic with @arith",
+                            c->raster->name, c->platform != NULL ? c->platform->name : "the platform");
+    return true;
+}
+
+bool camera_profile(camera_said *c, const char *path, camera_key key, char name[PROFILE_NAME_SIZE],
+                    char error[PROFILE_ERROR_SIZE]) {
+    char arith[PROFILE_NAME_SIZE], none[PROFILE_ERROR_SIZE];
+    if (!profile_add(&c->gpu, path, camera_keys[key], name, error))
+        return false;
+    if (key == CAMERA_RASTER) {
+        c->raster_profiled = true;
+        c->has_raster_arith =
+            profile_add(&c->gpu, path, "arith", arith, none) && dp_arith_parse(arith, &c->raster_arith) == DP_OK;
+    }
+    return true;
+}
+
+/* A colour target's depth is compared with a buffer's, and stands for none. */
+static bool check_rg(const camera_said *c, camera_fault *fault) {
+    for (size_t i = 0; i < c->format_count; i++) {
+        const bool rg = dp_format_is_rg(&c->formats[i]);
+        if (rg && !c->use.compared)
+            return camera_fails(fault, "format",
+                                "rg is no depth buffer: table and figures of set-ups show it, and texture has it as a "
+                                "packing");
+        if (rg && c->rounding != DP_ROUND_NEAREST)
+            return camera_fails(fault, "rounding", "must be nearest with rg, got %s", dp_rounding_name(c->rounding));
+    }
+    return true;
+}
+
+/* An orthographic camera may begin at its place or behind it. */
+static bool check_near(double znear, bool ortho, camera_fault *fault) {
+    const double size = ortho && znear < 0.0 ? -znear : znear;
+    return (ortho && znear == 0.0) || (size >= CAMERA_NEAR_LEAST && size <= CAMERA_NEAR_MOST) ||
+           camera_fails(fault, "near", "must be %sa number from 1e-12 to 1e12 scene units%s, got '%.15g'",
+                        ortho ? "0, or " : "", ortho ? " or its negative" : "", znear);
+}
+
+/* Keeps formats that the GPUs of the profiles store; one that was named has to be among them. */
+static bool keep_stored(camera_said *c, camera_fault *fault) {
+    const bool any = said(c, CAMERA_FORMAT) ? strcmp(c->words[CAMERA_FORMAT], "all") == 0
+                                            : c->preset_count == 0 && c->platform == NULL;
+    size_t kept = 0;
+    for (size_t i = 0; i < c->format_count; i++) {
+        if (profile_stores(&c->gpu, &c->formats[i]))
+            c->formats[kept++] = c->formats[i];
+        else if (!any || (i + 1 == c->format_count && kept == 0))
+            return camera_keeps(c, &c->formats[i], fault);
+    }
+    c->format_count = kept;
+    return true;
+}
+
+bool camera_make(camera_said *c, const unit_row *unit, camera_fault *fault) {
+    if (c->model == DP_MODEL_COUNT) {
+        c->model_auto = true;
+        c->model = DP_MODEL_EXACT;
+    }
+    if (!check_rg(c, fault) || !(c->use.mapped || camera_viewed(c, fault)) || !camera_grid(c, fault))
+        return false;
+    if (c->preset_count == 1)
+        take_preset(c, c->presets[0], unit);
+    if (c->platform != NULL)
+        take_platform(c, c->platform);
+    return take_arith(c, fault) && (c->preset_count > 1 || keep_stored(c, fault)) &&
+           check_near(c->znear, c->ortho, fault);
+}
+
+bool camera_keeps(const camera_said *c, const dp_format *format, camera_fault *fault) {
+    char names[PROFILE_FORMATS_SIZE];
+    if (!profile_stores(&c->gpu, format))
+        return camera_fails(fault, "format", "must be %s with a profile of a GPU that stores no other depth, got %s",
+                            profile_formats(&c->gpu, names), format->name);
+    return c->raster == NULL || raster_bounded(c->raster, format) ||
+           camera_fails(fault, "raster",
+                        "%s steps the codes of %s from pixel to pixel, which has no bound: name other formats",
+                        c->raster->name, format->name);
+}
+
+dp_spec camera_to_spec(const camera_said *c) {
+    return (dp_spec){.znear = c->znear,
+                     .zfar = c->zfar,
+                     .ortho = c->ortho,
+                     .mapping = c->mappings[0],
+                     .format = c->formats[0],
+                     .rounding = c->rounding,
+                     .model = c->model,
+                     .arith = c->arith,
+                     .log_c = c->log_c,
+                     .triangles = c->triangles};
+}
+
+bool camera_has(const dp_spec *spec, camera_key key) {
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
+    return key == CAMERA_LOG_C ? row->curve == DP_CURVE_LOG && !row->log_over_near
+                               : row->curve != DP_CURVE_LINEAR || spec->ortho;
+}
+
+bool camera_serves(const camera_said *c, camera_key key, const dp_spec *first, size_t stride, size_t count,
+                   camera_fault *fault) {
+    char names[256] = "";
+    bool used = !said(c, key) || (key == CAMERA_ARITH && profile_is_file(c->words[key]));
+    for (size_t i = 0; i < count && !used; i++)
+        used = camera_has((const dp_spec *)((const char *)first + i * stride), key);
+    if (!used && key == CAMERA_ARITH)
+        return camera_fails(fault, "arith", "has no effect with linear alone, whose depth a shader writes");
+    for (dp_spec spec = {.mapping = 0}; spec.mapping < DP_MAPPING_COUNT && !used; spec.mapping++)
+        if (camera_has(&spec, key))
+            append(names, sizeof names, "%s%s", names[0] != '\0' ? ", " : "", dp_mapping_get(spec.mapping)->name);
+    return used || camera_fails(fault, "log_c", "needs one of the mappings with a constant C: %s", names);
+}

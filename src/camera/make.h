@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file make.h  A camera of what was said of it, whichever door it came through: the words are put into keys there, and
+ * here it is decided what a preset, a platform and a rasterizer bring where nothing was said, and what goes together.
+ */
+#ifndef CAMERA_MAKE_H
+#define CAMERA_MAKE_H
+
+#include "camera/platform.h"
+#include "camera/presets.h"
+#include "camera/profile.h"
+#include "camera/rules.h"
+#include "raster/raster.h"
+
+enum { CAMERA_FORMATS_MAX = 64, CAMERA_PRESETS_MAX = 16 };
+
+/** What can be said, in the order in which a file is read. */
+typedef enum camera_key {
+    CAMERA_PRESET,
+    CAMERA_NEAR,
+    CAMERA_FAR,
+    CAMERA_MAPPING,
+    CAMERA_FORMAT,
+    CAMERA_ORTHO,
+    CAMERA_ROUNDING,
+    CAMERA_MODEL,
+    CAMERA_ARITH,
+    CAMERA_LOG_C,
+    CAMERA_VIEWPORT, /**< from here on what surfaces that slant need */
+    CAMERA_FOV,
+    CAMERA_HFOV,
+    CAMERA_RASTER,
+    CAMERA_SUBPIXEL,
+    CAMERA_SLANT,
+    CAMERA_TRIANGLE,
+    CAMERA_KEYS
+} camera_key;
+
+/** Their names as requirement files write them, "log_c"; then null. */
+extern const char *const camera_keys[CAMERA_KEYS + 1];
+
+/** How a command uses a camera. */
+typedef struct camera_use {
+    bool shape;    /**< --viewport is the shape of the view alone: nothing slants */
+    bool drawn;    /**< a rasterizer draws */
+    bool mapped;   /**< --viewport is the view that shadow maps cover */
+    bool measured; /**< the profile of a GPU is of use without a view, too */
+    bool pictured; /**< a picture takes view and rasterizer, see view_drawn() */
+    bool seen;     /**< from an eye surfaces slant, whether --viewport is given or not */
+    bool counted;  /**< the report counts what a shader's log2 may be off by */
+    bool compared; /**< rg, which is no depth buffer, is shown beside buffers */
+} camera_use;
+
+/* Which the options of a command have among their own. */
+#define CAMERA_FIELDS                                                                                                  \
+    const char *words[CAMERA_KEYS]; /* of each key, "" of what is no word; null: it was not said */                    \
+    camera_use use;                                                                                                    \
+    double znear; /* scene units */                                                                                    \
+    double zfar;  /* scene units or INFINITY; of several the farthest */                                               \
+    bool ortho;                                                                                                        \
+    dp_format formats[CAMERA_FORMATS_MAX]; /* in the order given, each once */                                         \
+    size_t format_count;                                                                                               \
+    dp_mapping mappings[DP_MAPPING_COUNT]; /* in the order given, each once */                                         \
+    size_t mapping_count;                                                                                              \
+    double log_c;                                                                                                      \
+    dp_rounding rounding;                                                                                              \
+    dp_model model;  /* DP_MODEL_COUNT until it is made: the simplest that suffices */                                 \
+    bool model_auto; /* that was asked for, see choice.h; `model` is then exact */                                     \
+    dp_arith arith;                                                                                                    \
+    bool raster_profiled;  /* the rasterizer is that of a profile, and so is its arithmetic */                         \
+    bool has_raster_arith; /* which the profile names */                                                               \
+    dp_arith raster_arith;                                                                                             \
+    profile gpu;                               /* of arithmetic and rasterizer */                                      \
+    dp_triangles triangles;                    /* width 0 without a viewport; the angle is the vertical one */         \
+    double fov_x;                              /* the horizontal one where it was said, degrees */                     \
+    const raster_row *raster;                  /* null where none is known */                                          \
+    const preset *presets[CAMERA_PRESETS_MAX]; /* in the order given, each once; of several none is made */            \
+    size_t preset_count;                                                                                               \
+    const platform *platform /* null where none was said */
+
+typedef struct camera_said {
+    CAMERA_FIELDS;
+} camera_said;
+
+/**
+ * Completes a camera: what its one preset, its platform and its rasterizer bring where nothing was said.
+ * @param unit  of its lengths, which a preset's are converted into; null where nothing says it
+ * @return true, or false and what is wrong in *fault
+ */
+bool camera_make(camera_said *c, const unit_row *unit, camera_fault *fault);
+
+/**
+ * Takes the profile of a GPU in place of the name of an arithmetic or a rasterizer, whose arithmetic comes with it.
+ * @return true and the name, of which nothing but its length is known; or as profile_add()
+ */
+bool camera_profile(camera_said *c, const char *path, camera_key key, char name[PROFILE_NAME_SIZE],
+                    char error[PROFILE_ERROR_SIZE]);
+
+/** The part of it that is about the view: what needs a viewport, and the angle. */
+bool camera_viewed(camera_said *c, camera_fault *fault);
+
+/** The grid of its rasterizer, or as many bits of it as were said. */
+bool camera_grid(camera_said *c, camera_fault *fault);
+
+/** Whether its GPUs store the format, and its rasterizer draws it within a bound. */
+bool camera_keeps(const camera_said *c, const dp_format *format, camera_fault *fault);
+
+/** All of a made camera but format and mapping, of which there may be several: those are its first. */
+dp_spec camera_to_spec(const camera_said *c);
+
+/** Whether a constant C or an arithmetic is of use to a set-up: a shader writes a linear depth, and what is said of it
+ * leaves its arithmetic out. */
+bool camera_has(const dp_spec *spec, camera_key key);
+
+/** Whether that key, if it was said, is of use to one of so many set-ups, whose specifications lie `stride` bytes
+ * apart; the formats of a profile are anyway. */
+bool camera_serves(const camera_said *c, camera_key key, const dp_spec *first, size_t stride, size_t count,
+                   camera_fault *fault);
+
+#endif
