@@ -46,7 +46,7 @@ typedef struct quantity_row {
 
 NAMED_ROWS(quantity_row, quantity);
 
-/** Over a range, or at a depth where lo = hi; of the first two. */
+/** Over a range, or at a depth where lo = hi; of a row that has both. */
 quantity_worst quantity_over(quantity_kind q, const dp_setup *setup, double lo, double hi, double limit);
 
 /** The certified bound over [lo, hi], lo <= hi; NaN where that is no range of the set-up, or its model has no cells. */
