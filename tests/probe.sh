@@ -47,6 +47,11 @@ as_kept() { # as_kept FILE PROFILE: the findings of the profile in the tree
     diff "$scratch/findings.${1##*/}" "$scratch/findings.${2##*/}"
 }
 
+# Vulkan's clip z is from 0 to w, and OpenGL's was made so.
+says() {
+    probe >"$scratch/said" && tr -s ' \n' '  ' <"$scratch/said" | grep -q 'Not measured: clip z from -w,'
+}
+
 seeds() { # another scene is predicted as well
     probe --json --seed 7 -o "$scratch/seeded.json" && decided "$scratch/seeded.json"
 }
@@ -81,6 +86,7 @@ while IFS='|' read -r driver files chosen arguments version arith raster coverag
         check "$driver: every finding is decided, a random scene predicted to the last pixel" decided "$made"
         check "$driver is found as it was recorded" known "$made" "$arith" "$raster" "$coverage" "$plane" "$conversion"
         check "$driver: the profile in the tree" as_kept "$made" "tests/profiles/$driver.json"
+        check "$driver: what is not measured is the other clip z" says
         [ -n "${DEPTHPREC_FULL-}" ] || continue
         check "$driver: another scene" seeds
         check "$driver: raw codes, the same again" keeps "$made"

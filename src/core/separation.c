@@ -102,7 +102,7 @@ double dp_separation_step(const dp_setup *setup, const dp_setup *other, double n
     const double ndc = larger(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
     const double window = larger(dp_staged_window_step(setup, fabs(low)), dp_staged_window_step(setup, high));
     const double finest = smaller(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
-    const int whole = half && window <= finest && (low > 0.5 || high < 0.5); /* x/2 + 1/2 is exact */
+    const int whole = half && window <= finest; /* all below 1/2, where x/2 + 1/2 is exact */
     return wide + ndc + (dp_staged_twice(setup) && !whole ? window : 0.0);
 }
 

@@ -73,9 +73,9 @@ bool sensor_buffer_find(const sensor *s, double lo, double hi, sensor_buffer *ou
             for (int k = least; k < 10 * least; k++)
                 if (decimal(k, exponent) * (1 + 0x1p-20) >= hi)
                     try_far(&a, decimal(k, exponent));
-        if (a.matches > 1 || !(a.chance < RARE))
+        if (!(a.chance < RARE))
             return false;
-        if (a.matches == 1)
+        if (a.matches == 1) /* of several there are as many with more digits */
             *out = a.last;
     }
     return out->bits > 0;

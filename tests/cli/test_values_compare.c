@@ -28,6 +28,7 @@ static const camera cameras[] = {
     {"", 0.1, 1000, 0, 5, {0.1, 1, 10, 100, 1000}, 8, NULL},
     {"-n 0.3 -f 5000 -F d24,fp32,d16 -m gl,gl-reversed,log", 0.3, 5000, 0, 4, {1, 10, 100, 1000}, 9, NULL},
     {"-n 0.01 -f inf -F all -m reversed,d3d --at 0.5,7,900", 0.01, INFINITY, 0, 3, {0.5, 7, 900}, 8, NULL},
+    {"-n 0.5 -f inf -F d24,fp32 -m reversed", 0.5, INFINITY, 0, 3, {10, 1000, 1e5}, 2, NULL},
     {"--ortho -n 2 -f 700 -F unorm16,fp32 -m d3d", 2, 700, 1, 2, {10, 100}, 2, NULL},
     {"--ortho -n -500 -f -5 -F d16,d24 -m d3d", -500, -5, 1, 5, {-500, -400, -300, -200, -100}, 2, NULL},
     {"--ortho -n 0 -f 5 -F d16,fp32 -m d3d,reversed", 0, 5, 1, 3, {0, 2, 4}, 4, NULL},

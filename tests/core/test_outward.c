@@ -96,3 +96,25 @@ TEST(zfight) {
     TALLY(&t, both >= 3, "few sentences");
     tally_end(&t);
 }
+
+/* "2 frusta, separation S at z = Z": of those of a fixed ratio. */
+TEST(frusta) {
+    static const char word[] = " frusta, separation ";
+    tally t = {.name = "frusta"};
+    rng r = rng_make("outward frusta");
+    for (uint64_t i = test_cases(10, 20, 100); i > 0; i--) {
+        char line[256];
+        snprintf(line, sizeof line, "solve --for frusta -n %.4g -f %.4g -F d24 -m d3d --separation 0.1",
+                 rng_log(&r, 0.05, 0.2), rng_log(&r, 5000, 20000));
+        printed p = print_of("%s", line);
+        json_t *root = json_printed(-1, "%s", line);
+        const char *at = strstr(p.out, "ratio 1000");
+        at = at != NULL ? strstr(at, word) : NULL;
+        if (at != NULL)
+            check_side(&t, line, "ratio 1000", at + sizeof word - 1, number_at(root, "fixed.separation"), UP);
+        json_decref(root);
+        printed_free(&p);
+    }
+    TALLY(&t, t.cases >= 8, "few sentences");
+    tally_end(&t);
+}

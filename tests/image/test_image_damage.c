@@ -241,6 +241,8 @@ TEST(dds_sentences) {
         {0, 6, 4, NULL}, /* no depth without its flag */
         {41, 32, 98, "DDS: no depth is read from DXGI format 98: save R32F, R16 or R24X8, or its pixels as .npy"},
         {41, 33, 4, "DDS: it has several images, a cube, volume or array: save one slice"},
+        {41, 35, 1, NULL}, /* an array of one */
+        {41, 35, 2, "DDS: it has several images, a cube, volume or array: save one slice"},
         {41, 35, 6, "DDS: it has several images, a cube, volume or array: save one slice"},
         {41, 7, 5, NULL}, /* nor levels without theirs */
     };

@@ -96,6 +96,36 @@ TEST(other_set_ups_keep_to_the_engine) {
     }
 }
 
+/* Eight guaranteed separations to either side, 2^12 steps of z at least, at most 2^15 of the binade below. */
+TEST(window_of_an_interval) {
+    rng r = rng_make("windows");
+    tally t = {.name = "windows"};
+    uint64_t least = 0, most = 0, eight = 0;
+    for (uint64_t n = test_cases(300, 3000, 30000); n > 0; n--) {
+        const dp_setup exact = random_setup(&r, (int)rng_below(&r, 2) * 5); /* unorm24 d3d or fp32 d3d */
+        dp_spec spec = exact.spec;
+        dp_setup setup;
+        double lo, hi;
+        spec.model = DP_MODEL_FLOAT;
+        if (dp_setup_init(&setup, &spec) != DP_OK)
+            continue;
+        const double end = isinf(spec.zfar) ? 1e6 * spec.znear : spec.zfar;
+        const double z = fmin(fmax((double)(float)rng_log(&r, spec.znear, end), spec.znear), end);
+        const bool all = truth_window(&setup, z, &lo, &hi);
+        const double step = ldexp(1.0, ilogb(z) - 23), separation = dp_separation(&setup, z);
+        const double reach = fmin(fmax(8 * separation, 4096 * step), 16384 * step);
+        *(8 * separation > 16384 * step ? &most : reach > 4096 * step ? &eight : &least) += 1;
+        TALLY(&t,
+              fabs(lo - fmax(z - reach, spec.znear)) <= 0.01 * reach &&
+                  fabs(hi - fmin(z + reach, spec.zfar)) <= 0.01 * reach && all == (8 * separation <= 16384 * step),
+              "near %a far %a at %a: %a to %a, reach %a", spec.znear, spec.zfar, z, lo, hi, reach);
+    }
+    print_message("# %lu of eight, %lu of the least, %lu of the most\n", (unsigned long)eight, (unsigned long)least,
+                  (unsigned long)most);
+    assert_true(least > 0 && most > 0 && eight > 0);
+    tally_end(&t);
+}
+
 /* No interval of the pipeline near z is longer, by a plain scan. */
 TEST(the_pipeline_has_methods_too) {
     for (int kind = 0; kind < 2; kind++) {

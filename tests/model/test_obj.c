@@ -192,3 +192,85 @@ TEST(polygons) {
         model_free(&m);
     }
 }
+
+/* How often a ring of corners goes around a place; exact for small whole numbers. */
+static int times_around(const int (*ring)[2], int corners, double x, double y) {
+    int times = 0;
+    for (int i = 0; i < corners; i++) {
+        const double a[2] = {ring[i][0], ring[i][1]};
+        const double b[2] = {ring[(i + 1) % corners][0], ring[(i + 1) % corners][1]};
+        const double side = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+        if ((a[1] <= y) != (b[1] <= y))
+            times += a[1] <= y && side > 0.0 ? 1 : a[1] > y && side < 0.0 ? -1 : 0;
+    }
+    return times;
+}
+
+static int turn_of(const int a[2], const int b[2], const int c[2]) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* Whether a corner lies in a triangle or on its edge, and is none of it: a crack where they are drawn. */
+static bool is_upon(const int (*ring)[2], const uint32_t c[3], int corner) {
+    const int *p = ring[corner];
+    bool within = (uint32_t)corner != c[0] && (uint32_t)corner != c[1] && (uint32_t)corner != c[2];
+    for (int i = 0; i < 3; i++)
+        within = within && turn_of(ring[c[i]], ring[c[(i + 1) % 3]], p) >= 0;
+    return within && turn_of(ring[c[0]], ring[c[1]], ring[c[2]]) > 0;
+}
+
+/* A skyline above a skyline upside down, on whole numbers: corners lie on the edges of ears and in line with others.
+ * Every place inside is covered once, and none outside. */
+TEST(polygons_of_a_grid) {
+    enum { COLUMNS = 6, HEIGHT = 3, CORNERS = 4 * COLUMNS };
+    rng r = rng_make("grid");
+    tally t = {.name = "grid"};
+    for (uint64_t run = 0; run < test_cases(300, 3000, 30000); run++) {
+        static text file;
+        int ring[CORNERS][2], corners = 0;
+        const int columns = 2 + (int)rng_below(&r, COLUMNS - 1);
+        for (int half = 0; half < 2; half++)
+            for (int i = 0, y = 1; i < columns; i++) {
+                const int x = half == 0 ? i : columns - i, step = half == 0 ? 1 : -1, before = y;
+                y = (half == 0 ? -1 : 1) * (1 + (int)rng_below(&r, HEIGHT));
+                if (i == 0 || y != before) {
+                    ring[corners][0] = x;
+                    ring[corners++][1] = y;
+                }
+                ring[corners][0] = x + step;
+                ring[corners++][1] = y;
+            }
+        file.at[0] = '\0';
+        const uint64_t axis = run % 3;
+        for (int i = 0; i < corners; i++) {
+            const int at[3] = {ring[i][0], ring[i][1], 7};
+            add(&file, "v %d %d %d\n", at[(3 - axis) % 3], at[(4 - axis) % 3], at[(5 - axis) % 3]);
+        }
+        add(&file, "f");
+        for (int i = 0; i < corners; i++)
+            add(&file, " %d", i + 1);
+        model m;
+        must_read(file.at, true, &m);
+        bool fan = true; /* of a convex one, which may leave out corners in line */
+        for (int i = 0; i < corners; i++)
+            fan = fan && turn_of(ring[i], ring[(i + 1) % corners], ring[(i + 2) % corners]) >= 0;
+        for (size_t k = 0; k < m.triangles; k++)
+            for (int i = 0; i < corners; i++)
+                TALLY(&t, fan || !is_upon(ring, m.triangle[k], i), "%s: corner %d lies on a triangle", file.at, i + 1);
+        for (int y = -8 * HEIGHT - 5; y < 8 * HEIGHT + 8; y += 2)
+            for (int x = -5; x < 8 * columns + 8; x += 2) {
+                const double px = x / 8.0, py = y / 8.0 + 0x1p-10; /* on no edge */
+                int covered = 0;
+                for (size_t k = 0; k < m.triangles; k++) {
+                    const uint32_t *c = m.triangle[k];
+                    const int three[3][2] = {
+                        {ring[c[0]][0], ring[c[0]][1]}, {ring[c[1]][0], ring[c[1]][1]}, {ring[c[2]][0], ring[c[2]][1]}};
+                    covered += times_around((const int(*)[2])three, 3, px, py);
+                }
+                TALLY(&t, covered == times_around((const int(*)[2])ring, corners, px, py), "%s: %g, %g lies in %d",
+                      file.at, px, py, covered);
+            }
+        model_free(&m);
+    }
+    tally_end(&t);
+}

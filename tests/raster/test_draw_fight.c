@@ -90,6 +90,31 @@ TEST(never_reached) {
     tally_end(&t);
 }
 
+/* Pairs slant by what was asked, from its least to its greatest. */
+TEST(slants) {
+    static const double asked[][2] = {{0.0, 12.0}, {30.0, 33.0}, {50.0, 70.0}, {72.0, 75.0}};
+    tally t = {.name = "slants"};
+    stage s;
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
+        const double lo = asked[i][0], hi = asked[i][1];
+        double least = INFINITY, most = 0.0;
+        assert_true(set_stage(&s, "llvmpipe", "unorm24", DP_MAPPING_D3D, 500.0));
+        slant(&s, lo, hi);
+        for (s.request.seed = 1; s.request.seed <= 4; s.request.seed++) {
+            assert_int_equal(fight(&s, 0.2, 200.0, 10), DRAW_FIGHT_DONE); /* one pair a binade, whose slant is told */
+            for (int b = 0; b < s.result.band_count; b++) {
+                const double one = s.result.bands[b].slant;
+                TALLY(&t, isnan(one) || (one >= lo && one <= hi), "%g to %g: %g", lo, hi, one);
+                least = fmin(least, one);
+                most = fmax(most, one);
+            }
+        }
+        TALLY(&t, least < lo + 0.3 * (hi - lo) && most > hi - 0.3 * (hi - lo), "%g to %g: %g to %g alone", lo, hi,
+              least, most);
+    }
+    tally_end(&t);
+}
+
 /* Planes that face the camera are told apart by the codes alone: wrong up to one step of 1/65535. */
 TEST(one_code) {
     stage s;

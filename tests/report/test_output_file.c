@@ -18,8 +18,9 @@ static const char *const writers[] = {"table -F d24 -m d3d --at 0.1:1000:log:500
                                       "texture --synthetic plane --size 64x36 -F unorm16"};
 enum { WRITERS = sizeof writers / sizeof writers[0] };
 
+static const char *const names[WRITERS] = {"kept.csv", "kept.txt", "kept.json", "kept.svg", "kept.png", "kept.npy"};
+
 static const char *target_of(size_t writer) {
-    static const char *const names[WRITERS] = {"kept.csv", "kept.txt", "kept.json", "kept.svg", "kept.png", "kept.npy"};
     return scratch_text(names[writer], "old");
 }
 
@@ -152,4 +153,26 @@ TEST(checked_beforehand) {
     assert_int_not_equal(output_check("."), EXIT_FINE);
     assert_int_not_equal(output_check("/none/there"), EXIT_FINE);
     assert_int_not_equal(output_check("/dev/null/there"), EXIT_FINE);
+}
+
+/* A link to what is not there yet stays a link: what is written comes to stand where it points. */
+TEST(links_to_nowhere) {
+    char target[512], link[512];
+    for (size_t w = 0; w < WRITERS; w++) {
+        struct stat s;
+        char name[32];
+        snprintf(name, sizeof name, "link-%s", names[w]);
+        snprintf(link, sizeof link, "%s", scratch_file(name));
+        snprintf(target, sizeof target, "%s", scratch_file(names[w]));
+        remove(target);
+        remove(link);
+        assert_int_equal(symlink(target, link), 0);
+        printed p = print_of("%s -q -o '%s'", writers[w], link);
+        assert_int_equal(p.status, 0);
+        assert_true(lstat(link, &s) == 0 && S_ISLNK(s.st_mode));
+        assert_true(lstat(target, &s) == 0 && S_ISREG(s.st_mode) && s.st_size > 0);
+        printed_free(&p);
+        remove(target);
+        remove(link);
+    }
 }

@@ -256,6 +256,100 @@ TEST(what_is_seen) {
     tally_end(&turned);
 }
 
+/* An eye just behind a surface, by less than 2^-8 of its distance, whose depths a grid may turn to the front: it is
+ * drawn. By more it is not. */
+TEST(just_behind) {
+    const dp_setup setup = setup_of("swiftshader", "fp32", DP_MAPPING_REVERSED, 60);
+    tally t = {.name = "just behind"}, beyond = {.name = "behind"};
+    rng r = rng_make("behind");
+    for (uint64_t run = 0; run < test_cases(400, 3000, 30000); run++) {
+        const double size = rng_log(&r, 0.5, 5), gap = size * 1e-7, steep = rng_uniform(&r, 0.001, 0.008);
+        double u[3], n[3], from[3], middle[3], sine[2][2];
+        finder_found found;
+        scene_sight room;
+        scene_eye eye;
+        make_pair(&r, size, gap);
+        made.surface[0].two_sided = made.surface[1].two_sided = false;
+        const double *c[3];
+        for (int i = 0; i < 3; i++)
+            c[i] = made.position[made.triangle[0][i]];
+        for (int k = 0; k < 3; k++) {
+            middle[k] = (c[0][k] + c[1][k] + c[2][k]) / 3;
+            u[k] = c[1][k] - c[0][k];
+            from[k] = c[2][k] - c[0][k];
+        }
+        cross(u, from, n);
+        const double length = hypot(hypot(n[0], n[1]), n[2]), along = hypot(hypot(u[0], u[1]), u[2]);
+        for (int k = 0; k < 3; k++)
+            from[k] = middle[k] + 20 * size * (u[k] / along - steep * n[k] / length);
+        if (!scene_eye_look(from, middle, (const double[]){0, 1, 0}, &eye) || !find(gap, &found)) {
+            finder_free(&found);
+            continue;
+        }
+        const sight_asked asked = asked_of(&setup, &found, gap, &eye, 1);
+        const scene_sight got = scene_sight_worst(&asked, found.finding, &room);
+        for (int i = 0; i < 2; i++)
+            fronts(i, &eye, sine[i]);
+        const truth least = truth_of(&eye, &setup, 1.0L - 1e-9L, 1e-9L);
+        if (sine[0][1] > -0x1.fp-9 && sine[1][1] > -0x1.fp-9 && least.lo <= least.hi)
+            TALLY(&t, !isnan(got.seen_from), "sine %g, %g", sine[0][1], sine[1][1]);
+        if (sine[0][1] < -0x1.1p-8)
+            TALLY(&beyond, isnan(got.seen_from), "sine %g", sine[0][1]);
+        finder_free(&found);
+    }
+    tally_end(&t);
+    tally_end(&beyond);
+}
+
+/* However vertices are snapped to 1/16 pixel, triangles of a square pixel or more that are not slim stay in the class
+ * by which they are judged. */
+TEST(classes_hold_what_is_snapped) {
+    const dp_setup setup = setup_of("swiftshader", "fp32", DP_MAPPING_REVERSED, 60);
+    const double up = tan(0.5 * setup.spec.triangles.fov_y * degree), half = 1.0 / 32;
+    tally t = {.name = "classes"};
+    rng r = rng_make("classes");
+    double most = 0; /* of the class, used */
+    for (uint64_t run = 0; run < test_cases(400, 3000, 30000); run++) {
+        const double size = rng_log(&r, 0.01, 1), gap = size * 1e-3;
+        finder_found found;
+        scene_sight room;
+        make_pair(&r, size, gap);
+        const scene_eye eye = random_eye(&r, fmax(size, 0.5));
+        const bool one = find(gap, &found);
+        const sight_asked asked = asked_of(&setup, &found, gap, &eye, 1);
+        const scene_sight got = one ? scene_sight_worst(&asked, found.finding, &room) : (scene_sight){.covered = false};
+        finder_free(&found);
+        if (!one || isnan(got.seen_from) || !got.covered || got.triangles.slim > 32)
+            continue;
+        for (int i = 0; i < 2; i++)
+            for (int move = 0; move < 64; move++) {
+                double w[3][2], longest = 0, widest = 0, at[3];
+                for (int c = 0; c < 3; c++) {
+                    scene_eye_sees(&eye, made.position[made.triangle[i][c]], at);
+                    for (int k = 0; k < 2; k++)
+                        w[c][k] = at[k] / at[2] / up * HEIGHT / 2 + (move >> (2 * c + k) & 1 ? half : -half);
+                }
+                for (int c = 0; c < 3; c++) {
+                    const double x = fabs(w[(c + 1) % 3][0] - w[c][0]), y = fabs(w[(c + 1) % 3][1] - w[c][1]);
+                    longest = fmax(longest, hypot(x, y));
+                    widest = fmax(widest, fmax(x, y));
+                }
+                const double area =
+                    fabs((w[1][0] - w[0][0]) * (w[2][1] - w[0][1]) - (w[2][0] - w[0][0]) * (w[1][1] - w[0][1]));
+                if (area < 2)
+                    continue;
+                const double slim = longest * longest / area;
+                TALLY(&t, slim <= got.triangles.slim && widest <= got.triangles.pixels,
+                      "slim %g, of %g at most; %g pixels, of %g", slim, got.triangles.slim, widest,
+                      got.triangles.pixels);
+                most = fmax(most, slim / got.triangles.slim);
+            }
+    }
+    print_message("# %.3f of a class\n", most);
+    assert_true(most > 0.9);
+    tally_end(&t);
+}
+
 /* ---- From where on they fight ------------------------------------------------------------------------------------ */
 
 /* The class of both triangles at depths from lo to hi, `by` times as large as it is; false where there is none. */

@@ -115,6 +115,7 @@ static const struct {
     {NULL, "viewport = [640, 0]; fov = 60; subpixel = 8;", BAD "2 values"},
     {NULL, "viewport = [32769, 480]; fov = 60; subpixel = 8;", BAD "2 values"},
     {NULL, "viewport = [640.5, 480.0]; fov = 60; subpixel = 8;", BAD "640.5 and 480"},
+    {NULL, "viewport = (640, 480.5); fov = 60; subpixel = 8;", BAD "640 and 480.5"},
     {NULL, "viewport = [640, 480]; fov = \"wide\"; subpixel = 8;", "fov: must be a number from 0.01 to 179 degrees"},
     {NULL, "viewport = [640, 480]; fov = 180; subpixel = 8;",
      "fov: must be a number from 0.01 to 179 degrees, got 180"},

@@ -31,6 +31,8 @@ static const solve_case cases[] = {
      "exact"},
     {"-F fp16 -m reversed -f 4000 --rounding even --separation 0.5 --range 10:700", "near", QUANTITY_SEPARATION, 0.5,
      10, 700, true, NAN, 4000, "exact"},
+    {"-F fp32 -m reversed -f 1e6 --separation 0.0004 --at 5000", "near", QUANTITY_SEPARATION, 0.0004, 5000, 5000, true,
+     NAN, 1e6, "exact"},
     {"-n 0.1 -f 4000 -F unorm16 --separation 0.001 --at 100", "mapping", QUANTITY_SEPARATION, 0.001, 100, 100, false,
      0.1, 4000, "exact"},
     {"-n 0.1 -f 4000 --separation 0.001 --range 0.1:100", "format", QUANTITY_SEPARATION, 0.001, 0.1, 100, true, 0.1,
@@ -445,12 +447,32 @@ static void check_text_distance(values *v, const solve_case *c, const char *text
     assert_true((strstr(text, "  assumed  ") != NULL) == (strstr(c->arguments, "-f ") == NULL));
 }
 
-/* Which values pass. */
+/* Whether so many digits are all that a number has. */
+static bool has_digits(double x, int digits) {
+    char text[32];
+    snprintf(text, sizeof text, "%.*g", digits, x);
+    return strtod(text, NULL) == x;
+}
+
+/* Which values pass: in the lattice all between the ends do, of which some have six digits. */
 static void check_text_passing(values *v, const solve_case *c, const char *text) {
+    if (strcmp(c->model, "exact") == 0)
+        assert_true(has_digits(number_shown(text, "passes ", 0), 6) && has_digits(number_shown(text, "passes ", 1), 6));
     values_under(v, "answer.");
     want_shown(v, c, "shown_from", value_at(v, "answer.from")->number, number_shown(text, "passes ", 0));
     want_shown(v, c, "shown_to", value_at(v, "answer.to")->number, number_shown(text, "passes ", 1));
     check_line(v, text, "passes ", "shown_from:6, shown_to:6");
+}
+
+/* "at z = 4000", or "from z = 20 to 4000 ft". */
+static void check_where(const solve_case *c, const char *text) {
+    const char *at = strstr(text, " at z = "), *from = strstr(text, " from z = ");
+    double lo = NAN, hi = NAN;
+    if (c->lo < c->hi)
+        assert_true(from != NULL && sscanf(from, " from z = %lf%*[a-z ]%lf", &lo, &hi) == 2 && lo == c->lo &&
+                    hi == c->hi);
+    else
+        assert_true(from == NULL && at != NULL && sscanf(at, " at z = %lf", &lo) == 1 && lo == c->lo);
 }
 
 static void check_text(values *v, const solve_case *c, const char *arguments) {
@@ -462,6 +484,8 @@ static void check_text(values *v, const solve_case *c, const char *arguments) {
     check_line(v, text, label, isnan(c->limit) ? "answer.value:6, answer.z:6" : "answer.value:6, answer.z:6, limit:6");
     if (is_distance(c))
         check_text_distance(v, c, text);
+    else if (!isnan(c->limit))
+        check_where(c, text);
     if (isfinite(number_at(root, "answer.guaranteed")) && !in_float && !is_distance(c))
         check_line(v, text, "guaranteed", "answer.guaranteed:6");
     if (isnan(c->znear) || isnan(c->zfar)) {
@@ -611,4 +635,30 @@ TEST(why_frusta) {
                 {"-n 0.1 -f 1e4 -F fp32 -m reversed --separation 0.01", "!why", 0}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         check_says(rows[i].status, rows[i].said, "solve --for frusta %s", rows[i].line);
+}
+
+/* How few there must be is told where that is more than one, and not where so few are enough. */
+TEST(at_least) {
+    static const char *const separations[] = {"1", "0.05", "0.012", "0.006", "0.0051", "0.005"};
+    int told = 0, silent = 0;
+    for (size_t i = 0; i < sizeof separations / sizeof separations[0]; i++) {
+        char line[128];
+        snprintf(line, sizeof line, "solve --for frusta -n 0.1 -f 1e4 -F %s -m %s --separation %s",
+                 i % 2 == 0 ? "d24" : "fp32", i % 3 == 0 ? "gl" : "d3d", separations[i]);
+        json_t *all = json_printed(-1, "%s", line);
+        const double count = number_at(all, "count"), least = number_at(all, "at_least");
+        const bool possible = flag_at(all, "possible"), more = possible && count > least;
+        printed p = print_of("%s", line);
+        char want[64];
+        snprintf(want, sizeof want, "%g frusta, whatever the arithmetic", least);
+        assert_int_equal(strstr(p.out, "  at least ") != NULL, more && least > 1);
+        assert_int_equal(strstr(p.out, want) != NULL, more && least > 1);
+        assert_int_equal(strstr(p.out, "; fewer cannot") != NULL, possible && count == least && count > 1);
+        told += more && least > 1;
+        silent += more && least == 1;
+        printed_free(&p);
+        json_decref(all);
+    }
+    print_message("# %d told, %d not\n", told, silent);
+    assert_true(told > 0 && silent > 0);
 }

@@ -157,3 +157,26 @@ TEST(what_is_not_so) {
 int main(void) {
     return run_listed(NULL, NULL);
 }
+
+/* Steps of 1/z of (1/0.24)/65535 from 0 on are those of near 0.24 with an infinite far and, since 5 x 13107 = 65535, of
+ * near 0.2 with far 1.2: of depths that either may have, neither is named. Nor of others of that shape. */
+TEST(two_cameras) {
+    static const double nears[] = {0.24, 0.36, 0.42, 0.54, 0.66, 0.78};
+    size_t inverse = 0;
+    while (sensor_get(inverse)->levels != GRAIN_INVERSE)
+        inverse++;
+    for (size_t i = 0; i < sizeof nears / sizeof nears[0]; i++)
+        for (int bits = 16; bits <= 24; bits += 8) {
+            const double n = nears[i], span = ldexp(1, bits) - 1;
+            const sensor s = {.row = sensor_get(inverse),
+                              .found = true,
+                              .step = 1 / n / span,
+                              .step_off = 1e-9 / span,
+                              .offset_off = 1e-12};
+            sensor_buffer b;
+            assert_false(sensor_buffer_find(&s, 1.01 * n, 4.9 * n, &b));
+            assert_int_equal(b.bits, 0);
+            assert_true(sensor_buffer_find(&s, 1.01 * n, 5.1 * n, &b)); /* beyond the far of the second */
+            assert_true(b.bits == bits && b.znear == n && isinf(b.zfar));
+        }
+}

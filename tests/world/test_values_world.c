@@ -230,3 +230,33 @@ TEST(why) {
     check_says(0, "30 km from the origin are 0.00195 m apart; matrices and", "world --unit m --from-origin 30km");
     check_says(0, "!why", "world --from-origin 10");
 }
+
+/* What budget advises where positions take most is at most a twentieth worse than all places in double, which is tried
+ * here by itself. */
+TEST(advice) {
+    static const char *const names[] = {"local", "camera-float", "split", "tile", "cell", "two-sum"};
+    rng r = rng_make("advice");
+    tally t = {.name = "advice"};
+    uint64_t closer = 0; /* by less than half */
+    for (uint64_t i = test_cases(40, 200, 2000); i > 0; i--) {
+        char line[256];
+        snprintf(line, sizeof line, "budget -n 0.1 -f %.4g -F %s -m %s --from-origin %.4g --at %.4g --scheme",
+                 rng_log(&r, 1e3, 1e5), rng_below(&r, 2) ? "d24" : "fp32", rng_below(&r, 2) ? "d3d" : "reversed",
+                 rng_log(&r, 1, 1e5), rng_log(&r, 1, 500));
+        json_t *one = json_printed(0, "%s %s", line, names[rng_below(&r, 6)]);
+        json_t *best = json_printed(0, "%s camera-double", line);
+        const double own = number_at(one, "setups[0].worst.separation"),
+                     least = number_at(best, "setups[0].worst.separation"),
+                     advised = number_at(one, "setups[0].worst.remedy_separation");
+        if (!isnan(own) && strcmp(text_at(one, "setups[0].worst.cause"), "position") == 0) {
+            TALLY(&t, fmin(own, advised) <= least / 0.95 * (1 + 1e-9), "%s: %g, advised %g, but %g", line, own, advised,
+                  least);
+            closer += least > 0.5 * own && least < 0.95 * own;
+        }
+        json_decref(one);
+        json_decref(best);
+    }
+    print_message("# %lu of %lu by less than half\n", (unsigned long)closer, (unsigned long)t.cases);
+    assert_true(closer > 0);
+    tally_end(&t);
+}
