@@ -330,3 +330,12 @@ TEST(presets) {
 }
 
 LIST_TEST(check_apart)
+
+/* A lattice has levels from some depth above 0 on, and says how far apart they are from the least such depth. */
+TEST(lattice_depths) {
+    static const refused_row rows[] = {
+        {"--lattice kinect1 --at 0", "--at: must be above 0 with --lattice, got 0", 2},
+        {"--lattice even:.1 --at 0,1", "--at: must be above 0 with --lattice, got 0", 2}};
+    CHECK_REFUSED("table", rows);
+    check_says(0, "step", "table --lattice even:.1 --at 1e-6,1");
+}
