@@ -165,7 +165,7 @@ static void read_ticks(drawn *d, svg_mark *m) {
 
 typedef enum side { BELOW, LEFT, RIGHT } side;
 
-/* The words at a tick; the axis lies at `edge`. */
+/* The words at a tick; the axis lies at `edge`. Names below an axis may be on two lines. */
 static svg_mark *label_at(const drawn *d, side where, double edge, double px) {
     const double s = d->scale;
     for (size_t i = 0; i < d->svg->count; i++) {
@@ -176,7 +176,8 @@ static svg_mark *label_at(const drawn *d, side where, double edge, double px) {
                            : where == LEFT ? edge - m->box.x1
                                            : m->box.x0 - edge;
         const double off = where == BELOW ? svg_middle_x(m->box) - px : m->at.y - 0.36 * m->size - px;
-        if (fabs(off) < (where == BELOW ? 2 : 0.6) * s && fabs(gap - 9 * s) < 2.5 * s)
+        const bool lower = where == BELOW && fabs(gap - 9 * s - 1.25 * m->size) < 2.5 * s;
+        if (fabs(off) < (where == BELOW ? 2 : 0.6) * s && (lower || fabs(gap - 9 * s) < 2.5 * s))
             return m;
     }
     return NULL;
@@ -199,10 +200,18 @@ static void read_labels(const drawn *d, drawn_scale *s, side where, double edge,
     }
 }
 
+static bool same_ticks(const drawn_scale *a, const drawn_scale *b) {
+    bool same = a->ticks == b->ticks;
+    for (int i = 0; i < a->ticks && same; i++)
+        same = fabs(a->tick[i] - b->tick[i]) < 1;
+    return same;
+}
+
+/* Is there a panel below that has the same axis? */
 static bool has_below(const drawn *d, const drawn_panel *p) {
     for (size_t i = 0; i < d->panel_count; i++)
         if (d->panels[i].frame.y0 > p->frame.y1 && fabs(d->panels[i].frame.x0 - p->frame.x0) < 1)
-            return true;
+            return same_ticks(&p->x, &d->panels[i].x);
     return false;
 }
 
@@ -264,7 +273,7 @@ static void check_grid(const drawn *d, const drawn_panel *p) {
 
 static void apart(const drawn_scale *s) {
     for (int i = 1; i < s->labels; i++)
-        assert_true(s->at[i]->box.x0 > s->at[i - 1]->box.x1 + 3);
+        assert_true(s->at[i]->at.y != s->at[i - 1]->at.y || s->at[i]->box.x0 > s->at[i - 1]->box.x1 + 3);
 }
 
 void drawn_read_axes(drawn *d) {

@@ -56,7 +56,7 @@ size_t bench_run(const method_family_row *family, size_t which, const dp_setup *
     asked = *setup;
     asked_which = which;
     for (size_t i = 0; i < *family->method_count; i++) {
-        if (!method_speaks(&family->methods[i], which))
+        if (!method_speaks(&family->methods[i], which) || !method_suits(&family->methods[i], setup))
             continue;
         results[count] = (bench_result){.row = &family->methods[i],
                                         .inputs = 100 + 7 * count,
@@ -101,7 +101,15 @@ size_t stability_run(const method_family_row *family, unsigned cases, stability_
                                     .inside_near = next_number(),
                                     .inside_far = next_number(),
                                     .inside_at = next_number(),
+                                    .claim_to = count % 5 == 3 ? NAN : next_number(),
                                     .breaks = count % 3 == 0 ? INFINITY : next_number(),
+                                    .lost = count % 3 == 1 ? INFINITY : next_number(),
+                                    .cause = count % 3 == 1   ? NULL
+                                             : count % 3 == 0 ? "cracks"
+                                                              : "sleep",
+                                    .oblique = count % 4 == 1 ? NAN : next_number(),
+                                    .log = count % 4 == 2 ? NAN : next_number(),
+                                    .subnormal = count % 4 == 3 ? NAN : next_number(),
                                     .infinite = count % 3 == 1 ? NAN : next_number(),
                                     .ortho = count % 3 == 2 ? NAN : next_number(),
                                     .verdict = verdicts[count]};

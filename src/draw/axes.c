@@ -82,10 +82,19 @@ static bool labels_apart(const pencil *p, const axes *a, ticks *t, bool drop) {
     return apart;
 }
 
+/* Names that stand too close for one line are on two in turn. */
+static bool is_staggered(const pencil *p, const axes *a) {
+    ticks t;
+    ticks_make(a->x, 0, &t);
+    return a->x->names != NULL && !labels_apart(p, a, &t, false);
+}
+
 /* The labels of a horizontal axis may be wider than thought: fewer of them until they stand apart. */
 static void ticks_that_fit(const pencil *p, const axes *a, ticks *out) {
     int room = axes_room_x(p, a->frame.w);
     ticks_make(a->x, room, out);
+    if (a->x->names != NULL)
+        return;
     while (!labels_apart(p, a, out, room <= 2) && room > 2)
         ticks_make(a->x, --room, out);
 }
@@ -117,13 +126,14 @@ void axes_draw_grid(const pencil *p, const axes *a) {
 static void draw_x_ticks(const pencil *p, const axes *a, const canvas_pen *pen, bool labels) {
     ticks t;
     double bottom = snap(a->frame.y + a->frame.h);
+    const double lower = is_staggered(p, a) ? 1.25 * p->small.size : 0;
     ticks_that_fit(p, a, &t);
     add_lines(p, a, false, &t, bottom, TICK_LENGTH * p->scale, MINOR_LENGTH * p->scale);
     canvas_path_end(p->c, pen);
     for (size_t i = 0; i < t.count && labels; i++)
         canvas_text(p->c, snap(axes_x(a, t.items[i].at)),
-                    bottom + (TICK_LENGTH + LABEL_GAP) * p->scale + 0.73 * p->small.size, t.items[i].text, &p->small,
-                    CANVAS_MIDDLE);
+                    bottom + (TICK_LENGTH + LABEL_GAP) * p->scale + 0.73 * p->small.size + (i % 2 == 1 ? lower : 0),
+                    t.items[i].text, &p->small, CANVAS_MIDDLE);
 }
 
 /* side -1: ticks and labels to the left of x; +1: to the right. */

@@ -296,6 +296,8 @@ void chart_digest(const chart *c, char out[17]) {
             mix_numbers(&h, panel->series[s].y, panel->series[s].count);
             mix_numbers(&h, &panel->series[s].certain_to, isnan(panel->series[s].certain_to) ? 0U : 1U);
         }
+        for (int k = 0; k < panel->map.columns && panel->map.names != NULL; k++)
+            mix(&h, panel->map.names[k]);
         mix_numbers(&h, panel->map.x, (size_t)panel->map.columns);
         mix_numbers(&h, panel->map.y, (size_t)panel->map.rows);
         mix_map(&h, &panel->map);

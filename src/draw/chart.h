@@ -86,7 +86,8 @@ typedef struct chart_map {
     double *under; /**< null, or of as many fields what shows in grey where there is no value; NaN is left empty */
     chart_rows values, grounds; /**< in place of `value` and `under` where those are null */
     double *room;               /**< for a row of them */
-    size_t by_way;              /**< how many were computed by another way than the exact engine */
+    const char *const *names; /**< null, or a name for each column, which then is a series of its own in the numbers */
+    size_t by_way;            /**< how many were computed by another way than the exact engine */
 } chart_map;
 
 typedef struct chart_panel {

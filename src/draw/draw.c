@@ -154,10 +154,24 @@ static double common_heading(const pencil *p, const chart *c, const grid *g) {
     return heading_height(p, lines);
 }
 
+/* Does a panel show what is on its x axis? Not where the one below has the same. */
+static bool shows_x(const chart *c, int columns, size_t index) {
+    const size_t below = index + (size_t)columns;
+    return c->apart || below >= c->panel_count || c->panels[below].x.names != c->panels[index].x.names;
+}
+
+/* Are there labels between two rows of panels? */
+static bool labels_between(const chart *c, int columns) {
+    bool found = c->apart;
+    for (size_t i = 0; i + (size_t)columns < c->panel_count; i++)
+        found = found || shows_x(c, columns, i);
+    return found;
+}
+
 static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index) {
     const chart_panel *panel = &c->panels[index];
     axes a = {&panel->x, &panel->y, panel_frame(g, index)}, right = {&panel->x, &panel->second, a.frame};
-    bool lowest = c->apart || (size_t)(index + g->columns) >= c->panel_count;
+    bool lowest = shows_x(c, g->columns, (size_t)index);
     bool leftmost = c->apart || index % g->columns == 0;
     bool rightmost = (index + 1) % g->columns == 0 || (size_t)index + 1 == c->panel_count;
     if (g->heading > 0) {
@@ -212,7 +226,7 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     double left = widest_y(p, c, labels) + TICK_ROOM * s;
     double x_label = axes_widest_label(p, x, axes_room_x(p, g.area.w / g.columns)), right = x_label / 2;
     g.gap_x = fmax(PANEL_GAP * s, x_label + SPACE * s) + (c->apart ? left : 0); /* two neighbours' end labels meet */
-    g.gap_y = PANEL_GAP * s + (c->apart ? label + TICK_ROOM * s - HEADING_GAP * s : 0);
+    g.gap_y = PANEL_GAP * s + (labels_between(c, g.columns) ? label + TICK_ROOM * s - HEADING_GAP * s : 0);
     double bar = c->classes ? 0
                  : c->value.label != NULL
                      ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_widest_label(p, &c->value, labels)

@@ -9,7 +9,8 @@ static bool covers(const method_row *row, size_t which, const method_wish *w) {
     return method_speaks(row, which) && method_claim_over(c, w->ratio_lo, w->ratio_hi) <= w->tolerance &&
            c->ratio_lo <= w->ratio_lo && hi <= c->ratio_hi &&
            (!isinf(w->ratio_hi) || (row->domain & METHOD_INFINITE) != 0) &&
-           (!w->ortho || (row->domain & METHOD_ORTHO) != 0) && (!w->cut_cells || (row->domain & METHOD_WHOLE) == 0) &&
+           (w->ortho ? (row->domain & METHOD_ORTHO) != 0 : (row->domain & METHOD_FLAT) == 0) &&
+           (!w->cut_cells || (row->domain & METHOD_WHOLE) == 0) &&
            w->pipeline == ((row->domain & METHOD_PIPELINE) != 0);
 }
 

@@ -332,9 +332,16 @@ static const char gsl[] = "GNU Scientific Library";
 #define CANCELLED(a, b)       FORMULA_TO(METHOD_CANCELLED, method_cancelled, a, b)
 #define CANCELLED_FUSED(a, b) FORMULA_TO(METHOD_CANCELLED_FUSED, method_cancelled, a, b)
 static const method_row methods[] = {
+    {METHOD_LINEARIZE, "ortho-eye", "orthographic: n + (f - n) d in binary32, reversed f - (f - n) d",
+     {FULL(3 * UNIT), CANCELLED(3, 0)}, METHOD_ORTHO | METHOD_FLAT, 0.17, "1", 0,
+     "the Core package's Common.hlsl", .run = decoded_run, .decode = &decode_rows[DECODE_ORTHO_EYE]},
+    {METHOD_LINEARIZE, "ortho-complement", "orthographic: n + (f - n) d in binary32, reversed n + (f - n)(1 - d)",
+     {FULL(3 * UNIT), FULL(4 * UNIT)}, METHOD_ORTHO | METHOD_FLAT, 0.18, "1", 0,
+     "depthprec(7)", .run = decoded_run, .decode = &decode_rows[DECODE_COMPLEMENT]},
     {METHOD_LINEARIZE, "magic", "1/(Z d + W), the reciprocal from the bits of x and one Newton step",
      {FORMULA_TO(METHOD_CANCELLED, magic_claim, 0, 0), FULL(MAGIC + 7 * UNIT)}, 0, 0.17, "1", 0,
-     "the reciprocal by subtraction of bit patterns is folklore", .run = magic_run, .bound = &bound_magic},
+     "the reciprocal by subtraction of bit patterns is folklore", .run = magic_run, .bound = &bound_magic,
+     .coarse = "estimate"},
     {METHOD_LINEARIZE, "unity", "1/(Z d + W) in binary32, LinearEyeDepth of Unity with _ZBufferParams",
      {CANCELLED(3, 0), FULL(4 * UNIT)}, METHOD_INFINITE, 0.22, "1", 0,
      "UnityCG.cginc", .run = decoded_run, .decode = &decode_rows[DECODE_LINEAR_EYE], .bound = &bound_unity},
@@ -363,7 +370,7 @@ static const method_row methods[] = {
      .timed = rcpps_run, .bound = &bound_newton},
     {METHOD_LINEARIZE, "table-nearest", "the nearest of 65536 depths in equal steps of d, binary32",
      {FORMULA(nearest_claim, 0, 0), FORMULA(nearest_claim, 0, 0)}, 0, 0.6, "1", 0,
-     "", .run = table_nearest, .behind = true, .open = table_open, .close = free},
+     "", .run = table_nearest, .behind = true, .open = table_open, .close = free, .coarse = "table"},
     {METHOD_LINEARIZE, "double", "n f/(f - d (f - n)) in double, rounded to binary32",
      {FORMULA(double_claim, 0, 0), FULL(UNIT)}, 0, 0.58, "1", 0,
      "", .run = double_run, .bound = &bound_double},
@@ -372,7 +379,7 @@ static const method_row methods[] = {
      "depthprec(7)", .run = phi_run, .bound = &bound_phi},
     {METHOD_LINEARIZE, "table-linear", "between two of 65536 depths in equal steps of d, binary32",
      {FORMULA(linear_claim, 0, 0), FORMULA(linear_claim, 0, 0)}, 0, 1.1, "1", 0,
-     "", .run = table_linear, .behind = true, .open = table_open, .close = free},
+     "", .run = table_linear, .behind = true, .open = table_open, .close = free, .coarse = "table"},
     {METHOD_LINEARIZE, "pair", "the complement form with pairs of binary32 numbers, rounded once",
      {FULL(UNIT + 0x1p-41), FULL(UNIT + 0x1p-41)}, 0, 1.4, "1", 0,
      "Dekker 1971, A floating-point technique for extending the available precision", .run = pair_run,
@@ -380,19 +387,37 @@ static const method_row methods[] = {
     {METHOD_LINEARIZE, "fused", "n f/(f - d (f - n)) in binary32, product and difference in one operation",
      {CANCELLED_FUSED(2, 2), FULL(4 * UNIT)}, 0, 2.2, "1", 0,
      "", .run = fused_run, .bound = &bound_fused},
+    {METHOD_LINEARIZE, "log-eye", "logarithmic: ((C f + 1)^d - 1)/C by exp2 in binary32",
+     {NOWHERE, NOWHERE, UNCLAIMED}, 0, 4, "1", 0,
+     "Kemen, Logarithmic depth buffer, 2009", .run = decoded_run, .decode = &decode_rows[DECODE_LOG_EYE]},
+    {METHOD_LINEARIZE, "log-expm1", "logarithmic: expm1(d log(C f + 1))/C in binary32: nothing cancels near the eye",
+     {NOWHERE, NOWHERE, FULL(78 * UNIT)}, 0, 8, "1", 0,
+     "depthprec(7)", .run = decoded_run, .decode = &decode_rows[DECODE_COMPLEMENT]},
     {METHOD_LINEARIZE, "spline", "cubic spline through 4097 depths in equal steps of d",
      {FORMULA(spline_claim, 0, 0), FORMULA(spline_claim, 0, 0)}, 0, 52, "1", 16384,
-     gsl, .run = spline_run, .behind = true, .open = spline_open, .close = spline_close},
+     gsl, .run = spline_run, .behind = true, .open = spline_open, .close = spline_close, .coarse = "table"},
     {METHOD_LINEARIZE, "chebyshev", "Chebyshev series of order 40 over d",
      {FORMULA(chebyshev_claim, 0, 0), FORMULA(chebyshev_claim, 0, 0)}, 0, 50, "1", 16384,
-     gsl, .run = chebyshev_run, .behind = true, .open = chebyshev_open, .close = chebyshev_close},
+     gsl, .run = chebyshev_run, .behind = true, .open = chebyshev_open, .close = chebyshev_close, .coarse = "series"},
 };
 /* clang-format on */
 static const size_t method_count = sizeof methods / sizeof methods[0];
 
+/* Of an oblique near plane, in the middle of the picture. */
+static double tilted_eye(const dp_setup *setup, double d, double tilt) {
+    const double n = setup->spec.znear, near = setup->reversed ? 1 - d : d;
+    return n / (1 - near * (1 - n / setup->spec.zfar + tilt));
+}
+
 /* Beyond binary32 an exact depth lies next to an infinite far plane only. */
 static bool linearize_error_at(const method_call *c, size_t i, method_error *error) {
-    const double d = (double)c->in->d[i], want = dp_eye(c->setup, d, 1 - d);
+    const dp_setup *of = c->in->seen != NULL ? c->in->seen : c->setup;
+    const double d = (double)c->in->d[i],
+                 want = c->in->tilt != 0 ? tilted_eye(of, d, c->in->tilt) : dp_eye(of, d, 1 - d);
+    if (c->in->tilt != 0 && !(want > 0 && want <= of->spec.zfar))
+        return false; /* behind the far plane of the picture's middle */
+    if (of->curve == DP_CURVE_LOG && !(want >= of->spec.znear))
+        return false; /* 0 is that of the eye */
     *error = truth_off(c->row->own != NULL ? c->out->value[i] : (double)c->out->eye[i], want, truth_step(want));
     return (!(want > (double)FLT_MAX) || isinf(want)) && !(c->row->own != NULL && isnan(c->out->eye[i]));
 }
@@ -401,12 +426,15 @@ const method_family_row linearize_family = {
     .name = "linearize",
     .summary = "eye depth of a binary32 window depth",
     .measure = "relative error",
-    .cases = {{"fp32 d3d", "fp32", DP_MAPPING_D3D}, {"fp32 reversed", "fp32", DP_MAPPING_REVERSED}},
-    .case_count = 2,
+    .cases = {{"fp32 d3d", "fp32", DP_MAPPING_D3D},
+              {"fp32 reversed", "fp32", DP_MAPPING_REVERSED},
+              {"fp32 log", "fp32", DP_MAPPING_LOG}},
+    .case_count = 3,
     .inputs = 65536,
     .walked = 1024,
     .per_decade = 2,
     .windows = true,
+    .besides = METHOD_BESIDE_ORTHO | METHOD_BESIDE_OBLIQUE | METHOD_BESIDE_LOG,
     .methods = methods,
     .method_count = &method_count,
     .fill = method_windows,

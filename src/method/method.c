@@ -26,7 +26,9 @@ bool method_arrays(size_t count, method_inputs *in, method_outputs *out) {
                           calloc(count, sizeof *in->hi),
                           calloc(count, sizeof *in->d),
                           calloc(3 * count, sizeof *in->place),
-                          calloc((count + METHOD_STRIP - 1) / METHOD_STRIP * METHOD_STRIP_EYES, sizeof *in->eye)};
+                          calloc((count + METHOD_STRIP - 1) / METHOD_STRIP * METHOD_STRIP_EYES, sizeof *in->eye),
+                          NULL,
+                          0};
     *out = (method_outputs){calloc(count, sizeof *out->value),
                             calloc(count, sizeof *out->eye),
                             calloc(count, sizeof *out->code),

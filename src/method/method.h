@@ -72,16 +72,27 @@ enum {
     METHOD_ABOVE = 1 << 4,    /**< one-sided: never below the reference, or the error is INFINITY */
     METHOD_BELOW = 1 << 5,    /**< one-sided: never above it */
     METHOD_HALF = 1 << 6,     /**< only for what binary16 can hold: distances from 2^-13 to 32752 */
+    METHOD_FLAT = 1 << 7,     /**< an orthographic projection alone; METHOD_ORTHO is set, too */
+};
+
+/** Cameras besides those of the walk over far/near that stability takes to a family. */
+enum {
+    METHOD_BESIDE_ORTHO = 1 << 0,   /**< an orthographic one; of linearize, for what was written for perspective */
+    METHOD_BESIDE_OBLIQUE = 1 << 1, /**< one with an oblique near plane, whose window depths are taken for another's */
+    METHOD_BESIDE_LOG = 1 << 2,     /**< one with logarithmic depth, likewise */
 };
 
 /** The inputs of a family's methods: the arrays that the family uses, `count` long. */
 typedef struct method_inputs {
     size_t count;
-    double *z;     /**< interval: eye depths; worst: the near ends of the ranges */
-    double *hi;    /**< worst: the far ends */
-    float *d;      /**< linearize, encode, position: window depths in [0, 1] */
-    double *place; /**< position: the exact places as seen from the camera, world axes, three numbers each */
-    float *eye;    /**< normal: METHOD_STRIP_EYES for each strip, line by line */
+    double *z;            /**< interval: eye depths; worst: the near ends of the ranges */
+    double *hi;           /**< worst: the far ends */
+    float *d;             /**< linearize, encode, position: window depths in [0, 1] */
+    double *place;        /**< position: the exact places as seen from the camera, world axes, three numbers each */
+    float *eye;           /**< normal: METHOD_STRIP_EYES for each strip, line by line */
+    const dp_setup *seen; /**< linearize: whose window depths these are; null: those of the call's own set-up */
+    double tilt; /**< linearize: of an oblique near plane, else 0: the middle of the picture has d = (1 - n/z)/(1 - n/f
+                    + tilt), see trap_row perspective-of-oblique */
 } method_inputs;
 
 /** Their outputs. */
@@ -139,6 +150,8 @@ struct method_row {
     /** Null, or told which set-ups run is called for next, with so many inputs: many at once take less time. */
     void (*expect)(const method_row *row, const dp_setup *setups, size_t count, size_t inputs);
     bool behind; /**< others are faster and more exact for every far/near: text shows it only where all are asked for */
+    /** Null, or in a word what its error is of where it is not of roundings: "table". See stability.h. */
+    const char *coarse;
 };
 
 /** How far an answer is off. */
@@ -160,7 +173,8 @@ typedef struct method_family_row {
     const char *measure; /**< what claims count: "relative error", "steps of the format" */
     bool steps;          /**< that measure is the error's `ulp`, else its `relative` */
     bool windows;        /**< what is shown of an input is its window depth, else its eye depth */
-    bool ortho;          /**< stability walks an orthographic projection, too */
+    bool magnitudes;     /**< stability walks over window depths, not over far/near, which do not matter */
+    unsigned besides;    /**< METHOD_BESIDE_... bits */
     method_case cases[METHOD_CASES];
     size_t case_count;
     size_t inputs;  /**< how many are timed */
@@ -196,6 +210,11 @@ static inline double method_claim_at(const method_claim *claim, double ratio) {
 static inline double method_claim_over(const method_claim *claim, double lo, double hi) {
     const double a = method_claim_at(claim, lo), b = method_claim_at(claim, hi);
     return a > b ? a : b;
+}
+
+/** Is it for the projection of a set-up? */
+static inline bool method_suits(const method_row *row, const dp_setup *setup) {
+    return setup->spec.ortho ? (row->domain & METHOD_ORTHO) != 0 : (row->domain & METHOD_FLAT) == 0;
 }
 
 /** Can this processor run it? */

@@ -163,20 +163,20 @@ static double float_claim(double ratio, double step, double places) {
 /* clang-format off */
 static const method_row methods[] = {
     {METHOD_NORMAL, "low", "the 2 x 2 quad of a pixel", CLAIMS(1e3, 1, PLACES), METHOD_INFINITE, 1.0, "1", 0,
-     "Universal RP, SSAO.hlsl", run, open_view, free, .normal = &normal_methods[NORMAL_LOW]},
+     "Universal RP, SSAO.hlsl", run, open_view, free, .normal = &normal_methods[NORMAL_LOW], .coarse = "format"},
     {METHOD_NORMAL, "medium-1", "the farther of the neighbours, next to it",
      CLAIMS(1e3, 1, PLACES), METHOD_INFINITE, 1.05, "1", 0,
-     "", run, open_view, free, .normal = &normal_methods[NORMAL_MEDIUM_1]},
+     "", run, open_view, free, .normal = &normal_methods[NORMAL_MEDIUM_1], .coarse = "format"},
     {METHOD_NORMAL, "medium", "the farther of the neighbours, 2 pixels away",
      CLAIMS(2e3, 2, PLACES), METHOD_INFINITE, 1.1, "1", 0,
-     "Universal RP, SSAO.hlsl", run, open_view, free, .normal = &normal_methods[NORMAL_MEDIUM]},
+     "Universal RP, SSAO.hlsl", run, open_view, free, .normal = &normal_methods[NORMAL_MEDIUM], .coarse = "format"},
     {METHOD_NORMAL, "projective", "lines in 1/z, next to it; on a plane the differences of 1/z are its normal",
      CLAIMS(1e3, 1, 0), METHOD_INFINITE, 1.3, "1", 0,
-     "depthprec(7)", run, open_view, free, .normal = &normal_methods[NORMAL_PROJECTIVE]},
+     "depthprec(7)", run, open_view, free, .normal = &normal_methods[NORMAL_PROJECTIVE], .coarse = "format"},
     {METHOD_NORMAL, "high-1", "lines in z, next to it", CLAIMS(1e3, 1, PLACES), METHOD_INFINITE, 1.35, "1", 0,
-     "", run, open_view, free, .normal = &normal_methods[NORMAL_HIGH_1]},
+     "", run, open_view, free, .normal = &normal_methods[NORMAL_HIGH_1], .coarse = "format"},
     {METHOD_NORMAL, "high", "lines in z, 2 pixels away", CLAIMS(2e3, 2, PLACES), METHOD_INFINITE, 1.36, "1", 0,
-     "Universal RP, SSAO.hlsl", run, open_view, free, .normal = &normal_methods[NORMAL_HIGH]},
+     "Universal RP, SSAO.hlsl", run, open_view, free, .normal = &normal_methods[NORMAL_HIGH], .coarse = "format"},
 };
 /* clang-format on */
 static const size_t method_count = sizeof methods / sizeof methods[0];

@@ -108,7 +108,8 @@ static const method_row methods[] = {
     {METHOD_POSITION, "extents-half",
      "extents in binary16, for distances from 2^-13 to 32752; infinite from 65520 on",
      {HALF, FULL(6e-4), HALF}, METHOD_INFINITE | METHOD_HALF, 0.8, "1", 0,
-     "URP, ReconstructViewPos in SSAO.hlsl", run, prepare, free, .position = &position_rows[POSITION_EXTENTS_HALF]},
+     "URP, ReconstructViewPos in SSAO.hlsl", run, prepare, free, .position = &position_rows[POSITION_EXTENTS_HALF],
+     .coarse = "binary16"},
 };
 /* clang-format on */
 static const size_t method_count = sizeof methods / sizeof methods[0];
@@ -125,7 +126,7 @@ const method_family_row position_family = {
     .walked = 4096,
     .per_decade = 2,
     .windows = true,
-    .ortho = true,
+    .besides = METHOD_BESIDE_ORTHO,
     .methods = methods,
     .method_count = &method_count,
     .fill = fill,

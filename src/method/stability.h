@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file stability.h  Where methods lose what they claim: every method over far/near from 10 to 1e12, in tiny, common
- * and huge units, at the stress inputs of its family, then with an infinite far plane and an orthographic projection.
+ * and huge units, at the stress inputs of its family, then with cameras that have no far/near, or another depth. A
+ * code does not depend on planes: encoders walk over window depths, a binade a step.
  */
 #ifndef METHOD_STABILITY_H
 #define METHOD_STABILITY_H
@@ -12,6 +13,13 @@ enum { STABILITY_STEPS_MAX = 23, STABILITY_MAX = BENCH_METHODS_MAX * METHOD_CASE
 
 /** How far beyond its claimed span a claim may still hold before the span is too modest. */
 #define STABILITY_SLACK 4.0
+
+/** The far/near of cameras besides those of the walk. */
+#define STABILITY_BESIDE 1e4
+
+/** The error from which on a method has lost its fourth digit, in relative measures; and in steps of a code. */
+#define STABILITY_LOST       1e-4
+#define STABILITY_LOST_STEPS 1.0
 
 /** All cases, which have up to STABILITY_MAX results; one has up to BENCH_METHODS_MAX. */
 #define STABILITY_ALL (~0U)
@@ -28,15 +36,23 @@ typedef struct stability_result {
     const method_row *row;
     size_t which; /**< the family's case */
     int steps;
-    double ratio[STABILITY_STEPS_MAX]; /**< far/near */
+    double ratio[STABILITY_STEPS_MAX]; /**< far/near; of encoders the middle of a binade of window depths */
     double error[STABILITY_STEPS_MAX]; /**< worst over units and inputs, in the family's measure; may be infinite */
     double inside;                  /**< within the claimed span, the error that takes the largest share of its claim */
     double claim;                   /**< what is claimed there; NaN: nothing */
     double inside_near, inside_far; /**< the planes where it is reached */
     double inside_at;               /**< and the input */
-    double breaks;                  /**< the far/near from which on the error exceeds the claim; INFINITY: never */
-    double infinite;                /**< error with an infinite far plane; NaN where the family or mapping has none */
-    double ortho;                   /**< error of an orthographic projection; likewise */
+    double claim_to; /**< the far/near up to which a digit is claimed, an error of 1/10; NaN: none is, or of encoders */
+    double breaks;   /**< the far/near, or window depth, from which on the error exceeds the claim; INFINITY: never */
+    double lost;     /**< from which on it exceeds STABILITY_LOST; INFINITY: never */
+    const char
+        *cause; /**< a word for what takes the fourth digit there: "cancellation", or the row's own; null: none */
+    /* Errors of other cameras; NaN where the family or the mapping has none. */
+    double infinite;  /**< an infinite far plane */
+    double ortho;     /**< an orthographic projection, also of functions that were written for perspective, */
+    double oblique;   /**< an oblique near plane, */
+    double log;       /**< and logarithmic depth, of C = 1 a scene unit: standard mappings */
+    double subnormal; /**< of encoders: 0 and the subnormal numbers of binary32 */
     stability_verdict verdict;
 } stability_result;
 

@@ -136,7 +136,7 @@ TEST(pareto_of_all) {
 
 /* Decimal digits that an error leaves. */
 static double digits(double error) {
-    return isinf(error) ? 0 : fmin(fmax(-log10(error), 0), 16);
+    return isinf(error) ? 0 : fmin(fmax((double)-log10l((long double)error), 0), 16);
 }
 
 /* Where a column of a map is drawn: at its far/near, but for the rounding of the logarithms. */
@@ -146,10 +146,45 @@ static double column_of(const json_t *root, size_t panel, size_t point, size_t k
     return ratio;
 }
 
+/* The columns of other cameras, each a series: the worst over the cases that have it. */
+static void want_others(values *v, const method_family_row *family, size_t panel) {
+    static const struct {
+        const char *name;
+        size_t offset;
+        int which; /* -1: the worst of both cases */
+        double x;
+    } columns[] = {
+        {"far infinite", offsetof(stability_result, infinite), 0, INFINITY},
+        {"far infinite, reversed", offsetof(stability_result, infinite), 1, INFINITY},
+        {"orthographic", offsetof(stability_result, ortho), -1, 1e4},
+        {"oblique near plane", offsetof(stability_result, oblique), -1, 1e4},
+        {"logarithmic depth", offsetof(stability_result, log), -1, 1e4},
+        {"0 and subnormal numbers", offsetof(stability_result, subnormal), -1, 0},
+    };
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
+        for (size_t row = 0; row < *family->method_count; row++) {
+            double least = NAN;
+            for (size_t i = 0; i < walked_count; i++) {
+                const stability_result *r = &walked[i];
+                const double error = *(const double *)(const void *)((const char *)r + columns[k].offset);
+                if (r->row == &family->methods[*family->method_count - 1 - row] && !isnan(error) &&
+                    (columns[k].which < 0 || r->which == (size_t)columns[k].which))
+                    least = fmin(least, digits(error));
+            }
+            want_point(v, panel, k, row, "ratio", columns[k].x, "method", (double)row + 0.5);
+            want_number(v, "digits", least);
+        }
+        values_under(v, "panels[%zu].series[%zu].", panel, k);
+        want_text(v, "name", columns[k].name);
+    }
+    values_under(v, "panels[%zu].", panel);
+    want_text(v, "title", "other cameras");
+}
+
 /* A panel for each case, in it the methods from the last. */
 TEST(stability) {
     const method_family_row *family = method_family_find("worst"); /* each method speaks of each case */
-    static const char *const names[] = {"claimed up to here", "the claim breaks here", "map"};
+    static const char *const names[] = {"a digit is claimed up to here", "the claim breaks here", "map"};
     values v = values_of("plot");
     memset(verdicts, 0, sizeof verdicts);
     char *text = command_output(cmd_plot, 0, "plot stability worst --json");
@@ -164,12 +199,11 @@ TEST(stability) {
             count += walked[i].which == which;
         for (size_t i = 0; i < walked_count; i++) {
             const stability_result *r = &walked[i];
-            const method_claim *c = &r->row->claims[which];
             if (r->which != which)
                 continue;
             const double height = (double)(count - 1 - row) + 0.5;
-            if (!isnan(c->worst))
-                want_point(&v, which, 0, claims++, "ratio", c->ratio_hi, "method", height);
+            if (!isnan(r->claim_to))
+                want_point(&v, which, 0, claims++, "ratio", r->claim_to, "method", height);
             if (isfinite(r->breaks))
                 want_point(&v, which, 1, breaks++, "ratio", r->breaks, "method", height);
             for (size_t k = 0; k < 4; k++) {
@@ -186,6 +220,7 @@ TEST(stability) {
         values_under(&v, "panels[%zu].", which);
         want_text(&v, "title", family->cases[which].name);
     }
+    want_others(&v, family, family->case_count);
     check_json_text(&v, text);
     json_decref(root);
     free(text);

@@ -177,7 +177,7 @@ TEST(the_choice_is_the_cheapest_that_covers) {
             bool covers = other->claims[0].worst > 0 &&
                           method_claim_over(&other->claims[0], any.ratio_lo, any.ratio_hi) <= any.tolerance &&
                           other->claims[0].ratio_hi >= any.ratio_hi && (other->domain & METHOD_PIPELINE) == 0 &&
-                          method_available(other);
+                          (other->domain & METHOD_FLAT) == 0 && method_available(other);
             TALLY(&t, !covers || (row != NULL && row->cost <= other->cost), "%s passed over", other->name);
         }
     }

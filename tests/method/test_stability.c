@@ -6,6 +6,26 @@
 
 static stability_result results[STABILITY_MAX];
 
+/* A word where more is lost than said, and none elsewhere; it is lost between two steps; a digit that is claimed is. */
+static void check_losses(tally *t, const method_family_row *family, const stability_result *r) {
+    const method_claim *c = &r->row->claims[r->which];
+    int k = 0;
+    while (k < r->steps && !(r->error[k] > (family->steps ? 1 : 1e-4)))
+        k++;
+    TALLY(t, (r->cause == NULL) == (k == r->steps) && !isinf(r->lost) == (k < r->steps), "%s: %s at %g", r->row->name,
+          r->cause, r->lost);
+    TALLY(t, k == r->steps || (r->lost <= r->ratio[k] && (k == 0 || r->lost >= r->ratio[k - 1])),
+          "%s: %g, not before %g", r->row->name, r->lost, r->ratio[k]);
+    TALLY(t, isnan(r->claim_to) || (method_claim_at(c, r->claim_to) <= 0.1 && r->claim_to <= c->ratio_hi),
+          "%s: claims %g at %g", r->row->name, method_claim_at(c, r->claim_to), r->claim_to);
+    TALLY(t,
+          isnan(r->claim_to) || r->claim_to == c->ratio_hi ||
+              method_claim_at(c, fmin(r->claim_to * 1.06, c->ratio_hi)) > 0.1,
+          "%s: claims more than %g", r->row->name, r->claim_to);
+    TALLY(t, !isnan(r->claim_to) || family->magnitudes || isnan(c->worst) || method_claim_at(c, 1e4) > 0.1,
+          "%s: claims something", r->row->name);
+}
+
 static void check_family(const char *name) {
     const method_family_row *family = method_family_find(name);
     size_t count = stability_run(family, STABILITY_ALL, results);
@@ -16,7 +36,7 @@ static void check_family(const char *name) {
         const method_claim *c = &r->row->claims[r->which];
         const char *where = family->cases[r->which].name;
         for (int k = 0; k < r->steps && !isnan(c->worst); k++)
-            if (r->ratio[k] <= c->ratio_hi * (1 + 1e-9))
+            if (family->magnitudes || r->ratio[k] <= c->ratio_hi * (1 + 1e-9))
                 TALLY(&t, r->error[k] <= method_claim_at(c, r->ratio[k]), "%s, %s: error %g above %g at far/near %g",
                       r->row->name, where, r->error[k], method_claim_at(c, r->ratio[k]), r->ratio[k]);
         /* A formula is near the error all the way, not at its best place alone. */
@@ -27,6 +47,7 @@ static void check_family(const char *name) {
         TALLY(&t, r->verdict == STABILITY_HOLDS || r->verdict == STABILITY_UNCLAIMED,
               "%s, %s: %s: claim %g to %g, worst %g, breaks at %g, infinite %g, ortho %g", r->row->name, where,
               stability_verdict_name(r->verdict), r->claim, c->ratio_hi, r->inside, r->breaks, r->infinite, r->ortho);
+        check_losses(&t, family, r);
         if (!isnan(c->worst) && stability_must_break(c))
             TALLY(&t, r->breaks >= c->ratio_hi && r->breaks <= STABILITY_SLACK * c->ratio_hi,
                   "%s, %s: claimed to %g, breaks at %g", r->row->name, where, c->ratio_hi, r->breaks);
@@ -121,7 +142,8 @@ TEST(worst_is_where_it_is_said) {
             method_outputs out;
             dp_setup setup;
             measured m;
-            assert_int_equal(method_setup(family, r->which, r->inside_near, r->inside_far, false, &setup), DP_OK);
+            const bool flat = (r->row->domain & METHOD_FLAT) != 0;
+            assert_int_equal(method_setup(family, r->which, r->inside_near, r->inside_far, flat, &setup), DP_OK);
             assert_true(method_arrays(1, &in, &out));
             if (family->windows)
                 in.d[0] = (float)r->inside_at;
@@ -187,6 +209,171 @@ TEST(claims_beyond_the_walk) {
     assert_int_equal(verdict_where(beyond_all, METHOD_INFINITE | METHOD_ORTHO), STABILITY_BROKEN);
     assert_true(results[0].infinite > 0.4 && results[0].ortho <= METHOD_ROUNDING);
     assert_int_equal(verdict_where(beyond_all, METHOD_ORTHO), STABILITY_HOLDS);
+}
+
+/* ---- Other cameras ----------------------------------------------------------------------------------------------- */
+
+static const long double others_far = 1e4L, tangent = 0.57735026918962576451L; /* of 30 degrees */
+
+/* The worst error of n f/(f - d (f - n)), or of d's complement, for depths that are those of other cameras. */
+static double worst_of_perspective(int camera, bool reversed) {
+    static const double nears[] = {1e-12, 0.1, 1e6, 0.74408};
+    long double worst = 0;
+    for (size_t u = 0; u < sizeof nears / sizeof nears[0]; u++) {
+        const method_family_row *family = method_family_find("linearize");
+        const long double n = (long double)nears[u], f = (long double)(nears[u] * (double)others_far);
+        method_inputs in;
+        method_outputs out;
+        dp_setup setup;
+        assert_int_equal(method_setup(family, 0, (double)n, (double)f, false, &setup), DP_OK);
+        assert_true(method_arrays(family->walked, &in, &out));
+        method_windows(&setup, &in);
+        for (size_t i = 0; i < in.count; i++) {
+            const long double d = (long double)in.d[i], away = reversed ? 1 - d : d;
+            const long double got = n * f / (f - away * (f - n));
+            const long double want = camera == 0   ? n + (f - n) * away
+                                     : camera == 1 ? n / (1 - away * (1 - n / f + tangent))
+                                                   : expm1l(d * log1pl(f));
+            if (want >= (camera == 1 ? 0 : n * (1 - 1e-12L)) && want <= f * (1 + 1e-12L))
+                worst = fmaxl(worst, fabsl(got - want) / want);
+        }
+        method_arrays_free(&in, &out);
+    }
+    return (double)worst;
+}
+
+TEST(perspective_functions_elsewhere) {
+    const method_family_row *family = method_family_find("linearize");
+    const size_t count = stability_run(family, STABILITY_ALL, results);
+    tally t = {.name = "other cameras"};
+    size_t seen = 0;
+    for (size_t i = 0; i < count; i++) {
+        const stability_result *r = &results[i];
+        const bool reversed = r->which == 1;
+        if (strcmp(r->row->name, "complement") != 0 && strcmp(r->row->name, "phi-double") != 0)
+            continue;
+        const double got[] = {r->ortho, r->oblique, r->log};
+        for (int camera = 0; camera < (reversed ? 2 : 3); camera++, seen++) {
+            const double want = worst_of_perspective(camera, reversed);
+            TALLY(&t, fabs(got[camera] - want) <= 1e-5 * want && want > 0.5, "%s %d, camera %d: %g, not %g",
+                  r->row->name, reversed, camera, got[camera], want);
+        }
+        TALLY(&t, !reversed || isnan(r->log), "%s: reversed logarithm", r->row->name);
+    }
+    assert_int_equal(seen, 10);
+    tally_end(&t);
+}
+
+/* ---- What is lost, and to what ----------------------------------------------------------------------------------- */
+
+/* The error at far/near r of what is named: of a formula by mathematics, of roundings the least and the most. */
+static double nearest(double r) {
+    return 0.5 * (r - 1) / 65535;
+}
+static double chord(double r) {
+    const double g = (r - 1) / 65535;
+    return g * g / (4 * (1 + g));
+}
+static double rounded(double r) {
+    return r * 0x1p-24;
+}
+
+TEST(what_takes_the_fourth_digit) {
+    static const struct {
+        const char *name, *cause;
+        double (*error)(double);
+        double least, most;
+    } rows[] = {
+        {"table-nearest", "table", nearest, 0.95, 1.05}, {"table-linear", "table", chord, 0.95, 1.05},
+        {"unity", "cancellation", rounded, 0.5, 3},      {"textbook", "cancellation", rounded, 0.5, 3},
+        {"fused", "cancellation", rounded, 0.5, 2},      {"ortho-eye", "cancellation", rounded, 0.5, 3},
+    };
+    const method_family_row *family = method_family_find("linearize");
+    const size_t count = stability_run(family, STABILITY_ALL, results);
+    size_t seen = 0;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+            const stability_result *r = &results[i];
+            if (strcmp(r->row->name, rows[k].name) != 0 || isinf(r->lost))
+                continue;
+            const double share = 1e-4 / rows[k].error(r->lost);
+            if (!(share >= rows[k].least && share <= rows[k].most))
+                fail_msg("%s: lost from %g on, %g of what is reckoned", r->row->name, r->lost, share);
+            assert_string_equal(r->cause, rows[k].cause);
+            seen++;
+        }
+    assert_int_equal(seen, 2 + 2 + 4);
+}
+
+/* Roundings are not taken for a formula's error, though the row has a word for that. */
+TEST(roundings_are_told_from_formulas) {
+    const method_family_row *family = method_family_find("linearize");
+    for (size_t i = 0; i < *family->method_count; i++)
+        if (strcmp(family->methods[i].name, "textbook") == 0)
+            forged = family->methods[i];
+    forged.coarse = "formula";
+    forged.claims[1] = (method_claim)NOWHERE;
+    forgery = *family;
+    forgery.methods = &forged;
+    forgery.method_count = &one;
+    assert_int_equal(stability_run(&forgery, STABILITY_ALL, results), 1);
+    assert_string_equal(results[0].cause, "cancellation");
+}
+
+/* ---- Encoders ---------------------------------------------------------------------------------------------------- */
+
+enum { BINADES = 24 };
+static float least_seen[BINADES], most_seen[BINADES];
+static size_t binades_seen;
+
+static void watch(const method_call *call) {
+    float lo = 2, hi = -1;
+    for (size_t i = 0; i < call->in->count; i++) {
+        lo = fminf(lo, call->in->d[i]);
+        hi = fmaxf(hi, call->in->d[i]);
+        call->out->code[i] = (uint32_t)floorl((long double)call->in->d[i] * 0xffffff + 0.5L);
+    }
+    least_seen[binades_seen] = lo;
+    most_seen[binades_seen++] = hi;
+}
+
+/* A binade at a step, its ends included, up to 1; then what lies below the normal numbers. */
+TEST(encoders_walk_over_binades) {
+    const method_family_row *family = method_family_find("encode");
+    forged = (method_row){.family = METHOD_ENCODE, .name = "exact", .run = watch};
+    for (size_t k = 0; k < family->case_count; k++)
+        if (strcmp(family->cases[k].format, "unorm24") == 0)
+            forged.claims[k] = (method_claim)FULL(0.5);
+    forgery = *family;
+    forgery.methods = &forged;
+    forgery.method_count = &one;
+    binades_seen = 0;
+    assert_int_equal(stability_run(&forgery, STABILITY_ALL, results), 1);
+    assert_int_equal(binades_seen, BINADES);
+    for (int k = 0; k + 1 < BINADES; k++) {
+        assert_true(least_seen[k] == ldexpf(1, k - 23) && most_seen[k] == ldexpf(1, k - 22));
+        assert_true(results[0].ratio[k] > (double)least_seen[k] && results[0].ratio[k] < (double)most_seen[k]);
+        assert_true(results[0].error[k] <= 0.5);
+    }
+    assert_true(least_seen[BINADES - 1] == 0 && most_seen[BINADES - 1] == 0x1p-126f);
+    assert_int_equal(results[0].verdict, STABILITY_HOLDS);
+    assert_true(isinf(results[0].lost) && isnan(results[0].claim_to));
+}
+
+/* 24 bits of a product and 2^23 more do not fit into binary32 from a half on. */
+TEST(encoders_lose_the_last_binade) {
+    const method_family_row *family = method_family_find("encode");
+    const size_t count = stability_run(family, STABILITY_ALL, results);
+    size_t seen = 0;
+    for (size_t i = 0; i < count; i++) {
+        const stability_result *r = &results[i];
+        const bool wide = strcmp(family->cases[r->which].format, "unorm24") == 0;
+        const bool lost = wide && (strcmp(r->row->name, "magic") == 0 || strcmp(r->row->name, "floor") == 0);
+        assert_true(lost ? r->lost == 0.5 : isinf(r->lost));
+        assert_true(r->subnormal <= 1);
+        seen += lost;
+    }
+    assert_int_equal(seen, 2);
 }
 
 /* As depthprec-methods(1) has them. */

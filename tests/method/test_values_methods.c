@@ -11,9 +11,12 @@ static void want_walk(values *v, const method_family_row *family, const stabilit
     const method_claim *c = &r->row->claims[r->which];
     values_under(v, "methods[%zu].stability.", n);
     want(v, "case=%s claim=%f", family->cases[r->which].name, r->claim);
-    want(v, "claim_to=%f worst=%f", isnan(c->worst) ? NAN : c->ratio_hi, r->inside);
+    want(v, "claim_to=%f worst=%f", r->claim_to, r->inside);
     want(v, "worst_near=%f worst_far=%f worst_at=%f", r->inside_near, r->inside_far, r->inside_at);
     want(v, "breaks=%f infinite=%f ortho=%f", isinf(r->breaks) ? NAN : r->breaks, r->infinite, r->ortho);
+    want(v, "lost=%f oblique=%f log=%f", isinf(r->lost) ? NAN : r->lost, r->oblique, r->log);
+    want(v, "subnormal=%f", r->subnormal);
+    want_text(v, "cause", r->cause);
     want(v, "verdict=%s", stability_verdict_name(r->verdict));
     for (int k = 0; k < r->steps; k++) {
         values_under(v, "methods[%zu].stability.walk[%d].", n, k);
@@ -33,12 +36,22 @@ static void want_method(values *v, const method_family_row *family, const bench_
     want(v, "~at=%f ~chosen=%d", family->steps ? r->at_ulp : r->at_relative, r->row == choice);
 }
 
+/* Leaves those of the projection that was asked for: the others are walked, too. */
+static void drop_others(void) {
+    size_t kept = 0;
+    for (size_t i = 0; i < walked_count; i++)
+        if (method_suits(walked[i].row, &asked))
+            walked[kept++] = walked[i];
+    walked_count = kept;
+}
+
 /* After a run, from what it was given. */
 static const method_row *want_methods(values *v, const method_family_row *family, double tolerance) {
     char machine[192];
     const double ratio = asked.spec.zfar / asked.spec.znear;
     const method_wish wish = {.tolerance = tolerance, .ratio_lo = fmin(ratio, METHOD_RATIO_HI), .ratio_hi = ratio};
     const method_row *choice = isnan(tolerance) ? NULL : method_choose(family, asked_which, &wish);
+    drop_others();
     methods_machine(machine, sizeof machine);
     assert_non_null(strstr(machine, ", 2020-01-02"));
     want(v, "family=%s measure=%s machine=%s", family->name, family->measure, machine);
@@ -47,7 +60,7 @@ static const method_row *want_methods(values *v, const method_family_row *family
     want_text(v, "choice", choice != NULL ? choice->name : NULL);
     want_number(v, "limit_ns", timed[0].limit);
     for (size_t i = 0, n = 0; i < *family->method_count; i++) {
-        if (!method_speaks(&family->methods[i], asked_which))
+        if (!method_speaks(&family->methods[i], asked_which) || !method_suits(&family->methods[i], &asked))
             continue;
         values_under(v, "methods[%zu].", n);
         want_method(v, family, &timed[n], choice);
@@ -67,16 +80,20 @@ static const char *place_of(const char *text, size_t i, const method_row *choice
     return at;
 }
 
-/* Behind the numbers of its line. */
+/* Behind the numbers of its line, and then what takes its digits. */
 static void check_verdict(const char *line, size_t i) {
-    char verdict[64];
-    const size_t length =
-        (size_t)snprintf(verdict, sizeof verdict, "  %s\n", stability_verdict_name(walked[i].verdict));
-    assert_true(strncmp(strchr(line + 1, '\n') + 1 - length, verdict, length) == 0);
+    const char *cause = walked[i].cause != NULL ? walked[i].cause : "-",
+               *verdict = stability_verdict_name(walked[i].verdict);
+    const char *at = strchr(line + 1, '\n') - strlen(cause);
+    assert_true(strncmp(at, cause, strlen(cause)) == 0 && strncmp(at - 2, "  ", 2) == 0);
+    while (at[-1] == ' ')
+        at--;
+    at -= strlen(verdict);
+    assert_true(strncmp(at, verdict, strlen(verdict)) == 0 && strncmp(at - 2, "  ", 2) == 0);
 }
 
 static void check_text(values *v, const method_family_row *family, const method_row *choice, const char *text) {
-    char label[64];
+    char label[64], numbers[512];
     values_under(v, "%s", "");
     check_line(v, text, family->cases[asked_which].name, "near:15, far:15");
     check_line(v, text,
@@ -90,9 +107,13 @@ static void check_text(values *v, const method_family_row *family, const method_
                                         : "",
                  timed[i].row->name);
         values_under(v, "methods[%zu].", i);
-        check_line(v, text, label,
-                   "ns:2, limits:2, percent:2, preparing:2, relative:2, absolute:2, ulp:2, at:2, bound:2, claim:2, "
-                   "stability.claim_to:2, stability.breaks:2, stability.infinite:2, stability.ortho:2");
+        snprintf(numbers, sizeof numbers,
+                 "ns:2, limits:2, percent:2, preparing:2, relative:2, absolute:2, ulp:2, at:2, bound:2, claim:2, "
+                 "%sstability.breaks:2, stability.lost:2, %s%s",
+                 family->magnitudes ? "" : "stability.claim_to:2, ",
+                 family->magnitudes ? "stability.subnormal:2" : "stability.infinite:2, stability.ortho:2",
+                 family == &linearize_family ? ", stability.oblique:2, stability.log:2" : "");
+        check_line(v, text, label, numbers);
         check_verdict(place_of(text, i, choice), i);
         for (size_t k = 0; k < i; k++)
             assert_true((place_of(text, i, choice) < place_of(text, k, choice)) == (timed[i].ns < timed[k].ns));
@@ -122,8 +143,9 @@ static void check_methods(const char *name, const char *line, size_t which, doub
                             "family = /family, method = name, ns, spread, setup [ns] = setup_ns, inputs, error, "
                             "relative, relative_at, absolute, absolute_at, ulp, ulp_at, claim, pareto, chosen, "
                             "limit [ns] = /limit_ns, bound, case = stability.case, claim_to = stability.claim_to, "
-                            "breaks = stability.breaks, infinite = stability.infinite, ortho = stability.ortho, "
-                            "verdict = stability.verdict");
+                            "breaks = stability.breaks, lost = stability.lost, infinite = stability.infinite, "
+                            "ortho = stability.ortho, oblique = stability.oblique, log = stability.log, "
+                            "subnormal = stability.subnormal, verdict = stability.verdict, cause = stability.cause");
         else
             check_text(&v, family, choice, text);
         free(text);

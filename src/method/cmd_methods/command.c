@@ -26,8 +26,7 @@ typedef struct line {
     int front, chosen; /* 0 or 1 */
     stability_result walked;
     const char *of_case, *verdict;
-    double claim_to;                         /* NaN where nothing is claimed */
-    double breaks;                           /* NaN: never */
+    double breaks, lost;                     /* NaN: never */
     double ratio, wrong, claimed;            /* a step; the last is NaN beyond the claim's span */
     double device;                           /* ns there */
     const char *function, *computes, *given; /* of a function of the user's */
@@ -76,13 +75,12 @@ static void *next_method(void *of, size_t i) {
         return NULL;
     const bench_result *r = &b->results[b->order[i]];
     const stability_result *w = &b->walked[b->order[i]];
-    const method_claim *claim = &r->row->claims[b->asked.which];
     *l = (line){.of = *r,
                 .walked = *w,
                 .of_case = b->asked.family->cases[b->asked.which].name,
                 .verdict = stability_verdict_name(w->verdict),
-                .claim_to = isnan(claim->worst) ? (double)NAN : claim->ratio_hi,
                 .breaks = isinf(w->breaks) ? (double)NAN : w->breaks,
+                .lost = isinf(w->lost) ? (double)NAN : w->lost,
                 .name = r->row->name,
                 .limits = r->ns / r->limit,
                 .percent = rint(1000 * r->spread) / 10,
@@ -115,10 +113,22 @@ static void say_inputs(page *p, void *item) {
 }
 
 /* Families count in steps of a code or in units in the last place, and of some methods bounds are proven. */
-enum { IN_STEPS = 1, IN_ULP = 2, BOUNDED = 4, ON_DEVICE = 8, OURS_ALONE = 16 };
+enum {
+    IN_STEPS = 1 << 0,
+    IN_ULP = 1 << 1,
+    BOUNDED = 1 << 2,
+    ON_DEVICE = 1 << 3,
+    OURS_ALONE = 1 << 4,
+    OF_PLANES = 1 << 5, /* the walk is over far/near, */
+    OF_DEPTHS = 1 << 6, /* or over window depths, */
+    OF_OTHERS = 1 << 7, /* and what is for perspective was tried on other depth */
+};
 
 static unsigned conditions(const measuring *b) {
-    unsigned when = (b->asked.family->steps ? IN_STEPS : IN_ULP) | (b->mine != NULL ? ON_DEVICE : OURS_ALONE);
+    const method_family_row *f = b->asked.family;
+    unsigned when = (f->steps ? IN_STEPS : IN_ULP) | (b->mine != NULL ? ON_DEVICE : OURS_ALONE) |
+                    (f->magnitudes ? OF_DEPTHS : OF_PLANES) |
+                    ((f->besides & METHOD_BESIDE_OBLIQUE) != 0 ? OF_OTHERS : 0);
     for (size_t i = 0; i < b->count; i++)
         when |= isnan(b->results[i].bound) ? 0 : BOUNDED;
     return when;
@@ -148,6 +158,16 @@ static void say_mine(page *p, const measuring *b) {
               number_of(b->results[b->count - 1].row->asked, 3).text);
 }
 
+static void say_losses(page *p, const method_family_row *f) {
+    if (f->magnitudes) {
+        page_line(p, "fails from: the window depth from which its error exceeds its claim; -: none");
+        page_line(p, "lost from, to: the window depth from which codes are wrong by more than one, and why");
+        return;
+    }
+    page_line(p, "fails from: the far/near from which its error exceeds its claim; -: none up to 1e12");
+    page_line(p, "lost from, to: the far/near from which its fourth digit is lost, and to what");
+}
+
 static void say_marks(page *p, void *item) {
     const measuring *b = item;
     page_line(p,
@@ -156,7 +176,7 @@ static void say_marks(page *p, void *item) {
               BENCH_REPETITIONS, b->limit);
     if ((conditions(b) & BOUNDED) != 0)
         page_line(p, "bound: proven for any depth of this camera; claim: for any camera with this far/near");
-    page_line(p, "fails from: the far/near from which its error exceeds its claim; -: none up to 1e12");
+    say_losses(p, b->asked.family);
     page_line(p, "* Pareto front: keeps its claim, and no other that does is faster and more accurate; of two as fast, "
                  "within 10 %% or their spread, the more accurate one");
     for (size_t i = 0; i < b->count; i++)
@@ -197,15 +217,26 @@ static const column step_columns[] = {{FIELD(line, ratio, "ratio", "")},
 static const column walked_columns[] = {
     {FIELD(line, of_case, "case", "")},
     {FIELD(line, walked.claim, "claim", ""), .only = AS_JSON},
-    {FIELD(line, claim_to, "claim_to", ""), SHOWN("claimed to", 11, 3), .spare = 6},
+    {FIELD(line, walked.claim_to, "claim_to", ""), .only = AS_JSON | AS_CSV},
+    {TEXT_FIELD(line, walked.claim_to, "claimed to", 11, 3), .when = OF_PLANES, .spare = 6},
     {FIELD(line, walked.inside, "worst", ""), .only = AS_JSON},
     {FIELD(line, walked.inside_near, "worst_near", ""), .only = AS_JSON},
     {FIELD(line, walked.inside_far, "worst_far", ""), .only = AS_JSON},
     {FIELD(line, walked.inside_at, "worst_at", ""), .only = AS_JSON},
-    {FIELD(line, breaks, "breaks", ""), SHOWN("fails from", 11, 3)},
-    {FIELD(line, walked.infinite, "infinite", ""), SHOWN("far inf", 10, 3), .spare = 8},
-    {FIELD(line, walked.ortho, "ortho", ""), SHOWN("ortho", 10, 3), .spare = 7},
-    {FIELD(line, verdict, "verdict", ""), SHOWN("verdict", -10, 0)},
+    {FIELD(line, breaks, "breaks", ""), SHOWN("fails from", 11, 3), .spare = 2},
+    {FIELD(line, lost, "lost", ""), SHOWN("lost from", 11, 3)},
+    {FIELD(line, walked.infinite, "infinite", ""), .only = AS_JSON | AS_CSV},
+    {FIELD(line, walked.ortho, "ortho", ""), .only = AS_JSON | AS_CSV},
+    {FIELD(line, walked.oblique, "oblique", ""), .only = AS_JSON | AS_CSV},
+    {FIELD(line, walked.log, "log", ""), .only = AS_JSON | AS_CSV},
+    {FIELD(line, walked.subnormal, "subnormal", ""), .only = AS_JSON | AS_CSV},
+    {TEXT_FIELD(line, walked.infinite, "far inf", 10, 3), .when = OF_PLANES, .spare = 8},
+    {TEXT_FIELD(line, walked.ortho, "ortho", 10, 3), .when = OF_PLANES, .spare = 7},
+    {TEXT_FIELD(line, walked.oblique, "oblique", 10, 3), .when = OF_OTHERS, .spare = 9},
+    {TEXT_FIELD(line, walked.log, "log", 10, 3), .when = OF_OTHERS, .spare = 9},
+    {TEXT_FIELD(line, walked.subnormal, "subnormal", 10, 3), .when = OF_DEPTHS, .spare = 8},
+    {FIELD(line, verdict, "verdict", ""), SHOWN("verdict", -11, 0)},
+    {FIELD(line, walked.cause, "cause", ""), SHOWN("lost to", -13, 0)},
     {LIST("walk", step_columns, next_step), .only = AS_JSON},
     {.kind = COLUMN_END}};
 
@@ -235,7 +266,7 @@ static const column line_columns[] = {
     {TEXT_FIELD(line, of.at_relative, "worst at", 14, 9), .when = IN_ULP, .spare = 3},
     {FIELD(line, of.at_ulp, "ulp_at", "")},
     {TEXT_FIELD(line, device, "device", 8, 3), .when = ON_DEVICE},
-    {TEXT_FIELD(line, of.bound, "bound", 10, 3), .when = BOUNDED},
+    {TEXT_FIELD(line, of.bound, "bound", 10, 3), .when = BOUNDED, .spare = 1},
     {FIELD(line, of.claim, "claim", "")},
     {TEXT_FIELD(line, of.claim, "claim", 10, 3), .when = OURS_ALONE},
     {TEXT_FIELD(line, of.claim, "claim", 10, 3), .when = ON_DEVICE, .spare = 1},
@@ -319,8 +350,13 @@ static int check_family(const judge_request *o) {
 /* The times first, while nothing else runs. */
 static int measure(measuring *b) {
     b->count = bench_run(b->asked.family, b->asked.which, &b->asked.setup, BENCH_REPETITIONS, b->results);
-    if (b->count == 0 || stability_run(b->asked.family, 1U << b->asked.which, b->walked) != b->count)
+    if (b->count == 0 || stability_run(b->asked.family, 1U << b->asked.which, b->walked) < b->count)
         return usage_error("no memory for the methods");
+    for (size_t i = 0, k = 0; i < b->count; i++, k++) { /* those of other projections are walked, too */
+        while (b->walked[k].row != b->results[i].row)
+            k++;
+        b->walked[i] = b->walked[k];
+    }
     return b->mine != NULL ? b->mine->status : EXIT_FINE;
 }
 

@@ -26,6 +26,7 @@ typedef struct plotted {
     double certain_to;
     const chart_series *series; /* null: the map */
     point point;
+    size_t map_column;
     size_t field; /* of a map that lies on another */
 } plotted;
 
@@ -42,13 +43,16 @@ static void *next_panel(void *of, size_t i) {
     return p;
 }
 
-/* The map comes last. */
+/* The map comes last, as one series, or as one for each column where these have names. */
 static void *next_series(void *of, size_t i) {
     plotted *p = of;
-    if (i == p->panel->series_count + (p->panel->map.columns > 0))
+    const chart_map *m = &p->panel->map;
+    const size_t maps = m->names != NULL ? (size_t)m->columns : m->columns > 0;
+    if (i == p->panel->series_count + maps)
         return NULL;
     p->series = i < p->panel->series_count ? &p->panel->series[i] : NULL;
-    p->name = p->series != NULL ? p->series->name : "map";
+    p->map_column = i - p->panel->series_count;
+    p->name = p->series != NULL ? p->series->name : m->names != NULL ? m->names[p->map_column] : "map";
     p->method = p->series != NULL ? p->series->method : NULL;
     p->certain_to = p->series != NULL ? p->series->certain_to : (double)NAN;
     return p;
@@ -69,8 +73,9 @@ static void *next_point(void *of, size_t at) {
     plotted *p = of;
     const chart_series *s = p->series;
     const chart_map *m = &p->panel->map;
-    const size_t columns = (size_t)m->columns, i = next_field(p, at);
-    if (i == (s != NULL ? s->count : columns * (size_t)m->rows))
+    const size_t columns = (size_t)m->columns;
+    const size_t i = s == NULL && m->names != NULL ? at * columns + p->map_column : next_field(p, at);
+    if (i >= (s != NULL ? s->count : columns * (size_t)m->rows))
         return NULL;
     if (s == NULL)
         p->point = (point){&m->x[i % columns], &m->y[i / columns], NULL, &m->value[i]};
