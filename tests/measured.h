@@ -25,6 +25,11 @@ static stability_verdict verdicts[STABILITY_MAX]; /* for the results in turn */
 static size_t walked_count;
 static dp_setup asked; /* that was timed last */
 static size_t asked_which;
+static struct { /* of each family what was timed last */
+    bench_result timed[BENCH_METHODS_MAX];
+    size_t count, which;
+} all_timed[METHOD_FAMILY_COUNT];
+static bool none_on_front; /* of any first case */
 
 /* A new number each time, over some decades. */
 static double next_number(void) {
@@ -70,10 +75,13 @@ size_t bench_run(const method_family_row *family, size_t which, const dp_setup *
                                         .at_ulp = next_number(),
                                         .claim = count % 4 == 2 ? NAN : next_number(),
                                         .bound = count % 4 == 1 ? NAN : next_number(),
-                                        .front = count % 2 == 0};
+                                        .front = count % 2 == 0 && !(none_on_front && which == 0)};
         timed[count] = results[count];
+        all_timed[family->methods->family].timed[count] = results[count];
         count++;
     }
+    all_timed[family->methods->family].count = count;
+    all_timed[family->methods->family].which = which;
     return count;
 }
 

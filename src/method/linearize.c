@@ -403,7 +403,7 @@ static const method_row methods[] = {
 /* clang-format on */
 static const size_t method_count = sizeof methods / sizeof methods[0];
 
-/* Of an oblique near plane, in the middle of the picture. */
+/* The eye depth behind an oblique near plane, in the middle of the picture. */
 static double tilted_eye(const dp_setup *setup, double d, double tilt) {
     const double n = setup->spec.znear, near = setup->reversed ? 1 - d : d;
     return n / (1 - near * (1 - n / setup->spec.zfar + tilt));

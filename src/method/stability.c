@@ -18,7 +18,7 @@ const char *stability_verdict_name(stability_verdict verdict) {
     return verdict < STABILITY_VERDICTS ? names[verdict] : NULL;
 }
 
-/* What is taken to a method: cameras of the walk, or others besides. */
+/* The cameras that are taken to a method: those of the walk, or others besides. */
 typedef enum beside { WALKED, FLAT, OBLIQUE, LOGARITHMIC, TINY } beside;
 
 typedef struct walk {
@@ -233,7 +233,7 @@ static bool is_claimed(const walk *w, double ratio) {
     return w->family->magnitudes || (ratio >= c->ratio_lo * (1 - 1e-9) && ratio <= c->ratio_hi * (1 + 1e-9));
 }
 
-/* What step k found: the share of a claim that it takes, where claims break, where digits are lost. */
+/* Keeps what step k found: the share of a claim that it takes, where claims break, where digits are lost. */
 static void look_at(walk *w, int k, const place *where, double *most) {
     stability_result *r = w->result;
     const method_claim *c = &r->row->claims[r->which];

@@ -156,7 +156,7 @@ static const refusal refusals[] = {
     {"methods interval -F unorm9", "format", 2},
     {"methods interval -m log", "mapping", 2},
     {"methods nothing", "", 2},
-    {"methods -n 1", "near", 2},
+    {"methods -m gl", "mapping", 2},
     {"methods --tolerance 1%", "tolerance", 2},
     {"check /nonexistent", "", 3},
     {"check --report json --csv tests/needs/village.need", "report", 2},

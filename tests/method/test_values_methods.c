@@ -185,26 +185,66 @@ TEST(left_out) {
     free(full);
 }
 
-/* The list, when no family is named. */
+/* The least time of those on the front that answer the question of the lattice and are off by at most that much. */
+static const bench_result *fastest(size_t f, double most) {
+    const bench_result *best = NULL;
+    for (size_t i = 0; i < all_timed[f].count; i++) {
+        const bench_result *r = &all_timed[f].timed[i];
+        const double error = method_family_get(f)->steps ? r->measured.worst.ulp : r->measured.worst.relative;
+        if (r->front && (r->row->domain & METHOD_PIPELINE) == 0 && error <= most && (best == NULL || r->ns < best->ns))
+            best = r;
+    }
+    return best;
+}
+
+static double error_in(size_t f, const bench_result *r) {
+    return method_family_get(f)->steps ? r->measured.worst.ulp : r->measured.worst.relative;
+}
+
+static void want_family(values *v, size_t f) {
+    const method_family_row *family = method_family_get(f);
+    const bench_result *use = fastest(f, family->steps ? 1 : 1e-4);
+    for (size_t i = 0; use == NULL && i < all_timed[f].count; i++) { /* else the most exact */
+        const bench_result *r = &all_timed[f].timed[i];
+        if (r->front && (r->row->domain & METHOD_PIPELINE) == 0 && fastest(f, error_in(f, r) * (1 - 1e-12)) == NULL)
+            use = r;
+    }
+    const bench_result *next = use != NULL ? fastest(f, error_in(f, use) / 2) : NULL;
+    values_under(v, "families[%zu].", f);
+    want(v, "name=%s note=%s measure=%s methods=%zu", family->name, family->summary, family->measure,
+         *family->method_count);
+    want(v, "case=%s ns=%f error=%f", family->cases[all_timed[f].which].name, use != NULL ? use->ns : NAN,
+         use != NULL ? error_in(f, use) : NAN);
+    want_text(v, "use", use != NULL ? use->row->name : NULL);
+    want_text(v, "next", next != NULL ? next->row->name : NULL);
+    want(v, "slower=%f gain=%f", next != NULL ? next->ns / use->ns : NAN,
+         next != NULL ? error_in(f, use) / error_in(f, next) : NAN);
+}
+
+/* A line for each family, when none is named: in the first case that has a front. */
 TEST(families) {
-    for (int form = 0; form < 2; form++) {
+    char machine[192];
+    for (int form = 0; form < 6; form++) {
         values v = values_of("methods");
-        char *text = command_output(cmd_methods, 0, form == 0 ? "methods --json" : "methods --csv");
+        none_on_front = form % 3 == 2;
+        char *text = command_output(cmd_methods, 0, form % 2 == 0 ? "methods --json -n 0.2" : "methods --csv -f 700");
+        methods_machine(machine, sizeof machine);
+        if (form % 2 == 0)
+            want(&v, "machine=%s", machine);
         for (size_t i = 0; method_family_get(i) != NULL; i++) {
-            const method_family_row *f = method_family_get(i);
-            size_t count = 0;
-            for (size_t k = 0; method_get(k) != NULL; k++)
-                count += method_get(k)->family == (method_family)i;
-            values_under(&v, "families[%zu].", i);
-            want(&v, "name=%s note=%s measure=%s methods=%zu", f->name, f->summary, f->measure, count);
+            want_family(&v, i);
+            assert_int_equal(all_timed[i].which, none_on_front);
         }
-        if (form == 0)
+        assert_true(asked.spec.znear == (form % 2 == 0 ? 0.2 : 0.1) && asked.spec.zfar == (form % 2 == 0 ? 1000 : 700));
+        if (form % 2 == 0)
             check_json_text(&v, text);
         else
-            check_csv_lines(&v, text, "families[]", "name, note, measure, methods");
+            check_csv_lines(&v, text, "families[]",
+                            "name, note, measure, methods, case, use, ns, error, next, slower, gain");
         free(text);
         values_free(&v);
     }
+    none_on_front = false;
 }
 
 LIST_TEST(check_apart)

@@ -368,7 +368,7 @@ static void check_field(const drawn *d, const method_family_row *of, const stabi
     seen[panel][label] = true;
 }
 
-/* What a case has no method for is hatched; names of rows can be read, and marks stand within the frame. */
+/* Where a case has no method there is a hatch; names of rows can be read, and marks stand within the frame. */
 static void check_panels(const drawn *d, bool seen[DRAWN_PANELS][DRAWN_LABELS]) {
     const drawn_scale *y = &d->panels[0].y;
     bool hatched = false;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * methods: the ways to a quantity on the same inputs, their times and their worst errors, and from which far/near on
- * each errs more than it claims; without a family, which families there are.
+ * each errs more than it claims; without a family, which method of each to use.
  */
 #include <math.h>
 #include <stdio.h>
 
 #include "camera/cmd/setups.h"
+#include "method/advice.h"
 #include "method/choose.h"
 #include "method/cmd_methods/methods.h"
 #include "method/cmd_methods/mine.h"
@@ -297,51 +298,113 @@ static const column columns[] = {{FIELD(measuring, family, "family", "")},
 
 /* ---- Without a family -------------------------------------------------------------------------------------------- */
 
-/* A family, as it is listed. */
+/* A family in a line: in the first of its cases in which a method keeps what it claims, which to use, and the next. */
 typedef struct family_line {
-    const char *name, *summary, *measure;
+    const char *name, *summary, *measure, *of_case;
     uint64_t methods;
+    char label[40];                 /* "linearize fp32 d3d" */
+    const char *use, *next;         /* null: there is none */
+    double ns, error, slower, gain; /* the next takes so many times the time, for so many times less error */
 } family_line;
 
+typedef struct all_families {
+    const judge_request *o;
+    char machine[192];
+    family_line lines[METHOD_FAMILY_COUNT];
+} all_families;
+
+/* @return false when out of memory */
+static bool advise(const all_families *all, const method_family_row *f, family_line *l) {
+    bench_result results[BENCH_METHODS_MAX];
+    const bench_result *use = NULL, *next = NULL;
+    *l = (family_line){.name = f->name, .summary = f->summary, .measure = f->measure, .methods = *f->method_count};
+    for (size_t which = 0; which < f->case_count && use == NULL; which++) {
+        dp_setup setup;
+        if (method_setup(f, which, all->o->camera.znear, all->o->camera.zfar, false, &setup) != DP_OK)
+            continue;
+        const size_t count = bench_run(f, which, &setup, BENCH_REPETITIONS, results);
+        if (count == 0)
+            return false;
+        use = advice_use(f, results, count);
+        next = advice_next(f, results, count, use);
+        l->of_case = f->cases[which].name;
+    }
+    const double error = use != NULL ? measured_error(f, &use->measured) : (double)NAN;
+    l->use = use != NULL ? use->row->name : NULL;
+    l->next = next != NULL ? next->row->name : NULL;
+    l->ns = use != NULL ? use->ns : (double)NAN;
+    l->error = error;
+    l->slower = next != NULL ? next->ns / l->ns : (double)NAN;
+    l->gain = next != NULL ? error / measured_error(f, &next->measured) : (double)NAN;
+    snprintf(l->label, sizeof l->label, "%s %s", l->name, l->of_case != NULL ? l->of_case : "");
+    return true;
+}
+
 static void *next_family(void *of, size_t i) {
-    family_line *l = of;
-    const method_family_row *f = method_family_get(i);
-    if (f == NULL)
-        return NULL;
-    *l = (family_line){f->name, f->summary, f->measure, *f->method_count};
-    return l;
+    all_families *all = of;
+    return i < METHOD_FAMILY_COUNT ? &all->lines[i] : NULL;
 }
 
 static void say_families(page *p, void *of) {
-    family_line *l = of;
-    page_text(p, "depthprec methods FAMILY, where FAMILY is one of");
-    for (size_t i = 0; next_family(l, i) != NULL; i++)
-        page_note(p, l->name, "%s (%llu methods)", l->summary, (unsigned long long)l->methods);
+    const all_families *all = of;
+    page_title(p, "The method to use of each family");
+    page_text(p, "near %s, far %s; %s", number_full(all->o->camera.znear).text, number_full(all->o->camera.zfar).text,
+              all->machine);
 }
 
-static const column family_columns[] = {{FIELD(family_line, name, "name", "")},
-                                        {FIELD(family_line, summary, "note", "")},
-                                        {FIELD(family_line, measure, "measure", "")},
-                                        {FIELD(family_line, methods, "methods", "")},
+static void say_next(page *p, void *of) {
+    const all_families *all = of;
+    page_line(p, "use: the fastest that leaves four digits, or the right code or the one beside it; ns: per element; "
+                 "then: the next with at most half its error, for so many times the time and by how much less");
+    page_line(p, "depthprec methods FAMILY compares all methods of one:");
+    for (size_t i = 0; i < METHOD_FAMILY_COUNT; i++)
+        page_note(p, all->lines[i].name, "%s (%llu methods)", all->lines[i].summary,
+                  (unsigned long long)all->lines[i].methods);
+}
+
+static const column family_columns[] = {{FIELD(family_line, name, "name", ""), .only = AS_JSON | AS_CSV},
+                                        {FIELD(family_line, summary, "note", ""), .only = AS_JSON | AS_CSV},
+                                        {FIELD(family_line, measure, "measure", ""), .only = AS_JSON | AS_CSV},
+                                        {FIELD(family_line, methods, "methods", ""), .only = AS_JSON | AS_CSV},
+                                        {FIELD(family_line, of_case, "case", ""), .only = AS_JSON | AS_CSV},
+                                        {TEXT_FIELD(family_line, label, "family", -22, 0)},
+                                        {FIELD(family_line, use, "use", ""), SHOWN("use", -18, 0)},
+                                        {FIELD(family_line, ns, "ns", ""), SHOWN("ns", 7, 2)},
+                                        {FIELD(family_line, error, "error", ""), SHOWN("error", 8, 2)},
+                                        {FIELD(family_line, next, "next", ""), SHOWN("then", -11, 0)},
+                                        {FIELD(family_line, slower, "slower", ""), SHOWN("x time", 7, 2)},
+                                        {FIELD(family_line, gain, "gain", ""), SHOWN("/ error", 8, 2)},
                                         {.kind = COLUMN_END}};
 
-static const column families[] = {{LIST("families", family_columns, next_family), .only = AS_JSON | AS_CSV},
+static const column families[] = {{FIELD(all_families, machine, "machine", ""), .only = AS_JSON},
+                                  {LIST("families", family_columns, next_family)},
                                   {.kind = COLUMN_END}};
 
 static int list_families(const judge_request *o, output *out) {
-    family_line l;
-    report_write(&(report_spec){"methods", families, &l, .label = 12, .head = say_families}, out, o->out.form);
+    all_families all = {.o = o};
+    methods_machine(all.machine, sizeof all.machine);
+    for (size_t i = 0; i < METHOD_FAMILY_COUNT; i++)
+        if (!advise(&all, method_family_get(i), &all.lines[i])) {
+            output_abandon(out);
+            return usage_error("no memory for the methods");
+        }
+    report_write(&(report_spec){"methods", families, &all, .label = 12, .head = say_families, .notes = say_next}, out,
+                 o->out.form);
     return output_close(out);
 }
 
 /* Refuses options of a camera where no family is named. */
 static int check_family(const judge_request *o) {
-    static const char *const of_family[] = {"near", "far", "format", "mapping", "tolerance", "mine"};
+    static const char *const of_family[] = {"format", "mapping", "tolerance", "mine"};
     char text[NAMES_SIZE];
     for (size_t i = 0; i < sizeof of_family / sizeof of_family[0] && o->line->operand_row == NULL; i++)
         if (option_given(o->line, of_family[i]))
             return option_error(of_family[i], "needs FAMILY: %s",
                                 names_join(o->line->command->names, ", ", " or ", text));
+    dp_setup setup;
+    const dp_status wrong = method_setup(method_family_get(0), 0, o->camera.znear, o->camera.zfar, false, &setup);
+    if (o->line->operand_row == NULL && wrong != DP_OK)
+        return option_error(wrong == DP_ERROR_NEAR ? "near" : "far", "%s", dp_status_text(wrong));
     return EXIT_FINE;
 }
 
