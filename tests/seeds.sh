@@ -58,22 +58,114 @@ while read -r word; do
     check "$word has a command" test -s "$scratch/commands"
 done <"$scratch/words"
 check "there are words" [ "$(wc -l <"$scratch/words")" -ge 45 ]
-# Those of the articles, however they are written there.
-for word in LinearEyeDepth Linear01Depth Linear01DepthFromNear LinearDepthToEyeDepth _ZBufferParams _ZBufferParams.z _ProjectionParams \
-    UNITY_NEAR_CLIP_VALUE UNITY_REVERSED_Z _CameraDepthTexture SampleSceneDepth SAMPLE_DEPTH_TEXTURE _CameraDepthNormalsTexture \
-    EncodeViewNormalStereo DecodeViewNormalStereo kScale EncodeFloatRG DecodeDepthNormal _CameraNormalsTexture half3 frustumDir LinearizeDepth \
-    ScreenSpaceShadowMap SSAO 'soft particles' Hi-Z W-buffer reversed-z ReconstructNormal ReconstructViewPos _FogColor VerticalFog ScanLine \
-    WaterLine WaterFlooded ForceField IntersectionHighlight EdgeDetection DepthOfField MotionBlur Translucency _CurValue COMPUTE_EYEDEPTH; do
+# Those of the articles, however they are written there: a member, a call, a file, two words, with blanks or hyphens.
+while read -r word; do
     # shellcheck disable=SC2086
-    check "help $word: a few lines" sh -c '"$1" help $2 >"$3" && [ "$(wc -l <"$3")" -le 5 ] && grep -q "^  depthprec " "$3"' - \
+    check "help $word: four lines at most" sh -c '"$1" help $2 >"$3" && [ "$(wc -l <"$3")" -le 4 ] && grep -q "^  depthprec " "$3"' - \
         "$DEPTHPREC" "$word" "$scratch/entry"
-done
+done <<EOF
+LinearEyeDepth
+LinearEyeDepth()
+COMPUTE_EYEDEPTH
+LinearViewDepth
+LinearizeDepth
+Linear01Depth
+Linear01DepthFromNear
+LinearDepthToEyeDepth
+_ZBufferParams
+_ZBufferParams.z
+_ProjectionParams
+_ProjectionParams.w
+_ProjectionParams2.x
+_CameraViewTopLeftCorner
+_CameraViewXExtent
+_CameraViewYExtent
+_CameraViewZExtent
+UNITY_NEAR_CLIP_VALUE
+UNITY_REVERSED_Z
+_CameraDepthTexture
+SampleSceneDepth
+LoadSceneDepth
+SAMPLE_DEPTH_TEXTURE
+SAMPLE_DEPTH_TEXTURE_PROJ
+SAMPLE_DEPTH_TEXTURE_LOD
+UNITY_SAMPLE_DEPTH
+UNITY_PROJ_COORD
+ComputeScreenPos
+_ScaledScreenParams
+_SourceSize.zw
+positionCS.z
+depthTextureMode
+DepthOnly
+SampleDepth
+CheckBounds
+_CameraDepthNormalsTexture
+DepthNormals
+EncodeDepthNormal
+DecodeDepthNormal
+Internal-DepthNormalsTexture.shader
+EncodeViewNormalStereo
+DecodeViewNormalStereo
+kScale
+EncodeFloatRG
+DecodeFloatRG
+_CameraNormalsTexture
+SampleSceneNormals
+PackNormalOctRectEncode
+normalWS
+half3
+frustumDir
+interpolatedRay
+_FrustumCornersRay
+UNITY_MATRIX_I_VP
+_CurrentInverseVP
+_LastVP
+ComputeWorldSpacePosition
+NonLinearDepth
+ScreenSpaceShadowMap
+ShadowCaster
+SSAO
+ambient occlusion
+ambient-occlusion
+ray marching
+raymarching
+soft particles
+soft-particles
+radial fog
+height fog
+Hi-Z
+W-buffer
+reversed-z
+Reversed Z
+ReconstructNormal
+_SOURCE_DEPTH_LOW
+_SOURCE_DEPTH_MEDIUM
+_SOURCE_DEPTH_HIGH
+ReconstructViewPos
+_FogColor
+VerticalFog
+ScanLine
+_LineColor
+WaterLine
+WaterFlooded
+ForceField
+_MainColor
+IntersectionHighlight
+_IntersectionColor
+EdgeDetection
+DepthOfField
+_BlurTex
+MotionBlur
+Translucency
+_CurValue
+EOF
 check "of the glossary, each" sh -c 'sed -n "/^\.Sh GLOSSARY/,/^\.El/s/^\.It //p" man/depthprec.7 | while read -r term; do
     "$1" help ${term%%,*} >/dev/null || exit 1; done' - "$DEPTHPREC"
 unknown() { # unknown WORD ANSWER
     ! depthprec help "$1" 2>"$scratch/errors" && [ "$(wc -l <"$scratch/errors")" -eq 1 ] && grep -q -e "$2" "$scratch/errors"
 }
 check "a word that is nearly known" unknown Linear01Dept "nothing is called 'Linear01Dept'; did you mean .*'Linear01Depth'"
+check "three that are near" unknown LinearEyeDept "did you mean '[^']*', '[^']*' or '[^']*'?\$"
 check "one that is not" unknown xyzzyq "'depthprec help' lists the commands, 'depthprec list words' the words"
 
 # ---- Constants, and what articles say of them that is wrong ----
@@ -127,6 +219,20 @@ check "clip z and w, NDC, window and eye depth, both Linear01" of 'want["clip_z"
 check "NDC of OpenGL" of 'want["clip_z"] = (2 * d - 1) * z; want["ndc"] = 2 * d - 1; want["window"] = d' -m gl
 check "corner vectors and rays" of 'top = sin(0.5235987755982988) / cos(0.5235987755982988)
     want["to_top"] = n * top; want["to_right"] = n * top * 16 / 9; want["top left x"] = -top * 16 / 9' -m d3d
+corners() { # the four vectors from the camera to the near plane's corners, as articles add them up
+    depthprec table --constants -n .3 --at 10 -m d3d --fov 60 | sed -n 's/.* \(top\|bottom\) \(left\|right\) (\(.*\), \(.*\), \(.*\))/\1 \2 \3 \4 \5/p' |
+        awk '{ top = 0.3 * sin(atan2(1, 1) * 2 / 3) / cos(atan2(1, 1) * 2 / 3); right = top * 16 / 9
+            x = $3 * ($2 == "left" ? -1 : 1) / right; y = $4 * ($1 == "bottom" ? -1 : 1) / top
+            if (x < 0.99999 || x > 1.00001 || y < 0.99999 || y > 1.00001 || $5 != 0.3) { print; bad = 1 } }
+            END { exit bad || NR != 4 }'
+}
+check "the four corner vectors" corners
+last() { # LinearEyeDepth of the last binary32 number below 1, which is not printed as 1
+    depthprec table --constants -n .3 --at 1000 -m d3d | awk '
+        $1 == 1000 && NF == 8 { seen = 1; bad = !($4 < 1 && $5 < 1 && $5 > 0.9999998 && $6 == 999.834) }
+        END { exit bad || !seen }'
+}
+check "a depth of 1 - 2^-24 is not printed as 1" last
 check "trap: x is no 1 - near/far" of 'want["reads inverted-x"] = 1 / (((1 - n / f) * d + f / n) / f)' -m d3d
 check "trap: f n, not 2 f n" of 'want["reads doubled-product"] = 2 * z' -m d3d
 check "trap: lerp(-1, 1, d) is no depth of Linear01Depth" of '
@@ -135,6 +241,27 @@ check "trap: reversed mixed up" of 'want["reads other-direction"] = 1 / ((1 / f 
 check "trap: LinearEyeDepth of an orthographic depth" of '
     want["reads perspective-of-ortho"] = 1 / ((1 / f - 1 / n) * (z - n) / (f - n) + 1 / n)' -m d3d --ortho
 check "trap: LinearEyeDepth of an oblique near plane" says perspective-of-oblique depthprec list traps
+check "trap: near gives 1, far 0" of 'want["reads near-is-one"] = 1 / ((1 / n - 1 / f) * d + 1 / f)' -m d3d
+check "trap: 4 bits" of 'want["reads four-bits"] = 1 / (1 / n + (1 / f - 1 / n) * int(15 * d + 0.5) / 15)' -m d3d
+check "trap: from near shrinks by far - near" of 'want["reads shrunk-by-far"] = n + f * (z - n) / (f - n)' -m d3d
+# EncodeViewNormalStereo of sqrt(3)/2 (sin 45, cos 45), read back: 2 atan(x/(1 + z)) in place of 45.
+turned() {
+    depthprec list traps | tr -s ' \n' '  ' | sed -n 's/.*a normal turned by \([^ ]*\) degrees, 45 off.*/\1/p' | awk '
+        { side = sqrt(3) / 2 * sqrt(0.5); off = 45 - 2 * atan2(side, 1 + side) * 45 / atan2(1, 1) - $1 }
+        END { exit NR != 1 || off * off > 0.005 ^ 2 }'
+}
+check "trap: an interpolated normal that nobody normalizes" turned
+doubled() { # as window depth and read back; eye depths from near to far
+    awk -v back=$1 'BEGIN { n = 0.3; f = 1000; OFMT = CONVFMT = "%.9g"
+        for (i = 0; i <= 20; i++) {
+            z = n * exp(i / 20 * log(f / n))
+            print back ? f / (f - n) * (1 - n / z) " " 2 * z : z " " f / (f - n) - 2 * f * n / ((f - n) * z)
+        }
+    }' >"$scratch/pairs"
+    says 'doubled-product, as' depthprec judge --pairs "$scratch/pairs" -n 0.3 -f 1000 -m d3d
+}
+check "trap: judge names a doubled product" doubled 0
+check "trap: and where it is read back" doubled 1
 check "trap: the normal is in xy, depth in zw" says normal-as-depth depthprec list traps
 
 # ---- Textures ----
@@ -152,6 +279,25 @@ cleared() { # a target that was cleared to black is sky, or holes
             depthprec texture "$scratch/black.npy" --packing depth-normals
 }
 check "DepthNormals cleared to black" cleared
+no_normal() { # --sky or not
+    for sky in 0.0001 none; do
+        depthprec texture "$scratch/black.npy" --packing depth-normals --product packed-normal --sky $sky -q -o "$scratch/n.npy" || return 1
+        od -An -v -tf4 -w12 -j128 "$scratch/n.npy" | awk '$1 == $1 + 0 && $1 !~ /nan/ { bad = 1 } END { exit bad || NR != 256 }' || return 1
+    done
+}
+check "a cleared pixel of DepthNormals has no normal" no_normal
+# d of z in [0, 1]: Linear01 of .99999 is 1 - d = n (f - z)/((f - n) z).
+check "CheckBounds: Linear01 of .99999 is far" says "are within 3e-09 of far" \
+    depthprec texture --synthetic plane -n .3 -f 1000 -F d32f -m d3d --sky 3e-9
+radial() { # fog by distance: at the corner of a wall at 30, sqrt(x^2 + y^2 + z^2)/far
+    depthprec texture --synthetic plane --parameter distance=30 -n .3 -f 60 --fov 90 --size 8x8 -F d32f -m d3d \
+        --product effect:radial-fog --parameter density=1.1 -o "$scratch/fog.npy" -q || return 1
+    od -An -v -tf4 -w4 -j128 "$scratch/fog.npy" | awk '
+        { x = (NR - 1) % 8 / 4 - 0.875; y = int((NR - 1) / 8) / 4 - 0.875; want = 1.1 * 30 * sqrt(1 + x * x + y * y) / 60; off = $1 - want }
+        off * off > 1e-10 { print $1, want; bad = 1 }
+        END { exit bad || NR != 64 }'
+}
+check "radial fog" radial
 at_far() { # at far the channels are 255, 0 and not the 0, 0 of frac, which is said
     says "EncodeFloatRG writes 0, 0" depthprec texture --synthetic plane --parameter distance=1000 --size 4x1 -F fp32 \
         --product pack:rg -o "$scratch/far.npy" && od -An -v -tu1 -w2 -j128 "$scratch/far.npy" | awk '
@@ -204,6 +350,13 @@ check "nine tenths of the codes lie in the first ten units" rows '
     least = 100 / 2 ^ 24
     want["unorm24 d3d"] = 100 * (1 - 1000 / 999 * (1 - 1 / a["z"]))' \
     depthprec plot share -n 1 -f 1000 -F d24 -m d3d
+
+# NDC z is linear on the screen, z is not: between vertices at z/2 and 2 z it is (k - 1)^2/k z too far, k = 2.
+per_vertex() {
+    depthprec table -F d16 -m linear --viewport 1920x1080 --at 10 --json | tr ',' '\n' | sed -n 's/^"per_vertex":\([0-9.]*\).*/\1/p' |
+        awk '{ most = $1 } END { exit !(most > 5 && most < 5.001) }'
+}
+check "W-buffer: depth by vertex is wrong between them" per_vertex
 
 # ---- Depth of DepthNormals beside depth buffers ----
 

@@ -208,7 +208,11 @@ static void tell_trap(const void *of, list_item *item) {
     spec.znear = 0.3;
     spec.ortho = row->ortho;
     spec.mapping = row->ndc_signed ? DP_MAPPING_GL : DP_MAPPING_D3D;
-    if (dp_setup_init(&setup, &spec) == DP_OK)
+    if (row->turns != NULL)
+        append(item->bound, sizeof item->bound,
+               "a normal turned by %s degrees, 45 off the view axis, half way between two that are 60 apart; right: %s",
+               number_of(row->turns(45, 60), 3).text, row->right);
+    else if (dp_setup_init(&setup, &spec) == DP_OK)
         append(item->bound, sizeof item->bound, "%s at 10, between %g and %g; right: %s",
                number_of(trap_reads(row, &setup, sqrt(3) / 3, 10), 6).text, spec.znear, spec.zfar, row->right);
 }

@@ -27,8 +27,11 @@ const char *judge_precision_name(judge_precision precision) {
 /* ---- A candidate ------------------------------------------------------------------------------------------------- */
 
 static double value_at(const judge_candidate *c, judge_depth at) {
-    if (c->trap != NULL)
-        at = judge_depth_of(&c->setup, trap_reads_at(c->trap, &c->setup, &(trap_depth){at.z, at.behind, at.left, 1}));
+    if (c->trap != NULL) {
+        const trap_depth depth = {at.z, at.behind, at.left, 1};
+        const bool writes = c->output->window != NULL;
+        at = judge_depth_of(&c->setup, (writes ? trap_writes_at : trap_reads_at)(c->trap, &c->setup, &depth));
+    }
     return c->factor * c->output->of(&c->setup, &at);
 }
 
@@ -166,12 +169,15 @@ static double parts(const judge_candidate *a, const judge_candidate *b, const ju
     return at;
 }
 
-/* Whether two that never part have different names worth telling: those of one camera by chance, or of one set-up. */
+/* Whether two that never part have different names worth telling: those of one camera by chance, or of one set-up, or a
+ * multiple of eye depth that is known as a slip. */
 static bool is_another(const judge_candidate *a, const judge_candidate *b, const judge_pairs *p) {
     judge_candidate one = *a, other = *b;
     const bool planes = a->setup.spec.znear == b->setup.spec.znear && a->setup.spec.zfar == b->setup.spec.zfar;
     const bool mapping = a->setup.spec.mapping == b->setup.spec.mapping && a->setup.spec.ortho == b->setup.spec.ortho;
-    if (!planes || a->trap != NULL || b->trap != NULL || !isnan(parts(a, b, p, JUDGE_BINARY32)))
+    if (b->trap != NULL)
+        return a->trap == NULL && a->factor != 1 && b->output == a->output && b->input == a->input;
+    if (!planes || a->trap != NULL || !isnan(parts(a, b, p, JUDGE_BINARY32)))
         return false;
     if (mapping && a->input == b->input)
         return a->output != b->output;
@@ -308,10 +314,11 @@ static void try_traps(search *s) {
     judge_candidate c = {.factor = 1};
     for (size_t i = 0; i < s->count; i++)
         for (size_t k = 0; (c.trap = trap_get(k)) != NULL; k++)
-            for (size_t in = 0; (c.input = judge_input_get(in)) != NULL; in++)
-                for (size_t o = 0; (c.output = judge_output_get(o)) != NULL && c.output->window == NULL; o++) {
+            for (size_t in = 0; (c.input = judge_input_get(in)) != NULL && !c.trap->coarse; in++)
+                for (size_t o = 0; (c.output = judge_output_get(o)) != NULL; o++) {
                     c.setup = s->setups[i];
-                    if (c.input->window != NULL)
+                    const bool reads = c.input->window != NULL && c.output->eye != NULL;
+                    if (reads || (c.input->metric != 0 && c.output->window != NULL && c.trap->writes != NULL))
                         try(s, &c);
                 }
 }

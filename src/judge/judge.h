@@ -105,9 +105,10 @@ typedef struct judgement {
     bool named;            /**< `found` is there */
     judge_candidate found; /**< what it computes; of UNKNOWN what it may */
     bool also;
-    judge_candidate other;            /**< where `also`: what fits as well */
-    double decides;                   /**< what to put in, so that one of both is left; NaN: nothing would */
-    judge_candidate same[JUDGE_SAME]; /**< by another name the same for the planes at hand */
+    judge_candidate other; /**< where `also`: what fits as well */
+    double decides;        /**< what to put in, so that one of both is left; NaN: nothing would */
+    judge_candidate
+        same[JUDGE_SAME]; /**< by another name the same for the planes at hand; of a multiple, a trap, too */
     size_t same_count;
     judge_precision precision;
     double error, at;    /**< the largest relative error of a value, and what went in there; 0, NaN: none */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "depthprec/pipeline.h"
 #include "shader/packing.h"
 
@@ -95,6 +96,28 @@ static double doubled_product(const dp_setup *s, const trap_depth *at) {
     return 2 * at->z;
 }
 
+/* The formula writes 2 n where n is right, all as of half the depth. */
+static double halved(const dp_setup *s, const trap_depth *at) {
+    (void)s;
+    return at->z / 2;
+}
+
+/* The code of 4 bits: which is nearest to d is told from d = f (z - n)/((f - n) z), or from 1 - d of a reversed one. */
+static double in_four_bits(const dp_setup *s, const trap_depth *at) {
+    enum { MOST = 15 };
+    const double n = s->spec.znear, f = s->spec.zfar;
+    const double standard = at->behind / at->z * (isinf(f) ? 1 : f / (f - n));
+    const double code = floor((s->reversed ? 1 - standard : standard) * MOST + 0.5) / MOST;
+    const double share = s->reversed ? 1 - code : code; /* of the way from 1/n to 1/f */
+    return 1 / ((1 - share) / n + share / f);
+}
+
+/* n + f v with v = (z - n)/(f - n). */
+static double shrunk_by_far(const dp_setup *s, const trap_depth *at) {
+    const double n = s->spec.znear, f = s->spec.zfar;
+    return n + f * at->behind / (f - n);
+}
+
 /* 1/z is linear in d, and 2 d - 1 is as far before d as d is before 1: 2/z - 1/f. */
 static double ndc_as_depth(const dp_setup *s, const trap_depth *at) {
     return 1 / (2 / at->z - 1 / s->spec.zfar);
@@ -128,6 +151,13 @@ static double perspective_of_oblique(const dp_setup *s, const trap_depth *at) {
     return 1 / ((1 - d) / n + d / f);
 }
 
+/* Half way it is cos(apart/2) long, and EncodeViewNormalStereo divides n.xy by 1 + n.z: the tangent of half the angle.
+ */
+static double of_short_normal(double off, double apart) {
+    const double degree = M_PI / 180, length = dp_cos(apart / 2 * degree), theta = off * degree;
+    return off - 2 * dp_atan(length * dp_sin(theta) / (1 + length * dp_cos(theta))) / degree;
+}
+
 static const char slip[] = "an article's slip";
 
 /* clang-format off */
@@ -135,7 +165,13 @@ static const trap_row traps[] = {
     {.name = "inverted-x", .note = "_ZBufferParams.x = 1 - near/far", .right = "1 - far/near", .source = slip,
      .standard = true, .reads = inverted_x},
     {.name = "doubled-product", .note = "d = f/(f - n) - 2 f n/((f - n) z)", .right = "f n in place of 2 f n",
-     .source = slip, .standard = true, .far_infinite = true, .reads = doubled_product},
+     .source = slip, .standard = true, .far_infinite = true, .reads = doubled_product, .writes = halved},
+    {.name = "four-bits", .note = "depth uses 4 bits", .right = "4 bytes or less; 4 bits are those of Reed's figures",
+     .source = "an article's slip after Reed, Depth precision visualized, 2015", .standard = true, .reversed = true,
+     .far_infinite = true, .coarse = true, .reads = in_four_bits},
+    {.name = "shrunk-by-far", .note = "near + far Linear01DepthFromNear(d)",
+     .right = "near + (far - near) Linear01DepthFromNear(d): from near shrinks by far - near", .source = slip,
+     .standard = true, .reversed = true, .reads = shrunk_by_far},
     {.name = "ndc-as-depth", .note = "LinearEyeDepth(lerp(UNITY_NEAR_CLIP_VALUE, 1, d))",
      .right = "LinearEyeDepth(d)",
      .source = "shaders that need NDC for a position, and go on with it", .standard = true, .ndc_signed = true,
@@ -143,6 +179,9 @@ static const trap_row traps[] = {
     {.name = "other-direction", .note = "LinearEyeDepth(1 - d)", .right = "LinearEyeDepth(d)",
      .source = "constants or a depth of the other direction, UNITY_REVERSED_Z mixed up",
      .standard = true, .reversed = true, .far_infinite = true, .reads = other_direction},
+    {.name = "near-is-one", .note = "d = f/(f - n) - f n/((f - n) z), near gives 1, far 0",
+     .right = "near gives 0, far 1; reversed, d = n (f - z)/((f - n) z), near gives 1, far 0", .source = slip,
+     .standard = true, .far_infinite = true, .reads = other_direction},
     {.name = "perspective-of-ortho", .note = "LinearEyeDepth(d)", .right = "LinearDepthToEyeDepth(d)",
      .source = "Common.hlsl: does not work with orthographic projection", .ortho = true, .reads = perspective_of_ortho},
     {.name = "linear-of-perspective", .note = "near + (far - near) d, reversed far - (far - near) d",
@@ -154,18 +193,29 @@ static const trap_row traps[] = {
     {.name = "normal-as-depth", .note = "DecodeFloatRG(enc.xy) of DepthNormals, of a surface that faces the camera",
      .right = "enc.zw: the normal is in xy", .source = slip, .standard = true, .reversed = true,
      .reads = normal_as_depth},
+    {.name = "unnormalized-normal", .aliases = "interpolated-normal",
+     .note = "EncodeViewNormalStereo(normal), interpolated and not normalized", .right = "normalize(normal) first",
+     .source = "shaders that write DepthNormals by hand", .turns = of_short_normal},
 };
 /* clang-format on */
 
 NAMED_TABLE(trap, traps);
 
-double trap_reads_at(const trap_row *row, const dp_setup *setup, const trap_depth *at) {
+/* Whether the formula is wrong in this set-up. */
+static bool is_trap_of(const trap_row *row, const dp_setup *setup) {
     const dp_mapping_row *mapping = dp_mapping_get(setup->spec.mapping);
     const bool kind = setup->spec.ortho ? row->ortho : setup->reversed ? row->reversed : row->standard;
     const bool far = !isinf(setup->spec.zfar) || row->far_infinite;
-    const bool is_trap = kind && far && mapping->curve == DP_CURVE_PERSPECTIVE && setup->spec.znear > 0 &&
-                         (mapping->ndc_signed || !row->ndc_signed);
-    return is_trap ? row->reads(setup, at) : (double)NAN;
+    return kind && far && mapping->curve == DP_CURVE_PERSPECTIVE && setup->spec.znear > 0 &&
+           (mapping->ndc_signed || !row->ndc_signed);
+}
+
+double trap_reads_at(const trap_row *row, const dp_setup *setup, const trap_depth *at) {
+    return row->reads != NULL && is_trap_of(row, setup) ? row->reads(setup, at) : (double)NAN;
+}
+
+double trap_writes_at(const trap_row *row, const dp_setup *setup, const trap_depth *at) {
+    return row->writes != NULL && is_trap_of(row, setup) ? row->writes(setup, at) : (double)NAN;
 }
 
 double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z) {

@@ -64,15 +64,24 @@ typedef struct trap_row {
     const char *right;              /**< and this is what is right */
     bool standard, reversed, ortho; /**< which set-ups it is a trap of */
     bool ndc_signed, far_infinite;  /**< of OpenGL's NDC alone; of an infinite far plane, too */
-    double (*reads)(const dp_setup *setup, const trap_depth *at);
+    bool coarse;                    /**< reads few depths: of values that are rounded, too, it may seem to be right */
+    double (*reads)(const dp_setup *setup, const trap_depth *at); /**< null of a formula of a normal */
+    /** By how many degrees a formula of normals turns one, `off` degrees off the view axis, half way between two
+     * vertices whose normals are `apart` degrees apart; null of a formula of depth. */
+    double (*turns)(double off, double apart);
+    /** The eye depth whose right window depth the formula writes for one at z; null: it reads depths alone. */
+    double (*writes)(const dp_setup *setup, const trap_depth *at);
 } trap_row;
 
 NAMED_ROWS(trap_row, trap);
 
-/** The depth that the trap reads of a surface at z, within 2^-40; NaN where it is no trap of the set-up. Between the
- * planes, near above 0; `half` is the tangent of half the vertical field of view, INFINITY what has no depth left. */
+/** The depth that the trap reads of a surface at z, within 2^-40, but where 4 bits round to a neighbour; NaN where it
+ * is no trap of the set-up. Between the planes, near above 0; `half` is the tangent of half the vertical field of view,
+ * INFINITY what has no depth left. */
 double trap_reads(const trap_row *row, const dp_setup *setup, double half, double z);
 /** The same of a depth that is known better than by z. */
 double trap_reads_at(const trap_row *row, const dp_setup *setup, const trap_depth *at);
+/** The depth that it writes one at z for; NaN where it is no trap of the set-up, and where it writes none. */
+double trap_writes_at(const trap_row *row, const dp_setup *setup, const trap_depth *at);
 
 #endif

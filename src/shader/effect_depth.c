@@ -50,6 +50,21 @@ float fog_shader(const effect_pixel *pixel, const float *p, const effect_pixel *
     return saturatef(pixel->eye01 * p[0]);
 }
 
+double fog_distance(const effect_view *view, const double *p, double z) {
+    (void)p;
+    return eye01(view, z) * view->stretch;
+}
+
+double radial_fog(const effect_view *view, const double *p, double z, double reference) {
+    (void)reference;
+    return saturate(fog_distance(view, p, z) * p[0]);
+}
+
+float radial_fog_shader(const effect_pixel *pixel, const float *p, const effect_pixel *reference) {
+    (void)reference;
+    return saturatef(pixel->eye01 * pixel->stretch * p[0]);
+}
+
 double scan_line(const effect_view *view, const double *p, double z, double reference) {
     return saturate(fabs(eye01(view, reference) - eye01(view, z)) / p[0]);
 }

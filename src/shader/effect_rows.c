@@ -59,6 +59,13 @@ static const effect_row rows[] = {
      .eye01 = true, .source = DEPTH_TEXTURE,
      .kind = EFFECT_CLAMPED, .quantity = fog_depth, .output = fog, .shader = fog_shader,
      .tint = {0.5, 0.5, 0.5, 1}},
+    {.name = "radial-fog", .note = "saturate(distance/far density), the distance from the camera",
+     .parameters = {
+         {"density", "how thick the fog is a distance of far away", "1", 1e-12, 1e12, 1, .alias = "_FogDensity"}},
+     .eye01 = true, .needs = EFFECT_POSITION,
+     .source = "Unity's Global Fog with radial distance; distance fog along the view ray",
+     .kind = EFFECT_CLAMPED, .quantity = fog_distance, .output = radial_fog, .shader = radial_fog_shader,
+     .tint = {0.5, 0.5, 0.5, 1}},
     {.name = "scan-line", .aliases = "ScanLine _CurValue _LineWidth", .note = "saturate(|cur - eye01|/half-width)",
      .parameters = {
          {"half-width", "depth over which the line fades, of far, half of _LineWidth", "eye01", 1e-15, 1, 0.01,

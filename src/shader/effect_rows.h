@@ -33,11 +33,11 @@ enum { THICKNESS_BEHIND = 1 };
 enum { FORCE_POWER = 0, FORCE_RIM, FORCE_FACING };
 
 effect_apart eye_apart, eye01_apart, along_ray;
-effect_quantity fog_depth;
-effect_output intersection, soft_particles, force_field, fog, scan_line, depth_of_field, water_depth, contact_shadow,
-    shadow_lit;
-effect_shader intersection_shader, soft_particles_shader, force_field_shader, fog_shader, scan_line_shader,
-    depth_of_field_shader, water_depth_shader, contact_shadow_shader, shadow_lit_shader;
+effect_quantity fog_depth, fog_distance;
+effect_output intersection, soft_particles, force_field, fog, radial_fog, scan_line, depth_of_field, water_depth,
+    contact_shadow, shadow_lit;
+effect_shader intersection_shader, soft_particles_shader, force_field_shader, fog_shader, radial_fog_shader,
+    scan_line_shader, depth_of_field_shader, water_depth_shader, contact_shadow_shader, shadow_lit_shader;
 
 /* ---- The world --------------------------------------------------------------------------------------------------- */
 

@@ -62,9 +62,10 @@ typedef struct unpacked {
     char wrong[IMAGE_ERROR_SIZE]; /**< why not: one sentence */
 } unpacked;
 
-/** Whether a target was cleared to black there, and no normal is: what a packing without a depth has for a hole. */
-static inline bool packing_cleared(const packing *p, const uint8_t *normal) {
-    return p->steps == 0 && normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
+/** Whether a target was cleared to black there, and no normal is: what a packing without a depth has for a hole, and of
+ * the others what packing_unwrap() has replaced where the normal's channels are 0, too. */
+static inline bool packing_cleared(const packing *p, const uint8_t *normal, double depth) {
+    return normal[0] == 0 && normal[1] == 0 && (p->steps > 0 ? !(depth < 1) : normal[2] == 0);
 }
 
 /**

@@ -217,9 +217,9 @@ TEST(each_number) {
             const size_t traps = want_traps(&v, &c, under);
             assert_int_equal(traps, c.n <= 0     ? 0
                                     : c.ortho    ? 1
-                                    : c.infinite ? (c.reversed ? 2 : 3)
-                                    : c.reversed ? 4
-                                                 : 6 + c.ndc_signed);
+                                    : c.infinite ? (c.reversed ? 3 : 5)
+                                    : c.reversed ? 6
+                                                 : 9 + c.ndc_signed);
         }
         check_forms(&v, 0, lines[i], "setups[].rows[]",
                     "near [scene] = ^near, far [scene] = ^far, projection = ^projection, mapping = ^mapping, "

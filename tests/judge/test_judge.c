@@ -266,6 +266,33 @@ TEST(test_wrong) {
     }
 }
 
+/* d = f/(f - n) - 2 f n/((f - n) z): written it is wrong, read back a multiple, of which the slip is said besides. A
+ * multiple by another number is none. */
+TEST(test_doubled_product) {
+    rng r = rng_make("judged doubled");
+    for (int i = 0; i < 100; i++) {
+        const double n = (double)(float)rng_log(&r, 0.05, 5), f = (double)(float)(n * rng_log(&r, 100, 1e4));
+        const dp_setup setup = camera(n, f, DP_MAPPING_D3D);
+        judge_pairs p = asked(&r, &functions[0], n, f);
+        judgement j;
+        for (int times = 2; times < 4; times++) {
+            for (int k = 0; k < PAIRS; k++)
+                p.pairs[k].out = (double)(float)(times * f * n / (f - p.pairs[k].in * (f - n)));
+            judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
+            assert_int_equal(j.verdict, JUDGE_OTHER);
+            assert_true(j.same_count == (times == 2));
+            assert_true(times != 2 || strcmp(j.same[0].trap->name, "doubled-product") == 0);
+        }
+        for (int k = 0; k < PAIRS; k++) {
+            p.pairs[k].in = n * pow(f / n, (double)k / (PAIRS - 1));
+            p.pairs[k].out = f / (f - n) - 2 * f * n / ((f - n) * p.pairs[k].in);
+        }
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
+        assert_int_equal(j.verdict, JUDGE_WRONG);
+        assert_string_equal(j.found.trap->name, "doubled-product");
+    }
+}
+
 /* Pairs that are none of them, too few, constant, out of order. */
 TEST(test_unknown) {
     const dp_setup setup = camera(0.1, 1000, DP_MAPPING_D3D);

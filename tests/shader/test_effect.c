@@ -227,6 +227,7 @@ static const hand hands[] = {
     {"intersection", intersection_error, intersection_usable},
     {"force-field", force_error, force_usable},
     {"fog", fog_error, fog_usable},
+    {"radial-fog", fog_error, fog_usable}, /* the same along the view axis */
     {"scan-line", scan_error, scan_usable},
     {"water-line", water_error, water_usable},
     {"height-fog", height_error, height_usable},
@@ -677,9 +678,9 @@ TEST(test_rows) {
                                         "water-line",     "height-fog",     "edge",        "motion-blur",
                                         "depth-of-field", "soft-particles", "decal",       "ambient-occlusion",
                                         "contact-shadow", "shadow",         "water-depth", "outline",
-                                        "motion-vector",  "thickness",      "ray-march"};
+                                        "motion-vector",  "thickness",      "ray-march",   "radial-fog"};
     /* As depthprec-texture(1) documents them: a command without --parameter is read with these in mind. */
-    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10, 1, 0, 0.01, 0.1, 0.01, 0.5, 1, 1, 1, 0.1};
+    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10, 1, 0, 0.01, 0.1, 0.01, 0.5, 1, 1, 1, 0.1, 1};
     assert_int_equal(count(), sizeof names / sizeof names[0]);
     for (size_t i = 0; i < count(); i++) {
         const effect_row *row = effect_get(i);

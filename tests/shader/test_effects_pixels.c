@@ -102,6 +102,13 @@ static double fog(const stage *s, int pixel, double z) {
     return unit(z / FAR * 1.7);
 }
 
+static double radial_fog(const stage *s, int pixel, double z) {
+    double half[2];
+    half_of(s, &s->now, half);
+    const double x = half[0] * ndc_x(pixel), y = half[1] * ndc_y(pixel), along = s->ortho ? 1 : sqrt(x * x + y * y + 1);
+    return unit(z * along / FAR * 1.3);
+}
+
 static double scan_line(const stage *s, int pixel, double z) {
     (void)pixel;
     return unit(fabs(s->reference / FAR - z / FAR) / 0.07);
@@ -193,6 +200,7 @@ static const struct {
     {"force-field", "power=0.3", force_field, true, false, 1},
     {"force-field", "power=0.3 rim-power=1.6 facing=0.5", force_field_rim, true, false, 1},
     {"fog", "density=1.7", fog, false, false, 1},
+    {"radial-fog", "density=1.3", radial_fog, false, false, 1},
     {"scan-line", "half-width=0.07", scan_line, true, false, 1},
     {"depth-of-field", "level=4", depth_of_field, true, false, 1},
     {"water-line", "band=2.5 level=-1.5", water_line, false, false, 1},

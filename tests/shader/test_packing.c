@@ -710,6 +710,27 @@ TEST(normals_come_back) {
     assert_true(was_said("--product: packed-normal needs FILE with --packing depth-normals or camera-normals"));
 }
 
+/* Where nothing was drawn there is no normal beside the depth, whatever counts as sky; of sky there is none either. */
+TEST(cleared_normals) {
+    static const struct {
+        const char *sky;
+        double from; /* the depth from which on all is sky */
+    } rows[] = {{"0.0001", 1}, {"none", 1}, {"0", 1}, {"0.3", 0.7}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        for (int map = 0; map < 2; map++) {
+            float normals[3 * PIXELS];
+            const char *npy = truth_path("place.npy");
+            write_cleared(packing_find("depth-normals"), 7);
+            assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--packing", "depth-normals", "--sky",
+                                                       rows[i].sky, "--product", "packed-normal", "-q", "-o", npy,
+                                                       map ? "--error-map" : NULL, NULL}),
+                             0);
+            truth_floats("place.npy", map ? 1 : 3, normals);
+            for (int k = 0; k < PIXELS; k++)
+                assert_true(isnan(normals[map ? k : 3 * k]) == (k < 7 || 0.2 + 0.003 * k > rows[i].from));
+        }
+}
+
 /* A pass of one's own that writes eye depth over far in binary32, to targets of more than 8 bits: within the bound, of
  * which 16 bits reach nearly all. */
 TEST(linear01_of_any_type) {

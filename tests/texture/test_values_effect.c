@@ -38,6 +38,8 @@ static const struct {
     {.effect = "water-depth", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      /* 2 atan(9/16) */
      .view = "--hfov 90 --pixel 0,0", .now = {640, 360, 58.71550708558254, 5, 0, 0, {0, 0, 0}, NULL, false}},
+    {.effect = "radial-fog", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
+     .view = "--hfov 90 --pixel 0,0", .now = {640, 360, 58.71550708558254, 5, 0, 0, {0, 0, 0}, NULL, false}},
     {.effect = "decal", .z = AHEAD, .camera = PERSPECTIVE " -m d3d -F unorm16",
      .view = "--look 1,0,1.7320508075688772", .column = 320, .row = 359,
      .now = {640, 360, 60, 5, 30.000000000000004, 0, {0, 0, 0}, NULL, false}},

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* help: made from the command table and the option table; and the version. */
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -158,18 +159,43 @@ static void say_usage(page *p, const command_row *v) {
     page_text(p, "Usage: depthprec %s%s%s [options]", v->name, *v->operand != '\0' ? " " : "", v->operand);
 }
 
+/* Whether two words are the same but for blanks, hyphens, underscores and case; `length` is that of the first. */
+static bool is_spelled(const char *name, size_t length, const char *text) {
+    static const char apart[] = " -_";
+    size_t i = 0;
+    for (;; i++, text++) {
+        for (; i < length && strchr(apart, name[i]) != NULL; i++)
+            ;
+        text += strspn(text, apart);
+        if (i == length || *text == '\0')
+            return i == length && *text == '\0';
+        if (tolower((unsigned char)name[i]) != tolower((unsigned char)*text))
+            return false;
+    }
+}
+
+static bool is_word(const word_row *row, const char *text) {
+    if (is_spelled(row->name, strlen(row->name), text))
+        return true;
+    size_t length;
+    for (const char *list = row->aliases; list != NULL && *list != '\0'; list += length + (list[length] == ' ')) {
+        length = strcspn(list, " ");
+        if (is_spelled(list, length, text))
+            return true;
+    }
+    return false;
+}
+
 /* The operands are one word with blanks in it; a member such as _ZBufferParams.z is looked up by what it belongs to. */
 static const word_row *word_of(const asked_line *line, char word[NAMES_SIZE]) {
+    char whole[NAMES_SIZE];
     word[0] = '\0';
     for (int i = 0; i < line->operand_count; i++)
         append(word, NAMES_SIZE, "%s%s", i > 0 ? " " : "", line->operands[i]);
     const word_row *row = word_find(word);
-    char *member = strrchr(word, '.');
-    if (row == NULL && member != NULL) {
-        *member = '\0';
-        row = word_find(word);
-        *member = '.';
-    }
+    snprintf(whole, sizeof whole, "%.*s", (int)strcspn(word, ".(["), word);
+    for (size_t i = 0; row == NULL && *whole != '\0' && (row = word_get(i)) != NULL && !is_word(row, whole); i++)
+        row = NULL;
     return row;
 }
 
@@ -188,7 +214,7 @@ static bool list_all(size_t index, list_item *item) {
 
 static int refuse_word(const char *word) {
     char near[NAMES_SIZE];
-    names_nearest(&(name_list){.get = list_all}, "", word, near);
+    names_nearest(&(name_list){.get = list_all}, "", word, 3, near);
     return usage_error("help: nothing is called '%.64s'%s", word,
                        *near != '\0' ? near
                                      : "; 'depthprec help' lists the commands, 'depthprec list words' the words");

@@ -87,11 +87,11 @@ static int edits(const char *a, size_t a_length, const char *b, size_t b_length)
     return above[b_length];
 }
 
-/* The two names nearest to one that is not known. */
-enum { NEAREST = 2 };
+/* The names nearest to one that is not known. */
+enum { NEAREST = 3 };
 typedef struct nearest {
     const char *given;
-    size_t count;
+    size_t count, most;
     struct {
         int distance;
         char name[LENGTH_MAX + 1];
@@ -111,14 +111,18 @@ static int distance_to(const char *given, size_t given_length, const char *name,
     return distance <= limit && distance < (int)length ? distance : begins && given[length] == '-' ? limit : LENGTH_MAX;
 }
 
-/* Keeps a name where it is among the nearest; of those as near the first. */
+/* Keeps a name where it is among the nearest; of those as near the first, and of two things of one name one. */
 static void keep(nearest *s, int distance, const char *name, size_t length) {
     size_t at = s->count;
+    for (size_t i = 0; i < s->count; i++)
+        if (s->best[i].distance == distance && strncasecmp(s->best[i].name, name, length) == 0 &&
+            s->best[i].name[length] == '\0')
+            return;
     while (at > 0 && s->best[at - 1].distance > distance)
         at--;
-    if (at == NEAREST || distance >= LENGTH_MAX)
+    if (at == s->most || distance >= LENGTH_MAX)
         return;
-    s->count += s->count < NEAREST;
+    s->count += s->count < s->most;
     memmove(&s->best[at + 1], &s->best[at], (s->count - at - 1) * sizeof s->best[0]);
     s->best[at].distance = distance;
     memcpy(s->best[at].name, name, length);
@@ -142,15 +146,20 @@ static void offer(nearest *s, const list_item *item) {
         keep(s, least, best, strcspn(best, " "));
 }
 
-const char *names_nearest(const name_list *n, const char *prefix, const char *given, char out[NAMES_SIZE]) {
-    nearest s = {.given = given};
+const char *names_nearest(const name_list *n, const char *prefix, const char *given, size_t most,
+                          char out[NAMES_SIZE]) {
+    nearest s = {.given = given, .most = most < NEAREST ? most : NEAREST};
     list_item item;
     out[0] = '\0';
     for (size_t i = 0; *given != '\0' && strlen(given) <= LENGTH_MAX && names_get(n, i, &item); i++)
         offer(&s, &item);
-    s.count -= s.count == NEAREST && s.best[1].distance > s.best[0].distance + 1; /* the first is meant */
+    s.count -= most == 2 && s.count == 2 && s.best[1].distance > s.best[0].distance + 1; /* the first is meant */
     for (size_t i = 0; i < s.count; i++)
-        append(out, NAMES_SIZE, "%s'%s%s'", i == 0 ? "; did you mean " : " or ", prefix, s.best[i].name);
+        append(out, NAMES_SIZE, "%s'%s%s'",
+               i == 0            ? "; did you mean "
+               : i + 1 < s.count ? ", "
+                                 : " or ",
+               prefix, s.best[i].name);
     append(out, NAMES_SIZE, "%s", s.count > 0 ? "?" : "");
     return out;
 }
@@ -159,6 +168,6 @@ const char *names_refuse(const name_list *n, const char *given, char out[NAMES_S
     char list[NAMES_SIZE], near[NAMES_SIZE];
     out[0] = '\0';
     append(out, NAMES_SIZE, "must be %s%s, got '%.64s'%s", names_join(n, ", ", " or ", list),
-           n->more != NULL ? n->more : "", given, names_nearest(n, "", given, near));
+           n->more != NULL ? n->more : "", given, names_nearest(n, "", given, 2, near));
     return out;
 }

@@ -54,9 +54,10 @@ bool names_find(const name_list *n, const char *text, size_t *index, list_item *
 /** All names: "a, b or c" with ", " between them and " or " before the last. @return out */
 const char *names_join(const name_list *n, const char *between, const char *last, char out[NAMES_SIZE]);
 
-/** "; did you mean 'PREFIXname' or 'PREFIXother'?" with the two names, or other spellings, nearest to `given`, by edits
- * or because one begins the other; "" when none is near. @return out */
-const char *names_nearest(const name_list *n, const char *prefix, const char *given, char out[NAMES_SIZE]);
+/** "; did you mean 'PREFIXname' or 'PREFIXother'?" with the names, or other spellings, nearest to `given`, by edits or
+ * because one begins the other; "" when none is near. `most`: up to 3 of them; of 2 the first alone where it is meant.
+ * @return out */
+const char *names_nearest(const name_list *n, const char *prefix, const char *given, size_t most, char out[NAMES_SIZE]);
 
 /** "must be a, b or c, got 'given'" and the nearest. @return out */
 const char *names_refuse(const name_list *n, const char *given, char out[NAMES_SIZE]);

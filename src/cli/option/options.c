@@ -116,7 +116,7 @@ static int unknown_option(const asked_line *line, const known *k, int refused, c
     dp_mapping mapping;
     if (dp_mapping_parse(given, &mapping) == DP_OK)
         return usage_error("unknown option '%.*s'; did you mean '--mapping %s'?", length, argument, given);
-    if (*names_nearest(&all, "--", given, text) != '\0')
+    if (*names_nearest(&all, "--", given, 2, text) != '\0')
         return usage_error("unknown option '%.*s'%s", length, argument, text);
     return usage_error("unknown option '%.*s'; 'depthprec help %s' lists its options", length, argument,
                        line->command->name);
@@ -139,7 +139,7 @@ int check_operand(const command_row *v, const char *what, const name_list *n, co
 static const char *nearest_word(char **words, int count, char out[NAMES_SIZE]) {
     if (count < 2 || !isdigit((unsigned char)*words[0]) ||
         !(isdigit((unsigned char)*words[1]) || strcmp(words[1], "inf") == 0))
-        return names_nearest(&(name_list){.get = list_command}, "", words[0], out);
+        return names_nearest(&(name_list){.get = list_command}, "", words[0], 2, out);
     out[0] = '\0';
     append(out, NAMES_SIZE, "; did you mean '-n %s -f %s'?", words[0], words[1]);
     return out;

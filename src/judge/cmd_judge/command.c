@@ -92,7 +92,8 @@ static void say_all(page *p, void *item) {
     }
     for (size_t i = 0; i < j->same_count; i++) {
         shader_say(r->o, &j->same[i], text);
-        page_note(p, "the same", "%s", text);
+        page_note(p, "the same", "%s%s%s", text, j->same[i].trap != NULL ? "; right: " : "",
+                  j->same[i].trap != NULL ? j->same[i].trap->right : "");
     }
     if (j->also) {
         shader_say(r->o, &j->other, text);

@@ -9,7 +9,7 @@
 #include "report/number.h"
 #include "shader/constants.h"
 
-enum { LABEL = 24, DIGITS_32 = 9, DIGITS_Z = 6, DIGITS_READ = 7, DIGITS_01 = 5, DIGITS_OFF = 3 };
+enum { LABEL = 24, DIGITS_32 = 9, DIGITS_Z = 6, DIGITS_READ = 7, DIGITS_01 = 5, DIGITS_OFF = 3, DIGITS_END = 7 };
 
 /* Depth textures beside that of binary32, which stores what the shader has. */
 enum { STORED = 2 };
@@ -24,7 +24,11 @@ typedef struct vector {
 typedef struct row {
     double z, clip_z, clip_w, ndc, window, eye, linear01, from_near;
     double read[STORED], depth_normals; /* eye depths, once they are stored */
+    int ndc_digits, window_digits;      /* as many as it takes to see that 1 - 2^-24 is not 1 */
 } row;
+
+enum { CORNERS = 4 };
+static const char *const corner_names[CORNERS] = {"top left", "top right", "bottom left", "bottom right"};
 
 typedef struct corner {
     const char *name;
@@ -121,12 +125,11 @@ static void *next_setup(void *of, size_t i) {
 }
 
 static void *next_corner(void *of, size_t i) {
-    static const char *const names[] = {"top left", "top right", "bottom left", "bottom right"};
     constants *c = of;
-    if (i == sizeof names / sizeof names[0] || isnan(c->fov))
+    if (i == CORNERS || isnan(c->fov))
         return NULL;
     const double *ray = c->corners.ray[i];
-    c->corner = (corner){names[i], ray[0], ray[1], ray[2]};
+    c->corner = (corner){corner_names[i], ray[0], ray[1], ray[2]};
     return &c->corner;
 }
 
@@ -142,6 +145,8 @@ static void make_row(constants *c, double z) {
                    .linear01 = (double)d.linear01,
                    .from_near = (double)d.from_near,
                    .depth_normals = (double)shader_depth_normals_eye(c->each.setup, z)};
+    c->row.ndc_digits = number_digits_within(1, 1 - fabs(c->row.ndc), DIGITS_Z, DIGITS_END);
+    c->row.window_digits = number_digits_within(1, 1 - c->row.window, DIGITS_Z, DIGITS_END);
     for (int i = 0; i < STORED; i++) {
         dp_format format[2];
         dp_format_parse(stored[i], format);
@@ -216,6 +221,12 @@ static void say_camera(page *p, void *item) {
               number_of(c->fov, DIGITS_Z).text);
     page_note(p, "corner vectors", "toRight %s, toTop %s: half the near plane", number_of(c->to_right, DIGITS_Z).text,
               number_of(c->to_top, DIGITS_Z).text);
+    for (size_t i = 0; i < CORNERS; i++) {
+        const double *ray = c->corners.ray[i], near = c->each.setup->spec.znear;
+        page_note(p, i == 0 ? "  of the near plane" : "", "%s (%s, %s, %s)", corner_names[i],
+                  number_of(ray[0] * near, DIGITS_Z).text, number_of(ray[1] * near, DIGITS_Z).text,
+                  number_of(ray[2] * near, DIGITS_Z).text);
+    }
 }
 
 /* Why there is a "-" or an infinity. */
@@ -278,8 +289,9 @@ static const column row_columns[] = {
     {FIELD(row, z, "z", "scene"), SHOWN("z", 9, DIGITS_Z), .brief = true},
     {FIELD(row, clip_z, "clip_z", "scene"), SHOWN("clip z", 11, DIGITS_Z), .brief = true},
     {FIELD(row, clip_w, "clip_w", "scene"), SHOWN("clip w", 8, DIGITS_Z), .brief = true},
-    {FIELD(row, ndc, "ndc", ""), SHOWN("NDC z", 11, DIGITS_Z), .brief = true},
-    {FIELD(row, window, "window", ""), SHOWN("window", 11, DIGITS_Z), .brief = true},
+    {FIELD(row, ndc, "ndc", ""), SHOWN("NDC z", 11, DIGITS_Z), .digits_at = offsetof(row, ndc_digits), .brief = true},
+    {FIELD(row, window, "window", ""), SHOWN("window", 11, DIGITS_Z), .digits_at = offsetof(row, window_digits),
+     .brief = true},
     {FIELD(row, eye, "eye", "scene"), SHOWN("eye depth", 10, DIGITS_Z), .brief = true},
     {FIELD(row, linear01, "linear01", ""), SHOWN("Linear01", 10, DIGITS_01), .brief = true},
     {FIELD(row, from_near, "from_near", ""), SHOWN("from near", 10, DIGITS_01), .brief = true},

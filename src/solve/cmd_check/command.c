@@ -18,7 +18,7 @@ int check_read(const char *path, need_file *file) {
     const name_list known = {.words = (const char *const[]){e.known, NULL}};
     if (e.line > 0)
         snprintf(where, sizeof where, ":%d", e.line);
-    const int status = usage_error("%s%s: %s%s", path, where, e.text, names_nearest(&known, "", e.given, text));
+    const int status = usage_error("%s%s: %s%s", path, where, e.text, names_nearest(&known, "", e.given, 2, text));
     return e.unreadable ? EXIT_IO : status;
 }
 

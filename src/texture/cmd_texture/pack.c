@@ -33,11 +33,12 @@ int texture_pack_check(const texture_request *o) {
 }
 
 /* The normal that a pixel of the image holds, in view space, z along the axis. @return false where it holds none */
-static bool held_normal(const texture_source *s, const packing *from, size_t pixel, uint32_t codes[3], double n[3]) {
+static bool held_normal(const texture_source *s, const packing *from, size_t pixel, double depth, uint32_t codes[3],
+                        double n[3]) {
     const pack_row *row = packing_normals(from);
     const uint8_t *at = s->unpacked.normals + (size_t)row->channels * pixel;
     double held[3];
-    if (packing_cleared(from, at))
+    if (packing_cleared(from, at, depth))
         return false;
     for (int k = 0; k < row->channels; k++)
         codes[k] = at[k];
@@ -71,6 +72,11 @@ static void depths_of(const texture_source *s, uint32_t row, uint32_t *codes, do
         d[x] = codes[x] == UINT32_MAX ? (double)NAN : dp_format_value(format, codes[x]);
 }
 
+/* Holes and sky, which have no normal beside the depth. */
+static bool is_drawn(const texture_request *o, double depth) {
+    return o->image.packing->steps == 0 || (!isnan(depth) && (o->image.sky < 0 || 1 - depth > o->image.sky));
+}
+
 /* Where nothing is drawn lies the far plane. */
 static double packed_depth(packing_on *on, double d) {
     const texture_source *s = on->w.source;
@@ -87,7 +93,8 @@ static void pack_normal(packing_on *on, size_t pixel, const float *found, uint8_
     const pack_row *row = packing_normals(on->p);
     double n[3] = {found[0], found[1], found[2]}, given[3], back[3];
     uint32_t codes[PACK_CHANNELS_MAX];
-    if (on->from != NULL ? !held_normal(s, on->from, pixel, codes, n) : isnan(n[0])) {
+    if (on->from != NULL ? !held_normal(s, on->from, pixel, on->depths[pixel % s->camera.width], codes, n)
+                         : isnan(n[0])) {
         memset(texel, 0, (size_t)row->channels);
         if (on->p->steps > 0)
             packing_normal_texel((const double[]){0, 0, 1}, texel);
@@ -196,15 +203,18 @@ int texture_packed_normal_write(const texture_request *o, const texture_source *
     if (status != EXIT_FINE)
         return status;
     float *row = malloc(values * (size_t)width * sizeof *row);
+    double *d = malloc(width * sizeof *d);
     meaning m = writing_meaning(o, &p, &w);
     writing_note(&w, &p, &m, note);
-    bool good = writing_begin(&w, note) && row != NULL;
+    bool good = writing_begin(&w, note) && row != NULL && d != NULL;
     for (uint32_t i = 0; i < height && good; i++) {
         const uint32_t y = writing_bottom_up(&w) ? height - 1 - i : i;
+        depths_of(s, y, NULL, d);
         for (uint32_t x = 0; x < width; x++) {
             uint32_t codes[3];
             double n[3] = {NAN, NAN, NAN};
-            const bool drawn = held_normal(s, o->image.packing, (size_t)y * width + x, codes, n);
+            const bool drawn =
+                is_drawn(o, d[x]) && held_normal(s, o->image.packing, (size_t)y * width + x, d[x], codes, n);
             if (o->image.error_map && drawn)
                 n[0] = pack_reach(packing_normals(o->image.packing), codes, zero);
             for (uint32_t k = 0; k < values; k++)
@@ -213,6 +223,7 @@ int texture_packed_normal_write(const texture_request *o, const texture_source *
         good = writing_take(&w, y, 1, row);
     }
     free(row);
+    free(d);
     status = writing_close(&w, 1, good);
     return status == EXIT_FINE ? writing_say(o, &p, &w, &m) : status;
 }
