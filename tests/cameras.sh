@@ -11,6 +11,11 @@ if ! command -v python3 >/dev/null 2>&1; then
 fi
 export PYTHONDONTWRITEBYTECODE=1 table=tests/camera/cameras.txt
 
+# Random cameras, too: what all doors make of them is alike.
+seed=${DEPTHPREC_SEED:-$(date +%s)}
+cat $table >"$scratch/table" && python3 tests/camera/walk.py "$seed" 120 >>"$scratch/table"
+echo "# seed $seed"
+
 # The key that a sentence of the library is about: its first word, but for these.
 by_key() { # by_key FIELD
     awk -F '\t' -v OFS='\t' -v at="$1" '{
@@ -34,21 +39,23 @@ by_key() { # by_key FIELD
 # Where a door says another key than the table, another number than the command line, or nothing at all.
 judge() { # judge FIRST_DOOR FIELDS
     awk -F '\t' -v first="$1" -v fields="$2" '{
-        for (i = first; i <= fields; i++)
+        for (i = first; i <= fields && $2 == "alike"; i++) # the library does not see what was said in vain
+            if ($i != $3 && (i == 4 || ($i != "-" && $3 ~ /^[0-9a-f]+$/ && length($3) == 16))) print
+        for (i = first; i <= fields && $2 != "alike"; i++)
             if ($i != "-" && ($2 == "right" ? $i !~ /^[0-9a-f]+$/ || length($i) != 16 || $i != $3 : $i != $2)) print
-    } END { if (NR < 150) print "only " NR " cameras" }' "$scratch/said" >"$scratch/wrong"
+    } END { if (NR < 270) print "only " NR " cameras" }' "$scratch/said" >"$scratch/wrong"
     cat "$scratch/wrong"
     [ ! -s "$scratch/wrong" ]
 }
 say() {
     mkdir "$scratch/python" && cp -r src/python/depthprec "$scratch/python" && cp "$B/libdepthprec.so.0" "$scratch/python/depthprec" &&
-        PYTHONPATH=$scratch/python python3 tests/camera/doors.py "$DEPTHPREC" $table | by_key 5 >"$scratch/said"
+        PYTHONPATH=$scratch/python python3 tests/camera/doors.py "$DEPTHPREC" "$scratch/table" | by_key 5 >"$scratch/said"
 }
 say_npm() {
     mkdir "$scratch/npm" && cp src/npm/index.js "$scratch/npm/index.mjs" &&
         printf 'export default "%s";\n' "$(base64 -w0 "$B/npm/core.wasm")" >"$scratch/npm/core.data.js" &&
         echo '{"type": "module"}' >"$scratch/npm/package.json" && cp tests/camera/doors.mjs "$scratch/npm" &&
-        node "$scratch/npm/doors.mjs" "$scratch/npm/index.mjs" $table | by_key 2 >"$scratch/by_npm" &&
+        node "$scratch/npm/doors.mjs" "$scratch/npm/index.mjs" "$scratch/table" | by_key 2 >"$scratch/by_npm" &&
         paste "$scratch/said" "$scratch/by_npm" | awk -F '\t' -v OFS='\t' '$1 == $6 { print $1, $2, $3, $4, $5, $7 }' >"$scratch/all" &&
         mv "$scratch/all" "$scratch/said"
 }
