@@ -1,101 +1,43 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The errors that a bias has to cover, and the three that do; depthprec(7), "Shadow maps", derives every line. */
+/* The three biases that cover what is needed, and the gaps that they open; depthprec(7), "Shadow maps", and
+ * depthprec-shadow(1) derive every line. */
 #include <math.h>
 
 #include "core/bits.h"
 #include "core/elementary.h"
-#include "shadow/shadow.h"
-
-static const double eps = 0x1p-24;
+#include "shadow/ground.h"
 
 /* Covers terms of second order and this file's own rounding. */
 static const double outward = 1.0 + DP_ROUNDINGS32_14;
 
-/* How far the rounding of the light's matrix turns the light, radians. */
-static const double turned_light = 4.0 * 0x1p-24;
-
 /* The largest error of a sine that a shader takes from a cosine. */
 static const double sine_error = 0x1p-10;
 
+static const double eps = 0x1p-24;
 static const double root2 = 1.4142135623730951;
-
-/* The rounding of texture coordinates: Direct3D allows 0.6 of a step. */
-static const double rounded_step = 0.6;
+static const double quarter = 1.57079632679489662; /* of a turn */
 
 static double degrees(double angle) {
     return angle * (3.14159265358979323846 / 180.0);
 }
 
-/* ---- What is needed ---------------------------------------------------------------------------------------------- */
-
-/* The terms of several parts and of the slope's own error. Lengths are of scene units, sizes of texels. */
-typedef struct ground {
-    double depth;            /**< far - near */
-    double texel_x, texel_y; /**< scene units */
-    double diagonal;         /**< of a texel, scene units */
-    double size, reach;      /**< of the map, the longer side; and of triangles, texels */
-    double place;            /**< a position rounded: the length of its error, scene units */
-    double turned;           /**< the light's matrix: the error on each axis, scene units */
-    double turned_depth;     /**< the same along the light, window depth */
-    double vertex;           /**< a vertex's window position: its error on each axis, texels */
-    double box;              /**< of a triangle's box over twice its area, at most */
-} ground;
-
-static ground ground_of(const shadow_light *light) {
-    const dp_triangles *t = &light->triangles;
-    ground g = {.depth = light->setup.kappa, .reach = t->pixels};
-    g.texel_x = light->width / t->width;
-    g.texel_y = light->height / t->height;
-    g.diagonal = dp_hypot(g.texel_x, g.texel_y);
-    g.size = fmax(t->width, t->height);
-    /* The length of positions, and of those to the middle of the box, which the matrix takes off. */
-    const double position =
-        light->world > 0.0 ? sqrt(3.0) * light->world : 0.5 * dp_hypot(dp_hypot(light->width, light->height), g.depth);
-    const double middle = light->world > 0.0 ? position : 0.0;
-    g.place = eps * position;
-    g.turned = 4.0 * eps * (position + middle);
-    g.turned_depth = 4.0 * eps * ((position + middle) / g.depth + 0.5) + eps;
-    g.vertex = g.turned / fmin(g.texel_x, g.texel_y) + eps * (2.0 * g.size + 4.0 * g.reach);
-    g.box = 0.5 * (1.0 + dp_hypot(t->slim, 1.0));
-    return g;
+static ground hardest_of(const shadow_light *light) {
+    return shadow_ground_at(light, shadow_hardest(light));
 }
 
-/* The conversion into the format, and of what is read back. */
-static double format_loss(const dp_setup *setup) {
-    const dp_format *format = &setup->spec.format;
-    const dp_conversion conversion = dp_arith_get(setup->spec.arith)->conversion;
-    const bool exact = conversion == DP_CONVERT_EXACT;
-    const bool truncated = exact ? setup->spec.rounding == DP_ROUND_ZERO : conversion == DP_CONVERT_PRODUCT_ZERO;
-    const double rounded = conversion == DP_CONVERT_SIXTEENTHS ? 9.0 / 16.0 : 0.5;
-    if (format->kind == DP_FORMAT_UNORM)
-        return (truncated ? 1.0 : rounded) / (double)format->code_max + (exact ? eps : 2.0 * eps);
-    if (format->mantissa_bits == 23 && format->exponent_bits == 8)
-        return 0.0;
-    return ldexp(setup->spec.rounding == DP_ROUND_ZERO ? 1.0 : 0.5, -format->mantissa_bits - 1);
-}
-
-static void parts_of(const shadow_light *light, const ground *g, shadow_part part[SHADOW_CAUSE_COUNT]) {
-    const dp_triangles *t = &light->triangles;
-    const dp_plane_error *p = &t->plane;
-    const double far_off = g->size + g->reach;
-    const double box = p->box * g->box * (1.0 + 2.0 * p->origin * eps * far_off);
-    const double moved = 3.0 * g->place;
-    part[SHADOW_CAUSE_TEXEL] = (shadow_part){0.5, 0.0};
-    part[SHADOW_CAUSE_KERNEL] = (shadow_part){light->kernel - 0.5, 0.0};
-    part[SHADOW_CAUSE_LOOKUP] =
-        (shadow_part){(light->subtexel > 0 ? ldexp(rounded_step, -light->subtexel) : 0.0) + 2.0 * eps * g->size, 0.0};
-    part[SHADOW_CAUSE_SNAPPING] = (shadow_part){t->subpixel > 0 ? ldexp(1.0, -t->subpixel - 1) : 0.0, 0.0};
-    part[SHADOW_CAUSE_SETUP] = (shadow_part){eps * (p->origin * far_off + (box + p->range) * g->reach), eps * p->value};
-    part[SHADOW_CAUSE_POSITION] =
-        (shadow_part){g->vertex + g->turned / fmin(g->texel_x, g->texel_y) + moved / g->diagonal,
-                      2.0 * g->turned_depth + moved / g->depth};
-    part[SHADOW_CAUSE_RECEIVER] = (shadow_part){light->position / g->diagonal, light->position / g->depth};
-    part[SHADOW_CAUSE_FORMAT] = (shadow_part){0.0, eps + format_loss(&light->setup)};
+/* What so many texels on each axis cost at that slant (radians), window depth. Distances change by less: a plane at the
+ * angle t is 1/(1 + tan t tan x) times as far at the angle x towards the light. */
+static double cost(const shadow_light *light, const ground *g, double texels, double slant) {
+    const double off = texels * g->diagonal, lean = shadow_lean(light, g, slant);
+    if (!shadow_holds_distance(light))
+        return off * lean / g->depth;
+    const double turned = off / g->z / (1.0 - 0.25 * off / g->z * off / g->z) * lean;
+    return g->z * turned / (1.0 + turned) / g->depth;
 }
 
 double shadow_part_at(const shadow_light *light, const shadow_part *part, double slant) {
-    const ground g = ground_of(light);
-    return part->texels * dp_tan(degrees(slant)) * g.diagonal / g.depth + part->window;
+    const ground g = hardest_of(light);
+    return cost(light, &g, part->texels, degrees(slant)) + part->window;
 }
 
 /* ---- The three biases -------------------------------------------------------------------------------------------- */
@@ -108,9 +50,9 @@ typedef struct drawn_slope {
 static drawn_slope drawn_slope_of(const shadow_light *light, const ground *g) {
     const dp_triangles *t = &light->triangles;
     const double snap = t->subpixel > 0 ? ldexp(1.0, -t->subpixel - 1) : 0.0;
-    const double moved = snap + g->vertex + g->place / fmin(g->texel_x, g->texel_y);
+    const double moved = snap + g->vertex + g->placed;
     return (drawn_slope){.relative = 2.0 * moved / light->small + eps * (6.0 * g->box * t->slim + 2.0 * g->box + 2.0),
-                         .absolute = 2.0 * (g->turned_depth + g->place / g->depth) / light->small};
+                         .absolute = 2.0 * (g->vertex_depth + g->placed_depth) / light->small};
 }
 
 static double factor_of(const drawn_slope *drawn, double texels) {
@@ -129,55 +71,140 @@ static double largest_wave(double a, double b, double most) {
     return a * dp_sin(x) + b * dp_cos(x);
 }
 
+/* The greatest change of depth from texel to texel on an axis, where the triangle is drawn too steep, seen along rays
+ * that are so many times as long as their depth. */
+static double steepest_of(const shadow_light *light, const ground *g, double lean, double longest) {
+    const drawn_slope drawn = drawn_slope_of(light, g);
+    const double off = drawn.relative * lean * g->diagonal + drawn.absolute * g->depth * longest; /* on either axis */
+    return lean * fmax(g->texel_x, g->texel_y) + root2 * off;
+}
+
+static double times(double factor, double by) {
+    return factor == 0.0 || isinf(factor) ? factor : factor * by;
+}
+
+/*
+ * A point that is moved by l along its normal lies l/cos before the plane where it is looked up, at the angle to that
+ * ray. There the plane may be deeper, *back times as deep.
+ */
+static double offset_gap(double moved, double z, double angle, double *back) {
+    const double left = 1.0 - moved / (z * dp_cos(angle));
+    *back = 1.0;
+    if (moved == 0.0)
+        return 0.0;
+    if (!(left > 0.0))
+        return (double)INFINITY;
+    *back = (1.0 + moved / z) / left;
+    return moved * dp_hypot(1.0, dp_tan(angle) / left);
+}
+
+/* Of a light that has a place, along its rays, where receivers are farthest: what is added is taken off 1/depth. */
+static void lamp_gap_at(const shadow_light *light, const shadow_bias *bias, double slant, double *along_light,
+                        double *along_normal) {
+    const double angle = degrees(slant), z = light->receiver_hi;
+    const ground g = shadow_ground_at(light, z);
+    const bool distance = shadow_holds_distance(light);
+    const double longest = distance ? 1.0 : 1.0 / dp_cos(g.corner), ray = fmin(quarter - angle, g.corner);
+    const double lean = distance ? dp_tan(angle) : dp_sin(ray) + dp_tan(angle) * dp_cos(ray);
+    const double steep = times(bias->factor, steepest_of(light, &g, shadow_lean(light, &g, angle), 1.0));
+    const double long_steep = times(bias->factor, steepest_of(light, &g, lean, longest));
+    double back;
+    const double offset = offset_gap(bias->offset * z * (distance ? dp_sin(angle) : 1.0), z, angle, &back);
+    const double window = bias->window * g.depth * (distance ? 1.0 : back * back);
+    const double share = distance ? 0.0 : (window + steep) / (z * back);
+    *along_light =
+        share < 1.0 && isfinite(offset) ? (window * longest + long_steep) / (1.0 - share) + offset : (double)INFINITY;
+    *along_normal = *along_light;
+    if (isfinite(*along_light))
+        *along_normal = (*along_light - offset) * dp_cos(angle) + bias->offset * z * (distance ? dp_sin(angle) : 1.0);
+}
+
 void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double slant, double *along_light,
                    double *along_normal) {
-    const ground g = ground_of(light);
+    if (light->kind != SHADOW_SUN) {
+        lamp_gap_at(light, bias, slant, along_light, along_normal);
+        return;
+    }
+    const ground g = hardest_of(light);
     const double slope = dp_tan(degrees(slant));
-    const drawn_slope drawn = drawn_slope_of(light, &g);
-    const double off = drawn.relative * slope * g.diagonal + drawn.absolute * g.depth; /* on either axis */
-    const double steepest = slope * fmax(g.texel_x, g.texel_y) + root2 * off;
-    const double scaled = isinf(bias->factor) ? bias->factor : bias->factor * steepest;
-    *along_light = bias->window * g.depth + scaled + bias->offset * slope;
+    *along_light =
+        bias->window * g.depth + times(bias->factor, steepest_of(light, &g, slope, 1.0)) + bias->offset * slope;
     *along_normal = *along_light * dp_cos(degrees(slant));
 }
 
 /* The part of the bias that is slope times filter radius, at the azimuth that needs most. */
-static double share_of(const shadow_light *light, const ground *g, const shadow_bias *bias, double slope) {
-    const double larger = fmax(g->texel_x, g->texel_y);
-    const double m = slope * larger * larger / g->diagonal;
-    const double scaled = isinf(bias->factor) ? bias->factor : bias->factor * m;
-    return light->kernel * slope * g->diagonal / (bias->window * g->depth + scaled + bias->offset * slope);
+static double share_of(const shadow_light *light, const ground *g, const shadow_bias *bias, double slant) {
+    const bool distance = shadow_holds_distance(light);
+    const double larger = fmax(g->texel_x, g->texel_y), lean = shadow_lean(light, g, slant);
+    const double scaled = times(bias->factor, lean * larger * larger / g->diagonal);
+    const double alone = cost(light, g, light->kernel, slant) * g->depth;
+    if (light->kind == SHADOW_SUN || distance)
+        return alone / (bias->window * g->depth + scaled + bias->offset * (distance ? g->z : 1.0) * lean);
+    if (bias->offset == 0.0)
+        return alone / (bias->window * g->depth + scaled);
+    /* An offset has to be largest where the ray and the angle together make a right one, or at the corner. */
+    const double ray = fmin(quarter - slant, g->corner), per = dp_cos(ray) / dp_cos(slant);
+    const double moved = bias->offset * g->z / (1.0 - bias->offset);
+    return light->kernel * per * dp_sin(slant + ray) * g->diagonal / (bias->window * g->depth + moved * per);
+}
+
+/* ---- What is enough ---------------------------------------------------------------------------------------------- */
+
+/*
+ * The multiple of the depth by which a point is moved along its normal. A plane at that slant, seen by a ray that leans
+ * by up to the cone's angle, has a normal whose part across is the sine of the two; the depth of the point that was
+ * moved may be greater than its own. Of distances the angle from ray to ray counts, and the sine of the slant.
+ */
+static double lamp_offset(const shadow_light *light, const ground *g, double texels, double slant) {
+    const double off = texels * root2 * g->pitch;
+    if (shadow_holds_distance(light))
+        return off / (1.0 - 0.25 * off * off);
+    const double across = off * dp_sin(fmin(slant + g->cone, quarter));
+    return across / (1.0 - across);
+}
+
+static void biases_of(const shadow_light *light, const ground *g, shadow_need *need) {
+    const double slant = degrees(light->triangles.slant_hi);
+    const drawn_slope drawn = drawn_slope_of(light, g);
+    const double across = need->texels * g->diagonal; /* scene units: what the slope is multiplied with */
+    const double rest = need->window * outward;
+    shadow_bias *b = need->bias;
+    b[SHADOW_CONSTANT] = (shadow_bias){.window = cost(light, g, need->texels, slant + g->turn) * outward + rest};
+    const double factor = shadow_holds_distance(light) ? (double)INFINITY : factor_of(&drawn, need->texels);
+    const double small = isfinite(factor) ? factor * drawn.absolute * outward : 0.0;
+    b[SHADOW_SLOPE] = (shadow_bias){.window = fmin(rest + need->curvature + small, b->window), .factor = factor};
+    const double moved = light->kind == SHADOW_SUN ? across : lamp_offset(light, g, need->texels, slant);
+    const bool sines = light->kind == SHADOW_SUN || shadow_holds_distance(light);
+    b[SHADOW_NORMAL] =
+        (shadow_bias){.window = rest + (sines ? across * sine_error / g->depth : 0.0), .offset = moved * outward};
 }
 
 void shadow_need_of(const shadow_light *light, shadow_need *need) {
-    const ground g = ground_of(light);
+    const ground g = hardest_of(light);
     const double slant = light->triangles.slant_hi;
-    const drawn_slope drawn = drawn_slope_of(light, &g);
     *need = (shadow_need){.texel_x = g.texel_x, .texel_y = g.texel_y, .texel = fmax(g.texel_x, g.texel_y)};
+    need->per_offset = light->kind == SHADOW_SUN ? need->texel : g.pitch;
     need->slope = dp_tan(degrees(slant));
-    parts_of(light, &g, need->part);
-    for (int i = 0; i < SHADOW_CAUSE_COUNT; i++) {
-        need->texels += need->part[i].texels;
+    need->texels = shadow_texels(light, &g, need->part);
+    for (int i = 0; i < SHADOW_CAUSE_COUNT; i++)
         need->window += need->part[i].window;
-    }
-    const double across = need->texels * g.diagonal; /* scene units: what the slope is multiplied with */
-    const double rest = need->window * outward;
+    const double across = need->texels * g.diagonal, rest = need->window * outward;
     need->curvature = curvature_of(light, &g, need->slope, need->texels) * outward;
     need->offset_only = largest_wave(across * (1.0 + sine_error), rest * g.depth, degrees(slant)) * outward;
-    shadow_bias *b = need->bias;
-    const double steepest = dp_tan(degrees(slant) + turned_light);
-    b[SHADOW_CONSTANT] = (shadow_bias){.window = across * steepest / g.depth * outward + rest};
-    const double factor = factor_of(&drawn, need->texels);
-    const double small = isfinite(factor) ? factor * drawn.absolute * outward : 0.0;
-    b[SHADOW_SLOPE] = (shadow_bias){.window = fmin(rest + need->curvature + small, b->window), .factor = factor};
-    b[SHADOW_NORMAL] = (shadow_bias){.window = rest + across * sine_error / g.depth, .offset = across * outward};
+    biases_of(light, &g, need);
     for (int way = 0; way < SHADOW_WAY_COUNT; way++) {
+        shadow_bias *b = &need->bias[way];
         double same;
-        shadow_gap_at(light, &b[way], slant, &b[way].gap_light, &b[way].gap_normal);
-        shadow_gap_at(light, &b[way], 0.0, &b[way].gap_facing, &same);
-        b[way].share = share_of(light, &g, &b[way], need->slope);
-        b[way].limited = !(light->receiver_hi + b[way].gap_light <= light->setup.spec.zfar);
+        shadow_gap_at(light, b, slant, &b->gap_light, &b->gap_normal);
+        shadow_gap_at(light, b, 0.0, &b->gap_facing, &same);
+        b->share = share_of(light, &g, b, degrees(slant));
+        b->limited = !(light->receiver_hi + b->gap_light <= light->setup.spec.zfar);
     }
+}
+
+double shadow_plane_needs(const shadow_light *light, const double normal[3], double distance) {
+    const ground g = shadow_ground_at(light, 1.0);
+    return light->kernel * g.pitch * (fabs(normal[0]) + fabs(normal[1])) / (distance * g.depth);
 }
 
 /* ---- As programs set it ------------------------------------------------------------------------------------------ */
@@ -186,20 +213,63 @@ int shadow_sign(const shadow_light *light) {
     return -bias_sign(&light->setup);
 }
 
-shadow_state shadow_state_of(const shadow_light *light, const shadow_bias *bias, const bias_api *api) {
+static shadow_way way_of(const shadow_bias *bias) {
+    return bias->offset > 0.0 ? SHADOW_NORMAL : bias->factor > 0.0 ? SHADOW_SLOPE : SHADOW_CONSTANT;
+}
+
+/* Part i of the depths where receivers lie. A light's place has them divided where units follow the depth, for there
+ * the need falls with the depth, too. False behind the last. */
+static bool part_of(const shadow_light *light, const bias_api *api, int i, shadow_light *part) {
+    static const double step = 1.0905077326652577; /* eight in an octave */
+    const dp_format *format = &light->setup.spec.format;
+    const bool follow = bias_unit_at(api, format, 0.0).least < bias_unit_at(api, format, 1.0).least;
+    *part = *light;
+    if (light->kind == SHADOW_SUN || !follow)
+        return i == 0;
+    part->receiver_lo = light->receiver_lo * dp_pow(step, i);
+    part->receiver_hi = fmin(part->receiver_lo * step, light->receiver_hi);
+    return i == 0 || part->receiver_lo < light->receiver_hi;
+}
+
+/* A texel is drawn beside the point, where the depth is smaller by what the bias has to cover. */
+static double least_depth(const shadow_light *light, const shadow_bias *bias) {
+    const double lo = dp_window(&light->setup, light->receiver_lo), hi = dp_window(&light->setup, light->receiver_hi);
+    if (light->kind == SHADOW_SUN)
+        return fmax(fmin(lo, hi) - bias->gap_light / light->setup.kappa, 0.0);
+    shadow_need need;
+    shadow_need_of(light, &need);
+    return fmax(fmin(lo, hi) - need.bias[SHADOW_CONSTANT].window, 0.0);
+}
+
+void shadow_state_widen(const shadow_light *light, const shadow_bias *bias, const bias_api *api, shadow_state *state) {
     const dp_setup *setup = &light->setup;
-    const dp_format *format = &setup->spec.format;
-    const double ends[2] = {dp_window(setup, light->receiver_lo), dp_window(setup, light->receiver_hi)};
-    /* A texel is drawn beside the point, where the depth is smaller by what the bias has to cover. */
-    const double least = fmin(ends[0], ends[1]) - bias->gap_light / setup->kappa;
-    const bias_unit high = bias_unit_at(api, format, fmax(ends[0], ends[1]));
-    shadow_state state = {.units = bias_units(api, format, fmax(least, 0.0), bias->window),
-                          .factor = (double)dp_float_up(bias->factor)};
+    const double lo = dp_window(setup, light->receiver_lo), hi = dp_window(setup, light->receiver_hi);
+    const bias_unit high = bias_unit_at(api, &setup->spec.format, fmax(lo, hi));
     shadow_bias set = *bias;
-    set.window = state.units * (isfinite(high.most) ? high.most : high.least);
-    set.factor = state.factor;
-    double same;
-    shadow_gap_at(light, &set, light->triangles.slant_hi, &state.gap_light, &state.gap_normal);
-    shadow_gap_at(light, &set, 0.0, &state.gap_facing, &same);
+    double along, normal, facing, same;
+    set.window = state->units * (isfinite(high.most) ? high.most : high.least);
+    set.factor = state->factor;
+    shadow_gap_at(light, &set, light->triangles.slant_hi, &along, &normal);
+    shadow_gap_at(light, &set, 0.0, &facing, &same);
+    state->gap_light = fmax(state->gap_light, along);
+    state->gap_normal = fmax(state->gap_normal, normal);
+    state->gap_facing = fmax(state->gap_facing, facing);
+}
+
+shadow_state shadow_state_of(const shadow_light *light, const shadow_bias *bias, const bias_api *api) {
+    const dp_format *format = &light->setup.spec.format;
+    shadow_state state = {.factor = (double)dp_float_up(bias->factor)};
+    shadow_light part;
+    for (int i = 0; part_of(light, api, i, &part); i++) {
+        double window = bias->window;
+        if (i > 0 || part.receiver_hi < light->receiver_hi) {
+            shadow_need need;
+            shadow_need_of(&part, &need);
+            window = need.bias[way_of(bias)].window;
+        }
+        state.units = fmax(state.units, bias_units(api, format, least_depth(&part, bias), window));
+    }
+    for (int i = 0; part_of(light, api, i, &part); i++)
+        shadow_state_widen(&part, bias, api, &state);
     return state;
 }

@@ -18,7 +18,7 @@
  *     constant       o, added to the window depths of the map
  *     slope-scaled   F m + o, m the greater change of window depth from one texel to the next, on x or y
  *     normal offset  the point is moved along its surface's unit normal by sin(slant) times a length, and looked up
- * from there; o is added to the map besides
+ *                    from there; o is added to the map besides
  *
  * Sizes are magnitudes: o and F are added with shadow_sign(). A bias in the shader that is taken off the point's depth
  * is the same as one added to the map.
@@ -37,14 +37,18 @@
 
 typedef enum shadow_status {
     SHADOW_OK = 0,
-    SHADOW_SETUP,     /**< the set-up is not orthographic: a directional light's is */
+    SHADOW_SETUP,     /**< the set-up is not orthographic, as a directional light's is; or of a light that has a place
+                           neither a perspective nor, of distances, orthographic from a near plane above 0 */
     SHADOW_BOX,       /**< width or height is not from 1e-12 to 1e12 scene units */
+    SHADOW_CONE,      /**< the angle of a map is not from 0.001 to 170 degrees, or its sides are of different sizes */
     SHADOW_TRIANGLES, /**< dp_triangles_check() refuses them, or the slant reaches beyond SHADOW_SLANT_MAX */
     SHADOW_KERNEL,    /**< the radius is not from 0.5 to 64 texels, or subtexel bits not from 0 to 24 */
     SHADOW_SMALL,     /**< the least height of triangles is not from 2^-8 to 65536 texels */
     SHADOW_POSITION,  /**< the world or the error of positions is negative, beyond 1e18, or no number */
     SHADOW_ROUND,     /**< the radius of curvature is not positive, or the facets' size not from 0 to 1e18 */
-    SHADOW_RECEIVERS, /**< the receivers do not lie between the planes, the nearer first */
+    SHADOW_RECEIVERS, /**< the receivers do not lie between the planes, the nearer first; or so far that no number says
+                           where */
+    SHADOW_COARSE,    /**< the filter and all errors together are half as wide as half the map, or wider */
     SHADOW_CASCADES,  /**< see shadow_split_check() */
     SHADOW_STATUS_COUNT
 } shadow_status;
@@ -54,10 +58,21 @@ const char *shadow_status_text(shadow_status status);
 
 #define SHADOW_SLANT_MAX 89.9 /**< degrees */
 
-/** A directional light's map and what is known of its use. Start from shadow_light_default(). */
+/** Where the light stands, and with it the shape of its map. */
+typedef enum shadow_kind {
+    SHADOW_SUN = 0, /**< infinitely far: a box */
+    SHADOW_SPOT,    /**< a place: one square map in perspective */
+    SHADOW_POINT    /**< a place: the six faces of a cube, 90 degrees each */
+} shadow_kind;
+
+/** A light's map and what is known of its use. Start from shadow_light_default(). */
 typedef struct shadow_light {
-    dp_setup setup;         /**< orthographic: planes along the light, mapping, format, arithmetic. Any model */
-    double width, height;   /**< of the light's box across, scene units */
+    shadow_kind kind;
+    double fov;           /**< of a light that has a place: the angle across its map, degrees; of a point light 90 */
+    dp_setup setup;       /**< planes along the light, mapping, format, arithmetic. Any model. Of the sun orthographic;
+                               of a light that has a place a perspective, or orthographic where a fragment shader
+                               writes the distance, (|P| - near)/(far - near), in place of the depth */
+    double width, height; /**< of the sun's box across, scene units */
     dp_triangles triangles; /**< width x height texels; subpixel bits, plane, pixels and slim; slant_hi, the angle from
                                  the surface's normal to the light, 0 to SHADOW_SLANT_MAX. The rest is not read */
     double small;           /**< no triangle is lower than this: its least height, texels; read for slope-scaled */
@@ -70,9 +85,15 @@ typedef struct shadow_light {
     double radius;          /**< the smallest radius of curvature of surfaces, which bend away from the light as spheres
                                  do, scene units; INFINITY: planes */
     double facet;       /**< curved surfaces are drawn as triangles in circles of at most this radius, scene units */
-    double receiver_lo; /**< surfaces that are lit lie from here to receiver_hi along the light, within its planes */
+    double receiver_lo; /**< surfaces that are lit lie from here to receiver_hi along the light, within its planes: of
+                             depths, or of distances where the map holds these */
     double receiver_hi;
 } shadow_light;
+
+/** Whether the map of a light that has a place holds distances. */
+static inline bool shadow_holds_distance(const shadow_light *light) {
+    return light->kind != SHADOW_SUN && light->setup.spec.ortho != 0;
+}
 
 /**
  * A box 20 x 20 and 100 deep, 2048 x 2048 texels in fp32, d3d, 8 subpixel bits, anchored at a vertex, triangles as
@@ -113,7 +134,9 @@ const char *shadow_way_name(shadow_way way);
 typedef struct shadow_bias {
     double window;     /**< o, window depth */
     double factor;     /**< F; 0 but for slope-scaled. INFINITY where triangles may be too small for their slope */
-    double offset;     /**< scene units, times sin(slant); 0 but for the normal offset */
+    double offset;     /**< 0 but for the normal offset. Of the sun scene units, times sin(slant); of a light that has a
+                            place a multiple of the point's depth, at any slant, or of its distance, times sin(slant).
+                            INFINITY where none is enough */
     double gap_light;  /**< the widest gap along the light that it opens at the greatest slant, scene units */
     double gap_normal; /**< the same along the normal */
     double gap_facing; /**< either, of surfaces that face the light */
@@ -134,8 +157,9 @@ double shadow_rebuilt(const dp_setup *camera, double lo, double hi, double world
 
 /** The bias that a light's map needs, and its parts. */
 typedef struct shadow_need {
-    double texel_x, texel_y; /**< scene units */
+    double texel_x, texel_y; /**< scene units; of a light that has a place where most is needed */
     double texel;            /**< the larger of the two */
+    double per_offset;       /**< what an offset of one texel is: that; of a light that has a place at depth 1 */
     double slope;            /**< tangent of the greatest slant */
     shadow_part part[SHADOW_CAUSE_COUNT];
     double texels; /**< sums of the parts */
@@ -145,8 +169,19 @@ typedef struct shadow_need {
     shadow_bias bias[SHADOW_WAY_COUNT];
 } shadow_need;
 
-/** Fills in *need. The light has been checked. */
+/**
+ * Fills in *need: of a light that has a place, where receivers need most; gaps are where they are widest. The light has
+ * been checked. A fragment shader's distances take no slope-scaled bias: its factor is INFINITY.
+ */
 void shadow_need_of(const shadow_light *light, shadow_need *need);
+
+/**
+ * The least window depth that a constant bias must be for the filter alone, of one plane that a light with a place
+ * sees: exactly what its depth changes by over the filter's radius, towards the worst corner.
+ * @param normal    of any length, in the light's space: right, up, along the axis
+ * @param distance  normal . X of its points, positive
+ */
+double shadow_plane_needs(const shadow_light *light, const double normal[3], double distance);
 
 /** The cost of a part at a slant (degrees), in window depth, at the worst azimuth: for figures. */
 double shadow_part_at(const shadow_light *light, const shadow_part *part, double slant);
@@ -177,6 +212,10 @@ typedef struct shadow_state {
  * the greatest one.
  */
 shadow_state shadow_state_of(const shadow_light *light, const shadow_bias *bias, const bias_api *api);
+
+/** The gaps that a state opens on receivers of that light, where units are worth most: *state has the widest of both.
+ */
+void shadow_state_widen(const shadow_light *light, const shadow_bias *bias, const bias_api *api, shadow_state *state);
 
 /* ---- Cascades ---------------------------------------------------------------------------------------------------- */
 

@@ -96,6 +96,7 @@ static const struct {
     {BIT(table), IDS("at"), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
     {BIT(budget) | BIT(bias), IDS("at"), "0.1:1000:log:9", NULL, ""},
     {BIT(texture), IDS("at"), "0.1:1000:log:9", "texture --product effect:edge -F d16 -m d3d", ""},
+    {BIT(shadow), IDS("at"), "0.1:1000:log:5", "shadow --spot 60 -F d24", ""},
     {BIT(world), IDS("at"), "10", NULL, ""},
     {BIT(world), IDS("at"), "10m", NULL, "--unit cm"},
     {BIT(world), IDS("separation"), "0.01", NULL, ""},
@@ -131,7 +132,7 @@ static const struct {
     {BIT(solve), IDS("unit"), "m", "solve --for far -n 10cm -F d24 -m d3d --separation 0.01 --at 50", ""},
     {BIT(world) | BIT(table) | BIT(budget), IDS("unit"), "cm", NULL, "--preset unreal"},
     /* what no value means */
-    {ALL, IDS("ortho", "share", "hfov", "matrix", "light-box", "curvature"), NULL, NULL, ""},
+    {ALL, IDS("ortho", "share", "hfov", "matrix", "light-box", "curvature", "spot"), NULL, NULL, ""},
     {ALL, IDS("figure-size", "raster", "channel", "device", "define", "axes"), NULL, NULL, ""},
     {ALL, IDS("lattice", "as", "intrinsics"), NULL, NULL, ""},
     {ALL, IDS("eye", "look", "last-eye", "last-look", "sample"), NULL, NULL, ""},

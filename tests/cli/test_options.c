@@ -116,6 +116,8 @@ static const struct {
      "a number from 0.01 to 179 degrees"},
     {"shadow", "angle", AT(shadow, shadow.angle), 75, 0, 89.9, "0", "89.9", "-1", "89.91",
      "a number from 0 to 89.9 degrees"},
+    {"shadow", "spot", AT(shadow, shadow.spot), 0, 0.001, 170, "0.001", "170", "0", "170.1",
+     "a number from 0.001 to 170 degrees"},
     {"shadow", "casters", AT(shadow, shadow.casters), 100, 0, 1e12, "0", "1e12", "-1", "2e12",
      "a number from 0 to 1e12 scene units"},
     {"texture", "sky", AT(texture, image.sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6",
@@ -490,6 +492,7 @@ TEST(test_flags) {
                  {"table", "constants", WORD_AT(table, constants)},
                  {"zfight", "rasterize", WORD_AT(zfight, drawn)},
                  {"texture", "error-map", WORD_AT(texture, image.error_map)},
+                 {"shadow", "point", WORD_AT(shadow, shadow.point)},
                  {"list", "quiet", WORD_AT(list, out.quiet)},
                  {"list", "full", WORD_AT(list, out.full)},
                  {"code", "uniforms", WORD_AT(code, uniforms)},
@@ -508,6 +511,9 @@ TEST(test_flags) {
                                                   : word_at(&o, flags[i].field, flags[i].size);
         TALLY(&t, value == 1, "--%s: %llu", flags[i].id, (unsigned long long)value);
     }
+    char line[1024] = "";
+    asked_line o = {.request = NULL};
+    TALLY(&t, parse(&o, "shadow", "distance", NULL, line) == EXIT_USAGE, "of cascades");
     tally_end(&t);
 }
 

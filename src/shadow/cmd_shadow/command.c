@@ -23,6 +23,9 @@ typedef struct shadow {
     struct {
         double lo, hi; /* of the box: what is lit */
     } lit;
+    struct {
+        const char *kind;
+    } place;
     const char *format, *mapping, *arith;
     shadow_maps maps;
     shadow_row row;
@@ -33,7 +36,7 @@ typedef struct shadow {
 
 static size_t api_count(const shadow *s) {
     size_t count = 0;
-    while (bias_asked_api(&s->o.bias, count) != NULL)
+    while (shadow_asked_api(&s->o, count) != NULL)
         count++;
     return count;
 }
@@ -43,13 +46,13 @@ static void *next_row(void *of, size_t i) {
     const size_t apis = api_count(s);
     if (i / apis >= s->maps.count)
         return NULL;
-    s->row = shadow_row_of(&s->maps, i / apis, bias_asked_api(&s->o.bias, i % apis));
+    s->row = shadow_row_of(&s->maps, i / apis, shadow_asked_api(&s->o, i % apis));
     return &s->row;
 }
 
 static void *next_whole(void *of, size_t i) {
     shadow *s = of;
-    const bias_api *api = bias_asked_api(&s->o.bias, i);
+    const bias_api *api = shadow_asked_api(&s->o, i);
     if (api == NULL)
         return NULL;
     s->whole = shadow_whole_of(&s->maps, api);
@@ -66,13 +69,27 @@ static void *next_setup(void *of, size_t i) {
     shadow_maps_make(o, format, mapping, &s->maps); /* cannot fail: cmd_shadow() has tried */
     s->format = format->name;
     s->mapping = dp_mapping_get(mapping)->name;
-    const shadow_light *light = &s->maps.items[0].light;
+    const shadow_light *light = s->maps.whole.kind != SHADOW_SUN ? &s->maps.whole : &s->maps.items[0].light;
     s->lit.lo = s->maps.view.count == 0 ? light->receiver_lo : (double)NAN;
     s->lit.hi = s->maps.view.count == 0 ? light->receiver_hi : (double)NAN;
     return s;
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+static void say_place(page *p, const shadow *s) {
+    const shadow_light *l = &s->maps.whole;
+    const bool distance = shadow_holds_distance(l);
+    shadow_need need;
+    shadow_need_of(l, &need);
+    page_title(p, "%s light, %s%s degrees, near %s, far %s, texel %s at %s 1",
+               l->kind == SHADOW_SPOT ? "spot" : "point", l->kind == SHADOW_SPOT ? "" : "six faces of ",
+               number_full(l->fov).text, number_full(l->setup.spec.znear).text, number_full(l->setup.spec.zfar).text,
+               number_of(need.per_offset, DIGITS).text, distance ? "distance" : "depth");
+    page_title(p, "receivers at %s from %s to %s%s", distance ? "distances" : "depths",
+               number_up(l->receiver_lo, DIGITS).text, number_down(l->receiver_hi, DIGITS).text,
+               distance ? "; a fragment shader writes (distance - near)/(far - near)" : "");
+}
 
 static void say_maps(page *p, void *item) {
     const shadow *s = item;
@@ -90,6 +107,8 @@ static void say_maps(page *p, void *item) {
                    number_full(v->lambda).text, number_full(v->casters).text);
         if (option_given(o->line, "camera-depth"))
             page_title(p, "receivers rebuilt from the camera's depth, %s", option_text(o->line, "camera-depth"));
+    } else if (s->maps.whole.kind != SHADOW_SUN) {
+        say_place(p, s);
     } else {
         const double texel =
             fmax(o->shadow.light_box[0] / o->shadow.size[0], o->shadow.light_box[1] / o->shadow.size[1]);
@@ -108,20 +127,25 @@ static void say_maps(page *p, void *item) {
                    number_full(o->shadow.curvature).text, number_full(o->shadow.facet).text);
 }
 
+static bool o_distance(const shadow *s) {
+    return s->o.shadow.distance;
+}
+
 /* One API: what to write. All: what follows is a table of them. */
 static void say_answer(page *p, void *item) {
     const shadow *s = item;
-    const char *where = s->maps.count > 1 ? " in any cascade" : "";
+    const char *where = s->maps.view.count > 1 ? " in any cascade" : "";
     say_maps(p, item);
-    if (s->api == NULL) {
+    if (s->api == NULL && !o_distance(s)) {
         page_text(p, "No acne%s with the constant U, with F and its U, or with the offset and its U:", where);
         return;
     }
-    const shadow_whole w = shadow_whole_of(&s->maps, s->api);
+    const shadow_whole w = shadow_whole_of(&s->maps, shadow_asked_api(&s->o, 0));
     page_text(p, "No acne%s with any one of these:", where);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
         page_note(p, shadow_way_name((shadow_way)k), "%s",
                   !isnan(w.way[k].units)   ? w.way[k].call
+                  : o_distance(s)          ? "no API biases a depth that a fragment shader writes"
                   : isnan(w.way[k].factor) ? "no bias suffices: the smallest triangles may lose half of their slope"
                                            : "no bias suffices");
 }
@@ -133,7 +157,7 @@ static void say_blank(page *p, void *item) {
 
 static void say_heads(page *p, void *item) {
     const shadow *s = item;
-    const int split = s->maps.view.count > 0 ? 8 : 0;
+    const int split = s->maps.view.count > 0 || s->maps.whole.kind != SHADOW_SUN ? 8 : 0;
     output_char(p->out, '\n');
     if (p->fitted && p->width < 68 + split) {
         page_text(p, "constant bias: units, gap; slope-scaled: factor, units, gap; normal offset: offset, units, gap");
@@ -169,9 +193,9 @@ static const char *why(const double cause[SHADOW_CAUSE_COUNT]) {
 /* Says the causes in the map where the least share of the constant bias is needed by any reckoning. */
 static void say_causes(page *p, const shadow *s) {
     char text[256] = "";
-    shadow_row least = shadow_row_of(&s->maps, 0, bias_asked_api(&s->o.bias, 0));
+    shadow_row least = shadow_row_of(&s->maps, 0, shadow_asked_api(&s->o, 0));
     for (size_t i = 1; i < s->maps.count; i++) {
-        const shadow_row r = shadow_row_of(&s->maps, i, bias_asked_api(&s->o.bias, 0));
+        const shadow_row r = shadow_row_of(&s->maps, i, shadow_asked_api(&s->o, 0));
         if (r.way[SHADOW_CONSTANT].share < least.way[SHADOW_CONSTANT].share)
             least = r;
     }
@@ -183,8 +207,10 @@ static void say_causes(page *p, const shadow *s) {
             append(text, sizeof text, "%s%s %s %%", text[0] != '\0' ? ", " : "", shadow_cause_name((shadow_cause)k),
                    number_of(100.0 * least.cause[k] / sum, 3).text);
     page_note(p, "why", "%s", why(least.cause));
-    if (s->maps.count > 1)
+    if (s->maps.view.count > 1)
         page_note(p, "causes", "cascade %d: %s", least.cascade, text);
+    else if (s->maps.whole.kind != SHADOW_SUN)
+        page_note(p, "causes", "at %s: %s", number_of(least.z, DIGITS_Z).text, text);
     else
         page_note(p, "causes", "%s", text);
 }
@@ -206,15 +232,40 @@ static number_text percent_text(double share) {
     return out;
 }
 
+static const char *offset_words(const shadow *s) {
+    return s->maps.whole.kind == SHADOW_SUN ? "in texels, times the sine of the angle, along the surface normal"
+           : o_distance(s) ? "in texels at the point's distance, times the sine of the angle, along the surface normal"
+                           : "in texels at the point's depth, at any angle, along the surface normal";
+}
+
+/* A light that has a place. */
+static void say_of_place(page *p, const shadow *s, const shadow_whole *w) {
+    const double angle = s->o.shadow.angle;
+    page_note(p, "on axis", "of a plane at %s degrees there, steepest along a row of texels, by the filter alone",
+              number_full(angle).text);
+    page_note(p, "rows", "units that are needed at that %s; the gap there of those that are enough at all",
+              o_distance(s) ? "distance" : "depth");
+    if (s->o.shadow.point && s->o.shadow.kernel > 1)
+        page_note(p, "seam", "%s",
+                  o_distance(s) ? "distances are the same in both faces: nothing more is needed"
+                                : "constant and offset cover lookups across the edges of faces; slope-scaled bias only "
+                                  "those that stay in a face, as the next one slopes otherwise");
+    if (w->hidden)
+        page_note(p, "far plane", "a bias reaches to it: nothing there is in shadow");
+    else if (w->limited)
+        page_note(p, "far plane", "a gap reaches beyond it: casters there cast no shadow");
+}
+
 static void say_notes(page *p, void *item) {
     const shadow *s = item;
-    const shadow_whole w = shadow_whole_of(&s->maps, s->api);
+    const bool place = s->maps.whole.kind != SHADOW_SUN;
+    const shadow_whole w = shadow_whole_of(&s->maps, shadow_asked_api(&s->o, 0));
     const bool real = s->maps.items[0].light.setup.spec.format.kind == DP_FORMAT_FLOAT;
-    const double wide = worth(s);
+    const double wide = place ? 1.0 : worth(s);
     page_note(p, "gap", "largest from a caster to its shadow, along the light; %s, %s and %s facing it",
               number_up(w.way[0].gap_facing, DIGITS_GAP).text, number_up(w.way[1].gap_facing, DIGITS_GAP).text,
               number_up(w.way[2].gap_facing, DIGITS_GAP).text);
-    page_note(p, "offset", "in texels, times the sine of the angle, along the surface normal");
+    page_note(p, "offset", "%s", offset_words(s));
     say_causes(p, s);
     page_note(p, "needed", "%s, %s and %s of these by slope times filter radius alone",
               percent_text(w.way[0].share).text, percent_text(w.way[1].share).text, percent_text(w.way[2].share).text);
@@ -225,16 +276,18 @@ static void say_notes(page *p, void *item) {
         page_note(p, "units", "%s: the gap is up to %s times what is needed",
                   real ? "grow with the depth in a float format" : "may be larger than assumed",
                   number_up(wide, 2).text);
-    if (w.hidden)
+    if (place)
+        say_of_place(p, s, &w);
+    else if (w.hidden)
         page_note(p, "far plane", "a bias is as large as the box is deep: nothing is in shadow");
     else if (option_given(s->o.line, "range") && w.limited)
         page_note(p, "far plane", "a gap reaches beyond it: casters there cast no shadow");
 }
 
 static void say_calls(page *p, void *item) {
-    page_line(p, "offset: in texels, times the sine of the angle, along the surface normal");
-    output_char(p->out, '\n');
     const shadow *s = item;
+    page_line(p, "offset: %s", offset_words(s));
+    output_char(p->out, '\n');
     const bias_api *api;
     for (size_t i = 0; (api = bias_asked_api(&s->o.bias, i)) != NULL; i++)
         page_note(p, api->name, "%s%s", api->call, api->sloped);
@@ -242,7 +295,7 @@ static void say_calls(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { ONE_API = 1, ALL_APIS = 2, SPLIT = 4 };
+enum { ONE_API = 1, ALL_APIS = 2, SPLIT = 4, BOXED = 8, PLACED = 16 };
 
 /* The columns of a way in JSON and CSV, behind the name of the way. */
 #define NUMBERS(name, k)                                                                                               \
@@ -270,10 +323,13 @@ static const column row_columns[] = {
     {FIELD(shadow_row, from, "from", "scene"), .when = SPLIT},
     {FIELD(shadow_row, to, "to", "scene"), .when = SPLIT},
     {FIELD(shadow_row, radius, "radius", "scene"), .when = SPLIT},
-    {FIELD(shadow_row, width, "width", "scene")},
-    {FIELD(shadow_row, height, "height", "scene")},
-    {FIELD(shadow_row, depth, "depth", "scene")},
+    {FIELD(shadow_row, width, "width", "scene"), .when = BOXED},
+    {FIELD(shadow_row, height, "height", "scene"), .when = BOXED},
+    {FIELD(shadow_row, depth, "depth", "scene"), .when = BOXED},
+    {FIELD(shadow_row, z, "z", "scene"), SHOWN("z", 8, DIGITS), .when = PLACED},
     {FIELD(shadow_row, texel, "texel_size", "scene")},
+    {FIELD(shadow_row, axis, "axis_bias", ""), .when = PLACED},
+    {FIELD(shadow_row, axis_codes, "axis_codes", ""), .when = PLACED},
     NUMBERS("constant", SHADOW_CONSTANT),
     {FIELD(shadow_row, way[SHADOW_SLOPE].factor, "slope_factor", "")},
     NUMBERS("slope", SHADOW_SLOPE),
@@ -301,6 +357,14 @@ static const column place_columns[] = {{TEXT_FIELD(shadow_row, cascade, "cascade
                                        {TEXT_FIELD(shadow_row, width, "box", 11, DIGITS)},
                                        {TEXT_FIELD(shadow_row, depth, "depth", 11, DIGITS)},
                                        {.kind = COLUMN_END}};
+
+static const column depth_columns[] = {
+    {TEXT_FIELD(shadow_row, z, "z", 11, DIGITS_Z)},
+    {TEXT_FIELD(shadow_row, texel, "texel", 11, DIGITS)},
+    {TEXT_FIELD(shadow_row, way[SHADOW_CONSTANT].window, "bias", 11, DIGITS), .upward = true},
+    {TEXT_FIELD(shadow_row, axis, "on axis", 11, DIGITS)},
+    {TEXT_FIELD(shadow_row, axis_codes, "in codes", 11, DIGITS)},
+    {.kind = COLUMN_END}};
 
 #define ANSWER(name, k)                                                                                                \
     {FIELD(shadow_whole, way[k].units, name "_units", "")}, {                                                          \
@@ -330,6 +394,7 @@ static const column setup_report[] = {
     {LIST("answers", whole_columns, next_whole), .only = AS_JSON},
     {LIST(NULL, whole_columns, next_whole), .only = AS_TEXT, .when = ALL_APIS, .notes = say_calls},
     {LIST(NULL, place_columns, next_row), .only = AS_TEXT, .when = ONE_API | SPLIT, .head = say_blank},
+    {LIST(NULL, depth_columns, next_row), .only = AS_TEXT, .when = ONE_API | PLACED, .head = say_blank},
     {LIST("rows", row_columns, next_row), .only = AS_JSON | AS_CSV},
     {LIST(NULL, row_columns, next_row), .only = AS_TEXT, .when = ONE_API, .head = say_heads, .notes = say_notes},
     {.kind = COLUMN_END}};
@@ -344,6 +409,13 @@ static const column view_columns[] = {
     {FIELD(shadow_split, count, "cascades", "")},       {FIELD(shadow_split, lambda, "lambda", "")},
     {FIELD(shadow_split, casters, "casters", "scene")}, {.kind = COLUMN_END}};
 
+static const column place_light_columns[] = {{FIELD(shadow, place.kind, "kind", "")},
+                                             {FIELD(shadow, maps.whole.fov, "fov", "degrees")},
+                                             {FIELD(shadow, maps.whole.setup.spec.znear, "near", "scene")},
+                                             {FIELD(shadow, maps.whole.setup.spec.zfar, "far", "scene")},
+                                             {FIELD(shadow, o.shadow.distance, "distance", "")},
+                                             {.kind = COLUMN_END}};
+
 static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS_JSON},
                                  {GROUP("size", size_columns), .only = AS_JSON},
                                  {FIELD(shadow, o.shadow.kernel, "kernel", "texels"), .only = AS_JSON},
@@ -356,6 +428,7 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
                                  {FIELD(shadow, o.shadow.curvature, "curvature", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, o.shadow.facet, "facet", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, camera_depth, "camera_depth", ""), .only = AS_JSON},
+                                 {GROUP("light", place_light_columns), .only = AS_JSON, .when = PLACED},
                                  {PART(shadow, view, "view", view_columns), .only = AS_JSON, .pointed = true},
                                  {LIST("setups", setup_report, next_setup), .head = say_answer},
                                  {.kind = COLUMN_END}};
@@ -370,7 +443,8 @@ int cmd_shadow(void *request) {
                 .unit = camera_unit(&given->camera),
                 .arith = dp_arith_get(given->camera.arith)->name};
     const shadow_request *o = &s.o;
-    s.api_name = s.api != NULL ? s.api->name : option_text(o->line, "api");
+    s.place.kind = o->shadow.point ? "point" : "spot";
+    s.api_name = o->shadow.distance ? NULL : s.api != NULL ? s.api->name : option_text(o->line, "api");
     s.camera_depth = option_text(o->line, "camera-depth");
     s.setup_count = o->camera.format_count * o->camera.mapping_count;
     int status = EXIT_FINE;
@@ -382,7 +456,9 @@ int cmd_shadow(void *request) {
     if (status != EXIT_FINE)
         return status;
     s.view = s.maps.view.count > 0 ? &s.maps.view : NULL;
-    const unsigned when = (s.api != NULL ? ONE_API : ALL_APIS) | (s.view != NULL ? SPLIT : 0);
+    const bool one = s.api != NULL || o->shadow.distance;
+    const unsigned when =
+        (one ? ONE_API : ALL_APIS) | (s.view != NULL ? SPLIT : 0) | (s.maps.whole.kind != SHADOW_SUN ? PLACED : BOXED);
     report_write(&(report_spec){"shadow", columns, &s, .when = when, .label = 14}, &out, o->out.form);
     return output_close(&out);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file maps.h  The shadow maps of a command line: one of a box, or the cascades of a view. */
+/** @file maps.h  The shadow maps of a command line: one of a box, the cascades of a view, or those of a light that has
+ * a place. */
 #ifndef SHADOW_CMD_SHADOW_MAPS_H
 #define SHADOW_CMD_SHADOW_MAPS_H
 
@@ -9,10 +10,12 @@
 #include "shadow/shadow.h"
 
 typedef struct shadow_maps {
-    shadow_split view; /**< count is 0 where there is one box and no view */
-    dp_setup camera;   /**< with --camera-depth, of its depth texture */
+    shadow_split view;  /**< count is 0 where there is no view */
+    shadow_light whole; /**< of a spot or point light the map, all of its receivers; else its kind is SHADOW_SUN */
+    dp_setup camera;    /**< with --camera-depth, of its depth texture */
     size_t count;
-    shadow_cascade items[SHADOW_CASCADES_MAX]; /**< of a box the light alone is set */
+    shadow_cascade items[SHADOW_CASCADES_MAX]; /**< of a box the light alone is set; of a spot or point light each is
+                                                    what is shown of one depth, `from`, and the light of that alone */
 } shadow_maps;
 
 /**
@@ -20,5 +23,8 @@ typedef struct shadow_maps {
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr that names the option at fault
  */
 int shadow_maps_make(const shadow_request *o, const dp_format *format, dp_mapping mapping, shadow_maps *out);
+
+/** The API in which biases are counted: of distances, which no API biases, that of window depths. */
+const bias_api *shadow_asked_api(const shadow_request *o, size_t index);
 
 #endif

@@ -83,6 +83,14 @@ static const option_row shadow_rows[] = {
         "one shadow map of a box: width, height, and depth along the light", .parse = parse_box,
         INTO(double, light_box[0]),
         .without = "cascades of the view"},
+    {"spot", 0, "DEG",
+        "one shadow map in perspective of a spot light, DEG the angle across it",
+        NUMBER(spot, 0.001, 170, "degrees"), .without = "cascades of the view"},
+    {"point", 0, NULL,
+        "six shadow maps of a point light, the faces of a cube", FLAG(point)},
+    {"distance", 0, NULL,
+        "with --spot or --point: a fragment shader writes (distance - near)/(far - near) in place of the depth",
+        FLAG(distance)},
     {"casters", 0, "Z",
         "how far towards the light from a cascade casters are included",
         LENGTH(casters, 0, 1e12, "scene units"), .standard = "100"},
@@ -103,7 +111,13 @@ static const option_row shadow_rows[] = {
     END};
 /* clang-format on */
 
-const option_table shadow_options = {.rows = shadow_rows, .begin = begin};
+static const option_rule shadow_rules[] = {CONFLICTS("spot", "point", NULL),
+                                           CONFLICTS("light-box", "spot point", NULL),
+
+                                           CONFLICTS("distance", "api", ": no API biases what a shader writes"),
+                                           {.option = NULL}};
+
+const option_table shadow_options = {.rows = shadow_rows, .begin = begin, .rules = shadow_rules};
 
 /* clang-format off */
 static const option_row size_rows[] = {
@@ -119,25 +133,34 @@ const option_table shadow_size_options = {.rows = size_rows};
 const option_use shadow_map_uses[] = {
     TAKE("size"), TAKE("light-box"), TAKE("kernel"), TAKE("angle"), END};
 const option_use shadow_cascade_uses[] = {TAKE("cascades"), TAKE("casters"), END};
-enum { PART_CASCADES = 1, PART_BOX = 2 };
+enum { PART_CASCADES = 1 << SHADOW_CASCADED, PART_BOX = 1 << SHADOW_BOXED, PART_PLACE = 1 << SHADOW_PLACED };
+static const option_use of_planes[] = {
+    OWN("near", HELP("near plane of the view, or of a light that has a place"), DEFAULT("0.1")),
+    OWN("far", HELP("shadow distance, greater than near and at most 1e12 scene units; with --spot or --point the far "
+        "plane of the map, or inf"), DEFAULT("1000")), END};
 static const option_use of_cascades[] = {
-    OWN("near", HELP("near plane of the view"), DEFAULT("0.1")),
-    OWN("far", HELP("shadow distance, greater than near and at most 1e12 scene units"),
-        DEFAULT("1000")),
     TAKE("fov"), TAKE("hfov"),
     OWN("viewport", HELP("size of the view in pixels; sets its aspect ratio"), DEFAULT("1920x1080")),
     TAKE("camera-depth"), GROUP_OF(shadow_cascade_uses), END};
-static const option_use of_box[] = {
-    OWN("range", HELP("with --light-box: where receivers lie along the light, from the front of the box"),
-        WITHOUT("the whole box, less 1/256 where units have no effect at window depth 0")), END};
+static const option_use of_ranges[] = {
+    OWN("range", HELP("where receivers lie: with --light-box along the light from the front of the box, with --spot "
+        "and --point their depths before the light, or distances from it"),
+        WITHOUT("the whole box, less 1/256 where units have no effect at window depth 0; or near to far, less an "
+        "octave there")), END};
+static const option_use of_place[] = {
+    OWN("at", HELP("with --spot or --point: the depths or distances shown, up to 16"),
+        WITHOUT("five, log-spaced")), TAKE("distance"), END};
+static const option_use of_flat[] = {TAKE("curvature"), END};
 
 static const option_use uses[] = {
     TAKE("from-origin"),
     OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_ALL_PERSPECTIVE), DEFAULT("d3d")),
     CAMERA_UNIT_ALONE,
     OWN("arith", ALSO("by default that of --raster where known")),
-    FOR(PART_CASCADES, of_cascades), FOR(PART_BOX, of_box), GROUP_OF(shadow_map_uses),
-    TAKE("raster"), TAKE("subpixel"), TAKE("triangle-class"), TAKE("curvature"), TAKE("api"),
+    FOR(PART_CASCADES | PART_PLACE, of_planes), FOR(PART_CASCADES, of_cascades),
+    FOR(PART_BOX | PART_PLACE, of_ranges), FOR(PART_PLACE, of_place), FOR(PART_CASCADES | PART_BOX, of_flat),
+    GROUP_OF(shadow_map_uses), TAKE("spot"), TAKE("point"),
+    TAKE("raster"), TAKE("subpixel"), TAKE("triangle-class"), TAKE("api"),
     GROUP_OF(output_written), END};
 /* clang-format on */
 
@@ -147,11 +170,17 @@ static const option_place places[] = {CAMERA_PLACES(shadow_request),
                                       PLACE(shadow_request, bias, bias_options),
                                       {.table = NULL}};
 
-static const command_part parts[] = {{"to cascades", PART_CASCADES}, {"with --light-box", PART_BOX}, {NULL, 0}};
+static const command_part parts[] = {
+    {"to cascades", PART_CASCADES}, {"with --light-box", PART_BOX}, {"with --spot or --point", PART_PLACE}, {NULL, 0}};
+
+size_t shadow_part_asked(const asked_line *line) {
+    return option_given(line, "light-box")                             ? SHADOW_BOXED
+           : option_given(line, "spot") || option_given(line, "point") ? SHADOW_PLACED
+                                                                       : SHADOW_CASCADED;
+}
 
 static size_t asked_part(const void *request) {
-    const shadow_request *o = request;
-    return option_given(o->line, "light-box");
+    return shadow_part_asked(((const shadow_request *)request)->line);
 }
 
 static int complete(void *request) {
@@ -168,6 +197,7 @@ const command_row command_shadow = {
     .example = "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
     "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
     "  depthprec shadow -f 300 --cascades 3:0.8 --api all\n"
+    "  depthprec shadow --spot 60 -n 0.5 -f 50 --range 2:40 --size 1024 -F d16\n"
     "  depthprec plot shadow -f 150 -o shadow.svg\n",
     .part = asked_part, .parts = parts};
 /* clang-format on */

@@ -11,6 +11,9 @@ typedef struct shadow_asked {
     unsigned cascades;
     double lambda;       /**< of their split: 0 even, 1 logarithmic */
     double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
+    double spot;         /**< the angle across a spot light's map, degrees; 0 when not given */
+    bool point;          /**< six faces of a cube */
+    bool distance;       /**< the maps of a spot or point light hold distances */
     double casters;      /**< scene units */
     unsigned kernel;     /**< the filter reads so many texels in either direction */
     double angle;        /**< of a receiver's normal to the light, degrees */
@@ -20,13 +23,19 @@ typedef struct shadow_asked {
     dp_spec camera;      /**< of the depth texture that receivers are rebuilt from: format, mapping, far */
 } shadow_asked;
 
+/** Which part is asked for. */
+size_t shadow_part_asked(const asked_line *line);
+
 /** The options of the maps; help shows their size where it shows that of images. */
 extern const option_table shadow_options, shadow_size_options;
 
 /** The options that a figure of shadow maps takes. */
 extern const option_use shadow_map_uses[], shadow_cascade_uses[];
 #define SHADOW_FROM_ORIGIN     "no coordinate of a position exceeds R"
-#define SHADOW_FROM_ORIGIN_OUT "positions are relative to the centre of the light's box"
+#define SHADOW_FROM_ORIGIN_OUT "positions are relative to the centre of the light's box, or to the light"
+
+/** The parts of the command: cascades of a view, a box, a light that has a place. */
+enum { SHADOW_CASCADED = 0, SHADOW_BOXED, SHADOW_PLACED };
 
 typedef struct shadow_request {
     CAMERA_REQUEST;

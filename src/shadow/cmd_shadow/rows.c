@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 
 enum { DIGITS = 4 };
 
@@ -23,7 +24,7 @@ static shadow_set set_of(const shadow_light *light, const shadow_need *need, int
                         .units = none ? (double)NAN : signed_or_none(state.units, sign),
                         .factor = signed_or_none(b->factor, sign),
                         .offset = b->offset,
-                        .texels = b->offset / need->texel,
+                        .texels = b->offset / need->per_offset,
                         .gap = none ? (double)NAN : state.gap_light,
                         .gap_normal = none ? (double)NAN : state.gap_normal,
                         .gap_facing = none ? (double)NAN : state.gap_facing,
@@ -65,11 +66,48 @@ static void write_set(shadow_set *w, int k, const bias_api *api) {
     append(w->call, sizeof w->call, "%s", bias_call(api, w->units, strtod(w->factor_text, NULL)).text);
 }
 
+/* What a shader that writes distances adds to them. */
+static void write_added(shadow_set *w, int k, const shadow_light *light) {
+    write_set(w, k, bias_api_find("vulkan-float"));
+    w->call[0] = '\0';
+    if (isnan(w->units))
+        return;
+    if (k == SHADOW_NORMAL)
+        snprintf(w->call, sizeof w->call, "%s texels, ", number_brief(number_up(w->texels, DIGITS)).text);
+    append(w->call, sizeof w->call, "add %s, %s along the ray, to what is written", w->units_text,
+           number_brief(number_up(w->window * light->setup.kappa, DIGITS)).text);
+}
+
+/* Of one depth of a light that has a place. */
+static void place_row(const shadow_maps *maps, const shadow_light *light, const bias_api *api, shadow_row *r) {
+    const dp_format *format = &light->setup.spec.format;
+    const double angle = light->triangles.slant_hi * (3.14159265358979323846 / 180.0);
+    const bool distance = shadow_holds_distance(light);
+    shadow_need need, here;
+    shadow_need_of(&maps->whole, &need);
+    shadow_need_of(light, &here);
+    r->z = light->receiver_lo;
+    r->from = r->width = r->height = r->depth = (double)NAN;
+    r->axis = light->kernel * here.texel * dp_tan(angle) / (distance ? 1.0 : r->z * r->z) / light->setup.kappa;
+    r->axis_codes = format->kind == DP_FORMAT_UNORM ? r->axis * (double)format->code_max : (double)NAN;
+    for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
+        shadow_state state = shadow_state_of(&maps->whole, &need.bias[k], api);
+        shadow_set *w = &r->way[k];
+        state.gap_light = state.gap_normal = state.gap_facing = 0.0;
+        shadow_state_widen(light, &need.bias[k], api, &state);
+        w->gap = isnan(w->units) || !isfinite(state.units) ? (double)NAN : state.gap_light;
+        w->gap_normal = isnan(w->gap) ? (double)NAN : state.gap_normal;
+        w->gap_facing = isnan(w->gap) ? (double)NAN : state.gap_facing;
+    }
+}
+
 shadow_row shadow_row_of(const shadow_maps *maps, size_t i, const bias_api *api) {
     const shadow_cascade *c = &maps->items[i];
     const shadow_light *light = &c->light;
     const bool split = maps->view.count > 0;
     const double depth = light->setup.spec.zfar - light->setup.spec.znear;
+    const bool perspective = maps->whole.kind != SHADOW_SUN && !shadow_holds_distance(light);
+    const double along = perspective ? light->receiver_lo * light->receiver_lo * light->setup.kappa : depth;
     shadow_need need;
     shadow_need_of(light, &need);
     shadow_row r = {.cascade = (int)i + 1,
@@ -80,20 +118,37 @@ shadow_row shadow_row_of(const shadow_maps *maps, size_t i, const bias_api *api)
                     .height = light->height,
                     .depth = depth,
                     .texel = need.texel,
-                    .api = api->name};
+                    .z = (double)NAN,
+                    .axis = (double)NAN,
+                    .axis_codes = (double)NAN,
+                    .api = shadow_holds_distance(light) ? NULL : api->name};
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++)
-        r.cause[k] = shadow_part_at(light, &need.part[k], light->triangles.slant_hi) * depth;
+        r.cause[k] = shadow_part_at(light, &need.part[k], light->triangles.slant_hi) * along;
     for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
         r.way[k] = set_of(light, &need, k, api);
         write_set(&r.way[k], k, api);
         r.limited = r.limited || need.bias[k].limited ||
                     light->receiver_hi + r.way[k].gap > light->setup.spec.zfar; /* units may be worth more */
     }
+    if (maps->whole.kind != SHADOW_SUN)
+        place_row(maps, light, api, &r);
     return r;
 }
 
 shadow_whole shadow_whole_of(const shadow_maps *maps, const bias_api *api) {
     shadow_whole w = {.api = api->name};
+    if (maps->whole.kind != SHADOW_SUN) {
+        shadow_need need;
+        shadow_need_of(&maps->whole, &need);
+        w.api = shadow_holds_distance(&maps->whole) ? NULL : api->name;
+        for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
+            w.way[k] = set_of(&maps->whole, &need, k, api);
+            (w.api == NULL ? write_added(&w.way[k], k, &maps->whole) : write_set(&w.way[k], k, api));
+            w.limited = w.limited || !(maps->whole.receiver_hi + w.way[k].gap <= maps->whole.setup.spec.zfar);
+            w.hidden = w.hidden || isinf(w.way[k].gap);
+        }
+        return w;
+    }
     for (size_t i = 0; i < maps->count; i++) {
         const shadow_row r = shadow_row_of(maps, i, api);
         w.limited = w.limited || r.limited;

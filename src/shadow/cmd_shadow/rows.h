@@ -25,6 +25,9 @@ typedef struct shadow_row {
     int cascade;             /**< from 1 */
     double from, to, radius; /**< of a cascade; NaN of a box */
     double width, height, depth, texel;
+    double z;                /**< of a spot or point light the receiver's depth, or its distance; else NaN */
+    double axis, axis_codes; /**< window depth that the filter alone needs of a plane at the greatest angle there, on
+                                  the axis, steepest along a row of texels; the same in codes, NaN of float formats */
     double cause[SHADOW_CAUSE_COUNT]; /**< scene units along the light, at the greatest slant */
     shadow_set way[SHADOW_WAY_COUNT];
     bool limited; /**< a gap reaches beyond the far plane */
@@ -38,7 +41,8 @@ typedef struct shadow_whole {
     shadow_set way[SHADOW_WAY_COUNT];
 } shadow_whole;
 
-/** The row of map i. */
+/** The row of map i; of a spot or point light units are those that are needed at that depth, and gaps those there of
+ * the units that are enough at all. */
 shadow_row shadow_row_of(const shadow_maps *maps, size_t i, const bias_api *api);
 
 shadow_whole shadow_whole_of(const shadow_maps *maps, const bias_api *api);
