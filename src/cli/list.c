@@ -21,6 +21,7 @@
 #include "shader/constants.h"
 #include "shader/pack.h"
 #include "shader/packing.h"
+#include "shadow/engine.h"
 #include "solve/model.h"
 #include "texture/cmd_texture/products.h"
 #include "texture/device.h"
@@ -128,6 +129,27 @@ static void tell_platform(const void *of, list_item *item) {
     append_stored(item, "; with stencil", row->stencil);
     append(item->bound, sizeof item->bound, "%s; %s%s%s; sources up to %s", remaps[row->remap], row->raster,
            row->bias[0] != '\0' ? "; " : "", row->bias, row->newest);
+}
+
+static void tell_engine(const void *of, list_item *item) {
+    static const char *const measures[] = {[SHADOW_IN_WINDOW] = "window depth",
+                                           [SHADOW_IN_SCENE] = "scene units",
+                                           [SHADOW_IN_TEXELS] = "texels at the point's depth",
+                                           [SHADOW_IN_FAR_TEXELS] = "texels, half of them at far",
+                                           [SHADOW_IN_UNITS] = "units of the API"};
+    static const char *const growths[] = {"at any angle", "times the sine of the angle",
+                                          "times one less the cosine of the angle"};
+    const shadow_engine *row = of;
+    append(item->bound, sizeof item->bound, "%s: %g x %s", row->bias, row->bias_scale, measures[row->bias_in]);
+    if (row->normal_in != SHADOW_IN_NOTHING)
+        append(item->bound, sizeof item->bound, "; %s: %g x %s, %s", row->normal, row->normal_scale,
+               measures[row->normal_in], growths[row->growth]);
+    append(item->bound, sizeof item->bound,
+           "; by default %g and %g, of spot lights %g and %g, of point lights %g and %g", row->standard[SHADOW_SUN][0],
+           row->standard[SHADOW_SUN][1], row->standard[SHADOW_SPOT][0], row->standard[SHADOW_SPOT][1],
+           row->standard[SHADOW_POINT][0], row->standard[SHADOW_POINT][1]);
+    if (row->unconfirmed[0] != '\0')
+        append(item->bound, sizeof item->bound, "; not confirmed: %s", row->unconfirmed);
 }
 
 static void tell_api(const void *of, list_item *item) {
@@ -315,6 +337,10 @@ static const topic topics[] = {
     {"apis",
      "what one unit of depth bias is, for bias --api",
      {.rows = &bias_api_table, .tell = tell_api},
+     .bound = "rule"},
+    {"engines",
+     "the shadow biases of engines, for shadow --engine",
+     {.rows = &shadow_engine_table, .tell = tell_engine},
      .bound = "rule"},
     {"rasterizers",
      "how rasterizers snap vertices and step depth across triangles",

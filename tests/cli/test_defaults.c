@@ -132,7 +132,8 @@ static const struct {
     {BIT(solve), IDS("unit"), "m", "solve --for far -n 10cm -F d24 -m d3d --separation 0.01 --at 50", ""},
     {BIT(world) | BIT(table) | BIT(budget), IDS("unit"), "cm", NULL, "--preset unreal"},
     /* what no value means */
-    {ALL, IDS("ortho", "share", "hfov", "matrix", "light-box", "curvature", "spot"), NULL, NULL, ""},
+    {ALL, IDS("ortho", "share", "hfov", "matrix", "light-box", "curvature", "spot", "engine", "bias", "normal-bias"),
+     NULL, NULL, ""},
     {ALL, IDS("figure-size", "raster", "channel", "device", "define", "axes"), NULL, NULL, ""},
     {ALL, IDS("lattice", "as", "intrinsics"), NULL, NULL, ""},
     {ALL, IDS("eye", "look", "last-eye", "last-look", "sample"), NULL, NULL, ""},

@@ -17,6 +17,7 @@
 #include "scene/cmd_scene/request.h"
 #include "scene/find.h"
 #include "shadow/cmd_shadow/request.h"
+#include "shadow/engine.h"
 #include "solve/cmd_check/request.h"
 #include "solve/cmd_solve/request.h"
 #include "support.h"
@@ -514,6 +515,12 @@ TEST(test_flags) {
     char line[1024] = "";
     asked_line o = {.request = NULL};
     TALLY(&t, parse(&o, "shadow", "distance", NULL, line) == EXIT_USAGE, "of cascades");
+    TALLY(&t, parse(&o, "shadow", "engine", "bevy,three", line) == EXIT_FINE, "engines");
+    TALLY(&t, strcmp(ASKED(shadow, o)->shadow.engine->name, "bevy") == 0 && ASKED(shadow, o)->shadow.engines == 5,
+          "the first, and all");
+    TALLY(&t, parse(&o, "shadow", "bias", "1", line) == EXIT_USAGE, "needs an engine");
+    TALLY(&t, parse(&o, "shadow", "normal-bias", "1", line) == EXIT_USAGE, "needs an engine");
+    options_release(&o);
     tally_end(&t);
 }
 

@@ -14,6 +14,7 @@
 #include "shader/pack.h"
 #include "shader/packing.h"
 #include "shader/position.h"
+#include "shadow/engine.h"
 #include "texture/synthetic.h"
 
 enum { NUMBERS = 32 };
@@ -88,6 +89,17 @@ static bool preset_row(size_t i, listed *l) {
     if (isfinite(r->zfar))
         add_number(l, r->zfar);
     add_number(l, r->fov);
+    return true;
+}
+
+static bool engine(size_t i, listed *l) {
+    ROW(shadow_engine, shadow_engine_get(i), r->aliases)
+    add_number(l, r->bias_scale);
+    if (r->normal_in != SHADOW_IN_NOTHING)
+        add_number(l, r->normal_scale);
+    for (int kind = 0; kind < 3; kind++)
+        for (int which = 0; which < 2; which++)
+            add_number(l, r->standard[kind][which]);
     return true;
 }
 
@@ -209,6 +221,7 @@ static const struct {
               {"presets", "camera", preset_row},
               {"platforms", "stored", platform_row},
               {"apis", "rule", api},
+              {"engines", "rule", engine},
               {"rasterizers", "arithmetic", rasterizer},
               {"encodings", "bound", encoding},
               {"packings", "bound", packing_row},

@@ -9,6 +9,7 @@
 #include "core/append.h"
 #include "report/number.h"
 #include "report/report.h"
+#include "shadow/cmd_shadow/given.h"
 #include "shadow/cmd_shadow/request.h"
 #include "shadow/cmd_shadow/rows.h"
 
@@ -30,6 +31,7 @@ typedef struct shadow {
     shadow_maps maps;
     shadow_row row;
     shadow_whole whole;
+    shadow_engine_row engine;
 } shadow;
 
 /* ---- Lists ------------------------------------------------------------------------------------------------------- */
@@ -57,6 +59,11 @@ static void *next_whole(void *of, size_t i) {
         return NULL;
     s->whole = shadow_whole_of(&s->maps, api);
     return &s->whole;
+}
+
+static void *next_engine(void *of, size_t i) {
+    shadow *s = of;
+    return shadow_engine_row_of(&s->o, &s->maps, i, &s->engine) ? &s->engine : NULL;
 }
 
 static void *next_setup(void *of, size_t i) {
@@ -136,6 +143,7 @@ static void say_answer(page *p, void *item) {
     const shadow *s = item;
     const char *where = s->maps.view.count > 1 ? " in any cascade" : "";
     say_maps(p, item);
+    shadow_say_given(p, &s->o, &s->maps);
     if (s->api == NULL && !o_distance(s)) {
         page_text(p, "No acne%s with the constant U, with F and its U, or with the offset and its U:", where);
         return;
@@ -256,6 +264,15 @@ static void say_of_place(page *p, const shadow *s, const shadow_whole *w) {
         page_note(p, "far plane", "a gap reaches beyond it: casters there cast no shadow");
 }
 
+static void say_engines(page *p, void *item) {
+    shadow *s = item;
+    shadow_engine_row r;
+    page_note(p, "least", "bias that is enough beside that normal bias, and the other way round; -: none is");
+    for (size_t i = 0; shadow_engine_row_of(&s->o, &s->maps, i, &r); i++)
+        if (r.unconfirmed != NULL)
+            page_note(p, r.engine, "not confirmed: %s", r.unconfirmed);
+}
+
 static void say_notes(page *p, void *item) {
     const shadow *s = item;
     const bool place = s->maps.whole.kind != SHADOW_SUN;
@@ -295,7 +312,7 @@ static void say_calls(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { ONE_API = 1, ALL_APIS = 2, SPLIT = 4, BOXED = 8, PLACED = 16 };
+enum { ONE_API = 1, ALL_APIS = 2, SPLIT = 4, BOXED = 8, PLACED = 16, ENGINES = 32 };
 
 /* The columns of a way in JSON and CSV, behind the name of the way. */
 #define NUMBERS(name, k)                                                                                               \
@@ -391,7 +408,10 @@ static const column setup_report[] = {
     {FIELD(shadow, unit, "unit", ""), .only = AS_JSON},
     {FIELD(shadow, lit.lo, "lit_from", "scene"), .only = AS_JSON},
     {FIELD(shadow, lit.hi, "lit_to", "scene"), .only = AS_JSON},
+    {LIST("engines", shadow_engine_columns, next_engine), .only = AS_JSON, .when = ENGINES},
     {LIST("answers", whole_columns, next_whole), .only = AS_JSON},
+    {LIST(NULL, shadow_engine_columns, next_engine), .only = AS_TEXT, .when = ENGINES, .head = say_blank,
+     .notes = say_engines},
     {LIST(NULL, whole_columns, next_whole), .only = AS_TEXT, .when = ALL_APIS, .notes = say_calls},
     {LIST(NULL, place_columns, next_row), .only = AS_TEXT, .when = ONE_API | SPLIT, .head = say_blank},
     {LIST(NULL, depth_columns, next_row), .only = AS_TEXT, .when = ONE_API | PLACED, .head = say_blank},
@@ -457,8 +477,8 @@ int cmd_shadow(void *request) {
         return status;
     s.view = s.maps.view.count > 0 ? &s.maps.view : NULL;
     const bool one = s.api != NULL || o->shadow.distance;
-    const unsigned when =
-        (one ? ONE_API : ALL_APIS) | (s.view != NULL ? SPLIT : 0) | (s.maps.whole.kind != SHADOW_SUN ? PLACED : BOXED);
+    const unsigned when = (one ? ONE_API : ALL_APIS) | (s.view != NULL ? SPLIT : 0) |
+                          (s.maps.whole.kind != SHADOW_SUN ? PLACED : BOXED) | (o->shadow.engine != NULL ? ENGINES : 0);
     report_write(&(report_spec){"shadow", columns, &s, .when = when, .label = 14}, &out, o->out.form);
     return output_close(&out);
 }

@@ -9,6 +9,7 @@
 #include "core/append.h"
 #include "report/output.h"
 #include "shadow/cmd_shadow/request.h"
+#include "shadow/engine.h"
 #include "shadow/shadow.h"
 
 /* N, or N:LAMBDA. */
@@ -65,10 +66,32 @@ static int parse_camera_depth(asked_line *line, const option_row *row, const cha
     return far != NULL ? camera_read_far(line, row, far, &camera->zfar) : EXIT_FINE;
 }
 
+static const name_list engines = {.rows = &shadow_engine_table};
+
+static int add_engine(asked_line *line, const option_row *row, const char *name, void *group) {
+    shadow_asked *o = group;
+    (void)line;
+    list_item found;
+    if (!names_find(row->names, name, NULL, &found))
+        return option_unknown(row, name);
+    o->engine = o->engine != NULL ? o->engine : found.row;
+    for (size_t i = 0; shadow_engine_get(i) != NULL; i++)
+        if (found.row == shadow_engine_get(i))
+            o->engines |= 1U << i;
+    return EXIT_FINE;
+}
+
+static int parse_engines(asked_line *line, const option_row *row, const char *value, void *group) {
+    shadow_asked *o = group;
+    o->engines = 0;
+    o->engine = NULL;
+    return parse_names(line, row, value, group, add_engine);
+}
+
 static void begin(asked_line *line, void *group) {
     shadow_asked *o = group;
     (void)line;
-    o->curvature = (double)NAN;
+    o->curvature = o->bias = o->normal_bias = (double)NAN;
 }
 
 #define GROUP_TYPE shadow_asked
@@ -106,6 +129,13 @@ static const option_row shadow_rows[] = {
     {"camera-depth", 0, "FORMAT:MAPPING[:FAR]",
         "screen-space shadows: receivers are rebuilt from the camera's depth texture in this format and mapping, of "
         "the view's near plane and FAR, else --far", .parse = parse_camera_depth, INTO(dp_spec, camera)},
+    {"engine", 0, "NAME[,NAME...]",
+        "whether the bias of an engine is enough, in its own numbers: @; those of others do the same where receivers "
+        "are nearest", .parse = parse_engines, INTO(unsigned, engines), .names = &engines},
+    {"bias", 0, "B",
+        "with --engine: its bias", NUMBER(bias, -1e12, 1e12, NULL), .without = "the engine's default"},
+    {"normal-bias", 0, "N",
+        "with --engine: its normal bias", NUMBER(normal_bias, 0, 1e12, NULL), .without = "the engine's default"},
     {"from-origin", 0, "R",
         SHADOW_FROM_ORIGIN, LENGTH(world, 0, 1e18, "scene units"), .standard = "0", .without = SHADOW_FROM_ORIGIN_OUT},
     END};
@@ -113,6 +143,8 @@ static const option_row shadow_rows[] = {
 
 static const option_rule shadow_rules[] = {CONFLICTS("spot", "point", NULL),
                                            CONFLICTS("light-box", "spot point", NULL),
+                                           NEEDS("bias", "engine", NULL),
+                                           NEEDS("normal-bias", "engine", NULL),
 
                                            CONFLICTS("distance", "api", ": no API biases what a shader writes"),
                                            {.option = NULL}};
@@ -159,7 +191,8 @@ static const option_use uses[] = {
     OWN("arith", ALSO("by default that of --raster where known")),
     FOR(PART_CASCADES | PART_PLACE, of_planes), FOR(PART_CASCADES, of_cascades),
     FOR(PART_BOX | PART_PLACE, of_ranges), FOR(PART_PLACE, of_place), FOR(PART_CASCADES | PART_BOX, of_flat),
-    GROUP_OF(shadow_map_uses), TAKE("spot"), TAKE("point"),
+    GROUP_OF(shadow_map_uses), TAKE("spot"), TAKE("point"), TAKE("engine"), TAKE("bias"),
+    TAKE("normal-bias"),
     TAKE("raster"), TAKE("subpixel"), TAKE("triangle-class"), TAKE("api"),
     GROUP_OF(output_written), END};
 /* clang-format on */
@@ -197,6 +230,7 @@ const command_row command_shadow = {
     .example = "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
     "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
     "  depthprec shadow -f 300 --cascades 3:0.8 --api all\n"
+    "  depthprec shadow --spot 90 -n 0.5 -f 20 --size 1024 --engine three,bevy --bias -0.001\n"
     "  depthprec shadow --spot 60 -n 0.5 -f 50 --range 2:40 --size 1024 -F d16\n"
     "  depthprec plot shadow -f 150 -o shadow.svg\n",
     .part = asked_part, .parts = parts};

@@ -9,18 +9,21 @@
 typedef struct shadow_asked {
     uint32_t size[2]; /**< texels */
     unsigned cascades;
-    double lambda;       /**< of their split: 0 even, 1 logarithmic */
-    double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
-    double spot;         /**< the angle across a spot light's map, degrees; 0 when not given */
-    bool point;          /**< six faces of a cube */
-    bool distance;       /**< the maps of a spot or point light hold distances */
-    double casters;      /**< scene units */
-    unsigned kernel;     /**< the filter reads so many texels in either direction */
-    double angle;        /**< of a receiver's normal to the light, degrees */
-    double world;        /**< no coordinate of a position exceeds it, scene units */
-    double curvature;    /**< radius of curvature of receivers, scene units; NaN when not given */
-    double facet;        /**< of the circles about their triangles, scene units */
-    dp_spec camera;      /**< of the depth texture that receivers are rebuilt from: format, mapping, far */
+    double lambda;                      /**< of their split: 0 even, 1 logarithmic */
+    double light_box[3];                /**< width, height, depth, scene units; 0 when not given */
+    double spot;                        /**< the angle across a spot light's map, degrees; 0 when not given */
+    bool point;                         /**< six faces of a cube */
+    bool distance;                      /**< the maps of a spot or point light hold distances */
+    unsigned engines;                   /**< 1 << index of shadow_engine_get(), or-ed */
+    const struct shadow_engine *engine; /**< the first that was named, whose numbers are given; null: none */
+    double bias, normal_bias;           /**< NaN when not given */
+    double casters;                     /**< scene units */
+    unsigned kernel;                    /**< the filter reads so many texels in either direction */
+    double angle;                       /**< of a receiver's normal to the light, degrees */
+    double world;                       /**< no coordinate of a position exceeds it, scene units */
+    double curvature;                   /**< radius of curvature of receivers, scene units; NaN when not given */
+    double facet;                       /**< of the circles about their triangles, scene units */
+    dp_spec camera; /**< of the depth texture that receivers are rebuilt from: format, mapping, far */
 } shadow_asked;
 
 /** Which part is asked for. */

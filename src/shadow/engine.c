@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "shadow/engine.h"
+
+#include <math.h>
+
+#include "core/elementary.h"
+#include "shadow/ground.h"
+
+/* clang-format off */
+static const shadow_engine rows[] = {
+    {"three", "threejs three.js", "added to the compared depth, of point lights to (distance - near)/(far - near)",
+     "three.js, src/lights/LightShadow.js, shadowmap_pars_fragment.glsl.js, shadowmap_vertex.glsl.js",
+     "bias", "normalBias", SHADOW_IN_WINDOW, SHADOW_IN_SCENE, -1.0, 1.0, SHADOW_AT_ANY_ANGLE,
+     {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}, false, 0.0, 0.0, ""},
+    {"unity-urp", "unity urp", "casters move; units 1 and slope factor 2.5 besides; no normal bias of point lights",
+     "Universal RP, ShadowUtils.cs (GetShadowBias, RenderShadowSlice), Shadows.hlsl (ApplyShadowBias)",
+     "depthBias", "normalBias", SHADOW_IN_FAR_TEXELS, SHADOW_IN_FAR_TEXELS, 1.0, 1.0, SHADOW_BY_VERSINE,
+     {{1.0, 1.0}, {1.0, 1.0}, {1.0, 0.0}}, true, 1.0, 2.5, "defaults"},
+    {"bevy", NULL, "the point is moved towards the light, and along its normal by sqrt(2) texels for each 1",
+     "Bevy, bevy_light/src/spot_light.rs, point_light.rs, bevy_pbr/src/render/shadows.wgsl, light.rs",
+     "shadow_depth_bias", "shadow_normal_bias", SHADOW_IN_SCENE, SHADOW_IN_TEXELS, 1.0, 1.4142135623730951,
+     SHADOW_AT_ANY_ANGLE, {{0.02, 1.8}, {0.02, 1.8}, {0.08, 0.6}}, false, 0.0, 0.0, ""},
+    {"babylon", "babylonjs babylon.js", "half of it is window depth; casters are moved along their normal",
+     "Babylon.js, shadowGenerator.ts, shadowMapVertexMetric, shadowMapVertexNormalBias",
+     "bias", "normalBias", SHADOW_IN_WINDOW, SHADOW_IN_SCENE, 0.5, 1.0, SHADOW_BY_SINE,
+     {{0.00005, 0.0}, {0.00005, 0.0}, {0.00005, 0.0}}, false, 0.0, 0.0, "the metric of point lights"},
+    {"playcanvas", NULL, "10 times as many units, and as large a slope factor",
+     "PlayCanvas, light component (shadowBias), shadow-renderer.js (setDepthBiasValues)",
+     "shadowBias", NULL, SHADOW_IN_UNITS, SHADOW_IN_NOTHING, 10.0, 0.0, SHADOW_AT_ANY_ANGLE,
+     {{0.05, 0.0}, {0.05, 0.0}, {0.05, 0.0}}, false, 0.0, 0.0, "point lights, normalOffsetBias"},
+    {"filament", NULL, "half a diagonal of a texel for each 1 along the normal; units 0.5 and slope factor 2 besides",
+     "Filament, LightManager.h (ShadowOptions)",
+     "constantBias", "normalBias", SHADOW_IN_SCENE, SHADOW_IN_TEXELS, 1.0, 0.7071067811865476, SHADOW_BY_SINE,
+     {{0.001, 1.0}, {0.001, 1.0}, {0.001, 1.0}}, false, 0.5, 2.0, "the scale of normalBias"},
+};
+/* clang-format on */
+
+NAMED_TABLE(shadow_engine, rows);
+
+static const double half_turn = 3.14159265358979323846;
+
+static double degrees(double angle) {
+    return angle * (half_turn / 180.0);
+}
+
+/* ---- What is given ----------------------------------------------------------------------------------------------- */
+
+static double soft_by(const shadow_engine *engine, const shadow_light *light) {
+    return engine->soft && light->kernel > 1.0 ? light->kernel : 1.0;
+}
+
+/* A length that a number means, scene units. */
+static double length_of(shadow_measure in, const shadow_light *light, const ground *g) {
+    const bool sun = light->kind == SHADOW_SUN;
+    const double texel = fmax(g->texel_x, g->texel_y);
+    return in == SHADOW_IN_SCENE                                           ? 1.0
+           : in == SHADOW_IN_TEXELS || (in == SHADOW_IN_FAR_TEXELS && sun) ? texel
+           : in == SHADOW_IN_FAR_TEXELS                                    ? 0.5 * g->pitch * light->setup.spec.zfar
+                                                                           : 0.0;
+}
+
+/* Window depth of a length along the ray to the light: the least of all rays, and on the axis. */
+static void along_ray(const shadow_light *light, const ground *g, double length, shadow_given *out) {
+    const bool depth = light->kind != SHADOW_SUN && !shadow_holds_distance(light);
+    const double z = g->z, left = z - length;
+    out->window_least += length / g->depth * (depth ? dp_cos(g->corner) : 1.0);
+    out->window_most += !depth ? length / g->depth : left > 0.0 ? length * z / left / g->depth : (double)INFINITY;
+}
+
+shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light *light, const bias_api *api,
+                                 double bias, double normal) {
+    const dp_setup *setup = &light->setup;
+    const ground g = shadow_ground_at(light, light->receiver_lo);
+    const double by = soft_by(engine, light), value = bias * engine->bias_scale * by;
+    const bool counted = engine->bias_in == SHADOW_IN_UNITS && !shadow_holds_distance(light);
+    const double lo = dp_window(setup, light->receiver_lo), hi = dp_window(setup, light->receiver_hi);
+    const bias_unit low = bias_unit_at(api, &setup->spec.format, fmin(lo, hi));
+    const bias_unit high = bias_unit_at(api, &setup->spec.format, fmax(lo, hi));
+    const double units = shadow_holds_distance(light) ? 0.0 : engine->units + (counted ? value : 0.0);
+    shadow_given given = {.window_least = units * low.least,
+                          .window_most = units * (isfinite(high.most) ? high.most : high.least),
+                          .factor = shadow_holds_distance(light) ? 0.0 : engine->factor + (counted ? value : 0.0),
+                          .offset = normal * engine->normal_scale * by * length_of(engine->normal_in, light, &g),
+                          .growth = engine->growth};
+    if (engine->bias_in == SHADOW_IN_WINDOW) {
+        given.window_least += value;
+        given.window_most += value;
+    } else {
+        along_ray(light, &g, value * length_of(engine->bias_in, light, &g), &given);
+    }
+    return given;
+}
+
+static double grown(shadow_growth growth, double angle) {
+    return growth == SHADOW_BY_SINE ? dp_sin(angle) : growth == SHADOW_BY_VERSINE ? 1.0 - dp_cos(angle) : 1.0;
+}
+
+/* ---- The verdict ------------------------------------------------------------------------------------------------- */
+
+enum { STEPS = 10 }; /* a degree */
+
+/* What one depth needs and is given, lengths at its farther end. */
+typedef struct balance {
+    double across; /* texels that have to be covered, scene units over a diagonal */
+    double along;  /* what the ray gives beyond rounding, scene units of depth */
+    double offset; /* along the normal */
+    double corner; /* radians: rays lean by up to that */
+    shadow_growth growth;
+} balance;
+
+/* The most that rays which lean by up to the corner lack at angles from `from` to `to`: along times the ray's length is
+ * least on the axis, and negative most in the corner. */
+static double lacks(const balance *b, double from, double to) {
+    const double seen = fmin(to + b->corner, 0.5 * half_turn);
+    const double longest = b->along < 0.0 ? dp_cos(from) / dp_cos(b->corner) : dp_cos(to);
+    return b->across * dp_sin(seen) - b->offset * grown(b->growth, from) - b->along * longest;
+}
+
+/* The greatest angle up to which nothing lacks. */
+static double free_up_to(const balance *b, double most) {
+    if (lacks(b, 0.0, 0.0) > 0.0)
+        return -1.0;
+    const int count = (int)ceil(most * STEPS - 1e-9);
+    for (int i = 0; i < count; i++)
+        if (lacks(b, degrees((double)i / STEPS), degrees(fmin((double)(i + 1) / STEPS, most))) > 0.0)
+            return (double)i / STEPS;
+    return most;
+}
+
+/* On the axis, at a diagonal, with the filter alone and rounding that favours it: the least angle in tenths where a
+ * texel is nearer than the point. No API takes m for more than sqrt(1/2) of the change over a diagonal. */
+static double acne_from(const shadow_light *light, const ground *g, const shadow_need *need,
+                        const shadow_given *given) {
+    const double texels = fmax(light->kernel - 0.7072 * given->factor, 0.0), most = light->triangles.slant_hi;
+    const double inverse = light->kind == SHADOW_SUN ? 0.0 : 1.0 / g->z;
+    const double along = (given->window_most + need->window) * g->depth;
+    for (int i = 1; i <= (int)floor(most * STEPS + 1e-9); i++) {
+        const double angle = degrees((double)i / STEPS), moved = given->offset * grown(given->growth, angle);
+        const double across = texels * g->diagonal * dp_sin(angle), facing = inverse / dp_cos(angle);
+        const double left = 1.0 - moved * facing;
+        const double lacking = across / (shadow_holds_distance(light) ? 1.0 + across * facing : 1.0);
+        /* Nearer by what it moved along the normal, the point gains a little more along the ray. */
+        if (left > 0.5 && lacking > moved / left + along * dp_cos(angle) / (left * (2.0 * left - 1.0)))
+            return (double)i / STEPS;
+    }
+    return (double)NAN;
+}
+
+shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given) {
+    const ground near = shadow_ground_at(light, light->receiver_lo), far = shadow_ground_at(light, light->receiver_hi);
+    const double most = light->triangles.slant_hi;
+    shadow_need need;
+    shadow_need_of(light, &need);
+    /* The slope of a texel is at least what makes 1 of the factor worth so many texels on each axis. */
+    const double worth = need.bias[SHADOW_SLOPE].factor > 0.0 && isfinite(need.bias[SHADOW_SLOPE].factor)
+                             ? need.texels / need.bias[SHADOW_SLOPE].factor
+                             : 0.0;
+    const bool covered = given->factor >= need.bias[SHADOW_SLOPE].factor;
+    const double rest = given->factor > 0.0 ? need.bias[SHADOW_SLOPE].window : need.window;
+    const balance b = {.across = covered ? 0.0 : fmax(need.texels - given->factor * worth, 0.0) * far.diagonal,
+                       .along = given->window_least * near.depth - rest * far.depth,
+                       .offset = given->offset / (1.0 + (light->kind == SHADOW_SUN ? 0.0 : given->offset / near.z)),
+                       .corner = light->kind == SHADOW_SUN || shadow_holds_distance(light)
+                                     ? 0.0
+                                     : near.corner + need.texels * near.pitch, /* lookups leave a face */
+                       .growth = given->growth};
+    shadow_verdict v = {.free = free_up_to(&b, most), .acne = acne_from(light, &near, &need, given)};
+    const double turned = grown(given->growth, degrees(most));
+    const bool sines = light->kind == SHADOW_SUN || shadow_holds_distance(light);
+    const double sine = dp_sin(degrees(most));
+    const shadow_bias set = {.window = given->window_most,
+                             .factor = given->factor,
+                             .offset = given->offset == 0.0
+                                           ? 0.0
+                                           : given->offset * turned / (sines ? fmax(sine, 1e-9) : 1.0) /
+                                                 (light->kind == SHADOW_SUN ? 1.0 : far.z)};
+    double normal;
+    shadow_gap_at(light, &set, most, &v.gap, &normal);
+    return v;
+}
+
+shadow_verdict shadow_judge_all(const shadow_engine *engine, const shadow_light *light, const bias_api *api,
+                                double bias, double normal) {
+    static const double step = 1.0905077326652577; /* eight in an octave */
+    shadow_verdict worst = {.free = light->triangles.slant_hi, .acne = (double)NAN};
+    shadow_light part = *light;
+    for (double z = light->receiver_lo; z <= light->receiver_hi; z *= step) {
+        if (light->kind != SHADOW_SUN) {
+            part.receiver_lo = z;
+            part.receiver_hi = fmin(z * step, light->receiver_hi);
+        }
+        const shadow_given given = shadow_engine_gives(engine, &part, api, bias, normal);
+        const shadow_verdict v = shadow_judge(&part, &given);
+        worst.free = fmin(worst.free, v.free);
+        worst.acne = fmin(worst.acne, v.acne); /* of a number and none the number */
+        worst.gap = fmax(worst.gap, v.gap);
+        if (light->kind == SHADOW_SUN)
+            break;
+    }
+    return worst;
+}
+
+/* ---- The same in another engine ---------------------------------------------------------------------------------- */
+
+double shadow_bias_as(const shadow_engine *engine, const shadow_light *light, const bias_api *api, double window) {
+    const ground g = shadow_ground_at(light, light->receiver_lo);
+    const shadow_given none = shadow_engine_gives(engine, light, api, 0.0, 0.0);
+    const shadow_given one = shadow_engine_gives(engine, light, api, 1.0, 0.0);
+    const double scale = engine->bias_scale * soft_by(engine, light), wanted = window - none.window_most;
+    const double length = scale * length_of(engine->bias_in, light, &g), ray = wanted * g.depth;
+    if (engine->bias_in == SHADOW_IN_NOTHING || one.window_most == none.window_most)
+        return (double)NAN;
+    if (engine->bias_in == SHADOW_IN_WINDOW || engine->bias_in == SHADOW_IN_UNITS)
+        return wanted / (one.window_most - none.window_most);
+    return (light->kind == SHADOW_SUN || shadow_holds_distance(light) ? ray : ray * g.z / (g.z + ray)) / length;
+}
+
+double shadow_normal_as(const shadow_engine *engine, const shadow_light *light, double offset) {
+    const ground g = shadow_ground_at(light, light->receiver_lo);
+    const double one = engine->normal_scale * soft_by(engine, light) * length_of(engine->normal_in, light, &g) *
+                       grown(engine->growth, degrees(light->triangles.slant_hi));
+    return engine->normal_in == SHADOW_IN_NOTHING || one == 0.0 ? (double)NAN : offset / one;
+}
+
+double shadow_given_offset(const shadow_given *given, double angle) {
+    return given->offset * grown(given->growth, degrees(angle));
+}
+
+/* ---- The least that is enough ------------------------------------------------------------------------------------ */
+
+static double least(const shadow_engine *engine, const shadow_light *light, const bias_api *api, double other,
+                    bool of_normal) {
+    enum { ROUNDS = 60 };
+    const double scale = of_normal ? engine->normal_scale : engine->bias_scale;
+    const double sign = scale < 0.0 ? -1.0 : 1.0, most = light->triangles.slant_hi;
+    const shadow_measure in = of_normal ? engine->normal_in : engine->bias_in;
+    double lo = 0.0, hi = 1e-9 / fabs(scale);
+    if (in == SHADOW_IN_NOTHING)
+        return (double)NAN;
+    const double bound = 1e6 * fmax(fmin(light->setup.spec.zfar, light->receiver_hi), 1.0) / fabs(scale);
+    for (; hi <= bound; lo = hi, hi *= 2.0)
+        if (shadow_judge_all(engine, light, api, of_normal ? other : sign * hi, of_normal ? sign * hi : other).free >=
+            most)
+            break;
+    if (!(hi <= bound))
+        return (double)NAN;
+    for (int i = 0; i < ROUNDS && hi - lo > 1e-6 * hi; i++) {
+        const double mid = 0.5 * (lo + hi), x = sign * mid;
+        *(shadow_judge_all(engine, light, api, of_normal ? other : x, of_normal ? x : other).free >= most ? &hi : &lo) =
+            mid;
+    }
+    const double none = shadow_judge_all(engine, light, api, of_normal ? other : 0.0, of_normal ? 0.0 : other).free;
+    return none >= most ? 0.0 : sign * hi;
+}
+
+double shadow_least_bias(const shadow_engine *engine, const shadow_light *light, const bias_api *api, double normal) {
+    return least(engine, light, api, normal, false);
+}
+
+double shadow_least_normal(const shadow_engine *engine, const shadow_light *light, const bias_api *api, double bias) {
+    return least(engine, light, api, bias, true);
+}

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Biases in engines' own numbers. What a number does is written down for each engine again; points of random planes are
+ * moved by it and compared with each corner of their filter, in long double: up to the angle that is said to be free
+ * none is in shadow, and on the axis some is where acne is said to begin. The least number that is said to be enough
+ * is, and a little less is not. Numbers of another engine do the same.
+ */
+#include "shadow/engine.h"
+#include "support.h"
+
+static const long double pi = 3.14159265358979323846L;
+
+static shadow_light random_light(rng *r) {
+    static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
+    shadow_light light = shadow_light_default();
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    light.kind = (shadow_kind)rng_below(r, 3);
+    assert_int_equal(dp_format_parse(formats[rng_below(r, 3)], found), 1);
+    spec.format = found[0];
+    spec.ortho = light.kind == SHADOW_SUN;
+    spec.znear = light.kind == SHADOW_SUN ? 0.0 : rng_log(r, 0.01, 1.0);
+    spec.zfar = rng_log(r, 10.0, 100.0);
+    spec.mapping = rng_below(r, 2) ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+    assert_int_equal(dp_setup_init(&light.setup, &spec), DP_OK);
+    light.fov = light.kind == SHADOW_POINT ? 90.0 : rng_uniform(r, 20.0, 140.0);
+    light.width = light.height = rng_log(r, 1.0, 100.0);
+    light.triangles.width = light.triangles.height = (int)rng_log(r, 256, 4096);
+    light.triangles.slant_hi = rng_uniform(r, 10.0, 80.0);
+    light.kernel = 0.5 * (double)(1 + rng_below(r, 5));
+    light.receiver_lo = light.receiver_hi = rng_uniform(r, 2.0, 9.0);
+    assert_int_equal(shadow_light_check(&light), SHADOW_OK);
+    return light;
+}
+
+/* What the numbers do, by the engines' own shaders: window depth taken off, a length towards the light, a slope factor,
+ * and a length along the normal at an angle. */
+typedef struct done {
+    long double window, ray, factor, normal;
+} done;
+
+static done by_engine(const char *name, const shadow_light *l, double unit, double bias, double normal,
+                      long double angle) {
+    const long double z = l->receiver_lo, tangent = tanl((long double)l->fov * pi / 360);
+    const bool sun = l->kind == SHADOW_SUN;
+    const long double texel = sun ? l->width / l->triangles.width : 2 * tangent * z / l->triangles.width;
+    const long double half_far = sun ? texel : tangent * l->setup.spec.zfar / l->triangles.width;
+    const long double soft = l->kernel > 1 ? l->kernel : 1;
+    if (strcmp(name, "three") == 0)
+        return (done){-bias, 0, 0, normal};
+    if (strcmp(name, "unity-urp") == 0)
+        return (done){unit, bias * half_far * soft, 2.5L, normal * half_far * soft * (1 - cosl(angle))};
+    if (strcmp(name, "bevy") == 0)
+        return (done){0, bias, 0, normal * texel * sqrtl(2)};
+    if (strcmp(name, "babylon") == 0)
+        return (done){0.5L * bias, 0, 0, normal * sinl(angle)};
+    if (strcmp(name, "playcanvas") == 0)
+        return (done){10 * bias * unit, 0, 10 * bias, 0};
+    assert_string_equal(name, "filament");
+    return (done){0.5L * unit, bias, 2, normal * texel * sqrtl(0.5L) * sinl(angle)};
+}
+
+/* 1 over the depth, or less the depth of the sun: what the map is linear in, and falls away from the light. */
+static long double nearness(const shadow_light *l, long double z) {
+    return l->kind == SHADOW_SUN ? -z : 1 / z;
+}
+
+/* Whether each corner of the filter leaves the point lit. The ray is u, v (the sun's rays do not lean), the normal at
+ * that angle to it, turned by the azimuth. */
+static bool is_lit(const shadow_light *l, const done *d, long double angle, long double azimuth, long double u,
+                   long double v) {
+    const bool sun = l->kind == SHADOW_SUN;
+    const long double z = l->receiver_lo, kappa = l->setup.kappa, length = sqrtl(u * u + v * v + 1);
+    const long double pitch =
+        sun ? l->width / l->triangles.width : 2 * tanl((long double)l->fov * pi / 360) / l->triangles.width;
+    const long double ray[3] = {u / length, v / length, 1 / length}, q = sqrtl(1 - ray[1] * ray[1]);
+    const long double a[3] = {ray[2] / q, 0, -ray[0] / q}, b[3] = {-ray[0] * ray[1] / q, q, -ray[1] * ray[2] / q};
+    long double n[3], at[3] = {u * z, v * z, z}, plane = 0;
+    for (int i = 0; i < 3; i++) {
+        n[i] = cosl(angle) * ray[i] + sinl(angle) * (cosl(azimuth) * a[i] + sinl(azimuth) * b[i]);
+        plane += n[i] * at[i];
+    }
+    for (int i = 0; i < 3; i++)
+        at[i] -= d->normal * n[i] + d->ray * ray[i];
+    if (!(at[2] > 0))
+        return true;
+    const long double x = sun ? at[0] : at[0] / at[2], y = sun ? at[1] : at[1] / at[2];
+    const long double gx = sun ? n[0] / n[2] : n[0] / plane, gy = sun ? n[1] / n[2] : n[1] / plane;
+    const long double slope = fmaxl(fabsl(gx), fabsl(gy)) * pitch;
+    const long double off = l->kernel * pitch;
+    for (int k = 0; k < 4; k++) {
+        const long double tx = x + ((k & 1) != 0 ? off : -off), ty = y + ((k & 2) != 0 ? off : -off);
+        const long double there = sun ? (plane - n[0] * tx - n[1] * ty) / n[2] : plane / (n[0] * tx + n[1] * ty + n[2]);
+        if (!sun && !(there > 0))
+            continue;
+        const long double ahead = nearness(l, at[2]) - nearness(l, there);
+        if (ahead + d->factor * slope + d->window * kappa < 0)
+            return false;
+    }
+    return true;
+}
+
+/* Numbers about those that are needed. */
+static void numbers_of(rng *r, const shadow_light *light, const shadow_engine *engine, double *bias, double *normal) {
+    shadow_need need;
+    shadow_need_of(light, &need);
+    const double window = need.bias[SHADOW_CONSTANT].window, texel = need.texel;
+    const double ray =
+        window * light->setup.kappa * (light->kind == SHADOW_SUN ? 1.0 : light->receiver_lo * light->receiver_lo);
+    const double one = engine->bias_in == SHADOW_IN_WINDOW  ? window
+                       : engine->bias_in == SHADOW_IN_SCENE ? ray
+                       : engine->bias_in == SHADOW_IN_UNITS ? 1.0
+                                                            : ray / texel;
+    *bias = (engine->bias_scale < 0.0 ? -1.0 : 1.0) * one * (rng_below(r, 4) ? rng_log(r, 0.01, 3.0) : 0.0);
+    *normal = engine->normal_in == SHADOW_IN_SCENE ? texel * rng_uniform(r, 0.0, 4.0) : rng_uniform(r, 0.0, 3.0);
+    *normal = rng_below(r, 3) && engine->normal_in != SHADOW_IN_NOTHING ? *normal : 0.0;
+}
+
+TEST(verdicts) {
+    rng r = rng_make("engines");
+    tally t[2] = {{.name = "free up to there"}, {.name = "acne there"}};
+    uint64_t seen[2] = {0};
+    const bias_api *api = bias_api_find("vulkan-unorm"); /* a unit is worth the same at any depth */
+    for (uint64_t n = test_cases(600, 6000, 100000); n > 0; n--) {
+        const shadow_light light = random_light(&r);
+        const shadow_engine *engine = shadow_engine_get(n % 6);
+        double bias, normal;
+        numbers_of(&r, &light, engine, &bias, &normal);
+        const double unit = bias_unit_at(api, &light.setup.spec.format, 1.0).least;
+        const shadow_given given = shadow_engine_gives(engine, &light, api, bias, normal);
+        const shadow_verdict v = shadow_judge(&light, &given);
+        const double h = light.kind == SHADOW_SUN ? 0.0 : tan(light.fov * (double)pi / 360.0);
+        seen[0] += v.free > 0.0;
+        for (int i = 0; i < 20 && v.free > 0.0; i++) {
+            const long double angle = (i % 2 ? v.free : rng_uniform(&r, 0.0, v.free)) * pi / 180;
+            const long double azimuth = i % 3 ? pi / 4 * (long double)rng_below(&r, 8) : rng_uniform(&r, -3.0, 3.0);
+            const double u = rng_uniform(&r, -h, h), v2 = i % 4 ? u : rng_uniform(&r, -h, h);
+            const done d = by_engine(engine->name, &light, unit, bias, normal, angle);
+            TALLY(&t[0], is_lit(&light, &d, angle, azimuth, u, v2), "%s %g, %g: kind %d, %g degrees of %g",
+                  engine->name, bias, normal, light.kind, (double)(angle * 180 / pi), v.free);
+        }
+        if (isnan(v.acne))
+            continue;
+        const done d = by_engine(engine->name, &light, unit, bias, normal, v.acne * pi / 180);
+        TALLY(&t[1], !is_lit(&light, &d, v.acne * pi / 180, pi / 4, 0, 0), "%s %g, %g: kind %d, %g degrees",
+              engine->name, bias, normal, light.kind, v.acne);
+        TALLY(&t[1], v.acne > v.free, "%s: free up to %g, acne from %g", engine->name, v.free, v.acne);
+        seen[1]++;
+    }
+    print_message("# %llu free up to an angle, %llu with acne\n", (unsigned long long)seen[0],
+                  (unsigned long long)seen[1]);
+    assert_true(seen[0] > 100 && seen[1] > 100);
+    for (int i = 0; i < 2; i++)
+        tally_end(&t[i]);
+}
+
+TEST(least) {
+    rng r = rng_make("least of engines");
+    tally t[2] = {{.name = "enough"}, {.name = "no less is"}};
+    const bias_api *api = bias_api_find("vulkan-unorm");
+    for (uint64_t n = test_cases(60, 600, 5000); n > 0; n--) {
+        const shadow_light light = random_light(&r);
+        const shadow_engine *engine = shadow_engine_get(n % 6);
+        const double most = light.triangles.slant_hi;
+        double bias, normal;
+        numbers_of(&r, &light, engine, &bias, &normal);
+        const double b = shadow_least_bias(engine, &light, api, normal);
+        const double l = shadow_least_normal(engine, &light, api, bias);
+        if (!isnan(b))
+            TALLY(&t[0], shadow_judge_all(engine, &light, api, b, normal).free == most, "%s: bias %g", engine->name, b);
+        if (!isnan(b) && b != 0.0)
+            TALLY(&t[1], shadow_judge_all(engine, &light, api, 0.999 * b, normal).free < most, "%s: bias %g",
+                  engine->name, b);
+        if (!isnan(l))
+            TALLY(&t[0], shadow_judge_all(engine, &light, api, bias, l).free == most, "%s: normal %g", engine->name, l);
+        if (!isnan(l) && l != 0.0)
+            TALLY(&t[1], shadow_judge_all(engine, &light, api, bias, 0.999 * l).free < most, "%s: normal %g",
+                  engine->name, l);
+    }
+    for (int i = 0; i < 2; i++)
+        tally_end(&t[i]);
+}
+
+/* What another engine is given does the same at the nearest receivers. */
+TEST(same_elsewhere) {
+    rng r = rng_make("engines to engines");
+    tally t = {.name = "the same"};
+    const bias_api *api = bias_api_find("vulkan-unorm");
+    for (uint64_t n = test_cases(300, 3000, 30000); n > 0; n--) {
+        const shadow_light light = random_light(&r);
+        const shadow_engine *from = shadow_engine_get(rng_below(&r, 6)), *to = shadow_engine_get(rng_below(&r, 6));
+        const double most = light.triangles.slant_hi;
+        double bias, normal;
+        numbers_of(&r, &light, from, &bias, &normal);
+        const shadow_given given = shadow_engine_gives(from, &light, api, bias, normal);
+        const double offset = shadow_given_offset(&given, most);
+        const double b = shadow_bias_as(to, &light, api, given.window_most);
+        const double l = shadow_normal_as(to, &light, offset);
+        const shadow_given there = shadow_engine_gives(to, &light, api, b, isnan(l) ? 0.0 : l);
+        if (isfinite(given.window_most))
+            TALLY(&t, fabs(there.window_most - given.window_most) <= 1e-9 * given.window_most + 1e-15,
+                  "%s to %s: %g, %g", from->name, to->name, there.window_most, given.window_most);
+        TALLY(&t, isnan(l) || fabs(shadow_given_offset(&there, most) - offset) <= 1e-9 * offset, "%s to %s: %g",
+              from->name, to->name, l);
+    }
+    tally_end(&t);
+}
