@@ -7,6 +7,7 @@
 
 #include "core/bits.h"
 #include "core/elementary.h"
+#include "raster/draw_class.h"
 
 /* ---- The camera -------------------------------------------------------------------------------------------------- */
 
@@ -14,6 +15,10 @@ raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const
     const dp_triangles *view = &setup->spec.triangles;
     const double half = dp_tan(view->fov_y * M_PI / 360.0);
     size_t index = 0;
+    camera->p11 = (float)(1.0 / half);
+    camera->p00 = (float)(view->height / (half * view->width));
+    if (row == NULL)
+        return draw_class_init(camera, setup);
     while (raster_get(index) != NULL && raster_get(index) != row)
         index++;
     const raster_status status =
@@ -23,8 +28,6 @@ raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const
     if (setup->spec.ortho || dp_pipeline_init(&camera->pipeline, setup) != DP_OK ||
         (camera->pipeline.ndc_signed && !camera->pipeline.arith->remap))
         return RASTER_MODEL;
-    camera->p11 = (float)(1.0 / half);
-    camera->p00 = (float)(view->height / (half * view->width));
     return RASTER_OK;
 }
 
@@ -79,9 +82,10 @@ typedef struct drawing {
 
 /* Turns the codes of a span into keys for the test, never that of an empty pixel. Depths may be below 0. */
 static void keys_of(const draw_camera *camera, int count, uint32_t *code) {
+    const bool by_class = draw_is_class(camera);
     const uint32_t most = camera->target.format.code_max;
-    const bool is_float = camera->target.format.kind == DP_FORMAT_FLOAT;
-    const bool reversed = camera->pipeline.reversed != 0;
+    const bool is_float = camera->target.format.kind == DP_FORMAT_FLOAT && !by_class;
+    const bool reversed = by_class ? camera->setup.reversed != 0 : camera->pipeline.reversed != 0;
     for (int i = 0; i < count && is_float; i++)
         code[i] = reversed ? ~dp_rank32(dp_float32(code[i])) : dp_rank32(dp_float32(code[i]));
     for (int i = 0; i < count && !is_float && reversed; i++)
@@ -120,7 +124,10 @@ static void draw_row(const draw_camera *camera, const draw_area *area, const ras
     to = to < area->x + area->width ? to : area->x + area->width;
     for (int x = from, count; x < to; x += count) {
         count = to - x < DRAW_ROW ? to - x : DRAW_ROW;
-        raster_codes(&camera->target, piece, y, x, x + count, key);
+        if (draw_is_class(camera))
+            draw_class_codes(camera, piece, y, x, x + count, key);
+        else
+            raster_codes(&camera->target, piece, y, x, x + count, key);
         keys_of(camera, count, key);
         take(context, x, y, count, key);
     }
@@ -130,9 +137,10 @@ bool draw_keys(const draw_camera *camera, const draw_area *area, const double pl
                void *context) {
     raster_triangle drawn;
     raster_vertex clip[3];
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3 && !draw_is_class(camera); i++)
         clip[i] = draw_clip(camera, place[i]);
-    if (raster_set_up(&camera->target, clip, &drawn) != RASTER_OK)
+    if ((draw_is_class(camera) ? draw_class_set_up(camera, place, &drawn)
+                               : raster_set_up(&camera->target, clip, &drawn)) != RASTER_OK)
         return false;
     for (int i = 0; i < drawn.count; i++) {
         const raster_piece *piece = &drawn.piece[i];

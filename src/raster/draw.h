@@ -34,6 +34,7 @@ typedef struct draw_camera {
     raster_target target;
     dp_pipeline pipeline;
     float p00, p11; /**< of the matrix: clip x and y of eye x and y */
+    dp_setup setup; /**< where no rasterizer is named: see draw_class.h */
 } draw_camera;
 
 /** n . X = distance, |n| = 1. */
@@ -56,9 +57,10 @@ typedef struct draw_buffer {
 
 /**
  * A camera of square pixels.
- * @param row    one of raster_get()
+ * @param row    one of raster_get(); null: triangles are drawn as the class of the set-up has them, see draw_class.h
  * @param setup  a perspective in the arithmetic of raster_arith(), of GL's [-1, 1] with the remap in the vertex shader,
- * for the models take clip z from 0 to w; its triangles say the viewport and the field of view
+ * for the models take clip z from 0 to w; its triangles say the viewport and the field of view. Without a row any: an
+ * orthographic view is as high as the perspective is at the depth 1
  * @return RASTER_OK, or as raster_target_init(); RASTER_MODEL also where the set-up is no such one
  */
 raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup);

@@ -28,9 +28,9 @@ typedef struct polygon {
 #define ROOT_HALF  0.70710678118654752440
 #define ROOT_THREE 1.73205080756887729353
 
-static const double sway[2] = {0.02, 0.1};       /* sideways, and forth and back */
-static const double least = 0.54, most = 1.61;   /* depths of all that is drawn, gaps and sway included */
-static const double steps = 1e-3, beyond = 10.0; /* of the slider: its least and its largest gap, in guarantees */
+static const double sway[2] = {0.02, 0.1};     /* sideways, and forth and back */
+static const double least = 0.54, most = 1.61; /* depths of all that is drawn, gaps and sway included */
+static const double across = 400.0;            /* pixels that the scene's depth takes across the view, at most */
 
 static const plane planes[PLANES] = {
     [LEFT] = {45.0, {-0.62, 0.0, 1.05}, {{ROOT_HALF, 0, ROOT_HALF}, {0, 1, 0}}, {-ROOT_HALF, 0, ROOT_HALF}},
@@ -70,6 +70,13 @@ static void eye_of(unsigned frame, double eye[3]) {
     eye[2] = sway[1] * dp_sin(turn);
 }
 
+/* About the place straight ahead at the scene's depth, so that slants stay; the ground as long as it is, else it would
+ * be flat on the screen. */
+static double made_smaller(const draw_picture *p, int on, int k, double at) {
+    const double ahead = k == 2 ? 1.0 : 0.0;
+    return on == GROUND && k == 2 ? at : ahead + p->scale * (at - ahead);
+}
+
 void draw_picture_triangles(const draw_picture *p, double gap, unsigned frame, draw_picture_take *take, void *context) {
     double eye[3];
     eye_of(frame, eye);
@@ -80,9 +87,10 @@ void draw_picture_triangles(const draw_picture *p, double gap, unsigned frame, d
         double place[CORNERS][3], triangle[3][3];
         for (int c = 0; c < shape->corners; c++)
             for (int k = 0; k < 3; k++)
-                place[c][k] = p->z * (on->origin[k] - eye[k] + shape->corner[c][0] * on->along[0][k] +
-                                      shape->corner[c][1] * on->along[1][k]) -
-                              lift * on->normal[k];
+                place[c][k] = p->z * made_smaller(p, shape->plane, k,
+                                                  on->origin[k] + shape->corner[c][0] * on->along[0][k] +
+                                                      shape->corner[c][1] * on->along[1][k]) -
+                              p->z * p->scale * eye[k] - lift * on->normal[k];
         for (int c = 2; c < shape->corners; c++) {
             memcpy(triangle[0], place[0], sizeof triangle[0]);
             memcpy(triangle[1], place[c - 1], sizeof triangle[1]);
@@ -94,103 +102,110 @@ void draw_picture_triangles(const draw_picture *p, double gap, unsigned frame, d
 
 /* ---- What is guaranteed ------------------------------------------------------------------------------------------ */
 
-/* The depths of what lies below something else. */
-static void depths_of(const draw_picture *p, int below, double *lo, double *hi) {
-    *lo = INFINITY;
-    *hi = 0.0;
-    for (int i = 0; i < POLYGONS; i++)
-        for (int c = 0; polygons[i].plane == below && c < polygons[i].corners; c++) {
-            const double z = planes[below].origin[2] + polygons[i].corner[c][0] * planes[below].along[0][2] +
-                             polygons[i].corner[c][1] * planes[below].along[1][2];
-            *lo = fmin(*lo, p->z * (z - sway[1]));
-            *hi = fmax(*hi, p->z * (z + sway[1]));
-        }
+static double guaranteed_by(const dp_setup *setup, double reach) {
+    dp_separation_worst found;
+    if (setup->spec.model != DP_MODEL_FLOAT || setup->spec.ortho)
+        return (double)INFINITY;
+    return dp_separation_over(setup, setup->spec.znear, fmin(reach, setup->spec.zfar), 0.0, &found) == DP_OK
+               ? found.bound
+               : (double)INFINITY;
 }
 
-static double guaranteed(const draw_picture *p) {
-    dp_setup setup = p->setup;
-    double worst = 0.0;
-    for (int i = 0; i < PLANES; i++) {
-        dp_separation_worst found;
-        double lo, hi;
-        depths_of(p, i, &lo, &hi);
-        setup.spec.triangles.slant_lo = setup.spec.triangles.slant_hi = planes[i].slant;
-        if (dp_separation_over(&setup, lo, hi, 0.0, &found) != DP_OK)
-            return INFINITY;
-        worst = fmax(worst, found.bound);
-    }
-    return worst;
-}
-
-bool draw_picture_marked(const draw_picture *p) {
-    return p->guaranteed < DRAW_PICTURE_GAP * p->z;
-}
-
-double draw_picture_gap(const draw_picture *p, double place) {
-    const double largest = DRAW_PICTURE_GAP * p->z, at = fmin(place, 1.0);
-    if (!(place > 0.0))
-        return 0.0;
-    if (!draw_picture_marked(p))
-        return largest * dp_pow(steps, 1.0 - at);
-    if (at < DRAW_PICTURE_MARK)
-        return p->guaranteed * dp_pow(steps, 1.0 - at / DRAW_PICTURE_MARK);
-    const double share = fmin(beyond, largest / p->guaranteed);
-    return fmin(p->guaranteed * dp_pow(share, (at - DRAW_PICTURE_MARK) / (1.0 - DRAW_PICTURE_MARK)), largest);
+double draw_picture_widest(const draw_picture *p) {
+    return DRAW_PICTURE_GAP * p->scale * p->z;
 }
 
 /* ---- A picture --------------------------------------------------------------------------------------------------- */
 
-/* Where the scene is, between what clipping leaves of the planes; 0 where it does not fit. */
-static double depth_of(const draw_picture *p, double asked) {
-    const dp_spec *spec = &p->setup.spec;
-    float znear, zfar;
-    dp_pipeline_planes(&p->camera.pipeline, &znear, &zfar);
-    const double lo = (double)znear / least, hi = fmin((double)zfar, 0x1p100) / most;
-    const double middle = sqrt(spec->znear) * sqrt(fmin(spec->zfar, 1e6 * spec->znear));
-    const double z = isnan(asked) ? fmax(fmin(middle, 0.999 * hi), 1.001 * lo) : asked;
-    return z > lo && z < hi ? z : 0.0;
+/* The class of the set-up, and that of what is drawn: any slant. */
+static dp_triangles class_of(const dp_triangles *asked) {
+    const dp_triangles standard = dp_triangles_default();
+    dp_triangles out = asked->width > 0 ? *asked : standard;
+    out.slant_lo = 0.0;
+    out.slant_hi = 90.0;
+    out.depth = fmax(out.depth, standard.depth);
+    out.pixels = fmax(out.pixels, standard.pixels);
+    out.slim = fmax(out.slim, standard.slim);
+    return out;
 }
 
-static const char *set_up(draw_picture *p, const dp_spec *asked, const raster_row *row, double z) {
+/* As what is asked for is guaranteed, and as it is drawn: the same where no rasterizer is named. */
+static const char *make_setups(draw_picture *p, const dp_spec *asked, const raster_row *row) {
+    const dp_mapping_row *mapping = dp_mapping_get(asked->mapping);
+    const bool affine = mapping != NULL && mapping->curve == DP_CURVE_PERSPECTIVE;
     dp_spec spec = *asked;
-    const dp_mapping_row *mapping = dp_mapping_get(spec.mapping);
+    spec.model = affine ? DP_MODEL_FLOAT : DP_MODEL_EXACT;
+    spec.triangles = class_of(&asked->triangles);
+    if (spec.ortho || !affine)
+        row = NULL;
     if (spec.ortho)
-        return "the picture is a perspective, not an orthographic view";
-    if (mapping == NULL || mapping->curve != DP_CURVE_PERSPECTIVE)
-        return "the picture needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE;
-    if (row->model == NULL)
-        return raster_status_text(RASTER_MODEL);
+        spec.triangles.width = 0;
+    dp_status status = dp_setup_init(&p->asked, &spec);
+    p->setup = p->asked;
+    if (status != DP_OK)
+        return dp_status_text(status);
+    p->setup.spec.triangles = class_of(&asked->triangles);
+    if (row == NULL || row->model == NULL)
+        return NULL;
     if (!raster_draws(row, &spec.format))
         return raster_status_text(RASTER_FORMAT);
-    spec.model = DP_MODEL_FLOAT;
-    spec.triangles = dp_triangles_default();
-    spec.triangles.width = DRAW_PICTURE_WIDTH;
-    spec.triangles.height = DRAW_PICTURE_HEIGHT;
-    spec.triangles.fov_y = DRAW_PICTURE_FOV;
+    p->row = row;
     raster_describe(row, &spec.triangles);
     if (!raster_arith(row, mapping->ndc_signed, &spec.arith))
         return "the rasterizer draws mappings to [0, 1] alone: d3d and reversed";
-    const dp_status status = dp_setup_init(&p->setup, &spec);
-    if (status != DP_OK)
-        return dp_status_text(status);
-    const raster_status drawn = draw_camera_init(&p->camera, row, &p->setup);
-    if (drawn != RASTER_OK)
-        return raster_status_text(drawn);
-    p->z = depth_of(p, z);
-    if (!(p->z > 0.0))
-        return isnan(z) ? "the scene does not fit between the planes: far must be at least 3.1 times near"
-                        : "the scene does not fit between the planes: it reaches from 0.54 to 1.61 of its depth";
+    status = dp_setup_init(&p->setup, &spec);
+    return status == DP_OK ? NULL : dp_status_text(status);
+}
+
+/* How large the scene is drawn, so that it fills the middle of the target and no triangle is larger than the class. */
+static double scale_of(const dp_triangles *view) {
+    const double pixel = 2.0 * dp_tan(view->fov_y * M_PI / 360.0) / view->height;
+    return fmin(1.0, across * pixel);
+}
+
+/* The things up to the depth asked for, between what clipping leaves of the planes. */
+static const char *place_scene(draw_picture *p, double reach) {
+    float lo = (float)p->setup.spec.znear, hi = (float)p->setup.spec.zfar;
+    if (p->setup.spec.model == DP_MODEL_FLOAT)
+        dp_pipeline_planes(&p->camera.pipeline, &lo, &hi);
+    p->reach = reach;
+    p->z = reach / most;
+    if (!(p->z * least > (double)lo) || !(p->z * least > 0.0))
+        return "the near plane cuts what is drawn";
+    if (!(0.999 * reach < fmin((double)hi, 0x1p100))) /* where nothing lies any more */
+        return "the far plane cuts what is drawn";
     return NULL;
 }
 
-const char *draw_picture_open(draw_picture *p, const dp_spec *spec, const raster_row *row, double z) {
-    *p = (draw_picture){0};
-    const char *wrong = set_up(p, spec, row, z);
+static const char *set_up(draw_picture *p, const dp_spec *spec, const raster_row *row, double reach) {
+    const char *wrong = make_setups(p, spec, row);
     if (wrong != NULL)
         return wrong;
+    const dp_triangles *view = &p->setup.spec.triangles;
+    if (view->width < DRAW_PICTURE_WIDTH || view->height < DRAW_PICTURE_HEIGHT)
+        return "the picture is 640x360 pixels of the viewport, which has fewer";
+    const raster_status status = draw_camera_init(&p->camera, p->row, &p->setup);
+    if (status != RASTER_OK)
+        return raster_status_text(status);
+    p->scale = scale_of(view);
+    wrong = place_scene(p, reach);
+    if (spec->ortho && p->z > 0.0) {
+        p->camera.p00 /= (float)p->z;
+        p->camera.p11 /= (float)p->z;
+    }
+    return wrong;
+}
+
+const char *draw_picture_open(draw_picture *p, const dp_spec *spec, const raster_row *row, double reach) {
+    *p = (draw_picture){0};
+    const char *wrong = set_up(p, spec, row, reach);
+    if (wrong != NULL) {
+        *p = (draw_picture){0};
+        return wrong;
+    }
     if (!draw_buffer_open(&p->buffer, DRAW_PICTURE_WIDTH * DRAW_PICTURE_HEIGHT))
         return "no memory for a picture";
-    p->guaranteed = guaranteed(p);
+    p->guaranteed = fmax(guaranteed_by(&p->asked, reach), guaranteed_by(&p->setup, reach));
     return NULL;
 }
 
@@ -257,7 +272,9 @@ draw_picture_count draw_picture_show(const draw_picture *p, bool marks, uint32_t
 }
 
 draw_picture_count draw_picture_frame(draw_picture *p, double gap, unsigned frame, bool marks, uint32_t *pixel) {
-    draw_buffer_clear(&p->buffer, (draw_area){0, 0, DRAW_PICTURE_WIDTH, DRAW_PICTURE_HEIGHT});
+    const int x = (p->camera.target.width - DRAW_PICTURE_WIDTH) / 2,
+              y = (p->camera.target.height - DRAW_PICTURE_HEIGHT) / 2;
+    draw_buffer_clear(&p->buffer, (draw_area){x, y, DRAW_PICTURE_WIDTH, DRAW_PICTURE_HEIGHT});
     draw_picture_triangles(p, gap, frame, draw_one, p);
     return draw_picture_show(p, marks, pixel);
 }

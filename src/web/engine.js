@@ -136,6 +136,13 @@ export async function load(from, host = () => ({})) {
             return { depth: depth === "1", top: Number(top), format, reversed: Number(reversed), exact: exact === "1", why };
         },
 
+        // The length at a step of a slider of the picture, 0 of gap and 1 of distance, with a unit or without.
+        lengthAt(axis, step, named) {
+            const { exports, streams } = begin(Infinity);
+            exports.picture_step(axis, step, named ? 1 : 0);
+            return streams.text(1);
+        },
+
         // An instance that stays: { exports, memory }.
         instance: () => begin(),
     };

@@ -55,15 +55,15 @@ function texture(format, [width, height]) {
 }
 
 // The whole numbers that are drawn, where nothing is 0.
-function drawn(size, depth, draw) {
-    const frame = gl.createFramebuffer(), seen = texture(gl.R32UI, size), four = new Uint32Array(4 * size[0] * size[1]);
+function drawn(size, depth, draw, part = size) {
+    const frame = gl.createFramebuffer(), seen = texture(gl.R32UI, size), four = new Uint32Array(4 * part[0] * part[1]);
     gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, seen, 0);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, depth, 0);
     gl.viewport(0, 0, ...size);
     gl.clearBufferuiv(gl.COLOR, 0, four.subarray(0, 4));
     draw();
-    gl.readPixels(0, 0, ...size, gl.RGBA_INTEGER, gl.UNSIGNED_INT, four);
+    gl.readPixels(...size.map((all, i) => (all - part[i]) >> 1), ...part, gl.RGBA_INTEGER, gl.UNSIGNED_INT, four);
     gl.deleteFramebuffer(frame);
     gl.deleteTexture(seen);
     return four.filter((_, i) => i % 4 === 0);
@@ -79,7 +79,7 @@ function valuesOf(program, from, size) {
 }
 
 // Draws by `draw` into a depth buffer, and calls `then` with it. Clip z is from 0 to w, else as C is told.
-function withDepth(format, size, clear, draw, then) {
+function withDepth(format, size, clear, draw, then, part = size) {
     clip?.clipControlEXT(clip.LOWER_LEFT_EXT, clip.ZERO_TO_ONE_EXT);
     const depth = texture([gl.DEPTH_COMPONENT16, gl.DEPTH_COMPONENT24, gl.DEPTH_COMPONENT32F][format], size);
     const seen = drawn(size, depth, () => {
@@ -89,7 +89,7 @@ function withDepth(format, size, clear, draw, then) {
         gl.enableVertexAttribArray(0);
         draw();
         gl.disableVertexAttribArray(0);
-    });
+    }, part);
     then(seen, depth);
     gl.deleteTexture(depth);
 }
@@ -159,9 +159,9 @@ const GPU_ASKS = [
         gl.deleteTexture(from);
     },
 
-    // Who is seen of triangles that are somebody's each: the nearest, of equal depths the first.
-    ({ format, other: reversed, count, vertices, second, out }) =>
-        withDepth(format, STREET, reversed ? 0 : 1, () => {
+    // Who is seen of triangles that are somebody's each, in the middle of a view: the nearest, of equal depths the first.
+    ({ a: width, b: height, format, other: reversed, count, vertices, second, out }) =>
+        withDepth(format, [width, height], reversed ? 0 : 1, () => {
             const made = programOf(`${HEAD}in vec4 given;void main(){gl_Position=given;}`, WHO);
             gl.depthFunc(reversed ? gl.GREATER : gl.LESS);
             gl.polygonOffset(0, 0);
@@ -171,7 +171,7 @@ const GPU_ASKS = [
                 gl.drawArrays(gl.TRIANGLES, 3 * i, 3);
             });
             gl.deleteProgram(made);
-        }, (seen) => out(STREET[0] * STREET[1]).set(seen)),
+        }, (seen) => out(STREET[0] * STREET[1]).set(seen), STREET),
 ];
 
 // Does a request of gpu.h that stands at `at` in the module's memory: 0 where it is done, else its text says why not.

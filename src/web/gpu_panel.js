@@ -5,8 +5,8 @@ let profile = "";
 export const profileText = () => profile;
 
 // The page gives $; aside; lines of the set-up as judge and the picture take it; what is in set-up A; take(options)
-// changes it; frame() and place() of the picture.
-export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame, place }) {
+// changes it; frame() of the picture.
+export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame }) {
     const ask = (line) => (aside.forget(line), aside.ask(line)); // a GPU may answer otherwise the next time
     const fault = ({ status, err }) => (status === 0 ? "" : err.trim().replace(/^depthprec: /, ""));
 
@@ -54,7 +54,7 @@ export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame,
     const figure = $("#by-gpu"), canvas = $("canvas", figure), context = canvas.getContext("2d");
     let draws = false, drawn = "";
     async function draw() {
-        const line = ["seen", String(frame()), String(place()), ...pictured()];
+        const line = ["seen", String(frame()), ...pictured()];
         if (figure.hidden || draws) return;
         if (line.join("\0") === drawn) return void ($("#play").getAttribute("aria-pressed") === "true" && requestAnimationFrame(draw));
         draws = true;
@@ -77,6 +77,6 @@ export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame,
         drawn = "";
         draw();
     });
-    for (const id of ["#gap", "#play"]) $(id).addEventListener(id === "#gap" ? "input" : "click", draw);
+    $("#play").addEventListener("click", draw);
     return { draw };
 }

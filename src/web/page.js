@@ -43,22 +43,25 @@ const UNUSED = {
     budget: ["at", "model"],
     share: ["at", "tolerance", ...VIEW], map: ["tolerance", ...VIEW],
 };
-const STANDARD = "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m";
-const SECOND = "table -n 0.1 -f 1000 -F fp32 -m reversed --unit m";
+const VIEWPORT = "1920x1080"; // at any slant is said of a view alone
+const STANDARD = `table -n 0.1 -f 1000 -F unorm24 -m d3d --viewport ${VIEWPORT} --unit m`;
+const SECOND = `table -n 0.1 -f 1000 -F fp32 -m reversed --viewport ${VIEWPORT} --unit m`;
 
 let engine, aside, picture, gpuPanel, imagePanel;
 const takes = {}; // options of each command
 // A page shows this at first: a link says only what differs from it.
-const start = () => ({
+const start = (world) => ({
     setups: [], figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]),
     asked: {
-        solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]),
-        bias: new Map([["separation", "2cm"], ["at", "100m"], ["api", "all"]]),
+        solve: new Map([["for", "near"], ["separation", world.gap], ["at", world.distance]]),
+        bias: new Map([["separation", world.gap], ["at", world.distance], ["api", "all"]]),
         zfight: new Map(),
         prepass: new Map([["sample", "100000"]]),
     },
 });
-const state = start();
+const WORLD = { gap: "2cm", distance: "200m" }; // what is asked of all set-ups, whatever else is changed
+const world = { ...WORLD };
+const state = start(world);
 const fields = []; // of each set-up: its controls by option
 
 const errorOf = ({ err }) => err.trim().replace(/^depthprec: /, "");
@@ -71,15 +74,17 @@ const words = (options) =>
 const mapOf = (read) => new Map(read.options.map(({ name, value }) => [name, value]));
 
 // Options of a set-up that a command does not want although it takes them, and of a question that another one replaces.
-function unwanted(verb, asked) {
-    if (verb === "plot") return UNUSED[state.figure];
-    if (verb === "solve") return ["at", "range", asked.get("for")];
-    return verb === "bias" ? ["at", "range"] : [];
+const AFFINE = ["d3d", "gl", "reversed", "gl-reversed"]; // on the screen, so that there is a guarantee at a slant
+function unwanted(verb, asked, setup) {
+    const view = AFFINE.includes(setup.get("mapping") ?? AFFINE[0]) || verb === "table" ? [] : VIEW;
+    if (verb === "plot") return [...UNUSED[state.figure], ...view];
+    if (verb === "solve") return ["at", "range", asked.get("for"), ...view];
+    return verb === "bias" ? ["at", "range", ...view] : view;
 }
 
 // A figure may have the curves of a second set-up beside it.
 function commandOf(verb, setup, b = state.setups[1]) {
-    const asked = new Map(state.asked[verb] ?? []), without = unwanted(verb, asked);
+    const asked = new Map(state.asked[verb] ?? []), without = unwanted(verb, asked, setup);
     if (asked.get("for") === "distance") asked.delete("at");
     const given = new Map([...[...setup].filter(([name]) => !without.includes(name)), ...asked]);
     const inOrder = [...takes[verb].keys()].filter((name) => given.has(name));
@@ -100,14 +105,13 @@ function shown() {
 
 // ---- The address --------------------------------------------------------------------------------------------------
 
-// Beside the commands is seen: the gap of the picture, in thousandths of its slider, how far things are there, in A's scene
-// units, and the colours.
-const SEEN = { gap: /^(1000|\d{1,3})$/, distance: /^\d+(\.\d+)?(e[+-]\d+)?$/, theme: /^(system|light|dark)$/ };
-const SEEN_FIRST = { gap: "300", distance: "", theme: "system" };
-let distance = ""; // where nobody has chosen one it is the first of A's depths, or the picture's choice
+// What is seen beside the commands: gap and distance of the picture, as they were typed, and the colours.
+const LENGTH = /^\d[\d.e+-]*[a-z]{0,2}$/;
+const SEEN = { gap: LENGTH, distance: LENGTH, theme: /^(system|light|dark)$/ };
+const SEEN_FIRST = { ...WORLD, theme: "system" };
 
 function seen() {
-    const now = { gap: $("#gap").value, distance, theme: document.documentElement.dataset.theme ?? "system" };
+    const now = { ...world, theme: document.documentElement.dataset.theme ?? "system" };
     return Object.entries(now).filter(([name, value]) => value !== SEEN_FIRST[name]).map((pair) => pair.join("="));
 }
 
@@ -118,21 +122,19 @@ function takeSeen(all) {
         for (const word of all.pop().slice(1)) {
             const [name, value] = word.split("=");
             if (!Object.hasOwn(SEEN, name) || !SEEN[name].test(value))
-                throw new Error(`page ${word}: it takes gap=0 to gap=1000, distance=NUMBER and theme=light or theme=dark`);
+                throw new Error(`page ${word}: it takes gap=2cm, distance=200m and the like, theme=light or theme=dark`);
             said[name] = value;
         }
     return said;
 }
 
-function see({ gap, distance: far, theme }) {
-    distance = far;
-    $("#gap").value = gap;
-    $("#gap").dispatchEvent(new Event("input"));
+function see({ gap, distance, theme }) {
+    Object.assign(world, { gap, distance });
     setTheme(theme);
 }
 
 function link() {
-    const first = start(), simple = [...state.setups[0].keys()].every((name) => takes.table.has(name));
+    const first = start(world), simple = [...state.setups[0].keys()].every((name) => takes.table.has(name));
     const asks = ({ asked }, verb) => join(words(asked[verb]));
     const usual = simple && state.shown.size === first.shown.size &&
         [...state.shown].every((verb) => first.shown.has(verb) && (verb in first.asked ? asks(state, verb) === asks(first, verb) : true));
@@ -221,7 +223,7 @@ async function set(all, byLink = false) {
     try {
         const lines = all();
         said = byLink ? takeSeen(lines) : null;
-        next = await understand(lines, byLink ? start() : state);
+        next = await understand(lines, byLink ? start(said) : state);
     } catch (error) {
         if (mine !== asking) return true; // it is not the last one
         refuse(error);
@@ -275,7 +277,6 @@ function buildSetup(index) {
         const to = state.setups[index];
         if (value === null) to.delete(option);
         else to.set(option, value);
-        if (index === 0 && option === "at") distance = "";
         later();
     };
     // A plane that is dragged pushes the other one before it.
@@ -340,7 +341,12 @@ function buildSetup(index) {
     });
     own.showPlain = () => plainly.forEach((one) => one.show());
     const ortho = make("input", { type: "checkbox", "data-option": "ortho", id: `ortho-${letter}` });
-    ortho.addEventListener("change", () => change("ortho", ortho.checked ? "" : null));
+    ortho.addEventListener("change", () => { // which has no view
+        for (const option of VIEW) state.setups[index].delete(option);
+        if (!ortho.checked) state.setups[index].set("viewport", VIEWPORT);
+        change("ortho", ortho.checked ? "" : null);
+        fill();
+    });
     own.ortho = ortho;
     const more = make("input", { class: "more", id: `more-${letter}`, placeholder: "--rounding zero", ...plain });
     more.addEventListener("change", () => {
@@ -412,18 +418,36 @@ function showSliders(index) {
     }
 }
 
-// How far the things of the picture can be, which reach from 0.54 to 1.61 of that, to lie between A's planes.
-function distances() {
-    const [near, far] = ["near", "far"].map((name) => numberOf(fields[0][name].value || STARTS[name], state.setups[0].get("unit")));
-    const hi = (0.999 * (Number.isFinite(far) ? far : Math.max(near, 1e-3) * 1e6)) / 1.61;
-    return { log: true, lo: (1.001 * near) / 0.54, hi };
+// Gap and distance, where they are, and where what is known of the set-ups lies on their axes.
+function showWorld(facts) {
+    for (const [name, mark] of [["gap", "enough"], ["distance", "limit"]]) {
+        const slider = $(`#${name}`), known = facts.find((one) => one[name])?.[name];
+        const text = $(`#${name}-text`);
+        show(text, world[name]);
+        text.setAttribute("aria-invalid", known === undefined);
+        slider.setAttribute("aria-valuetext", world[name]);
+        if (known !== undefined) slider.value = known.step;
+        for (const at of slider.parentElement.querySelectorAll(".mark")) {
+            const i = Number(at.dataset.mark), is = state.setups[i] && facts[i]?.[mark];
+            at.hidden = !is;
+            if (!is) continue;
+            at.textContent = `${state.setups.length > 1 ? `${"AB"[i]}: ` : ""}${is.text}`;
+            at.style.setProperty("--at", is.step / 1000);
+            at.classList.toggle("before", is.step > 600);
+        }
+    }
 }
 
-function showDistance() {
-    const slider = $("#distance"), unit = unitOf(state.setups[0]), z = Number(picture.z().toPrecision(3)), text = unit === "" ? z : `${z} ${unit}`;
-    slider.value = stepAt(distances(), z || Number(distance));
-    slider.setAttribute("aria-valuetext", text);
-    $("#distance-is").textContent = z === 0 ? "" : text;
+// What is asked of the set-ups follows, but where it is asked otherwise.
+function ask(name, value) {
+    const option = { gap: "separation", distance: "at" }[name];
+    for (const asked of [state.asked.solve, state.asked.bias])
+        if (asked.get(option) === world[name]) {
+            asked.set(option, value);
+            fillQuestions();
+        }
+    world[name] = value;
+    later();
 }
 
 // Each question has the fields that its command takes.
@@ -435,6 +459,12 @@ function refuseSetup(index, text) {
     const own = fields[index];
     if (own.refused.textContent !== text) own.refused.textContent = text;
     for (const option of Object.keys(STARTS)) own[option].setAttribute("aria-invalid", text.startsWith(`--${option}: `));
+}
+
+function fillQuestions() {
+    for (const form of document.querySelectorAll("[data-asks]"))
+        for (const input of form.querySelectorAll("[data-option]"))
+            show(input, state.asked[form.dataset.asks].get(input.dataset.option) ?? "");
 }
 
 // The controls show the state.
@@ -455,11 +485,7 @@ function fill() {
     const two = state.setups.length > 1;
     $("#b").hidden = !two;
     $("#add-b").setAttribute("aria-pressed", two);
-    for (const form of document.querySelectorAll("[data-asks]"))
-        for (const input of form.querySelectorAll("[data-option]")) {
-            const value = state.asked[form.dataset.asks].get(input.dataset.option);
-            show(input, value ?? "");
-        }
+    fillQuestions();
     for (const input of document.querySelectorAll("[name=figure]")) input.checked = input.value === state.figure;
     for (const input of document.querySelectorAll("[data-shows]")) input.checked = state.shown.has(input.dataset.shows);
 }
@@ -655,10 +681,10 @@ function crossTo(text) {
 
 function require(at, separation) {
     const unit = unitOf(state.setups[0]), asked = state.asked.solve;
-    asked.set("at", at + unit);
-    asked.set("separation", separation + unit);
-    for (const name of ["at", "separation"]) $(`[data-asks=solve] [data-option=${name}]`).value = asked.get(name);
-    later();
+    asked.set("at", world.distance);
+    asked.set("separation", world.gap);
+    ask("distance", at + unit);
+    ask("gap", separation + unit);
 }
 
 // How far each set-up resolves what is required, in A's scene units.
@@ -731,16 +757,17 @@ function showOutput(panel, one, index, said) {
 }
 
 function showSetup(index, said) {
-    const place = $("#verdicts");
     refuseSetup(index, said.status === REFUSED ? errorOf(said) : "");
-    while (place.children.length <= index) place.append(make("p", {}));
-    const one = place.children[index];
-    const letter = state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : [];
-    // Without a viewport the table is of surfaces that face the camera; the picture's are at any slant.
-    const text = answers(withoutCells(said.out)).replaceAll("resolved:", "resolved, facing the camera:");
-    if (said.status !== REFUSED) one.replaceChildren(...letter, text);
+    if (drawnRefusals[index] !== refusalOf(state.setups[index])) showPicture();
     document.documentElement.dataset.answered = "";
-    one.classList.toggle("stale", said.status === REFUSED);
+}
+
+// What is promised of gap and distance: at any slant first, then of what faces the camera; of a set-up that is refused, why.
+function showHeadlines(facts) {
+    $("#verdicts").replaceChildren(...state.setups.map((_, i) => {
+        const { headline, facing, error } = facts[i] ?? {}, letter = state.setups.length > 1 ? [make("b", {}, "AB"[i]), " "] : [];
+        return make("p", {}, ...letter, headline ?? error ?? "", ...(facing ? [make("br"), make("span", { class: "facing" }, facing)] : []));
+    }));
 }
 
 function count() {
@@ -764,7 +791,7 @@ function outputs(colours) {
 
 // Shows what is known; what is not is paler until it comes.
 function showKnown() {
-    const late = new Set(), place = $("#verdicts");
+    const late = new Set();
     for (const { panel, one, index, line, over } of outputs()) {
         if (over) continue;
         const said = aside.known(line);
@@ -772,7 +799,6 @@ function showKnown() {
         else if (panel === undefined) showSetup(index, said);
         else showOutput(panel, one, index, said);
     }
-    while (place.children.length > state.setups.length) place.lastChild.remove();
     for (const panel of document.querySelectorAll("[data-panel]")) panel.classList.toggle("stale", late.has(panel));
     if (state.setups.length > 0) showOver();
 }
@@ -898,11 +924,10 @@ function listen() {
     copies("#copy", address);
     $("#share").hidden = !navigator.share;
     $("#share").addEventListener("click", () => navigator.share({ title: document.title, url: address() }).catch(() => {}));
-    $("#gap").addEventListener("change", later);
-    $("#distance").addEventListener("input", () => {
-        distance = numberOfStep(distances(), Number($("#distance").value));
-        later();
-    });
+    for (const [i, name] of ["gap", "distance"].entries()) {
+        $(`#${name}`).addEventListener("input", ({ target }) => ask(name, engine.lengthAt(i, Number(target.value), unitOf(state.setups[0]) !== "")));
+        $(`#${name}-text`).addEventListener("input", ({ target }) => target.value.trim() && ask(name, target.value.replaceAll(" ", "")));
+    }
     copies("#copy-profile", profileText);
     copies("#copy-commands", () => $("#link").textContent);
     for (const input of document.querySelectorAll("[data-shows]"))
@@ -955,30 +980,35 @@ function listen() {
 // Beside A its second set-up, or what reversed fp32 makes of the same planes.
 function pictured() {
     const [a, b] = state.setups, best = new Map([...a, ["format", "fp32"], ["mapping", "reversed"]]);
-    const here = (setup) => commandOf("table", new Map([...setup].filter(([name]) => name !== "at")));
-    const { lo, hi } = distances(), at = String(Math.max(lo, Math.min(hi, Number(distance))));
-    const first = distance === "" ? commandOf("table", a) : [...here(a), "--at", at], second = here(b ?? best);
-    return join(here(a)) === join(second) ? [first] : [first, second];
+    const lines = [a, b ?? best].map((setup, i) => commandOf("table", setup));
+    return lines[0].join() === lines[1].join() ? lines.slice(0, 1) : lines;
+}
+// A's unit is that of gap and distance that have none.
+const lengthsFor = (setup) => Object.values(world).map((text) => lengthFor(setup ?? state.setups[0], text));
+const pictureLines = () => pictured().map((line, i) => [...lengthsFor(state.setups[i]), ...line]);
+let drawnRefusals = []; // as the pictures know them
+function refusalOf(setup) {
+    const said = aside.known(commandOf("table", setup));
+    return said?.status === REFUSED ? errorOf(said) : "";
 }
 
 function showPicture() {
-    const lines = pictured(), [, second] = document.querySelectorAll("#picture figure");
+    const lines = pictureLines(), [, second] = document.querySelectorAll("#picture figure");
     second.hidden = lines.length === 1;
-    if (picture === undefined) return;
-    picture.set(lines);
-    showDistance();
+    drawnRefusals = state.setups.map(refusalOf);
+    const facts = picture.set(lines.map((line, i) => ({ line, error: drawnRefusals[i] ?? "" })));
+    showWorld(facts);
+    showHeadlines(facts);
     gpuPanel?.draw();
     imagePanel?.follow();
 }
 
-// Each picture says what it is of; the guarantee's mark is at three quarters of the slider.
-const viewOf = (figure, index) => ({
+// Each picture says what it is of.
+const viewOf = (figure) => ({
     canvas: $("canvas", figure),
-    onStatus(text, { drawn, hasMark, error }) {
+    onStatus(text, drawn) {
         $(".answer", figure).textContent = text;
         $(".name", figure).textContent = drawn;
-        if (index === 0) $("#mark").hidden = !hasMark;
-        $("canvas", figure).hidden = error !== "";
     },
 });
 
@@ -1022,6 +1052,8 @@ async function begin() {
     buildSetup(1);
     explain();
     listen();
+    const views = [...document.querySelectorAll("#picture figure")].slice(0, 2).map(viewOf);
+    picture = createPicture({ views, engine, play: $("#play") });
     const fragment = location.hash.slice(1);
     await setLink(""); // something to change, however long the link takes
     if (fragment !== "" && !(await setLink(fragment))) {
@@ -1030,12 +1062,10 @@ async function begin() {
     }
     opened = true;
     want();
-    const views = [...document.querySelectorAll("#picture figure")].map(viewOf);
-    picture = createPicture({ views, engine, slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is") });
     $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));
     gpuPanel = createGpuPanel({
-        $, aside, frame: picture.frame, place: () => $("#gap").value / $("#gap").max, setup: () => state.setups[0],
-        pictured: () => pictured()[0],
+        $, aside, frame: picture.frame, setup: () => state.setups[0],
+        pictured: () => pictureLines()[0],
         judged: (text) => ["judge", ...commandOf("judge", state.setups[0]).slice(1), "--", text],
         take,
     });

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The flickering picture's door: a command's words make it, each frame is one call. What is said about it is written
- * to stdout, a line for the gap and one for the rest. picture.js is the other side; all calls have the same instance.
+ * The flickering picture's door: a gap, a distance and a command's words make it, each frame is one call. What the page
+ * says about gap and distance is written to stdout as JSON, sentences, places of sliders and all. picture.js is the
+ * other side; all calls have the same instance.
  */
 #include "raster/picture.h"
 
@@ -11,17 +12,37 @@
 #include <string.h>
 
 #include "camera/cmd/setups.h"
+#include "core/append.h"
+#include "core/elementary.h"
 #include "report/number.h"
+#include "solve/distance.h"
 #include "web/gpu.h"
 #include "web/page.h"
 
-enum { DIGITS = 3 };
+enum { DIGITS = 3, STEPS = 1000, TEXT_SIZE = 256 };
 enum { PIXELS = DRAW_PICTURE_WIDTH * DRAW_PICTURE_HEIGHT };
+
+/* What has a slider: from one length to the other, in metres, or in scene units where nothing says what they are. */
+typedef struct axis {
+    const char *name;
+    double lo, hi;
+} axis;
+
+enum { GAP, DISTANCE, AXES };
+static const axis axes[AXES] = {{"gap", 1e-4, 10.0}, {"distance", 0.1, 1e5}};
+
+/* A length that was typed, and the unit in which what is beside it is said. */
+typedef struct typed {
+    double value; /* scene units */
+    const unit_row *as;
+} typed;
 
 static draw_picture picture; /* z is 0: there is none */
 static uint32_t *pixels;
-static const char *unit;
+static typed given[AXES];
+static const unit_row *scene; /* null where nothing says what a scene unit is */
 static draw_picture_count count;
+static const char *undrawn; /* why there is no picture; null: there is one */
 
 static void let_go(void) {
     if (picture.z > 0.0)
@@ -29,62 +50,193 @@ static void let_go(void) {
     picture = (draw_picture){0};
 }
 
-/* Makes the picture of the first camera, mapping and depth, and of the first format that the rasterizer draws. */
+/* ---- Lengths ----------------------------------------------------------------------------------------------------- */
+
+static int read_length(lengths *in, int which, const char *text) {
+    length_reader seen = {.in = in};
+    const int before = (int)in->typed_count;
+    typed *to = &given[which];
+    if (!length_read(&seen, text, strlen(text), NUMBER_FINITE, &to->value) || !(to->value > 0.0))
+        return usage_error("%s: must be a length above 0, such as 2cm, got '%s'%s", axes[which].name, text,
+                           length_hint(text, strlen(text)));
+    to->as = (int)in->typed_count > before ? in->typed[before].unit : in->unit;
+    return EXIT_FINE;
+}
+
+/* The metric unit that makes few digits of it. */
+static const char *metric(double metres) {
+    return metres < 0.01 ? "mm" : metres < 1.0 ? "cm" : metres < 1000.0 ? "m" : "km";
+}
+
+/* At least as much, as much, or at most, in the unit in which the length of that axis was typed, or one that suits. */
+static number_text length_in(int which, double value, int way) {
+    const unit_row *as = given[which].as;
+    if (as != NULL && way != 0 && strchr(as->name, 'm') != NULL)
+        as = unit_find(metric(unit_convert(value, scene, unit_find("m"))));
+    const double there = unit_convert(value, scene, as);
+    const number_text number = way > 0   ? number_up(there, DIGITS)
+                               : way < 0 ? number_down(there, DIGITS)
+                                         : number_of(there, 6);
+    return number_in(number_brief(number), as != NULL ? as->name : NULL);
+}
+
+static double in_metres(double value) {
+    return unit_convert(value, scene, unit_find("m"));
+}
+
+static int step_of(int which, double value) {
+    const axis *a = &axes[which];
+    const double share = dp_log(in_metres(value) / a->lo) / dp_log(a->hi / a->lo);
+    return (int)rint(STEPS * fmin(fmax(share, 0.0), 1.0));
+}
+
+/** Prints the length at a place of a slider, 0 to 1000: of the gap, 0, or the distance, 1; with a unit or without. */
+PAGE_EXPORT("picture_step") void picture_step(int which, int step, int named) {
+    const axis *a = &axes[which == DISTANCE ? DISTANCE : GAP];
+    const double at = a->lo * dp_pow(a->hi / a->lo, (double)step / STEPS);
+    const char *name = named == 0 ? NULL : metric(at);
+    const double there = name == NULL ? at : unit_convert(at, unit_find("m"), unit_find(name));
+    printf("%s%s", number_brief(number_of(there, DIGITS)).text, name != NULL ? name : "");
+    fflush(NULL);
+}
+
+/* ---- The picture ------------------------------------------------------------------------------------------------- */
+
+/* Makes the picture of the first camera, format and mapping, where it can be drawn. */
 static int make(const camera_asked *all) {
     const camera_asked *c = camera_of(all, 0);
-    size_t format = 0;
-    const raster_row *row = c->raster != NULL ? c->raster : raster_find("llvmpipe");
-    while (format + 1 < c->format_count && !raster_draws(row, &c->formats[format]))
-        format++;
-    dp_spec spec = camera_to_spec(&c->said);
-    spec.format = c->formats[format];
-    const double z = c->at.count > 0 ? depths_get(&c->at, 0) : (double)NAN;
-    const char *wrong = draw_picture_open(&picture, &spec, row, z);
-    unit = camera_unit(c);
-    return wrong == NULL ? EXIT_FINE : usage_error("%s: %s", row->name, wrong);
+    const dp_spec spec = camera_to_spec(&c->said);
+    undrawn = draw_picture_open(&picture, &spec, c->raster, given[DISTANCE].value);
+    return EXIT_FINE;
 }
 
 /* The camera of whatever command takes one. */
-static int make_of(const asked_line *line) {
-    const camera_asked *all = option_group(line, option_find(line->command, "near"));
-    return all != NULL ? make(all) : usage_error("%s has no camera", line->command->name);
+static int make_of(const asked_line *line, char **typed_words) {
+    camera_asked *all = option_group(line, option_find(line->command, "near"));
+    if (all == NULL)
+        return usage_error("%s has no camera", line->command->name);
+    lengths in = camera_of(all, 0)->lengths;
+    for (int i = 0; i < AXES; i++)
+        if (read_length(&in, i, typed_words[i]) != EXIT_FINE)
+            return EXIT_USAGE;
+    scene = in.unit;
+    return make(all);
 }
 
 static int picture_of(int argc, char **words) {
     asked_line line;
     let_go();
+    undrawn = NULL;
     pixels = pixels != NULL ? pixels : malloc(PIXELS * sizeof *pixels);
-    int status = argc > 0 ? options_parse(&line, argc, words) : usage_error("too many words");
+    if (argc < 1 + AXES)
+        return usage_error("too many words, or too few");
+    int status = options_parse(&line, argc - AXES, words + AXES);
     if (status == EXIT_FINE)
-        status = pixels != NULL ? make_of(&line) : usage_error("no memory for a picture");
-    if (argc > 0)
-        options_release(&line);
+        status = pixels != NULL ? make_of(&line, words + 1) : usage_error("no memory for a picture");
+    options_release(&line);
+    return status;
+}
+
+/* ---- What is said ------------------------------------------------------------------------------------------------ */
+
+/* From near to the distance, of surfaces that face the camera, whatever the mapping is. */
+static double facing(void) {
+    const dp_setup guaranteed = dp_setup_guaranteed(&picture.asked), setup = dp_setup_facing(&guaranteed);
+    dp_separation_worst found;
+    const double to = fmin(picture.reach, setup.spec.zfar);
+    return dp_separation_over(&setup, setup.spec.znear, to, 0.0, &found) == DP_OK ? found.bound : (double)INFINITY;
+}
+
+/* How far the gap is guaranteed at any slant; NaN where it is not even at near. */
+static double reach_of(const dp_setup *setup) {
+    return distance_about(setup, setup->spec.znear, setup->spec.zfar, given[GAP].value, DIGITS + 1);
+}
+
+static void print_place(const char *name, int which, double value, int way, const char *end) {
+    if (isfinite(value))
+        printf("\"%s\": {\"step\": %d, \"text\": \"%s\"}%s", name, step_of(which, value),
+               length_in(which, value, way).text, end);
+    else
+        printf("\"%s\": null%s", name, end);
+}
+
+static void say_headline(double reach, char out[TEXT_SIZE]) {
+    const number_text gap = length_in(GAP, given[GAP].value, 0), far_at = length_in(DISTANCE, given[DISTANCE].value, 0);
+    const bool none = !isfinite(picture.guaranteed);
+    out[0] = '\0';
+    append(out, TEXT_SIZE, "%s apart, %s away: ", gap.text, far_at.text);
+    if (none)
+        append(out, TEXT_SIZE, "no gap is guaranteed at any slant%s.",
+               picture.asked.spec.ortho                     ? " in an orthographic view"
+               : picture.asked.spec.model != DP_MODEL_FLOAT ? ", as this mapping is not affine on the screen"
+                                                            : "");
+    else if (given[GAP].value >= picture.guaranteed)
+        append(out, TEXT_SIZE, "resolved at any slant, guaranteed from %s on, and this gap %s%s.",
+               length_in(GAP, picture.guaranteed, 1).text, reach >= picture.asked.spec.zfar ? "up to far" : "up to ",
+               reach >= picture.asked.spec.zfar ? "" : length_in(DISTANCE, reach, -1).text);
+    else if (isnan(reach))
+        append(out, TEXT_SIZE, "may flicker. At any slant %s is guaranteed, and this gap at no distance.",
+               length_in(GAP, picture.guaranteed, 1).text);
+    else
+        append(out, TEXT_SIZE, "may flicker. At any slant %s is guaranteed, or this gap up to %s.",
+               length_in(GAP, picture.guaranteed, 1).text, length_in(DISTANCE, reach, -1).text);
+}
+
+static void print_given(void) {
+    for (int i = 0; i < AXES; i++)
+        print_place(axes[i].name, i, given[i].value, 0, i + 1 < AXES ? ", " : "}\n");
+}
+
+static void print_facts(void) {
+    char label[SETUP_LABEL_SIZE], text[TEXT_SIZE];
+    const bool told = isfinite(picture.guaranteed);
+    double reach = told ? reach_of(&picture.asked) : (double)NAN;
+    if (told && picture.row != NULL)
+        reach = fmin(reach, reach_of(&picture.setup));
+    say_headline(reach, text);
+    printf("{\"name\": \"%s%s\", \"headline\": \"%s\", ", setup_label(&picture.setup, false, label),
+           picture.asked.spec.ortho ? ", orthographic" : "", text);
+    const double parallel = facing();
+    if (isfinite(parallel))
+        printf("\"facing\": \"Facing the camera, as a wall straight ahead does: guaranteed from %s on.\", ",
+               length_in(GAP, parallel, 1).text);
+    else
+        printf("\"facing\": \"Facing the camera, as a wall straight ahead does: no gap is guaranteed.\", ");
+    printf("\"model\": \"%s\", \"resolved\": %s, \"guaranteed\": ", dp_arith_get(picture.setup.spec.arith)->name,
+           !told                                    ? "null"
+           : given[GAP].value >= picture.guaranteed ? "true"
+                                                    : "false");
+    printf("%s, ", told ? number_full(picture.guaranteed).text : "null");
+    print_place("enough", GAP, picture.guaranteed, 1, ", ");
+    print_place("limit", DISTANCE, told ? reach : (double)NAN, -1, ", ");
+    print_given();
+}
+
+/** Makes the picture of the command behind a gap and a distance, `n` words in all. @return its exit status; EXIT_FINE:
+ * there is one, and stdout says what is known of it */
+PAGE_EXPORT("picture_set") int picture_set(int n) {
+    char **words;
+    const int argc = page_words(n, &words), status = picture_of(argc, words);
+    if (status == EXIT_FINE && undrawn != NULL) {
+        printf("{\"error\": \"Nothing is drawn %s away: %s.\", ", length_in(DISTANCE, given[DISTANCE].value, 0).text,
+               undrawn);
+        print_given();
+    } else if (status == EXIT_FINE)
+        print_facts();
     fflush(NULL);
     return status;
 }
 
-/** Makes the picture of the command of `n` words. @return its exit status; EXIT_FINE: there is one */
-PAGE_EXPORT("picture_set") int picture_set(int n) {
-    char **words;
-    const int argc = page_words(n, &words);
-    return picture_of(argc, words);
+/* Whether the gap is not too wide to be drawn. */
+static bool is_drawn(void) {
+    return picture.z > 0.0 && given[GAP].value <= draw_picture_widest(&picture);
 }
 
-/** The gap at a place of the slider, scene units; 0 without a picture. */
-PAGE_EXPORT("picture_gap") double picture_gap(double place) {
-    return picture.z > 0.0 ? draw_picture_gap(&picture, place) : 0.0;
-}
-
-/** The eye depth of the things drawn, scene units: for a second picture of them. */
-PAGE_EXPORT("picture_z") double picture_z(void) {
-    return picture.z;
-}
-
-/** Draws a frame. @return how many pixels are wrong */
-PAGE_EXPORT("picture_draw") int picture_draw(double gap, unsigned frame, int marks) {
-    if (!(picture.z > 0.0))
-        return 0;
-    count = draw_picture_frame(&picture, gap, frame, marks != 0, pixels);
+/** Draws a frame. @return how many pixels are wrong, -1 where nothing is drawn */
+PAGE_EXPORT("picture_draw") int picture_draw(unsigned frame, int marks) {
+    if (!is_drawn())
+        return -1;
+    count = draw_picture_frame(&picture, given[GAP].value, frame, marks != 0, pixels);
     return (int)count.wrong;
 }
 
@@ -93,40 +245,19 @@ PAGE_EXPORT("picture_pixels") const uint32_t *picture_pixels(void) {
     return pixels;
 }
 
-/** Whether the guarantee is on the slider, at 0.75. */
-PAGE_EXPORT("picture_marked") int picture_marked(void) {
-    return picture.z > 0.0 && draw_picture_marked(&picture);
-}
-
-/* Rounded up, as the guarantee is, where it is the guarantee. */
-static number_text gap_text(double gap) {
-    return number_brief(gap == picture.guaranteed ? number_up(gap, DIGITS) : number_of(gap, DIGITS));
-}
-
-static void say_guarantee(void) {
-    const number_text from = number_in(gap_text(picture.guaranteed), unit);
-    if (draw_picture_marked(&picture))
-        printf("Nothing flickers from %s on, at any slant: guaranteed.\n", from.text);
-    else if (isfinite(picture.guaranteed))
-        printf("A separation is guaranteed from %s on, more than there is room for.\n", from.text);
-    else
-        printf("No separation is guaranteed at this depth.\n");
-}
-
-/** Says the gap, and what it does, as the last frame was; `quiet`: none was wrong lately. */
-PAGE_EXPORT("picture_say") void picture_say(double gap, int quiet) {
+/** Says what the gap does, as the last frame was; `quiet`: no pixel was wrong lately. */
+PAGE_EXPORT("picture_say") void picture_say(int quiet) {
     const double share = 100.0 * (double)count.wrong / fmax((double)count.covered, 1.0);
-    char label[SETUP_LABEL_SIZE];
-    if (!(picture.z > 0.0))
-        return;
-    printf("%s\n", number_in(gap_text(gap), unit).text);
-    if (gap < picture.guaranteed && quiet != 0)
-        printf("No pixel is wrong just now. ");
-    else if (gap < picture.guaranteed)
-        printf("%s %% of sign, poster and marks shows what is behind. ", number_brief(number_of(share, 2)).text);
-    say_guarantee();
-    printf("%s, things about %s away, drawn by the model of %s\n", setup_label(&picture.setup, false, label),
-           number_in(number_brief(number_of(picture.z, DIGITS)), unit).text, picture.camera.target.row->name);
+    if (!is_drawn())
+        printf("A gap of %s is too wide to be drawn %s away: at most %s.", length_in(GAP, given[GAP].value, 0).text,
+               length_in(DISTANCE, given[DISTANCE].value, 0).text,
+               length_in(GAP, draw_picture_widest(&picture), -1).text);
+    else if (given[GAP].value >= picture.guaranteed)
+        printf("No pixel is wrong, nor will be.");
+    else if (quiet != 0)
+        printf("No pixel is wrong just now.");
+    else
+        printf("%s %% of sign, poster and marks shows what is behind.", number_brief(number_of(share, 2)).text);
     fflush(NULL);
 }
 
@@ -149,7 +280,7 @@ static void take_corners(void *context, const double place[3][3], unsigned who) 
 }
 
 /* Who is seen takes the place of the model's in the buffer. Characters of the output are the bytes of pixels. */
-static int draw_by_gpu(double gap, unsigned frame) {
+static int draw_by_gpu(unsigned frame) {
     static const char *const formats[] = {"unorm16", "unorm24", "fp32"};
     static corners all;
     char text[GPU_TEXT_SIZE];
@@ -157,10 +288,13 @@ static int draw_by_gpu(double gap, unsigned frame) {
     size_t differ = 0;
     while (r.format < 3 && strcmp(formats[r.format], picture.setup.spec.format.name) != 0)
         r.format++;
-    if (r.format == 3)
-        return usage_error("WebGL has no %s", picture.setup.spec.format.name);
+    if (r.format == 3 || picture.setup.spec.ortho || picture.setup.spec.model != DP_MODEL_FLOAT || !is_drawn())
+        return usage_error("this GPU draws unorm16, unorm24 and fp32 in perspective, of gaps that can be drawn");
+    const double gap = given[GAP].value;
     const size_t wrong = draw_picture_frame(&picture, gap, frame, false, NULL).wrong;
     draw_picture_triangles(&picture, gap, frame, take_corners, &all);
+    r.a = (float)picture.camera.target.width;
+    r.b = (float)picture.camera.target.height;
     r.count = all.count;
     r.in = all.at;
     r.second = all.who;
@@ -178,21 +312,20 @@ static int draw_by_gpu(double gap, unsigned frame) {
         putchar(byte >= 0x80 ? 0x80 | (byte & 0x3F) : byte);
     }
     fprintf(stderr, "This GPU, gap %s: %zu of %d pixels differ from the model of %s; %zu are wrong here, %zu there.\n",
-            number_in(gap_text(gap), unit).text, differ, PIXELS, picture.camera.target.row->name, count.wrong, wrong);
+            length_in(GAP, gap, 0).text, differ, PIXELS, picture.camera.target.row->name, count.wrong, wrong);
     return EXIT_FINE;
 }
 
-/** A frame by the GPU: the first words are its number and the gap, as a place of the slider; then comes a command.
+/** A frame by the GPU: the first word is its number; then come a gap, a distance and a command, as of picture_set().
  * @return exit status; what is said of it is on stderr */
 PAGE_EXPORT("seen") int seen_words(int n) {
     char **words;
-    if (page_words(n, &words) < 3)
+    if (page_words(n, &words) < 2)
         return EXIT_USAGE;
     const unsigned frame = (unsigned)atoi(words[1]);
-    const double place = strtod(words[2], NULL);
-    int status = picture_of(n - 1, &words[2]);
+    int status = picture_of(n, &words[1]);
     if (status == EXIT_FINE)
-        status = draw_by_gpu(draw_picture_gap(&picture, place), frame);
+        status = undrawn == NULL ? draw_by_gpu(frame) : usage_error("nothing is drawn: %s", undrawn);
     fflush(NULL);
     return status;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Frames of the flickering picture as digests, a line for each rasterizer, format and mapping: with the rooms raster
- * and draw as WebAssembly they are the same as here, bit for bit. See web.sh.
+ * Frames of the flickering picture as digests, a line for each rasterizer and none, format and mapping: with the rooms
+ * raster and draw as WebAssembly they are the same as here, bit for bit. See web.sh.
  */
 #include <math.h>
 #include <stdio.h>
@@ -21,30 +21,32 @@ static uint64_t digest_of(uint64_t sum) {
 }
 
 static void show(draw_picture *p, const char *name) {
-    static const double places[] = {0.0, 0.3, 0.45, 0.75, 1.0};
+    static const double shares[] = {0.0, 0.003, 0.05, 1.0, 3.0};
     uint64_t sum = 0;
     size_t wrong = 0;
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        wrong += draw_picture_frame(p, draw_picture_gap(p, places[i]), 97U * (unsigned)i + 5U, i == 2, pixels).wrong;
+    for (size_t i = 0; i < sizeof shares / sizeof shares[0]; i++) {
+        const double asked = isfinite(p->guaranteed) ? p->guaranteed : 0.1;
+        const double gap = fmin(shares[i] * asked, draw_picture_widest(p));
+        wrong += draw_picture_frame(p, gap, 97U * (unsigned)i + 5U, i == 2, pixels).wrong;
         sum = digest_of(sum);
     }
     printf("%s: from %a, %lu wrong, %016llx\n", name, p->guaranteed, (unsigned long)wrong, (unsigned long long)sum);
 }
 
 int main(void) {
-    static const char *const rasters[] = {"llvmpipe", "lavapipe", "softpipe", "swiftshader"};
-    static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
-    for (int i = 0; i < 12; i++)
-        for (dp_mapping m = DP_MAPPING_D3D; m <= DP_MAPPING_GL_REVERSED; m++) {
+    static const char *const rasters[] = {"llvmpipe", "lavapipe", "softpipe", "swiftshader", "none"};
+    static const char *const formats[] = {"fp32", "unorm24", "unorm16", "fp16"};
+    for (int i = 0; i < 20; i++)
+        for (dp_mapping m = DP_MAPPING_D3D; m < DP_MAPPING_COUNT; m++) {
             dp_spec spec = dp_spec_default();
             dp_format found[2];
             draw_picture p;
             char name[80];
-            dp_format_parse(formats[i % 3], found);
+            dp_format_parse(formats[i % 4], found);
             spec.format = found[0];
             spec.mapping = m;
-            snprintf(name, sizeof name, "%s %s %s", rasters[i / 3], formats[i % 3], dp_mapping_get(m)->name);
-            if (draw_picture_open(&p, &spec, raster_find(rasters[i / 3]), (double)NAN) != NULL)
+            snprintf(name, sizeof name, "%s %s %s", rasters[i / 4], formats[i % 4], dp_mapping_get(m)->name);
+            if (draw_picture_open(&p, &spec, raster_find(rasters[i / 4]), 100.0) != NULL)
                 continue;
             show(&p, name);
             draw_picture_close(&p);

@@ -11,14 +11,14 @@ globalThis.ImageData = class { constructor(data) { this.data = data; } };
 const { createPicture } = await import(process.argv[2]);
 
 const element = (more) => ({ listeners: {}, addEventListener(name, work) { this.listeners[name] = work; }, setAttribute() {}, closest: () => null, ...more });
-const memory = { buffer: new ArrayBuffer(640 * 360 * 4) }, slider = element({ value: "5", max: "10" }), play = element();
+const memory = { buffer: new ArrayBuffer(640 * 360 * 4) }, play = element({ closest: () => null });
 let wrong = 0, told = "", quiet, time = 0, drawn = 0;
-const exports = { words: () => 0, picture_set: () => 0, picture_gap: (place) => place, picture_z: () => 1, picture_pixels: () => 0, picture_marked: () => 1,
-    picture_draw: () => (drawn++, wrong), picture_say: (gap, still) => { told = `said\ntext ${still}\ndrawn`; quiet = still === 1; } };
+const exports = { words: () => 0, picture_set: () => ((told = '{"name": "camera"}'), 0), picture_pixels: () => 0,
+    picture_draw: () => (drawn++, wrong), picture_say: (still) => { told = `text ${still}`; quiet = still === 1; } };
 const engine = { instance: () => ({ exports, memory, streams: { text: () => told } }) };
-const canvas = { width: 640, height: 360, getContext: () => ({ putImageData() {}, clearRect() {} }) };
-const picture = createPicture({ views: [{ canvas, onStatus() {} }], engine, slider, play, gapIs: {} });
-picture.set([["table"]]);
+const canvas = { width: 640, height: 360, getContext: () => ({ putImageData() {} }) };
+const picture = createPicture({ views: [{ canvas, onStatus() {} }], engine, play });
+assert.equal(picture.set([{ line: ["2cm", "200m", "table"], error: "" }])[0].name, "camera", "what is known of it");
 
 // So many frames, 1/60 s apart, each with so many wrong pixels.
 function draw(count, pixels) {
@@ -49,3 +49,9 @@ draw(1, 7);
 play.listeners.click();
 draw(1, 0);
 assert.equal(quiet, true, "a camera that stops says at once what the still picture is");
+
+// A set-up that is refused has no picture, and says why.
+assert.equal(picture.set([{ line: ["2cm", "200m", "table"], error: "no" }])[0].error, "no");
+const before = drawn;
+for (const step of frames.splice(0)) step((time += 1000 / 60));
+assert.ok(drawn === before && canvas.hidden, "a picture of a set-up that is refused");
