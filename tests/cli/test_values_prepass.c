@@ -90,7 +90,16 @@ static void check_page(values *v, const char *line, const dp_setup *setup) {
         if (strstr(text, call) == NULL)
             fail_msg("no line '%s' in %s", call, text);
     }
-    assert_non_null(strstr(text, setup->reversed ? "GEQUAL is safe" : "LEQUAL is safe"));
+    const char *safe = strstr(text, setup->reversed ? "GEQUAL is safe" : "LEQUAL is safe");
+    const char *codes = safe != NULL ? strstr(safe, "depth,") : NULL, *by = safe != NULL ? strstr(safe, " by ") : NULL;
+    double bias = 0, shown = 0;
+    unsigned most = 0, told = 0;
+    for (size_t k = 0; k < r.others; k++) {
+        most = found[k].most > most ? found[k].most : most;
+        bias = fmax(bias, found[k].widest.bias);
+    }
+    assert_true(codes != NULL && sscanf(codes, "depth, %u code", &told) == 1 && told == most);
+    assert_true(by != NULL && sscanf(by, " by %lf", &shown) == 1 && shown >= bias && shown <= 1.01 * bias);
     free(text);
 }
 
