@@ -40,7 +40,8 @@ static double encode_bound(const bound_arithmetic *how, const method_row *row, c
     size_t i = 0;
     while (i < encode_family.case_count && strcmp(encode_family.cases[i].format, setup->spec.format.name) != 0)
         i++;
-    const double worst = i < encode_family.case_count ? row->claims[i].worst : (double)NAN, own = worst < 1 ? 0.5 : 1;
+    const bool speaks = i < encode_family.case_count && method_speaks(row, i);
+    const double worst = speaks ? row->claims[i].worst : (double)NAN, own = worst < 1 ? 0.5 : 1;
     return own + how->rounding * (worst - own);
 }
 

@@ -105,6 +105,13 @@ static void engine_run(const method_call *c) {
         c->out->code[i] = dp_format_encode(&c->setup->spec.format, c->setup->spec.rounding, (double)c->in->d[i]);
 }
 
+/* ---- fp32 -------------------------------------------------------------------------------------------------------- */
+
+CLONES static void same_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->code[i] = dp_bits32(c->in->d[i]);
+}
+
 /* The steps as texts, from which code is printed. */
 static const bound_steps floor_steps = {.constants = {"M = most; H = 1/2", "M = most; H = 1/2"},
                                         .steps = {"k = whole(d*M + H)", "k = whole(d*M + H)"}};
@@ -114,7 +121,8 @@ static const bound_steps double_steps = {.wide = true,
                                          .constants = {"M = most; H = 1/2", "M = most; H = 1/2"},
                                          .steps = {"k = whole(d*M + H)", "k = whole(d*M + H)"}};
 
-#define ANY (METHOD_INFINITE | METHOD_ORTHO)
+#define ANY   (METHOD_INFINITE | METHOD_ORTHO)
+#define EXACT 0x1p-53
 static const char clause[] = "D3D 11.3 functional specification 3.2.3.6";
 
 /* clang-format off */
@@ -137,8 +145,11 @@ static const method_row methods[] = {
      {FULL(1.0)}, ANY, 0.9, "1", 0,
      "van der Zijp 2008, Fast half float conversions", .run = half_run, .open = half_open, .close = free,
      .behind = true},
+    {METHOD_ENCODE, "same", "fp32: the bits of d, which is one",
+     {NOWHERE, NOWHERE, NOWHERE, FULL(EXACT)}, ANY, 0.1, "1", 0,
+     "IEEE 754-2019", .run = same_run},
     {METHOD_ENCODE, "engine", "the engine, for each format and rounding",
-     {FULL(0.5), FULL(0.5), FULL(0.5)}, ANY, 8, "1", 16384, "depthprec(3)", .run = engine_run},
+     {FULL(0.5), FULL(0.5), FULL(0.5), FULL(EXACT)}, ANY, 8, "1", 16384, "depthprec(3)", .run = engine_run},
 };
 /* clang-format on */
 static const size_t method_count = sizeof methods / sizeof methods[0];
@@ -172,10 +183,11 @@ const method_family_row encode_family = {
     .summary = "code of a binary32 window depth",
     .measure = "steps of the format",
     .steps = true,
-    .cases = {{"fp16 d3d", "fp16", DP_MAPPING_D3D},
-              {"unorm16 d3d", "unorm16", DP_MAPPING_D3D},
-              {"unorm24 d3d", "unorm24", DP_MAPPING_D3D}},
-    .case_count = 3,
+    .cases = {{"fp16", "fp16", DP_MAPPING_D3D},
+              {"unorm16", "unorm16", DP_MAPPING_D3D},
+              {"unorm24", "unorm24", DP_MAPPING_D3D},
+              {"fp32", "fp32", DP_MAPPING_D3D}},
+    .case_count = 4,
     .inputs = 65536,
     .walked = 1024,
     .per_decade = 2,

@@ -41,8 +41,11 @@ static double digits_of_format(const method_family_row *family, size_t which) {
     return dp_log10(2) * (format[0].kind == DP_FORMAT_FLOAT ? format[0].mantissa_bits + 1 : format[0].bits);
 }
 
-/* Decimal digits that an error leaves: 0 where it is as large as the answer, NaN where there is none. */
+/* Decimal digits that an error leaves: 0 where it is as large as the answer, NaN where there is none. No code has more
+ * than the nearest one. */
 static double digits(double error, double of_format) {
+    if (of_format > 0 && error < 0.5)
+        error = 0.5;
     return isnan(error) ? error
            : error > 0  ? fmin(fmax(of_format - dp_log10(error), 0), most_digits)
            : error == 0 ? most_digits

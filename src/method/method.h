@@ -27,7 +27,7 @@ typedef enum method_family {
 } method_family;
 
 enum {
-    METHOD_CASES = 3,
+    METHOD_CASES = 4,
     METHOD_STRIP = 64, /**< normal: pixels of a strip, and the eye depths of it with all that is looked at around it */
     METHOD_STRIP_LINE = METHOD_STRIP + 2 * NORMAL_REACH,
     METHOD_STRIP_EYES = METHOD_STRIP_LINE * (2 * NORMAL_REACH + 1)
@@ -165,6 +165,7 @@ typedef struct method_case {
     const char *name; /**< "unorm24 d3d" */
     const char *format;
     dp_mapping mapping;
+    bool gl; /**< NDC of [-1, 1] is the same to it: what it is given is depth that has left it behind */
 } method_case;
 
 typedef struct method_family_row {

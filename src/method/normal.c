@@ -158,7 +158,7 @@ static double float_claim(double ratio, double step, double places) {
 /* The error that rounded places add to methods that subtract them, as one of depth. */
 #define PLACES (1.6 * DP_UNIT)
 #define CLAIMS(to, step, places)                                                                                       \
-    { FORMULA_TO(to, unorm_claim, step, places), FORMULA(float_claim, step, places) }
+    { FORMULA_TO(to, unorm_claim, step, places), FORMULA(float_claim, step, places), UNCLAIMED, UNCLAIMED }
 
 /* clang-format off */
 static const method_row methods[] = {
@@ -185,8 +185,11 @@ const method_family_row normal_family = {
     .name = "normal",
     .summary = "normal of a plane from the stored depths around a pixel",
     .measure = "radians",
-    .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D}, {"fp32 reversed", "fp32", DP_MAPPING_REVERSED}},
-    .case_count = 2,
+    .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D},
+              {"fp32 reversed", "fp32", DP_MAPPING_REVERSED},
+              {"unorm16 d3d", "unorm16", DP_MAPPING_D3D},
+              {"fp16 reversed", "fp16", DP_MAPPING_REVERSED}},
+    .case_count = 4,
     .inputs = 16384,
     .walked = 2048,
     .per_decade = 2,

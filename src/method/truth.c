@@ -34,6 +34,28 @@ double truth_width(const dp_setup *setup, uint32_t code, bool *cut) {
     return den1 * den2 > 0 ? (double)(n * rest * width / (den1 * den2)) : (double)INFINITY;
 }
 
+static double widest(const dp_setup *setup, uint32_t first, uint32_t last) {
+    double most = 0;
+    bool cut;
+    for (uint32_t code = first; code <= last; code++)
+        most = fmax(most, truth_width(setup, code, &cut));
+    return most;
+}
+
+double truth_worst(const dp_setup *setup, uint32_t first, uint32_t last) {
+    enum { EACH = 1 << 17, ABOUT = 2 };
+    const dp_format *f = &setup->spec.format;
+    if (last - first < EACH)
+        return widest(setup, first, last);
+    double most = fmax(widest(setup, first, first + ABOUT), widest(setup, last - ABOUT, last));
+    for (uint32_t power = 1; f->kind == DP_FORMAT_FLOAT && power << f->mantissa_bits <= f->code_max; power++) {
+        const uint32_t at = power << f->mantissa_bits;
+        if (at > first + ABOUT && at < last - ABOUT)
+            most = fmax(most, widest(setup, at - ABOUT, at + ABOUT));
+    }
+    return most;
+}
+
 double truth_step(double z) {
     float x = (float)z;
     return (double)nextafterf(x, INFINITY) - (double)x;

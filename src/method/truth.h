@@ -13,6 +13,10 @@
  */
 double truth_width(const dp_setup *setup, uint32_t code, bool *cut);
 
+/** The widest of the codes from first to last: of up to 2^17 each, of more those at the ends of what has one step, for
+ *  between these widths of codes in a row only grow, or only shrink. */
+double truth_worst(const dp_setup *setup, uint32_t first, uint32_t last);
+
 /**
  * The depths next to z that its interval in the binary32 pipeline is looked for in: eight guaranteed separations to
  * either side, from 2^12 to 2^15 binary32 depths each, within the planes.

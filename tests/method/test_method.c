@@ -2,6 +2,7 @@
 /* The rows of every method family, what is measured at one camera, and the choice by claims. */
 #include "method/choose.h"
 #include "method/stability.h"
+#include "method/truth.h"
 #include "named.h"
 #include "support.h"
 
@@ -141,6 +142,31 @@ TEST(the_front_holds_no_beaten_method) {
     }
     assert_true(front >= 2 && count >= 8);
     assert_true(most / least > 1e6);
+}
+
+/* The widest of many codes is at an end of those with one step: as among all of them. */
+TEST(widest_of_many_codes) {
+    static const char *const formats[] = {"unorm24", "fp32"};
+    tally t = {.name = "widest"};
+    for (int i = 0; i < 40; i++) {
+        const method_family_row *family = method_family_find("worst");
+        const size_t which = (size_t)i % 2;
+        size_t of = 0;
+        while (strcmp(family->cases[of].format, formats[which]) != 0)
+            of++;
+        dp_setup setup;
+        assert_int_equal(method_setup(family, of, 0.1, 0.1 * pow(10, 1 + i % 9), i % 5 == 4, &setup), DP_OK);
+        const uint32_t most = setup.spec.format.code_max;
+        const uint32_t count = (1u << 17) + (uint32_t)(method_unit(61, (uint64_t)i) * (1 << 17));
+        const uint32_t first = (uint32_t)(method_unit(62, (uint64_t)i) * (most - count)), last = first + count;
+        double want = 0;
+        bool cut;
+        for (uint32_t code = first; code <= last; code++)
+            want = fmax(want, truth_width(&setup, code, &cut));
+        TALLY(&t, truth_worst(&setup, first, last) == want, "%s, codes %u to %u: %g, not %g", formats[which], first,
+              last, truth_worst(&setup, first, last), want);
+    }
+    tally_end(&t);
 }
 
 static const char *chosen(const char *family, size_t which, method_wish wish) {

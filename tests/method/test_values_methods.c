@@ -157,6 +157,9 @@ TEST(each_number) {
     check_methods("interval", "-n 0.3 -f 900 -F fp32 -m reversed --tolerance 1e-6", 1, 1e-6, 0);
     check_methods("encode", "-n 0.25 -f 1500", 0, NAN, 0);
     check_methods("linearize", "-n 0.2 -f 700 --tolerance 1e-30", 0, 1e-30, 0);
+    check_methods("linearize", "-n 0.2 -f 700 --ortho", 0, NAN, 0);
+    check_methods("linearize", "-n 0.2 -f 700 -m gl-reversed", 1, NAN, 0);
+    check_methods("encode", "-F fp32 -m log", 3, NAN, 0); /* a code does not depend on the mapping */
 }
 
 /* A claim that does not hold, or that is too modest, is exit status 1; where nothing is claimed nothing is wrong. */

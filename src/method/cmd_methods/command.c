@@ -109,8 +109,8 @@ static void say_inputs(page *p, void *item) {
     const measuring *b = item;
     const method_family_row *f = b->asked.family;
     page_title(p, "%s: %s", f->name, f->summary);
-    page_text(p, "%s, near %s, far %s; %s", f->cases[b->asked.which].name, number_full(b->o->camera.znear).text,
-              number_full(b->o->camera.zfar).text, b->machine);
+    page_text(p, "%s%s, near %s, far %s; %s", f->cases[b->asked.which].name, b->o->camera.ortho ? ", orthographic" : "",
+              number_full(b->o->camera.znear).text, number_full(b->o->camera.zfar).text, b->machine);
 }
 
 /* Families count in steps of a code or in units in the last place, and of some methods bounds are proven. */
@@ -395,7 +395,7 @@ static int list_families(const judge_request *o, output *out) {
 
 /* Refuses options of a camera where no family is named. */
 static int check_family(const judge_request *o) {
-    static const char *const of_family[] = {"format", "mapping", "tolerance", "mine"};
+    static const char *const of_family[] = {"format", "mapping", "ortho", "tolerance", "mine"};
     char text[NAMES_SIZE];
     for (size_t i = 0; i < sizeof of_family / sizeof of_family[0] && o->line->operand_row == NULL; i++)
         if (option_given(o->line, of_family[i]))
@@ -426,8 +426,10 @@ static int measure(measuring *b) {
 static void describe(measuring *b) {
     const judge_request *o = b->o;
     const double ratio = o->camera.zfar / o->camera.znear;
-    const method_wish wish = {
-        .tolerance = o->camera.tolerance, .ratio_lo = fmin(ratio, METHOD_RATIO_HI), .ratio_hi = ratio};
+    const method_wish wish = {.tolerance = o->camera.tolerance,
+                              .ratio_lo = fmin(ratio, METHOD_RATIO_HI),
+                              .ratio_hi = ratio,
+                              .ortho = o->camera.ortho};
     if (!isnan(b->tolerance))
         b->choice = method_choose(b->asked.family, b->asked.which, &wish);
     methods_machine(b->machine, sizeof b->machine);

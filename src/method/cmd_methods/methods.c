@@ -10,6 +10,7 @@
 #include "cli/list.h"
 #include "core/append.h"
 #include "method/choose.h"
+#include "report/number.h"
 
 /* The lattice and the pipeline are two questions, each with its choice. */
 void list_method_choice(size_t index, double tolerance, char chosen[LIST_TEXT_SIZE]) {
@@ -24,28 +25,62 @@ void list_method_choice(size_t index, double tolerance, char chosen[LIST_TEXT_SI
             append(chosen, LIST_TEXT_SIZE, "%s%s", *chosen != '\0' ? ", " : "", family->cases[i].name);
 }
 
-static bool wanted(const judge_request *o, const method_case *c) {
+/* A code does not depend on the mapping; eye depth not on the NDC that window depth has left behind. */
+static bool is_of_mapping(const method_family_row *family, const method_case *c, dp_mapping mapping) {
+    const dp_mapping_row *row = dp_mapping_get(mapping), *own = dp_mapping_get(c->mapping);
+    const bool twin = c->gl && row->curve == own->curve && row->reversed == own->reversed;
+    return family->magnitudes || twin || mapping == c->mapping;
+}
+
+static bool wanted(const judge_request *o, const method_family_row *family, const method_case *c) {
     dp_format format[2];
     bool formatted = !option_given(o->line, "format"), mapped = !option_given(o->line, "mapping");
     dp_format_parse(c->format, format);
     for (size_t i = 0; i < o->camera.format_count; i++)
         formatted = formatted || strcmp(o->camera.formats[i].name, format[0].name) == 0;
     for (size_t i = 0; i < o->camera.mapping_count; i++)
-        mapped = mapped || o->camera.mappings[i] == c->mapping;
+        mapped = mapped || is_of_mapping(family, c, o->camera.mappings[i]);
     return formatted && mapped;
+}
+
+/* Why a camera is none of a family's; the option at fault. */
+static int refuse(const judge_request *o, dp_status wrong) {
+    const bool ortho = wrong == DP_ERROR_ORTHO || wrong == DP_ERROR_ORTHO_NEAR || wrong == DP_ERROR_INFINITE;
+    return option_error(wrong == DP_ERROR_NEAR     ? "near"
+                        : o->camera.ortho && ortho ? "ortho"
+                                                   : "far",
+                        "%s", dp_status_text(wrong));
+}
+
+/* An orthographic camera where it makes a difference; claims are of far/near. */
+static int check_ortho(const judge_request *o, const method_family_row *family) {
+    if (!o->camera.ortho)
+        return EXIT_FINE;
+    if ((family->besides & METHOD_BESIDE_ORTHO) == 0)
+        return option_error("ortho",
+                            family->magnitudes ? "has no effect on codes, the family %s"
+                                               : "is not for the family %s, whose cameras are perspective",
+                            family->name);
+    return o->camera.znear > 0
+               ? EXIT_FINE
+               : option_error("near", "must be greater than 0, got '%s'", number_full(o->camera.znear).text);
 }
 
 int methods_resolve(const judge_request *o, const method_family_row *family, methods_asked *out) {
     if (o->judge.mine_count > 0 && family != &linearize_family)
         return option_error("mine", "is for the family linearize, got %s", family->name);
+    const int status = check_ortho(o, family);
+    if (status != EXIT_FINE)
+        return status;
     out->family = family;
     char all[NAMES_SIZE] = "";
     for (size_t i = 0; i < out->family->case_count; i++) {
-        if (wanted(o, &out->family->cases[i])) {
+        if (wanted(o, out->family, &out->family->cases[i])) {
             out->which = i;
-            dp_status wrong = method_setup(out->family, i, o->camera.znear, o->camera.zfar, false, &out->setup);
+            dp_status wrong =
+                method_setup(out->family, i, o->camera.znear, o->camera.zfar, o->camera.ortho, &out->setup);
             if (wrong != DP_OK)
-                return option_error(wrong == DP_ERROR_NEAR ? "near" : "far", "%s", dp_status_text(wrong));
+                return refuse(o, wrong);
             return EXIT_FINE;
         }
         append(all, sizeof all, "%s%s", i > 0 ? ", " : "", out->family->cases[i].name);

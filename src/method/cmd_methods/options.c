@@ -15,11 +15,12 @@ static const option_use uses[] = {
     CAMERA_UNIT_ALONE,
     OWN("tolerance", HELP("mark the cheapest method whose bound is at most 0.05, or 5%"), WITHOUT("none")),
     OWN("full", HELP("all columns, however wide; and methods that another beats in both speed and accuracy")),
-    GROUP_OF(camera_planes), GROUP_OF(output_written), END};
+    TAKE("ortho"), GROUP_OF(camera_planes), GROUP_OF(output_written), END};
 
 static const option_rule rules[] = {
     NEEDS("define", "mine", ", a function of yours"),
     NEEDS("device", "mine", ", a function of yours"),
+    CONFLICTS("ortho", "mine", NULL),
     {.option = NULL}};
 /* clang-format on */
 
