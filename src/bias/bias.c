@@ -244,6 +244,25 @@ double bias_units(const bias_api *api, const dp_format *format, double d, double
     return round_up(api, format, units_to((1.0 + outward) * window, bias_unit_at(api, format, d).least));
 }
 
+/* What a goal asks of units that make an offset of `window`. */
+static double asked_of(const bias_goal *goal, const dp_format *format, double window, double r) {
+    return goal->judged ? units_to(window, r) : round_up(goal->api, format, units_to(fmax(window, 0.0), r));
+}
+
+/*
+ * Whether the clamp, or the planes, leave a layer no room to move by `window` at z, its depth having been displaced by
+ * `off`: beyond a plane both depths are clamped to it.
+ */
+static bool is_held(const dp_setup *setup, const bias_goal *goal, double z, double window, double off) {
+    const dp_format *format = &setup->spec.format;
+    const double code = format->kind == DP_FORMAT_UNORM ? 1.0 / (double)format->code_max : 0.0; /* r may be less */
+    const double d = dp_window(setup, z), whole = (fmax(window, code) + off) * (1.0 + 0x1p-20);
+    if (goal->clamp > 0.0 && whole > goal->clamp)
+        return true;
+    return goal->judged && (whole > (setup->reversed ? 1.0 - d : d) ||
+                            (setup->spec.triangles.width > 0 && whole > (setup->reversed ? d : 1.0 - d)));
+}
+
 /* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */
 static double needed_with(const dp_setup *setup, const bias_goal *goal, double z, int e) {
     const dp_format *format = &setup->spec.format;
@@ -254,8 +273,9 @@ static double needed_with(const dp_setup *setup, const bias_goal *goal, double z
     const double window = fmax(step, gap) - goal->factor * m;
     /* Covers the roundings above and, where o itself is rounded to binary32, those; a single step is exact. */
     const double outward = gap <= step && m == 0.0 ? 0.0 : goal->api->binary32 ? DP_ROUNDINGS32_2 : DP_ROUNDINGS_30;
-    return round_up(goal->api, format,
-                    units_to(fmax(window + (fmax(step, gap) + fabs(goal->factor) * m) * outward, 0.0), r));
+    if (is_held(setup, goal, z, fmax(step, gap), 0.0))
+        return (double)INFINITY;
+    return asked_of(goal, format, window + (fmax(step, gap) + fabs(goal->factor) * m) * outward, r);
 }
 
 double bias_factor_least(const dp_setup *setup) {
@@ -268,11 +288,30 @@ double bias_factor_least(const dp_setup *setup) {
     return ceil(apart.pixels / (1.0 - apart.lost) * spare * 0x1p12) * 0x1p-12;
 }
 
-/* The part of the need that the slope adds, in window depth: at m, or at any. */
-static double taken_by_slope(const bias_goal *goal, const dp_coplanar *apart, double m) {
+/*
+ * The part of the need that the slope adds, in window depth: at m and below, or at any. The rasterizer's own slope, at
+ * least (1 - lost) m - lost_window, is never below 0: the factor takes nothing, and a larger one takes no more.
+ */
+static double taken_by_slope(const dp_setup *setup, const bias_goal *goal, const dp_coplanar *apart, double m) {
+    const double unseen = apart->lost < 1.0 ? apart->lost_window / (1.0 - apart->lost) : (double)INFINITY;
+    const double paid =
+        (apart->pixels - goal->factor) * m + fabs(goal->factor) * (apart->lost * m + apart->lost_window);
     if (goal->slope == 0.0)
-        return goal->factor * apart->lost_window;
-    return (apart->pixels - goal->factor) * m + fabs(goal->factor) * (apart->lost * m + apart->lost_window);
+        return bias_factor_least(setup) * apart->lost_window;
+    if (goal->factor > 0.0 && m <= unseen)
+        return apart->pixels * m;
+    return goal->factor > 0.0 ? fmax(paid, apart->pixels * unseen) : paid;
+}
+
+/* By how much the slope displaces two drawings at z: at any slant a triangle, at least a pixel high, has no steeper one
+ * than its range of depths. */
+static double off_by_slope(const dp_setup *setup, const bias_goal *goal, const dp_coplanar *apart, double z) {
+    const double nearest = fmax(z / setup->spec.triangles.depth, setup->spec.znear);
+    const double farthest = fmin(z * setup->spec.triangles.depth, setup->spec.zfar);
+    const double range = fabs(dp_window(setup, nearest) - dp_window(setup, farthest)) + apart->window;
+    const bool any = goal->slope == 0.0;
+    return any && goal->clamp > 0.0 ? (double)INFINITY
+                                    : apart->pixels * (any ? range : bias_window_slope(setup, z, goal->slope));
 }
 
 /*
@@ -300,13 +339,15 @@ static double needed_slanted(const dp_setup *setup, const bias_goal *goal, doubl
     const double r = unit_of(goal->api, format, below);
     const int above = exponent_of(format, fmin(d_hi * (1.0 + beyond) + off, 1.0));
     const double step = certain_step(goal, format, above, worth_of(goal->api, format, below), 0.0) + apart.window;
-    double needed = -1.0;
+    double needed = 0.0;
     for (int i = 0; i < 2; i++) {
         const double m = bias_window_slope(setup, ends[i], goal->slope);
-        const double window = fmax(step, window_of_gap(setup, ends[i], goal->gap)) + taken_by_slope(goal, &apart, m);
+        const double whole = fmax(step, window_of_gap(setup, ends[i], goal->gap));
+        const double window = whole + taken_by_slope(setup, goal, &apart, m);
         const double outward = 0x1p-20 * (fabs(window) + (apart.pixels + fabs(goal->factor)) * m);
-        const double units = round_up(goal->api, format, units_to(fmax(window + outward, 0.0), r));
-        if (units > needed) {
+        const bool held = is_held(setup, goal, ends[i], whole, off_by_slope(setup, goal, &apart, ends[i]));
+        const double units = held ? (double)INFINITY : asked_of(goal, format, window + outward, r);
+        if (i == 0 || units > needed) {
             needed = units;
             *worst = ends[i];
         }
@@ -321,7 +362,7 @@ static double needed_over_slanted(const dp_setup *setup, const bias_goal *goal, 
     const double d_lo = dp_window(setup, lo), d_hi = dp_window(setup, hi);
     const int first = exponent_of(format, fmin(d_lo, d_hi));
     const int last = exponent_of(format, fmax(d_lo, d_hi));
-    double most = -1.0;
+    double most = -(double)INFINITY;
     for (int i = 0; i < 3 * (last - first + 1); i++) {
         const int at = setup->reversed ? 3 * (last - first + 1) - 1 - i : i;
         double ends[2], z;
@@ -359,10 +400,12 @@ double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo,
     const double d_hi = isinf(hi) ? (setup->reversed ? 0.0 : 1.0) : dp_window(setup, hi);
     const int first = exponent_of(format, fmin(d_lo, d_hi));
     const int last = exponent_of(format, fmax(d_lo, d_hi));
-    double most = -1.0;
+    double most = -(double)INFINITY;
     for (int i = 0; i <= last - first; i++) {
         const int e = setup->reversed ? last - i : first + i; /* from the camera outwards */
-        const double ends[2] = {ldexp(1.0, setup->reversed ? e + 1 : e), ldexp(1.0, setup->reversed ? e : e + 1)};
+        const double least = e == first ? fmin(ldexp(1.0, e), fmin(d_lo, d_hi)) : ldexp(1.0, e); /* below all binades */
+        const double ends[2] = {setup->reversed ? ldexp(1.0, e + 1) : least,
+                                setup->reversed ? least : ldexp(1.0, e + 1)};
         for (int end = 0; end < 2; end++) {
             const double d = fmin(ends[end], 1.0);
             const double z = fmin(fmax(dp_eye(setup, d, 1.0 - d), lo), hi);
@@ -376,30 +419,33 @@ double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo,
     return most;
 }
 
-static bool enough_between(const dp_setup *setup, const bias_goal *goal, double a, double b) {
+static bool enough_between(const dp_setup *setup, const bias_goal *goal, double units, double a, double b) {
     double worst;
-    return isfinite(bias_needed_over(setup, goal, fmin(a, b), fmax(a, b), &worst));
+    const double needed =
+        a == b ? bias_needed(setup, goal, a) : bias_needed_over(setup, goal, fmin(a, b), fmax(a, b), &worst);
+    return isfinite(needed) && needed <= units;
 }
 
 /* The depth farthest from `start` towards `end` up to which a bias is enough. */
-static double enough_towards(const dp_setup *setup, const bias_goal *goal, double start, double end) {
-    if (start == end || enough_between(setup, goal, start, end))
+static double enough_towards(const dp_setup *setup, const bias_goal *goal, double units, double start, double end) {
+    if (start == end || enough_between(setup, goal, units, start, end))
         return end;
     dp_edge e = {.holds = start, .fails = isinf(end) ? 1e300 : end, .apart = 0x1p-48};
     for (double z; dp_edge_between(&e, &z);)
-        *(enough_between(setup, goal, start, z) ? &e.holds : &e.fails) = z;
+        *(enough_between(setup, goal, units, start, z) ? &e.holds : &e.fails) = z;
     return e.holds;
 }
 
-void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *from, double *to) {
+void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double units, double lo, double hi, double *from,
+                      double *to) {
     enum { TRIED = 64 };
     const double last = isinf(hi) ? 0x1p64 * lo : hi; /* an infinite far is that of a perspective: lo is positive */
-    double start = isfinite(bias_needed(setup, goal, lo)) ? lo : hi;
-    for (int i = 1; i < TRIED && !isfinite(bias_needed(setup, goal, start)); i++)
+    double start = enough_between(setup, goal, units, lo, lo) ? lo : fmin(last, hi);
+    for (int i = 1; i < TRIED && !enough_between(setup, goal, units, start, start); i++)
         start = lo > 0.0 ? lo * dp_pow(last / lo, (double)i / TRIED) : lo + (last - lo) * i / TRIED;
     *from = *to = (double)NAN;
-    if (!isfinite(bias_needed(setup, goal, start)))
+    if (!enough_between(setup, goal, units, start, start))
         return;
-    *from = enough_towards(setup, goal, start, lo);
-    *to = enough_towards(setup, goal, start, hi);
+    *from = enough_towards(setup, goal, units, start, lo);
+    *to = enough_towards(setup, goal, units, start, hi);
 }

@@ -124,6 +124,9 @@ typedef struct bias_goal {
     double factor; /**< of the slope's bias: positive brings the layer nearer, whatever the mapping */
     double slope;  /**< scene units per pixel: the layers may be sampled up to one pixel apart */
     double gap;    /**< the layer must come nearer by at least this, scene units; 0: only be told apart */
+    double clamp;  /**< the bias is at most this, window depth; 0: there is no clamp */
+    bool judged; /**< of units that somebody has: fractions of them count, they may be on the other side of 0, and what
+                      is held at a plane, or may be displaced beyond one, is not told apart */
 } bias_goal;
 
 /**
@@ -150,11 +153,12 @@ double bias_units(const bias_api *api, const dp_format *format, double d, double
 double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *worst);
 
 /**
- * The part of a range in which a bias is enough: one span, from the near end where that is in it, else up to the far
- * end, else about the first of a few depths between.
+ * The part of a range in which so many units are enough, or with INFINITY any number of them: one span, from the near
+ * end where that is in it, else up to the far end, else about the first of a few depths between.
  * @param from, to  NaN where there is none. Within 2^-48 of the true ends, inwards
  */
-void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *from, double *to);
+void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double units, double lo, double hi, double *from,
+                      double *to);
 
 /**
  * Where the set-up has triangles the layers are one plane drawn twice, as different ones of the class, see

@@ -400,7 +400,7 @@ TEST(test_enough_over) {
         lo += goal.gap;
         if (!(lo * 1.01 < hi))
             continue;
-        bias_enough_over(&setup, &goal, lo, hi, &from, &to);
+        bias_enough_over(&setup, &goal, INFINITY, lo, hi, &from, &to);
         if (isnan(from)) {
             t.skipped++;
             continue;
@@ -434,7 +434,7 @@ TEST(test_enough_over) {
     spec.format = format_of("fp32");
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     const bias_goal goal = {.api = bias_api_find("metal"), .slope = 0.01};
-    bias_enough_over(&setup, &goal, -5.0, 50.0, &from, &to);
+    bias_enough_over(&setup, &goal, INFINITY, -5.0, 50.0, &from, &to);
     assert_true(from > -5.0 && from < -4.99 && to == 50.0);
     assert_true(isfinite(bias_needed(&setup, &goal, from)) && isinf(bias_needed(&setup, &goal, from - 1e-9)));
 }

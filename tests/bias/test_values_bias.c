@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value that bias prints, in both forms: what a bias does, and how much of one is needed. */
-#include "bias/bias.h"
+#include "bias/cmd_bias/call.h"
+#include "bias/verdict.h"
 #include "named.h"
 #include "printed.h"
 
@@ -14,6 +15,12 @@ static const char *const lines[] = {
     "bias --api d3d9 -n 1 -f 200 -F unorm24 -m log,linear --log-c 3 --units=-2.5e-6 --factor=-1.5 --slope 0.5 "
     "--at 1,2,30,90,150,199",
     "bias --api d3d11 -n 2 -f 60 -F fp32 -m d3d --ortho --units=4000 --at 2,3,7,20,45,60",
+    /* Why it is not enough: the exponent, the sign, the clamp, the separation. */
+    "bias --api vulkan-exact -n 1 -f 100 -F fp32 -m reversed --units=0.75 --slope 1e-9 --at 2,3,7,20,45,60",
+    "bias --api vulkan-exact -n 1 -f 100 -F fp32 -m d3d --units=90 --factor=1 --slope 0.001 --at 2,3,7,20,45,60",
+    "bias --api metal -n 1 -f 100 -F fp32 -m d3d --units=-90 --clamp=-1e-8 --slope 1e-7 --at 2,3,7,20,45,60",
+    "bias --api d3d12 -n 1 -f 100 -F unorm24 -m reversed --units=90 --factor=1 --slope 0.001 --separation 0.01 "
+    "--at 2,3,7,20,45,60",
     /* How much of one is needed. */
     "bias --api d3d11 -n 0.3 -f 1000 -F unorm24,fp32 -m d3d,reversed --factor=-0.25 --slope 0.02 --separation 0.01 "
     "--range 0.4:700 --at 0.3,1.7,55,321.5,900,1000",
@@ -58,7 +65,8 @@ static double signed_units(const dp_setup *setup, double units) {
 }
 
 static bias_goal goal_of(const bias_case *c, const dp_setup *setup, double gap) {
-    return (bias_goal){c->api, setup->reversed ? c->factor : -c->factor, c->slope, gap};
+    return (bias_goal){
+        .api = c->api, .factor = setup->reversed ? c->factor : -c->factor, .slope = c->slope, .gap = gap};
 }
 
 static void want_forward(values *v, const bias_case *c, const dp_setup *setup, double z) {
@@ -97,7 +105,7 @@ static double with_next(const bias_case *c, const dp_setup *setup, double gap, d
     if (setup->spec.format.kind != DP_FORMAT_FLOAT || next.real != BIAS_EXPONENT || strchr("gv", next.name[0]) == NULL)
         return NAN;
     next.exponent = BIAS_EXPONENT_NEXT;
-    const bias_goal other = {&next, goal.factor, goal.slope, goal.gap};
+    const bias_goal other = {.api = &next, .factor = goal.factor, .slope = goal.slope, .gap = goal.gap};
     return signed_units(setup, bias_needed_over(setup, &other, lo, c->range[1], &z));
 }
 
@@ -107,17 +115,48 @@ static void want_range(values *v, const bias_case *c, const dp_setup *setup) {
     double apart_z, gap_z, from, to;
     const double alone = signed_units(setup, bias_needed_over(setup, &apart, lo, hi, &apart_z));
     const double with_gap = signed_units(setup, bias_needed_over(setup, &gap, gap_lo, hi, &gap_z));
-    bias_enough_over(setup, &apart, lo, hi, &from, &to);
+    bias_enough_over(setup, &apart, INFINITY, lo, hi, &from, &to);
     want(v, "lo=%f hi=%f units_apart=%f units_apart_z=%f", lo, hi, alone, apart_z);
     want(v, "apart_from=%f apart_to=%f units_apart_next=%f", from, to, with_next(c, setup, 0, lo));
     if (c->gap > 0) {
-        bias_enough_over(setup, &gap, gap_lo, hi, &from, &to);
+        bias_enough_over(setup, &gap, INFINITY, gap_lo, hi, &from, &to);
         want(v, "units_gap_next=%f gap_lo=%f", with_next(c, setup, c->gap, gap_lo), gap_lo);
         want(v, "units_gap=%f units_gap_z=%f gap_from=%f gap_to=%f", with_gap, gap_z, from, to);
     }
     const double shift_hi = shift_with(c, setup, c->gap > 0 ? with_gap : alone, hi);
     want(v, "shift_lo=%f", shift_with(c, setup, c->gap > 0 ? with_gap : alone, c->gap > 0 ? gap_lo : lo));
     want(v, "shift_hi=%f ~nearer=%f", shift_hi, fabs(shift_hi));
+}
+
+static void want_judged(values *v, const bias_api *api, const bias_verdict *b, bool lost) {
+    static const char *const answers[] = {"not proven", "enough", "not enough"};
+    want(v, "answer=%s lo=%f hi=%f from=%f to=%f z=%f code=%f", answers[b->answer], b->lo, b->hi, b->from, b->to, b->z,
+         b->code);
+    want(v, "units=%f factor=%f", lost ? NAN : b->units, lost ? NAN : b->factor);
+    want_text(v, "call", lost || isnan(b->units) ? NULL : bias_call(api, b->units, b->factor).text);
+    want(v, "code_moved=%f short_of_gap=%d enough_next=%d enough_turned=%d", b->moved, b->short_of_gap, b->next,
+         b->turned);
+    want(v, "enough_unclamped=%d", b->clamped);
+}
+
+/* The verdict on a bias that is given, facing and at its slope, and how far it goes. A fragment shader's depth has no
+ * bias. */
+static void want_verdict(values *v, const bias_case *c, const dp_setup *setup, size_t i) {
+    const bool lost = setup->spec.mapping == DP_MAPPING_LOG || setup->spec.mapping == DP_MAPPING_LINEAR;
+    const bias_state s = lost ? (bias_state){.api = c->api} : (bias_state){c->api, c->units, c->factor, c->clamp};
+    const double lo = c->z[0], hi = c->z[DEPTHS - 1];
+    const bias_goal facing = {.api = c->api, .gap = c->gap}, sloped = {.api = c->api, .slope = c->slope, .gap = c->gap};
+    const bias_verdict flat = bias_judge(setup, &s, &facing, lo, hi), steep = bias_judge(setup, &s, &sloped, lo, hi);
+    const bias_push push = bias_push_over(setup, &s, lo, hi);
+    const bias_state least = {c->api, c->slope > 0 ? steep.units : flat.units, 0, 0};
+    values_under(v, "setups[%zu].facing.", i);
+    want_judged(v, c->api, &flat, lost);
+    values_under(v, "setups[%zu].sloped.", i);
+    if (c->slope > 0)
+        want_judged(v, c->api, &steep, lost);
+    values_under(v, "setups[%zu].push.", i);
+    want(v, "shift=%f z=%f degrees=%f", push.shift, push.z, NAN);
+    want(v, "least=%f", lost || isnan(least.units) ? NAN : -bias_at(setup, &least, 0, push.z).shift);
 }
 
 static void want_bias(values *v, const bias_case *c, const dp_setup *setup, size_t i) {
@@ -132,6 +171,8 @@ static void want_bias(values *v, const bias_case *c, const dp_setup *setup, size
     values_under(v, "setups[%zu].range.", i);
     if (c->inverse)
         want_range(v, c, setup);
+    else
+        want_verdict(v, c, setup, i);
 }
 
 /* The slope and the gap only where they are asked about. */
@@ -167,7 +208,7 @@ TEST(each_number) {
         values v = values_of(lines[i]);
         dp_setup setups[SETUPS_MAX];
         want(&v, "api=%s units=%f factor=%f clamp=%f", c.api->name, c.units, c.factor, c.clamp);
-        want(&v, "slope=%f gap=%f", c.slope, c.inverse ? c.gap : NAN);
+        want(&v, "slope=%f gap=%f", c.slope, c.inverse || c.gap > 0 ? c.gap : NAN);
         const size_t n = setups_of(lines[i], DP_MODEL_EXACT, setups);
         for (size_t k = 0; k < n; k++)
             want_bias(&v, &c, &setups[k], k);

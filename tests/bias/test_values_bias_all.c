@@ -69,7 +69,8 @@ static double signed_units(const dp_setup *setup, double units) {
 
 static void want_row(values *v, const all_case *c, const dp_setup *setup, size_t api, double z) {
     const bias_api *row = bias_api_find(calls[api].api);
-    const bias_goal goal = {row, setup->reversed ? c->factor : -c->factor, c->slope, c->gap};
+    const bias_goal goal = {
+        .api = row, .factor = setup->reversed ? c->factor : -c->factor, .slope = c->slope, .gap = c->gap};
     double units, units_z, from, to;
     if (z > 0) {
         const bias_unit r = bias_unit_at(row, &setup->spec.format, dp_window(setup, z));
@@ -78,7 +79,7 @@ static void want_row(values *v, const all_case *c, const dp_setup *setup, size_t
     } else {
         const double lo = fmax(c->range[0], setup->spec.znear + c->gap), hi = c->range[1];
         units = signed_units(setup, bias_needed_over(setup, &goal, lo, hi, &units_z));
-        bias_enough_over(setup, &goal, lo, hi, &from, &to);
+        bias_enough_over(setup, &goal, INFINITY, lo, hi, &from, &to);
         want(v, "lo=%f hi=%f units_z=%f from=%f to=%f", lo, hi, units_z, from, to);
     }
     want(v, "api=%s units=%f", row->name, units);
@@ -154,7 +155,7 @@ TEST(beside_each_other) {
         assert_non_null(line);
         assert_int_equal(sscanf(line + strlen(name), "%lf %lf %lf %lf", &shown[0], &shown[1], &shown[2], &shown[3]), 4);
         for (size_t k = 0; k < n; k++) {
-            const bias_goal goal = {bias_api_find(calls[i].api), 0, 0, 0.02};
+            const bias_goal goal = {.api = bias_api_find(calls[i].api), .gap = 0.02};
             const double units = signed_units(&setups[k], bias_needed(&setups[k], &goal, 300));
             const double over = shown[k] / units - 1;
             assert_true(units == nearbyint(units) ? shown[k] == units : over >= 0 && over < 1e-3);

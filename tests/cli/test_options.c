@@ -35,6 +35,7 @@ static const struct {
                {"texture", " radial lattice ", "--metric=1m"},
                {"texture", " tint ", "--picture=a.png"},
                {"scene", " look ", "--eye=0,0,0"},
+               {"bias", " check ", "--units=1"},
                {"scene", " eye ", "--look=0,0,0"}};
 
 static const char *needed(const char *command, const char *name) {
@@ -492,6 +493,7 @@ TEST(test_flags) {
                  {"budget", "linearize", WORD_AT(budget, origin.terms.linearize)},
                  {"table", "constants", WORD_AT(table, constants)},
                  {"zfight", "rasterize", WORD_AT(zfight, drawn)},
+                 {"bias", "check", WORD_AT(bias, checked)},
                  {"texture", "error-map", WORD_AT(texture, image.error_map)},
                  {"shadow", "point", WORD_AT(shadow, shadow.point)},
                  {"list", "quiet", WORD_AT(list, out.quiet)},

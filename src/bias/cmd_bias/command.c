@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * bias: what a depth bias of an API moves in the scene; or, when no bias is given, how much of it is enough to tell
- * coplanar layers apart, or to bring one nearer by a gap. Of one API a row a depth, and what is enough over the range;
- * of several a row an API for each place, a depth of --at or the range. A few set-ups stand beside each other: their
- * units differ, and how they are written does not.
+ * bias: whether a depth bias of an API is enough, and what it moves in the scene; or, when no bias is given, how much
+ * of it is enough to tell coplanar layers apart, or to bring one nearer by a gap. Of one API a row a depth, and what is
+ * enough over the range; of several a row an API for each place, a depth of --at or the range. A few set-ups stand
+ * beside each other: their units differ, and how they are written does not.
  */
 #include <math.h>
 #include <stdint.h>
@@ -16,9 +16,10 @@
 
 enum { DIGITS = 6 };
 
-/* Whether each set-up's factor is the least that is enough at any slant: a viewport, and neither factor nor slope. */
+/* Whether each set-up's factor is the least that is enough at any slant: a viewport, and neither a bias nor a slope. */
 static bool chooses_factor(const bias_request *o) {
-    return o->camera.triangles.width > 0 && !option_given(o->line, "factor") && !option_given(o->line, "slope");
+    return o->camera.triangles.width > 0 && !option_given(o->line, "factor") && !option_given(o->line, "slope") &&
+           !option_given(o->line, "units");
 }
 
 /* ---- How much is needed ------------------------------------------------------------------------------------------ */
@@ -27,7 +28,8 @@ static bias_need need_from(const biasing *b, const char *what, double gap, doubl
     const dp_setup *setup = b->each.setup;
     const bias_api next = bias_next(&b->api);
     /* A factor is written with the sign that the API takes, the goal counts nearer as +. */
-    bias_goal goal = {&b->api, b->state.factor * bias_sign(setup), b->o->bias.slope, gap};
+    bias_goal goal = {
+        .api = &b->api, .factor = b->state.factor * bias_sign(setup), .slope = b->o->bias.slope, .gap = gap};
     bias_need n = {what, "units", lo, hi, (double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN};
     double z;
     if (!(lo <= hi))
@@ -37,7 +39,7 @@ static bias_need need_from(const biasing *b, const char *what, double gap, doubl
         bias_signed(setup, lo < hi ? bias_needed_over(setup, &goal, lo, hi, &n.z) : bias_needed(setup, &goal, lo));
     n.counted = fabs(n.units) == 1.0 ? "unit" : "units";
     if (lo < hi)
-        bias_enough_over(setup, &goal, lo, hi, &n.from, &n.to);
+        bias_enough_over(setup, &goal, (double)INFINITY, lo, hi, &n.from, &n.to);
     else
         n.from = n.to = isnan(n.units) ? (double)NAN : lo;
     if (!bias_is_open(&b->api, &setup->spec.format) || !(b->when & ONE_API))
@@ -63,6 +65,25 @@ static void take_range(biasing *b) {
     b->call[0] = '\0';
     if (!isnan(b->wanted->units))
         append(b->call, sizeof b->call, "%s", bias_call(&b->api, b->wanted->units, b->state.factor).text);
+}
+
+/* ---- Whether it is enough ---------------------------------------------------------------------------------------- */
+
+static void judge(biasing *b) {
+    const dp_setup *setup = b->each.setup;
+    const dp_setup facing = dp_setup_facing(setup);
+    const double shown = depths_get(&b->each.at, b->each.at.count - 1);
+    bias_goal goal = {.api = &b->api, .gap = b->o->bias.separation};
+    b->judged_hi = isinf(b->range_hi) ? fmax(shown, b->range_lo) : b->range_hi;
+    b->judged_lo = fmin(bias_gap_from(b), b->judged_hi);
+    b->facing = bias_judged_of(&facing, &b->state, &goal, b->judged_lo, b->judged_hi);
+    b->sloped = (bias_judged){.what = NULL};
+    goal.slope = b->o->bias.slope;
+    if (b->when & OF_SLOPES)
+        b->sloped = bias_judged_of(setup, &b->state, &goal, b->judged_lo, b->judged_hi);
+    const bias_judged *strictest = b->when & OF_SLOPES ? &b->sloped : &b->facing;
+    b->missed = b->missed || b->facing.v.answer != BIAS_ENOUGH || strictest->v.answer != BIAS_ENOUGH;
+    b->pushed = bias_pushed_of(setup, &b->state, strictest, b->judged_lo, b->judged_hi);
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -167,6 +188,8 @@ static void *next_setup(void *of, size_t i) {
     take_api(b, bias_asked_api(&b->o->bias, 0));
     if ((b->when & INVERSE) && (b->when & ONE_API) && b->o->out.form != FORM_CSV)
         take_range(b);
+    if (b->when & EFFECT)
+        judge(b);
     return b;
 }
 
@@ -192,8 +215,8 @@ static const column row_columns[] = {
     {FIELD(bias_row, gap.units, "units_gap", ""), SHOWN("separated", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
      .when = ONE_API | INVERSE | WITH_GAP},
     {TEXT_FIELD(bias_row, guarantee.facing, "facing", 11, DIGITS_SHORT), .upward = true,
-     .when = ONE_API | WITH_TRIANGLES},
-    GUARANTEES(bias_row, guarantee.facing, guarantee.slanted, 11, DIGITS_SHORT, ONE_API | WITH_TRIANGLES),
+     .when = ONE_API | INVERSE | WITH_TRIANGLES},
+    GUARANTEES(bias_row, guarantee.facing, guarantee.slanted, 11, DIGITS_SHORT, ONE_API | INVERSE | WITH_TRIANGLES),
     {FIELD(bias_row, effect.offset, "bias", ""), SHOWN("bias", 12, DIGITS), .when = EFFECT, .spare = 1},
     {FIELD(bias_row, effect.depth, "depth", ""), .when = EFFECT},
     {FIELD(bias_row, effect.code, "code", ""), SHOWN("code", 11, 0), .when = EFFECT},
@@ -202,7 +225,7 @@ static const column row_columns[] = {
     {FIELD(bias_row, effect.shift, "shift", "scene"), SHOWN("shift", 12, DIGITS), .when = EFFECT},
     {FIELD(bias_row, effect.limited, "limited", ""), .only = AS_JSON, .when = EFFECT},
     {TEXT_FIELD(bias_row, held, "", -1, 0), .when = ONE_API | VERBOSE},
-    {FIELD(bias_row, guarantee.certain, "certain", ""), .when = ONE_API | WITH_TRIANGLES},
+    {FIELD(bias_row, guarantee.certain, "certain", ""), .when = ONE_API | INVERSE | WITH_TRIANGLES},
     {FIELD(bias_row, gap.units, "units", ""), .when = SEVERAL},
     {FIELD(bias_row, factor, "factor", ""), .when = SEVERAL | WITH_TRIANGLES},
     {FIELD(bias_row, gap.z, "units_z", "scene"), .when = OF_RANGE},
@@ -229,12 +252,16 @@ static const column range_columns[] = {{FIELD(biasing, over.lo, "lo", "scene")},
                                        {FIELD(biasing, shift_hi, "shift_hi", "scene")},
                                        {.kind = COLUMN_END}};
 
-static const column setup_report[] = {{PART(biasing, each.fields, NULL, setup_columns)},
-                                      {FIELD(biasing, apis, "api", ""), .only = AS_CSV, .when = ONE_API},
-                                      {FIELD(biasing, state.factor, "factor", ""), .when = ONE_API | WITH_TRIANGLES},
-                                      {LIST("rows", row_columns, next_row)},
-                                      {GROUP("range", range_columns), .only = AS_JSON, .when = ONE_API | INVERSE},
-                                      {.kind = COLUMN_END}};
+static const column setup_report[] = {
+    {PART(biasing, each.fields, NULL, setup_columns)},
+    {FIELD(biasing, apis, "api", ""), .only = AS_CSV, .when = ONE_API},
+    {FIELD(biasing, state.factor, "factor", ""), .when = ONE_API | WITH_TRIANGLES},
+    {LIST("rows", row_columns, next_row)},
+    {GROUP("range", range_columns), .only = AS_JSON, .when = ONE_API | INVERSE},
+    {PART(biasing, facing, "facing", bias_judged_columns), .only = AS_JSON, .when = EFFECT},
+    {PART(biasing, sloped, "sloped", bias_judged_columns), .only = AS_JSON, .when = EFFECT | OF_SLOPES},
+    {PART(biasing, pushed, "push", bias_pushed_columns), .only = AS_JSON, .when = EFFECT},
+    {.kind = COLUMN_END}};
 
 static const column columns[] = {
     {FIELD(biasing, apis, "api", ""), .only = AS_JSON},
@@ -329,7 +356,8 @@ static unsigned conditions(const bias_request *o) {
     const unsigned of_several = SEVERAL | (option_given(o->line, "at") ? OF_DEPTHS : OF_RANGE);
     return (option_given(o->line, "units") ? EFFECT : INVERSE) | (o->bias.api == NULL ? of_several : ONE_API) |
            (o->bias.separation > 0.0 ? WITH_GAP : 0) | (o->bias.slope > 0.0 ? WITH_SLOPE : 0) |
-           (o->out.full ? VERBOSE : 0) | (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
+           (o->bias.slope > 0.0 || o->camera.triangles.width > 0 ? OF_SLOPES : 0) | (o->out.full ? VERBOSE : 0) |
+           (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
 }
 
 /* Several APIs, a few set-ups, one place: whether they stand beside each other. */
@@ -351,7 +379,7 @@ int cmd_bias(void *request) {
                  .when = conditions(o),
                  .chosen = chooses_factor(o),
                  .state = {.clamp = o->bias.clamp},
-                 .gap = given ? (double)NAN : o->bias.separation,
+                 .gap = given && o->bias.separation == 0.0 ? (double)NAN : o->bias.separation,
                  .slope = o->bias.slope};
     int status = check_slant(o);
     if (status != EXIT_FINE)
@@ -372,5 +400,6 @@ int cmd_bias(void *request) {
     if (suits_beside(&b))
         return write_beside(&b, status);
     const report_spec spec = {"bias", columns, &b, .when = b.when, .label = api != NULL ? 12 : 14};
-    return each_setup_write(&b.each, &spec, status);
+    status = each_setup_write(&b.each, &spec, status);
+    return status == EXIT_FINE && o->checked && b.missed ? EXIT_FAILED : status;
 }

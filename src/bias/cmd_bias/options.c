@@ -60,12 +60,13 @@ static const option_row bias_rows[] = {
         "constant bias in units of r, a whole number for d3d11, d3d12 and webgpu; in window depth for d3d9 and "
         "vulkan-float; inf or -inf as a program sets it that casts it",
         .parse = parse_units, INTO(double, units), LIMITS(-1e12, 1e12, NULL),
-        .without = "the units needed"},
+        .without = "the units needed", .also = "polygonOffsetUnits depthBias depthBiasConstantFactor DepthBias"},
     {"factor", 0, "F",
-        "bias in units of the window slope", NUMBER(factor, -1e12, 1e12, NULL), .standard = "0"},
+        "bias in units of the window slope", NUMBER(factor, -1e12, 1e12, NULL), .standard = "0",
+        .also = "polygonOffsetFactor depthBiasSlopeScale depthBiasSlopeFactor SlopeScaledDepthBias slopeDepthBias"},
     {"clamp", 0, "C",
         "greatest bias, or least when negative, in window depth", NUMBER(clamp, -1e12, 1e12, NULL),
-        .standard = "0", .without = "none"},
+        .standard = "0", .without = "none", .also = "depthBiasClamp DepthBiasClamp"},
     {"slope", 0, "S",
         "change of eye depth from one pixel to the next", LENGTH(slope, 0, 1e12, "scene units per pixel"),
         .standard = "0", .without = "facing the camera"},
@@ -73,9 +74,18 @@ static const option_row bias_rows[] = {
         "how much nearer the bias must bring a layer, in scene units", POSITIVE(separation),
         .without = "until it is resolved"},
     END};
+
+#undef GROUP_TYPE
+#define GROUP_TYPE bias_request
+static const option_row check_rows[] = {
+    {"check", 0, NULL,
+        "exit with status 1 unless the bias given is enough all over the range, also at the slants that are asked "
+        "about", FLAG(checked)},
+    END};
 /* clang-format on */
 
 const option_table bias_options = {.rows = bias_rows};
+static const option_table check_options = {.rows = check_rows};
 
 /* Sets an option that nobody has given, and remembers who chose it. */
 static void bring(asked_line *line, const bias_asked *b, const char *option, const char *value) {
@@ -114,21 +124,19 @@ const option_use bias_brought[] = {
     OWN("platform", ALSO("for a bias also its API; with --viewport also its rasterizer")), END};
 
 static const option_use uses[] = {
-    ROWS(bias_rows), GROUP_OF(bias_brought),
+    ROWS(bias_rows), ROWS(check_rows), GROUP_OF(bias_brought),
     OWN("format", DEFAULT("fp32")),
     TAKE("at"), TAKE("range"), TAKE("log-c"), TAKE("viewport"), TAKE("link"),
     OWN("full", HELP("all columns, however wide; and where a biased depth is clamped")),
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 
 static const option_rule rules[] = {
-    CONFLICTS("viewport", "units", ": it says how many suffice"),
-    CONFLICTS("units", "separation", ", which solves for them"),
-    CONFLICTS("range", "units", ": units are solved for over a range"),
+    NEEDS("check", "units", ": it is a bias that is judged"),
     {.option = NULL}};
 /* clang-format on */
 
 static const option_place places[] = {
-    CAMERA_PLACES(bias_request), PLACE(bias_request, bias, bias_options), {.table = NULL}};
+    CAMERA_PLACES(bias_request), PLACE(bias_request, bias, bias_options), OWN_PLACE(check_options), {.table = NULL}};
 
 static int complete(void *request) {
     bias_request *o = request;

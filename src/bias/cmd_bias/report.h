@@ -4,6 +4,7 @@
 #define BIAS_CMD_BIAS_REPORT_H
 
 #include "bias/cmd_bias/call.h"
+#include "bias/cmd_bias/judged.h"
 #include "bias/cmd_bias/request.h"
 #include "camera/cmd/each_setup.h"
 #include "camera/cmd/slant.h"
@@ -23,7 +24,8 @@ enum {
     WITH_SLOPE = 128,
     VERBOSE = 256,
     WITH_TRIANGLES = 512,
-    OF_PLACES = 1024 /**< at several depths */
+    OF_PLACES = 1024, /**< at several depths */
+    OF_SLOPES = 2048  /**< of surfaces that need not face the camera */
 };
 
 /** The units that reach a goal from lo to hi; all NaN where lo is beyond hi. */
@@ -64,12 +66,16 @@ typedef struct biasing {
     bias_api api;          /**< as the platform has it, and the GPU that was measured in the set-up's format */
     bias_state state;      /**< of it */
     bias_row row;
-    bias_need over, gap_over;  /**< inverse, of one API: the same over the range */
-    const bias_need *wanted;   /**< the one that is asked for */
-    double shift_lo, shift_hi; /**< the effect of its units at the ends */
-    char call[BIAS_CALL_SIZE]; /**< that sets them */
-    bool limited;              /**< some depth is held at a plane */
-    bool fails;                /**< somewhere no bias is enough */
+    bias_need over, gap_over;   /**< inverse, of one API: the same over the range */
+    const bias_need *wanted;    /**< the one that is asked for */
+    double shift_lo, shift_hi;  /**< the effect of its units at the ends */
+    char call[BIAS_CALL_SIZE];  /**< that sets them */
+    bias_judged facing, sloped; /**< of a bias that is given, of one API: is it enough? */
+    bias_pushed pushed;
+    double judged_lo, judged_hi; /**< the range of that; of an infinite one up to the last depth shown */
+    bool missed;                 /**< in some set-up it is not */
+    bool limited;                /**< some depth is held at a plane */
+    bool fails;                  /**< somewhere no bias is enough */
 } biasing;
 
 /** The part of a range in which a bias is enough, as conditions of sentences over `bias_need_columns`. */

@@ -23,6 +23,7 @@ extern const option_use bias_brought[];
 typedef struct bias_request {
     CAMERA_REQUEST;
     bias_asked bias;
+    bool checked; /**< --check */
 } bias_request;
 
 /** The API of that index among those that are asked for; null behind the last. */

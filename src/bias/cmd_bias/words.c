@@ -53,6 +53,8 @@ static void say_goal(page *p, const biasing *b) {
 
 void bias_say_setup(page *p, void *item) {
     const biasing *b = item;
+    if (b->when & EFFECT)
+        bias_say_answer(p, &b->facing, &b->sloped);
     each_setup_title(p, item);
     slant_say(p, page_title, &b->o->camera, &b->each.slanted);
     (b->when & ONE_API ? say_state : say_goal)(p, b);
@@ -175,13 +177,6 @@ static void say_choice(page *p, const biasing *b) {
                   open);
 }
 
-/* Whether a fragment shader may write the depth: an orthographic depth is interpolated, and so is the clip z that
- * osgearth's vertices have. */
-static bool is_missed(const dp_setup *setup) {
-    return setup->curve != DP_CURVE_PERSPECTIVE && !setup->spec.ortho &&
-           !dp_mapping_get(setup->spec.mapping)->ndc_signed;
-}
-
 static const char missed[] = "no API biases a depth that a fragment shader writes: add units times r there";
 
 /* The slope factor of surfaces at any slant. */
@@ -198,6 +193,14 @@ static void say_factor(page *p, const biasing *b) {
                   number_full(least).text);
 }
 
+static void say_verdict(page *p, biasing *b) {
+    bias_say_judged(p, &b->facing, b->judged_lo, b->judged_hi);
+    if (b->sloped.what != NULL)
+        bias_say_judged(p, &b->sloped, b->judged_lo, b->judged_hi);
+    bias_say_pushed(p, &b->pushed);
+    page_line(p, "a %s bias brings a layer nearer", bias_sign(b->each.setup) < 0 ? "negative" : "positive");
+}
+
 void bias_say_notes(page *p, void *item) {
     biasing *b = item;
     const bool one = b->when & ONE_API;
@@ -207,8 +210,8 @@ void bias_say_notes(page *p, void *item) {
     else if (b->when & INVERSE)
         say_range(p, b);
     else
-        page_line(p, "a %s bias brings a layer nearer", bias_sign(b->each.setup) < 0 ? "negative" : "positive");
-    if (is_missed(b->each.setup))
+        say_verdict(p, b);
+    if (bias_is_missed(b->each.setup))
         page_line(p, "%s", missed);
     if (b->each.triangles != NULL)
         page_line(p, "resolved: one plane drawn as different triangles, each at least a pixel high");
@@ -242,7 +245,7 @@ void bias_say_calls(page *p, void *item) {
     char open[BIAS_CALL_SIZE];
     bool misses = false, integer = false;
     for (size_t k = 0; k < b->each.all.count; k++) {
-        misses = misses || is_missed(&b->each.all.items[k]);
+        misses = misses || bias_is_missed(&b->each.all.items[k]);
         integer = integer || b->each.all.items[k].spec.format.kind == DP_FORMAT_UNORM;
     }
     if (b->fails)

@@ -70,6 +70,8 @@ static const char *describe(const option_taken *use, char out[DESCRIPTION_SIZE])
         append(out, DESCRIPTION_SIZE, "%s%s", names_join(row->names, ", ", ", ", text), help + before + 1);
     if (use->own.also != NULL)
         append(out, DESCRIPTION_SIZE, "; %s", use->own.also);
+    for (const char *name = row->also; name != NULL; name = strchr(name, ' ') != NULL ? strchr(name, ' ') + 1 : NULL)
+        append(out, DESCRIPTION_SIZE, "%s%.*s", name == row->also ? "; also as " : ", ", (int)strcspn(name, " "), name);
     if (limited)
         append(out, DESCRIPTION_SIZE, " (%s", option_limits(row, text));
     if (standard != NULL || without != NULL)

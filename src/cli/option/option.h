@@ -120,6 +120,7 @@ typedef struct option_row {
     bool repeats;           /**< it may be given several times */
     bool written;           /**< the field is the name of a file that is written */
     bool early;             /**< what lengths mean depends on it, so that it is read before the others */
+    const char *also;       /**< other names that are read, separated by one space; null: none */
     const char *group;      /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
 

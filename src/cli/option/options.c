@@ -55,6 +55,8 @@ typedef struct known {
     size_t count;
     char letters[2 * OPTIONS_MAX + 4];
     struct option longs[OPTIONS_MAX + 1];
+    char also[OPTION_TEXT_SIZE]; /* the other names */
+    size_t also_used;
 } known;
 
 enum { LONG_ONLY = 256 };
@@ -63,12 +65,26 @@ static bool takes_argument(const option_row *row) {
     return row->argument != NULL || row->names != NULL;
 }
 
+/* An option's other names stand for it, too. */
+static void know_also(known *k, const option_row *row, int has, int value) {
+    char *name = k->also + k->also_used;
+    append(name, sizeof k->also - k->also_used, "%s", row->also);
+    k->also_used += strlen(name) + 1;
+    for (char *end; name != NULL && k->count < OPTIONS_MAX; name = end) {
+        end = strchr(name, ' ');
+        if (end != NULL)
+            *end++ = '\0';
+        k->longs[k->count] = (struct option){name, has, NULL, value};
+        k->rows[k->count++] = row;
+    }
+}
+
 /* The letters begin with the sign by which words come in order, as arguments of an option 1. */
 static void know(known *k) {
     const option_row *all[OPTIONS_MAX + 1];
     char *letters = k->letters;
     options_all(all);
-    k->count = 0;
+    k->count = k->also_used = 0;
     *letters++ = '-';
     *letters++ = ':'; /* a missing argument is told apart from an unknown option */
     for (size_t i = 0; all[i] != NULL; i++) {
@@ -79,6 +95,8 @@ static void know(known *k) {
         const int value = row->letter != 0 ? row->letter : LONG_ONLY + (int)k->count;
         k->longs[k->count] = (struct option){row->name, has, NULL, value};
         k->rows[k->count++] = row;
+        if (row->also != NULL)
+            know_also(k, row, has, value);
         if (row->letter != 0) {
             *letters++ = row->letter;
             if (takes_argument(row))
@@ -108,7 +126,7 @@ static int unknown_option(const asked_line *line, const known *k, int refused, c
     size_t count = 0;
     for (size_t i = 0; i < k->count; i++)
         if (option_used(line->command, ~0U, option_find(line->command, k->rows[i]->name)).row != NULL)
-            taken[count++] = k->rows[i]->name;
+            taken[count++] = k->longs[i].name;
     taken[count] = NULL;
     char text[NAMES_SIZE], given[64] = "";
     const name_list all = {.words = taken};
