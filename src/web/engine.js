@@ -106,9 +106,9 @@ export async function load(from, host = () => ({})) {
         measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),
 
         // The command's exit status and what it wrote, up to so many bytes; `left` are the others. Where asked for, the cells
-        // of tables are parted, see sheet.js. What begins with "seen" is a frame of a picture by the GPU: see picture.c.
+        // of tables are parted, see sheet.js. What begins with "seen" is a frame of a picture by the GPU, with "ways" what else would do: see picture.c.
         run: ([first, ...others], most, cells) =>
-            first === "seen" ? call(first, others, most) : call("run", [first, ...others], most, cells),
+            first === "seen" || first === "ways" ? call(first, others, most) : call("run", [first, ...others], most, cells),
 
         // The program reads the words: { status, err, verb, operands, options: [{ name, value }] }.
         parse(words) {

@@ -321,6 +321,7 @@ function buildSetup(index) {
     const engines = JSON.parse(engine.run(["list", "presets", "--json"]).out).items;
     const preset = select("preset", "Engine", ["", ...engines.map(({ name }) => name)], "any");
     own.preset.addEventListener("change", () => {
+        if (index === 0) $("#engine").value = own.preset.value;
         const chosen = engines.find(({ name }) => name === own.preset.value);
         const said = /near ([^,]+), far ([^,]+), ([^,]+), ([^,]+),.* scene in (\w+)/.exec(chosen?.camera ?? "");
         if (said === null) return;
@@ -365,8 +366,8 @@ function buildSetup(index) {
     own.refused = make("p", { class: "refused", role: "status", id: `refused-${letter}` });
     fields[index] = own;
     const details = make("details", {}, make("summary", {}, "Arithmetic, viewport and more"),
-        make("div", { class: "row" }, select("model", "Model", choices("model")),
-            select("arith", "Arithmetic", names("arithmetic"))),
+        make("div", { class: "row" }, select("model", "Model", ["", ...choices("model").filter((name) => name !== "auto")], "auto"),
+            select("arith", "Arithmetic", ["", ...names("arithmetic")], "auto")),
         make("div", { class: "row" }, text("viewport", "Viewport", "1920x1080"), text("slant", "Slant", "0:90"),
             text("at", "Depths", "1,10,100"), select("unit", "Unit", ["", ...choices("unit")], "scene units")),
         make("label", { for: more.id }, "Further options, as the command has them"), more);
@@ -406,7 +407,7 @@ const PLAIN = [
 
 // A command takes these where it is given nothing. A preset gives something else.
 const STARTS = {
-    near: "0.1", far: "1000", format: "all", mapping: "all", model: "exact", arith: "ieee",
+    near: "0.1", far: "1000", format: "all", mapping: "all", model: "", arith: "",
     unit: "", viewport: "", slant: "", at: "",
 };
 
@@ -479,6 +480,7 @@ function fill() {
         showSliders(index);
         own.ortho.checked = setup.has("ortho");
         own.preset.value = setup.get("preset") ?? "";
+        if (index === 0) $("#engine").value = own.preset.value;
         for (const name of ["ortho", "preset"]) rest.delete(name);
         own.more.value = join(words(rest));
     });
@@ -762,6 +764,30 @@ function showSetup(index, said) {
     document.documentElement.dataset.answered = "";
 }
 
+// What else would do, each a button that does it, with what the engine's users write.
+const waysLine = () => ["ways", ...pictureLines()[0]];
+function showWays() {
+    const said = aside.known(waysLine());
+    if (said === undefined || said === $("#ways").said) return;
+    const all = said.status === 0 ? JSON.parse(said.out).filter((one) => one !== null).slice(0, 3) : [];
+    $("#ways").said = said;
+    $("#ways").hidden = all.length === 0;
+    $("#ways").replaceChildren(...all.map(({ text, set: changes, code }) => {
+        const button = make("button", { type: "button" }, text);
+        button.addEventListener("click", () => ("gap" in changes ? ask("gap", changes.gap) : take(changes)));
+        return make("span", {}, button, ...(code ? [" ", make("code", {}, code)] : []));
+    }));
+}
+
+// What is in force where nothing was chosen.
+function showForce(facts) {
+    for (const [i, one] of facts.slice(0, state.setups.length).entries())
+        for (const option of ["model", "arith", "format", "mapping"]) {
+            const none = [...fields[i][option].options].find(({ value }) => value === "");
+            if (none) none.textContent = one[option] === undefined ? "auto" : `auto: ${one[option]}`;
+        }
+}
+
 // What is promised of gap and distance: at any slant first, then of what faces the camera; of a set-up that is refused, why.
 function showHeadlines(facts) {
     $("#verdicts").replaceChildren(...state.setups.map((_, i) => {
@@ -785,7 +811,7 @@ function outputs(colours) {
     for (const panel of panels.sort((a, b) => onScreen.has(b) - onScreen.has(a)))
         for (const [index, one] of outputsOf(panel).entries())
             all.push({ panel, one, index, line: lineOf(panel.dataset.panel, state.setups[index], one, colours) });
-    all.splice(state.setups.length, 0, ...outputsOver(colours));
+    all.splice(state.setups.length, 0, { line: waysLine(), over: true }, ...outputsOver(colours));
     return all;
 }
 
@@ -800,7 +826,9 @@ function showKnown() {
         else showOutput(panel, one, index, said);
     }
     for (const panel of document.querySelectorAll("[data-panel]")) panel.classList.toggle("stale", late.has(panel));
-    if (state.setups.length > 0) showOver();
+    if (state.setups.length === 0) return;
+    showOver();
+    showWays();
 }
 
 // Answers are shown, while something is dragged once in a frame; what lies over a figure follows it.
@@ -924,6 +952,12 @@ function listen() {
     copies("#copy", address);
     $("#share").hidden = !navigator.share;
     $("#share").addEventListener("click", () => navigator.share({ title: document.title, url: address() }).catch(() => {}));
+    $("#ask").addEventListener("submit", (event) => event.preventDefault());
+    $("#engine").append(...[...fields[0].preset.options].map(({ value }) => make("option", { value }, value || "any engine")));
+    $("#engine").addEventListener("change", ({ target }) => {
+        fields[0].preset.value = target.value;
+        fields[0].preset.dispatchEvent(new Event("change"));
+    });
     for (const [i, name] of ["gap", "distance"].entries()) {
         $(`#${name}`).addEventListener("input", ({ target }) => ask(name, engine.lengthAt(i, Number(target.value), unitOf(state.setups[0]) !== "")));
         $(`#${name}-text`).addEventListener("input", ({ target }) => target.value.trim() && ask(name, target.value.replaceAll(" ", "")));
@@ -998,6 +1032,7 @@ function showPicture() {
     drawnRefusals = state.setups.map(refusalOf);
     const facts = picture.set(lines.map((line, i) => ({ line, error: drawnRefusals[i] ?? "" })));
     showWorld(facts);
+    showForce(facts);
     showHeadlines(facts);
     gpuPanel?.draw();
     imagePanel?.follow();

@@ -12,10 +12,12 @@
 #include <string.h>
 
 #include "camera/cmd/setups.h"
+#include "camera/paste.h"
 #include "core/append.h"
 #include "core/elementary.h"
 #include "report/number.h"
 #include "solve/distance.h"
+#include "solve/plane.h"
 #include "web/gpu.h"
 #include "web/page.h"
 
@@ -42,6 +44,7 @@ static uint32_t *pixels;
 static typed given[AXES];
 static const unit_row *scene; /* null where nothing says what a scene unit is */
 static draw_picture_count count;
+static paste engine;
 static const char *undrawn; /* why there is no picture; null: there is one */
 
 static void let_go(void) {
@@ -120,6 +123,7 @@ static int make_of(const asked_line *line, char **typed_words) {
         if (read_length(&in, i, typed_words[i]) != EXIT_FINE)
             return EXIT_USAGE;
     scene = in.unit;
+    engine = (paste){all->preset_count > 0 ? all->presets[0] : NULL, scene};
     return make(all);
 }
 
@@ -202,11 +206,13 @@ static void print_facts(void) {
                length_in(GAP, parallel, 1).text);
     else
         printf("\"facing\": \"Facing the camera, as a wall straight ahead does: no gap is guaranteed.\", ");
-    printf("\"model\": \"%s\", \"resolved\": %s, \"guaranteed\": ", dp_arith_get(picture.setup.spec.arith)->name,
-           !told                                    ? "null"
-           : given[GAP].value >= picture.guaranteed ? "true"
-                                                    : "false");
-    printf("%s, ", told ? number_full(picture.guaranteed).text : "null");
+    const dp_spec *spec = &picture.setup.spec;
+    printf("\"model\": \"%s\", \"arith\": \"%s\", \"format\": \"%s\", \"mapping\": \"%s\", \"resolved\": %s, ",
+           spec->model == DP_MODEL_FLOAT         ? "float"
+           : picture.asked.curve == DP_CURVE_LOG ? "shader"
+                                                 : "exact",
+           dp_arith_get(spec->arith)->name, spec->format.name, dp_mapping_get(spec->mapping)->name,
+           told && given[GAP].value >= picture.guaranteed ? "true" : "false");
     print_place("enough", GAP, picture.guaranteed, 1, ", ");
     print_place("limit", DISTANCE, told ? reach : (double)NAN, -1, ", ");
     print_given();
@@ -223,6 +229,117 @@ PAGE_EXPORT("picture_set") int picture_set(int n) {
         print_given();
     } else if (status == EXIT_FINE)
         print_facts();
+    fflush(NULL);
+    return status;
+}
+
+/* ---- Ways out ---------------------------------------------------------------------------------------------------- */
+
+/* What is guaranteed from near to the distance at any slant; INFINITY where nothing is. */
+static double needed(const dp_spec *spec) {
+    dp_setup setup;
+    dp_separation_worst found;
+    const double to = given[DISTANCE].value;
+    return to > spec->znear && to <= spec->zfar && dp_setup_init(&setup, spec) == DP_OK &&
+                   dp_separation_over(&setup, setup.spec.znear, to, 0.0, &found) == DP_OK
+               ? found.bound
+               : (double)INFINITY;
+}
+
+/* The least near plane of three digits that does, as text; "" where none does that leaves something to be seen. */
+static number_text near_enough(dp_spec spec) {
+    enum { TRIES = 12 };
+    const double gap = given[GAP].value, z = given[DISTANCE].value;
+    const solve_problem problem = {spec, SOLVE_NEAR, MEASURE_SEPARATION, gap, z, z};
+    plane_answer answer;
+    number_text out = {""};
+    if (z > spec.zfar || plane_solve(&problem, &answer) != DP_OK || !answer.possible)
+        return out;
+    for (double near = answer.value; near < z / 3.0; near *= 1.0 + 1.0 / TRIES) {
+        out = number_brief(number_up(near, DIGITS));
+        spec.znear = strtod(out.text, NULL);
+        if (needed(&spec) <= gap)
+            return out;
+    }
+    return (number_text){""};
+}
+
+static void print_way(const char *text, const char *changes, const char *code) {
+    printf("{\"text\": \"%s\", \"set\": {%s}, \"code\": \"", text, changes);
+    for (; *code != '\0'; code++)
+        printf("%s%c", *code == '"' ? "\\" : "", *code);
+    printf("\"}, ");
+}
+
+static dp_mapping turned(dp_mapping mapping) {
+    const dp_mapping_row *row = dp_mapping_get(mapping);
+    return row->ndc_signed ? DP_MAPPING_GL_REVERSED : DP_MAPPING_REVERSED;
+}
+
+/* Depth as another format or mapping, where that does. */
+static bool print_other(const dp_spec *asked, bool reversed, bool as_float) {
+    dp_spec spec = *asked;
+    dp_format formats[2];
+    char changes[TEXT_SIZE] = "", code[TEXT_SIZE] = "";
+    spec.mapping = reversed ? turned(spec.mapping) : spec.mapping;
+    if (as_float && dp_format_parse("fp32", formats) == 1)
+        spec.format = formats[0];
+    const bool turns = spec.mapping != asked->mapping, floats = strcmp(spec.format.name, asked->format.name) != 0;
+    if (turns != reversed || floats != as_float || !(needed(&spec) <= given[GAP].value))
+        return false;
+    const dp_mapping_row *row = dp_mapping_get(spec.mapping);
+    if (turns)
+        append(changes, sizeof changes, "\"mapping\": \"%s\"%s", row->name, floats ? ", " : "");
+    if (floats)
+        append(changes, sizeof changes, "\"format\": \"%s\"", spec.format.name);
+    const char *own = turns ? paste_reversed(&engine) : NULL;
+    append(code, sizeof code, "%s", own != NULL ? own : turns ? row->effort : "");
+    if (floats)
+        append(code, sizeof code, "%sa depth buffer of 32-bit float: D32_FLOAT, depth32float", turns ? "; " : "");
+    print_way(turns && floats ? "Reverse depth, in 32-bit float"
+              : turns         ? "Reverse depth"
+                              : "Take 32-bit float",
+              changes, code);
+    return true;
+}
+
+static void print_ways(void) {
+    char text[TEXT_SIZE], changes[TEXT_SIZE], code[TEXT_SIZE];
+    dp_spec spec = picture.asked.spec;
+    if (isfinite(picture.guaranteed)) {
+        const number_text near = near_enough(spec);
+        snprintf(text, sizeof text, "Raise near to %s", number_in(near, scene != NULL ? scene->name : NULL).text);
+        snprintf(changes, sizeof changes, "\"near\": \"%s\"", near.text);
+        const char *own = paste_near(&engine, near.text, code, sizeof code);
+        if (near.text[0] != '\0')
+            print_way(text, changes, own != NULL ? own : "");
+    }
+    spec.model = DP_MODEL_FLOAT;
+    if (dp_mapping_get(spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
+        spec.mapping = DP_MAPPING_D3D;
+    if (!print_other(&spec, true, false) && !print_other(&spec, false, true))
+        print_other(&spec, true, true);
+    if (!isfinite(picture.guaranteed))
+        return;
+    const number_text apart = length_in(GAP, picture.guaranteed, 1);
+    snprintf(text, sizeof text, "Set them %s apart", apart.text);
+    char bare[sizeof apart.text] = "";
+    for (const char *at = apart.text; *at != '\0'; at++)
+        if (*at != ' ')
+            append(bare, sizeof bare, "%c", *at);
+    snprintf(changes, sizeof changes, "\"gap\": \"%s\"", bare);
+    print_way(text, changes, "");
+}
+
+/** Prints what else would do, the cheapest first, of a gap, a distance and a command as picture_set() has them: of each
+ * what it is in words, what it changes, and what the engine's users write. @return exit status */
+PAGE_EXPORT("ways") int ways(int n) {
+    char **words;
+    const int argc = page_words(n, &words), status = picture_of(argc, words);
+    printf("[");
+    if (status == EXIT_FINE && undrawn == NULL && !(given[GAP].value >= picture.guaranteed))
+        print_ways();
+    printf("null]\n");
     fflush(NULL);
     return status;
 }

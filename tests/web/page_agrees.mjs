@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What two things on one screen say agrees: random settings, dragged and typed, and what is shown then compared with itself:
 // controls, headlines, pictures, marks, the requirement, the table, the answer to what it takes, the readout.
-import { close, open, settled } from "./browser.mjs";
+import { close, go, open, settled } from "./browser.mjs";
 import { random, seed } from "./states.mjs";
 import { demand, note, test } from "./tap.mjs";
 
@@ -167,6 +167,39 @@ async function agree(count) {
     return `${count} settings: ${JSON.stringify(seen)}`;
 }
 
+// Each way out does what it says: it is pressed, and the headline says yes.
+const CAMERAS = [ // an engine, if any, a gap and a distance, and what stands beside the first way
+    ["", "2cm", "200m", ""], ["three", "2cm", "200m", "camera.near = "], ["babylon", "1cm", "500m", "camera.minZ = "],
+    ["unity-gl", "5mm", "100m", "camera.nearClipPlane = "], ["godot-mobile", "1mm", "50m", "camera.near = "], ["cesium", "10cm", "1km", null],
+];
+async function waysOut() {
+    let pressed = 0;
+    const page = await open(), buttons = page.locator("#ways button");
+    for (const [engine, gap, distance, beside] of CAMERAS)
+        for (let i = 0; i < 3; i++) {
+            await go(page, encodeURIComponent(`table -n 0.1 -f 5000 -F d24 -m d3d --viewport 1920x1080 --unit m ; page gap=${gap} distance=${distance} theme=${i % 2 === 0 ? "light" : "dark"}`));
+            const before = await page.evaluate(() => document.documentElement.dataset.updates);
+            if (engine !== "") {
+                await page.selectOption("#engine", engine);
+                await page.waitForFunction((old) => document.documentElement.dataset.updates !== old, before);
+            }
+            await settled(page);
+            const headline = () => page.locator("#verdicts p").first().textContent(), said = await headline();
+            demand(!/: resolved/.test(said), `${engine} ${gap} ${distance}: nothing to mend: ${said}`);
+            if (i >= (await buttons.count())) break;
+            const name = await buttons.nth(i).textContent(), code = await page.locator("#ways > span").nth(i).locator("code").allTextContents();
+            if (i === 0 && beside !== null) demand(/^Raise near/.test(name) && String(code).startsWith(beside), `${engine}: ${name}: ${code}`);
+            await buttons.nth(i).click();
+            await page.waitForFunction(() => /: resolved at any slant/.test(document.querySelector("#verdicts p").textContent), null, { timeout: 5000 })
+                .catch(async () => demand(false, `${engine} ${gap} ${distance}, ${name}: ${await headline()}`));
+            pressed++;
+        }
+    await close(page);
+    demand(pressed >= 12, `only ${pressed} ways`);
+    return `${pressed} ways`;
+}
+
 export async function agrees(share) {
+    await test("each way out that the page names does, once it is pressed", waysOut);
     await test("what is on one screen agrees with itself, whatever is dragged and typed", () => agree(300 * share));
 }

@@ -7,6 +7,7 @@
 
 #include "camera/cmd/setups.h"
 #include "camera/cmd/slant.h"
+#include "camera/paste.h"
 #include "core/append.h"
 #include "core/elementary.h"
 #include "report/sentence.h"
@@ -29,7 +30,7 @@ double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool s
                : (double)NAN;
 }
 
-enum { DIGITS_MOST = 17, UNITS = 8, PHRASES = 6 };
+enum { DIGITS_MOST = 17, UNITS = 8, PHRASES = 7 };
 
 /* ---- Numbers that keep what they promise, as they are printed ---------------------------------------------------- */
 
@@ -59,7 +60,7 @@ number_text solve_safe_digits(const solve_report *r, const solve_candidate *c, d
 typedef struct told {
     const solve_report *report;
     const solve_candidate *answer;
-    const char *target, *measure, *mapping, *ortho, *at_slant, *property, *manner, *model, *rounding, *effort;
+    const char *target, *measure, *mapping, *ortho, *at_slant, *property, *manner, *model, *rounding, *effort, *paste;
     number_text goal, wanted, best, from, to, facing, lattice_best, guaranteed, short_of;
     double plane, throughout;
     const char *given, *goals, *fight, *ideal; /* phrases */
@@ -90,6 +91,7 @@ static const column told_columns[] = {
     {PART(told, answer, NULL, answer_columns), .pointed = true},
     WORD(told, target), WORD(told, measure), WORD(told, mapping), WORD(told, ortho), WORD(told, at_slant),
     WORD(told, property), WORD(told, manner), WORD(told, model), WORD(told, rounding), WORD(told, effort),
+    WORD(told, paste),
     LENGTH(told, plane, 0),
     LENGTH(told, throughout, 0), NUMBER(told, goal), NUMBER(told, wanted), NUMBER(told, best), NUMBER(told, from),
     NUMBER(told, to), NUMBER(told, facing), NUMBER(told, lattice_best), NUMBER(told, guaranteed),
@@ -148,6 +150,7 @@ static const sentence note_words[] = {
     NOTE("{target}", "{plane} exactly", SOLVED | POSSIBLE | CERTAIN),
     ELSE("{plane} exactly; a smaller one may suffice", SOLVED | POSSIBLE | IS_NEAR),
     ELSE("{plane} exactly; a larger one may suffice", SOLVED | POSSIBLE),
+    NOTE("to write", "{paste}", SOLVED | POSSIBLE | IS_NEAR),
     NOTE("passes", "every {target} from {from} to {to}", SOLVED | POSSIBLE),
     NOTE("{measure}", "{best} at z = {z_down}, wanted {wanted}", OF_DISTANCE),
     ELSE("{best} at z = {z}, wanted {wanted}", 0),
@@ -264,6 +267,14 @@ static void tell_numbers(const solve_report *r, const solve_candidate *c, double
     }
 }
 
+/* What users of the engine write, of the number that the first sentence says. */
+static const char *paste_of(const solve_report *r, const solve_candidate *c, char out[SENTENCE_SIZE]) {
+    const paste of = {r->o->camera.preset_count == 1 ? r->o->camera.presets[0] : NULL, r->o->camera.lengths.unit};
+    const number_text least = solve_safe_digits(r, c, solve_plane_of(c), c->plane.until);
+    return c->solved && c->possible && c->unknown == SOLVE_NEAR ? paste_near(&of, least.text, out, SENTENCE_SIZE)
+                                                                : NULL;
+}
+
 void solve_report_answer(page *p, void *item) {
     static const char *const manners[DP_MODEL_COUNT][2] = {
         [DP_MODEL_EXACT] = {"does not hold in the lattice", "holds in the lattice"},
@@ -295,6 +306,7 @@ void solve_report_answer(page *p, void *item) {
     camera_page(p, &r->o->camera);
     tell_numbers(r, c, binary32, &t);
     t.model = model_words(r, c, t.text[1]);
+    t.paste = paste_of(r, c, t.text[PHRASES - 1]);
     t.given = sentence_first(p, given_words, told_columns, &t, when, t.text[2]);
     t.goals = sentence_first(p, goal_words, told_columns, &t, when, t.text[3]);
     t.fight = sentence_first(p, fight_words, told_columns, &t, when, t.text[4]);
