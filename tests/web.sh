@@ -59,9 +59,9 @@ controls() {
         /<\/form>/ { verb = "" }
         verb != "" { for (i = 1; i < NF; i++) if ($i ~ /data-option=$/) print verb, $(i + 1) }' \
         src/web/page.html >"$scratch/controls"
-    sed -n '/^const ASKED/,/^};/s/^    \([a-z]*\): \[\("[a-z", ]*"\)\],$/\1 \2/p' src/web/page.js | tr -d '",' |
+    sed -n '/^export const ASKED/,/^};/s/^    \([a-z]*\): \[\("[a-z", ]*"\)\],$/\1 \2/p' src/web/state.js | tr -d '",' |
         awk '{ for (i = 2; i <= NF; i++) print $1, $i }' >>"$scratch/controls"
-    sed -n 's/^const \(NEVER\|VIEW\) = \[\("[a-z", -]*"\)\];$/\2/p' src/web/page.js | tr -d '",' | tr ' ' '\n' |
+    sed -n 's/^\(export \)\{0,1\}const \(NEVER\|VIEW\) = \[\("[a-z", -]*"\)\];$/\3/p' src/web/state.js | tr -d '",' | tr ' ' '\n' |
         sed 's/^/options /' >>"$scratch/controls"
     while read -r verb option; do
         "$DEPTHPREC" help "$verb" | grep -q -e "--$option\b" || echo "$verb has no --$option"
@@ -78,7 +78,7 @@ units() { # where a slider stands for a text: each unit that the program knows i
     [ "$(wc -l <"$scratch/units")" -eq 8 ] || return
     while read -r unit; do
         here=$("$DEPTHPREC" table -n "1$unit" -f 10km --unit m --json | sed -n 's/.*"near": *\([-+.e0-9]*\),.*/\1/p' | head -n 1)
-        there=$(sed -n 's/^const METRES = {.*[{ ]'"$unit"': \([-+.e0-9]*\)[, }].*/\1/p' src/web/page.js)
+        there=$(sed -n 's/^export const METRES = {.*[{ ]'"$unit"': \([-+.e0-9]*\)[, }].*/\1/p' src/web/form.js)
         awk -v a="$here" -v b="$there" -v unit="$unit" 'BEGIN {
             if (a == "" || b == "" || a - b > 1e-12 * a || b - a > 1e-12 * a) { print unit " is " a ", of the page " b; exit 1 } }' || return
     done <"$scratch/units"

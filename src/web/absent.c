@@ -5,6 +5,7 @@
  */
 #include <stdio.h>
 
+#include "camera/profile.h"
 #include "cli/link.h"
 #include "judge/cmd_judge/request.h"
 #include "judge/pairs.h"
@@ -16,6 +17,7 @@
 #include "scene/find.h"
 #include "shader/pack.h"
 #include "shadow/cmd_shadow/maps.h"
+#include "shadow/engine.h"
 #include "solve/check.h"
 #include "solve/cmd_check/check_report.h"
 #include "texture/cmd_texture/request.h"
@@ -114,6 +116,7 @@ const pack_row *packing_normals(const packing *p) {
 }
 
 ABSENT_TABLE(position)
+ABSENT_TABLE(shadow_engine)
 ABSENT_ROWS(sensor_row, sensor_get)
 ABSENT_TABLE(synthetic)
 
@@ -203,6 +206,11 @@ int parse_arith(asked_line *line, const option_row *row, const char *value, void
 
 int parse_raster(asked_line *line, const option_row *row, const char *value, void *group) {
     return parse_row(line, row, value, group);
+}
+
+bool profile_is_file(const char *text) {
+    (void)text;
+    return false;
 }
 
 /* ---- Of commands that are not here ------------------------------------------------------------------------------- */

@@ -250,12 +250,13 @@ static double needed(const dp_spec *spec) {
 static number_text near_enough(dp_spec spec) {
     enum { TRIES = 12 };
     const double gap = given[GAP].value, z = given[DISTANCE].value;
-    const solve_problem problem = {spec, SOLVE_NEAR, MEASURE_SEPARATION, gap, z, z};
+    const solve_problem problem = {spec, SOLVE_NEAR, QUANTITY_SEPARATION, gap, z, z};
     plane_answer answer;
     number_text out = {""};
     if (z > spec.zfar || plane_solve(&problem, &answer) != DP_OK || !answer.possible)
         return out;
-    for (double near = answer.value; near < z / 3.0; near *= 1.0 + 1.0 / TRIES) {
+    double near = answer.value;
+    for (int i = 0; i < TRIES && near < z / 3.0; i++, near *= 1.1) { /* nearer depths may need more */
         out = number_brief(number_up(near, DIGITS));
         spec.znear = strtod(out.text, NULL);
         if (needed(&spec) <= gap)
