@@ -38,7 +38,7 @@ FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 WEB := $(filter-out $(TESTS),$(wildcard tests/web/*.c tests/python/*.c tests/npm/*.c))
 SUPPORT := $(filter-out $(TESTS) $(BENCHES) $(FUZZ) $(WEB),$(wildcard tests/*.c tests/*/*.c))
 MAN := $(patsubst %,$(B)/%,$(wildcard man/*.[1-9]))
-TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh tests/windows.sh tests/dist.sh
+TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/docs.sh tests/bench.sh tests/windows.sh tests/dist.sh
 SCRIPTS := $(wildcard src/*.sh src/windows/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
 ALL_C := $(CORE) $(ROOMS) $(PAGE) $(WINDOWS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h src/*/*/*.h tests/*.h tests/*/*.h)
@@ -156,6 +156,14 @@ $(B)/man/%: man/% man/fill.sh $(B)/depthprec
 $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/build.libs -lm
+
+# All pages as HTML, with the page of the program.
+.PHONY: docs
+docs:
+	@sh src/packages.sh docs
+	@$(MAKE) $(PARALLEL) programs man web
+	@printf '  %-7s %s\n' DOCS $(B)/docs
+	$(Q)python3 -B man/docs.py $(B) $(B)/docs
 
 # ---- For Python --------------------------------------------------------------------------------------------------
 
@@ -404,11 +412,10 @@ $(BASELINE_PROGRAMS): $(B)/baseline/%: $$(filter $$(any)/$$*.o,$$(TESTS_O)) $(B)
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
 
-# The page in a browser, which page.sh installs where it can.
-check-web: web
-	@sh src/packages.sh build
-	@$(MAKE) $(PARALLEL) programs
+# The page in a browser, which page.sh installs where it can, and then all pages in it.
+check-web: docs
 	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec TEST_SECONDS=1500 sh tests/run.sh tests/page.sh
+	@B=$(B) DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh tests/docs.sh
 
 # A driver without a GPU, and the probe on it.
 check-probe:
@@ -581,6 +588,8 @@ help:
 ## make check-web       the page in Chromium, which it installs: a minute of it: what it shows against the program, bad
 ##                  addresses; DEPTHPREC_FULL=1 adds keyboard, speed and more
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
+## make docs        all pages as HTML, the manual with its figures and the page, in build/docs: opens from disk, and may be
+##                  served as it is (Debian)
 ## make wheel       the Python package: a wheel and its sources in build/dist (needs python3)
 ## make windows     build/windows/depthprec.exe and the library as a DLL, by mingw-w64; fetches the sources of its libraries
 ##                  from Debian once

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the packages that a job needs and this machine lacks:  packages.sh JOB, which is
-# build, check, clang, lint, fuzz, web, npm, browser, cross, deb, windows, wine or probe.
+# build, check, clang, lint, fuzz, web, docs, npm, browser, cross, deb, windows, wine or probe.
 # Silent and quick when nothing is missing, so that every `make` may call it.
 # packages.sh --missing JOB installs nothing: it names what is missing and the one command that installs it.
 # packages.sh --libraries JOB prints Debian's names of the libraries of a job.
@@ -56,6 +56,9 @@ web   | command node                                  | nodejs                | 
 web   | command zopfli                                | zopfli                | zopfli             | zopfli
 web   | command esbuild                               | esbuild               | golang-github-evanw-esbuild | esbuild
 web   | command wasm-opt                              | binaryen              | binaryen           | binaryen
+docs  | command mandoc                                | mandoc                | mandoc             | mandoc
+docs  | command cmark-gfm                             | cmark-gfm             | -                  | cmark-gfm
+docs  | command python3                               | python3               | python3            | python
 browser | command chromium                            | chromium              | chromium           | chromium
 browser | command npm                                 | npm                   | nodejs-npm         | npm
 cross | command aarch64-linux-gnu-gcc                 | gcc-aarch64-linux-gnu | -                  | -
@@ -82,6 +85,7 @@ lint) jobs=' build check clang lint ' ;;
 fuzz) jobs=' build clang fuzz ' ;;
 web) jobs=' wasm web ' ;;
 npm) jobs=' build wasm ' ;;
+docs) jobs=' build wasm web docs ' ;;
 browser) jobs=' wasm web browser ' ;;
 cross) jobs=' build check cross ' ;;
 deb) jobs=' build check wasm web deb ' ;;
@@ -89,7 +93,7 @@ windows) jobs=' windows ' ;;
 wine) jobs=' build check windows wine ' ;;
 probe) jobs=' build check probe ' ;;
 *)
-    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, npm, browser, cross, deb, windows, wine or probe, got '$job'" >&2
+    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, docs, npm, browser, cross, deb, windows, wine or probe, got '$job'" >&2
     exit 2
     ;;
 esac
