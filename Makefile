@@ -558,7 +558,7 @@ clean distclean:
 	$(Q)rm -rf build
 
 dist:
-	@for p in web windows deb; do sh src/packages.sh $$p || exit 1; done
+	@for p in docs windows deb; do sh src/packages.sh $$p || exit 1; done
 	@sh .ci/dist.sh
 
 deb:
@@ -598,8 +598,8 @@ help:
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
 ##                  uninstall, installcheck
-## make dist        what is released, into build/dist: sources, Debian's packages, Python's, npm's, Windows', the page, SHA256SUMS
-##                  (Debian); make clean removes build/
+## make dist        what is released, into build/dist: sources, Debian's packages, Python's, npm's, Windows', the page, all
+##                  pages as HTML, SHA256SUMS (Debian); make clean removes build/
 ## make deb         Debian's source package and three packages in build/deb/, judged by lintian (Debian)
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual

@@ -15,7 +15,7 @@ if [ -n "$(git status --porcelain)" ]; then
 fi
 rm -rf "$out"
 mkdir -p "$out"
-for target in web windows wheel $(sed -n 's/^\(npm\):.*/\1/p' Makefile); do make --no-print-directory $target; done
+for target in docs windows wheel $(sed -n 's/^\(npm\):.*/\1/p' Makefile); do make --no-print-directory $target; done
 sh .ci/deb.sh
 for file in build/deb/*.dsc build/deb/*.tar.* build/deb/*.deb; do
     case $file in *-dbgsym_*) ;; *) cp "$file" "$out" ;; esac
@@ -23,19 +23,25 @@ done
 cp build/depthprec.html "$out/depthprec-$version.html"
 git archive --format=tar --prefix="depthprec-$version/" HEAD | gzip -9n >"$out/depthprec-$version-source.tar.gz"
 
-python3 - "$out/depthprec-$version-windows-x86_64.zip" "depthprec-$version/" <<'END'
+python3 - "$out/depthprec-$version" "depthprec-$version/" <<'END'
 import glob, os, stat, sys, time, zipfile
-files = {os.path.basename(path): path for path in [
+
+def pack(name, files):
+    with zipfile.ZipFile(f"{sys.argv[1]}-{name}.zip", "w") as out:
+        for name, path in sorted(files.items()):
+            entry = zipfile.ZipInfo(sys.argv[2] + name, time.gmtime(int(os.environ["SOURCE_DATE_EPOCH"]))[:6])
+            entry.external_attr, entry.create_system = (stat.S_IFREG | 0o644) << 16, 3
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            with open(path, "rb") as file:
+                out.writestr(entry, file.read(), compresslevel=9)
+
+docs = {os.path.relpath(os.path.join(folder, name), "build"): os.path.join(folder, name)
+        for folder, _, names in os.walk("build/docs") for name in names}
+pack("docs", docs)
+pack("windows-x86_64", docs | {os.path.basename(path): path for path in [
     "build/windows/root/NOTICES.txt", "README.md", "CHANGELOG.md", *glob.glob("LICENSE*"),
-    *("build/windows/depthprec." + end for end in ("exe", "dll", "lib", "def"))]}
-files.update({path: path for path in glob.glob("include/depthprec/*.h")})
-with zipfile.ZipFile(sys.argv[1], "w") as out:
-    for name, path in sorted(files.items()):
-        entry = zipfile.ZipInfo(sys.argv[2] + name, time.gmtime(int(os.environ["SOURCE_DATE_EPOCH"]))[:6])
-        entry.external_attr, entry.create_system = (stat.S_IFREG | 0o644) << 16, 3
-        entry.compress_type = zipfile.ZIP_DEFLATED
-        with open(path, "rb") as file:
-            out.writestr(entry, file.read(), compresslevel=9)
+    *("build/windows/depthprec." + end for end in ("exe", "dll", "lib", "def"))]} |
+    {path: path for path in glob.glob("include/depthprec/*.h")})
 END
 
 cd "$out"

@@ -29,6 +29,14 @@ depthprec.lib
 include/depthprec/depthprec.h
 LICENSE.GPL-3.0
 NOTICES.txt
+docs/index.html
+docs/man/depthprec-table.1.html
+END
+check "all pages as HTML" has "depthprec-$version-docs.zip" listed <<END
+docs/index.html
+docs/depthprec.html
+docs/man/depthprec.7.html
+docs/plots/staircase.svg
 END
 check "Debian's program, with the page" has "depthprec_$version-1~upstream_$(dpkg --print-architecture).deb" dpkg-deb -c <<END
 usr/bin/depthprec
