@@ -15,6 +15,15 @@ static bool said(const camera_said *c, camera_key key) {
     return c->words[key] != NULL;
 }
 
+bool camera_angle(const camera_said *c, double given, int width, int height, double *fov_y, camera_fault *fault) {
+    *fov_y = given;
+    if (said(c, CAMERA_HFOV))
+        return camera_vertical(c->fov_x, width, height, fov_y, fault);
+    if (!said(c, CAMERA_FOV) && c->preset_count == 1)
+        *fov_y = preset_fov_y(c->presets[0], width, height);
+    return true;
+}
+
 bool camera_viewed(camera_said *c, camera_fault *fault) {
     static const camera_key beside[] = {CAMERA_FOV,      CAMERA_HFOV,  CAMERA_RASTER,
                                         CAMERA_SUBPIXEL, CAMERA_SLANT, CAMERA_TRIANGLE};
@@ -22,7 +31,8 @@ bool camera_viewed(camera_said *c, camera_fault *fault) {
     dp_triangles *t = &c->triangles;
     const bool slanted = t->width > 0;
     const bool measured = c->use.measured && c->gpu.measured[0] != '\0'; /* of r, at any slant */
-    for (size_t i = c->use.pictured ? OF_PICTURES : 0; i < sizeof beside / sizeof beside[0] && !slanted; i++)
+    for (size_t i = c->use.pictured ? OF_PICTURES : 0;
+         i < sizeof beside / sizeof beside[0] && !slanted && !c->use.angled; i++)
         if (said(c, beside[i]) && !(beside[i] == CAMERA_RASTER && measured))
             return camera_fails(fault, camera_keys[beside[i]], "needs @viewport: surfaces face the camera");
     if (!slanted)
@@ -31,7 +41,7 @@ bool camera_viewed(camera_said *c, camera_fault *fault) {
         return camera_fails(fault, c->use.drawn ? "rasterize" : "viewport", "conflicts with @ortho");
     if (said(c, CAMERA_FOV) && said(c, CAMERA_HFOV))
         return camera_fails(fault, "hfov", "conflicts with @fov");
-    return !said(c, CAMERA_HFOV) || camera_vertical(c->fov_x, t->width, t->height, &t->fov_y, fault);
+    return camera_angle(c, t->fov_y, t->width, t->height, &t->fov_y, fault);
 }
 
 bool camera_grid(camera_said *c, camera_fault *fault) {
@@ -88,8 +98,6 @@ static void take_preset(camera_said *c, const preset *p, const unit_row *unit) {
     if (!said(c, CAMERA_MAPPING))
         bring_mapping(c, p->mapping);
     take_logarithm(c, p);
-    if (c->triangles.width > 0 && !said(c, CAMERA_FOV) && !said(c, CAMERA_HFOV))
-        c->triangles.fov_y = preset_fov_y(p, c->triangles.width, c->triangles.height);
     bring_raster(c, p->raster);
 }
 
@@ -175,12 +183,20 @@ static bool keep_stored(camera_said *c, camera_fault *fault) {
     return true;
 }
 
+/* Where the command itself says what needs a viewport, the angle alone. */
+static bool take_view(camera_said *c, camera_fault *fault) {
+    dp_triangles *t = &c->triangles;
+    if (!c->use.mapped)
+        return camera_viewed(c, fault);
+    return t->width == 0 || camera_angle(c, t->fov_y, t->width, t->height, &t->fov_y, fault);
+}
+
 bool camera_make(camera_said *c, const unit_row *unit, camera_fault *fault) {
     if (c->model == DP_MODEL_COUNT) {
         c->model_auto = true;
         c->model = DP_MODEL_EXACT;
     }
-    if (!check_rg(c, fault) || !(c->use.mapped || camera_viewed(c, fault)) || !camera_grid(c, fault))
+    if (!check_rg(c, fault) || !take_view(c, fault) || !camera_grid(c, fault))
         return false;
     if (c->preset_count == 1)
         take_preset(c, c->presets[0], unit);

@@ -48,6 +48,7 @@ typedef struct camera_use {
     bool pictured; /**< a picture takes view and rasterizer, see view_drawn() */
     bool seen;     /**< from an eye surfaces slant, whether --viewport is given or not */
     bool counted;  /**< the report counts what a shader's log2 may be off by */
+    bool angled;   /**< a field of view stands without a viewport, too: see slant_complete() */
     bool compared; /**< rg, which is no depth buffer, is shown beside buffers */
 } camera_use;
 
@@ -95,6 +96,12 @@ bool camera_make(camera_said *c, const unit_row *unit, camera_fault *fault);
  */
 bool camera_profile(camera_said *c, const char *path, camera_key key, char name[PROFILE_NAME_SIZE],
                     char error[PROFILE_ERROR_SIZE]);
+
+/**
+ * The vertical field of view in so many pixels: that of the horizontal one where it was said, else a single preset's
+ * where none was, else `given`. Degrees.
+ */
+bool camera_angle(const camera_said *c, double given, int width, int height, double *fov_y, camera_fault *fault);
 
 /** The part of it that is about the view: what needs a viewport, and the angle. */
 bool camera_viewed(camera_said *c, camera_fault *fault);

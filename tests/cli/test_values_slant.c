@@ -294,6 +294,40 @@ TEST(presets) {
     json_decref(root);
 }
 
+/* An angle upwards in a picture of such a shape, degrees, of the one across. */
+static double upwards(double across, double width, double height) {
+    const double degree = acos(-1.0) / 180;
+    return 2 * atan(tan(across / 2 * degree) * height / width) / degree;
+}
+
+/* So does the angle of what has no slanted triangles: of images, constants, code and pictures. */
+TEST(preset_angles) {
+    static const struct {
+        const char *options;
+        double across, up; /* 0: not said */
+    } asked[] = {{"--preset three", 0, 50},
+                 {"--preset three --fov 30", 0, 30},
+                 {"--preset three --hfov 100", 100, 0},
+                 {"--preset unreal", 90, 0},
+                 {"--preset unreal --fov 30", 0, 30},
+                 {"--fov 30", 0, 30},
+                 {"", 0, 60}};
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
+        const double up = asked[i].up > 0 ? asked[i].up : upwards(asked[i].across, 640, 400);
+        json_t *image = json_printed(0, "texture --synthetic plane --size 640x400 -F fp32 -m gl %s", asked[i].options);
+        json_t *table = json_printed(0, "table --constants --viewport 640x400 -m gl %s", asked[i].options);
+        assert_relative(at(image, "fov"), up, 1e-12);
+        assert_relative(at(table, "setups[0].fov"), up, 1e-12);
+        json_decref(image);
+        json_decref(table);
+    }
+    check_says(0, "field of view 50°", "plot fight --json --preset three");
+    json_t *several = json_printed(0, "table --constants --viewport 640x400 --preset three,unreal");
+    assert_relative(at(several, "setups[0].fov"), 50, 1e-12);
+    assert_relative(at(several, "setups[1].fov"), upwards(90, 640, 400), 1e-12);
+    json_decref(several);
+}
+
 /* The bias of one plane drawn twice: the least factor, or the one given, and the units with it. */
 static void check_bias(const slant_case *c, const char *options, double slope, double given) {
     static const char *const apis[] = {"d3d11", "vulkan-unorm"};

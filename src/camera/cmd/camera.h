@@ -91,7 +91,7 @@ static inline const char *camera_unit(const camera_asked *c) {
 /** Says a fault by its option. @return EXIT_USAGE */
 int camera_refuse(const camera_fault *fault);
 
-/** The vertical field of view, degrees, as --fov or --hfov says it of so many pixels. @return EXIT_FINE, or EXIT_USAGE
+/** The vertical field of view in so many pixels, degrees: see camera_angle(). @return EXIT_FINE, or EXIT_USAGE
  * after one line on stderr */
 int view_vertical(const camera_asked *c, int width, int height, double *fov_y);
 

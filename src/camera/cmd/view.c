@@ -10,8 +10,7 @@ static int status_of(bool good, const camera_fault *fault) {
 
 int view_vertical(const camera_asked *c, int width, int height, double *fov_y) {
     camera_fault fault = {.key = NULL};
-    *fov_y = c->spec.fov_y;
-    return status_of(!option_given(c->line, "hfov") || camera_vertical(c->fov_x, width, height, fov_y, &fault), &fault);
+    return status_of(camera_angle(&c->said, c->spec.fov_y, width, height, fov_y, &fault), &fault);
 }
 
 /* Takes a rasterizer whose arithmetic is known, and of the formats those that it has. */
@@ -47,8 +46,7 @@ int view_drawn(camera_asked *c) {
 
 int slant_view(camera_asked *c) {
     camera_fault fault = {.key = NULL};
-    const bool by_preset = c->preset_count == 1 && !option_given(c->line, "fov") && !option_given(c->line, "hfov");
-    if (!by_preset && c->triangles.width > 0)
+    if (c->triangles.width > 0)
         c->triangles.fov_y = c->spec.fov_y;
     return status_of(camera_viewed(&c->said, &fault), &fault);
 }
@@ -73,8 +71,10 @@ static int take_shape(camera_asked *c) {
 int slant_complete(camera_asked *c) {
     const option_taken viewport = taken(c, "viewport");
     const bool viewed = viewport.row != NULL || taken(c, "raster").row != NULL;
-    for (int k = CAMERA_VIEWPORT; k < CAMERA_KEYS && (c->use.shape || !viewed); k++)
-        c->words[k] = NULL; /* of another meaning to this command */
+    c->use.angled = c->use.shape || !viewed;
+    for (int k = CAMERA_VIEWPORT; k < CAMERA_KEYS && c->use.angled; k++)
+        if (k != CAMERA_FOV && k != CAMERA_HFOV)
+            c->words[k] = NULL; /* of another meaning to this command */
     if (c->use.shape)
         return take_shape(c);
     if (viewport.row == NULL || !is_slanted(c, &viewport))

@@ -151,9 +151,7 @@ static int find_view(wanted_code *w) {
     const code_request *o = w->o;
     const int width = (int)o->camera.spec.width, height = (int)o->camera.spec.height;
     camera_spec view = o->camera.spec;
-    if (o->camera.preset_count > 0 && !option_given(o->line, "fov") && !option_given(o->line, "hfov"))
-        view.fov_y = preset_fov_y(o->camera.presets[0], width, height);
-    else if (view_vertical(&o->camera, width, height, &view.fov_y) != EXIT_FINE)
+    if (view_vertical(&o->camera, width, height, &view.fov_y) != EXIT_FINE)
         return EXIT_USAGE;
     const char *wrong = camera_init(&w->camera, &w->setup, &view);
     return wrong == NULL ? EXIT_FINE : usage_error("code: %s", wrong);

@@ -87,16 +87,11 @@ static int check(const setups *all) {
     return EXIT_FINE;
 }
 
-/* An angle that is given, else the preset's. */
 static int take_view(constants *c, size_t i) {
     const table_request *o = c->o;
     const int width = (int)o->camera.spec.width, height = (int)o->camera.spec.height;
-    const bool by_preset =
-        o->camera.preset_count > 0 && !option_given(o->line, "fov") && !option_given(o->line, "hfov");
     camera_spec view = o->camera.spec;
-    if (by_preset)
-        view.fov_y = preset_fov_y(o->camera.presets[c->each.all.cameras[i]], width, height);
-    else if (view_vertical(&o->camera, width, height, &view.fov_y) != EXIT_FINE)
+    if (view_vertical(camera_of(&o->camera, c->each.all.cameras[i]), width, height, &view.fov_y) != EXIT_FINE)
         return EXIT_USAGE;
     const char *wrong = camera_init(&c->camera, &c->each.all.items[i], &view);
     if (wrong != NULL)

@@ -49,14 +49,14 @@ static int take_view(scene *s, const model_camera *camera) {
         o->camera.znear = camera->znear;
     if (!option_given(o->line, "far") && !by_preset)
         o->camera.zfar = camera->zfar;
-    if (!(o->camera.znear >= 1e-12 && o->camera.znear <= 1e12))
-        return option_error("camera", "'%s' has its near plane at %s, which must be from 1e-12 to 1e12", name,
-                            number_full(o->camera.znear).text);
+    if (!(o->camera.znear >= CAMERA_NEAR_LEAST && o->camera.znear <= CAMERA_NEAR_MOST))
+        return option_error("camera", "'%s' has its near plane at %s, which must be from %g to %g", name,
+                            number_full(o->camera.znear).text, CAMERA_NEAR_LEAST, CAMERA_NEAR_MOST);
     if (!option_given(o->line, "fov") && !option_given(o->line, "hfov") && !by_preset) {
-        if (!(camera->fov_y >= 0.01 && camera->fov_y <= 179.0)) /* as --fov has it */
+        if (!(camera->fov_y >= CAMERA_FOV_LEAST && camera->fov_y <= CAMERA_FOV_MOST))
             return option_error("camera",
-                                "'%s' has a vertical field of view of %s degrees, which must be from 0.01 to 179", name,
-                                number_of(camera->fov_y, 6).text);
+                                "'%s' has a vertical field of view of %s degrees, which must be from %g to %g", name,
+                                number_of(camera->fov_y, 6).text, CAMERA_FOV_LEAST, CAMERA_FOV_MOST);
         o->camera.spec.fov_y = o->camera.triangles.fov_y = camera->fov_y;
     }
     return EXIT_FINE;
