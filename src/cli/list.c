@@ -302,11 +302,11 @@ bool list_method(size_t index, list_item *item) {
         if (!method_speaks(row, i))
             continue;
         append(item->bound, sizeof item->bound, "%s%s %s", *item->bound != '\0' ? "; " : "", family->cases[i].name,
-               isnan(c->worst) ? "nothing" : number_of(worst, 3).text);
+               isnan(c->worst) ? "nothing" : number_up(worst, 3).text);
         if (c->formula != NULL)
             append(item->bound, sizeof item->bound, " at far/near 10000");
         if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
-            append(item->bound, sizeof item->bound, " to far/near %s", number_of(c->ratio_hi, 3).text);
+            append(item->bound, sizeof item->bound, " to far/near %s", number_down(c->ratio_hi, 3).text);
     }
     return true;
 }

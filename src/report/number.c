@@ -184,7 +184,8 @@ static number_text bound_of(double value, int digits, bool upward) {
         return out;
     }
     const double shown = strtod(out.text, NULL);
-    const double unit = dp_pow(10.0, floor(dp_log10(shown)) - (digits - 1));
+    /* Below a power of ten to which it was rounded, the last digit is that of the value. */
+    const double unit = dp_pow(10.0, floor(dp_log10(upward ? shown : value)) - (digits - 1));
     return (upward ? shown < value : shown > value) ? number_of(shown + (upward ? unit : -unit), digits) : out;
 }
 
@@ -194,6 +195,10 @@ number_text number_up(double value, int digits) {
 
 number_text number_down(double value, int digits) {
     return bound_of(value, digits, false);
+}
+
+number_text number_outward(double value, int digits) {
+    return bound_of(value, digits, value > 0.0);
 }
 
 number_two number_compared(double value, double limit, int digits) {

@@ -58,6 +58,9 @@ number_text number_in(number_text number, const char *unit);
 number_text number_up(double value, int digits);
 number_text number_down(double value, int digits);
 
+/** The same away from 0: of a bias that suffices, whose sign says which way it moves. */
+number_text number_outward(double value, int digits);
+
 /** Two numbers that a sentence compares, rounded up to so many digits or as many more as it takes to see which is
  * greater: "0.009002786" and "0.009002791". */
 typedef struct number_two {

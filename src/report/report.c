@@ -78,7 +78,10 @@ const char *column_text(const column *c, const void *item, number_text *number) 
     else if (v.is_number && digits == 0)
         *number = isnan(v.number) ? *number : number_full(v.number);
     else if (v.is_number)
-        *number = (c->upward ? number_up : c->downward ? number_down : number_of)(v.number, digits);
+        *number = (c->upward     ? number_up
+                   : c->downward ? number_down
+                   : c->outward  ? number_outward
+                                 : number_of)(v.number, digits);
     if (c->brief)
         *number = number_brief(*number);
     return v.word != NULL ? v.word : number->text;

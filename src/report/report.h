@@ -60,6 +60,7 @@ typedef struct column {
     bool fixed;       /**< ... or, after the point */
     bool upward;      /**< what holds as it is printed: text rounds a number up */
     bool downward;    /**< the same, down */
+    bool outward;     /**< the same, away from 0 */
     bool brief;       /**< short: 82800 and 1.2e-7 in place of 8.28e+04 and 1.2e-07 */
     bool optional;    /**< JSON leaves it out where it does not exist; of a pointer, where that is null */
     bool names;       /**< a word of words parted by one space: an array of strings in JSON */

@@ -118,3 +118,133 @@ TEST(frusta) {
     TALLY(&t, t.cases >= 8, "few sentences");
     tally_end(&t);
 }
+
+/* ---- Every command, random cameras ------------------------------------------------------------------------------- */
+
+/* Where the text shows a number of JSON: so many words behind a phrase, or with -1 the word before it. */
+typedef struct shown_bound {
+    const char *phrase;
+    int word;
+    const char *path;
+    int digits;
+    side to;
+    double scale; /* of JSON's number in the text; 0: 1 */
+} shown_bound;
+
+/* A text with one blank between words, to be freed. */
+static char *flattened(const char *text) {
+    char *flat = malloc(strlen(text) + 2);
+    size_t used = 0;
+    for (; *text != '\0'; text++) {
+        const char c = *text == '\n' ? ' ' : *text;
+        if (c != ' ' || used == 0 || flat[used - 1] != ' ')
+            flat[used++] = c;
+    }
+    flat[used] = '\0';
+    return flat;
+}
+
+static const char *word_at(const char *flat, const shown_bound *b) {
+    const char *at = strstr(flat, b->phrase);
+    if (at == NULL)
+        return NULL;
+    if (b->word >= 0)
+        return column_of(at + strlen(b->phrase), b->word);
+    while (at > flat && at[-1] != ' ')
+        at--;
+    return at;
+}
+
+/* On its side, and within a unit of the last of so many digits; what is unbounded has no number. */
+static void check_shown(tally *t, const char *line, const char *path, const char *text, double exact, int digits,
+                        side to) {
+    char *end;
+    const double shown = strtod(text, &end);
+    if (isnan(exact) && (end == text || isinf(shown)))
+        return;
+    const double unit = pow(10, floor(log10(fabs(exact))) - digits + 1) * (1 + 1e-9);
+    TALLY(t, end != text && fabs(shown - exact) <= unit && (shown - exact) * (double)(int)to >= 0,
+          "%s: %s is %.18s, of %.17g", line, path, text, exact);
+}
+
+static void check_bounds(tally *t, const char *line, const shown_bound *rows) {
+    printed p = print_of("%s", line);
+    json_t *root = p.status == 0 ? json_printed(0, "%s", line) : NULL;
+    char *flat = flattened(p.out);
+    for (const shown_bound *b = rows; root != NULL && b->phrase != NULL; b++) {
+        const char *at = word_at(flat, b);
+        if (at != NULL)
+            check_shown(t, line, b->path, at, number_at(root, "%s", b->path) * (b->scale > 0 ? b->scale : 1), b->digits,
+                        b->to);
+    }
+    free(flat);
+    json_decref(root);
+    printed_free(&p);
+}
+
+#define WORST    "setups[0].worst."
+#define ROW      "setups[0].rows[0]."
+#define SCHEMES  "setups[0].distances[0].schemes[0]."
+#define CELL     "lattice guaranteed cell from to "
+#define OF_DEPTH "code eye depth cell from to interval "
+static const shown_bound of_table[] = {{"worst error ", 0, WORST "error", 6, UP, 0},
+                                       {"worst interval ", 0, WORST "interval", 6, UP, 0},
+                                       {"worst interval ", 2, WORST "interval_lo", 9, DOWN, 0},
+                                       {"worst interval ", 4, WORST "interval_hi", 9, UP, 0},
+                                       {"blind from z = ", 0, WORST "blind_from", 9, DOWN, 0},
+                                       {"effectively ", 0, "setups[0].near_effective", 9, UP, 0},
+                                       {"effectively ", 2, "setups[0].far_effective", 9, DOWN, 0},
+                                       {"worst separation ", 0, "setups[0].worst_separation.bound", 6, UP, 0},
+                                       {CELL, 6, ROW "lattice", 5, UP, 0},
+                                       {CELL, 7, ROW "guaranteed", 5, UP, 0},
+                                       {CELL, 8, ROW "cell_lo", 9, DOWN, 0},
+                                       {CELL, 9, ROW "cell_hi", 9, UP, 0},
+                                       {NULL, 0, NULL, 0, EITHER, 0}};
+static const shown_bound of_choice[] = {{" % worse", -1, "setups[0].auto.neglected.exact.share", 3, UP, 100},
+                                        {NULL, 0, NULL, 0, EITHER, 0}};
+static const shown_bound of_lookup[] = {
+    {OF_DEPTH, 3, ROW "cell_lo", 9, DOWN, 0}, {OF_DEPTH, 4, ROW "cell_hi", 9, UP, 0}, {NULL, 0, NULL, 0, EITHER, 0}};
+static const shown_bound of_budget[] = {{"would need ", 0, WORST "remedy_separation", 4, UP, 0},
+                                        {"in place of ", 0, WORST "separation", 4, UP, 0},
+                                        {NULL, 0, NULL, 0, EITHER, 0}};
+static const shown_bound of_zfight[] = {{"within --range: ", 0, "setups[0].near_effective", 9, UP, 0},
+                                        {"within --range: ", 2, "setups[0].far_effective", 9, DOWN, 0},
+                                        {NULL, 0, NULL, 0, EITHER, 0}};
+static const shown_bound of_world[] = {{"absolute ", 0, SCHEMES "safe_to", 3, DOWN, 0},
+                                       {"absolute ", 1, SCHEMES "still_to", 3, DOWN, 0},
+                                       {NULL, 0, NULL, 0, EITHER, 0}};
+static const shown_bound of_effect[] = {{"interval levels half-width from ", 4, ROW "levels", 6, UP, 0},
+                                        {"interval levels half-width from ", 5, ROW "usable", 6, UP, 0},
+                                        {NULL, 0, NULL, 0, EITHER, 0}};
+
+TEST(commands) {
+    tally t = {.name = "table, budget, zfight, world, texture"};
+    rng r = rng_make("outward commands");
+    uint64_t numbers[7] = {0};
+    for (uint64_t i = test_cases(20, 60, 1000); i > 0; i--) {
+        const double n = rng_log(&r, 0.01, 10), f = n * rng_log(&r, 100, 1e6), z = n * rng_log(&r, 1, f / n);
+        const dp_format_row *format = dp_format_get((size_t)rng_below(&r, dp_format_count()));
+        const dp_mapping_row *row = dp_mapping_get((dp_mapping)rng_below(&r, DP_MAPPING_COUNT));
+        const char *model = rng_below(&r, 3) == 0 ? " --model float" : "";
+        char camera[160], line[320];
+        snprintf(camera, sizeof camera, "-n %.9g -f %.9g -F %s -m %s", n, f, format->format.name, row->name);
+#define TRY(k, rows, ...)                                                                                              \
+    do {                                                                                                               \
+        const uint64_t before = t.cases;                                                                               \
+        snprintf(line, sizeof line, __VA_ARGS__);                                                                      \
+        check_bounds(&t, line, rows);                                                                                  \
+        numbers[k] += t.cases - before;                                                                                \
+    } while (0)
+        TRY(0, of_table, "table -q --full --at %.9g --range %.9g:%.9g %s%s", z, n, z, camera, model);
+        if (row->curve != DP_CURVE_LOG)
+            TRY(1, of_choice, "table -q --at %.9g %s", z, camera);
+        TRY(2, of_lookup, "table -q --depth %.9g %s", rng_uniform(&r, 0.01, 0.99), camera);
+        TRY(3, of_budget, "budget -q --at %.9g %s", z, camera);
+        TRY(4, of_zfight, "zfight -q --sample 500 --range %.9g:%.9g %s", n, z, camera);
+        TRY(5, of_world, "world -q --at %.9g %s", z, camera);
+        TRY(6, of_effect, "texture -q --product effect:intersection --at %.9g %s", z, camera);
+    }
+    for (int k = 0; k < 7; k++)
+        TALLY(&t, numbers[k] >= 8, "few numbers of line %d: %llu", k, (unsigned long long)numbers[k]);
+    tally_end(&t);
+}

@@ -128,19 +128,23 @@ TEST(rounded) {
         char nearest[64];
         snprintf(nearest, sizeof nearest, "%.4g", value); /* 9.9996 is 10, whose unit is the larger */
         const double unit = pow(10.0, floor(log10(strtod(nearest, NULL))) - 3);
+        const double own = pow(10.0, floor(log10(value)) - 3);
         const double up = strtod(number_up(value, 4).text, NULL), down = strtod(number_down(value, 4).text, NULL);
         assert_true(up >= value && up <= value + 1.001 * unit);
-        assert_true(down <= value && down >= value - 1.001 * unit);
+        assert_true(down <= value && down >= value - 1.001 * own);
         assert_true(strlen(number_up(value, 4).text) <= strlen("1.234e-123"));
         assert_true(strtod(number_up(-value, 4).text, NULL) == -down &&
                     strtod(number_down(-value, 4).text, NULL) == -up);
     }
+    assert_string_equal(number_outward(1.2301, 3).text, "1.24");
+    assert_string_equal(number_outward(-1.2301, 3).text, "-1.24");
+    assert_string_equal(number_outward(0.0, 3).text, "0");
     static const struct {
         double value;
         const char *up, *down, *nearest;
     } cases[] = {{1.2301, "1.24", "1.23", "1.23"},
                  {1.2399, "1.24", "1.23", "1.24"},
-                 {9.999, "10", "9.9", "10"},
+                 {9.999, "10", "9.99", "10"},
                  {1.25, "1.25", "1.25", "1.25"},
                  {0.0, "0", "0", "0"},
                  {-0.0, "0", "0", "0"},

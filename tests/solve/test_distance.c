@@ -55,17 +55,10 @@ static int draw(rng *r, dp_model model, quantity_kind kind, question *q) {
     return q->limit > 0.0 && q->limit < INFINITY;
 }
 
-/*
- * In fp32 dp_separation() at a depth inside stops refining at 3 %, where dp_separation_over() does not (bounds.h); an
- * error at a depth is never above the bound over a range.
- */
+/* At a depth neither is above the bound over a range that holds it (bounds.h). */
 static double at(const question *q, double z) {
     return q->kind == QUANTITY_ERROR ? fabs(dp_error(&q->setup, dp_code(&q->setup, z), z))
                                      : dp_separation(&q->setup, z);
-}
-
-static double slack_of(const question *q) {
-    return q->setup.spec.model != DP_MODEL_FLOAT ? 1.0 : q->setup.spec.znear > 0 ? 1.03 : 1.5;
 }
 
 /* By the C library, which rounds what it prints as it is told to. */
@@ -95,8 +88,7 @@ static void check_densely(const question *q, const distance_answer *a, tally *de
         const double probe =
             q->setup.spec.znear > 0 ? q->lo * pow(a->value / q->lo, share) : q->lo + (a->value - q->lo) * share;
         const double z = k == 256 ? a->value : fmin(fmax(probe, q->lo), a->value);
-        const double slack = k == 0 || k == 256 ? 1.0 : slack_of(q);
-        TALLY(dense, at(q, z) <= q->limit * slack, "%s: %.17g at %.17g, up to %.17g", text, at(q, z), z, a->value);
+        TALLY(dense, at(q, z) <= q->limit, "%s: %.17g at %.17g, up to %.17g", text, at(q, z), z, a->value);
     }
 }
 
@@ -233,14 +225,13 @@ static void check_spans(const question *q, const distance_answer *a, rng *r, tal
               "%s: %.17g to %.17g", text, span[i].lo, span[i].hi);
         for (int k = 0; k <= 64; k++) {
             const double z = fmin(span[i].lo * pow(span[i].hi / span[i].lo, k / 64.0), span[i].hi);
-            TALLY(inside, at(q, z) <= q->limit * slack_of(q), "%s: %.17g at %.17g of %.17g to %.17g", text, at(q, z), z,
-                  span[i].lo, span[i].hi);
+            TALLY(inside, at(q, z) <= q->limit, "%s: %.17g at %.17g of %.17g to %.17g", text, at(q, z), z, span[i].lo,
+                  span[i].hi);
         }
         /* staged goes up and down with each rounding: there a bisection ends at one of many ends */
-        TALLY(inside, q->setup.spec.model == DP_MODEL_STAGED || at(q, before) > q->limit / slack_of(q),
-              "%s: passes before %.17g", text, span[i].lo);
-        TALLY(inside,
-              q->setup.spec.model == DP_MODEL_STAGED || behind > q->hi || at(q, behind) > q->limit / slack_of(q),
+        TALLY(inside, q->setup.spec.model == DP_MODEL_STAGED || at(q, before) > q->limit, "%s: passes before %.17g",
+              text, span[i].lo);
+        TALLY(inside, q->setup.spec.model == DP_MODEL_STAGED || behind > q->hi || at(q, behind) > q->limit,
               "%s: passes behind %.17g", text, span[i].hi);
     }
     for (int k = 0; k < 200 && after < end; k++) {

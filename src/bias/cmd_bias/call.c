@@ -36,14 +36,11 @@ bias_call_text bias_call_of(const bias_api *api, const char *units, const char *
 
 /* Whole numbers in all their digits; a window depth as a float needs it. */
 bias_call_text bias_call(const bias_api *api, double units, double factor) {
-    const number_text text = units == nearbyint(units) ? number_full(units) : number_of(units, DIGITS_UNITS);
+    const number_text text = units == nearbyint(units) ? number_full(units) : number_outward(units, DIGITS_UNITS);
     return bias_call_of(api, text.text, number_full(factor).text);
 }
 
 number_text bias_short(double units) {
     const bool whole = units == nearbyint(units) && fabs(units) < 1e9;
-    const number_text text = whole ? number_full(fabs(units)) : number_up(fabs(units), DIGITS_SHORT);
-    number_text out = {""};
-    append(out.text, sizeof out.text, "%s%s", units < 0.0 ? "-" : "", text.text);
-    return out;
+    return whole ? number_full(units) : number_outward(units, DIGITS_SHORT);
 }

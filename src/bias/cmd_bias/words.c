@@ -64,11 +64,11 @@ const column bias_need_columns[] = {{FIELD(bias_need, what, "what", "")},
                                     {FIELD(bias_need, counted, "counted", "")},
                                     {FIELD(bias_need, lo, "lo", "scene"), .digits = DIGITS_Z, .given = true},
                                     {FIELD(bias_need, hi, "hi", "scene"), .digits = DIGITS_Z, .given = true},
-                                    {FIELD(bias_need, units, "units", ""), .digits = DIGITS_Z},
+                                    {FIELD(bias_need, units, "units", ""), .digits = DIGITS_Z, .outward = true},
                                     {FIELD(bias_need, z, "z", "scene"), .digits = DIGITS_Z, .given = true},
                                     {FIELD(bias_need, from, "from", "scene"), .digits = DIGITS_Z, .upward = true},
                                     {FIELD(bias_need, to, "to", "scene"), .digits = DIGITS_Z, .downward = true},
-                                    {FIELD(bias_need, next, "next", ""), .digits = DIGITS_Z},
+                                    {FIELD(bias_need, next, "next", ""), .digits = DIGITS_Z, .outward = true},
                                     {.kind = COLUMN_END}};
 
 static const sentence need_words[] = {
@@ -139,7 +139,7 @@ static void say_r(page *p, const biasing *b) {
         page_line(p, "r is the implementation's choice: the value shown is assumed");
     else if (bias_is_open(&b->api, format))
         page_line(p, "drivers take the exponent of a depth in [2^n, 2^(n+1)) as n or n+1: r is up to %s times this",
-                  number_of(unit.most / unit.least, DIGITS_SHORT).text);
+                  number_up(unit.most / unit.least, DIGITS_SHORT).text);
     else if (unit.most > unit.least)
         page_line(p, "r is the implementation's choice: up to twice the value shown");
 }

@@ -216,8 +216,8 @@ void clipping_say(const dp_setup *setup, double znear, double zfar, const char *
     if (isnan(znear))
         message("depthprec: warning: %s: clipping in binary32 removes everything", label);
     else
-        message("depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s", label, number_of(znear, 9).text,
-                number_of(zfar, 9).text, rest);
+        message("depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s", label, number_up(znear, 9).text,
+                number_down(zfar, 9).text, rest);
 }
 
 void clipping_warn(const setups *all) {

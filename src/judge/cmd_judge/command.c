@@ -63,15 +63,15 @@ static void say_losses(page *p, const report *r) {
         return;
     }
     if (j->precision >= JUDGE_BYTES && j->precision < JUDGE_QUICK)
-        snprintf(off, sizeof off, ", and %s of full scale", number_brief(number_of(j->off, SHORT)).text);
+        snprintf(off, sizeof off, ", and %s of full scale", number_brief(number_up(j->off, SHORT)).text);
     if (isnan(j->at))
-        page_note(p, "loses", "%s where it must be 0: %s", number_brief(number_of(j->off, SHORT)).text, r->precision);
+        page_note(p, "loses", "%s where it must be 0: %s", number_brief(number_up(j->off, SHORT)).text, r->precision);
     else
-        page_note(p, "loses", "%s of the value at most, at %s%s: %s", number_brief(number_of(j->error, SHORT)).text,
+        page_note(p, "loses", "%s of the value at most, at %s%s: %s", number_brief(number_up(j->error, SHORT)).text,
                   number_full(j->at).text, off, r->precision);
     if (!isnan(j->intervals))
         page_note(p, "buffer", "up to %s z-fighting intervals of %s, at z = %s",
-                  number_brief(number_of(j->intervals, SHORT)).text, j->found.setup.spec.format.name,
+                  number_brief(number_up(j->intervals, SHORT)).text, j->found.setup.spec.format.name,
                   camera_length(&r->o->camera, j->z, ENOUGH).text);
 }
 

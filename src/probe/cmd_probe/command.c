@@ -120,7 +120,7 @@ static uint64_t least_hits(const probe_finding *f, size_t count) {
 static void say_finding(page *p, const probe_finding *f, const char *label, const char *formats, size_t count) {
     const char *of = formats[0] != '\0' ? ": " : "";
     if (f->sure == PROBE_MEASURED)
-        page_note(p, label, "at most %s%s%s off, %s", number_of(f->value, DIGITS).text, f->unit[0] != '\0' ? " " : "",
+        page_note(p, label, "at most %s%s%s off, %s", number_up(f->value, DIGITS).text, f->unit[0] != '\0' ? " " : "",
                   f->unit, f->words);
     else if (f->sure == PROBE_SURE)
         page_note(p, label, "%s%s%s", formats, of, f->words);

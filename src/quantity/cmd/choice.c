@@ -119,8 +119,8 @@ static const column told_columns[] = {{FIELD(told, before, "before", "")},
                                       {FIELD(told, arith, "arith", "")},
                                       {FIELD(told, most, "most", "")},
                                       {FIELD(told, verdict, "verdict", "")},
-                                      {FIELD(told, times, "times", ""), .digits = 3},
-                                      {FIELD(told, percent, "percent", ""), .digits = 3},
+                                      {FIELD(told, times, "times", ""), .digits = 3, .upward = true},
+                                      {FIELD(told, percent, "percent", ""), .digits = 3, .upward = true},
                                       {FIELD(told, z, "z", "scene"), .digits = 6},
                                       {.kind = COLUMN_END}};
 

@@ -310,7 +310,7 @@ static const column setup_report[] = {
     {PART(budget, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
     {PART(budget, chosen, "auto", choice_columns), .only = AS_JSON, .pointed = true},
     {FIELD(budget, hopeless, "hopeless", "scene"), .digits = DIGITS_MORE, .only = AS_TEXT},
-    {FIELD(budget, staged_times, "staged_times", ""), .digits = 3, .only = AS_TEXT},
+    {FIELD(budget, staged_times, "staged_times", ""), .digits = 3, .upward = true, .only = AS_TEXT},
     {FIELD(budget, staged_z, "staged_z", "scene"), .digits = DIGITS_MORE, .only = AS_TEXT},
     {.kind = COLUMN_END}};
 

@@ -233,22 +233,24 @@ static const column row_columns[] = {
      .when = WITH_TRIANGLES | PER_VERTEX},
     {FIELD(row, written.depth, "per_vertex_depth", ""), .when = WITH_TRIANGLES | PER_VERTEX},
     {FIELD(row, certain, "certain", "")},
-    {TEXT_FIELD(row, sample.lo, "cell from", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
-    {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
+    {TEXT_FIELD(row, sample.lo, "cell from", 18, 0), .digits_at = offsetof(row, cell_digits), .downward = true,
+     .when = VERBOSE},
+    {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .upward = true, .when = VERBOSE},
     {.kind = COLUMN_END}};
 
 #define CELL_END .digits_at = offsetof(worst, digits)
-static const column worst_columns[] = {{FIELD(worst, of.lo, "lo", "scene")},
-                                       {FIELD(worst, of.hi, "hi", "scene")},
-                                       {FIELD(worst, of.error, "error", "scene"), .digits = DIGITS_FEW},
-                                       {FIELD(worst, of.error_z, "error_z", "scene"), .digits = DIGITS_USUAL},
-                                       {FIELD(worst, of.error_code, "error_code", "")},
-                                       {FIELD(worst, of.interval, "interval", "scene"), .digits = DIGITS_FEW},
-                                       {FIELD(worst, of.interval_lo, "interval_lo", "scene"), CELL_END},
-                                       {FIELD(worst, of.interval_hi, "interval_hi", "scene"), CELL_END},
-                                       {FIELD(worst, of.interval_code, "interval_code", "")},
-                                       {FIELD(worst, of.blind_from, "blind_from", "scene"), .digits = DIGITS_USUAL},
-                                       {.kind = COLUMN_END}};
+static const column worst_columns[] = {
+    {FIELD(worst, of.lo, "lo", "scene")},
+    {FIELD(worst, of.hi, "hi", "scene")},
+    {FIELD(worst, of.error, "error", "scene"), .digits = DIGITS_FEW, .upward = true},
+    {FIELD(worst, of.error_z, "error_z", "scene"), .digits = DIGITS_USUAL},
+    {FIELD(worst, of.error_code, "error_code", "")},
+    {FIELD(worst, of.interval, "interval", "scene"), .digits = DIGITS_FEW, .upward = true},
+    {FIELD(worst, of.interval_lo, "interval_lo", "scene"), CELL_END, .downward = true},
+    {FIELD(worst, of.interval_hi, "interval_hi", "scene"), CELL_END, .upward = true},
+    {FIELD(worst, of.interval_code, "interval_code", "")},
+    {FIELD(worst, of.blind_from, "blind_from", "scene"), .digits = DIGITS_USUAL, .downward = true},
+    {.kind = COLUMN_END}};
 
 static const column guarantee_columns[] = {
     {FIELD(promise, model, "model", "")},
@@ -259,9 +261,10 @@ static const column guarantee_columns[] = {
     {FIELD(promise, worst.z, "z", "scene"), .digits = DIGITS_USUAL},
     {.kind = COLUMN_END}};
 
-static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective", "scene"), .digits = DIGITS_USUAL},
-                                       {FIELD(clipping, zfar, "far_effective", "scene"), .digits = DIGITS_USUAL},
-                                       {.kind = COLUMN_END}};
+static const column drawn_columns[] = {
+    {FIELD(clipping, znear, "near_effective", "scene"), .digits = DIGITS_USUAL, .upward = true},
+    {FIELD(clipping, zfar, "far_effective", "scene"), .digits = DIGITS_USUAL, .downward = true},
+    {.kind = COLUMN_END}};
 
 static const column setup_report[] = {
     {PART(table, each.fields, NULL, setup_columns)},
@@ -269,7 +272,7 @@ static const column setup_report[] = {
      .when = WITH_PRESETS},
     {FIELD(table, each.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
-    {FIELD(table, interval.claim, "claim", ""), .digits = 3, .only = AS_JSON, .when = WITH_TOLERANCE},
+    {FIELD(table, interval.claim, "claim", ""), .digits = 3, .upward = true, .only = AS_JSON, .when = WITH_TOLERANCE},
     {LIST("rows", row_columns, next_row)},
     {FIELD(table, interval.name, "method", ""), .only = AS_CSV, .when = WITH_TOLERANCE},
     {FIELD(table, each.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},

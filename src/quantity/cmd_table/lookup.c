@@ -65,8 +65,10 @@ static const column row_columns[] = {
     {FIELD(found, cell.code, "code", ""), SHOWN("code", 11, 0)},
     {FIELD(found, z, "z", "scene"), SHOWN("eye depth", 12, DIGITS_Z)},
     {FIELD(found, cell.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_CELL), .spare = 1},
-    {FIELD(found, cell.lo, "cell_lo", "scene"), SHOWN("cell from", 17, 0), .digits_at = offsetof(found, cell_digits)},
-    {FIELD(found, cell.hi, "cell_hi", "scene"), SHOWN("to", 17, 0), .digits_at = offsetof(found, cell_digits)},
+    {FIELD(found, cell.lo, "cell_lo", "scene"), SHOWN("cell from", 17, 0), .digits_at = offsetof(found, cell_digits),
+     .downward = true},
+    {FIELD(found, cell.hi, "cell_hi", "scene"), SHOWN("to", 17, 0), .digits_at = offsetof(found, cell_digits),
+     .upward = true},
     {FIELD(found, cell.width, "interval", "scene"), SHOWN("interval", 9, DIGITS_INTERVAL)},
     {.kind = COLUMN_END}};
 

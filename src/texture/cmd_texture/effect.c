@@ -328,7 +328,7 @@ static int write_table(table *t, int status) {
         {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
         {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_Z)},
         {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS), .spare = 1},
-        {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
+        {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS), .upward = true},
         {FIELD(row, share, "share", ""), SHOWN("share", 12, DIGITS), .when = WITH_SHARE},
         {FIELD(row, usable, "usable", ""), SHOWN(shown, USABLE_WIDTH, DIGITS), .only = AS_JSON | AS_TEXT,
          .upward = t->effect->smallest, .downward = !t->effect->smallest},

@@ -209,8 +209,8 @@ static void say_pixel(page *p, void *item) {
               isnan(x->depth) ? "" : number_of(x->depth, DIGITS_DEPTH).text);
     if (!isnan(x->linear01))
         page_note(p, "linear01", "%s, eye depth over far", number_of(x->linear01, DIGITS_Z).text);
-    page_note(p, "may be", "%s to %s, an interval of %s", number_in(number_of(x->range.lo, digits), p->unit).text,
-              number_in(number_of(x->range.hi, digits), p->unit).text,
+    page_note(p, "may be", "%s to %s, an interval of %s", number_in(number_down(x->range.lo, digits), p->unit).text,
+              number_in(number_up(x->range.hi, digits), p->unit).text,
               number_in(number_of(x->interval, DIGITS), p->unit).text);
     if (!isnan(x->truth))
         page_note(p, "truth", "%s, error %s", number_in(number_of(x->truth, digits), p->unit).text,

@@ -245,7 +245,7 @@ void statistics_say_head(page *p, void *item) {
 static void say_pairs(const survey_pairs *s, page *p) {
     char first[NUMBER_SIZE + 32] = "", certain[NUMBER_SIZE + 48] = "";
     if (s->ties > 0)
-        snprintf(first, sizeof first, ", the first at z = %s", number_in(number_of(s->first_tie, 6), p->unit).text);
+        snprintf(first, sizeof first, ", the first at z = %s", number_in(number_down(s->first_tie, 6), p->unit).text);
     if (!isnan(s->certain_to))
         snprintf(certain, sizeof certain, "; none z-fight up to z = %s",
                  number_in(number_down(s->certain_to, 6), p->unit).text);

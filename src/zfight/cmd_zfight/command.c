@@ -197,8 +197,8 @@ static const column band_columns[] = {{FIELD(band, counts.lo, "lo", "scene")},
                                       {.kind = COLUMN_END}};
 
 static const column plane_columns[] = {
-    {FIELD(census_result, near_effective, "near_effective", "scene"), .digits = PLANE_DIGITS},
-    {FIELD(census_result, far_effective, "far_effective", "scene"), .digits = PLANE_DIGITS},
+    {FIELD(census_result, near_effective, "near_effective", "scene"), .digits = PLANE_DIGITS, .upward = true},
+    {FIELD(census_result, far_effective, "far_effective", "scene"), .digits = PLANE_DIGITS, .downward = true},
     {.kind = COLUMN_END}};
 
 static const column clipped_columns[] = {{FIELD(census_result, all.clipped, "clipped", "")},
@@ -278,7 +278,7 @@ static void warn(const zfight *z) {
         else if (r->holes > 0)
             message("depthprec: warning: %s: clipping in binary32 removes %llu depths between %s and %s",
                     setup_label(&z->each.all.items[i], false, label), (unsigned long long)r->holes,
-                    number_of(from, PLANE_DIGITS).text, number_of(to, PLANE_DIGITS).text);
+                    number_up(from, PLANE_DIGITS).text, number_down(to, PLANE_DIGITS).text);
     }
 }
 
