@@ -231,7 +231,8 @@ static const char *advice_in(const char *at, const dp_setup *setup, const budget
     return words_in(at, "\n");
 }
 
-/* "  float arithmetic (mesa) makes this 2.71 times worse at z = 316.228: model float is needed": 3 digits and 6. */
+/* "  float arithmetic (mesa) makes the guarantee 2.71 times the lattice at z = 316.228: model float is needed": 3
+ * digits and 6. */
 static void choice_in(const char *at, const dp_setup *setup, const budget_case *c) {
     dp_choice choice;
     char arith[64] = "";
@@ -249,9 +250,9 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
     else if (isinf(share))
         at = words_in(at, " leaves nothing resolved");
     else {
-        at = words_in(at, enough ? " makes this at most " : " makes this ");
-        at = number_in(at, share >= 1 ? share + 1 : 100 * share, 3, false);
-        at = words_in(at, share >= 1 ? " times worse" : " % worse");
+        at = words_in(at, enough ? " makes the guarantee at most " : " makes the guarantee ");
+        at = number_in(at, share >= 0.01 ? share + 1 : 100 * share, 3, false);
+        at = words_in(at, share >= 0.01 ? " times the lattice" : " % more than the lattice");
     }
     if (share != 0)
         at = length_in(words_in(at, " at z = "), c, z, 6, false);
@@ -260,7 +261,7 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
                                                    : ": --model float is needed\n");
 }
 
-/* "  model staged leaves the shader out: with it this is 3.06 times worse at z = 1000" */
+/* "  model staged leaves the shader out: with it the guarantee is 3.06 times as large at z = 1000" */
 static void staged_in(const char *at, const dp_setup *setup, const budget_case *c) {
     double worst = 0, z = 0, depths[DEPTHS];
     const dp_setup staged = setup_in(setup, DP_MODEL_STAGED);
@@ -273,8 +274,8 @@ static void staged_in(const char *at, const dp_setup *setup, const budget_case *
             z = depths[k];
         }
     }
-    at = words_in(at, "  model staged leaves the shader out: with it this is ");
-    at = words_in(number_in(at, worst, 3, false), " times worse at z = ");
+    at = words_in(at, "  model staged leaves the shader out: with it the guarantee is ");
+    at = words_in(number_in(at, worst, 3, false), " times as large at z = ");
     words_in(length_in(at, c, z, 6, false), "\n");
 }
 

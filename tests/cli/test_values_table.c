@@ -196,10 +196,10 @@ TEST(lines_below) {
     free(text);
 }
 
-/* "the arithmetic of the shader makes this 7.44 times worse at z = 1e+06": 3 digits, against the lattice. */
+/* "the arithmetic of the shader makes the guarantee 7.44 times the lattice at z = 1e+06": 3 digits. */
 TEST(line_of_the_shader) {
     static const char *const formats[] = {"unorm24", "unorm12"};
-    static const char words[] = "the arithmetic of the shader makes this ";
+    static const char words[] = "the arithmetic of the shader makes the guarantee ";
     const double depths[] = {2, 1e6, 3e8};
     for (int i = 0; i < 2; i++) {
         const dp_setup setup = SETUP(formats[i], .znear = 1, .zfar = 1e9, .mapping = DP_MAPPING_LOG);
@@ -215,11 +215,11 @@ TEST(line_of_the_shader) {
         const bool enough = worst <= 1.05;
         assert_non_null(at);
         assert_int_equal(enough, i == 1);
-        assert_int_equal(
-            sscanf(at + strlen(words),
-                   enough ? "at most %lf %% worse at z = %lf: %63[^\n]" : "%lf times worse at z = %lf: %63[^\n]", &said,
-                   &where, end),
-            3);
+        assert_int_equal(sscanf(at + strlen(words),
+                                enough ? "at most %lf %% more than the lattice at z = %lf: %63[^\n]"
+                                       : "%lf times the lattice at z = %lf: %63[^\n]",
+                                &said, &where, end),
+                         3);
         assert_relative(said, enough ? 100 * (worst - 1) : worst, 0.005);
         assert_relative(where, z, 1e-5);
         assert_string_equal(end, enough ? "the lattice suffices" : "'depthprec budget' shows the causes");

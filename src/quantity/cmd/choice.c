@@ -124,13 +124,15 @@ static const column told_columns[] = {{FIELD(told, before, "before", "")},
                                       {FIELD(told, z, "z", "scene"), .digits = 6},
                                       {.kind = COLUMN_END}};
 
-enum { ADDS_NOTHING = 1, LEAVES_NOTHING = 2, DOUBLES = 4 };
+enum { ADDS_NOTHING = 1, LEAVES_NOTHING = 2, MUCH = 4 };
 
 static const sentence told_words[] = {
     LINE("{before}{subject}{arith} adds nothing: {verdict}", ADDS_NOTHING),
     ELSE("{before}{subject}{arith} leaves nothing resolved at z = {z}: {verdict}", LEAVES_NOTHING),
-    ELSE("{before}{subject}{arith} makes this {most}{times} times worse at z = {z}: {verdict}", DOUBLES),
-    ELSE("{before}{subject}{arith} makes this {most}{percent} % worse at z = {z}: {verdict}", 0), SENTENCE_END};
+    ELSE("{before}{subject}{arith} makes the guarantee {most}{times} times the lattice at z = {z}: {verdict}", MUCH),
+    ELSE("{before}{subject}{arith} makes the guarantee {most}{percent} % more than the lattice at z = {z}: {verdict}",
+         0),
+    SENTENCE_END};
 
 void choice_say(page *p, const choosing *c, const char *before) {
     static const char *const verdicts[DP_MODEL_COUNT] = {"the lattice suffices", "--model staged captures this",
@@ -153,5 +155,5 @@ void choice_say(page *p, const choosing *c, const char *before) {
               shader ? c->shader_z : c->choice.share_z[DP_MODEL_EXACT]};
     page_say(p, told_words, told_columns, &t,
              (share > 0.0 || shader ? 0 : ADDS_NOTHING) | (isinf(share) ? LEAVES_NOTHING : 0) |
-                 (share >= 1.0 ? DOUBLES : 0));
+                 (share >= 0.01 ? MUCH : 0));
 }

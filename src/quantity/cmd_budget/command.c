@@ -323,7 +323,8 @@ static const sentence words[] = {
     LINE(TAKEN "{worst.remedy} would need {worst.remedy_separation} in place of {worst.separation}", 0),
     ELSE(TAKEN "nothing to gain: binary32 depths themselves are {worst.step} apart there", NO_GAIN),
     ELSE(TAKEN "no other format or mapping helps", 0),
-    LINE("model staged leaves the shader out: with it this is {staged_times} times worse at z = {staged_z}", 0),
+    LINE("model staged leaves the shader out: with it the guarantee is {staged_times} times as large at z = {staged_z}",
+         0),
     SENTENCE_END};
 
 static void say_notes(page *p, void *item) {
@@ -331,7 +332,7 @@ static void say_notes(page *p, void *item) {
     const unsigned added = conditions(b) & ~(unsigned)(COMPOSED | WITH_LOG | WITH_MATRIX | WITH_DIVIDE);
     page_say(p, words, setup_report, item,
              conditions(b) | (b->worst != NULL && b->worst->separation < 2.0 * b->worst->step ? NO_GAIN : 0));
-    if (!b->shader)
+    if (!b->shader && b->worst != NULL) /* where nothing is guaranteed no model changes that */
         choice_say(p, &b->choice, added != 0 ? "without the added terms " : "");
 }
 

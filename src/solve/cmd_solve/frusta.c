@@ -99,7 +99,7 @@ static void say_plan(page *p, void *item) {
         page_text(p, "No plan: %d frusta of %s %s do not suffice to resolve %s from z = %s to %s.", FRUSTA_MAX, format,
                   mapping, limit.text, near.text, far.text);
     else if (!x->possible)
-        page_text(p, "No plan was found: with far %s no near that was tried lets %s %s resolve %s.",
+        page_text(p, "No plan was found: up to far %s no near plane of those searched lets %s %s resolve %s.",
                   number_in(number_full(x->stuck), unit).text, format, mapping, limit.text);
     else
         page_text(p, "%llu %s of %s %s %s %s from z = %s to %s%s.", count, count == 1 ? "frustum" : "frusta", format,

@@ -333,8 +333,8 @@ static const option_place places[] = {CAMERA_PLACES(texture_request),
                                       PLACE(texture_request, image, texture_options),
                                       {.table = NULL}};
 
-static const command_part parts[] = {{"to an effect alone that needs no position", TEXTURE_EFFECT},
-                                     {"to an effect alone that needs the position", TEXTURE_PLACED},
+static const command_part parts[] = {{"to an effect without FILE", TEXTURE_EFFECT},
+                                     {"to an effect of places without FILE", TEXTURE_PLACED},
                                      {"with FILE or --synthetic", TEXTURE_IMAGE},
                                      {NULL, 0}};
 
