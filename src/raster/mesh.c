@@ -6,7 +6,7 @@
 #include "core/bits.h"
 #include "core/elementary.h"
 
-/* How far the subpixel grid moves a vertex at most, pixels; and a pixel's centre beyond an edge. */
+/* How far a pixel's centre lies beyond an edge at most, pixels. */
 static const double moved = 0.0625;
 
 /* ---- Random numbers ---------------------------------------------------------------------------------------------- */
@@ -44,28 +44,41 @@ void draw_mesh_corners(const draw_mesh *mesh, int i, int k, int half, double win
     }
 }
 
-static bool has_shape(const double v[3][2], const dp_triangles *class) {
+/* How far a vertex moves: half a step of the grid, and what binary32 rounds before. */
+static double step_of(int subpixel) {
+    return (subpixel > 0 ? 0.5 / (1 << subpixel) : moved) + 0x1p-8;
+}
+
+draw_shape draw_shape_of(const double v[3][2], int subpixel) {
+    const double m = step_of(subpixel), outward = 1.0 + 0x1p-40;
     const double area = fabs((v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
-    double longest = 0.0, widest = 0.0;
+    double longest = 0.0, widest = 0.0, around = 0.0;
     for (int i = 0; i < 3; i++) {
         const double *next = v[(i + 1) % 3];
         const double x = fabs(next[0] - v[i][0]), y = fabs(next[1] - v[i][1]);
         longest = fmax(longest, dp_hypot(x, y));
         widest = fmax(widest, fmax(x, y));
+        around += x + y;
     }
-    return widest + 4.0 * moved <= class->pixels &&
-           longest * longest / area * (1.0 + 8.0 * moved / sqrt(area)) <= class->slim;
+    const double left = area - outward * (m * around + 4.0 * m * m), far = longest + 3.0 * m;
+    return (draw_shape){.pixels = widest + 4.0 * m, .slim = left > 0.0 ? outward * far * far / left : (double)INFINITY};
+}
+
+static bool has_shape(const double v[3][2], const dp_triangles *class) {
+    const draw_shape shape = draw_shape_of(v, class->subpixel);
+    return shape.pixels <= class->pixels && shape.slim <= class->slim;
 }
 
 /* Whether vertices and pixels inside lie within a factor `depth` of each other; 1/z changes evenly on the screen. */
-static bool has_depth(const draw_camera *camera, const draw_plane *plane, const double facing[3], double depth) {
+static bool has_depth(const draw_camera *camera, const draw_plane *plane, const double facing[3],
+                      const dp_triangles *class) {
     const double *n = plane->normal;
     const double step = 2.0 * (fabs(n[0]) / ((double)camera->p00 * camera->target.width) +
                                fabs(n[1]) / ((double)camera->p11 * camera->target.height));
     const double least = fmin(fmin(facing[0], facing[1]), facing[2]);
     const double most = fmax(fmax(facing[0], facing[1]), facing[2]);
-    const double allowed = depth * (1.0 - 0x1p-20);
-    return most + moved * step <= allowed * least && most <= allowed * (least - moved * step);
+    const double allowed = class->depth * (1.0 - 0x1p-20), m = fmax(moved, step_of(class->subpixel));
+    return most + m * step <= allowed * least && most <= allowed * (least - m * step);
 }
 
 /* Whether a place is in view, and not next to an edge, for clip coordinates are rounded. */
@@ -101,7 +114,7 @@ static bool draw_part(draw_buffer *buffer, const draw_camera *camera, const draw
         for (int axis = 0; axis < 3; axis++)
             place[i][axis] *= z;
     }
-    if (class != NULL && !(has_shape(window, class) && has_depth(camera, plane, facing, class->depth)))
+    if (class != NULL && !(has_shape(window, class) && has_depth(camera, plane, facing, class)))
         return false;
     return draw_triangle(buffer, camera, (const double(*)[3])place, who);
 }

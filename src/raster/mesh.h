@@ -22,6 +22,19 @@ typedef struct draw_mesh {
 /** The window coordinates of one of the two triangles of a cell: half 0 or 1. */
 void draw_mesh_corners(const draw_mesh *mesh, int i, int k, int half, double window[3][2]);
 
+/** The shape of a triangle at most, wherever its vertices lie within half a step of the grid, as dp_triangles has it.
+ */
+typedef struct draw_shape {
+    double pixels, slim; /**< infinite where it may have no area */
+} draw_shape;
+
+/**
+ * For the window coordinates of its vertices, pixels, and bits of the grid. Each vertex moves by m at most on either
+ * axis, half a step of the grid and 2^-8 pixel for what binary32 rounds before; without bits 1/16 and that. A side
+ * becomes 2 sqrt(2) m longer at most, and twice the area smaller by m times the sides' extents on both axes and 4 m^2.
+ */
+draw_shape draw_shape_of(const double v[3][2], int subpixel);
+
 /**
  * Draws a plane as the mesh's triangles, but for those that lie outside a class of triangles, have a vertex outside
  * the view, or are too near edge-on to have a depth.

@@ -7,6 +7,7 @@
 #include "core/elementary.h"
 #include "core/outward.h"
 #include "depthprec/bounds.h"
+#include "raster/mesh.h"
 #include "scene/exact.h"
 #include "scene/pairs.h"
 #include "solve/distance.h"
@@ -21,9 +22,6 @@ static const double turned = 0x1p-8;
 static const double spare = 0x1p-7;
 
 static const double degrees = 180.0 / 3.14159265358979323846;
-
-/* How far the subpixel grid moves a vertex at most, and a pixel's centre beyond an edge, pixels. */
-static const double moved = 0.0625;
 
 /* ---- The view ---------------------------------------------------------------------------------------------------- */
 
@@ -172,7 +170,7 @@ static bool see_pair(const pair *p, const dp_setup *setup, const scene_eye *eye,
 static bool include(const pair *p, int i, const dp_setup *setup, const scene_eye *eye, const scene_sight *seen,
                     dp_triangles *t) {
     const view v = view_of(t);
-    double window[3][2], longest = 0.0, widest = 0.0;
+    double window[3][2];
     for (int k = 0; k < 3; k++) {
         double at[3];
         scene_eye_sees(eye, p->vertex[i][k], at);
@@ -184,18 +182,11 @@ static bool include(const pair *p, int i, const dp_setup *setup, const scene_eye
             return false;
         t->depth = fmax(t->depth, (1.0 + outward) * fmax(at[2] / seen->seen_from, seen->seen_to / at[2]));
     }
-    for (int k = 0; k < 3; k++) {
-        const double *next = window[(k + 1) % 3];
-        const double x = fabs(next[0] - window[k][0]), y = fabs(next[1] - window[k][1]);
-        longest = fmax(longest, dp_hypot(x, y));
-        widest = fmax(widest, fmax(x, y));
-    }
-    const double area = fabs((window[1][0] - window[0][0]) * (window[2][1] - window[0][1]) -
-                             (window[2][0] - window[0][0]) * (window[1][1] - window[0][1]));
+    const draw_shape shape = draw_shape_of(window, t->subpixel);
     const double upright = fmin(fabs(dot(p->normal[i], eye->ahead)), 1.0);
     const double slant = dp_atan2(sqrt(1.0 - upright * upright), upright) * degrees;
-    t->pixels = fmax(t->pixels, widest + 4.0 * moved);
-    t->slim = fmax(t->slim, longest * longest / area * (1.0 + 8.0 * moved / sqrt(area)));
+    t->pixels = fmax(t->pixels, shape.pixels);
+    t->slim = fmax(t->slim, shape.slim);
     t->slant_lo = fmin(t->slant_lo, fmax(slant - 0.001, 0.0));
     t->slant_hi = fmax(t->slant_hi, fmin(slant + 0.001, 90.0));
     return true;
