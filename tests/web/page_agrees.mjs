@@ -192,6 +192,7 @@ async function waysOut() {
             await buttons.nth(i).click();
             await page.waitForFunction(() => /: resolved at any slant/.test(document.querySelector("#verdicts p").textContent), null, { timeout: 30000 })
                 .catch(async () => demand(false, `${engine} ${gap} ${distance}, ${name}: ${await headline()}`));
+            await settled(page); // what is under way would be taken for the next link's
             pressed++;
         }
     await close(page);
