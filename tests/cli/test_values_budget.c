@@ -251,7 +251,7 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
         at = words_in(at, " leaves nothing resolved");
     else {
         at = words_in(at, enough ? " makes the guarantee at most " : " makes the guarantee ");
-        at = number_in(at, share >= 0.01 ? share + 1 : 100 * share, 3, false);
+        at = number_in(at, share >= 0.01 ? share + 1 : 100 * share, 3, true);
         at = words_in(at, share >= 0.01 ? " times the lattice" : " % more than the lattice");
     }
     if (share != 0)
@@ -275,7 +275,7 @@ static void staged_in(const char *at, const dp_setup *setup, const budget_case *
         }
     }
     at = words_in(at, "  model staged leaves the shader out: with it the guarantee is ");
-    at = words_in(number_in(at, worst, 3, false), " times as large at z = ");
+    at = words_in(number_in(at, worst, 3, true), " times as large at z = ");
     words_in(length_in(at, c, z, 6, false), "\n");
 }
 

@@ -247,7 +247,7 @@ static void check_numbers(const char *bound, const listed *l) {
         const bool alone =
             end > at && (at == bound || strchr(" =,", at[-1]) != NULL) && (*end == '\0' || strchr(" ,;", *end) != NULL);
         if (alone && isdigit((unsigned char)(*at == '-' ? at[1] : *at))) {
-            if (fabs(number - l->numbers[n]) > 0.006 * fabs(l->numbers[n]))
+            if (fabs(number - l->numbers[n]) > 0.0101 * fabs(l->numbers[n]))
                 fail_msg("%s: '%s': number %zu is %g, not %g", l->name, bound, n, number, l->numbers[n]);
             n++;
         }

@@ -151,7 +151,7 @@ static void want_others(values *v, const method_family_row *family, size_t panel
     static const struct {
         const char *name;
         size_t offset;
-        int which; /* -1: the worst of both cases */
+        int reversed; /* 0 or 1: the cases of that depth; -1: the worst of all */
         double x;
     } columns[] = {
         {"far infinite", offsetof(stability_result, infinite), 0, INFINITY},
@@ -168,7 +168,8 @@ static void want_others(values *v, const method_family_row *family, size_t panel
                 const stability_result *r = &walked[i];
                 const double error = *(const double *)(const void *)((const char *)r + columns[k].offset);
                 if (r->row == &family->methods[*family->method_count - 1 - row] && !isnan(error) &&
-                    (columns[k].which < 0 || r->which == (size_t)columns[k].which))
+                    (columns[k].reversed < 0 ||
+                     (strstr(family->cases[r->which].name, "reversed") != NULL) == columns[k].reversed))
                     least = fmin(least, digits(error));
             }
             want_point(v, panel, k, row, "ratio", columns[k].x, "method", (double)row + 0.5);
@@ -183,7 +184,7 @@ static void want_others(values *v, const method_family_row *family, size_t panel
 
 /* A panel for each case, in it the methods from the last. */
 TEST(stability) {
-    const method_family_row *family = method_family_find("worst"); /* each method speaks of each case */
+    const method_family_row *family = method_family_find("worst");
     static const char *const names[] = {"a digit is claimed up to here", "the claim breaks here", "map"};
     values v = values_of("plot");
     memset(verdicts, 0, sizeof verdicts);
@@ -193,25 +194,27 @@ TEST(stability) {
     want_axis(&v, "x", "ratio", "far/near", "", "log");
     want_axis(&v, "y", "method", "method", "", "linear");
     want_axis(&v, "value", "digits", "digits left", "", "linear");
+    const method_row *rows[BENCH_METHODS_MAX]; /* in each panel the same, whether they speak of its case or not */
+    size_t count = 0;
+    for (size_t i = 0; i < walked_count; i++)
+        if (count == 0 || rows[count - 1] != walked[i].row)
+            rows[count++] = walked[i].row;
     for (size_t which = 0; which < family->case_count; which++) {
-        size_t count = 0, row = 0, claims = 0, breaks = 0;
-        for (size_t i = 0; i < walked_count; i++)
-            count += walked[i].which == which;
-        for (size_t i = 0; i < walked_count; i++) {
-            const stability_result *r = &walked[i];
-            if (r->which != which)
-                continue;
+        size_t claims = 0, breaks = 0;
+        for (size_t row = 0; row < count; row++) {
+            const stability_result *r = NULL; /* none where the method does not speak of the case */
+            for (size_t i = 0; i < walked_count; i++)
+                r = walked[i].which == which && walked[i].row == rows[row] ? &walked[i] : r;
             const double height = (double)(count - 1 - row) + 0.5;
-            if (!isnan(r->claim_to))
+            if (r != NULL && !isnan(r->claim_to))
                 want_point(&v, which, 0, claims++, "ratio", r->claim_to, "method", height);
-            if (isfinite(r->breaks))
+            if (r != NULL && isfinite(r->breaks))
                 want_point(&v, which, 1, breaks++, "ratio", r->breaks, "method", height);
             for (size_t k = 0; k < 4; k++) {
                 const size_t point = (count - 1 - row) * 4 + k;
                 want_point(&v, which, 2, point, "ratio", column_of(root, which, point, k), "method", height);
-                want_number(&v, "digits", digits(r->error[k]));
+                want_number(&v, "digits", r != NULL ? digits(r->error[k]) : (double)NAN);
             }
-            row++;
         }
         for (size_t s = 0; s < 3; s++) {
             values_under(&v, "panels[%zu].series[%zu].", which, s);

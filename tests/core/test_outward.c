@@ -129,6 +129,7 @@ typedef struct shown_bound {
     int digits;
     side to;
     double scale; /* of JSON's number in the text; 0: 1 */
+    double plus;  /* added then */
 } shown_bound;
 
 /* A text with one blank between words, to be freed. */
@@ -174,8 +175,8 @@ static void check_bounds(tally *t, const char *line, const shown_bound *rows) {
     for (const shown_bound *b = rows; root != NULL && b->phrase != NULL; b++) {
         const char *at = word_at(flat, b);
         if (at != NULL)
-            check_shown(t, line, b->path, at, number_at(root, "%s", b->path) * (b->scale > 0 ? b->scale : 1), b->digits,
-                        b->to);
+            check_shown(t, line, b->path, at, number_at(root, "%s", b->path) * (b->scale > 0 ? b->scale : 1) + b->plus,
+                        b->digits, b->to);
     }
     free(flat);
     json_decref(root);
@@ -187,35 +188,38 @@ static void check_bounds(tally *t, const char *line, const shown_bound *rows) {
 #define SCHEMES  "setups[0].distances[0].schemes[0]."
 #define CELL     "lattice guaranteed cell from to "
 #define OF_DEPTH "code eye depth cell from to interval "
-static const shown_bound of_table[] = {{"worst error ", 0, WORST "error", 6, UP, 0},
-                                       {"worst interval ", 0, WORST "interval", 6, UP, 0},
-                                       {"worst interval ", 2, WORST "interval_lo", 9, DOWN, 0},
-                                       {"worst interval ", 4, WORST "interval_hi", 9, UP, 0},
-                                       {"blind from z = ", 0, WORST "blind_from", 9, DOWN, 0},
-                                       {"effectively ", 0, "setups[0].near_effective", 9, UP, 0},
-                                       {"effectively ", 2, "setups[0].far_effective", 9, DOWN, 0},
-                                       {"worst separation ", 0, "setups[0].worst_separation.bound", 6, UP, 0},
-                                       {CELL, 6, ROW "lattice", 5, UP, 0},
-                                       {CELL, 7, ROW "guaranteed", 5, UP, 0},
-                                       {CELL, 8, ROW "cell_lo", 9, DOWN, 0},
-                                       {CELL, 9, ROW "cell_hi", 9, UP, 0},
-                                       {NULL, 0, NULL, 0, EITHER, 0}};
-static const shown_bound of_choice[] = {{" % worse", -1, "setups[0].auto.neglected.exact.share", 3, UP, 100},
-                                        {NULL, 0, NULL, 0, EITHER, 0}};
-static const shown_bound of_lookup[] = {
-    {OF_DEPTH, 3, ROW "cell_lo", 9, DOWN, 0}, {OF_DEPTH, 4, ROW "cell_hi", 9, UP, 0}, {NULL, 0, NULL, 0, EITHER, 0}};
-static const shown_bound of_budget[] = {{"would need ", 0, WORST "remedy_separation", 4, UP, 0},
-                                        {"in place of ", 0, WORST "separation", 4, UP, 0},
-                                        {NULL, 0, NULL, 0, EITHER, 0}};
-static const shown_bound of_zfight[] = {{"within --range: ", 0, "setups[0].near_effective", 9, UP, 0},
-                                        {"within --range: ", 2, "setups[0].far_effective", 9, DOWN, 0},
-                                        {NULL, 0, NULL, 0, EITHER, 0}};
-static const shown_bound of_world[] = {{"absolute ", 0, SCHEMES "safe_to", 3, DOWN, 0},
-                                       {"absolute ", 1, SCHEMES "still_to", 3, DOWN, 0},
-                                       {NULL, 0, NULL, 0, EITHER, 0}};
-static const shown_bound of_effect[] = {{"interval levels half-width from ", 4, ROW "levels", 6, UP, 0},
-                                        {"interval levels half-width from ", 5, ROW "usable", 6, UP, 0},
-                                        {NULL, 0, NULL, 0, EITHER, 0}};
+static const shown_bound of_table[] = {{"worst error ", 0, WORST "error", 6, UP, 0, 0},
+                                       {"worst interval ", 0, WORST "interval", 6, UP, 0, 0},
+                                       {"worst interval ", 2, WORST "interval_lo", 9, DOWN, 0, 0},
+                                       {"worst interval ", 4, WORST "interval_hi", 9, UP, 0, 0},
+                                       {"blind from z = ", 0, WORST "blind_from", 9, DOWN, 0, 0},
+                                       {"effectively ", 0, "setups[0].near_effective", 9, UP, 0, 0},
+                                       {"effectively ", 2, "setups[0].far_effective", 9, DOWN, 0, 0},
+                                       {"worst separation ", 0, "setups[0].worst_separation.bound", 6, UP, 0, 0},
+                                       {CELL, 6, ROW "lattice", 5, UP, 0, 0},
+                                       {CELL, 7, ROW "guaranteed", 5, UP, 0, 0},
+                                       {CELL, 8, ROW "cell_lo", 9, DOWN, 0, 0},
+                                       {CELL, 9, ROW "cell_hi", 9, UP, 0, 0},
+                                       {NULL, 0, NULL, 0, EITHER, 0, 0}};
+#define SHARE "setups[0].auto.neglected.exact.share"
+static const shown_bound of_choice[] = {{" % more than the lattice", -1, SHARE, 3, UP, 100, 0},
+                                        {" times the lattice", -1, SHARE, 3, UP, 1, 1},
+                                        {NULL, 0, NULL, 0, EITHER, 0, 0}};
+static const shown_bound of_lookup[] = {{OF_DEPTH, 3, ROW "cell_lo", 9, DOWN, 0, 0},
+                                        {OF_DEPTH, 4, ROW "cell_hi", 9, UP, 0, 0},
+                                        {NULL, 0, NULL, 0, EITHER, 0, 0}};
+static const shown_bound of_budget[] = {{"would need ", 0, WORST "remedy_separation", 4, UP, 0, 0},
+                                        {"in place of ", 0, WORST "separation", 4, UP, 0, 0},
+                                        {NULL, 0, NULL, 0, EITHER, 0, 0}};
+static const shown_bound of_zfight[] = {{"within --range: ", 0, "setups[0].near_effective", 9, UP, 0, 0},
+                                        {"within --range: ", 2, "setups[0].far_effective", 9, DOWN, 0, 0},
+                                        {NULL, 0, NULL, 0, EITHER, 0, 0}};
+static const shown_bound of_world[] = {{"absolute ", 0, SCHEMES "safe_to", 3, DOWN, 0, 0},
+                                       {"absolute ", 1, SCHEMES "still_to", 3, DOWN, 0, 0},
+                                       {NULL, 0, NULL, 0, EITHER, 0, 0}};
+static const shown_bound of_effect[] = {{"interval levels half-width from ", 4, ROW "levels", 6, UP, 0, 0},
+                                        {"interval levels half-width from ", 5, ROW "usable", 6, UP, 0, 0},
+                                        {NULL, 0, NULL, 0, EITHER, 0, 0}};
 
 TEST(commands) {
     tally t = {.name = "table, budget, zfight, world, texture"};

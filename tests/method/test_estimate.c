@@ -84,8 +84,9 @@ TEST(the_timed_method_keeps_the_claim) {
                 family->fill(&setup, &in);
                 assert_true(method_measure(family, &row, &setup, &in, &out, &m));
                 const double error = measured_error(family, &m), claim = method_claimed(&row, which, &setup);
-                TALLY(&t, error <= claim && error > claim / 8, "%s, %s, far/near %g: %g of %g", row.name,
-                      family->cases[which].name, ratio, error, claim);
+                if (!isnan(claim)) /* it speaks of the case */
+                    TALLY(&t, error <= claim && error > claim / 8, "%s, %s, far/near %g: %g of %g", row.name,
+                          family->cases[which].name, ratio, error, claim);
             }
     }
     method_arrays_free(&in, &out);

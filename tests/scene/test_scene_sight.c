@@ -358,7 +358,7 @@ static bool class_of(const dp_setup *setup, const scene_eye *eye, double lo, dou
     const double up = tan(0.5 * t->fov_y * degree), across = up * t->width / t->height;
     double depth = 1, pixels = 1, slim = 2, slant[2] = {90, 0};
     for (int i = 0; i < 2; i++) {
-        double at[3][3], edge[3], n[3], u[3], v[3], window[3][2], most = 0;
+        double at[3][3], edge[3], n[3], u[3], v[3], window[3][2], most = 0, around = 0;
         for (int c = 0; c < 3; c++) {
             scene_eye_sees(eye, made.position[made.triangle[i][c]], at[c]);
             if (at[c][2] < spec.znear || at[c][2] > spec.zfar)
@@ -373,13 +373,15 @@ static bool class_of(const dp_setup *setup, const scene_eye *eye, double lo, dou
             const double *p = window[c], *q = window[(c + 1) % 3];
             edge[c] = hypot(p[0] - q[0], p[1] - q[1]);
             most = fmax(most, edge[c]);
+            around += fabs(p[0] - q[0]) + fabs(p[1] - q[1]);
             pixels = fmax(pixels, fmax(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
             u[c] = at[1][c] - at[0][c];
             v[c] = at[2][c] - at[0][c];
         }
         const double half = (edge[0] + edge[1] + edge[2]) / 2;
         const double area = sqrt(fmax(half * (half - edge[0]) * (half - edge[1]) * (half - edge[2]), 0));
-        slim = fmax(slim, most * most / (2 * area) * (by > 1 ? 1 + 0.6 / sqrt(2 * area) : 1)); /* its grid */
+        const double grid = by > 1 ? 0.0625 : 0, left = 2 * area - grid * around - 4 * grid * grid;
+        slim = left > 0 ? fmax(slim, pow(most + 3 * grid, 2) / left) : INFINITY;
         cross(u, v, n);
         const double angle = acos(fabs(n[2]) / hypot(hypot(n[0], n[1]), n[2])) / degree;
         slant[0] = fmin(slant[0], angle);

@@ -319,7 +319,7 @@ TEST(normal_offset) {
         if (said > 0.1)
             continue; /* so few texels that one is no small step */
         /* Rounding needs the rest. */
-        TALLY(&t[1], most >= 0.85 * filter * said, "fov %g, %d texels, radius %g, slant %g: %.17g of %.17g", light.fov,
+        TALLY(&t[1], most >= 0.82 * filter * said, "fov %g, %d texels, radius %g, slant %g: %.17g of %.17g", light.fov,
               light.triangles.width, light.kernel, slant, most, filter * said);
     }
     tally_end(&t[0]);

@@ -207,6 +207,15 @@ static int resolve_all(plotting *p) {
     return EXIT_FINE;
 }
 
+/* Without a function of somebody's the figure of stability shows all cases of a family. */
+static int check_case(const plotting *p) {
+    static const char *const of_one[] = {"format", "mapping"};
+    for (size_t i = 0; i < sizeof of_one / sizeof of_one[0]; i++)
+        if (p->row->build == stability_build && p->o->judge.mine_count == 0 && option_given(p->o->line, of_one[i]))
+            return option_error(of_one[i], "needs --mine in the figure %s, which shows all cases", p->row->name);
+    return EXIT_FINE;
+}
+
 /* Which family and, where it is timed, in which case; the figure measures that and not the set-ups. */
 static int resolve_methods(plotting *p) {
     const plot_request *o = p->o;
@@ -218,6 +227,8 @@ static int resolve_methods(plotting *p) {
     const name_list families = {.words = p->row->build == pareto_build ? all : NULL, .get = list_family};
     list_item item;
     int status = check_operand(o->line->command, "FAMILY", &families, family, &item);
+    if (status == EXIT_FINE)
+        status = check_case(p);
     if (status == EXIT_FINE)
         status = item.row == NULL ? resolve_all(p) : methods_resolve(&p->judge, item.row, &p->asked);
     if (status == EXIT_FINE && o->judge.mine_count > 0)

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "camera/make.h"
 #include "cli/junit.h"
 #include "core/append.h"
 #include "report/number.h"
@@ -93,9 +94,10 @@ static void put_camera(output *out, const scene *s, const dp_triangles *t) {
     put_word(out, "format", spec->format.name);
     output_text(out, "\n           ");
     put_word(out, "model", option_word("model", s->setup.shader ? DP_MODEL_FLOAT : spec->model));
-    put_word(out, "arith", dp_arith_get(spec->arith)->name);
+    if (camera_has(spec, CAMERA_ARITH))
+        put_word(out, "arith", dp_arith_get(spec->arith)->name);
     put_word(out, "rounding", dp_rounding_name(spec->rounding));
-    if (s->setup.curve == DP_CURVE_LOG && s->setup.log_by > 0)
+    if (camera_has(spec, CAMERA_LOG_C))
         put_number(out, "log_c", spec->log_c);
     put_view(out, s, t);
     output_text(out, " };\n");
