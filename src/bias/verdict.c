@@ -163,8 +163,9 @@ static bool find_witness(const dp_setup *setup, const bias_state *state, const b
 bias_verdict bias_judge(const dp_setup *setup, const bias_state *given, const bias_goal *goal, double lo, double hi) {
     const double none = (double)NAN;
     bias_verdict v = {.z = none, .code = none, .moved = none, .from = none, .to = none};
-    const bias_state held = {given->api, (double)(float)given->units, (double)(float)given->factor,
-                             (double)(float)given->clamp};
+    /* As a program hands them over: floats, and an integer that no float need hold. */
+    const double units = given->api->whole ? given->units : (double)(float)given->units;
+    const bias_state held = {given->api, units, (double)(float)given->factor, (double)(float)given->clamp};
     const bias_state *state = &held;
     find_least(setup, state, goal, &v, lo, hi);
     if (!isnan(v.lo))

@@ -60,6 +60,13 @@ static double offset_of(const bias_state *s, double r, double m) {
     return (double)(float)(clamp > 0.0 ? fmin(o, clamp) : clamp < 0.0 ? fmax(o, clamp) : o);
 }
 
+/* How far a layer is brought nearer by what the API takes: floats, or an integer, of which webgpu rounds nothing. */
+static double brought(const dp_setup *setup, const bias_state *s, double slope, double z) {
+    const double units = s->api->whole ? s->units : (double)(float)s->units;
+    const bias_state taken = {s->api, units, (double)(float)s->factor, (double)(float)s->clamp};
+    return -bias_at(setup, &taken, slope, z).shift;
+}
+
 /* Whether a layer sampled at `front` is stored nearer than one at `back`. */
 static bool is_apart(const dp_setup *setup, const bias_state *s, double back, double front, double m, bool proof) {
     const dp_format *format = &setup->spec.format;
@@ -171,7 +178,7 @@ static void check_enough(rng *r, const asked *a, const bias_verdict *v, tally *t
         const double m = bias_window_slope(setup, z, a->goal.slope);
         const double off = m * (rng_below(r, 2) == 0 ? 1.0 : rng_unit(r));
         const double front = held(d - bias_sign(setup) * off);
-        const double move = -bias_at(setup, &a->state, a->goal.slope, z).shift;
+        const double move = brought(setup, &a->state, a->goal.slope, z);
         if (!(front >= 0.0 && front <= 1.0))
             continue;
         TALLY(t, is_apart(setup, &a->state, d, front, m, true) && move >= a->goal.gap * (1.0 - 1e-12),
@@ -188,7 +195,7 @@ static void check_witness(const asked *a, const bias_verdict *v, tally *t) {
     const dp_format *format = &setup->spec.format;
     const double m = bias_window_slope(setup, v->z, a->goal.slope), value = dp_format_value(format, (uint32_t)v->code);
     const double about[3] = {held(dp_window(setup, v->z)), held(value), end_of(setup, held(value))};
-    bool fails = v->short_of_gap && -bias_at(setup, &a->state, a->goal.slope, v->z).shift < a->goal.gap;
+    bool fails = v->short_of_gap && brought(setup, &a->state, a->goal.slope, v->z) < a->goal.gap;
     for (int i = 0; i < 27 && !fails; i++) {
         const double d = (double)dp_ranked32(dp_rank32((float)about[i / 9]) + (uint32_t)(i % 9 - 4));
         const double front = held(d - bias_sign(setup) * m), off = fabs(dp_eye(setup, d, 1.0 - d) - v->z);
@@ -241,6 +248,30 @@ TEST(random_verdicts) {
     assert_null(bias_api_get(APIS));
     tally_end(&enough);
     tally_end(&witness);
+}
+
+/* What bias tells to set is enough, of integers beyond 2^24 too, of which binary32 has only some. */
+TEST(told_and_judged) {
+    tally t = {.name = "told"};
+    rng r = rng_make("bias told");
+    dp_spec spec = dp_spec_default();
+    uint64_t between = 0;
+    spec.ortho = true;
+    spec.mapping = DP_MAPPING_REVERSED;
+    spec.znear = 1.0;
+    spec.zfar = 100.0;
+    for (int i = 0; i < 200; i++) {
+        dp_setup setup;
+        const bias_goal goal = {.api = bias_api_find("webgpu"), .gap = rng_uniform(&r, 0.1, 5.0)};
+        const double z = spec.zfar - rng_log(&r, 1e-3, 0.1);
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        const bias_state told = {.api = goal.api, .units = bias_needed(&setup, &goal, z)};
+        TALLY(&t, !isfinite(told.units) || bias_judge(&setup, &told, &goal, z, z).answer == BIAS_ENOUGH,
+              "%.0f units at %.17g for %.17g: not said to be enough", told.units, z, goal.gap);
+        between += isfinite(told.units) && told.units != held(told.units);
+    }
+    assert_true(between >= 50);
+    tally_end(&t);
 }
 
 /* The exit status is that of the strictest question, and of all set-ups; 1 with --check alone. */

@@ -48,15 +48,26 @@ static all_case case_of(const char *line) {
     return c;
 }
 
-/* The units as a program writes them: whole, or nine digits of a float. */
+/* Nine digits that are no less in magnitude: the decimal nearest to it, or where that is less the next one. */
+static void nine_outward(double units, char text[32]) {
+    char unit[32];
+    snprintf(text, 32, "%.8e", fabs(units));
+    snprintf(unit, sizeof unit, "1e%d", atoi(strchr(text, 'e') + 1) - 8);
+    const double nearest = strtod(text, NULL), shown = nearest < fabs(units) ? nearest + strtod(unit, NULL) : nearest;
+    snprintf(text, 32, "%.9g", copysign(shown, units));
+}
+
+/* The units as a program writes them: whole, or nine digits that still suffice. */
 static void want_call(values *v, const all_case *c, size_t api, double units) {
     char text[32], factor[32], call[256];
     if (isnan(units)) {
         want_text(v, "call", NULL);
         return;
     }
-    const bool whole = units == nearbyint(units);
-    snprintf(text, sizeof text, whole ? "%.0f" : "%.9g", units);
+    if (units == nearbyint(units))
+        snprintf(text, sizeof text, "%.0f", units);
+    else
+        nine_outward(units, text);
     snprintf(factor, sizeof factor, "%g", c->factor);
     snprintf(call, sizeof call, c->factor != 0 ? calls[api].sloped : calls[api].alone,
              calls[api].turned && c->factor != 0 ? factor : text, calls[api].turned ? text : factor);
