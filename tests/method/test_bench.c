@@ -91,7 +91,7 @@ static const method_row rows[] = {
 };
 static const size_t row_count = sizeof rows / sizeof rows[0];
 static const method_family_row family = {.name = "known",
-                                         .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D}},
+                                         .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D, false}},
                                          .case_count = 1,
                                          .inputs = INPUTS,
                                          .method_count = &row_count,
