@@ -59,7 +59,7 @@ controls() {
         /<\/form>/ { verb = "" }
         verb != "" { for (i = 1; i < NF; i++) if ($i ~ /data-option=$/) print verb, $(i + 1) }' \
         src/web/page.html >"$scratch/controls"
-    sed -n '/^export const ASKED/,/^};/s/^    \([a-z]*\): \[\("[a-z", ]*"\)\],$/\1 \2/p' src/web/state.js | tr -d '",' |
+    sed -n '/^const ASKED/,/^};/s/^    \([a-z]*\): \[\("[a-z", ]*"\)\],$/\1 \2/p' src/web/state.js | tr -d '",' |
         awk '{ for (i = 2; i <= NF; i++) print $1, $i }' >>"$scratch/controls"
     sed -n 's/^\(export \)\{0,1\}const \(NEVER\|VIEW\) = \[\("[a-z", -]*"\)\];$/\3/p' src/web/state.js | tr -d '",' | tr ' ' '\n' |
         sed 's/^/options /' >>"$scratch/controls"

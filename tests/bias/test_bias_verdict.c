@@ -19,12 +19,12 @@ static uint64_t code_of(const dp_format *format, dp_rounding rounding, double d)
     int e;
     const uint64_t m = (uint64_t)ldexp(frexp(d, &e), 24); /* d = m 2^(e - 24) exactly: a binary32 number */
     e -= 24;
-    if (d <= 0.0)
+    if (d <= 0.0 || (format->kind == DP_FORMAT_UNORM && e < -90))
         return 0;
     if (format->kind == DP_FORMAT_UNORM) {
         const unsigned __int128 product = (unsigned __int128)m * format->code_max;
         const unsigned __int128 half = rounding == DP_ROUND_ZERO || e >= 0 ? 0 : (unsigned __int128)1 << (-e - 1);
-        return e < -90 ? 0 : e >= 0 ? (uint64_t)(product << e) : (uint64_t)((product + half) >> -e);
+        return e >= 0 ? (uint64_t)(product << e) : (uint64_t)((product + half) >> -e);
     }
     const int lowest = 1 - format->bias, top = e + 23 > lowest ? e + 23 : lowest;
     const double steps = ldexp(d, format->mantissa_bits - top); /* above 2^mantissa_bits where it is no subnormal */
