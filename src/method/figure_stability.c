@@ -172,7 +172,7 @@ static double digits_left(const table *t, const column_of *c, const method_row *
 static size_t columns_shown(const table *t, column_of *out) {
     size_t count = 0;
     for (size_t i = 0; i < OTHERS; i++)
-        for (int turned = 0; turned <= others[i].apart; turned++) {
+        for (int turned = 0; turned < (others[i].apart ? 2 : 1); turned++) {
             const column_of c = {&others[i], turned == 0, turned == 1 || !others[i].apart};
             bool any = false;
             for (size_t row = 0; row < t->methods; row++)

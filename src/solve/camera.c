@@ -213,7 +213,8 @@ bool reader_camera(reader *r, setting *group, need_camera *out) {
     camera_said c = {.mapping_count = 1, .log_c = 1.0, .model = DP_MODEL_COUNT, .triangles = dp_triangles_default()};
     camera_fault fault = {.key = NULL};
     c.triangles.width = 0;
-    memcpy(keys, camera_keys, CAMERA_KEYS * sizeof *keys);
+    for (camera_key k = 0; k < CAMERA_KEYS; k++)
+        keys[k] = camera_keys[k];
     out->line = group->line;
     out->name = group->name;
     if (!reader_name(r, group, out->name) || !reader_keys(r, group, "camera", keys, found) ||
