@@ -30,7 +30,10 @@ static double value_at(const judge_candidate *c, judge_depth at) {
     if (c->trap != NULL) {
         const trap_depth depth = {at.z, at.behind, at.left, 1};
         const bool writes = c->output->window != NULL;
-        at = judge_depth_of(&c->setup, (writes ? trap_writes_at : trap_reads_at)(c->trap, &c->setup, &depth));
+        const double z = (writes ? trap_writes_at : trap_reads_at)(c->trap, &c->setup, &depth);
+        if (isnan(z))
+            return z; /* it is no trap of the set-up */
+        at = judge_depth_of(&c->setup, z);
     }
     return c->factor * c->output->of(&c->setup, &at);
 }
