@@ -244,7 +244,7 @@ double bias_units(const bias_api *api, const dp_format *format, double d, double
     return round_up(api, format, units_to((1.0 + outward) * window, bias_unit_at(api, format, d).least));
 }
 
-/* What a goal asks of units that make an offset of `window`. */
+/* The goal asks this of units that make an offset of `window`. */
 static double asked_of(const bias_goal *goal, const dp_format *format, double window, double r) {
     return goal->judged ? units_to(window, r) : round_up(goal->api, format, units_to(fmax(window, 0.0), r));
 }

@@ -9,7 +9,7 @@
 
 /* ---- What is proven ---------------------------------------------------------------------------------------------- */
 
-/* What is asked, with the factor and the clamp of a bias, both towards the camera. */
+/* The goal, with the factor and the clamp of a bias, both towards the camera. */
 static bias_goal goal_with(const dp_setup *setup, const bias_state *state, const bias_goal *asked) {
     const double sign = bias_sign(setup), clamp = sign * state->clamp;
     return (bias_goal){.api = state->api,
@@ -37,7 +37,7 @@ static bool is_proven(const dp_setup *setup, bias_state state, const bias_goal *
 
 static const double units_most = 0x1p31; /* beyond what an integer bias can hold */
 
-/* What some bias could do, and the least that does it. */
+/* Where some bias is enough, and the least that is. */
 static void find_least(const dp_setup *setup, const bias_state *state, const bias_goal *asked, bias_verdict *v,
                        double lo, double hi) {
     const double sign = bias_sign(setup);
@@ -60,7 +60,7 @@ static void find_least(const dp_setup *setup, const bias_state *state, const bia
 
 /* ---- A witness --------------------------------------------------------------------------------------------------- */
 
-/* What is looked for: a depth at which a bias fails. */
+/* A search for a depth at which a bias fails. */
 typedef struct search {
     const dp_setup *setup; /* that of surfaces that face the camera, or have one slope */
     const bias_state *state;
@@ -186,19 +186,20 @@ bias_verdict bias_judge(const dp_setup *setup, const bias_state *given, const bi
     return v;
 }
 
+static bias_push pushed_at(const dp_setup *setup, const bias_state *state, double z, bias_push most) {
+    const double shift = -bias_at(setup, state, 0.0, z).shift;
+    return fabs(shift) > fabs(most.shift) ? (bias_push){shift, z} : most;
+}
+
 /* Between two changes of the exponent the shift grows with z: the most is at the end of a binade, from its side. */
 bias_push bias_push_over(const dp_setup *setup, const bias_state *state, double lo, double hi) {
-    bias_push most = {.shift = 0.0, .z = lo};
-    const double ends[2] = {lo, hi};
-    for (int e = -128; e < 3; e++) {
-        const double d = ldexp(1.0, e);
-        double z = e == 1 || e == 2 ? ends[e - 1] : dp_eye(setup, fmin(d, 1.0), 1.0 - fmin(d, 1.0));
-        for (int side = 0; side < 2; side++, z *= 1.0 - 0x1p-40 * (setup->reversed ? -1.0 : 1.0)) {
-            const double at = fmin(fmax(z, lo), hi);
-            const double shift = -bias_at(setup, state, 0.0, at).shift;
-            if (fabs(shift) > fabs(most.shift))
-                most = (bias_push){shift, at};
-        }
+    const double inside = setup->reversed ? 1.0 + 0x1p-40 : 1.0 - 0x1p-40; /* times a depth: within the binade below */
+    bias_push most = pushed_at(setup, state, lo, (bias_push){.shift = 0.0, .z = lo});
+    most = pushed_at(setup, state, hi, most);
+    for (int e = -128; e <= 0; e++) {
+        const double d = ldexp(1.0, e), z = dp_eye(setup, d, 1.0 - d);
+        most = pushed_at(setup, state, fmin(fmax(z, lo), hi), most);
+        most = pushed_at(setup, state, fmin(fmax(z * inside, lo), hi), most);
     }
     return most;
 }

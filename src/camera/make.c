@@ -101,7 +101,7 @@ static void take_preset(camera_said *c, const preset *p, const unit_row *unit) {
     bring_raster(c, p->raster);
 }
 
-/* What a platform stores; a preset's format and rasterizer give way to it, its mapping stays. */
+/* A platform says what is stored: a preset's format and rasterizer give way to it, its mapping stays. */
 static void take_platform(camera_said *c, const platform *p) {
     const char *stored = platform_stores(p, c->words[CAMERA_FORMAT]);
     if (!said(c, CAMERA_FORMAT) || stored != NULL)

@@ -14,7 +14,7 @@
 
 enum { CAMERA_FORMATS_MAX = 64, CAMERA_PRESETS_MAX = 16 };
 
-/** What can be said, in the order in which a file is read. */
+/** The keys of a camera, in the order in which a file is read. */
 typedef enum camera_key {
     CAMERA_PRESET,
     CAMERA_NEAR,

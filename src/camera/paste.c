@@ -17,11 +17,15 @@ static const row rows[] = {
     {"playcanvas", "entity.camera.nearClip = ", ";", NULL},
     {"unity unity-gl", "camera.nearClipPlane = ", "f;", NULL},
     {"unreal", "NearClipPlane=", " in [/Script/Engine.Engine] of DefaultEngine.ini", NULL},
-    {"godot-forward godot-mobile godot-compatibility godot3", "camera.near = ", "", NULL},
+    {"godot-forward godot-mobile godot-compatibility", "camera.near = ", "", NULL},
     {"bevy", "PerspectiveProjection { near: ", ", ..default() }", NULL},
     {"cesium", "viewer.camera.frustum.near = ", ";", NULL},
     {"mujoco", "<visual><map znear=\"", "\"/></visual>", NULL},
 };
+
+const char *paste_presets(size_t i) {
+    return i < sizeof rows / sizeof rows[0] ? rows[i].presets : NULL;
+}
 
 /* The row that has the engine's name as a whole word. */
 static const row *find(const paste *p) {

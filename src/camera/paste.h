@@ -5,7 +5,7 @@
 
 #include "camera/presets.h"
 
-/** What users of `engine` write of lengths in a scene unit, null where nothing says what that is. */
+/** Whose code is written, and the scene unit of lengths, null where nothing says what that is. */
 typedef struct paste {
     const preset *engine; /**< null: none */
     const unit_row *unit;
@@ -15,7 +15,10 @@ typedef struct paste {
  * or the engine counts in another unit */
 const char *paste_near(const paste *p, const char *value, char *out, size_t size);
 
-/** What reverses depth there; null where no row says it. */
+/** Code that reverses depth there; null where no row says it. */
 const char *paste_reversed(const paste *p);
+
+/** The presets whose users write so, names parted by blanks; null beyond the last row. */
+const char *paste_presets(size_t i);
 
 #endif

@@ -93,9 +93,8 @@ dp_setup dp_setup_guaranteed(const dp_setup *setup) {
     const int fp32 = dp_mapping_get(setup->spec.mapping)->curve == DP_CURVE_PERSPECTIVE;
     const dp_model model = fp32 ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
     dp_setup out = *setup;
-    if (model != setup->spec.model)
-        dp_setup_in(setup, model,
-                    &out); /* cannot fail: the set-up was made, and the model is one that its mapping has */
+    if (model != setup->spec.model) /* cannot fail: the set-up was made, and its mapping has that model */
+        dp_setup_in(setup, model, &out);
     out.shader = out.curve == DP_CURVE_LOG;
     return out;
 }

@@ -37,12 +37,6 @@ static const shadow_engine rows[] = {
 
 NAMED_TABLE(shadow_engine, rows);
 
-static const double half_turn = 3.14159265358979323846;
-
-static double degrees(double angle) {
-    return angle * (half_turn / 180.0);
-}
-
 /* ---- What is given ----------------------------------------------------------------------------------------------- */
 
 static double soft_by(const shadow_engine *engine, const shadow_light *light) {
@@ -111,7 +105,7 @@ typedef struct balance {
 /* The most that rays which lean by up to the corner lack at angles from `from` to `to`: along times the ray's length is
  * least on the axis, and negative most in the corner. */
 static double lacks(const balance *b, double from, double to) {
-    const double seen = fmin(to + b->corner, 0.5 * half_turn);
+    const double seen = fmin(to + b->corner, 0.5 * SHADOW_HALF_TURN);
     const double longest = b->along < 0.0 ? dp_cos(from) / dp_cos(b->corner) : dp_cos(to);
     return b->across * dp_sin(seen) - b->offset * grown(b->growth, from) - b->along * longest;
 }
@@ -122,7 +116,7 @@ static double free_up_to(const balance *b, double most) {
         return -1.0;
     const int count = (int)ceil(most * STEPS - 1e-9);
     for (int i = 0; i < count; i++)
-        if (lacks(b, degrees((double)i / STEPS), degrees(fmin((double)(i + 1) / STEPS, most))) > 0.0)
+        if (lacks(b, shadow_radians((double)i / STEPS), shadow_radians(fmin((double)(i + 1) / STEPS, most))) > 0.0)
             return (double)i / STEPS;
     return most;
 }
@@ -135,7 +129,7 @@ static double acne_from(const shadow_light *light, const ground *g, const shadow
     const double inverse = light->kind == SHADOW_SUN ? 0.0 : 1.0 / g->z;
     const double along = (given->window_most + need->window) * g->depth;
     for (int i = 1; i <= (int)floor(most * STEPS + 1e-9); i++) {
-        const double angle = degrees((double)i / STEPS), moved = given->offset * grown(given->growth, angle);
+        const double angle = shadow_radians((double)i / STEPS), moved = given->offset * grown(given->growth, angle);
         const double across = texels * g->diagonal * dp_sin(angle), facing = inverse / dp_cos(angle);
         const double left = 1.0 - moved * facing;
         const double lacking = across / (shadow_holds_distance(light) ? 1.0 + across * facing : 1.0);
@@ -165,9 +159,9 @@ shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given
                                      : near.corner + need.texels * near.pitch, /* lookups leave a face */
                        .growth = given->growth};
     shadow_verdict v = {.free = free_up_to(&b, most), .acne = acne_from(light, &near, &need, given)};
-    const double turned = grown(given->growth, degrees(most));
+    const double turned = grown(given->growth, shadow_radians(most));
     const bool sines = light->kind == SHADOW_SUN || shadow_holds_distance(light);
-    const double sine = dp_sin(degrees(most));
+    const double sine = dp_sin(shadow_radians(most));
     const shadow_bias set = {.window = given->window_most,
                              .factor = given->factor,
                              .offset = given->offset == 0.0
@@ -179,23 +173,32 @@ shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given
     return v;
 }
 
+/* The next of the parts that are judged one by one, of a sun all at once; false behind the last. */
+static bool next_part(const shadow_light *light, double *z, shadow_light *part) {
+    static const double step = 1.0905077326652577; /* eight in an octave */
+    if (!(*z <= light->receiver_hi))
+        return false;
+    *part = *light;
+    if (light->kind == SHADOW_SUN) {
+        *z = (double)INFINITY;
+        return true;
+    }
+    part->receiver_lo = *z;
+    *z *= step;
+    part->receiver_hi = fmin(*z, light->receiver_hi);
+    return true;
+}
+
 shadow_verdict shadow_judge_all(const shadow_engine *engine, const shadow_light *light, const bias_api *api,
                                 double bias, double normal) {
-    static const double step = 1.0905077326652577; /* eight in an octave */
     shadow_verdict worst = {.free = light->triangles.slant_hi, .acne = (double)NAN};
-    shadow_light part = *light;
-    for (double z = light->receiver_lo; z <= light->receiver_hi; z *= step) {
-        if (light->kind != SHADOW_SUN) {
-            part.receiver_lo = z;
-            part.receiver_hi = fmin(z * step, light->receiver_hi);
-        }
+    shadow_light part;
+    for (double z = light->receiver_lo; next_part(light, &z, &part);) {
         const shadow_given given = shadow_engine_gives(engine, &part, api, bias, normal);
         const shadow_verdict v = shadow_judge(&part, &given);
         worst.free = fmin(worst.free, v.free);
         worst.acne = fmin(worst.acne, v.acne); /* of a number and none the number */
         worst.gap = fmax(worst.gap, v.gap);
-        if (light->kind == SHADOW_SUN)
-            break;
     }
     return worst;
 }
@@ -218,39 +221,63 @@ double shadow_bias_as(const shadow_engine *engine, const shadow_light *light, co
 double shadow_normal_as(const shadow_engine *engine, const shadow_light *light, double offset) {
     const ground g = shadow_ground_at(light, light->receiver_lo);
     const double one = engine->normal_scale * soft_by(engine, light) * length_of(engine->normal_in, light, &g) *
-                       grown(engine->growth, degrees(light->triangles.slant_hi));
+                       grown(engine->growth, shadow_radians(light->triangles.slant_hi));
     return engine->normal_in == SHADOW_IN_NOTHING || one == 0.0 ? (double)NAN : offset / one;
 }
 
 double shadow_given_offset(const shadow_given *given, double angle) {
-    return given->offset * grown(given->growth, degrees(angle));
+    return given->offset * grown(given->growth, shadow_radians(angle));
 }
 
 /* ---- The least that is enough ------------------------------------------------------------------------------------ */
 
+/* A number of an engine that is sought, beside the other one. */
+typedef struct sought {
+    const shadow_engine *engine;
+    const bias_api *api;
+    double other, sign;
+    bool of_normal;
+} sought;
+
+static bool is_enough(const sought *s, const shadow_light *part, double magnitude) {
+    const double x = s->sign * magnitude;
+    const shadow_given given =
+        shadow_engine_gives(s->engine, part, s->api, s->of_normal ? s->other : x, s->of_normal ? x : s->other);
+    return shadow_judge(part, &given).free >= part->triangles.slant_hi;
+}
+
+/* The least in one part that is above `lo`, which is not enough there; infinite beyond `bound`. */
+static double least_in(const sought *s, const shadow_light *part, double lo, double first, double bound) {
+    double hi = fmax(2.0 * lo, first);
+    for (; !is_enough(s, part, hi); lo = hi, hi *= 2.0)
+        if (!(hi <= bound))
+            return (double)INFINITY;
+    while (hi - lo > 1e-6 * hi) {
+        const double mid = 0.5 * (lo + hi);
+        *(is_enough(s, part, mid) ? &hi : &lo) = mid;
+    }
+    return hi;
+}
+
+/* Of all parts: what is enough so far is tried in the next, and grows where it is not. At one of the ends it is largest
+ * as a rule, so both come first. */
 static double least(const shadow_engine *engine, const shadow_light *light, const bias_api *api, double other,
                     bool of_normal) {
-    enum { ROUNDS = 60 };
-    const double scale = of_normal ? engine->normal_scale : engine->bias_scale;
-    const double sign = scale < 0.0 ? -1.0 : 1.0, most = light->triangles.slant_hi;
-    const shadow_measure in = of_normal ? engine->normal_in : engine->bias_in;
-    double lo = 0.0, hi = 1e-9 / fabs(scale);
-    if (in == SHADOW_IN_NOTHING)
-        return (double)NAN;
+    const double scale = of_normal ? engine->normal_scale : engine->bias_scale, first = 1e-9 / fabs(scale);
     const double bound = 1e6 * fmax(fmin(light->setup.spec.zfar, light->receiver_hi), 1.0) / fabs(scale);
-    for (; hi <= bound; lo = hi, hi *= 2.0)
-        if (shadow_judge_all(engine, light, api, of_normal ? other : sign * hi, of_normal ? sign * hi : other).free >=
-            most)
-            break;
-    if (!(hi <= bound))
+    const sought s = {engine, api, other, scale < 0.0 ? -1.0 : 1.0, of_normal};
+    shadow_light part;
+    double found = 0.0;
+    if ((of_normal ? engine->normal_in : engine->bias_in) == SHADOW_IN_NOTHING)
         return (double)NAN;
-    for (int i = 0; i < ROUNDS && hi - lo > 1e-6 * hi; i++) {
-        const double mid = 0.5 * (lo + hi), x = sign * mid;
-        *(shadow_judge_all(engine, light, api, of_normal ? other : x, of_normal ? x : other).free >= most ? &hi : &lo) =
-            mid;
-    }
-    const double none = shadow_judge_all(engine, light, api, of_normal ? other : 0.0, of_normal ? 0.0 : other).free;
-    return none >= most ? 0.0 : sign * hi;
+    for (double z = light->receiver_lo; next_part(light, &z, &part);)
+        continue; /* to the last */
+    if (!is_enough(&s, &part, found))
+        found = least_in(&s, &part, found, first, bound);
+    for (double z = light->receiver_lo; isfinite(found) && next_part(light, &z, &part);)
+        if (!is_enough(&s, &part, found))
+            found = least_in(&s, &part, found, first, bound);
+    return isinf(found) ? (double)NAN : s.sign * found + 0.0; /* no -0 */
 }
 
 double shadow_least_bias(const shadow_engine *engine, const shadow_light *light, const bias_api *api, double normal) {

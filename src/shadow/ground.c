@@ -9,7 +9,6 @@
 
 static const double eps = 0x1p-24;
 static const double root2 = 1.4142135623730951, root3 = 1.7320508075688773;
-static const double half_turn = 3.14159265358979323846;
 
 static ground sun_ground(const shadow_light *light) {
     const dp_triangles *t = &light->triangles;
@@ -48,7 +47,7 @@ static double depth_rounded(const shadow_light *light, double z, double q, doubl
 static ground lamp_ground(const shadow_light *light, double z) {
     const dp_setup *setup = &light->setup;
     const dp_triangles *t = &light->triangles;
-    const double h = dp_tan(light->fov * (half_turn / 360.0)), corner = dp_hypot(1.0, root2 * h);
+    const double h = dp_tan(shadow_radians(0.5 * light->fov)), corner = dp_hypot(1.0, root2 * h);
     const double nearest = fmax(z / t->depth, setup->spec.znear); /* of vertices */
     const bool half = dp_mapping_get(setup->spec.mapping)->ndc_signed != 0, distance = shadow_holds_distance(light);
     const bool falls = !distance && setup->reversed && !half; /* what is far is near 0 */
@@ -74,7 +73,7 @@ static ground lamp_ground(const shadow_light *light, double z) {
     g.moved_depth = g.placed_depth + 2.0 * eps * point * z / g.depth;
     g.second = 1.0 / (second * second * second);
     g.corner = dp_atan2(root2 * h, 1.0);
-    g.cone = light->kind == SHADOW_POINT ? 0.5 * half_turn : g.corner;
+    g.cone = light->kind == SHADOW_POINT ? 0.5 * SHADOW_HALF_TURN : g.corner;
     return g;
 }
 
@@ -91,7 +90,7 @@ ground shadow_ground_at(const shadow_light *light, double z) {
 double shadow_lean(const shadow_light *light, const ground *g, double slant) {
     if (light->kind == SHADOW_SUN || shadow_holds_distance(light))
         return dp_tan(slant);
-    const double ray = fmin(0.5 * (0.5 * half_turn - slant), g->cone);
+    const double ray = fmin(0.5 * (0.5 * SHADOW_HALF_TURN - slant), g->cone);
     return dp_cos(ray) * (dp_sin(ray) + dp_tan(slant) * dp_cos(ray));
 }
 

@@ -5,6 +5,12 @@
 
 #include "shadow/shadow.h"
 
+#define SHADOW_HALF_TURN 3.14159265358979323846
+
+static inline double shadow_radians(double degrees) {
+    return degrees * (SHADOW_HALF_TURN / 180.0);
+}
+
 /* Positions are of scene units, sizes of texels, depths of window depth. */
 typedef struct ground {
     double depth;            /* scene units that are a window depth of 1, at this depth */

@@ -15,11 +15,7 @@ static const double sine_error = 0x1p-10;
 
 static const double eps = 0x1p-24;
 static const double root2 = 1.4142135623730951;
-static const double quarter = 1.57079632679489662; /* of a turn */
-
-static double degrees(double angle) {
-    return angle * (3.14159265358979323846 / 180.0);
-}
+static const double quarter = 0.5 * SHADOW_HALF_TURN; /* of a turn */
 
 static ground hardest_of(const shadow_light *light) {
     return shadow_ground_at(light, shadow_hardest(light));
@@ -37,7 +33,7 @@ static double cost(const shadow_light *light, const ground *g, double texels, do
 
 double shadow_part_at(const shadow_light *light, const shadow_part *part, double slant) {
     const ground g = hardest_of(light);
-    return cost(light, &g, part->texels, degrees(slant)) + part->window;
+    return cost(light, &g, part->texels, shadow_radians(slant)) + part->window;
 }
 
 /* ---- The three biases -------------------------------------------------------------------------------------------- */
@@ -101,7 +97,7 @@ static double offset_gap(double moved, double z, double angle, double *back) {
 /* Of a light that has a place, along its rays, where receivers are farthest: what is added is taken off 1/depth. */
 static void lamp_gap_at(const shadow_light *light, const shadow_bias *bias, double slant, double *along_light,
                         double *along_normal) {
-    const double angle = degrees(slant), z = light->receiver_hi;
+    const double angle = shadow_radians(slant), z = light->receiver_hi;
     const ground g = shadow_ground_at(light, z);
     const bool distance = shadow_holds_distance(light);
     const double longest = distance ? 1.0 : 1.0 / dp_cos(g.corner), ray = fmin(quarter - angle, g.corner);
@@ -126,10 +122,10 @@ void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double sl
         return;
     }
     const ground g = hardest_of(light);
-    const double slope = dp_tan(degrees(slant));
+    const double slope = dp_tan(shadow_radians(slant));
     *along_light =
         bias->window * g.depth + times(bias->factor, steepest_of(light, &g, slope, 1.0)) + bias->offset * slope;
-    *along_normal = *along_light * dp_cos(degrees(slant));
+    *along_normal = *along_light * dp_cos(shadow_radians(slant));
 }
 
 /* The part of the bias that is slope times filter radius, at the azimuth that needs most. */
@@ -164,7 +160,7 @@ static double lamp_offset(const shadow_light *light, const ground *g, double tex
 }
 
 static void biases_of(const shadow_light *light, const ground *g, shadow_need *need) {
-    const double slant = degrees(light->triangles.slant_hi);
+    const double slant = shadow_radians(light->triangles.slant_hi);
     const drawn_slope drawn = drawn_slope_of(light, g);
     const double across = need->texels * g->diagonal; /* scene units: what the slope is multiplied with */
     const double rest = need->window * outward;
@@ -184,20 +180,20 @@ void shadow_need_of(const shadow_light *light, shadow_need *need) {
     const double slant = light->triangles.slant_hi;
     *need = (shadow_need){.texel_x = g.texel_x, .texel_y = g.texel_y, .texel = fmax(g.texel_x, g.texel_y)};
     need->per_offset = light->kind == SHADOW_SUN ? need->texel : g.pitch;
-    need->slope = dp_tan(degrees(slant));
+    need->slope = dp_tan(shadow_radians(slant));
     need->texels = shadow_texels(light, &g, need->part);
     for (int i = 0; i < SHADOW_CAUSE_COUNT; i++)
         need->window += need->part[i].window;
     const double across = need->texels * g.diagonal, rest = need->window * outward;
     need->curvature = curvature_of(light, &g, need->slope, need->texels) * outward;
-    need->offset_only = largest_wave(across * (1.0 + sine_error), rest * g.depth, degrees(slant)) * outward;
+    need->offset_only = largest_wave(across * (1.0 + sine_error), rest * g.depth, shadow_radians(slant)) * outward;
     biases_of(light, &g, need);
     for (int way = 0; way < SHADOW_WAY_COUNT; way++) {
         shadow_bias *b = &need->bias[way];
         double same;
         shadow_gap_at(light, b, slant, &b->gap_light, &b->gap_normal);
         shadow_gap_at(light, b, 0.0, &b->gap_facing, &same);
-        b->share = share_of(light, &g, b, degrees(slant));
+        b->share = share_of(light, &g, b, shadow_radians(slant));
         b->limited = !(light->receiver_hi + b->gap_light <= light->setup.spec.zfar);
     }
 }

@@ -3,6 +3,7 @@
 #include <ctype.h>
 
 #include "camera/cost.h"
+#include "camera/paste.h"
 #include "camera/presets.h"
 #include "cli/option/names.h"
 #include "named.h"
@@ -107,6 +108,47 @@ TEST(test_cesium_codes) {
 }
 
 /* Vertical, horizontal, and of the larger side. */
+/* Code for an engine's users: each name of a row is a preset's, in one row alone. */
+TEST(test_pastes) {
+    static const struct {
+        const char *preset, *near, *reversed;
+    } known[] = {
+        {"three", "camera.near = 3.2; camera.updateProjectionMatrix();",
+         "new THREE.WebGLRenderer({ reversedDepthBuffer: true })"},
+        {"babylon", "camera.minZ = 3.2;", "engine.useReverseDepthBuffer = true;"},
+        {"playcanvas", "entity.camera.nearClip = 3.2;", NULL},
+        {"unity-gl", "camera.nearClipPlane = 3.2f;", NULL},
+        {"unreal", "NearClipPlane=3.2 in [/Script/Engine.Engine] of DefaultEngine.ini", NULL},
+        {"godot-mobile", "camera.near = 3.2", NULL},
+        {"bevy", "PerspectiveProjection { near: 3.2, ..default() }", NULL},
+        {"cesium", "viewer.camera.frustum.near = 3.2;", NULL},
+        {"mujoco", "<visual><map znear=\"3.2\"/></visual>", NULL},
+    };
+    char text[128], word[64];
+    size_t words = 0, said = 0;
+    for (size_t i = 0; paste_presets(i) != NULL; i++)
+        for (const char *at = paste_presets(i); sscanf(at, "%63s", word) == 1; words++) {
+            assert_non_null(preset_find(word));
+            assert_string_equal(preset_find(word)->name, word);
+            at = strstr(at, word) + strlen(word);
+        }
+    for (size_t i = 0; i < count(); i++)
+        said += paste_near(&(paste){.engine = preset_get(i)}, "1", text, sizeof text) != NULL;
+    assert_int_equal(said, words);
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        const paste p = {.engine = preset_find(known[i].preset)};
+        assert_string_equal(paste_near(&p, "3.2", text, sizeof text), known[i].near);
+        if (known[i].reversed != NULL)
+            assert_string_equal(paste_reversed(&p), known[i].reversed);
+        else
+            assert_null(paste_reversed(&p));
+    }
+    const paste metres = {preset_find("unreal"), unit_find("m")}, none = {.engine = NULL};
+    assert_null(paste_near(&metres, "3.2", text, sizeof text)); /* it counts in centimetres */
+    assert_null(paste_near(&none, "3.2", text, sizeof text));
+    assert_null(paste_reversed(&none));
+}
+
 TEST(test_view) {
     assert_true(preset_fov_y(preset_find("godot-forward"), 1920, 1080) == 75);
     assert_true(preset_fov_y(preset_find("bevy"), 100, 300) == 45);

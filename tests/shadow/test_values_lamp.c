@@ -2,6 +2,7 @@
 /* Every number that shadow prints of spot and point lights, against the room shadow with a light of the test's own. */
 #include "bias/cmd_bias/call.h"
 #include "printed.h"
+#include "shadow/engine.h"
 #include "shadow/shadow.h"
 
 static const char *const ways[SHADOW_WAY_COUNT] = {"constant", "slope", "normal"};
@@ -229,6 +230,40 @@ TEST(each_number) {
         json_decref(root);
     }
     tally_end(&all);
+}
+
+/* The least that is told of an engine's number, as the text has it, is enough; half of it is not. */
+TEST(told_numbers_are_enough) {
+    static const char *const lights[] = {"--spot 60 -n 0.5 -f 40 -F d24 --size 1024",
+                                         "--spot 90 -n 0.1 -f 3 -F d16 --size 512 --angle 60",
+                                         "--light-box 40x40x100 -F d16", "--point -n 0.1 -f 25 -F fp32 --distance"};
+    static const char *const options[] = {"bias", "normal-bias"};
+    tally enough = {.name = "enough"}, less = {.name = "half"};
+    for (size_t i = 0; i < sizeof lights / sizeof lights[0]; i++)
+        for (size_t e = 0; shadow_engine_get(e) != NULL; e++) {
+            const char *name = shadow_engine_get(e)->name;
+            printed p = print_of("shadow %s --engine %s", lights[i], name);
+            char *row = strstr(p.out, "\nengine "), told[2][32];
+            assert_non_null(row);
+            assert_int_equal(sscanf(strstr(row, name), "%*s %*s %*s %*s %*s %*s %31s %31s", told[0], told[1]), 2);
+            printed_free(&p);
+            for (int k = 0; k < 2; k++) {
+                const double value = strtod(told[k], NULL);
+                if (value == 0) /* "-", or the other number alone suffices */
+                    continue;
+                json_t *with = json_printed(0, "shadow %s --engine %s --%s=%s", lights[i], name, options[k], told[k]);
+                TALLY(&enough, flag_at(with, "setups[0].engines[0].enough"), "%s, %s: %s %s", lights[i], name,
+                      options[k], told[k]);
+                json_decref(with);
+                with = json_printed(0, "shadow %s --engine %s --%s=%.17g", lights[i], name, options[k], value / 2);
+                TALLY(&less, !flag_at(with, "setups[0].engines[0].enough"), "%s, %s: %s %g", lights[i], name,
+                      options[k], value / 2);
+                json_decref(with);
+            }
+        }
+    tally_end(&enough);
+    tally_end(&less);
+    assert_true(enough.cases >= 30);
 }
 
 /* The numbers of the thread on a spot light's D16 map of 512 texels. */

@@ -85,8 +85,10 @@ const column shadow_engine_columns[] = {
     {FIELD(shadow_engine_row, free, "free_to", "degrees"), SHOWN("free to", 8, 3), .downward = true},
     {FIELD(shadow_engine_row, acne, "acne_from", "degrees"), SHOWN("acne", 6, 3)},
     {FIELD(shadow_engine_row, gap, "gap", "scene"), SHOWN("gap", 8, 3), .upward = true, .brief = true},
-    {FIELD(shadow_engine_row, least_bias, "least_bias", ""), SHOWN("least bias", 11, DIGITS), .brief = true},
-    {FIELD(shadow_engine_row, least_normal, "least_normal", ""), SHOWN("normal", 9, DIGITS), .brief = true},
+    {FIELD(shadow_engine_row, least_bias, "least_bias", ""), SHOWN("least bias", 11, DIGITS), .brief = true,
+     .outward = true},
+    {FIELD(shadow_engine_row, least_normal, "least_normal", ""), SHOWN("normal", 9, DIGITS), .brief = true,
+     .outward = true},
     {FIELD(shadow_engine_row, enough, "enough", "")},
     {FIELD(shadow_engine_row, unconfirmed, "unconfirmed", "")},
     {.kind = COLUMN_END}};

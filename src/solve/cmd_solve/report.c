@@ -267,7 +267,7 @@ static void tell_numbers(const solve_report *r, const solve_candidate *c, double
     }
 }
 
-/* What users of the engine write, of the number that the first sentence says. */
+/* The engine's code for the number that the first sentence says. */
 static const char *paste_of(const solve_report *r, const solve_candidate *c, char out[SENTENCE_SIZE]) {
     const paste of = {r->o->camera.preset_count == 1 ? r->o->camera.presets[0] : NULL, r->o->camera.lengths.unit};
     const number_text least = solve_safe_digits(r, c, solve_plane_of(c), c->plane.until);
