@@ -134,7 +134,7 @@ static void say_maps(page *p, void *item) {
                    number_full(o->shadow.curvature).text, number_full(o->shadow.facet).text);
 }
 
-static bool o_distance(const shadow *s) {
+static bool writes_distance(const shadow *s) {
     return s->o.shadow.distance;
 }
 
@@ -144,7 +144,7 @@ static void say_answer(page *p, void *item) {
     const char *where = s->maps.view.count > 1 ? " in any cascade" : "";
     say_maps(p, item);
     shadow_say_given(p, &s->o, &s->maps);
-    if (s->api == NULL && !o_distance(s)) {
+    if (s->api == NULL && !writes_distance(s)) {
         page_text(p, "No acne%s with the constant U, with F and its U, or with the offset and its U:", where);
         return;
     }
@@ -153,7 +153,7 @@ static void say_answer(page *p, void *item) {
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
         page_note(p, shadow_way_name((shadow_way)k), "%s",
                   !isnan(w.way[k].units)   ? w.way[k].call
-                  : o_distance(s)          ? "no API biases a depth that a fragment shader writes"
+                  : writes_distance(s)     ? "no API biases a depth that a fragment shader writes"
                   : isnan(w.way[k].factor) ? "no bias suffices: the smallest triangles may lose half of their slope"
                                            : "no bias suffices");
 }
@@ -242,8 +242,9 @@ static number_text percent_text(double share) {
 
 static const char *offset_words(const shadow *s) {
     return s->maps.whole.kind == SHADOW_SUN ? "in texels, times the sine of the angle, along the surface normal"
-           : o_distance(s) ? "in texels at the point's distance, times the sine of the angle, along the surface normal"
-                           : "in texels at the point's depth, at any angle, along the surface normal";
+           : writes_distance(s)
+               ? "in texels at the point's distance, times the sine of the angle, along the surface normal"
+               : "in texels at the point's depth, at any angle, along the surface normal";
 }
 
 /* A light that has a place. */
@@ -252,12 +253,13 @@ static void say_of_place(page *p, const shadow *s, const shadow_whole *w) {
     page_note(p, "on axis", "of a plane at %s degrees there, steepest along a row of texels, by the filter alone",
               number_full(angle).text);
     page_note(p, "rows", "units that are needed at that %s; the gap there of those that are enough at all",
-              o_distance(s) ? "distance" : "depth");
+              writes_distance(s) ? "distance" : "depth");
     if (s->o.shadow.point && s->o.shadow.kernel > 1)
         page_note(p, "seam", "%s",
-                  o_distance(s) ? "distances are the same in both faces: nothing more is needed"
-                                : "constant and offset cover lookups across the edges of faces; slope-scaled bias only "
-                                  "those that stay in a face, as the next one slopes otherwise");
+                  writes_distance(s)
+                      ? "distances are the same in both faces: nothing more is needed"
+                      : "constant and offset cover lookups across the edges of faces; slope-scaled bias only "
+                        "those that stay in a face, as the next one slopes otherwise");
     if (w->hidden)
         page_note(p, "far plane", "a bias reaches to it: nothing there is in shadow");
     else if (w->limited)
