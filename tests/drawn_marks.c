@@ -14,7 +14,7 @@ static bool same_pen(const svg_mark *a, const svg_mark *b) {
     return true;
 }
 
-/* What shows of a mark lies on the panel; where nothing would be cut off, cairo writes no clip. */
+/* The part of a mark that shows lies on the panel; where nothing would be cut off, cairo writes no clip. */
 static bool shows_on(const svg_mark *m, const drawn_panel *p) {
     const svg_box shown = {fmax(m->box.x0, m->clip.x0), fmax(m->box.y0, m->clip.y0), fmin(m->box.x1, m->clip.x1),
                            fmin(m->box.y1, m->clip.y1)};

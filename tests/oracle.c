@@ -128,7 +128,7 @@ uint32_t oracle_encode(const dp_format *format, dp_rounding rounding, double d) 
 
 /* ---- mappings ---- */
 
-/* What the logarithm is taken of, of the depth in o->x: C z + 1, C (z - n) + 1 or z/n. */
+/* The argument of the logarithm, of the depth in o->x: C z + 1, C (z - n) + 1 or z/n. */
 static void argument(oracle *o) {
     if (o->over_near) {
         mpfr_div_d(o->x, o->x, o->spec.znear, MPFR_RNDN);

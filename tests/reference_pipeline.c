@@ -16,7 +16,7 @@
 
 /* ---- The set-up -------------------------------------------------------------------------------------------------- */
 
-/* What depthprec-camera(7) says of each row. A row that is not here is taken by its public fields. */
+/* The models as depthprec-camera(7) has them for each row. A row that is not here is taken by its public fields. */
 static const struct {
     const char *name;
     bool fused;

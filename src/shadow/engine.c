@@ -93,7 +93,7 @@ static double grown(shadow_growth growth, double angle) {
 
 enum { STEPS = 10 }; /* a degree */
 
-/* What one depth needs and is given, lengths at its farther end. */
+/* The bias that one depth needs and is given, lengths at its farther end. */
 typedef struct balance {
     double across; /* texels that have to be covered, scene units over a diagonal */
     double along;  /* what the ray gives beyond rounding, scene units of depth */
@@ -259,8 +259,8 @@ static double least_in(const sought *s, const shadow_light *part, double lo, dou
     return hi;
 }
 
-/* Of all parts: what is enough so far is tried in the next, and grows where it is not. At one of the ends it is largest
- * as a rule, so both come first. */
+/* All parts are asked: what is enough so far is tried in the next, and grows where it is not. At one of the ends it is
+ * largest as a rule, so both come first. */
 static double least(const shadow_engine *engine, const shadow_light *light, const bias_api *api, double other,
                     bool of_normal) {
     const double scale = of_normal ? engine->normal_scale : engine->bias_scale, first = 1e-9 / fabs(scale);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What rounds positions, matrices and lookups of a map; depthprec(7), "Shadow maps", derives every line for the sun,
+/* Roundings of positions, matrices and lookups of a map; depthprec(7), "Shadow maps", derives every line for the sun,
  * and depthprec-shadow(1) what differs for lights that have a place. */
 #include "shadow/ground.h"
 

@@ -31,7 +31,7 @@ typedef struct ground {
     double cone;                 /* the same, but a right angle where lookups leave a face of a cube */
 } ground;
 
-/* Of a light that has a place: receivers at z. */
+/* A light that has a place: receivers at z. */
 ground shadow_ground_at(const shadow_light *light, double z);
 
 /* The change of depth over a diagonal of a texel at that slant, in diagonals: its tangent, but where depth is z and the

@@ -21,8 +21,8 @@ static ground hardest_of(const shadow_light *light) {
     return shadow_ground_at(light, shadow_hardest(light));
 }
 
-/* What so many texels on each axis cost at that slant (radians), window depth. Distances change by less: a plane at the
- * angle t is 1/(1 + tan t tan x) times as far at the angle x towards the light. */
+/* The window depth that so many texels on each axis cost at that slant (radians). Distances change by less: a plane at
+ * the angle t is 1/(1 + tan t tan x) times as far at the angle x towards the light. */
 static double cost(const shadow_light *light, const ground *g, double texels, double slant) {
     const double off = texels * g->diagonal, lean = shadow_lean(light, g, slant);
     if (!shadow_holds_distance(light))
@@ -94,7 +94,8 @@ static double offset_gap(double moved, double z, double angle, double *back) {
     return moved * dp_hypot(1.0, dp_tan(angle) / left);
 }
 
-/* Of a light that has a place, along its rays, where receivers are farthest: what is added is taken off 1/depth. */
+/* The distance along the rays of a light that has a place, where receivers are farthest: what is added is taken off
+ * 1/depth. */
 static void lamp_gap_at(const shadow_light *light, const shadow_bias *bias, double slant, double *along_light,
                         double *along_normal) {
     const double angle = shadow_radians(slant), z = light->receiver_hi;

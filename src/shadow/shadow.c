@@ -84,7 +84,7 @@ static shadow_status check_shape(const shadow_light *light) {
     return SHADOW_OK;
 }
 
-/* Of a light that has a place: what is far, and what is off by much, is no longer linear. */
+/* For a light that has a place: what is far, and what is off by much, is no longer linear. */
 static shadow_status check_extent(const shadow_light *light) {
     if (light->kind == SHADOW_SUN)
         return SHADOW_OK;

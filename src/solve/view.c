@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a requirement file says of the view, and of the triangles in it. */
+/* A requirement file's words on the view, and of the triangles in it. */
 #include <math.h>
 #include <string.h>
 

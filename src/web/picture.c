@@ -24,7 +24,8 @@
 enum { DIGITS = 3, STEPS = 1000, TEXT_SIZE = 256 };
 enum { PIXELS = DRAW_PICTURE_WIDTH * DRAW_PICTURE_HEIGHT };
 
-/* What has a slider: from one length to the other, in metres, or in scene units where nothing says what they are. */
+/* The lengths that have a slider, from one end to the other, in metres, or in scene units where nothing says what they
+ * are. */
 typedef struct axis {
     const char *name;
     double lo, hi;
@@ -235,7 +236,7 @@ PAGE_EXPORT("picture_set") int picture_set(int n) {
 
 /* ---- Ways out ---------------------------------------------------------------------------------------------------- */
 
-/* What is guaranteed from near to the distance at any slant; INFINITY where nothing is. */
+/* The separation that is guaranteed from near to the distance at any slant; INFINITY where nothing is. */
 static double needed(const dp_spec *spec) {
     dp_setup setup;
     dp_separation_worst found;

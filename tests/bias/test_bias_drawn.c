@@ -229,7 +229,7 @@ TEST(test_terms) {
     }
 }
 
-/* What is enough over a range is enough at each depth of it, and not many times what some depth needs. */
+/* A bias that is enough over a range is enough at each depth of it, and not many times what some depth needs. */
 TEST(test_range) {
     static const char *const formats[] = {"fp32", "unorm24", "fp16"};
     tally t = {.name = "range"};

@@ -250,7 +250,7 @@ TEST(random_verdicts) {
     tally_end(&witness);
 }
 
-/* What bias tells to set is enough, of integers beyond 2^24 too, of which binary32 has only some. */
+/* A bias that is told to be set is enough, of integers beyond 2^24 too, of which binary32 has only some. */
 TEST(told_and_judged) {
     tally t = {.name = "told"};
     rng r = rng_make("bias told");

@@ -241,7 +241,7 @@ TEST(platforms) {
     }
 }
 
-/* What is asked at a depth is answered for it: the units of its row, which bring the layer nearer by the gap, are what
+/* A question at a depth is answered for it: the units of its row, which bring the layer nearer by the gap, are what
  * is to be written. One unit is 2^-24 of window depth, f/(f - n) (1 - n/z) with near 0.1 and far 1000. */
 TEST(one_answer) {
     for (double z = 0.5; z < 1000; z *= 1.7)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What browsers store for a page that asks for 24 bits, against what their sources say. */
+/* The formats that browsers store for a page that asks for 24 bits, against what their sources say. */
 #include "depthprec/depthprec.h"
 #include "named.h"
 #include "raster/raster.h"

@@ -65,7 +65,7 @@ static void must_parse(const char *cameras, need_file *file) {
         fail_msg("%s\nline %d: %s", cameras, e.line, e.text);
 }
 
-/* What a profile names, and the same said by name: set-ups alike, and only the first is measured. */
+/* A profile's names, and the same said by name: set-ups alike, and only the first is measured. */
 TEST(test_same_as_rows) {
     need_file f;
     must_parse(CAMERA("a", "fp32", "arith = \"one.json\"; raster = \"one.json\"; " VIEW)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What upscalers ship, by hand, and as it is listed. */
+/* Constants that upscalers ship, by hand, and as they are listed. */
 #include "camera/upscaler.h"
 #include "printed.h"
 

@@ -210,7 +210,7 @@ TEST(test_no_hint) {
     tally_end(&t);
 }
 
-/* What may be given several times is taken as often as there is room for, and no more often. */
+/* An option that may be given several times is taken as often as there is room for, and no more often. */
 TEST(test_repeated) {
     static const struct {
         const char *line, *word;
@@ -232,7 +232,7 @@ TEST(test_repeated) {
     tally_end(&t);
 }
 
-/* What a browser stores takes the place of a preset's format, not of what is given; what an API brings takes neither's.
+/* A browser's format takes the place of a preset's format, not of what is given; what an API brings takes neither's.
  */
 TEST(test_platforms) {
     static const struct {

@@ -967,7 +967,7 @@ TEST(test_all) {
     tally_end(&t);
 }
 
-/* What a rule names has a row, and is refused beside the other, or without one. */
+/* An option that a rule names has a row, and is refused beside the other, or without one. */
 static void check_rules(tally *t, const command_row *v, const option_rule *rule) {
     for (; rule != NULL && rule->option != NULL; rule++) {
         asked_line o = {.command = v, .parts = ~0U};
@@ -990,7 +990,8 @@ static void check_rules(tally *t, const command_row *v, const option_rule *rule)
     }
 }
 
-/* What a command takes is in its tables; a name is in one of them, or the first is meant; there is room for all. */
+/* The options that a command takes are in its tables; a name is in one of them, or the first is meant; there is room
+ * for all. */
 TEST(test_tables) {
     tally t = {.name = "tables"};
     const command_row *v;

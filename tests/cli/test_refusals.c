@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a refusal says and how it ends: the option at fault is named first, nothing is written, and the exit status is 2
+/* Refusals and their ends: the option at fault is named first, nothing is written, and the exit status is 2
  * (1 for a check that failed, 3 for a file that cannot be read or written). */
 #include "printed.h"
 

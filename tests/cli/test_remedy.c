@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What budget advises: the words name the change whose separation is printed, and no other change does much better. */
+/* The advice of budget: the words name the change whose separation is printed, and no other change does much better. */
 #include "quantity/cmd_budget/remedy.h"
 #include "support.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What table --constants prints: Unity's formulas in long double, rounded to binary32 after each operation. The traps
+/* The output of table --constants: Unity's formulas in long double, rounded to binary32 after each operation. The traps
  * are the library's, which test_constants does step by step; a few are done here again as the text has them. */
 #include "printed.h"
 #include "shader/constants.h"
@@ -304,7 +304,7 @@ TEST(wraps_are_told) {
     check_says_all(0, "table --constants -n 1e-3 -f 1e5 -m d3d --at 0.001,99000", SAID("!EncodeFloatRG"));
 }
 
-/* What is infinite or not defined is never there without a word, and no text holds a NaN. */
+/* Nothing infinite or not defined is there without a word, and no text holds a NaN. */
 TEST(infinities_are_told) {
     check_says_all(0, "table --constants -f inf -m d3d --at 1,1e7",
                    SAID("-inf, inf, ", "x and y are infinite, and a shader", "gets NaN.",

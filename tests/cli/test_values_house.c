@@ -34,7 +34,7 @@ static const struct {
 };
 enum { FIGHTS = sizeof fights / sizeof fights[0] };
 
-/* What is as near, and fights nowhere, with the filter that knows it; null: two that only meet at an edge. */
+/* Surfaces as near that fight nowhere, with the filter that knows it; null: two that only meet at an edge. */
 static const struct {
     const char *filter, *a, *b;
 } harmless[] = {
@@ -112,7 +112,7 @@ TEST(known) {
     }
 }
 
-/* What is harmless is there, within the gap, and left out by the filter that is meant. */
+/* Harmless pairs are there, within the gap, and left out by the filter that is meant. */
 TEST(left_out) {
     for (size_t i = 0; i < HARMLESS; i++) {
         char options[64] = "";
@@ -246,7 +246,7 @@ static int status_from_street(double share) {
     return status;
 }
 
-/* What is moved is seen from elsewhere, by some thousandths. */
+/* A moved model is seen from elsewhere, by some thousandths. */
 TEST(mended_from_street) {
     assert_int_equal(status_from_street(1.01), 0);
     assert_int_equal(status_from_street(0.9), 1);

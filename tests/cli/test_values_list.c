@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What list prints: every row of every table with its own note, source, spellings and numbers, in all three forms. */
+/* The output of list: every row of every table with its own note, source, spellings and numbers, in all three forms. */
 #include <ctype.h>
 
 #include "bias/bias.h"

@@ -17,7 +17,7 @@ static const char *const lines[] = {
     "table -n 1 -f 200 -F unorm16 -m linear --code 0,300,328,9000,65535",
 };
 
-/* What is stored as the code of a cell begins and ends with it. */
+/* Depths that are stored as the code of a cell begin and end with it. */
 static void check_cell(const dp_setup *setup, const dp_cell *cell) {
     const uint32_t code = cell->code;
     const double inside = isinf(cell->hi) ? 2 * cell->lo : 0.5 * (cell->lo + cell->hi);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What table and budget print of slanted triangles, against the library; options spelled out here by hand. */
+/* Slanted triangles in table and budget, against the library; options spelled out here by hand. */
 #include "bias/bias.h"
 #include "printed.h"
 

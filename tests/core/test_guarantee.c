@@ -116,7 +116,7 @@ TEST(never_violated_and_tight) {
     }
 }
 
-/* What is left up to far decides what is certain, in fractions, where binary64 rounds the difference, too. */
+/* The length left up to far decides what is certain, in fractions, where binary64 rounds the difference, too. */
 TEST(certain_up_to_far) {
     tally t = {.name = "certain"};
     rng r = rng_make("certain");

@@ -235,7 +235,7 @@ TEST(ends) {
     }
 }
 
-/* What messages list are the rows. */
+/* Messages list the rows. */
 TEST(lists_of_names_are_the_rows) {
     char all[256] = "", perspective[256] = "";
     for (int i = 0; i < DP_MAPPING_COUNT; i++) {

@@ -266,7 +266,7 @@ TEST(parts_add_up) {
         lattice.spec.model = DP_MODEL_EXACT;
         if (!less && plain.separation > dp_separation(&lattice, z))
             sound = sound && fabs(window - terms.interpolation * 0x1p-23) <= 1e-12 * plain.window;
-        /* What a composition adds is its part, and leaves the others as they are. */
+        /* A composition adds its part, and leaves the others as they are. */
         for (int i = DP_CAUSE_COMPOSITION + 1; i < DP_CAUSE_COUNT; i++)
             sound = sound && b.cause[i] == plain.cause[i];
         TALLY(&t, sound, "%s %s %s near %a far %a at %a, terms %g %g %d: separation %g, parts %g %g %g %g %g %g %g",

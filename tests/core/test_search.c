@@ -109,7 +109,8 @@ static void keeps_to_binary32(void **state) {
     }
 }
 
-/* What may stay between is a share of the larger magnitude; more than half of it is left where halving ends. */
+/* The part that may stay between is a share of the larger magnitude; more than half of it is left where halving
+ * ends. */
 static void ends_as_near_as_was_asked(void **state) {
     (void)state;
     for (int k = 10; k < 50; k += 7) {

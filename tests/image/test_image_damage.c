@@ -441,7 +441,7 @@ TEST(unreadable_paths) {
     assert_string_equal(error.text, "neither PNG, PFM, npy, DDS, EXR, TIFF nor PGM by its first bytes");
 }
 
-/* What a child that may not have more than 128 MiB beyond what it has says to a file or a pipe, as stdin. */
+/* A child that may not have more than 128 MiB beyond what it has says to a file or a pipe, as stdin. */
 static void from_stdin(const unsigned char *bytes, size_t size, bool pipe_it, const char *sentence) {
     int ends[2] = {-1, -1};
     FILE *file = tmpfile();

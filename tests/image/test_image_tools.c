@@ -738,7 +738,7 @@ TEST(made_by_tools) {
     }
 }
 
-/* What NumPy writes in each version, order and type that is read; a mask is refused by name. */
+/* Each version, order and type that NumPy writes is read; a mask is refused by name. */
 TEST(made_by_numpy) {
     static const char script[] = "import numpy as n\n"
                                  "a = n.arange(1, 254).reshape(11, 23)\n"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the numbers in a PNG mean: by convention, by the JSON beside it, and by what the file says of itself. */
+/* The numbers in a PNG mean something: by convention, by the JSON beside it, and by what the file says of itself. */
 #include <unistd.h>
 
 #include "image/image.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the command says of pixels without a header. What it makes of their bytes: test_image_raw. */
+/* The command's words about pixels without a header; what it makes of their bytes: test_image_raw. */
 #include "printed.h"
 
 /* A file that has a header has its own size, and one without says that its size is assumed. */

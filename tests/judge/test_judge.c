@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What functions compute: in binary32, in the orders of operations of the test, for cameras of all kinds. */
+/* Functions are recognised: in binary32, in the orders of operations of the test, for cameras of all kinds. */
 #include <unistd.h>
 
 #include "judge/judge.h"
@@ -476,7 +476,7 @@ TEST(test_read) {
     unlink(path);
 }
 
-/* What loses a little more than it must is right still, and not right times 1.0000012. */
+/* A function that loses a little more than it must is right still, and not right times 1.0000012. */
 TEST(test_factor_of_one) {
     const double n = 0.1, f = 1000;
     const dp_setup setup = camera(n, f, DP_MAPPING_D3D);

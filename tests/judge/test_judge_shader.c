@@ -203,7 +203,7 @@ static const written_row of_glsl[] = {
     {"viewZToReversedDepth", "-m reversed", "right", "window depth", "minus eye depth"},
     {"viewZToOrthographicDepth", "-m gl", "right", "the way from near to far", "minus eye depth"},
     {"viewZToOrthographicDepth", "-m gl --ortho", "right", "the way from near to far", "minus eye depth"},
-    /* What is right where its macro is defined as its engine defines it is not accused where nobody does. */
+    /* A function that is right where its macro is defined as its engine defines it is not accused where nobody does. */
     {"by_unity", "", "right", "eye depth", "window depth"},
     {"by_unity", "-m reversed", "right", "eye depth", "window depth"},
     {"by_macro", "", "right", "eye depth", "window depth"},

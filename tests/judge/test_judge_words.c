@@ -4,8 +4,8 @@
 #include "judge/written.h"
 #include "support.h"
 
-/* What each word gives a shader, by its name or as engines document it: CesiumJS, UniformState.js; Unity; PlayCanvas.
- */
+/* The numbers that each word gives a shader, by its name or as engines document it: CesiumJS, UniformState.js; Unity;
+ * PlayCanvas. */
 TEST(test_words) {
     const double n = 0.75, f = 20;
     const struct {

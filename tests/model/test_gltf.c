@@ -59,7 +59,7 @@ TEST(topologies) {
     }
 }
 
-/* What a material says of its sides and of blending: masked ones write depths where they are there at all. */
+/* A material's sides and blending: masked ones write depths where they are there at all. */
 TEST(materials) {
     static const struct {
         const char *json;

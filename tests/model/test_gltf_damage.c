@@ -119,7 +119,7 @@ TEST(instances_of_one_number) {
 }
 
 #ifndef __SANITIZE_ADDRESS__
-/* What a small file says that it has: with room for 64 MiB more it is refused for what it lacks, not for want of it. */
+/* A small file that says it has much, with room for 64 MiB more, is refused for what it lacks, not for want of room. */
 TEST(claims) {
     static const struct {
         const char *json, *sentence;

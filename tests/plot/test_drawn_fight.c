@@ -83,7 +83,7 @@ static uint32_t colour_of(const drawn *d, const char *name) {
     return 0xFF000000u | svg_rgb(e->area->fill);
 }
 
-/* What the heading says, "GAP, SHARE of the guarantee: PERCENT % wrong", without a share that is 1: they are powers of
+/* The heading says, "GAP, SHARE of the guarantee: PERCENT % wrong", without a share that is 1: they are powers of
  * two. */
 static double gap_of(const fight_case *c, const drawn_panel *p, double *share) {
     const int left = (c->width - c->columns) / 2, low = (c->height - c->rows) / 2;

@@ -175,7 +175,7 @@ TEST(metric_depth) {
     drawn_close(d);
 }
 
-/* What the file could hold from one depth up to another: binary32, or whole units. */
+/* The values that the file could hold from one depth up to another: binary32, or whole units. */
 static double samples_between(double unit, double from, double to) {
     double count = 0;
     for (int e = -20; e < 20 && unit == 1; e++) { /* numbers from 2^e on are 2^(e - 23) apart */

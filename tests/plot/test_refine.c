@@ -85,7 +85,7 @@ static double pixels_off(const chart_axis *y_axis, double drawn, double want) {
 
 /* The greatest interval, and error over whole cells, of a column, from parts of it that know nothing of each other. */
 static void column_truth(const dp_setup *setup, double from, double to, double *interval, double *error) {
-    /* What is known of staged cells is a bound, and of a column a coarser one than of its parts. */
+    /* Knowledge of staged cells is a bound, and of a column a coarser one than of its parts. */
     const int parts = setup->spec.model == DP_MODEL_EXACT ? PARTS : 1;
     *interval = *error = 0;
     double left = from;

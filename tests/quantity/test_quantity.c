@@ -204,7 +204,7 @@ static void check_compare_door(const camera *c, const dp_setup *s) {
     free(text);
 }
 
-/* What a requirement limits, at a depth and over a range, and what solve reaches. */
+/* The quantities that requirements limit, at a depth and over a range, and those that solve reaches. */
 static void check_limited_doors(const camera *c, const dp_setup *s, quantity_kind q) {
     const quantity_row *row = quantity_get(q);
     const quantity_worst at = quantity_over(q, s, c->z, c->z, 1);

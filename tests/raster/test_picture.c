@@ -381,8 +381,8 @@ TEST(refused) {
 /* ---- Every mapping and format -------------------------------------------------------------------------------------
  */
 
-/* What a pixel stores, by the library alone: near/z between vertices is off by a few units in the last place, so that
- * of an ideal depth the code is one of its neighbours at most, as far as binary32 tells depths apart. */
+/* The depth that a pixel stores, by the library alone: near/z between vertices is off by a few units in the last place,
+ * so that of an ideal depth the code is one of its neighbours at most, as far as binary32 tells depths apart. */
 typedef struct stored {
     const draw_picture *p;
     const triangles *t;

@@ -161,8 +161,8 @@ TEST(lifts) {
     tally_end(&t);
 }
 
-/* What crosses fights along a line wherever it is moved to: no distance is promised, from everywhere and from an eye.
- */
+/* A pair that crosses fights along a line wherever it is moved to: no distance is promised, from everywhere and from an
+ * eye. */
 TEST(crossing) {
     static const char *const eyes[] = {"", "--eye 0,0,3 --look 0,0,0"};
     static const char obj[] = "o below\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n"

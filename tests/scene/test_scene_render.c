@@ -157,8 +157,8 @@ static bool before_somewhere(const hit *s, const hit *h, bool *doubt) {
     return before;
 }
 
-/* What is seen, and whether another triangle is as near and does not cross it there, RENDER_NOTHING where that is not
- * to be told. */
+/* The triangle that is seen, and whether another triangle is as near and does not cross it there, RENDER_NOTHING where
+ * that is not to be told. */
 static uint32_t judge(int i, size_t triangles, bool *wrong, long double *nearest) {
     uint32_t shown = RENDER_NOTHING;
     bool edge = false;

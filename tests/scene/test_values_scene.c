@@ -151,7 +151,7 @@ TEST(default_gap) {
     }
 }
 
-/* What is printed to write says of what it holds: what faces the camera, or, where a view is, triangles of the class.
+/* A printed requirement says of what it holds: what faces the camera, or, where a view is, triangles of the class.
  */
 TEST(facing_bias) {
     static const char line[] = "scene " STREET " --separation 0.02 -F d24 -m d3d";

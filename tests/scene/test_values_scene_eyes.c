@@ -106,7 +106,8 @@ TEST(one_eye) {
     assert_true(told[0] > 0 && told[1] > 0);
 }
 
-/* What only a cut road would tell apart comes before what is told apart, however close that is; and is counted. */
+/* A pair that only a cut road would tell apart comes before what is told apart, however close that is; and is
+ * counted. */
 TEST(what_comes_first) {
     const char *eye = "--separation 0.02 --eye 0,1.7,2 --look 0,0,-10";
     char line[256];

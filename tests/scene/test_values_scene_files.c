@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What scene writes for machines: JUnit XML as libxml reads it, requirements as check judges them, and its bias. */
+/* Files that scene writes for machines: JUnit XML as libxml reads it, requirements as check judges them, and its
+ * bias. */
 #include <libxml/parser.h>
 #include <libxml/tree.h>
 

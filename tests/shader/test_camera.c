@@ -53,7 +53,7 @@ TEST(the_door) {
     camera_spec nan = spec_of(9, 9);
     nan.fov_y = NAN;
     assert_non_null(camera_init(&camera, &perspective, &nan));
-    /* What the other projection alone reads may be anything. */
+    /* Fields that the other projection alone reads may be anything. */
     camera_spec odd = spec_of(65536, 4096);
     odd.half_height = -1;
     assert_null(camera_init(&camera, &perspective, &odd));

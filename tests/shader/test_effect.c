@@ -579,7 +579,7 @@ TEST(test_steps) {
     tally_end(&t);
 }
 
-/* What reaches over the radius hides nothing: of two differences the smaller one asks for a bias. */
+/* An occluder beyond the radius hides nothing: of two differences the smaller one asks for a bias. */
 TEST(test_range_check) {
     const dp_setup setup = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     const effect_view view = view_of(&setup);

@@ -193,8 +193,8 @@ static vec normal_at(const pack_row *row, const long double at[3]) {
     return unit_of(n);
 }
 
-/* What a shader stores under a code is never farther off than is said of it, its own roundings included, which take
- * some normals into a code that is not theirs. */
+/* A number that a shader stores under a code is never farther off than is said of it, its own roundings included, which
+ * take some normals into a code that is not theirs. */
 TEST(test_shaders_at_corners) {
     static void (*const encode[PACK_LAYOUTS])(vec, int, uint32_t *) = {
         [PACK_STEREO] = stereo_32, [PACK_OCT] = oct_32, [PACK_XYZ] = xyz_32};

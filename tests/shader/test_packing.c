@@ -189,7 +189,7 @@ static float any_depth(rng *r, uint64_t k) {
            (1 - 0x1p-24F);
 }
 
-/* What a shader made of a depth decodes to it within half a step and what the row says that binary32 adds. */
+/* A depth that a shader packed decodes to it within half a step and what the row says that binary32 adds. */
 TEST(shaders_of_others) {
     tally t = {.name = "shaders of others"};
     rng r = rng_make("shaders of others");
@@ -651,7 +651,7 @@ static void write_cleared(const packing *p, int cleared) {
     write_texels(texels, p->channels);
 }
 
-/* What no surface writes is no depth: sky, or with --sky 0 a hole. Without frac a 0 is what it says. */
+/* A pixel that no surface writes has no depth: sky, or with --sky 0 a hole. Without frac a 0 is what it says. */
 TEST(cleared_to_black) {
     static const struct {
         const char *packing, *sky, *znear, *counts, *zeros, *said;
@@ -947,7 +947,7 @@ TEST(colours_may_be_packed) {
     }
 }
 
-/* What a file says of itself is read as options are: what they refuse is refused, and terminals see plain text. */
+/* A file's words on itself are read as options are: what they refuse is refused, and terminals see plain text. */
 TEST(notes_of_others) {
     static const struct {
         const char *text;

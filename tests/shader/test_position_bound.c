@@ -166,7 +166,8 @@ TEST(the_hardest_places_need_each_term) {
     tally_end(&t);
 }
 
-/* What depthprec(7) says of a matrix at the world's origin: units of z/n, at far and over all directions of view. */
+/* The bound of depthprec(7) for a matrix at the world's origin: units of z/n, at far and over all directions of
+ * view. */
 TEST(a_matrix_loses_what_is_said) {
     static const struct {
         dp_mapping mapping;

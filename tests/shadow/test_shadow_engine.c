@@ -33,7 +33,7 @@ static shadow_light random_light(rng *r) {
     return light;
 }
 
-/* What the numbers do, by the engines' own shaders: window depth taken off, a length towards the light, a slope factor,
+/* The numbers at work, by the engines' own shaders: window depth taken off, a length towards the light, a slope factor,
  * and a length along the normal at an angle. */
 typedef struct done {
     long double window, ray, factor, normal;
@@ -181,7 +181,7 @@ TEST(least) {
         tally_end(&t[i]);
 }
 
-/* What another engine is given does the same at the nearest receivers. */
+/* The numbers for another engine do the same at the nearest receivers. */
 TEST(same_elsewhere) {
     rng r = rng_make("engines to engines");
     tally t = {.name = "the same"};

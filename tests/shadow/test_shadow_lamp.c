@@ -184,7 +184,7 @@ static double most_of(const shadow_light *light, const place *p) {
     return most;
 }
 
-/* What is said of the filter's radius at the plane's own slant. */
+/* The filter's radius at the plane's own slant. */
 static double said_of(shadow_light light, const place *p) {
     shadow_need need;
     light.triangles.slant_hi = fmin(slant_of(p), SHADOW_SLANT_MAX);

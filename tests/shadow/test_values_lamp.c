@@ -193,7 +193,7 @@ static void check_way(tally *t, const json_t *root, size_t i, int way, size_t ro
               "setups[0].answers[0].normal_texels");
 }
 
-/* What follows by hand: a texel, and a plane on the axis that is steepest along a row of texels. */
+/* These follow by hand: a texel, and a plane on the axis that is steepest along a row of texels. */
 static void check_axis(tally *t, const json_t *root, size_t i, size_t k) {
     const double n = given[i].znear, f = given[i].zfar, pi = 3.14159265358979323846;
     const double z = number_at(root, "setups[0].rows[%zu].z", k);

@@ -224,7 +224,7 @@ TEST(errors_at_single_depths) {
     tally_end(&t);
 }
 
-/* What the models say of one camera, and which of them is asked. */
+/* The models' answers for one camera, and which of them is asked. */
 TEST(the_quick_model_first) {
     static const char camera[] = "near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm24\"; model = \"%s\";";
     static const struct {

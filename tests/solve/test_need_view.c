@@ -186,7 +186,7 @@ static check_verdict judge_one(const char *camera, const char *view, const char 
     return v;
 }
 
-/* What snapping alone asks for edge-on, 2 sqrt(2) tau D z, fails a limit below it that facing surfaces meet. */
+/* Snapping alone asks this edge-on, 2 sqrt(2) tau D z, fails a limit below it that facing surfaces meet. */
 TEST(test_verdicts) {
     const char *view = "viewport = [1920, 1080]; hfov = 90; subpixel = 4;";
     const double snapping = 9.2e-5 * 1000;

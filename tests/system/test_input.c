@@ -44,7 +44,7 @@ TEST(identities) {
     }
 }
 
-/* What is not lost by being written to, stdin, and what is not there. */
+/* Files that are not lost by being written to, stdin, and what is not there. */
 TEST(never_known) {
     input_expect("d1.2");
     input_close(input_open("d3.4"));

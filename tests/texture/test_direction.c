@@ -133,7 +133,7 @@ TEST(directions_are_found_only_where_they_are) {
                 const json_t *recognised = json_object_get(root, "recognised");
                 TALLY(&t, json_is_null(json_object_get(recognised, "reversed")) || is_found || ortho, "%s: recognised",
                       scenes[s].name);
-                /* What the type of the file cannot tell from something finer is no finding. */
+                /* A step that the type of the file cannot tell from something finer is no finding. */
                 if (files[f].type <= IMAGE_U16)
                     TALLY(&t,
                           strcmp(text_in(root, "format_from"), "assumed") == 0 &&

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an image cannot know a scene does: its true errors stay within the image's, which are those of plain pixels. */
+/* A scene does what an image cannot know: its true errors stay within the image's, which are those of plain pixels. */
 #include "named.h"
 #include "support.h"
 #include "synthetic_stage.h"
@@ -47,7 +47,7 @@ TEST(true_errors_are_within_the_predicted) {
     tally_end(&t);
 }
 
-/* What the errors of an image are made of: what binary32 lost, and how far the sample's range reaches along the ray. */
+/* The parts of an image's errors: what binary32 lost, and how far the sample's range reaches along the ray. */
 TEST(errors_of_images_equal_plain_pixels) {
     enum { ACROSS = 97, DOWN = 61, EYE = 0, RADIAL, PLACE, THINGS };
     tally t = {.name = "plain errors"};

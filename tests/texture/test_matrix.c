@@ -515,7 +515,7 @@ TEST(same_camera) {
     tally_end(&t);
 }
 
-/* What rounded entries say of the planes: halves of steps of binary32 or of the last digit, by hand; near is e/(c + 1),
+/* Planes from rounded entries: halves of steps of binary32 or of the last digit, by hand; near is e/(c + 1),
  * far e/(c - 1) of a row -c, -e of NDC depths from -1 on. Few digits are exact. */
 TEST(planes_by_digits) {
     static const struct {

@@ -245,7 +245,7 @@ static bool was_said(const char *words) {
     return found;
 }
 
-/* What --lattice says is taken: its step, and the error of each pixel by a formula. */
+/* The lattice given by --lattice is taken: its step, and the error of each pixel by a formula. */
 TEST(a_lattice_is_said) {
     static const struct said {
         const char *words;

@@ -246,7 +246,7 @@ TEST(normals_of_distances) {
     tally_end(&t);
 }
 
-/* What effects make of a depth at a height, or of two pixels at either end of both diagonals, with far at 8. */
+/* Effects of a depth at a height, or of two pixels at either end of both diagonals, with far at 8. */
 static double clamped(double x) {
     return fmin(fmax(x, 0), 1);
 }
@@ -274,7 +274,7 @@ static double output_of(int effect, const rays *k, const double *z, int i) {
                                : across(z, i, 0) > 0.01 || across(z, i, 1) > 0.01;
 }
 
-/* What a millimetre along the ray changes there: a sample may be cut or rounded to one. */
+/* The change that a millimetre along the ray makes there: a sample may be cut or rounded to one. */
 static double change_of(int effect, const rays *k, int i) {
     long double s[2];
     slopes(k, i, s);
@@ -410,7 +410,7 @@ TEST(what_has_no_rays_is_refused) {
     }
 }
 
-/* What is made of codes that all pixels share is not made of distances. */
+/* A table over codes that all pixels share is not made of distances. */
 TEST(products_of_shared_depths_are_refused) {
     static const struct {
         const char *option, *value, *words;

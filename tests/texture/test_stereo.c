@@ -197,7 +197,7 @@ TEST(shifts_of_openni) {
         assert_relative(depth_of(&kinds[6], k), openni(k), 2e-6);
 }
 
-/* What people had to type: a reversed buffer of 8 bits whose near plane has the largest disparity. */
+/* People had to type this: a reversed buffer of 8 bits whose near plane has the largest disparity. */
 TEST(the_detour_has_the_same_numbers) {
     rng r = rng_make("detour");
     double z[PIXELS], samples[PIXELS];

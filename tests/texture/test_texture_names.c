@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the figure of a texture's product is called: by its kind, by its method, and by what is known of the truth. */
+/* The title of the figure of a texture's product: by its kind, by its method, and by what is known of the truth. */
 #include "printed.h"
 
 static const struct {

@@ -170,7 +170,8 @@ static void want_camera(values *v, const texture_case *c, const frame *f) {
     want_text(v, "truth", f->synthetic != NULL ? "synthetic" : NULL);
 }
 
-/* What 99 % do not exceed, and what none does: not less than it is. Unbounded errors and decodings have no such. */
+/* The error that 99 % do not exceed, and what none does: not less than it is. Unbounded errors and decodings have no
+ * such. */
 static void check_upwards(const values *v, const char *line) {
     static const char *const fields[] = {"mean", "p99", "max"};
     for (int k = 0; k < 3; k++) {

@@ -6,7 +6,7 @@
 
 #include "web/plain.c"
 
-/* What cairo says without hinting, which depends on the screen. */
+/* Widths as cairo has them without hinting, which depends on the screen. */
 static double by_cairo(cairo_t *cr, const char *text, double size, int bold) {
     cairo_text_extents_t extents;
     cairo_select_font_face(cr, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,

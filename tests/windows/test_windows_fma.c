@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What stands in for a fused operation on Windows, against the C library's own: numbers of every size, near each other
+/* The stand-in for a fused operation on Windows, against the C library's own: numbers of every size, near each other
  * and near what cancels or cannot be held. */
 #include <float.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What `world` prints: every value, against the library; how far is far enough, from both sides. */
+/* The output of `world`: every value, against the library; how far is far enough, from both sides. */
 #include "printed.h"
 #include "world/reach.h"
 
@@ -231,7 +231,7 @@ TEST(why) {
     check_says(0, "!why", "world --from-origin 10");
 }
 
-/* What budget advises where positions take most is at most a twentieth worse than all places in double, which is tried
+/* The advice of budget where positions take most is at most a twentieth worse than all places in double, which is tried
  * here by itself. */
 TEST(advice) {
     static const char *const names[] = {"local", "camera-float", "split", "tile", "cell", "two-sum"};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a census looks at again, and how often it asks for the guarantee: little, and the same comes out. */
+/* Pairs that a census looks at again, and how often it asks for the guarantee: little, and the same comes out. */
 #include "depthprec/depthprec.h"
 #include "setups.h"
 #include "support.h"

@@ -47,7 +47,7 @@ static dp_spec map_spec(const shadow_request *o, const dp_format *format, dp_map
         .znear = znear, .zfar = zfar, .ortho = ortho, .format = *format, .mapping = mapping, .arith = o->camera.arith};
 }
 
-/* What lights of all kinds share. */
+/* Columns that lights of all kinds share. */
 static shadow_light light_shared(const shadow_request *o) {
     shadow_light light = shadow_light_default();
     light.triangles = o->camera.triangles;

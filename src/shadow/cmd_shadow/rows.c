@@ -66,7 +66,7 @@ static void write_set(shadow_set *w, int k, const bias_api *api) {
     append(w->call, sizeof w->call, "%s", bias_call(api, w->units, strtod(w->factor_text, NULL)).text);
 }
 
-/* What a shader that writes distances adds to them. */
+/* Columns that a shader that writes distances adds to them. */
 static void write_added(shadow_set *w, int k, const shadow_light *light) {
     write_set(w, k, bias_api_find("vulkan-float"));
     w->call[0] = '\0';
@@ -78,7 +78,7 @@ static void write_added(shadow_set *w, int k, const shadow_light *light) {
            number_brief(number_up(w->window * light->setup.kappa, DIGITS)).text);
 }
 
-/* Of one depth of a light that has a place. */
+/* Rows of one depth of a light that has a place. */
 static void place_row(const shadow_maps *maps, const shadow_light *light, const bias_api *api, shadow_row *r) {
     const dp_format *format = &light->setup.spec.format;
     const double angle = light->triangles.slant_hi * (3.14159265358979323846 / 180.0);
