@@ -164,7 +164,7 @@ check "of the glossary, each" sh -c 'sed -n "/^\.Sh GLOSSARY/,/^\.El/s/^\.It //p
 unknown() { # unknown WORD ANSWER
     ! depthprec help "$1" 2>"$scratch/errors" && [ "$(wc -l <"$scratch/errors")" -eq 1 ] && grep -q -e "$2" "$scratch/errors"
 }
-check "of the topics of list, each" sh -c '"$1" list | sed -n "s/^\([a-z][a-z-]*\)  .*/\1/p" >"$2" && [ "$(wc -l <"$2")" -ge 15 ] &&
+check "of the topics of list, each" sh -c '"$1" list | sed -n "s/^  \([a-z][a-z-]*\) .*/\1/p" >"$2" && [ "$(wc -l <"$2")" -ge 15 ] &&
     while read -r topic; do "$1" help "$topic" >/dev/null || exit 1; done <"$2"' - "$DEPTHPREC" "$scratch/topics"
 check "list finds a function's packing beside its word" says "packings: rg" depthprec list EncodeFloatRG
 check "a word that is nearly known" unknown Linear01Dept "nothing is called 'Linear01Dept'; did you mean .*'Linear01Depth'"
