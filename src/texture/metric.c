@@ -9,6 +9,7 @@
 #include "core/recognise_lattice.h"
 #include "texture/device.h"
 #include "texture/image_depths.h"
+#include "texture/sensor_find.h"
 
 enum { BITS_MAX = 31, VALUES_LEAST = 16, TOP = 65535, FAR = 30000 /* of sensors, in millimetres */, BEYOND = 100 };
 

@@ -24,6 +24,9 @@ typedef struct sensor_row {
 
 const sensor_row *sensor_get(size_t index); /**< null beyond the last */
 
+/** The row of such levels: each kind has one. */
+const sensor_row *sensor_row_of(grain_levels levels);
+
 /** The rounding of the file itself. */
 typedef struct sensor_file {
     double step;  /**< samples are multiples of it, in scene units; 0: numbers */
@@ -52,17 +55,6 @@ typedef struct sensor {
     const char *like;          /**< a standard lattice with such a step; null: none is known */
 } sensor;
 
-/** Looks at all depths. Never fails: what cannot be found is assumed to be the file's own. */
-void sensor_find(const image *img, const sensor_file *file, sensor *out);
-
-/**
- * Completes what a user knows: a row, and of its levels the step and the offset, or how many are from lo to hi. NaN
- * stands for what is not known; an offset is then where most values are, and what they were rounded to between lattice
- * and file is what leaves few of them on no level.
- * @param seen  what sensor_find() found
- */
-void sensor_complete(const image *img, const sensor_file *file, const double ends[2], const sensor *seen, sensor *s);
-
 /** From levels of samples to levels of scene units, `scale` of them a sample's 1. */
 void sensor_scale(sensor *s, double scale);
 
@@ -75,6 +67,12 @@ double sensor_gap(const sensor *s, double z);
 
 /** How many levels there are from lo on and below hi; NaN as above */
 double sensor_levels(const sensor *s, double lo, double hi);
+
+/** Which level is at z, counted from the offset in steps, not rounded. */
+double sensor_level(const sensor *s, double z);
+
+/** From one number of binary16 to the next at z, subnormals included. */
+double sensor_half_gap(double z);
 
 /** The nearest level; NaN beyond the farthest one. */
 double sensor_round(const sensor *s, double z);

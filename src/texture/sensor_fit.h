@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file sensor_fit.h  For sensor.c alone: the lattice offset + k step that values lie on, whose own rounding is known.
+ * @file sensor_fit.h  For sensor_sample.c and sensor_choice.c: the lattice offset + k step that values lie on, whose
+ * own rounding is known.
  *
  * A comb is tried at every frequency on a few windows of neighbouring values; what stands out is extended, window by
  * window, to all of them. depthprec(7) has what a fit proves.

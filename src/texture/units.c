@@ -9,6 +9,7 @@
 #include "texture/device.h"
 #include "texture/image_depths.h"
 #include "texture/metric.h"
+#include "texture/sensor_find.h"
 #include "texture/stereo.h"
 
 enum { UNITS_LEAST = 2 };
