@@ -17,11 +17,12 @@
 static const char arrow_note[] = "unbounded from here: nothing beyond is resolved";
 static const char end_note[] = "ends here: nothing behind it up to far is certain";
 
-static bool listed(const legend *l, const chart_series *s) {
-    for (size_t i = 0; i < l->count; i++)
-        if (strcmp(l->entries[i]->name, s->name) == 0)
-            return true;
-    return false;
+/* The entry of that name; `count` where there is none. */
+static size_t entry_of(const legend *l, const chart_series *s) {
+    size_t i = 0;
+    while (i < l->count && strcmp(l->entries[i]->name, s->name) != 0)
+        i++;
+    return i;
 }
 
 /* The curve that hides this one in each panel that has it; where along x, as far as that holds in all of them. */
@@ -120,9 +121,14 @@ static bool has_end(const chart *c) {
 static void list(legend *l, const chart *c, const chart_panel *panel, bool marks) {
     for (size_t k = 0; k < panel->series_count && l->count < LEGEND_MAX; k++) {
         const chart_series *s = &panel->series[k];
-        if (s->unlisted || listed(l, s) ||
-            (s->kind == CHART_POINTS || s->kind == CHART_LEVELS || s->kind == CHART_BARS) != marks)
+        const size_t at = entry_of(l, s);
+        if (s->unlisted || (s->kind == CHART_POINTS || s->kind == CHART_LEVELS || s->kind == CHART_BARS) != marks)
             continue;
+        if (at < l->count) { /* in another panel it may have something to note */
+            if (s->note[0] != '\0' && strstr(l->text[at], s->note) == NULL)
+                append(l->text[at], LEGEND_TEXT, "%s", s->note);
+            continue;
+        }
         write_text(c, panel, k, l->text[l->count]);
         l->entries[l->count++] = s;
     }

@@ -199,7 +199,7 @@ size_t bench_run(const method_family_row *family, size_t which, const dp_setup *
         family->fill(setup, &in);
         for (size_t i = 0; i < *family->method_count && good; i++) {
             const method_row *row = &family->methods[i];
-            if (!method_available(row) || !method_speaks(row, which) || !method_suits(row, setup))
+            if (method_lacks(row, which, setup) != NULL)
                 continue;
             results[count] = (bench_result){.row = row};
             good = prepare(family, which, setup, &in, &out, &results[count], &all[count]);

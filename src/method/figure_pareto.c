@@ -14,7 +14,7 @@ static const char dominated[] = "dominated", on_front[] = "on the Pareto front";
 /* Bits for a method's kind. Those judged by the pipeline answer a question of their own. */
 enum { FRONT = 1, PIPELINE = 2, MINE = 4 };
 
-/* A method that has a time and a finite error. */
+/* A method that has a time and an error. */
 typedef struct timed {
     const bench_result *of;
     double error;
@@ -35,16 +35,23 @@ static field gather(const method_family_row *family, const bench_result *results
         const double error = measured_error(family, &r->measured);
         const int is = (r->front ? FRONT : 0) | (r->row->asked > 0 ? MINE : 0) |
                        ((r->row->domain & METHOD_PIPELINE) != 0 ? PIPELINE : 0);
-        if (!isfinite(error) || !isfinite(r->ns) || !(r->ns > 0))
+        if (isnan(error) || !isfinite(r->ns) || !(r->ns > 0))
             continue;
         f.methods[f.count++] = (timed){r, error, is};
         f.limit = r->limit;
         f.time = (chart_extent){fmin(f.time.lo, r->limit > 0 ? fmin(r->limit, r->ns) : r->ns), fmax(f.time.hi, r->ns)};
+        if (isinf(error))
+            continue;
         f.error = (chart_extent){fmin(f.error.lo, fmax(error, exact)), fmax(f.error.hi, error)};
         if (isfinite(r->bound))
             f.error.hi = fmax(f.error.hi, r->bound);
     }
     return f;
+}
+
+/* What has no end is drawn at that of the panel. */
+static double drawn_at(const timed *t, const chart_panel *panel) {
+    return isinf(t->error) ? panel->y.hi : fmax(t->error, exact);
 }
 
 /* Those of which `bits` are `set`, along a line the fastest first; null where there are none, or a line has but one. */
@@ -63,9 +70,11 @@ static chart_series *add_methods(const field *f, chart *out, chart_panel *panel,
             s->y[at] = s->y[at - 1];
         }
         s->x[at] = t->of->ns;
-        s->y[at] = fmax(t->error, exact);
+        s->y[at] = drawn_at(t, panel);
         if (t->error < exact)
             snprintf(s->note, sizeof s->note, " (without error: at 10\u207b\u00b9\u2077)");
+        else if (isinf(t->error))
+            snprintf(s->note, sizeof s->note, " (unbounded: at the top)");
     }
     return s;
 }
@@ -83,7 +92,7 @@ static void add_front(const field *f, chart *out, chart_panel *panel, int pipeli
 static void add_bars(const field *f, chart *out, chart_panel *panel) {
     size_t count = 0;
     for (size_t i = 0; i < f->count; i++)
-        count += isfinite(f->methods[i].of->bound) ? 1 : 0;
+        count += isfinite(f->methods[i].of->bound) && isfinite(f->methods[i].error) ? 1 : 0;
     chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_BARS, 2 * count) : NULL;
     if (s == NULL)
         return;
@@ -91,7 +100,7 @@ static void add_bars(const field *f, chart *out, chart_panel *panel) {
     snprintf(s->name, sizeof s->name, "from the worst found to the bound");
     for (size_t i = 0, k = 0; i < f->count; i++) {
         const timed *t = &f->methods[i];
-        if (!isfinite(t->of->bound))
+        if (!isfinite(t->of->bound) || isinf(t->error))
             continue;
         s->x[k] = s->x[k + 1] = t->of->ns;
         s->y[k++] = fmax(t->error, exact);
@@ -133,7 +142,7 @@ static void add_whiskers(const field *f, chart *out, chart_panel *panel) {
             continue;
         s->x[k] = t->of->ns;
         s->x[k + 1] = t->of->ns * (1 + t->of->spread);
-        s->y[k] = s->y[k + 1] = fmax(t->error, exact);
+        s->y[k] = s->y[k + 1] = drawn_at(t, panel);
         k += 2;
     }
 }
@@ -165,18 +174,18 @@ static void fit(chart_axis *axis, chart_extent e) {
 static bool add_family(const method_family_row *family, const bench_result *results, size_t count, chart *out) {
     const field f = gather(family, results, count);
     chart_panel *panel = chart_add_panel(out);
-    if (f.count == 0 || panel == NULL)
+    if (isinf(f.error.lo) || panel == NULL)
         return false;
     panel->x = (chart_axis){.scale = CHART_LOG, .label = "time per element", .key = "time", .unit = "ns"};
     panel->y = (chart_axis){.scale = CHART_LOG, .label = "worst error", .key = "error", .unit = family->measure};
+    fit(&panel->x, f.time);
+    fit(&panel->y, f.error);
     add_front(&f, out, panel, 0);
     add_front(&f, out, panel, PIPELINE);
     add_bars(&f, out, panel);
     add_points(&f, out, panel, FRONT | MINE, 0);
     add_points(&f, out, panel, FRONT | MINE, FRONT);
     add_points(&f, out, panel, MINE, MINE);
-    fit(&panel->x, f.time);
-    fit(&panel->y, f.error);
     add_whiskers(&f, out, panel);
     add_memory(&f, out, panel);
     return true;
@@ -188,56 +197,80 @@ const char *pareto_draw(const method_family_row *family, const bench_result *res
 }
 
 /* Small panels have room for the names on the front. */
-static void name_panel(const method_family_row *family, chart_panel *panel) {
+static void name_panel(const method_family_row *family, size_t which, bool one_family, chart_panel *panel) {
     const bool relative = strcmp(family->measure, "relative error") == 0;
     bool front = false;
+    const char *none;
     for (size_t i = 0; i < panel->series_count; i++) {
         panel->series[i].unwritten = strcmp(panel->series[i].name, dominated) == 0;
         front = front || strcmp(panel->series[i].name, on_front) == 0;
     }
-    snprintf(panel->title, sizeof panel->title, "%s, %s%s%s%s", family->name, family->cases[0].name,
-             relative ? "" : ": ", relative ? "" : family->measure, front ? "" : "; no claim reaches here");
-    panel->y.label = "worst error, relative where no unit is named";
-    panel->y.unit = "";
+    none = front ? "" : "; no claim reaches here";
+    if (one_family)
+        snprintf(panel->title, sizeof panel->title, "%s%s", family->cases[which].name, none);
+    else
+        snprintf(panel->title, sizeof panel->title, "%s, %s%s%s%s", family->name, family->cases[which].name,
+                 relative ? "" : ": ", relative ? "" : family->measure, none);
+    if (!one_family) {
+        panel->y.label = "worst error, relative where no unit is named";
+        panel->y.unit = "";
+    }
 }
 
-static const char *build_all(const figure_request *request, chart *out, bench_result *results) {
+/* The panel of a case. @return null, or why there is none */
+static const char *build_case(const figure_request *request, const method_family_row *family, size_t which,
+                              bench_result *results, chart *out) {
     const dp_spec *planes = &request->setups[0].spec;
+    dp_setup setup;
+    if (method_setup(family, which, planes->znear, planes->zfar, false, &setup) != DP_OK)
+        return NULL;
+    const size_t count = bench_run(family, which, &setup, BENCH_REPETITIONS, results);
+    if (count == 0)
+        return "no memory for the methods";
+    if (add_family(family, results, count, out))
+        return NULL;
+    snprintf(out->title, sizeof out->title, "no method of the family %s has a time and a finite error here",
+             family->name);
+    return out->title; /* which lasts as long as the chart */
+}
+
+/* Each family in its first case. */
+static const char *build_all(const figure_request *request, chart *out, bench_result *results) {
+    const char *wrong = NULL;
     snprintf(out->subtitle, sizeof out->subtitle, "%s. Lower left is better", request->where);
     out->apart = true;
-    for (size_t i = 0; i < METHOD_FAMILY_COUNT; i++) {
+    for (size_t i = 0; i < METHOD_FAMILY_COUNT && wrong == NULL; i++) {
         const method_family_row *family = method_family_get(i);
-        dp_setup setup;
-        if (method_setup(family, 0, planes->znear, planes->zfar, false, &setup) != DP_OK)
-            return NULL;
-        const size_t count = bench_run(family, 0, &setup, BENCH_REPETITIONS, results);
-        if (count == 0)
-            return "no memory for the methods";
-        if (!add_family(family, results, count, out)) {
-            snprintf(out->title, sizeof out->title, "no method of the family %s has a time and a finite error here",
-                     family->name);
-            return out->title; /* which lasts as long as the chart */
-        }
-        name_panel(family, &out->panels[out->panel_count - 1]);
+        wrong = build_case(request, family, 0, results, out);
+        if (wrong == NULL)
+            name_panel(family, 0, false, &out->panels[out->panel_count - 1]);
     }
-    return NULL;
+    return wrong;
 }
 
+/* One family: a panel for each case that is asked. */
 const char *pareto_build(const figure_request *request, chart *out) {
     const method_family_row *family = request->family;
-    const dp_spec *planes = &request->setups[0].spec;
-    char subtitle[2 * CHART_TEXT];
-    dp_setup setup;
+    char subtitle[2 * CHART_TEXT], cases[CHART_TEXT] = "";
     bench_result *results = chart_memory(out, BENCH_METHODS_MAX, sizeof *results);
+    const char *wrong = NULL;
     if (results == NULL)
         return NULL;
     if (family == NULL)
         return build_all(request, out, results);
-    if (method_setup(family, request->which, planes->znear, planes->zfar, false, &setup) != DP_OK)
-        return NULL;
-    snprintf(subtitle, sizeof subtitle, "%s: %s; %s, %s", family->name, family->summary,
-             family->cases[request->which].name, request->where);
+    const bool several = (request->cases & (request->cases - 1)) != 0;
+    out->apart = several;
+    for (size_t i = 0; i < family->case_count && wrong == NULL; i++) {
+        if ((request->cases >> i & 1) == 0)
+            continue;
+        wrong = build_case(request, family, i, results, out);
+        if (!several)
+            snprintf(cases, sizeof cases, "%s, ", family->cases[i].name);
+        else if (wrong == NULL)
+            name_panel(family, i, true, &out->panels[out->panel_count - 1]);
+    }
+    snprintf(subtitle, sizeof subtitle, "%s: %s; %s%s%s", family->name, family->summary, cases, request->where,
+             several ? ". Lower left is better" : "");
     notes_clean(out->subtitle, sizeof out->subtitle, subtitle);
-    const size_t count = bench_run(family, request->which, &setup, BENCH_REPETITIONS, results);
-    return count > 0 ? pareto_draw(family, results, count, out) : "no memory for the methods";
+    return wrong;
 }

@@ -91,26 +91,50 @@ static void census_at(const method_call *c) {
     }
 }
 
-/* ---- Claims for unorm24 with a standard mapping; no formula here has a parameter but neighbours() ---------------- */
+/* ---- Claims: of a UNORM format's standard mapping a is the code of 1, of fp16 reversed the code of 1 that counts in
+ * its finest step, 2^-24, whose cells lie at the far plane
+ * ------------------------------------------------------------- */
 
-static const double steps24 = 0x1p24 - 1;
+#define STEPS16    65535.0
+#define STEPS24    16777215.0
+#define STEPS_HALF 0x1p24
 
 /* The farthest whole cell reaches from z1 to z1 (1 + this); 2 where the far plane is infinite. */
-static double far_cell(double ratio, double a, double b) {
-    const double g = (ratio - 1) / steps24;
-    (void)a, (void)b;
-    return 1 / (1 / g + 0.5);
+static double far_cell(double ratio, double steps) {
+    return 1 / (steps / (ratio - 1) + 0.5);
 }
 
-static double rule_claim(double ratio, double a, double b) {
-    return (1 + far_cell(ratio, a, b)) / (1 - 1 / ratio) - 1;
-}
-
-/* The claim from the curve and `roundings` of depths next to near, where a cell is the smallest part of its depth. */
-static double neighbours(double ratio, double roundings, double b) {
-    const double g = (ratio - 1) / steps24;
+static double rule_claim(double ratio, double steps, double b) {
     (void)b;
-    return 0.75 / (1 / (g * g) + 2 / g) + roundings * steps24 / (1 - 1 / ratio);
+    return (1 + far_cell(ratio, steps)) / (1 - 1 / ratio) - 1;
+}
+
+static double derivative_claim(double ratio, double steps, double b) {
+    (void)b;
+    return far_cell(ratio, steps);
+}
+
+/* Of a power of two the step is 4/3 of the cell, or 2/3. */
+static double derivative_claim_half(double ratio, double steps, double b) {
+    (void)b;
+    return fmax(1 / 3.0 + 0x1p-10, far_cell(ratio, steps));
+}
+
+static double curved(double ratio, double steps) {
+    const double g = (ratio - 1) / steps;
+    return 0.75 / (1 / (g * g) + 2 / g);
+}
+
+/* The claim from the curve, and `roundings` of depths and of their difference: of the latter, and next to near, where a
+ * cell is the smallest part of its depth. */
+static double neighbours(double ratio, double steps, double roundings) {
+    return curved(ratio, steps) * (1 + 2 * roundings) + roundings * steps / (1 - 1 / ratio);
+}
+
+/* Of a power of two the steps on either side differ; cells are the smallest part of their depths next to near, and next
+ * to the far plane where that is not far. */
+static double neighbours_half(double ratio, double steps, double roundings) {
+    return fmax(0x1p-12, curved(ratio, steps)) * (1 + 2 * roundings) + roundings * (0x1p11 + steps / (ratio - 1));
 }
 
 /* The claim of the guarantee in the binary32 pipeline. */
@@ -124,24 +148,29 @@ static double bound_claim(double ratio, double a, double b) {
 enum { PIPELINE_INPUTS = 48 };
 #define EXACT    0x1p-53 /* the difference of two binary32 depths is a double */
 #define SIX      (6 * 0x1p-53)
+#define CELL     (20 * 0x1p-53)
 #define PIPELINE (METHOD_INFINITE | METHOD_PIPELINE)
 
 /* clang-format off */
 static const method_row methods[] = {
     {METHOD_INTERVAL, "rule-of-thumb", "z^2/(n 2^b)",
-     {FORMULA(rule_claim, 0, 0), NOWHERE}, METHOD_INFINITE | METHOD_WHOLE, 1, "1", 0,
+     {FORMULA(rule_claim, STEPS24, 0), NOWHERE, FORMULA(rule_claim, STEPS16, 0)},
+     METHOD_INFINITE | METHOD_WHOLE, 1, "1", 0,
      "Baker, Learning to love your z-buffer", .run = rule_run, .coarse = "curvature"},
     {METHOD_INTERVAL, "derivative", "dz/dd times the step of the format at d",
-     {FORMULA(far_cell, 0, 0), FULL(1 / 3.0 + 0x1p-22)}, METHOD_INFINITE | METHOD_ORTHO | METHOD_WHOLE, 4, "1", 0,
+     {FORMULA(derivative_claim, STEPS24, 0), FULL(1 / 3.0 + 0x1p-22), FORMULA(derivative_claim, STEPS16, 0),
+      FORMULA(derivative_claim_half, STEPS_HALF, 0)}, METHOD_INFINITE | METHOD_ORTHO | METHOD_WHOLE, 4, "1", 0,
      "first order of z(d + step) - z(d)", .run = derivative_run, .coarse = "curvature"},
     {METHOD_INTERVAL, "cell", "the exact cell of the exact code, no subtraction of depths",
-     {FULL(20 * 0x1p-53), FULL(20 * 0x1p-53)}, METHOD_INFINITE | METHOD_ORTHO, 50, "1", 0,
+     {FULL(CELL), FULL(CELL), FULL(CELL), FULL(CELL)}, METHOD_INFINITE | METHOD_ORTHO, 50, "1", 0,
      "depthprec(7)", .run = cell_run},
     {METHOD_INTERVAL, "neighbours", "half the difference of the decoded depths of the codes on either side, double",
-     {FORMULA(neighbours, SIX, 0), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 55, "1", 0,
+     {FORMULA(neighbours, STEPS24, SIX), UNCLAIMED, FORMULA(neighbours, STEPS16, SIX),
+      FORMULA(neighbours_half, STEPS_HALF, SIX)}, METHOD_ORTHO | METHOD_WHOLE, 55, "1", 0,
      "", .run = neighbours_run, .coarse = "curvature"},
     {METHOD_INTERVAL, "neighbours-binary32", "the same with the depths rounded to binary32, as in a shader",
-     {FORMULA(neighbours, DP_UNIT + SIX, 0), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 56, "1", 0,
+     {FORMULA(neighbours, STEPS24, DP_UNIT + SIX), UNCLAIMED, FORMULA(neighbours, STEPS16, DP_UNIT + SIX),
+      FORMULA(neighbours_half, STEPS_HALF, DP_UNIT + SIX)}, METHOD_WHOLE, 56, "1", 0,
      "", .run = neighbours32_run, .coarse = "curvature"},
     {METHOD_INTERVAL, "bound",
      "the separation that the binary32 pipeline guarantees, compared with the longest interval",
@@ -183,8 +212,11 @@ const method_family_row interval_family = {
     .name = "interval",
     .summary = "z-fighting interval at an eye depth",
     .measure = "relative error",
-    .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D, false}, {"fp32 reversed", "fp32", DP_MAPPING_REVERSED, false}},
-    .case_count = 2,
+    .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D, false},
+              {"fp32 reversed", "fp32", DP_MAPPING_REVERSED, false},
+              {"unorm16 d3d", "unorm16", DP_MAPPING_D3D, false},
+              {"fp16 reversed", "fp16", DP_MAPPING_REVERSED, false}},
+    .case_count = 4,
     .inputs = 4096,
     .walked = 256,
     .per_decade = 2,

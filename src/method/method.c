@@ -20,6 +20,13 @@ dp_status method_setup(const method_family_row *family, size_t which, double zne
     return dp_setup_init(out, &spec);
 }
 
+const char *method_lacks(const method_row *row, size_t which, const dp_setup *setup) {
+    return !method_speaks(row, which)  ? "of other formats or mappings"
+           : !method_suits(row, setup) ? setup->spec.ortho ? "of perspective cameras" : "of orthographic cameras"
+           : !method_available(row)    ? "not on this processor"
+                                       : NULL;
+}
+
 bool method_arrays(size_t count, method_inputs *in, method_outputs *out) {
     *in = (method_inputs){count,
                           calloc(count, sizeof *in->z),

@@ -227,6 +227,9 @@ static inline bool method_available(const method_row *row) {
 dp_status method_setup(const method_family_row *family, size_t which, double znear, double zfar, bool ortho,
                        dp_setup *out);
 
+/** Why a method is not among those of case `which` at a set-up, "of other formats or mappings"; null: it is. */
+const char *method_lacks(const method_row *row, size_t which, const dp_setup *setup);
+
 /** Once, before any method runs: GSL must report errors and not end the program. */
 void method_start(void);
 

@@ -39,7 +39,7 @@ typedef struct figure_request {
     const struct need_file *file;      /**< for the figures that take a file, else null */
     const struct fights_asked *fights; /**< for the figures of a model, else null: see scene.h */
     const method_family_row *family;   /**< for the figures that show methods, else null */
-    size_t which;                      /**< its case, where times are measured, */
+    unsigned cases;                    /**< its cases, bits, where times are measured, */
     const char *where;                 /**< and in words at which planes, on which machine */
     int columns, rows;                 /**< how finely to compute: pixels of the figure; see refine.h */
 } figure_request;

@@ -32,6 +32,8 @@ static size_t want_times(values *v, size_t series, const char *name, int front, 
         if (front >= 0 && r->front != (front == 1))
             continue;
         want_point(v, 0, series, n++, "time", r->ns, "error", fmax(r->measured.worst.relative, 1e-17));
+        if (front >= 0)
+            want_text(v, "label", r->row->name);
     }
     values_under(v, "panels[0].series[%zu].", series);
     want_text(v, "name", name);
@@ -81,7 +83,7 @@ static int by_time(const void *a, const void *b) {
 TEST(pareto) {
     const method_family_row *family = method_family_find("worst"); /* relative errors, no pipeline */
     values v = values_of("plot");
-    char *text = command_output(cmd_plot, 0, "plot pareto worst --json -n 0.2 -f 800 --title a\\\\b\"c\"d");
+    char *text = command_output(cmd_plot, 0, "plot pareto worst --json -F d16 -n 0.2 -f 800 --title a\\\\b\"c\"d");
     json_t *root = json_of(text);
     size_t order[BENCH_METHODS_MAX], count = 0, fronts = 0;
     for (size_t i = 0; i < *family->method_count; i++)
@@ -131,6 +133,39 @@ TEST(pareto_of_all) {
         printed p = print_of("plot pareto --json %s", i == 0 ? "-F d24" : "-m gl");
         assert_true(p.status == EXIT_USAGE && strstr(p.errors, "needs one family: plot pareto FAMILY") != NULL);
         printed_free(&p);
+    }
+}
+
+/* A panel for each format that has encoders, or those that are named, whatever the mapping; each method that it has
+ * in it. */
+TEST(pareto_of_a_family) {
+    static const char *const formats[] = {"fp16", "unorm16", "unorm24", "fp32"};
+    for (size_t all = 0; all < 2; all++) {
+        char *text = command_output(cmd_plot, 0,
+                                    all ? "plot pareto encode --json" : "plot pareto encode --json -F d24,d16 -m log");
+        json_t *root = json_of(text);
+        const size_t count = json_array_size(json_object_get(root, "panels"));
+        assert_int_equal(count, all ? 4 : 2);
+        for (size_t i = 0; i < count; i++) {
+            const json_t *panel = json_array_get(json_object_get(root, "panels"), i), *series;
+            assert_string_equal(text_at(root, "panels[%zu].title", i), formats[all ? i : i + 1]);
+            size_t names = 0, at;
+            json_array_foreach(json_object_get(panel, "series"), at, series) {
+                const json_t *point;
+                size_t k;
+                json_array_foreach(json_object_get(series, "points"), k, point) {
+                    const char *label = json_string_value(json_object_get(point, "label"));
+                    names += label != NULL;
+                }
+            }
+            size_t speak = 0;
+            for (size_t k = 0; k < *encode_family.method_count; k++)
+                speak += method_speaks(&encode_family.methods[k], all ? i : i + 1) &&
+                         method_available(&encode_family.methods[k]);
+            assert_int_equal(names, speak);
+        }
+        json_decref(root);
+        free(text);
     }
 }
 

@@ -13,7 +13,7 @@ static const struct {
     dp_mapping mapping;
     bool claimed;
 } kinds[] = {{"unorm24", DP_MAPPING_D3D, true},     {"fp32", DP_MAPPING_REVERSED, true},
-             {"unorm16", DP_MAPPING_D3D, false},    {"fp16", DP_MAPPING_REVERSED, false},
+             {"unorm16", DP_MAPPING_D3D, true},     {"fp16", DP_MAPPING_REVERSED, true},
              {"unorm24", DP_MAPPING_LINEAR, false}, {"fp32", DP_MAPPING_D3D, false}};
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 

@@ -130,6 +130,80 @@ TEST(linearize_claims_are_their_roundings) {
     tally_end(&t);
 }
 
+/* ---- Intervals, of every code ------------------------------------------------------------------------------------ */
+
+/* The depth of a window depth, as the pair (d, 1 - d), and the ends of a cell: half-way to the codes beside it. */
+static long double eye_of(long double n, long double f, bool reversed, long double d, long double rest) {
+    return n / (reversed ? d + n / f * rest : n / f * d + rest);
+}
+
+static void cell_of(const dp_setup *s, uint32_t code, long double z[2]) {
+    const dp_format *f = &s->spec.format;
+    const bool unorm = f->kind == DP_FORMAT_UNORM;
+    for (int i = 0; i < 2; i++) {
+        const uint32_t other = i == 0 ? code - 1 : code + 1;
+        const long double one = unorm ? 2.0L * f->code_max : 2;
+        const long double sum = unorm ? 2.0L * code + (i == 0 ? -1 : 1)
+                                      : (long double)dp_format_value(f, code) + (long double)dp_format_value(f, other);
+        z[i] = eye_of((long double)s->spec.znear, (long double)s->spec.zfar, s->reversed, sum / one, (one - sum) / one);
+    }
+    if (z[0] > z[1]) {
+        const long double swap = z[0];
+        z[0] = z[1];
+        z[1] = swap;
+    }
+}
+
+/* z1 z2 (1/n - 1/f) times the share of d, whose digits are all good. */
+static long double width_of(const dp_setup *s, uint32_t code, const long double z[2]) {
+    const dp_format *f = &s->spec.format;
+    const long double share =
+        f->kind == DP_FORMAT_UNORM
+            ? 1 / (long double)f->code_max
+            : ((long double)dp_format_value(f, code + 1) - (long double)dp_format_value(f, code - 1)) / 2;
+    return z[0] * z[1] * (1 / (long double)s->spec.znear - 1 / (long double)s->spec.zfar) * share;
+}
+
+/* The worst error of a method over all codes but the two at the planes, at both ends of each cell and inside. */
+static double worst_of_codes(const method_row *row, const dp_setup *s) {
+    double worst = 0, z[3], value[3];
+    const method_inputs in = {.count = 3, .z = z};
+    const method_outputs out = {.value = value};
+    for (uint32_t code = 1; code < s->spec.format.code_max; code++) {
+        long double ends[2];
+        cell_of(s, code, ends);
+        const long double width = width_of(s, code, ends);
+        for (int i = 0; i < 3; i++)
+            z[i] = (double)(ends[0] + (ends[1] - ends[0]) * ((long double)i * 0.499L + 0.001L));
+        row->run(&(method_call){row, s, NULL, &in, &out});
+        for (int i = 0; i < 3; i++)
+            if (dp_code(s, z[i]) == code)
+                worst = fmax(worst, fabs((double)(((long double)value[i] - width) / width)));
+    }
+    return worst;
+}
+
+/* All codes of both formats of 16 bits, up to the greatest far/near that claims speak of. */
+TEST(interval_claims_hold_for_every_code) {
+    const method_family_row *family = method_family_find("interval");
+    tally t = {.name = "codes"};
+    for (size_t which = 2; which < 4; which++)
+        for (double ratio = 1e12; ratio >= 9.9; ratio /= (double)test_cases(1000, 100, 10))
+            for (size_t i = 0; i < *family->method_count; i++) {
+                const method_row *row = &family->methods[i];
+                const double znear = pow(10, 6 * method_unit(71, i + (size_t)log10(ratio) * 16) - 3);
+                dp_setup s;
+                if (!method_speaks(row, which))
+                    continue;
+                assert_int_equal(method_setup(family, which, znear, ratio * znear, false, &s), DP_OK);
+                const double error = worst_of_codes(row, &s), claim = method_claimed(row, which, &s);
+                TALLY(&t, error <= claim && error >= (strcmp(row->name, "cell") == 0 ? 0.1 : 0.4) * claim,
+                      "%s, %s, near %a, far/near %g: %g, claimed %g", row->name, family->cases[which].name, znear,
+                      ratio, error, claim);
+            }
+    tally_end(&t);
+}
+
 /* ---- Positions --------------------------------------------------------------------------------------------------- */
 
 /* The worst of position_bound() over the image's border, middle and depths, over the distance from the camera. */

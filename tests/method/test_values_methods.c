@@ -45,6 +45,21 @@ static void drop_others(void) {
     walked_count = kept;
 }
 
+/* Those that are not measured, and why. */
+static void want_absent(values *v, const method_family_row *family) {
+    for (size_t i = 0, n = 0; i < *family->method_count; i++) {
+        const method_row *row = &family->methods[i];
+        const bool speaks = row->claims[asked_which].ratio_hi > 0, flat = asked.spec.ortho;
+        if (speaks && ((row->domain & METHOD_ORTHO) != 0 || !flat) && ((row->domain & METHOD_FLAT) == 0 || flat))
+            continue;
+        values_under(v, "absent[%zu].", n++);
+        want(v, "name=%s because=%s", row->name,
+             !speaks ? "of other formats or mappings"
+             : flat  ? "of perspective cameras"
+                     : "of orthographic cameras");
+    }
+}
+
 /* After a run, from what it was given. */
 static const method_row *want_methods(values *v, const method_family_row *family, double tolerance) {
     char machine[192];
@@ -67,6 +82,7 @@ static const method_row *want_methods(values *v, const method_family_row *family
         want_walk(v, family, &walked[n], n);
         n++;
     }
+    want_absent(v, family);
     return choice;
 }
 

@@ -8,7 +8,7 @@
 
 enum { METHODS = 9, STEPS = 4 };
 
-/* Two groups; one method without error, one without a time, one that is wrong everywhere; the last three crowd. */
+/* Two groups; one method without error, one without a time, one that is wrong without bound; the last three crowd. */
 static const char *const names[METHODS] = {"alpha", "beta",    "gamma", "delta",  "no-time",
                                            "wrong", "crowded", "close", "closest"};
 static const double ns[METHODS] = {2, 300, 40, 5000, NAN, 70, 900, 930, 960};
@@ -23,7 +23,7 @@ static const double walked[METHODS * STEPS] = {
     1e-12, 1e-2, 1e-9, 1e-1, /**/ 1e-4, 1e-3,     1e-2, 1e-1, /**/ 1e-6, 1e-5, 1e-4, 1e-3};
 static const double claimed[METHODS] = {10000, 10, NAN, 1000, 100, 100, 10, NAN, 1000};
 static const double breaks[METHODS] = {INFINITY, 100, INFINITY, 10000, NAN, 1000, INFINITY, INFINITY, 100};
-static const double exact = 1e-17; /* where what has no error is drawn */
+static const double exact = 1e-17, top = 1; /* where what has no error is drawn, and what is unbounded */
 
 /* The methods as rows of a family with one case; those of group 1 are judged by the pipeline. */
 static method_row own[METHODS];
@@ -78,11 +78,11 @@ static drawn *draw_own(const char *figure, const drawn_theme *look) {
 /* ---- Pareto ------------------------------------------------------------------------------------------------------ */
 
 static bool is_shown(size_t i) {
-    return isfinite(ns[i]) && isfinite(errors[i]);
+    return isfinite(ns[i]);
 }
 
 static svg_point place_of(const drawn_panel *p, double time, double error) {
-    return (svg_point){drawn_px(&p->x, time), drawn_px(&p->y, fmax(error, exact)), false};
+    return (svg_point){drawn_px(&p->x, time), drawn_px(&p->y, fmin(fmax(error, exact), top)), false};
 }
 
 static bool overlap(svg_box a, svg_box b) {
@@ -134,7 +134,7 @@ static void check_bars(const drawn *d, const drawn_panel *p) {
 }
 
 static void check_pareto_words(const drawn *d) {
-    static const char *const texts[] = {"from the worst found to the bound", "dominated",
+    static const char *const texts[] = {"from the worst found to the bound", "dominated (unbounded: at the top)",
                                         "on the Pareto front (without error: at 10\u207b\u00b9\u2077)"};
     assert_string_equal(d->title, "Time and worst error of methods");
     assert_string_equal(d->x_caption->text, "time per element (ns)");
@@ -202,7 +202,7 @@ static bool at_the_frame(const drawn_panel *p, svg_box label) {
 
 /* Times change from run to run, errors do not: each name has its point at its error, marked as its place deserves. */
 TEST(pareto_of_the_program) {
-    drawn *d = drawn_run(&drawn_light, "plot pareto interval");
+    drawn *d = drawn_run(&drawn_light, "plot pareto interval -F unorm24");
     const drawn_panel *p = &d->panels[0];
     drawn_marker all[32];
     const size_t count = drawn_markers(d, p, all, 32);

@@ -22,8 +22,9 @@ static void check_axis(const json_t *root, const char *axis, const char *key, co
 
 /* ---- CSV against JSON -------------------------------------------------------------------------------------------- */
 
-/* The values of one point, under the names of the columns. */
-static void want_points(values *v, const json_t *root, double end) {
+/* The values of one point, under the names of the columns. @return whether some have labels */
+static bool want_points(values *v, const json_t *root, double end) {
+    bool labels = false;
     static const char *const axes[] = {"x", "y", "second", "value"};
     size_t p, s, i, lines = 0;
     json_t *panel, *series, *point;
@@ -37,8 +38,13 @@ static void want_points(values *v, const json_t *root, double end) {
             if (j != NULL)
                 want_number(v, axes[k], json_is_number(j) ? json_number_value(j) : k == 3 ? NAN : end);
         }
+        if (json_object_get(point, "label") != NULL) {
+            want_text(v, "label", text_at(point, "label"));
+            labels = true;
+        }
     }
     assert_true(lines > 0);
+    return labels;
 }
 
 /* JSON says null where a curve ends and CSV says inf, or nothing; a field of a map is empty in both. */
@@ -47,7 +53,7 @@ static void check_both(const char *arguments, double end) {
     char columns[1024] = "panel, series", line[512];
     json_t *root = json_printed(0, "plot %s", arguments);
     values v = values_of("plot");
-    want_points(&v, root, end);
+    const bool labels = want_points(&v, root, end);
     for (int k = 0; k < 4; k++)
         if (node_at(root, "%s", axes[k]) != NULL) {
             const char *unit = text_at(root, "%s.unit", axes[k]);
@@ -55,6 +61,8 @@ static void check_both(const char *arguments, double end) {
                      text_at(root, "%s.key", axes[k]), *unit != '\0' ? " [" : "", unit, *unit != '\0' ? "]" : "",
                      axes[k]);
         }
+    if (labels)
+        snprintf(columns + strlen(columns), sizeof columns - strlen(columns), ", ?label = label");
     snprintf(line, sizeof line, "plot %s", arguments);
     line_places lines = places_of(&v, "lines[]");
     check_csv(&v, 0, line, columns, &lines);

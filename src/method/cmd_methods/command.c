@@ -5,8 +5,10 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "camera/cmd/setups.h"
+#include "core/append.h"
 #include "method/advice.h"
 #include "method/choose.h"
 #include "method/cmd_methods/methods.h"
@@ -50,7 +52,10 @@ typedef struct measuring {
     line line;
     mine *mine; /* null: there are none */
     const char *device;
-    double loop; /* ns */
+    double loop;    /* ns */
+    struct absent { /* a method that is not measured, and why */
+        const char *name, *because;
+    } absent;
 } measuring;
 
 static const mine_row *mine_of(const measuring *b, const method_row *row) {
@@ -92,6 +97,19 @@ static void *next_method(void *of, size_t i) {
     take_mine(b, r->row, l);
     snprintf(l->label, sizeof l->label, "%c%c%s", r->front ? '*' : ' ', l->chosen ? '>' : ' ', l->name);
     return l;
+}
+
+static void *next_absent(void *of, size_t i) {
+    measuring *b = of;
+    const method_family_row *f = b->asked.family;
+    for (size_t k = 0; k < *f->method_count; k++) {
+        const char *because = method_lacks(&f->methods[k], b->asked.which, &b->asked.setup);
+        if (because == NULL || i-- > 0)
+            continue;
+        b->absent = (struct absent){f->methods[k].name, because};
+        return &b->absent;
+    }
+    return NULL;
 }
 
 static void *next_step(void *of, size_t k) {
@@ -169,8 +187,24 @@ static void say_losses(page *p, const method_family_row *f) {
     page_line(p, "lost from, to: the far/near from which its fourth digit is lost, and to what");
 }
 
+/* Names the methods that are not measured, those of the same reason in a line. */
+static void say_absent(page *p, measuring *b) {
+    char names[NAMES_SIZE] = "";
+    const char *because = NULL;
+    for (size_t i = 0; next_absent(b, i) != NULL; i++) {
+        if (because != NULL && strcmp(because, b->absent.because) != 0) {
+            page_line(p, "left out, %s: %s", because, names);
+            names[0] = '\0';
+        }
+        because = b->absent.because;
+        append(names, sizeof names, "%s%s", *names != '\0' ? ", " : "", b->absent.name);
+    }
+    if (because != NULL)
+        page_line(p, "left out, %s: %s", because, names);
+}
+
 static void say_marks(page *p, void *item) {
-    const measuring *b = item;
+    measuring *b = item;
     page_line(p,
               "ns: per element, the least of %d turns; +- %%: of which a quarter took at most so much more; x memory: "
               "multiple of the time to move the same bytes, %.3g ns",
@@ -190,6 +224,7 @@ static void say_marks(page *p, void *item) {
         say_mine(p, b);
     if (b->shown < b->count)
         page_line(p, "--full: %zu more, each beaten by another in both speed and accuracy", b->count - b->shown);
+    say_absent(p, b);
     if (b->choice != NULL)
         page_line(p, "> %s is the cheapest whose claim is within the tolerance", b->choice_name);
     else if (!isnan(b->tolerance))
@@ -284,6 +319,9 @@ static const column line_columns[] = {
     {FIELD(line, given, "defines", ""), .when = ON_DEVICE},
     {.kind = COLUMN_END}};
 
+static const column absent_columns[] = {
+    {FIELD(struct absent, name, "name", "")}, {FIELD(struct absent, because, "because", "")}, {.kind = COLUMN_END}};
+
 static const column columns[] = {{FIELD(measuring, family, "family", "")},
                                  {FIELD(measuring, measure, "measure", ""), .only = AS_JSON},
                                  {FIELD(measuring, machine, "machine", ""), .only = AS_JSON},
@@ -294,6 +332,7 @@ static const column columns[] = {{FIELD(measuring, family, "family", "")},
                                  {FIELD(measuring, device, "device", ""), .only = AS_JSON, .when = ON_DEVICE},
                                  {FIELD(measuring, loop, "loop_ns", ""), .only = AS_JSON, .when = ON_DEVICE},
                                  {LIST("methods", line_columns, next_method)},
+                                 {LIST("absent", absent_columns, next_absent), .only = AS_JSON},
                                  {.kind = COLUMN_END}};
 
 /* ---- Without a family -------------------------------------------------------------------------------------------- */
@@ -460,6 +499,8 @@ int cmd_methods(void *request) {
     int status = check_family(o);
     if (status == EXIT_FINE && o->line->operand_row != NULL)
         status = methods_resolve(o, o->line->operand_row, &b.asked);
+    if (status == EXIT_FINE && o->line->operand_row != NULL)
+        status = methods_single(o, &b.asked);
     if (status == EXIT_FINE)
         status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)

@@ -72,21 +72,35 @@ int methods_resolve(const judge_request *o, const method_family_row *family, met
     const int status = check_ortho(o, family);
     if (status != EXIT_FINE)
         return status;
-    out->family = family;
+    *out = (methods_asked){.family = family};
     char all[NAMES_SIZE] = "";
-    for (size_t i = 0; i < out->family->case_count; i++) {
-        if (wanted(o, out->family, &out->family->cases[i])) {
+    for (size_t i = family->case_count; i-- > 0;)
+        if (wanted(o, family, &family->cases[i])) {
+            out->cases |= 1U << i;
             out->which = i;
-            dp_status wrong =
-                method_setup(out->family, i, o->camera.znear, o->camera.zfar, o->camera.ortho, &out->setup);
-            if (wrong != DP_OK)
-                return refuse(o, wrong);
-            return EXIT_FINE;
         }
-        append(all, sizeof all, "%s%s", i > 0 ? ", " : "", out->family->cases[i].name);
-    }
-    return option_error(option_given(o->line, "format") ? "format" : "mapping", "the family %s covers only %s",
-                        out->family->name, all);
+    for (size_t i = 0; i < family->case_count; i++)
+        append(all, sizeof all, "%s%s", i > 0 ? ", " : "", family->cases[i].name);
+    if (out->cases == 0)
+        return option_error(option_given(o->line, "format") ? "format" : "mapping", "the family %s covers only %s",
+                            family->name, all);
+    const dp_status wrong =
+        method_setup(family, out->which, o->camera.znear, o->camera.zfar, o->camera.ortho, &out->setup);
+    return wrong != DP_OK ? refuse(o, wrong) : EXIT_FINE;
+}
+
+int methods_single(const judge_request *o, methods_asked *asked) {
+    const bool formatted = option_given(o->line, "format"), mapped = option_given(o->line, "mapping");
+    char all[NAMES_SIZE] = "";
+    size_t count = 0;
+    for (size_t i = 0; i < asked->family->case_count; i++)
+        if ((asked->cases >> i & 1) != 0)
+            append(all, sizeof all, "%s%s", count++ > 0 ? ", " : "", asked->family->cases[i].name);
+    if (count > 1 && (formatted || mapped))
+        return option_error(formatted ? "format" : "mapping", "must be one of %s; 'plot pareto %s' compares them", all,
+                            asked->family->name);
+    asked->cases = 1U << asked->which;
+    return EXIT_FINE;
 }
 
 const char *methods_machine(char *out, size_t size) {

@@ -9,15 +9,20 @@
 #include "method/bench.h"
 #include "method/stability.h"
 
-/** A family and the case of it that --format and --mapping name (the first when neither is given), at the planes. */
+/** A family and the cases of it that --format and --mapping name, all when neither is given; and the first of these, at
+ *  the planes. */
 typedef struct methods_asked {
     const method_family_row *family;
+    unsigned cases; /**< bits */
     size_t which;
     dp_setup setup;
 } methods_asked;
 
 /** @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 int methods_resolve(const judge_request *o, const method_family_row *family, methods_asked *out);
+
+/** Refuses options that name several cases, for what is of one. @return likewise */
+int methods_single(const judge_request *o, methods_asked *asked);
 
 /** The cases for which method `index` is the cheapest within --tolerance, at the default camera's far/near. */
 void list_method_choice(size_t index, double tolerance, char chosen[LIST_TEXT_SIZE]);

@@ -232,6 +232,8 @@ static int resolve_methods(plotting *p) {
     if (status == EXIT_FINE)
         status = item.row == NULL ? resolve_all(p) : methods_resolve(&p->judge, item.row, &p->asked);
     if (status == EXIT_FINE && o->judge.mine_count > 0)
+        status = methods_single(&p->judge, &p->asked);
+    if (status == EXIT_FINE && o->judge.mine_count > 0)
         status = mine_open(&p->judge, &p->asked, p->row->build == pareto_build, &p->mine);
     if (status != EXIT_FINE)
         return status;
@@ -242,7 +244,7 @@ static int resolve_methods(plotting *p) {
     p->request.setups = &p->asked.setup;
     p->request.count = 1;
     p->request.family = p->asked.family;
-    p->request.which = p->asked.which;
+    p->request.cases = p->asked.cases;
     p->request.where = p->where;
     return status;
 }

@@ -13,6 +13,7 @@ typedef struct axis {
 /* A point of a series or a map; null where it lies on no such axis. */
 typedef struct point {
     const double *x, *y, *second, *value;
+    const char *label; /* null: it has none */
 } point;
 
 /* A chart; below `digest`, the panel, series and point at hand. */
@@ -78,9 +79,10 @@ static void *next_point(void *of, size_t at) {
     if (i >= (s != NULL ? s->count : columns * (size_t)m->rows))
         return NULL;
     if (s == NULL)
-        p->point = (point){&m->x[i % columns], &m->y[i / columns], NULL, &m->value[i]};
+        p->point = (point){&m->x[i % columns], &m->y[i / columns], NULL, &m->value[i], NULL};
     else
-        p->point = (point){&s->x[i], s->second ? NULL : &s->y[i], s->second ? &s->y[i] : NULL, NULL};
+        p->point = (point){&s->x[i], s->second ? NULL : &s->y[i], s->second ? &s->y[i] : NULL, NULL,
+                           s->labels != NULL ? s->labels[i] : NULL};
     return &p->point;
 }
 
@@ -90,7 +92,15 @@ static const column axis_columns[] = {{FIELD(axis, key, "key", "")},
                                       {FIELD(axis, scale, "scale", "")},
                                       {.kind = COLUMN_END}};
 
-enum { WITH_SECOND = 1, WITH_VALUE = 2 };
+enum { WITH_SECOND = 1, WITH_VALUE = 2, WITH_LABELS = 4 };
+
+static bool has_labels(const chart *c) {
+    for (size_t i = 0; i < c->panel_count; i++)
+        for (size_t k = 0; k < c->panels[i].series_count; k++)
+            if (c->panels[i].series[k].labels != NULL)
+                return true;
+    return false;
+}
 
 void figure_data_write(output *out, output_form form, const char *command, const char *figure, const chart *c) {
     const chart_panel *first = &c->panels[0];
@@ -107,12 +117,14 @@ void figure_data_write(output *out, output_form form, const char *command, const
                  .y = axis_of(&first->y),
                  .second = axis_of(&first->second),
                  .value = axis_of(&c->value)};
-    const unsigned when = (first->second.label != NULL ? WITH_SECOND : 0) | (c->value.label != NULL ? WITH_VALUE : 0);
+    const unsigned when = (first->second.label != NULL ? WITH_SECOND : 0) | (c->value.label != NULL ? WITH_VALUE : 0) |
+                          (has_labels(c) ? WITH_LABELS : 0);
     chart_digest(c, p.digest);
     const column points[] = {{FIELD(point, x, p.x.key, p.x.unit), .optional = true},
                              {FIELD(point, y, p.y.key, p.y.unit), .optional = true},
                              {FIELD(point, second, p.second.key, p.second.unit), .optional = true, .when = WITH_SECOND},
                              {FIELD(point, value, p.value.key, p.value.unit), .optional = true, .when = WITH_VALUE},
+                             {FIELD(point, label, "label", ""), .optional = true, .when = WITH_LABELS},
                              {.kind = COLUMN_END}};
     const column series[] = {{FIELD(plotted, name, "name", ""), .only = AS_JSON},
                              {FIELD(plotted, name, "series", ""), .only = AS_CSV},
