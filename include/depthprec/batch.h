@@ -78,9 +78,9 @@ typedef struct dp_batch {
  * Prepares a conversion of arrays, such as eye depths to codes. ENCODE and DECODE read only the set-up's format and
  * rounding; a task without codes leaves the word unread.
  *
- * CODE and WIDTH in the models `staged` and `float`, and CODE, WIDTH and EYE of the logarithmic mapping, have no vector
- * kernel, nor have EYE of orthographic planes with depth 0 between them and the tasks behind DECODE: each element then
- * costs what the scalar function does.
+ * CODE, WIDTH, LO and HI in the models `staged` and `float`, and these and EYE of logarithmic mappings, have no vector
+ * kernel, nor have EYE, LO and HI of orthographic planes with depth 0 between them and the tasks behind HI: each
+ * element then costs what the scalar function does.
  *
  * @return DP_OK; DP_ERROR_NULL; DP_ERROR_BATCH for a task, type or path that does not exist or is not available;
  *         DP_ERROR_FORMAT for DP_WORD_16 with a format of more bits. *batch is then left as it was

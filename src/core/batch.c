@@ -224,7 +224,9 @@ static int32_t run_kernel(const dp_batch *b, const void *from, void *to, size_t 
             kernel[DP_KERNEL_WIDEN_CODE](b, from, codes, count);
         kernel[dp_batch_read(b)->kernel](b, narrow_code ? codes : from, narrow_real ? wide : to, count);
         if (narrow_real)
-            kernel[DP_KERNEL_NARROW_REAL](b, wide, to, count);
+            kernel[b->task == DP_TASK_LO   ? DP_KERNEL_NARROW_DOWN
+                   : b->task == DP_TASK_HI ? DP_KERNEL_NARROW_UP
+                                           : DP_KERNEL_NARROW_REAL](b, wide, to, count);
         return INT32_MAX;
     }
     if (narrow_real)

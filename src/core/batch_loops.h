@@ -221,6 +221,55 @@ LOOP(WIDTH_PERSPECTIVE_FLOAT, word32, real64, width_perspective_float)
 LOOP(WIDTH_LINEAR_UNORM, word32, real64, width_linear_unorm)
 LOOP(WIDTH_LINEAR_FLOAT, word32, real64, width_linear_float)
 
+/*
+ * Ends of cells, with the operations of dp_cell_of(): the boundaries around a code are its midpoints with its
+ * neighbours, or truncated the codes themselves. Cells of the planes' codes, and of codes beyond them, end at the
+ * planes.
+ */
+DP_INLINE double boundary_num(const numbers *k, uint32_t code, int is_float) {
+    const double middle = 2.0 * as_real(code) - 1.0;
+    return is_float ? float_boundary(k, code) : k->truncates ? 2.0 * as_real(code) : middle;
+}
+
+DP_INLINE double boundary_depth(const numbers *k, uint32_t code, int is_float, int is_linear) {
+    const double divisor = shares(k, boundary_num(k, code, is_float));
+    return is_linear ? divisor / k->den : k->top / divisor;
+}
+
+/* A code counted from the near plane on. */
+DP_INLINE double from_near(const numbers *k, uint32_t code) {
+    return k->slope * as_real(code);
+}
+
+DP_INLINE double nearest_of(const numbers *k, uint32_t code, int is_float, int is_linear) {
+    const uint32_t c = kept_code(k, code);
+    const double z = boundary_depth(k, c + (k->reversed ? 1U : 0U), is_float, is_linear), at = from_near(k, c);
+    const double raised = at > k->first && z > k->lo ? z : k->lo;
+    return raised > k->hi ? k->hi : raised;
+}
+
+DP_INLINE double farthest_of(const numbers *k, uint32_t code, int is_float, int is_linear) {
+    const uint32_t c = kept_code(k, code);
+    const double z = boundary_depth(k, c + (k->reversed ? 0U : 1U), is_float, is_linear), at = from_near(k, c);
+    const double least = nearest_of(k, code, is_float, is_linear);
+    const double raised = z > least ? z : least;
+    return at >= k->last || raised > k->hi ? k->hi : raised;
+}
+
+#define ENDS(NAME, IS_FLOAT, IS_LINEAR)                                                                                \
+    DP_INLINE double lo_##NAME(const numbers *k, uint32_t code) {                                                      \
+        return nearest_of(k, code, IS_FLOAT, IS_LINEAR);                                                               \
+    }                                                                                                                  \
+    DP_INLINE double hi_##NAME(const numbers *k, uint32_t code) {                                                      \
+        return farthest_of(k, code, IS_FLOAT, IS_LINEAR);                                                              \
+    }                                                                                                                  \
+    LOOP(LO_##NAME, word32, real64, lo_##NAME)                                                                         \
+    LOOP(HI_##NAME, word32, real64, hi_##NAME)
+ENDS(PERSPECTIVE_UNORM, 0, 0)
+ENDS(PERSPECTIVE_FLOAT, 1, 0)
+ENDS(LINEAR_UNORM, 0, 1)
+ENDS(LINEAR_FLOAT, 1, 1)
+
 /* ---- Conversions ------------------------------------------------------------------------------------------------- */
 
 DP_INLINE double widened(const numbers *k, float x) {
@@ -239,7 +288,19 @@ DP_INLINE uint32_t same_code(const numbers *k, uint32_t code) {
 }
 
 LOOP(WIDEN_REAL, real32, real64, widened)
+DP_INLINE float rounded_down(const numbers *k, double x) {
+    (void)k;
+    return dp_float_down(x);
+}
+
+DP_INLINE float rounded_up(const numbers *k, double x) {
+    (void)k;
+    return dp_float_up(x);
+}
+
 LOOP(NARROW_REAL, real64, real32, same_real)
+LOOP(NARROW_DOWN, real64, real32, rounded_down)
+LOOP(NARROW_UP, real64, real32, rounded_up)
 LOOP(WIDEN_CODE, word16, word32, same_code)
 LOOP(NARROW_CODE, word32, word16, same_code)
 
@@ -378,12 +439,14 @@ LOOP(FLOAT_OF_HALF, word16, real32, float_of_half)
 dp_batch_kernel *const TABLE[DP_KERNEL_COUNT] = {
     ROW(CODE_PERSPECTIVE_UNORM) ROW(CODE_PERSPECTIVE_FLOAT) ROW(CODE_LINEAR_UNORM) ROW(CODE_LINEAR_FLOAT)
         ROW(ENCODE_UNORM) ROW(ENCODE_FLOAT) ROW(DECODE_UNORM) ROW(DECODE_UNORM_WIDE) ROW(DECODE_FLOAT)
-            ROW(EYE_PERSPECTIVE_UNORM) ROW(EYE_PERSPECTIVE_FLOAT) ROW(EYE_LINEAR_UNORM) ROW(EYE_LINEAR_FLOAT)
-                ROW(WIDTH_PERSPECTIVE_UNORM) ROW(WIDTH_PERSPECTIVE_FLOAT) ROW(WIDTH_LINEAR_UNORM)
-                    ROW(WIDTH_LINEAR_FLOAT) ROW(WIDEN_REAL) ROW(NARROW_REAL) ROW(WIDEN_CODE) ROW(NARROW_CODE)
+            ROW(EYE_PERSPECTIVE_UNORM) ROW(EYE_PERSPECTIVE_FLOAT) ROW(EYE_LINEAR_UNORM) ROW(EYE_LINEAR_FLOAT) ROW(
+                WIDTH_PERSPECTIVE_UNORM) ROW(WIDTH_PERSPECTIVE_FLOAT) ROW(WIDTH_LINEAR_UNORM) ROW(WIDTH_LINEAR_FLOAT)
+                ROW(LO_PERSPECTIVE_UNORM) ROW(HI_PERSPECTIVE_UNORM) ROW(LO_PERSPECTIVE_FLOAT) ROW(HI_PERSPECTIVE_FLOAT)
+                    ROW(LO_LINEAR_UNORM) ROW(HI_LINEAR_UNORM) ROW(LO_LINEAR_FLOAT) ROW(HI_LINEAR_FLOAT) ROW(WIDEN_REAL)
+                        ROW(NARROW_REAL) ROW(NARROW_DOWN) ROW(NARROW_UP) ROW(WIDEN_CODE) ROW(NARROW_CODE)
 #if FUSED
-                        ROW(STANDARD_16) ROW(STANDARD_32) ROW(REVERSED_16) ROW(REVERSED_32)
+                            ROW(STANDARD_16) ROW(STANDARD_32) ROW(REVERSED_16) ROW(REVERSED_32)
 #endif
-                            ROW(UNORM_OF_FLOAT_16) ROW(UNORM_OF_FLOAT_32) ROW(UNORM24_OF_FLOAT) ROW(FLOAT_OF_UNORM_16)
-                                ROW(FLOAT_OF_UNORM_32) ROW(HALF_OF_FLOAT) ROW(FLOAT_OF_HALF) ROW(BITS_OF_FLOAT)
-                                    ROW(FLOAT_OF_BITS) ROW(FAST_EYE_16) ROW(FAST_EYE_32)};
+                                ROW(UNORM_OF_FLOAT_16) ROW(UNORM_OF_FLOAT_32) ROW(UNORM24_OF_FLOAT)
+                                    ROW(FLOAT_OF_UNORM_16) ROW(FLOAT_OF_UNORM_32) ROW(HALF_OF_FLOAT) ROW(FLOAT_OF_HALF)
+                                        ROW(BITS_OF_FLOAT) ROW(FLOAT_OF_BITS) ROW(FAST_EYE_16) ROW(FAST_EYE_32)};

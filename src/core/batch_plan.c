@@ -117,6 +117,17 @@ static void plan_width(dp_batch *b) {
         k->width = k->top * (k->top * s->kappa);
 }
 
+/* Codes are counted from the near plane on. */
+static void plan_ends(dp_batch *b) {
+    const dp_setup *s = &b->setup;
+    dp_batch_numbers *k = &dp_batch_write(b)->numbers;
+    k->slope = s->reversed ? -1.0 : 1.0;
+    k->first = k->slope * (double)s->code_near;
+    k->last = k->slope * (double)s->code_far;
+    k->lo = s->spec.znear;
+    k->hi = s->spec.zfar;
+}
+
 static void plan_depth(dp_batch *b) {
     const dp_setup *s = &b->setup;
     dp_batch_numbers *k = &dp_batch_write(b)->numbers;
@@ -132,6 +143,8 @@ static void plan_depth(dp_batch *b) {
     }
     if (b->task == DP_TASK_WIDTH)
         plan_width(b);
+    else if (b->task != DP_TASK_EYE)
+        plan_ends(b);
 }
 
 /* ---- Conditions of the direct kernels, each filling in its numbers ----------------------------------------------- */
@@ -267,7 +280,7 @@ static const direct_row direct_rows[] = {
 };
 
 /* [task][curve][kind]; ENCODE and DECODE have no curve. */
-static const int general[DP_TASK_DECODE + 1][2][2] = {
+static const int general[DP_TASK_HI + 1][2][2] = {
     [DP_TASK_CODE] = {{DP_KERNEL_CODE_PERSPECTIVE_UNORM, DP_KERNEL_CODE_PERSPECTIVE_FLOAT},
                       {DP_KERNEL_CODE_LINEAR_UNORM, DP_KERNEL_CODE_LINEAR_FLOAT}},
     [DP_TASK_EYE] = {{DP_KERNEL_EYE_PERSPECTIVE_UNORM, DP_KERNEL_EYE_PERSPECTIVE_FLOAT},
@@ -278,16 +291,21 @@ static const int general[DP_TASK_DECODE + 1][2][2] = {
                         {DP_KERNEL_ENCODE_UNORM, DP_KERNEL_ENCODE_FLOAT}},
     [DP_TASK_DECODE] = {{DP_KERNEL_DECODE_UNORM, DP_KERNEL_DECODE_FLOAT},
                         {DP_KERNEL_DECODE_UNORM, DP_KERNEL_DECODE_FLOAT}},
+    [DP_TASK_LO] = {{DP_KERNEL_LO_PERSPECTIVE_UNORM, DP_KERNEL_LO_PERSPECTIVE_FLOAT},
+                    {DP_KERNEL_LO_LINEAR_UNORM, DP_KERNEL_LO_LINEAR_FLOAT}},
+    [DP_TASK_HI] = {{DP_KERNEL_HI_PERSPECTIVE_UNORM, DP_KERNEL_HI_PERSPECTIVE_FLOAT},
+                    {DP_KERNEL_HI_LINEAR_UNORM, DP_KERNEL_HI_LINEAR_FLOAT}},
 };
 
 static int general_kernel(const dp_batch *b) {
     const dp_setup *s = &b->setup;
     const int by_format = b->task == DP_TASK_ENCODE || b->task == DP_TASK_DECODE;
-    if (b->task > DP_TASK_DECODE || (!by_format && s->curve == DP_CURVE_LOG))
+    const int ends = b->task == DP_TASK_LO || b->task == DP_TASK_HI;
+    if (b->task > DP_TASK_HI || (!by_format && s->curve == DP_CURVE_LOG))
         return DP_KERNEL_NONE;
-    if (b->task == DP_TASK_EYE && s->spans_zero)
+    if ((b->task == DP_TASK_EYE || ends) && s->spans_zero)
         return DP_KERNEL_NONE;
-    if ((b->task == DP_TASK_CODE || b->task == DP_TASK_WIDTH) && s->spec.model != DP_MODEL_EXACT)
+    if ((b->task == DP_TASK_CODE || b->task == DP_TASK_WIDTH || ends) && s->spec.model != DP_MODEL_EXACT)
         return DP_KERNEL_NONE;
     if (b->task == DP_TASK_DECODE && s->spec.format.kind == DP_FORMAT_UNORM && s->spec.format.bits > 24)
         return DP_KERNEL_DECODE_UNORM_WIDE;

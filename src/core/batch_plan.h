@@ -23,8 +23,10 @@
     X(DECODE_UNORM) X(DECODE_UNORM_WIDE) X(DECODE_FLOAT)                                                               \
     X(EYE_PERSPECTIVE_UNORM) X(EYE_PERSPECTIVE_FLOAT) X(EYE_LINEAR_UNORM) X(EYE_LINEAR_FLOAT)                          \
     X(WIDTH_PERSPECTIVE_UNORM) X(WIDTH_PERSPECTIVE_FLOAT) X(WIDTH_LINEAR_UNORM) X(WIDTH_LINEAR_FLOAT)                  \
+    X(LO_PERSPECTIVE_UNORM) X(LO_PERSPECTIVE_FLOAT) X(LO_LINEAR_UNORM) X(LO_LINEAR_FLOAT)                              \
+    X(HI_PERSPECTIVE_UNORM) X(HI_PERSPECTIVE_FLOAT) X(HI_LINEAR_UNORM) X(HI_LINEAR_FLOAT)                              \
     /* conversions */                                                                                                  \
-    X(WIDEN_REAL) X(NARROW_REAL) X(WIDEN_CODE) X(NARROW_CODE)                                                          \
+    X(WIDEN_REAL) X(NARROW_REAL) X(NARROW_DOWN) X(NARROW_UP) X(WIDEN_CODE) X(NARROW_CODE)                              \
     /* direct */                                                                                                       \
     X(STANDARD_16) X(STANDARD_32) X(REVERSED_16) X(REVERSED_32)                                                        \
     X(UNORM_OF_FLOAT_16) X(UNORM_OF_FLOAT_32) X(UNORM24_OF_FLOAT)                                                      \
