@@ -9,7 +9,7 @@
 layers='
 include/depthprec | depthprec
 src/core          | depthprec core
-src/bias          | depthprec core bias
+src/bias          | depthprec core raster bias
 src/camera        | depthprec core system raster bias camera
 src/world         | depthprec core world
 src/quantity      | depthprec core quantity

@@ -15,6 +15,8 @@ raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const
     const dp_triangles *view = &setup->spec.triangles;
     const double half = dp_tan(view->fov_y * M_PI / 360.0);
     size_t index = 0;
+    camera->bias = NULL;
+    camera->bias_of = NULL;
     camera->p11 = (float)(1.0 / half);
     camera->p00 = (float)(view->height / (half * view->width));
     if (row == NULL)
@@ -92,6 +94,14 @@ static void keys_of(const draw_camera *camera, int count, uint32_t *code) {
         code[i] = most - code[i];
 }
 
+uint32_t draw_code(const draw_camera *camera, uint32_t key) {
+    const bool by_class = draw_is_class(camera);
+    const bool reversed = by_class ? camera->setup.reversed != 0 : camera->pipeline.reversed != 0;
+    if (by_class || camera->target.format.kind == DP_FORMAT_UNORM)
+        return reversed ? camera->target.format.code_max - key : key;
+    return dp_bits32(dp_ranked32(reversed ? ~key : key));
+}
+
 static void test_depths(void *context, int x, int y, int count, const uint32_t *key) {
     const drawing *d = context;
     const draw_area *area = &d->buffer->area;
@@ -114,7 +124,20 @@ bool draw_triangle(draw_buffer *buffer, const draw_camera *camera, const double 
 
 /* ---- Rows of pixels ---------------------------------------------------------------------------------------------- */
 
-static void draw_row(const draw_camera *camera, const draw_area *area, const raster_piece *piece, int y,
+/* The bias is added as a fragment's depth leaves the rasterizer. */
+static void biased_codes(const draw_camera *camera, const raster_piece *piece, int y, int from, int to, float bias,
+                         uint32_t *code) {
+    float depth[DRAW_ROW];
+    raster_depths(&camera->target, piece, y, from, to, depth);
+    for (int i = 0; i < to - from; i++)
+        depth[i] = fminf(fmaxf(depth[i] + bias, 0.0F), 1.0F);
+    if (draw_is_class(camera))
+        draw_class_convert(camera, depth, to - from, code);
+    else
+        raster_convert(&camera->target, depth, to - from, code);
+}
+
+static void draw_row(const draw_camera *camera, const draw_area *area, const raster_piece *piece, int y, float bias,
                      draw_take *take, void *context) {
     uint32_t key[DRAW_ROW];
     int from, to;
@@ -124,13 +147,24 @@ static void draw_row(const draw_camera *camera, const draw_area *area, const ras
     to = to < area->x + area->width ? to : area->x + area->width;
     for (int x = from, count; x < to; x += count) {
         count = to - x < DRAW_ROW ? to - x : DRAW_ROW;
-        if (draw_is_class(camera))
+        if (camera->bias != NULL)
+            biased_codes(camera, piece, y, x, x + count, bias, key);
+        else if (draw_is_class(camera))
             draw_class_codes(camera, piece, y, x, x + count, key);
         else
             raster_codes(&camera->target, piece, y, x, x + count, key);
         keys_of(camera, count, key);
         take(context, x, y, count, key);
     }
+}
+
+/* Each piece has the slope that it was set up with. */
+static float bias_of(const draw_camera *camera, const raster_piece *piece, const double place[3][3]) {
+    const float slope = fmaxf(fabsf(piece->plane.a), fabsf(piece->plane.b));
+    float most = 0.0F;
+    for (int i = 0; i < 3 && camera->bias != NULL; i++)
+        most = fmaxf(most, dp_pipeline_window(&camera->pipeline, (float)place[i][2]));
+    return camera->bias != NULL ? camera->bias(camera->bias_of, fminf(most, 1.0F), slope) : 0.0F;
 }
 
 bool draw_keys(const draw_camera *camera, const draw_area *area, const double place[3][3], draw_take *take,
@@ -146,8 +180,9 @@ bool draw_keys(const draw_camera *camera, const draw_area *area, const double pl
         const raster_piece *piece = &drawn.piece[i];
         const int first = piece->y0 > area->y ? piece->y0 : area->y;
         const int end = piece->y1 < area->y + area->height ? piece->y1 : area->y + area->height;
+        const float bias = bias_of(camera, piece, place);
         for (int y = first; y < end; y++)
-            draw_row(camera, area, piece, y, take, context);
+            draw_row(camera, area, piece, y, bias, take, context);
     }
     return true;
 }

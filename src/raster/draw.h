@@ -30,11 +30,18 @@
 /** Who may draw: 1 to DRAW_SURFACES. */
 enum { DRAW_NOBODY = 0, DRAW_SURFACES = 8, DRAW_ROW = 256 };
 
+/** The bias of a triangle, of its greatest window depth and of the greater change of depth from a pixel to the next. */
+typedef float draw_bias(const void *of, float most, float slope);
+
 typedef struct draw_camera {
     raster_target target;
     dp_pipeline pipeline;
     float p00, p11; /**< of the matrix: clip x and y of eye x and y */
     dp_setup setup; /**< where no rasterizer is named: see draw_class.h */
+    /** Added in binary32 to each depth, which is then held from 0 to 1, before it is stored; null: nothing is. No
+     *  fragment shader's depth has one. */
+    draw_bias *bias;
+    const void *bias_of;
 } draw_camera;
 
 /** n . X = distance, |n| = 1. */
@@ -93,6 +100,9 @@ bool draw_triangle(draw_buffer *buffer, const draw_camera *camera, const double 
  * compares there: the nearer, the less, and below UINT32_MAX.
  */
 typedef void draw_take(void *context, int x, int y, int count, const uint32_t *key);
+
+/** The stored code that has a key. */
+uint32_t draw_code(const draw_camera *camera, uint32_t key);
 
 /** Gives the pixels of an area inside the target to a depth test of the caller's own, as draw_triangle() does. */
 bool draw_keys(const draw_camera *camera, const draw_area *area, const double place[3][3], draw_take *take,

@@ -79,20 +79,23 @@ raster_status draw_class_set_up(const draw_camera *camera, const double place[3]
     return drawn->count > 0 ? RASTER_OK : RASTER_EMPTY;
 }
 
-void draw_class_codes(const draw_camera *camera, const raster_piece *piece, int y, int from, int to, uint32_t *code) {
-    enum { SOME = 256 };
+void draw_class_convert(const draw_camera *camera, const float *depth, int count, uint32_t *code) {
     const dp_format *format = &camera->setup.spec.format;
     const bool affine = is_affine(camera);
     const bool as_it_is = affine && format->kind == DP_FORMAT_FLOAT && format->bits == 31 && format->bias == 127;
     const float znear = (float)camera->setup.spec.znear;
-    float depth[SOME];
+    for (int i = 0; i < count && !as_it_is; i++)
+        code[i] = affine ? dp_pipeline_convert(&camera->pipeline, depth[i])
+                         : dp_code(&camera->setup, (double)(znear / depth[i]));
+    if (as_it_is)
+        memcpy(code, depth, (size_t)count * sizeof *code);
+}
+
+void draw_class_codes(const draw_camera *camera, const raster_piece *piece, int y, int from, int to, uint32_t *code) {
+    float depth[DRAW_ROW];
     for (int x = from, count; x < to; x += count) {
-        count = to - x < SOME ? to - x : SOME;
+        count = to - x < DRAW_ROW ? to - x : DRAW_ROW;
         raster_depths(&camera->target, piece, y, x, x + count, depth);
-        for (int i = 0; i < count && !as_it_is; i++)
-            code[x - from + i] = affine ? dp_pipeline_convert(&camera->pipeline, depth[i])
-                                        : dp_code(&camera->setup, (double)(znear / depth[i]));
-        if (as_it_is)
-            memcpy(code + (x - from), depth, (size_t)count * sizeof *code);
+        draw_class_convert(camera, depth, count, code + (x - from));
     }
 }

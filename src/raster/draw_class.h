@@ -23,4 +23,7 @@ raster_status draw_class_set_up(const draw_camera *camera, const double place[3]
 /** As raster_codes(), in the format of the set-up, any that there is. */
 void draw_class_codes(const draw_camera *camera, const raster_piece *piece, int y, int from, int to, uint32_t *code);
 
+/** The codes of depths that a rasterizer interpolated. */
+void draw_class_convert(const draw_camera *camera, const float *depth, int count, uint32_t *code);
+
 #endif

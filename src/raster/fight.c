@@ -10,7 +10,7 @@
 #include "raster/mesh.h"
 
 enum { FARTHER = 1, NEARER = 2, BOTH = 3 };
-enum { CHUNK = 32 /* pairs that share what was found */, CELLS = 4, REACH = 64 /* pixels from the middle */ };
+enum { CHUNK = 32 /* pairs that share what was found */ };
 
 /* Shares of the guarantee: where the walk ends at the latest, and from one to the next. Planes nearer to edge-on than
  * the last have no depth. */
@@ -33,40 +33,6 @@ double draw_guaranteed(const dp_setup *setup, double slant, double z) {
     dp_budget budget;
     at_slant.spec.triangles.slant_lo = at_slant.spec.triangles.slant_hi = slant;
     return dp_budget_at(&at_slant, z, NULL, &budget) == DP_OK ? budget.separation : (double)INFINITY;
-}
-
-/* Cells from two pixels to half the widest triangle, up to half as slim as the class lets them be, turned; the pixel
- * lies anywhere in the cell in the middle. */
-static draw_mesh random_mesh(const draw_fight_request *r, const double window[2], uint64_t *state) {
-    const double wide = draw_log_uniform(state, 2.0, fmax(0.5 * r->setup->spec.triangles.pixels, 3.0));
-    const double high = fmax(wide / draw_log_uniform(state, 1.0, 0.5 * r->setup->spec.triangles.slim), 1.0);
-    const double turn = 2.0 * M_PI * draw_uniform(state);
-    const double u = CELLS / 2 + draw_uniform(state), v = CELLS / 2 + draw_uniform(state);
-    draw_mesh mesh = {.side = {{wide * dp_cos(turn), wide * dp_sin(turn)}, {-high * dp_sin(turn), high * dp_cos(turn)}},
-                      .cells = {CELLS, CELLS}};
-    for (int axis = 0; axis < 2; axis++)
-        mesh.corner[axis] = window[axis] - u * mesh.side[0][axis] - v * mesh.side[1][axis];
-    mesh.seed = draw_random(state);
-    return mesh;
-}
-
-static int at_most(double x, int most) {
-    return x < most ? (int)x : most;
-}
-
-static int at_least(int x, int least) {
-    return x > least ? x : least;
-}
-
-/* The area about a pixel as far as the larger mesh reaches, and no farther than REACH. */
-static draw_area area_about(const draw_camera *camera, int x, int y, const draw_mesh mesh[2]) {
-    const double reach =
-        0.5 * CELLS *
-        fmax(dp_hypot(mesh[0].side[0][0], mesh[0].side[0][1]), dp_hypot(mesh[1].side[0][0], mesh[1].side[0][1]));
-    const int off = at_most(reach, REACH);
-    const int left = at_least(x - off, 0), low = at_least(y - off, 0);
-    return (draw_area){left, low, at_most(x + off + 1, camera->target.width) - left,
-                       at_most(y + off + 1, camera->target.height) - low};
 }
 
 /* The least eye depth of the farther plane in the area, none below `lo`. */
@@ -92,8 +58,8 @@ static bool random_pair(const draw_fight_request *r, const draw_fight_band *band
     out->plane =
         (draw_plane){.normal = {dp_sin(angle) * dp_cos(azimuth), dp_sin(angle) * dp_sin(azimuth), dp_cos(angle)}};
     for (int k = 0; k < 2; k++)
-        out->mesh[k] = random_mesh(r, window, state);
-    out->area = area_about(r->camera, x, y, out->mesh);
+        out->mesh[k] = draw_mesh_random(t, window, state);
+    out->area = draw_mesh_area(r->camera, x, y, out->mesh);
     const double facing = draw_facing(r->camera, &out->plane, window);
     out->plane.distance = z * facing;
     if (!(facing > least_facing))
@@ -260,7 +226,6 @@ static uint64_t next_chunk(progress *p, uint64_t count) {
 
 draw_fight_status draw_fight(const draw_fight_request *request, draw_fight_result *result) {
     const draw_fight_request *r = request;
-    enum { ROOM = (2 * REACH + 1) * (2 * REACH + 1) };
     result->band_count = bands_of(r, result->bands);
     const uint64_t bands = (uint64_t)result->band_count, each_band = rounded_up(r->count, bands);
     const uint64_t chunks = rounded_up(each_band, CHUNK) * bands;
@@ -268,7 +233,7 @@ draw_fight_status draw_fight(const draw_fight_request *request, draw_fight_resul
 #pragma omp parallel num_threads(p.threads)
     {
         draw_buffer buffer;
-        const bool ready = draw_buffer_open(&buffer, ROOM);
+        const bool ready = draw_buffer_open(&buffer, DRAW_MESH_ROOM);
         for (uint64_t i = ready ? next_chunk(&p, chunks) : chunks; i < chunks; i = next_chunk(&p, chunks)) {
             draw_fight_band *band = &result->bands[i % bands];
             const uint64_t from = i / bands * CHUNK, to = from + CHUNK < each_band ? from + CHUNK : each_band;

@@ -6,6 +6,8 @@
 #include "core/bits.h"
 #include "core/elementary.h"
 
+enum { CELLS = 4 };
+
 /* How far a pixel's centre lies beyond an edge at most, pixels. */
 static const double moved = 0.0625;
 
@@ -44,9 +46,49 @@ void draw_mesh_corners(const draw_mesh *mesh, int i, int k, int half, double win
     }
 }
 
+draw_mesh draw_mesh_random(const dp_triangles *class, const double window[2], uint64_t *state) {
+    const double wide = draw_log_uniform(state, 2.0, fmax(0.5 * class->pixels, 3.0));
+    const double high = fmax(wide / draw_log_uniform(state, 1.0, 0.5 * class->slim), 1.0);
+    const double turn = 2.0 * M_PI * draw_uniform(state);
+    const double u = CELLS / 2 + draw_uniform(state), v = CELLS / 2 + draw_uniform(state);
+    draw_mesh mesh = {.side = {{wide * dp_cos(turn), wide * dp_sin(turn)}, {-high * dp_sin(turn), high * dp_cos(turn)}},
+                      .cells = {CELLS, CELLS}};
+    for (int axis = 0; axis < 2; axis++)
+        mesh.corner[axis] = window[axis] - u * mesh.side[0][axis] - v * mesh.side[1][axis];
+    mesh.seed = draw_random(state);
+    return mesh;
+}
+
+static int at_most(double x, int most) {
+    return x < most ? (int)x : most;
+}
+
+static int at_least(int x, int least) {
+    return x > least ? x : least;
+}
+
+draw_area draw_mesh_area(const draw_camera *camera, int x, int y, const draw_mesh mesh[2]) {
+    const double reach =
+        0.5 * CELLS *
+        fmax(dp_hypot(mesh[0].side[0][0], mesh[0].side[0][1]), dp_hypot(mesh[1].side[0][0], mesh[1].side[0][1]));
+    const int off = at_most(reach, DRAW_MESH_REACH);
+    const int left = at_least(x - off, 0), low = at_least(y - off, 0);
+    return (draw_area){left, low, at_most(x + off + 1, camera->target.width) - left,
+                       at_most(y + off + 1, camera->target.height) - low};
+}
+
 /* How far a vertex moves: half a step of the grid, and what binary32 rounds before. */
 static double step_of(int subpixel) {
     return (subpixel > 0 ? 0.5 / (1 << subpixel) : moved) + 0x1p-8;
+}
+
+/* Upon the longest edge. */
+static double height_of(const double v[3][2]) {
+    const double area = fabs((v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
+    double longest = 0.0;
+    for (int i = 0; i < 3; i++)
+        longest = fmax(longest, dp_hypot(v[(i + 1) % 3][0] - v[i][0], v[(i + 1) % 3][1] - v[i][1]));
+    return area / longest;
 }
 
 draw_shape draw_shape_of(const double v[3][2], int subpixel) {
@@ -127,6 +169,8 @@ int draw_mesh_plane(draw_buffer *buffer, const draw_camera *camera, const draw_p
             for (int half = 0; half < 2; half++) {
                 double window[3][2];
                 draw_mesh_corners(mesh, i, k, half, window);
+                if (height_of((const double(*)[2])window) < mesh->lowest)
+                    continue;
                 drawn += draw_part(buffer, camera, plane, (const double(*)[2])window, class, who);
             }
     return drawn;

@@ -17,7 +17,19 @@ typedef struct draw_mesh {
     double corner[2], side[2][2];
     int cells[2];  /**< along each side; each is parted into two triangles, by either diagonal */
     uint64_t seed; /**< of the vertices' moves and of the diagonals */
+    double lowest; /**< triangles of a smaller height are not drawn, pixels */
 } draw_mesh;
+
+/**
+ * A random one about a place of the window, which lies anywhere in the middle of its 4 x 4 cells. These are from two
+ * pixels to half the widest triangle wide, up to half as slim as the class lets them be, and turned.
+ */
+draw_mesh draw_mesh_random(const dp_triangles *class, const double window[2], uint64_t *state);
+
+enum { DRAW_MESH_REACH = 64, DRAW_MESH_ROOM = (2 * DRAW_MESH_REACH + 1) * (2 * DRAW_MESH_REACH + 1) };
+
+/** The area about a pixel as far as the larger of two such meshes reaches, and no farther than DRAW_MESH_REACH. */
+draw_area draw_mesh_area(const draw_camera *camera, int x, int y, const draw_mesh mesh[2]);
 
 /** The window coordinates of one of the two triangles of a cell: half 0 or 1. */
 void draw_mesh_corners(const draw_mesh *mesh, int i, int k, int half, double window[3][2]);

@@ -155,6 +155,13 @@ void raster_depths(const raster_target *target, const raster_piece *piece, int y
     target->row->model->depths[target->path](&piece->plane, y, from, to, depth);
 }
 
+void raster_convert(const raster_target *target, const float *depth, int count, uint32_t *code) {
+    if (target->format.kind == DP_FORMAT_FLOAT)
+        memcpy(code, depth, (size_t)count * sizeof *code);
+    else
+        target->row->model->unorm(depth, count, target->scale, code);
+}
+
 void raster_codes(const raster_target *target, const raster_piece *piece, int y, int from, int to, uint32_t *code) {
     enum { SOME = 256 };
     const raster_model *model = target->row->model;
@@ -166,9 +173,6 @@ void raster_codes(const raster_target *target, const raster_piece *piece, int y,
     for (int x = from, count; x < to; x += count, code += count) {
         count = to - x < SOME ? to - x : SOME;
         raster_depths(target, piece, y, x, x + count, depth);
-        if (target->format.kind == DP_FORMAT_FLOAT)
-            memcpy(code, depth, (size_t)count * sizeof *code);
-        else
-            model->unorm(depth, count, target->scale, code);
+        raster_convert(target, depth, count, code);
     }
 }

@@ -98,7 +98,8 @@ static void draw_surface(stage *s, double distance, unsigned who) {
     const draw_mesh mesh = {{a->x - 2.0 * side, a->y - 2.0 * side},
                             {{side, 0.0}, {0.0, side}},
                             {(int)(a->width / side) + 4, (int)(a->height / side) + 4},
-                            who};
+                            who,
+                            0.0};
     draw_mesh_plane(&s->buffer, &s->camera, &plane, &mesh, class, who);
 }
 

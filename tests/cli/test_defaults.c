@@ -111,6 +111,8 @@ static const struct {
     {BIT(solve), IDS("mapping"), "all", "solve -F d24 --separation 0.01 --at 50", ""},
     {BIT(solve), IDS("range"), "0.1:1000", "solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01", ""},
     {BIT(solve), IDS("model"), "float", NULL, ""},
+    {BIT(bias), IDS("raster"), "llvmpipe", "bias -F fp32 -m d3d --units -1 --range 1:9 --rasterize", ""},
+    {BIT(bias), IDS("viewport"), "1920x1080", "bias -F fp32 -m d3d --units -1 --range 1:9 --rasterize", ""},
     {BIT(zfight), IDS("raster"), "llvmpipe", "zfight -F fp32 -m d3d --rasterize --sample 20", ""},
     {BIT(methods), IDS("format"), "unorm24", "methods interval --json", ""},
     {BIT(methods), IDS("mapping"), "d3d", "methods interval --json", ""},

@@ -240,7 +240,8 @@ TEST(meshes) {
         draw_mesh mesh = {{rng_uniform(&r, 0.0, WIDTH), rng_uniform(&r, 0.0, HEIGHT)},
                           {{wide, rng_uniform(&r, -1, 1)}, {rng_uniform(&r, -1, 1), high}},
                           {4, 4},
-                          rng_next(&r)};
+                          rng_next(&r),
+                          0.0};
         dp_triangles class = s.setup.spec.triangles;
         class.pixels = rng_log(&r, 3.0, 60.0);
         class.slim = rng_log(&r, 2.0, 30.0);
@@ -281,7 +282,7 @@ TEST(closed) {
         const draw_plane plane = {{0.0, 0.6, 0.8}, 5.0};
         const double cell = rng_uniform(&r, 3.0, 8.0), cells = ceil(46.0 / cell) + 1.0;
         const draw_mesh mesh = {
-            {57.0 - cell, 27.0 - cell}, {{cell, 0}, {0, cell}}, {(int)cells, (int)cells}, rng_next(&r)};
+            {57.0 - cell, 27.0 - cell}, {{cell, 0}, {0, cell}}, {(int)cells, (int)cells}, rng_next(&r), 0.0};
         draw_buffer_clear(&b, (draw_area){60, 30, 40, 30});
         draw_mesh_plane(&b, &s.camera, &plane, &mesh, NULL, 3);
         for (int i = 0; i < 40 * 30; i++)

@@ -11,7 +11,9 @@
 #include <unistd.h>
 
 #include "bias/cmd_bias/report.h"
+#include "camera/cmd/raster_setups.h"
 #include "core/append.h"
+#include "draw/canvas.h"
 #include "report/terminal.h"
 
 enum { DIGITS = 6 };
@@ -81,6 +83,11 @@ static void judge(biasing *b) {
     goal.slope = b->o->bias.slope;
     if (b->when & OF_SLOPES)
         b->sloped = bias_judged_of(setup, &b->state, &goal, b->judged_lo, b->judged_hi);
+    if (b->o->drawn && b->status == EXIT_FINE)
+        b->status =
+            bias_try(b->o->camera.raster, &b->drawn.items[setup - b->each.all.items], &b->state,
+                     isnan(b->sloped.v.lo) ? b->judged_lo : b->sloped.v.lo,
+                     isnan(b->sloped.v.hi) ? b->judged_hi : b->sloped.v.hi, b->o->render, &b->sloped, &b->trial);
     const bias_judged *strictest = b->when & OF_SLOPES ? &b->sloped : &b->facing;
     b->missed = b->missed || b->facing.v.answer != BIAS_ENOUGH || strictest->v.answer != BIAS_ENOUGH;
     b->pushed = bias_pushed_of(setup, &b->state, strictest, b->judged_lo, b->judged_hi);
@@ -262,6 +269,7 @@ static const column setup_report[] = {
     {PART(biasing, facing, "facing", bias_judged_columns), .only = AS_JSON, .when = EFFECT},
     {PART(biasing, sloped, "sloped", bias_judged_columns), .only = AS_JSON, .when = EFFECT | OF_SLOPES},
     {PART(biasing, pushed, "push", bias_pushed_columns), .only = AS_JSON, .when = EFFECT},
+    {PART(biasing, trial, "drawn", bias_trial_columns), .only = AS_JSON, .when = DRAWN},
     {.kind = COLUMN_END}};
 
 static const column columns[] = {
@@ -352,13 +360,31 @@ static double units_sent(const bias_request *o, const bias_api *api) {
     return units;
 }
 
+/* The set-ups as the rasterizer has them, and with them those that are judged. */
+static int take_drawn(biasing *b) {
+    const bias_request *o = b->o;
+    if (!o->drawn)
+        return EXIT_FINE;
+    if (o->render != NULL && canvas_format_of(o->render) != CANVAS_PNG)
+        return option_error("render", "must end in .png, got '%s'", o->render);
+    if (o->render != NULL && b->each.all.count > 1)
+        return option_error("render", "shows one format and mapping, got %zu", b->each.all.count);
+    const int status = raster_setups(&o->camera, &b->drawn);
+    for (size_t i = 0; status == EXIT_FINE && i < b->drawn.count; i++) {
+        dp_spec spec = b->drawn.items[i].spec;
+        spec.model = DP_MODEL_EXACT;
+        dp_setup_init(&b->each.all.items[i], &spec);
+    }
+    return status == EXIT_FINE && o->render != NULL ? output_check(o->render) : status;
+}
+
 /* The conditions of columns, but for how many places there are. */
 static unsigned conditions(const bias_request *o) {
     const unsigned of_several = SEVERAL | (option_given(o->line, "at") ? OF_DEPTHS : OF_RANGE);
     return (option_given(o->line, "units") ? EFFECT : INVERSE) | (o->bias.api == NULL ? of_several : ONE_API) |
            (o->bias.separation > 0.0 ? WITH_GAP : 0) | (o->bias.slope > 0.0 ? WITH_SLOPE : 0) |
            (o->bias.slope > 0.0 || o->camera.triangles.width > 0 ? OF_SLOPES : 0) | (o->out.full ? VERBOSE : 0) |
-           (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
+           (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0) | (o->drawn ? DRAWN : 0);
 }
 
 /* Several APIs, a few set-ups, one place: whether they stand beside each other. */
@@ -396,11 +422,15 @@ int cmd_bias(void *request) {
     status = each_setup_start(&b.each, &o->camera, &o->out);
     if (status == EXIT_FINE)
         status = resolve(&b, o);
+    if (status == EXIT_FINE)
+        status = take_drawn(&b);
     if ((b.when & OF_DEPTHS) && b.each.at.count > 1)
         b.when |= OF_PLACES;
     if (suits_beside(&b))
         return write_beside(&b, status);
     const report_spec spec = {"bias", columns, &b, .when = b.when, .label = api != NULL ? 12 : 14};
     status = each_setup_write(&b.each, &spec, status);
+    setups_release(&b.drawn);
+    status = status == EXIT_FINE ? b.status : status;
     return status == EXIT_FINE && o->checked && b.missed ? EXIT_FAILED : status;
 }

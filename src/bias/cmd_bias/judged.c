@@ -32,6 +32,14 @@ bias_judged bias_judged_of(const dp_setup *setup, const bias_state *given, const
     return j;
 }
 
+void bias_judged_by(bias_judged *j, double z, double code, double moved) {
+    j->v.answer = BIAS_NOT_ENOUGH;
+    j->answer = answers[BIAS_NOT_ENOUGH];
+    j->v.z = z;
+    j->v.code = code;
+    j->v.moved = moved;
+}
+
 bias_pushed bias_pushed_of(const dp_setup *setup, const bias_state *state, const bias_judged *least, double lo,
                            double hi) {
     const dp_triangles *t = &setup->spec.triangles;

@@ -31,6 +31,9 @@ bool bias_is_missed(const dp_setup *setup);
 /** Judges a bias as the goal asks; one that is missed is none. */
 bias_judged bias_judged_of(const dp_setup *setup, const bias_state *state, const bias_goal *goal, double lo, double hi);
 
+/** Makes a verdict that is open "not enough", by a pixel that was drawn: where, and as what both layers are stored. */
+void bias_judged_by(bias_judged *j, double z, double code, double moved);
+
 /** @param least  the verdict whose least bias it is compared with */
 bias_pushed bias_pushed_of(const dp_setup *setup, const bias_state *state, const bias_judged *least, double lo,
                            double hi);

@@ -81,6 +81,12 @@ static const option_row check_rows[] = {
     {"check", 0, NULL,
         "exit with status 1 unless the bias given is enough all over the range, also at the slants that are asked "
         "about", FLAG(checked)},
+    {"rasterize", 0, NULL,
+        "also draw the layers as random triangles of random planes at any slant, by --raster: how many pixels fight "
+        "with the bias given, and one that does", FLAG(drawn)},
+    {"render", 0, "FILE",
+        "with --rasterize: write a PNG of the plane where most pixels fight; the layer is blue, pixels that show what "
+        "is below it are yellow", FILE_WRITTEN(render)},
     END};
 /* clang-format on */
 
@@ -126,12 +132,20 @@ const option_use bias_brought[] = {
 static const option_use uses[] = {
     ROWS(bias_rows), ROWS(check_rows), GROUP_OF(bias_brought),
     OWN("format", DEFAULT("fp32")),
-    TAKE("at"), TAKE("range"), TAKE("log-c"), TAKE("viewport"), TAKE("link"),
+    TAKE("at"), TAKE("range"), TAKE("log-c"), TAKE("link"),
+    OWN("viewport", WITHOUT("surfaces face the camera; 1920x1080 with --rasterize")),
+    OWN("raster", HELP("the rasterizer or specification, as in 'depthprec list rasterizers', or the profile of a GPU; "
+        "with --rasterize one that draws: llvmpipe, lavapipe, softpipe or swiftshader"),
+        WITHOUT("llvmpipe with --rasterize")),
     OWN("full", HELP("all columns, however wide; and where a biased depth is clamped")),
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 
 static const option_rule rules[] = {
     NEEDS("check", "units", ": it is a bias that is judged"),
+    CONFLICTS("rasterize", "slope", ", which draws surfaces at any slant"),
+    CONFLICTS("rasterize", "ortho", ", which draws perspectives"),
+    NEEDS("rasterize", "units", ": it is a bias that is drawn"),
+    NEEDS("render", "rasterize", NULL),
     {.option = NULL}};
 /* clang-format on */
 
@@ -141,7 +155,7 @@ static const option_place places[] = {
 static int complete(void *request) {
     bias_request *o = request;
     bias_bring(o->line, &o->bias, &o->camera, true);
-    const int status = camera_complete(&o->camera, &(camera_use){.measured = true});
+    const int status = camera_complete(&o->camera, &(camera_use){.measured = true, .drawn = o->drawn});
     return status == EXIT_FINE ? bias_complete(o->line, &o->camera) : status;
 }
 

@@ -6,6 +6,7 @@
 #include "bias/cmd_bias/call.h"
 #include "bias/cmd_bias/judged.h"
 #include "bias/cmd_bias/request.h"
+#include "bias/cmd_bias/trial.h"
 #include "camera/cmd/each_setup.h"
 #include "camera/cmd/slant.h"
 #include "report/sentence.h"
@@ -25,7 +26,8 @@ enum {
     VERBOSE = 256,
     WITH_TRIANGLES = 512,
     OF_PLACES = 1024, /**< at several depths */
-    OF_SLOPES = 2048  /**< of surfaces that need not face the camera */
+    OF_SLOPES = 2048, /**< of surfaces that need not face the camera */
+    DRAWN = 4096
 };
 
 /** The units that reach a goal from lo to hi; all NaN where lo is beyond hi. */
@@ -72,6 +74,9 @@ typedef struct biasing {
     char call[BIAS_CALL_SIZE];  /**< that sets them */
     bias_judged facing, sloped; /**< of a bias that is given, of one API: is it enough? */
     bias_pushed pushed;
+    bias_trial trial;            /**< with --rasterize */
+    int status;                  /**< of that */
+    setups drawn;                /**< likewise: the set-ups in the rasterizer's arithmetic */
     double judged_lo, judged_hi; /**< the range of that; of an infinite one up to the last depth shown */
     bool missed;                 /**< in some set-up it is not */
     bool limited;                /**< some depth is held at a plane */

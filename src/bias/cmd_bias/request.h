@@ -23,7 +23,9 @@ extern const option_use bias_brought[];
 typedef struct bias_request {
     CAMERA_REQUEST;
     bias_asked bias;
-    bool checked; /**< --check */
+    bool checked;       /**< --check */
+    bool drawn;         /**< --rasterize */
+    const char *render; /**< file of a picture; null when not given */
 } bias_request;
 
 /** The API of that index among those that are asked for; null behind the last. */

@@ -197,6 +197,8 @@ static void say_verdict(page *p, biasing *b) {
     bias_say_judged(p, &b->facing, b->judged_lo, b->judged_hi);
     if (b->sloped.what != NULL)
         bias_say_judged(p, &b->sloped, b->judged_lo, b->judged_hi);
+    if (b->when & DRAWN)
+        bias_say_trial(p, &b->trial);
     bias_say_pushed(p, &b->pushed);
     page_line(p, "a %s bias brings a layer nearer", bias_sign(b->each.setup) < 0 ? "negative" : "positive");
 }

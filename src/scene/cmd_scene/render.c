@@ -5,15 +5,14 @@
 #include <stdlib.h>
 
 #include "camera/cmd/raster_setups.h"
+#include "cli/output/picture.h"
 #include "cli/progress.h"
 #include "cli/stop.h"
 #include "draw/canvas.h"
-#include "draw/pixels.h"
 #include "report/number.h"
 #include "scene/cmd_scene/request.h"
 #include "scene/cmd_scene/scene.h"
 #include "scene/render.h"
-#include "system/posix.h"
 
 enum { STEPS = 1000 };
 
@@ -114,26 +113,11 @@ static bool count_wrong(scene *s, const render_picture *p) {
 /* ---- The picture ------------------------------------------------------------------------------------------------- */
 
 static int write_picture(const scene *s, const render_asked *asked, const render_picture *p) {
-    output out;
-    char *bytes = NULL;
-    size_t size = 0;
     uint32_t *pixel = malloc((size_t)p->width * (size_t)p->height * sizeof *pixel);
-    FILE *stream = pixel != NULL ? open_memstream(&bytes, &size) : NULL;
-    bool good = stream != NULL;
-    if (good) {
-        const pixels all = {.at = pixel, .stride = (size_t)p->width, .width = p->width, .height = p->height};
+    if (pixel != NULL)
         render_colours(asked, p, pixel);
-        good = pixels_write_png(stream, &all, NULL);
-    }
+    const int status = picture_write(s->o.scene.render, pixel, p->width, p->height);
     free(pixel);
-    good = (stream == NULL || fclose(stream) == 0) && good;
-    int status =
-        good ? output_open(&out, s->o.scene.render) : usage_error("%s: no memory for the picture", s->o.scene.render);
-    if (good && status == EXIT_FINE) {
-        output_bytes(&out, bytes, size);
-        status = output_close(&out);
-    }
-    free(bytes);
     return status;
 }
 
