@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "camera/make.h"
 
+#include <math.h>
 #include <string.h>
 #include <strings.h>
 
@@ -15,12 +16,35 @@ static bool said(const camera_said *c, camera_key key) {
     return c->words[key] != NULL;
 }
 
+/* The camera of its preset. */
+static bool make_preset(const camera_said *c, preset_camera *out, camera_fault *fault) {
+    char error[PRESET_ERROR_SIZE];
+    return preset_make(c->presets[0], &c->values[0], out, error) || camera_fails(fault, "preset", "%s", error);
+}
+
+bool camera_canvas(camera_said *c, camera_fault *fault) {
+    for (size_t i = 0; i < c->preset_count && said(c, CAMERA_VIEWPORT) && c->triangles.width > 0; i++) {
+        const int height = preset_parameter_of(c->presets[i], "height");
+        double *given = height >= 0 ? &c->values[i].given[height] : NULL;
+        if (given != NULL && !isnan(*given) && *given != c->triangles.height)
+            return camera_fails(fault, "preset", "has height=%.15g, and @viewport %d: leave one of them out", *given,
+                                c->triangles.height);
+        if (given != NULL)
+            *given = c->triangles.height;
+    }
+    return true;
+}
+
 bool camera_angle(const camera_said *c, double given, int width, int height, double *fov_y, camera_fault *fault) {
     *fov_y = given;
     if (said(c, CAMERA_HFOV))
         return camera_vertical(c->fov_x, width, height, fov_y, fault);
-    if (!said(c, CAMERA_FOV) && c->preset_count == 1)
-        *fov_y = preset_fov_y(c->presets[0], width, height);
+    if (said(c, CAMERA_FOV) || c->preset_count != 1)
+        return true;
+    preset_camera camera;
+    if (!make_preset(c, &camera, fault))
+        return false;
+    *fov_y = preset_fov_y(c->presets[0], camera.fov, width, height);
     return true;
 }
 
@@ -84,9 +108,16 @@ static void bring_mapping(camera_said *c, dp_mapping mapping) {
     c->mapping_count = 1;
 }
 
-static void take_preset(camera_said *c, const preset *p, const unit_row *unit) {
+static bool take_preset(camera_said *c, const preset *p, const unit_row *unit, camera_fault *fault) {
     double znear, zfar, log_c;
-    preset_planes(p, unit, &znear, &zfar, &log_c);
+    preset_camera camera;
+    if ((said(c, CAMERA_FOV) || said(c, CAMERA_HFOV)) && preset_parameter_of(p, "fov") >= 0)
+        return camera_fails(fault, said(c, CAMERA_FOV) ? "fov" : "hfov",
+                            "would leave the planes of %s as they are: say it to the @preset, as in %s:fov=40", p->name,
+                            p->name);
+    if (!make_preset(c, &camera, fault))
+        return false;
+    preset_planes(p, &camera, unit, &znear, &zfar, &log_c);
     if (!said(c, CAMERA_NEAR))
         c->znear = znear;
     if (!said(c, CAMERA_FAR))
@@ -99,6 +130,7 @@ static void take_preset(camera_said *c, const preset *p, const unit_row *unit) {
         bring_mapping(c, p->mapping);
     take_logarithm(c, p);
     bring_raster(c, p->raster);
+    return true;
 }
 
 /* A platform says what is stored: a preset's format and rasterizer give way to it, its mapping stays. */
@@ -196,10 +228,10 @@ bool camera_make(camera_said *c, const unit_row *unit, camera_fault *fault) {
         c->model_auto = true;
         c->model = DP_MODEL_EXACT;
     }
-    if (!check_rg(c, fault) || !take_view(c, fault) || !camera_grid(c, fault))
+    if (!check_rg(c, fault) || !camera_canvas(c, fault) || !take_view(c, fault) || !camera_grid(c, fault))
         return false;
-    if (c->preset_count == 1)
-        take_preset(c, c->presets[0], unit);
+    if (c->preset_count == 1 && !take_preset(c, c->presets[0], unit, fault))
+        return false;
     if (c->platform != NULL)
         take_platform(c, c->platform);
     return take_arith(c, fault) && (c->preset_count > 1 || keep_stored(c, fault)) &&

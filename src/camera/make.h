@@ -77,11 +77,15 @@ typedef struct camera_use {
     const raster_row *raster;                  /* null where none is known */                                          \
     const preset *presets[CAMERA_PRESETS_MAX]; /* in the order given, each once; of several none is made */            \
     size_t preset_count;                                                                                               \
-    const platform *platform /* null where none was said */
+    preset_values values[CAMERA_PRESETS_MAX]; /* what was said of each */                                              \
+    const platform *platform                  /* null where none was said */
 
 typedef struct camera_said {
     CAMERA_FIELDS;
 } camera_said;
+
+/** Gives its presets the height of its viewport, where they ask for one. */
+bool camera_canvas(camera_said *c, camera_fault *fault);
 
 /**
  * Completes a camera: what its one preset, its platform and its rasterizer bring where nothing was said.

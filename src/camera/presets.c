@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "camera/presets.h"
+#include "camera/computed.h"
 
 #include <math.h>
-#include <stdbool.h>
 
-#define CHECKED "2026-11-21"
-#define LATER   "2026-11-28"
+/* When a row was checked; without a function the planes are its own. */
+#define CHECKED "2026-11-21", NULL
+#define LATER   "2026-11-28", NULL
+#define TODAY   "2026-11-29"
+
+/* In place of the planes: they are the function's. */
+#define COMPUTED (double)NAN, (double)NAN
 
 /* clang-format off */
 static const preset rows[] = {
@@ -70,23 +74,30 @@ static const preset rows[] = {
     {"cesium", "cesiumjs cesium.js", "logarithmic depth, written per fragment; ratios beyond 1e9 take several frusta",
      "CesiumJS, PerspectiveFrustum.js (near, far), Camera.js (fov, of the larger side), writeLogDepth.glsl",
      1.0, 5e8, DP_MAPPING_CESIUM, "unorm24", "m", 60, PRESET_LARGER, "spec-gl", "gl", "glsl", "format", CHECKED},
+    {"maplibre", "maplibre-gl maplibre-gl-js",
+     "MapLibre GL JS 6.17, the flat map with neither terrain nor padding; of the depth range flat layers take 14 codes "
+     "of 2^16 each and 3D layers the rest",
+     "MapLibre GL JS, src/geo/projection/mercator_transform.ts (_calculateNearFarZ), mercator_utils.ts, lng_lat.ts",
+     COMPUTED, DP_MAPPING_GL, "unorm24", "m", FOV_OF_MAPS, PRESET_VERTICAL, "spec-gl", "gl", "glsl", "format", TODAY,
+     &computed_maplibre},
+    {"maplibre-globe", NULL, "MapLibre GL JS 6.17, the globe: near is half a pixel",
+     "MapLibre GL JS, src/geo/projection/vertical_perspective_transform.ts (_calcMatrices), globe_utils.ts", COMPUTED,
+     DP_MAPPING_GL, "unorm24", "m", FOV_OF_MAPS, PRESET_VERTICAL, "spec-gl", "gl", "glsl", "format", TODAY,
+     &computed_maplibre_globe},
+    {"deckgl", "deck.gl deck",
+     "deck.gl 9.4, MapView: near and far are nearZMultiplier and farZMultiplier, of the canvas's height",
+     "deck.gl, modules/core/src/viewports/web-mercator-viewport.ts; math.gl, modules/web-mercator/src/"
+     "web-mercator-utils.ts (getProjectionParameters)",
+     COMPUTED, DP_MAPPING_GL, "unorm24", "m", FOV_OF_MAPS, PRESET_VERTICAL, "spec-gl", "gl", "glsl", "format", TODAY,
+     &computed_deckgl},
+    {"deckgl-globe", NULL, "deck.gl 9.4, GlobeView: near is nearZMultiplier heights of the canvas",
+     "deck.gl, modules/core/src/viewports/globe-viewport.ts", COMPUTED, DP_MAPPING_GL, "unorm24", "m", FOV_OF_MAPS,
+     PRESET_VERTICAL, "spec-gl", "gl", "glsl", "format", TODAY, &computed_deckgl_globe},
     {"mujoco", NULL, "one scene unit is the model's extent: multiply by it; offscreen buffers",
      "MuJoCo, mjVisual.map (znear, zfar), mj_defaultVisual (fovy); google-deepmind/mujoco#978 (reversed, 32-bit float)",
      0.01, 50.0, DP_MAPPING_REVERSED, "fp32", "extents", 45, PRESET_VERTICAL,
      "spec-gl", "gl", "c", "near, far", CHECKED},
 };
 /* clang-format on */
-
-void preset_planes(const preset *p, const unit_row *unit, double *znear, double *zfar, double *log_c) {
-    const unit_row *own = unit_find(p->unit);
-    *znear = unit_convert(p->znear, own, unit);
-    *zfar = unit_convert(p->zfar, own, unit);
-    *log_c = 1.0 / unit_convert(1.0, own, unit);
-}
-
-double preset_fov_y(const preset *p, int width, int height) {
-    const bool vertical = p->axis == PRESET_VERTICAL || (p->axis == PRESET_LARGER && width <= height);
-    return vertical ? p->fov : dp_fov_vertical(p->fov, width, height);
-}
 
 NAMED_TABLE(preset, rows);

@@ -98,16 +98,35 @@ static bool list_cause(size_t index, list_item *item) {
            list_fill(item, (list_item){.name = dp_cause_name((dp_cause)index), .note = notes[index]});
 }
 
+/* The numbers that planes are computed from. */
+static void tell_parameters(const preset *row, list_item *item) {
+    append(item->bound, sizeof item->bound, "near and far computed from: ");
+    for (int i = 0; i < PRESET_PARAMETERS && row->function->parameters[i].name != NULL; i++) {
+        const preset_parameter *p = &row->function->parameters[i];
+        const char *unit = *p->unit != '\0' ? " " : "";
+        append(item->bound, sizeof item->bound, "%s%s from %s to %s%s%s, ", i > 0 ? "; " : "", p->name,
+               number_full(p->least).text, number_full(p->most).text, unit, p->unit);
+        append(item->bound, sizeof item->bound, isnan(p->standard) ? "needed" : "by default %s",
+               number_full(p->standard).text);
+    }
+    append(item->bound, sizeof item->bound, "; ");
+}
+
 static void tell_preset(const void *of, list_item *item) {
     static const char *const axes[] = {
         [PRESET_VERTICAL] = "vertical", [PRESET_HORIZONTAL] = "horizontal", [PRESET_LARGER] = "of the larger side"};
     const preset *row = of;
     const bool confirmed = row->unconfirmed[0] == '\0';
-    snprintf(item->bound, sizeof item->bound,
-             "near %s, far %s, %s, %s, fov %s %s, %s, bias of %s, code in %s, scene in %s; checked %s, %s%s",
-             number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
-             number_full(row->fov).text, axes[row->axis], row->raster, row->api, row->language, row->unit, row->checked,
-             confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
+    if (row->function != NULL)
+        tell_parameters(row, item);
+    else
+        append(item->bound, sizeof item->bound, "near %s, far %s, ", number_full(row->znear).text,
+               number_full(row->zfar).text);
+    append(item->bound, sizeof item->bound,
+           "%s, %s, fov %s %s, %s, bias of %s, code in %s, scene in %s; checked %s, %s%s",
+           dp_mapping_get(row->mapping)->name, row->format, number_full(row->fov).text, axes[row->axis], row->raster,
+           row->api, row->language, row->unit, row->checked,
+           confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
 }
 
 /* A format that the device decides on, as it is shown: "unorm24 or fp32". */

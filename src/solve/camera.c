@@ -41,12 +41,6 @@ static const char *format_name(size_t i) {
     return row != NULL ? name_of(row->format.name, row->aliases, i) : NULL;
 }
 
-static bool take_preset(camera_said *c, const char *word) {
-    c->presets[0] = preset_find(word);
-    c->preset_count = 1;
-    return c->presets[0] != NULL;
-}
-
 static bool take_mapping(camera_said *c, const char *word) {
     return dp_mapping_parse(word, &c->mappings[0]) == DP_OK;
 }
@@ -76,12 +70,12 @@ static bool take_raster(camera_said *c, const char *word) {
 }
 
 static const struct word_key {
-    bool (*take)(camera_said *c, const char *word);
-    const char *(*name)(size_t index); /* null behind the last */
-    const named_table *rows;           /* or their names */
-    const char *allowed;               /* null: the names */
+    bool (*take)(camera_said *c, const char *word); /* null: read_preset() */
+    const char *(*name)(size_t index);              /* null behind the last */
+    const named_table *rows;                        /* or their names */
+    const char *allowed;                            /* null: the names */
 } word_keys[CAMERA_KEYS] = {
-    [CAMERA_PRESET] = {take_preset, NULL, &preset_table, "a preset as 'depthprec list presets' names them"},
+    [CAMERA_PRESET] = {NULL, NULL, &preset_table, "a preset as 'depthprec list presets' names them"},
     [CAMERA_MAPPING] = {take_mapping, mapping_name, NULL, "one of " DP_MAPPING_NAMES},
     [CAMERA_FORMAT] = {take_format, format_name, NULL, "a depth format as 'depthprec list formats' names them"},
     [CAMERA_ROUNDING] = {take_rounding, rounding_name, NULL, NULL},
@@ -95,9 +89,20 @@ static const char *name_at(const struct word_key *w, size_t i) {
     return w->rows == NULL ? w->name(i) : row != NULL ? name_of(row->name, row->aliases, i) : NULL;
 }
 
+/* A preset; *refused: its name is known, and what is said of it was not. */
+static bool read_preset(reader *r, const setting *s, const char *text, camera_said *c, bool *refused) {
+    char error[PRESET_ERROR_SIZE];
+    c->preset_count = 1;
+    if (preset_read(text, &c->presets[0], &c->values[0], error))
+        return true;
+    *refused = *error != '\0' && !reader_fail(r, s, "preset: %s", error);
+    return false;
+}
+
 static bool read_word(reader *r, const setting *s, camera_key key, camera_said *c) {
     const struct word_key *w = &word_keys[key];
     const char *text;
+    bool refused = false;
     char name[PROFILE_NAME_SIZE], all[NEED_TEXT_SIZE / 2] = "one of ";
     if (!reader_string(r, s, &text))
         return false;
@@ -105,8 +110,10 @@ static bool read_word(reader *r, const setting *s, camera_key key, camera_said *
         return reader_profile(r, s, key, c, name) &&
                (w->take(c, name) ||
                 reader_fail(r, s, "%s: '%.120s' names what is not known here, '%.40s'", s->name, text, name));
-    if (w->take(c, text))
+    if (key == CAMERA_PRESET ? read_preset(r, s, text, c, &refused) : w->take(c, text))
         return true;
+    if (refused)
+        return false;
     for (size_t i = 0; name_at(w, i) != NULL; i++) {
         reader_known(r, text, name_at(w, i));
         append(all, sizeof all, "%s%s", i > 0 ? ", " : "", name_at(w, i));
@@ -224,7 +231,7 @@ bool reader_camera(reader *r, setting *group, need_camera *out) {
         if (found[k] == NULL)
             continue;
         c.words[k] = found[k]->kind == SETTING_STRING ? found[k]->string : "";
-        if (word_keys[k].take != NULL ? !read_word(r, found[k], k, &c) : !number_keys[k](r, found[k], &c))
+        if (number_keys[k] == NULL ? !read_word(r, found[k], k, &c) : !number_keys[k](r, found[k], &c))
             return false;
     }
     if (!camera_make(&c, r->unit, &fault))

@@ -79,7 +79,8 @@ export function buildSetup(index) {
         return make("div", { class: "length" }, text(option, label, STARTS[option]), slider);
     };
     // A camera of an engine fills the fields with what the program says that it is.
-    const engines = JSON.parse(page.engine.run(["list", "presets", "--json"]).out).items;
+    // Those that compute their planes ask for more than a name: they are typed as a further option.
+    const engines = JSON.parse(page.engine.run(["list", "presets", "--json"]).out).items.filter(({ camera }) => /^near [^ ]+, far/.test(camera));
     const preset = select("preset", "Engine", ["", ...engines.map(({ name }) => name)], "any");
     own.preset.addEventListener("change", () => {
         if (index === 0) $("#engine").value = own.preset.value;

@@ -17,6 +17,118 @@ static size_t count(void) {
     return rows;
 }
 
+/* With the examples of its numbers, where it has any. */
+static preset_camera made_of(const preset *row) {
+    char text[PRESET_WORDS_SIZE], error[PRESET_ERROR_SIZE];
+    const preset *found = NULL;
+    preset_values values;
+    preset_camera made;
+    int length = snprintf(text, sizeof text, "%s", row->name);
+    for (int i = 0; row->function != NULL && row->function->parameters[i].name != NULL; i++) {
+        const preset_parameter *p = &row->function->parameters[i];
+        assert_true(p->least <= p->most && p->example >= p->least && p->example <= p->most);
+        assert_false(p->standard < p->least || p->standard > p->most);
+        length += snprintf(text + length, sizeof text - (size_t)length, "%s%s=%.15g", i == 0 ? ":" : ",", p->name,
+                           p->example);
+        assert_true(length < (int)sizeof text && preset_parameter_of(row, p->name) == i);
+    }
+    assert_true(preset_read(text, &found, &values, error) && found == row && preset_length(text) == strlen(text));
+    assert_string_equal(values.words, text);
+    assert_true(preset_make(row, &values, &made, error));
+    assert_true(isnan(row->znear) == (row->function != NULL) && isnan(row->zfar) == (row->function != NULL));
+    return made;
+}
+
+static preset_camera made_by(const char *text) {
+    char error[PRESET_ERROR_SIZE];
+    const preset *row;
+    preset_values values;
+    preset_camera made;
+    assert_true(preset_read(text, &row, &values, error) && preset_make(row, &values, &made, error));
+    return made;
+}
+
+/* Of each numbers that its own functions gave: tests/presets.sh asks them anew. */
+TEST(test_computed) {
+    static const struct {
+        const char *text;
+        double znear, zfar, focus; /* in the row's unit */
+    } known[] = {
+        /* pixels of MapLibre 6.17 at .313177773185179 pixels of a metre */
+        {"maplibre:zoom=14,pitch=60,latitude=48,height=800", 16 / .313177773185179,
+         2867.6227893867376 / .313177773185179, 1200 / .313177773185179},
+        {"maplibre-globe:zoom=14,pitch=60,latitude=48,height=800", .5 / .313177773185179,
+         3991716.697854359 / .313177773185179, 1200 / .313177773185179},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        const preset_camera made = made_by(known[i].text);
+        assert_relative(made.znear, known[i].znear, 1e-12);
+        assert_relative(made.zfar, known[i].zfar, 1e-12);
+        assert_relative(made.focus, known[i].focus, 1e-12);
+    }
+}
+
+/* The width of a code in the middle of the map, of 24 bits: near^-1 z^2 2^-24. */
+static double code_in_the_middle(const char *text, double znear_pixels) {
+    const preset_camera made = made_by(text);
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    dp_format formats[2];
+    dp_format_parse("unorm24", formats);
+    spec.mapping = DP_MAPPING_GL;
+    spec.format = formats[0];
+    spec.zfar = made.zfar;
+    spec.znear = made.znear / .5 * znear_pixels;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const dp_cell cell = dp_cell_of(&setup, dp_code(&setup, made.focus));
+    return cell.hi - cell.lo;
+}
+
+/* What users of MapLibre's globe reported as fighting over kilometres, and what the flat map's near plane would do. */
+TEST(test_globe) {
+    static const char low[] = "maplibre-globe:zoom=4,height=800", high[] = "maplibre-globe:zoom=4,height=1080";
+    assert_relative(code_in_the_middle(low, .5), 839, .01);
+    assert_relative(code_in_the_middle(high, .5), 1529, .01);
+    assert_relative(code_in_the_middle(low, 800 / 50.), 26.2, .01);
+    assert_relative(code_in_the_middle(high, 1080 / 50.), 35.4, .01);
+}
+
+/* What a person may write wrongly, and what the sentence then names. */
+TEST(test_said) {
+    static const struct {
+        const char *text, *says;
+    } wrong[] = {
+        {"maplibre:zoom=27,height=800", "zoom from 0 to 26, got '27'"},
+        {"maplibre:zoom=1e-400x", "got '1e-400x'"},
+        {"maplibre:zoom=inf", "got 'inf'"},
+        {"maplibre:zoom=0x10", "got '0x10'"},
+        {"maplibre:zoom=", "got ''"},
+        {"maplibre:zoom", "zoom, pitch, latitude, height and fov"},
+        {"maplibre:", "zoom, pitch"},
+        {"maplibre:zoom=1,zoom=1", "has zoom twice"},
+        {"maplibre:zoom=1,,height=8", "got ''"},
+        {"maplibre:zum=1", "got 'zum'"},
+        {"unity:zoom=1", "must be unity alone"},
+        {"unity:", "must be unity alone"},
+        {"maplibre", "needs zoom and height: maplibre:zoom=14,height=800"},
+        {"maplibre:zoom=3", "needs height: maplibre:zoom=3,height=800"},
+        {"maplibre:height=3", "needs zoom: maplibre:zoom=14,height=3"},
+    };
+    char error[PRESET_ERROR_SIZE];
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        const preset *row;
+        preset_values values;
+        preset_camera made;
+        assert_false(preset_read(wrong[i].text, &row, &values, error) && preset_make(row, &values, &made, error));
+        if (strstr(error, wrong[i].says) == NULL)
+            fail_msg("%s: '%s' lacks '%s'", wrong[i].text, error, wrong[i].says);
+    }
+    assert_int_equal(preset_length("maplibre:zoom=3,height=8,unity"), 24);
+    assert_int_equal(preset_length("unity,maplibre:zoom=3"), 5);
+    assert_int_equal(preset_length("maplibre:zoom=3,deckgl:zoom=3"), 15);
+    assert_int_equal(preset_length("unity"), 5);
+}
+
 TEST(test_required) {
     static const char *const names[] = {
         "unity",        "unity-gl", "unreal",    "godot-forward", "godot-mobile",        "three",
@@ -35,6 +147,7 @@ TEST(test_required) {
 TEST(test_rows) {
     for (size_t i = 0; i < count(); i++) {
         const preset *row = preset_get(i);
+        const preset_camera made = made_of(row);
         assert_true(preset_find(row->name) == row); /* no name twice */
         for (const char *c = row->name; *c != '\0'; c++)
             assert_true(islower((unsigned char)*c) || isdigit((unsigned char)*c) || *c == '-');
@@ -49,8 +162,8 @@ TEST(test_rows) {
         for (size_t f = 0; f < found; f++) {
             dp_spec spec = dp_spec_default();
             dp_setup setup;
-            spec.znear = row->znear;
-            spec.zfar = row->zfar;
+            spec.znear = made.znear;
+            spec.zfar = made.zfar;
             spec.mapping = row->mapping;
             spec.format = formats[f];
             assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
@@ -150,12 +263,12 @@ TEST(test_pastes) {
 }
 
 TEST(test_view) {
-    assert_true(preset_fov_y(preset_find("godot-forward"), 1920, 1080) == 75);
-    assert_true(preset_fov_y(preset_find("bevy"), 100, 300) == 45);
-    assert_relative(preset_fov_y(preset_find("unreal"), 1920, 1080), 58.71550708558254, 1e-14);
-    assert_relative(preset_fov_y(preset_find("unreal"), 300, 400), 106.26020470831196, 1e-14);
-    assert_true(preset_fov_y(preset_find("cesium"), 1080, 1920) == 60);
-    assert_relative(preset_fov_y(preset_find("cesium"), 2000, 1000), 32.20422750397203, 1e-14);
+    assert_true(preset_fov_y(preset_find("godot-forward"), 75, 1920, 1080) == 75);
+    assert_true(preset_fov_y(preset_find("bevy"), 45, 100, 300) == 45);
+    assert_relative(preset_fov_y(preset_find("unreal"), 90, 1920, 1080), 58.71550708558254, 1e-14);
+    assert_relative(preset_fov_y(preset_find("unreal"), 90, 300, 400), 106.26020470831196, 1e-14);
+    assert_true(preset_fov_y(preset_find("cesium"), 60, 1080, 1920) == 60);
+    assert_relative(preset_fov_y(preset_find("cesium"), 60, 2000, 1000), 32.20422750397203, 1e-14);
     assert_string_equal(preset_find("three")->raster, "spec-gl");
     assert_string_equal(preset_find("unity")->raster, "spec-vulkan");
 }

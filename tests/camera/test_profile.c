@@ -137,6 +137,10 @@ TEST(test_mistakes) {
         {CAMERA("a", "fp32", "arith = \"nothing.json\";"), 2, "format: must be nothing with a profile"},
         {"a = { preset = \"three\"; arith = \"one.json\"; };\n", 2,
          "no other depth, got unorm24; preset three chose it"},
+        {"a = { preset = \"maplibre:zoom=4\"; };\n", 2,
+         "preset: needs height: maplibre:zoom=4,height=800, or the height"},
+        {"a = { preset = \"maplibre:zum=4\"; };\n", 2, "preset: maplibre is computed from zoom, pitch"},
+        {"a = { preset = \"maplibr:zoom=4\"; };\n", 2, "preset: must be a preset as"},
         {CAMERA("a", "fp32", "arith = \"ieeee\";"), 3, "arith: must be one of ieee, "},
     };
     tally told = {.name = "each profile that cannot be used is told with its line"};

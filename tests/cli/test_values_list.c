@@ -85,7 +85,14 @@ static bool figure(size_t i, listed *l) {
 
 static bool preset_row(size_t i, listed *l) {
     ROW(preset, preset_get(i), r->aliases)
-    add_number(l, r->znear);
+    for (int k = 0; r->function != NULL && k < PRESET_PARAMETERS && r->function->parameters[k].name != NULL; k++) {
+        add_number(l, r->function->parameters[k].least);
+        add_number(l, r->function->parameters[k].most);
+        if (!isnan(r->function->parameters[k].standard))
+            add_number(l, r->function->parameters[k].standard);
+    }
+    if (r->function == NULL)
+        add_number(l, r->znear);
     if (isfinite(r->zfar))
         add_number(l, r->zfar);
     add_number(l, r->fov);

@@ -20,7 +20,7 @@ static int make(camera_asked *c) {
     static const char *const chosen[] = {"near", "far", "mapping", "format", NULL};
     camera_fault fault = {.key = NULL};
     if (c->preset_count == 1)
-        option_chosen(c->line, "preset", c->presets[0]->name, chosen);
+        option_chosen(c->line, "preset", c->values[0].words, chosen);
     if (c->platform != NULL) /* a preset's mapping stays */
         option_chosen(c->line, "platform", c->platform->name, chosen + (c->preset_count > 0 ? 3 : 2));
     return camera_make(&c->said, c->lengths.unit, &fault) ? EXIT_FINE : camera_refuse(&fault);
@@ -28,7 +28,8 @@ static int make(camera_asked *c) {
 
 /* The camera as it would be with that preset alone, all lengths in its own unit where that is known and --unit was not
  * given. */
-static camera_asked with_preset(const camera_asked *c, const preset *p) {
+static camera_asked with_preset(const camera_asked *c, size_t index) {
+    const preset *p = c->presets[index];
     camera_asked out = *c;
     const unit_row *own = option_given(c->line, "unit") ? NULL : unit_find(p->unit), *from = c->lengths.unit;
     double *const converted[] = {&out.znear, &out.zfar, &out.range_lo, &out.range_hi, &out.at.lo, &out.at.hi};
@@ -39,6 +40,7 @@ static camera_asked with_preset(const camera_asked *c, const preset *p) {
     out.at.from = from;
     out.at.to = out.lengths.unit;
     out.presets[0] = p;
+    out.values[0] = c->values[index];
     out.preset_count = 1;
     return out;
 }
@@ -51,7 +53,7 @@ static int resolve_each(camera_asked *c) {
         return usage_error("no memory for %zu presets", count);
     int status = EXIT_FINE;
     for (size_t i = 0; i < count && status == EXIT_FINE; i++) {
-        each[i] = with_preset(c, c->presets[i]);
+        each[i] = with_preset(c, i);
         status = make(&each[i]);
     }
     c->each = each;
@@ -72,7 +74,8 @@ int camera_complete(camera_asked *c, const camera_use *use) {
             "has no guarantee for %s, whose vertex shader spreads [0, 1] to [-1, 1] by 2 z - w: a small "
             "z loses its digits; -F %s tells of the format alone",
             c->platform->name, c->platform->stored);
-    int status = slant_complete(c);
+    camera_fault fault = {.key = NULL};
+    int status = camera_canvas(&c->said, &fault) ? slant_complete(c) : camera_refuse(&fault);
     if (status == EXIT_FINE)
         status = make(c);
     return status == EXIT_FINE && c->preset_count > 1 ? resolve_each(c) : status;

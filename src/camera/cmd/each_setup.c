@@ -49,7 +49,7 @@ bool each_setup_go(each_setup *w, size_t i) {
     w->full = dp_setup_guaranteed(&facing);
     w->slanted = dp_setup_guaranteed(w->setup);
     w->fields = setup_fields_of(w->setup, camera_unit(w->here));
-    w->fields.preset = w->camera->preset_count > 1 ? w->camera->presets[w->all.cameras[i]]->name : NULL;
+    w->fields.preset = w->camera->preset_count > 1 ? w->camera->values[w->all.cameras[i]].words : NULL;
     return true;
 }
 
@@ -76,4 +76,5 @@ void each_setup_title(page *p, void *item) {
     const each_setup *w = item;
     camera_page(p, w->here);
     setup_title(p, w->setup, &w->fields);
+    camera_say_focus(p, w->here);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of a camera, of its arithmetic and of depths before it. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "camera/cmd/camera.h"
@@ -76,30 +77,40 @@ static int parse_mappings(asked_line *line, const option_row *row, const char *v
     return parse_names(line, row, value, group, add_mapping);
 }
 
-static int add_preset(asked_line *line, const option_row *row, const char *name, void *group) {
+static int add_preset(asked_line *line, const option_row *row, const char *text, void *group) {
     camera_asked *c = group;
     (void)line;
-    list_item found;
-    if (!names_find(row->names, name, NULL, &found))
-        return option_unknown(row, name);
-    for (size_t i = 0; i < c->preset_count; i++)
-        if (c->presets[i] == found.row)
-            return EXIT_FINE;
     if (c->preset_count == CAMERA_PRESETS_MAX)
-        return option_refuse(row, "must be at most %d presets, got '%s' too", CAMERA_PRESETS_MAX, name);
-    c->presets[c->preset_count++] = found.row;
+        return option_refuse(row, "must be at most %d presets, got '%s' too", CAMERA_PRESETS_MAX, text);
+    const size_t at = c->preset_count;
+    char error[PRESET_ERROR_SIZE];
+    if (!preset_read(text, &c->presets[at], &c->values[at], error))
+        return *error == '\0' ? option_unknown(row, c->values[at].words) : option_refuse(row, "%s", error);
+    for (size_t i = 0; i < at; i++)
+        if (c->presets[i] == c->presets[at] && strcmp(c->values[i].words, c->values[at].words) == 0)
+            return EXIT_FINE;
+    c->preset_count++;
     return EXIT_FINE;
 }
 
 static int parse_preset(asked_line *line, const option_row *row, const char *value, void *group) {
-    const size_t commas = strcspn(value, ",");
-    return value[commas] == '\0'
+    return value[preset_length(value)] == '\0'
                ? add_preset(line, row, value, group)
                : option_refuse(row, "must be one preset for %s, got '%s'", line->command->name, value);
 }
 
 int parse_presets(asked_line *line, const option_row *row, const char *value, void *group) {
-    return parse_names(line, row, value, group, add_preset);
+    char text[PRESET_WORDS_SIZE];
+    for (const char *at = value;; at++) {
+        const size_t length = preset_length(at);
+        snprintf(text, sizeof text, "%.*s", (int)length, at);
+        if (length == 0)
+            return option_refuse(row, "must be %s, got '%s'", row->argument, value);
+        const int status = length < sizeof text ? add_preset(line, row, text, group) : option_unknown(row, at);
+        at += length;
+        if (status != EXIT_FINE || *at == '\0')
+            return status;
+    }
 }
 
 /* A near plane that is not positive needs --ortho, which may come later: camera_make(). */
@@ -202,8 +213,9 @@ static const option_row camera_rows[] = {
     {"ortho", 0, NULL,
         "orthographic projection; not with linear and log", .parse = parse_ortho, SIZED(ortho),
         .without = "perspective"},
-    {"preset", 0, "NAME",
-        "an engine's near, far, mapping and format, where not given: @; see 'depthprec list presets'",
+    {"preset", 0, "NAME[:PARAMETER=NUMBER,...]",
+        "an engine's near, far, mapping and format, where not given: @; see 'depthprec list presets', which also says "
+        "from what some are computed",
         .parse = parse_preset, .names = &presets, .early = true},
     {"platform", 0, "NAME",
         "what a browser or API stores when asked for 24 bits: formats, mapping and arithmetic, where not given; "

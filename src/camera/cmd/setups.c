@@ -185,6 +185,20 @@ void camera_page(page *p, const camera_asked *c) {
     p->lengths = &c->lengths;
 }
 
+double camera_focus(const camera_asked *c) {
+    char error[PRESET_ERROR_SIZE];
+    preset_camera made;
+    if (c->preset_count != 1 || !preset_make(c->presets[0], &c->values[0], &made, error))
+        return (double)NAN;
+    return unit_convert(made.focus, unit_find(c->presets[0]->unit), c->lengths.unit);
+}
+
+void camera_say_focus(page *p, const camera_asked *c) {
+    const double focus = camera_focus(c);
+    if (!isnan(focus))
+        page_title(p, "%s looks at z = %s", c->values[0].words, camera_length(c, focus, 6).text);
+}
+
 void setup_title(page *p, const dp_setup *setup, const setup_fields *fields) {
     char label[SETUP_LABEL_SIZE];
     const char *engine = fields->preset, *unit = fields->unit;

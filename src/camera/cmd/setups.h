@@ -85,6 +85,12 @@ const char *setup_label_as(const dp_setup *setup, const setup_fields *fields, ch
 /** Tells a page the unit of a camera's lengths, and those that were asked for as they were written. */
 void camera_page(page *p, const camera_asked *c);
 
+/** The eye depth of what a preset that computes its planes looks at, scene units; NaN where none is known. */
+double camera_focus(const camera_asked *c);
+
+/** Writes it below a title. */
+void camera_say_focus(page *p, const camera_asked *c);
+
 /** Writes a set-up's label and unit, which is that of the page from here on. */
 void setup_title(page *p, const dp_setup *setup, const setup_fields *fields);
 
