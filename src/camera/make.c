@@ -8,9 +8,9 @@
 #include "core/append.h"
 #include "core/engine.h"
 
-const char *const camera_keys[CAMERA_KEYS + 1] = {"preset",   "near",   "far",      "mapping", "format",   "ortho",
-                                                  "rounding", "model",  "arith",    "log_c",   "viewport", "fov",
-                                                  "hfov",     "raster", "subpixel", "slant",   "triangle", NULL};
+const char *const camera_keys[CAMERA_KEYS + 1] = {
+    "preset", "matrix",   "near", "far",  "mapping", "format",   "ortho", "rounding", "model", "arith",
+    "log_c",  "viewport", "fov",  "hfov", "raster",  "subpixel", "slant", "triangle", NULL};
 
 static bool said(const camera_said *c, camera_key key) {
     return c->words[key] != NULL;
@@ -37,6 +37,8 @@ bool camera_canvas(camera_said *c, camera_fault *fault) {
 
 bool camera_angle(const camera_said *c, double given, int width, int height, double *fov_y, camera_fault *fault) {
     *fov_y = given;
+    if (c->matrix.count > 0)
+        return camera_matrix_angle(&c->matrix, width, height, fov_y, fault);
     if (said(c, CAMERA_HFOV))
         return camera_vertical(c->fov_x, width, height, fov_y, fault);
     if (said(c, CAMERA_FOV) || c->preset_count != 1)
@@ -59,12 +61,16 @@ bool camera_viewed(camera_said *c, camera_fault *fault) {
          i < sizeof beside / sizeof beside[0] && !slanted && !c->use.angled; i++)
         if (said(c, beside[i]) && !(beside[i] == CAMERA_RASTER && measured))
             return camera_fails(fault, camera_keys[beside[i]], "needs @viewport: surfaces face the camera");
+    if (c->matrix.count == MATRIX_TANGENTS && !slanted && !c->use.angled)
+        return camera_fails(fault, "matrix", "of four tangents needs @viewport: surfaces face the camera");
     if (!slanted)
         return true;
     if (c->ortho)
         return camera_fails(fault, c->use.drawn ? "rasterize" : "viewport", "conflicts with @ortho");
     if (said(c, CAMERA_FOV) && said(c, CAMERA_HFOV))
         return camera_fails(fault, "hfov", "conflicts with @fov");
+    if (c->matrix.count > 0 && !c->use.drawn)
+        return camera_matrix_cover(&c->matrix, t, fault);
     return camera_angle(c, t->fov_y, t->width, t->height, &t->fov_y, fault);
 }
 
@@ -108,6 +114,40 @@ static void bring_mapping(camera_said *c, dp_mapping mapping) {
     c->mapping_count = 1;
 }
 
+bool camera_take_matrix(camera_said *c, dp_mapping like, bool oblique, camera_fault *fault) {
+    const bool given = said(c, CAMERA_MAPPING);
+    const dp_mapping_row *row = dp_mapping_get(c->mappings[0]);
+    if (given && (c->mapping_count != 1 || row->curve != DP_CURVE_PERSPECTIVE))
+        return camera_fails(fault, "mapping", "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with @matrix, got %s",
+                            c->mapping_count > 1 ? "several" : row->name);
+    if (!camera_matrix_take(&c->matrix, given ? c->mappings[0] : DP_MAPPING_COUNT, like, oblique, fault))
+        return false;
+    const dp_projection *p = &c->matrix.taken;
+    c->znear = p->znear;
+    c->zfar = p->zfar;
+    c->ortho = p->ortho != 0;
+    bring_mapping(c, p->mapping);
+    return true;
+}
+
+/* A matrix says all but the format, four tangents the view alone. */
+static bool check_matrix(camera_said *c, camera_fault *fault) {
+    static const camera_key in_vain[] = {CAMERA_ORTHO, CAMERA_FOV, CAMERA_HFOV, CAMERA_NEAR, CAMERA_FAR, CAMERA_PRESET};
+    enum { OF_VIEW = 3 };
+    const size_t count = c->matrix.count == 0                 ? 0
+                         : c->matrix.count == MATRIX_TANGENTS ? OF_VIEW
+                                                              : sizeof in_vain / sizeof in_vain[0];
+    for (size_t i = 0; i < count; i++)
+        if (said(c, in_vain[i]))
+            return camera_fails(fault, "matrix", "conflicts with @%s", camera_keys[in_vain[i]]);
+    if (c->matrix.count != MATRIX_ENTRIES || c->use.imaged)
+        return true;
+    const dp_mapping range = c->platform == NULL                   ? DP_MAPPING_COUNT
+                             : strcmp(c->platform->api, "gl") == 0 ? DP_MAPPING_GL
+                                                                   : DP_MAPPING_D3D;
+    return camera_take_matrix(c, c->mapping_brought ? c->mappings[0] : range, false, fault);
+}
+
 static bool take_preset(camera_said *c, const preset *p, const unit_row *unit, camera_fault *fault) {
     double znear, zfar, log_c;
     preset_camera camera;
@@ -138,7 +178,7 @@ static void take_platform(camera_said *c, const platform *p) {
     const char *stored = platform_stores(p, c->words[CAMERA_FORMAT]);
     if (!said(c, CAMERA_FORMAT) || stored != NULL)
         c->format_count = dp_format_parse(stored != NULL ? stored : p->stored, c->formats);
-    if (!said(c, CAMERA_MAPPING) && c->preset_count == 0)
+    if (!said(c, CAMERA_MAPPING) && !camera_says_planes(c))
         bring_mapping(c, strcmp(p->api, "gl") == 0 ? DP_MAPPING_GL : DP_MAPPING_D3D);
     bool remapped = false;
     for (size_t i = 0; i < c->mapping_count && p->remap != PLATFORM_REMAPS_NOT; i++)
@@ -228,7 +268,8 @@ bool camera_make(camera_said *c, const unit_row *unit, camera_fault *fault) {
         c->model_auto = true;
         c->model = DP_MODEL_EXACT;
     }
-    if (!check_rg(c, fault) || !camera_canvas(c, fault) || !take_view(c, fault) || !camera_grid(c, fault))
+    if (!check_matrix(c, fault) || !check_rg(c, fault) || !camera_canvas(c, fault) || !take_view(c, fault) ||
+        !camera_grid(c, fault))
         return false;
     if (c->preset_count == 1 && !take_preset(c, c->presets[0], unit, fault))
         return false;

@@ -6,6 +6,7 @@
 #ifndef CAMERA_MAKE_H
 #define CAMERA_MAKE_H
 
+#include "camera/matrix.h"
 #include "camera/platform.h"
 #include "camera/presets.h"
 #include "camera/profile.h"
@@ -17,6 +18,7 @@ enum { CAMERA_FORMATS_MAX = 64, CAMERA_PRESETS_MAX = 16 };
 /** The keys of a camera, in the order in which a file is read. */
 typedef enum camera_key {
     CAMERA_PRESET,
+    CAMERA_MATRIX,
     CAMERA_NEAR,
     CAMERA_FAR,
     CAMERA_MAPPING,
@@ -49,6 +51,7 @@ typedef struct camera_use {
     bool seen;     /**< from an eye surfaces slant, whether --viewport is given or not */
     bool counted;  /**< the report counts what a shader's log2 may be off by */
     bool angled;   /**< a field of view stands without a viewport, too: see slant_complete() */
+    bool imaged;   /**< an image may say the mapping: the command takes the matrix apart once it is read */
     bool compared; /**< rg, which is no depth buffer, is shown beside buffers */
 } camera_use;
 
@@ -78,6 +81,8 @@ typedef struct camera_use {
     const preset *presets[CAMERA_PRESETS_MAX]; /* in the order given, each once; of several none is made */            \
     size_t preset_count;                                                                                               \
     preset_values values[CAMERA_PRESETS_MAX]; /* what was said of each */                                              \
+    camera_matrix matrix;                     /* nothing where none was said */                                        \
+    bool mapping_brought;                     /* an API chose the mapping */                                           \
     const platform *platform                  /* null where none was said */
 
 typedef struct camera_said {
@@ -106,6 +111,15 @@ bool camera_profile(camera_said *c, const char *path, camera_key key, char name[
  * where none was, else `given`. Degrees.
  */
 bool camera_angle(const camera_said *c, double given, int width, int height, double *fov_y, camera_fault *fault);
+
+/** Takes its matrix apart and what it says of the camera from it: planes, mapping, projection. Once, where one is
+ * given; `like` and `oblique` as camera_matrix_take() has them. */
+bool camera_take_matrix(camera_said *c, dp_mapping like, bool oblique, camera_fault *fault);
+
+/** Whether near and far were said: by themselves, or by a preset or a matrix, which say all. */
+static inline bool camera_says_planes(const camera_said *c) {
+    return c->preset_count > 0 || c->matrix.count == MATRIX_ENTRIES;
+}
 
 /** The part of it that is about the view: what needs a viewport, and the angle. */
 bool camera_viewed(camera_said *c, camera_fault *fault);

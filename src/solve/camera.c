@@ -126,6 +126,17 @@ static bool read_plane(reader *r, setting *s, camera_said *c) {
     return reader_length(r, s, s->name, READER_SIGNED | (is_far ? READER_INFINITE : 0), is_far ? &c->zfar : &c->znear);
 }
 
+/* A file beside this one, or the numbers. */
+static bool read_matrix(reader *r, setting *s, camera_said *c) {
+    char path[READER_PATH_SIZE], error[MATRIX_ERROR_SIZE];
+    const char *text;
+    if (!reader_string(r, s, &text))
+        return false;
+    const int status =
+        camera_matrix_read(&c->matrix, camera_matrix_is_typed(text) ? text : reader_path(r, text, path), error);
+    return status == 0 || reader_fail(r, s, "matrix: %.200s", status > 0 ? strerror(status) : error);
+}
+
 static bool read_ortho(reader *r, setting *s, camera_said *c) {
     if (s->kind != SETTING_WORD)
         return reader_fail(r, s, "ortho: must be true or false, got %s", reader_shown(r, s));
@@ -140,20 +151,21 @@ static bool read_log_c(reader *r, setting *s, camera_said *c) {
 }
 
 static reader_key *const number_keys[CAMERA_KEYS] = {
-    [CAMERA_NEAR] = read_plane,       [CAMERA_FAR] = read_plane,           [CAMERA_ORTHO] = read_ortho,
-    [CAMERA_LOG_C] = read_log_c,      [CAMERA_VIEWPORT] = reader_viewport, [CAMERA_FOV] = reader_angle,
-    [CAMERA_HFOV] = reader_angle,     [CAMERA_SUBPIXEL] = reader_subpixel, [CAMERA_SLANT] = reader_slant,
-    [CAMERA_TRIANGLE] = reader_class,
+    [CAMERA_MATRIX] = read_matrix, [CAMERA_NEAR] = read_plane,       [CAMERA_FAR] = read_plane,
+    [CAMERA_ORTHO] = read_ortho,   [CAMERA_LOG_C] = read_log_c,      [CAMERA_VIEWPORT] = reader_viewport,
+    [CAMERA_FOV] = reader_angle,   [CAMERA_HFOV] = reader_angle,     [CAMERA_SUBPIXEL] = reader_subpixel,
+    [CAMERA_SLANT] = reader_slant, [CAMERA_TRIANGLE] = reader_class,
 };
 
-/* Nothing that the verdict hangs on has a silent default: a camera names it, itself or by a preset. */
-static bool is_complete(reader *r, const setting *group, setting *const *found) {
+/* Nothing that the verdict hangs on has a silent default: a camera names it, itself or by a preset or a matrix. */
+static bool is_complete(reader *r, const setting *group, setting *const *found, const camera_said *c) {
     const bool viewed = found[CAMERA_VIEWPORT] != NULL;
-    for (int k = CAMERA_NEAR; k <= CAMERA_FORMAT; k++)
+    const bool planes = c->matrix.count == MATRIX_ENTRIES;
+    for (int k = planes ? CAMERA_FORMAT : CAMERA_NEAR; k <= CAMERA_FORMAT; k++)
         if (found[k] == NULL)
             return reader_fail(r, group, "camera '%s': needs %s, or a preset", group->name, camera_keys[k]);
-    if (viewed && found[CAMERA_FOV] == NULL && found[CAMERA_HFOV] == NULL)
-        return reader_fail(r, found[CAMERA_VIEWPORT], "viewport: needs fov or hfov");
+    if (viewed && found[CAMERA_FOV] == NULL && found[CAMERA_HFOV] == NULL && c->matrix.count == 0)
+        return reader_fail(r, found[CAMERA_VIEWPORT], "viewport: needs fov, hfov or matrix");
     if (viewed && found[CAMERA_RASTER] == NULL && found[CAMERA_SUBPIXEL] == NULL)
         return reader_fail(r, found[CAMERA_VIEWPORT], "viewport: needs raster or subpixel");
     return true;
@@ -224,8 +236,7 @@ bool reader_camera(reader *r, setting *group, need_camera *out) {
         keys[k] = camera_keys[k];
     out->line = group->line;
     out->name = group->name;
-    if (!reader_name(r, group, out->name) || !reader_keys(r, group, "camera", keys, found) ||
-        (found[CAMERA_PRESET] == NULL && !is_complete(r, group, found)))
+    if (!reader_name(r, group, out->name) || !reader_keys(r, group, "camera", keys, found))
         return false;
     for (camera_key k = 0; k < CAMERA_KEYS; k++) {
         if (found[k] == NULL)
@@ -234,11 +245,14 @@ bool reader_camera(reader *r, setting *group, need_camera *out) {
         if (number_keys[k] == NULL ? !read_word(r, found[k], k, &c) : !number_keys[k](r, found[k], &c))
             return false;
     }
+    if (found[CAMERA_PRESET] == NULL && !is_complete(r, group, found, &c))
+        return false;
     if (!camera_make(&c, r->unit, &fault))
         return reader_fault(r, group, c.preset_count > 0 ? c.presets[0] : NULL, &fault);
     out->automatic = c.model_auto;
     out->raster = c.raster;
     out->gpu = c.gpu;
+    out->matrix = c.matrix;
     return read_world(r, found, &c, out) && suits(r, found[CAMERA_VIEWPORT], &c) &&
            (make_setups(&c, out, &fault) || reader_fault(r, group, c.preset_count > 0 ? c.presets[0] : NULL, &fault));
 }

@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATH_SIZE = 4096 };
-
 bool reader_fail(reader *r, const setting *s, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -93,12 +91,16 @@ bool reader_string(reader *r, const setting *s, const char **out) {
     return true;
 }
 
+const char *reader_path(const reader *r, const char *name, char out[READER_PATH_SIZE]) {
+    const char *here = r->file->path;
+    snprintf(out, READER_PATH_SIZE, "%.*s%s", path_is_absolute(name) ? 0 : (int)(path_name(here) - here), here, name);
+    return out;
+}
+
 bool reader_profile(reader *r, const setting *s, camera_key key, camera_said *c, char name[PROFILE_NAME_SIZE]) {
-    const char *here = r->file->path; /* an absolute path stays */
-    char path[PATH_SIZE], error[PROFILE_ERROR_SIZE];
-    snprintf(path, sizeof path, "%.*s%s", path_is_absolute(s->string) ? 0 : (int)(path_name(here) - here), here,
-             s->string);
-    return camera_profile(c, path, key, name, error) || reader_fail(r, s, "%s: %s", s->name, error);
+    char path[READER_PATH_SIZE], error[PROFILE_ERROR_SIZE];
+    return camera_profile(c, reader_path(r, s->string, path), key, name, error) ||
+           reader_fail(r, s, "%s: %s", s->name, error);
 }
 
 bool reader_name(reader *r, const setting *s, const char *name) {

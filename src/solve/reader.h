@@ -34,6 +34,10 @@ const char *reader_shown(reader *r, const setting *s);
 bool reader_keys(reader *r, const setting *group, const char *what, const char *const *names, setting **found);
 
 bool reader_string(reader *r, const setting *s, const char **out);
+/* The path of a file beside the requirement file; an absolute one stays. @return out */
+enum { READER_PATH_SIZE = 4096 };
+const char *reader_path(const reader *r, const char *name, char out[READER_PATH_SIZE]);
+
 /* The name that a profile, a file beside the requirement file, has in place of one. */
 bool reader_profile(reader *r, const setting *s, camera_key key, camera_said *c, char name[PROFILE_NAME_SIZE]);
 bool reader_name(reader *r, const setting *s, const char *name); /* fit for a line of a report */

@@ -14,6 +14,7 @@
 
 #include <stdbool.h>
 
+#include "camera/matrix.h"
 #include "camera/profile.h"
 #include "depthprec/depthprec.h"
 #include "quantity/quantity.h"
@@ -32,6 +33,7 @@ typedef struct need_camera {
     bool automatic;                   /**< model "auto": the simplest model that can decide */
     const raster_row *raster; /**< whose grid and set-up the set-ups' triangles have; null where none is named */
     profile gpu;              /**< of `arith` and `raster` */
+    camera_matrix matrix;     /**< of its planes */
 } need_camera;
 
 /** Lengths are in scene units. */

@@ -154,14 +154,15 @@ static const struct {
     {"parameter", "distance=7"},
     {"packing", "unity"},
     {"define", "a=3"},
+    {"matrix", "2 0 0 0 0 2 0 0 0 0 0 .2 0 0 1 0"},
     {"stereo", "focal=500,baseline=0.1"},
 };
 
 /* Options that change nothing by their purpose: where it is written and how fast, and what has files of its own, which
  * the tests of those are for. */
-static const char *const apart[] = {"help",   "version",   "output", "quiet",         "threads", "device", "keep",
-                                    "render", "emit-need", "figure", "histogram",     "path",    "camera", "picture",
-                                    "matrix", "mine",      "type",   "normal-format", "pairs",   "color"};
+static const char *const apart[] = {"help",   "version",   "output",        "quiet",     "threads", "device", "keep",
+                                    "render", "emit-need", "figure",        "histogram", "path",    "camera", "picture",
+                                    "mine",   "type",      "normal-format", "pairs",     "color"};
 
 static bool is_apart(const char *id) {
     for (size_t i = 0; i < sizeof apart / sizeof apart[0]; i++)

@@ -537,7 +537,6 @@ TEST(test_texts) {
                  {"texture", "lattice", AT(texture, image.lattice), false},
                  {"texture", "as", AT(texture, image.as), false},
                  {"table", "output", AT(table, out.file), true},
-                 {"texture", "matrix", AT(texture, image.matrix), true},
                  {"texture", "picture", AT(texture, image.picture), true},
                  {"texture", "figure", AT(texture, image.figure), true},
                  {"texture", "histogram", AT(texture, image.histogram), true},
@@ -656,6 +655,11 @@ TEST(test_places) {
     assert_true(ASKED(texture, o)->image.tint[3] == 0.5);
     assert_int_equal(parse(&o, "texture", "sky", "none", line), EXIT_FINE);
     assert_true(ASKED(texture, o)->image.sky < 0);
+    assert_int_equal(parse(&o, "table", "matrix", "[[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, 0, .5], [0, 0, 1, 0]]", line),
+                     EXIT_FINE);
+    assert_true(ASKED(table, o)->camera.znear == 0.5 && isinf(ASKED(table, o)->camera.zfar) &&
+                ASKED(table, o)->camera.mapping_count == 1 &&
+                ASKED(table, o)->camera.mappings[0] == DP_MAPPING_REVERSED && !ASKED(table, o)->camera.ortho);
     assert_int_equal(parse(&o, "texture", "intrinsics", "1,1e9,-1e6,0.5", line), EXIT_FINE);
     assert_true(ASKED(texture, o)->camera.intrinsics[0] == 1 && ASKED(texture, o)->camera.intrinsics[1] == 1e9 &&
                 ASKED(texture, o)->camera.intrinsics[2] == -1e6 && ASKED(texture, o)->camera.intrinsics[3] == 0.5 &&

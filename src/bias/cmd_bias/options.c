@@ -106,7 +106,7 @@ static const char *common(const char *a, const char *b) {
     return a != NULL && b != NULL && strcmp(a, b) == 0 ? a : NULL;
 }
 
-void bias_bring(asked_line *line, const bias_asked *b, const camera_asked *camera, bool window) {
+void bias_bring(asked_line *line, const bias_asked *b, camera_asked *camera, bool window) {
     if (!option_given(line, "api") || camera->preset_count > 0 || camera->platform != NULL)
         return;
     const bias_api *api = bias_asked_api(b, 0);
@@ -116,6 +116,7 @@ void bias_bring(asked_line *line, const bias_asked *b, const camera_asked *camer
         format = common(format, api->format);
     }
     bring(line, b, "mapping", mapping);
+    camera->mapping_brought = mapping != NULL && !option_given(line, "mapping");
     bring(line, b, "format", window ? format : NULL);
 }
 

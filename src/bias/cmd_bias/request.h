@@ -33,7 +33,7 @@ const bias_api *bias_asked_api(const bias_asked *b, size_t index);
 
 /** An API brings its mapping and, where a window is asked for, its format, if neither these nor a preset or platform is
  * given; several APIs bring what they share. To be called before camera_complete(). */
-void bias_bring(asked_line *line, const bias_asked *b, const camera_asked *camera, bool window);
+void bias_bring(asked_line *line, const bias_asked *b, camera_asked *camera, bool window);
 
 /** The rule of the preset or platform, where --api was not given. @return as a parser does */
 int bias_complete(asked_line *line, const camera_asked *camera);

@@ -47,6 +47,7 @@ extern const option_use camera_planes[], camera_uses[], camera_projected[], came
 #define CAMERA_PERSPECTIVE     "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
 #define CAMERA_ALL_PERSPECTIVE CAMERA_PERSPECTIVE "; all are d3d and reversed"
 #define CAMERA_OF_VIEW         "with --viewport also its field of view and rasterizer"
+#define CAMERA_OF_TANGENTS     "or the tangents of a view's edges, left,right,up,down, as OpenXR gives their angles"
 #define CAMERA_OF_RG           "rg, of Unity's DepthNormals, is linear"
 
 /** The unit where no preset brings one. */

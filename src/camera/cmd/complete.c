@@ -21,6 +21,9 @@ static int make(camera_asked *c) {
     camera_fault fault = {.key = NULL};
     if (c->preset_count == 1)
         option_chosen(c->line, "preset", c->values[0].words, chosen);
+    static const char *const by_matrix[] = {"near", "far", "ortho", NULL};
+    if (c->matrix.count == MATRIX_ENTRIES)
+        option_chosen(c->line, "matrix", option_text(c->line, "matrix"), by_matrix);
     if (c->platform != NULL) /* a preset's mapping stays */
         option_chosen(c->line, "platform", c->platform->name, chosen + (c->preset_count > 0 ? 3 : 2));
     return camera_make(&c->said, c->lengths.unit, &fault) ? EXIT_FINE : camera_refuse(&fault);

@@ -48,7 +48,7 @@ bool each_setup_go(each_setup *w, size_t i) {
     const dp_setup facing = dp_setup_facing(w->setup);
     w->full = dp_setup_guaranteed(&facing);
     w->slanted = dp_setup_guaranteed(w->setup);
-    w->fields = setup_fields_of(w->setup, camera_unit(w->here));
+    w->fields = setup_fields_asked(w->setup, w->here);
     w->fields.preset = w->camera->preset_count > 1 ? w->camera->values[w->all.cameras[i]].words : NULL;
     return true;
 }

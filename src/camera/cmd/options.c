@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of a camera, of its arithmetic and of depths before it. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -113,6 +114,22 @@ int parse_presets(asked_line *line, const option_row *row, const char *value, vo
     }
 }
 
+/* The tangents of four edges are of use where an angle is. */
+static int parse_matrix(asked_line *line, const option_row *row, const char *value, void *group) {
+    camera_asked *c = group;
+    char error[MATRIX_ERROR_SIZE];
+    const int status = *value != '\0' ? camera_matrix_read(&c->matrix, value, error) : ENOENT;
+    if (status > 0) {
+        option_refuse(row, "%s: %s", value, strerror(status));
+        return EXIT_IO;
+    }
+    if (status < 0)
+        return option_refuse(row, "%s", error);
+    return c->matrix.count == MATRIX_ENTRIES || option_used(line->command, ~0u, option_find(line->command, "fov")).row
+               ? EXIT_FINE
+               : option_refuse(row, "must hold 16 numbers for %s, which has no view, got 4", line->command->name);
+}
+
 /* A near plane that is not positive needs --ortho, which may come later: camera_make(). */
 static int parse_near(asked_line *line, const option_row *row, const char *value, void *group) {
     camera_asked *c = group;
@@ -202,6 +219,10 @@ static const option_row camera_rows[] = {
     {"far", 'f', "Z|inf",
         "far plane, up to 1e28 scene units and at least 1e-6 of near beyond it, or inf",
         parse_far, .standard = "1000"},
+    {"matrix", 0, "FILE|NUMBERS",
+        "the planes and the mapping of a projection matrix, and its view: 16 numbers, by rows or columns, looking "
+        "along z or -z; where two mappings fit, --mapping says which", .parse = parse_matrix,
+        .without = "as --near, --far and the like say"},
     {"format", 'F', "NAME[,NAME...]|all",
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all"},
@@ -254,7 +275,7 @@ const option_table camera_options = {.rows = camera_rows, .begin = begin, .early
 
 /* clang-format off */
 const option_use camera_planes[] = {
-    TAKE("near"), TAKE("far"), TAKE("format"), TAKE("mapping"), TAKE("unit"), END};
+    TAKE("near"), TAKE("far"), TAKE("matrix"), TAKE("format"), TAKE("mapping"), TAKE("unit"), END};
 
 const option_use camera_uses[] = {GROUP_OF(camera_planes), TAKE("preset"), TAKE("rounding"), END};
 
@@ -267,6 +288,7 @@ const option_use camera_beside_viewport[] = {
     TAKE("fov"), TAKE("hfov"), TAKE("raster"), TAKE("subpixel"), TAKE("triangle-class"), END};
 
 const option_use camera_slanted[] = {
+    OWN("matrix", ALSO(CAMERA_OF_TANGENTS)),
     OWN("preset", ALSO(CAMERA_OF_VIEW)),
     OWN("platform", ALSO("with --viewport also its rasterizer")),
     OWN("arith", ALSO("by default that of --raster or --platform where known")),

@@ -119,18 +119,26 @@ void setups_release(setups *s) {
     *s = (setups){0};
 }
 
-const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
-                                {FIELD(setup_fields, zfar, "far", "scene")},
-                                {FIELD(setup_fields, projection, "projection", "")},
-                                {FIELD(setup_fields, mapping, "mapping", "")},
-                                {FIELD(setup_fields, format, "format", "")},
-                                {FIELD(setup_fields, rounding, "rounding", "")},
-                                {FIELD(setup_fields, model, "model", "")},
-                                {FIELD(setup_fields, arith, "arith", ""), .only = AS_JSON, .optional = true},
-                                {FIELD(setup_fields, log_c, "log_c", ""), .only = AS_JSON, .optional = true},
-                                {FIELD(setup_fields, unit, "unit", ""), .only = AS_JSON},
-                                {FIELD(setup_fields, preset, "preset", ""), .only = AS_JSON, .optional = true},
-                                {.kind = COLUMN_END}};
+static const column plane_columns[] = {{FIELD(dp_planes, near_least, "near_least", "scene")},
+                                       {FIELD(dp_planes, near_most, "near_most", "scene")},
+                                       {FIELD(dp_planes, far_least, "far_least", "scene")},
+                                       {FIELD(dp_planes, far_most, "far_most", "scene")},
+                                       {.kind = COLUMN_END}};
+
+const column setup_columns[] = {
+    {FIELD(setup_fields, znear, "near", "scene")},
+    {FIELD(setup_fields, zfar, "far", "scene")},
+    {FIELD(setup_fields, projection, "projection", "")},
+    {FIELD(setup_fields, mapping, "mapping", "")},
+    {FIELD(setup_fields, format, "format", "")},
+    {FIELD(setup_fields, rounding, "rounding", "")},
+    {FIELD(setup_fields, model, "model", "")},
+    {FIELD(setup_fields, arith, "arith", ""), .only = AS_JSON, .optional = true},
+    {FIELD(setup_fields, log_c, "log_c", ""), .only = AS_JSON, .optional = true},
+    {FIELD(setup_fields, unit, "unit", ""), .only = AS_JSON},
+    {FIELD(setup_fields, preset, "preset", ""), .only = AS_JSON, .optional = true},
+    {PART(setup_fields, planes, "planes", plane_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {.kind = COLUMN_END}};
 
 dp_model setup_model(const dp_setup *setup) {
     return dp_is_computed(setup) ? DP_MODEL_FLOAT : setup->spec.model;
@@ -157,13 +165,27 @@ setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
     return f;
 }
 
+setup_fields setup_fields_asked(const dp_setup *setup, const camera_asked *c) {
+    setup_fields f = setup_fields_of(setup, camera_unit(c));
+    if (setup->spec.znear == c->matrix.taken.znear && setup->spec.zfar == c->matrix.taken.zfar)
+        f.planes = camera_matrix_left_open(&c->matrix);
+    return f;
+}
+
+number_text setup_near(const setup_fields *f) {
+    return f->planes == NULL ? number_full(f->znear) : number_brief(number_of(f->znear, f->planes->near_digits));
+}
+
+number_text setup_far(const setup_fields *f) {
+    return f->planes == NULL ? number_full(f->zfar) : number_brief(number_of(f->zfar, f->planes->far_digits));
+}
+
 const char *setup_label_as(const dp_setup *setup, const setup_fields *f, char out[SETUP_LABEL_SIZE]) {
     const bool has_log_c = !isnan(f->log_c), has_arith = f->arith != NULL; /* only the model float has one */
     snprintf(out, SETUP_LABEL_SIZE, "%s %s%s%s, near %s, far %s, %s, %s, %s%s%s", f->format, f->mapping,
-             has_log_c ? " C " : "", has_log_c ? number_full(f->log_c).text : "", number_full(f->znear).text,
-             number_full(f->zfar).text, f->projection, f->rounding,
-             option_word("model", has_arith ? DP_MODEL_FLOAT : setup->spec.model), has_arith ? " " : "",
-             has_arith ? f->arith : "");
+             has_log_c ? " C " : "", has_log_c ? number_full(f->log_c).text : "", setup_near(f).text, setup_far(f).text,
+             f->projection, f->rounding, option_word("model", has_arith ? DP_MODEL_FLOAT : setup->spec.model),
+             has_arith ? " " : "", has_arith ? f->arith : "");
     return out;
 }
 
@@ -205,6 +227,21 @@ void setup_title(page *p, const dp_setup *setup, const setup_fields *fields) {
     p->unit = unit;
     page_title(p, "%s%s%s%s%s", engine != NULL ? engine : "", engine != NULL ? ": " : "",
                setup_label_as(setup, fields, label), unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
+    setup_say_planes(p, fields);
+}
+
+void setup_say_planes(page *p, const setup_fields *fields) {
+    const dp_planes *at = fields->planes;
+    char far[2 * NUMBER_SIZE + 16] = "";
+    if (at == NULL)
+        return;
+    if (at->far_least < at->far_most)
+        snprintf(far, sizeof far, ", far %s to %s", number_down(at->far_least, 6).text,
+                 number_up(at->far_most, 6).text);
+    page_note(
+        p, "planes",
+        "near is %s to %s%s: the entries of --matrix carry no more digits; the numbers here take them as they are",
+        number_down(at->near_least, 9).text, number_up(at->near_most, 9).text, far);
 }
 
 void setup_say_code(page *p, const dp_spec *spec) {

@@ -63,15 +63,23 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
 typedef struct setup_fields {
     double znear, zfar, log_c; /**< log_c is NaN unless the mapping is log */
     const char *projection, *mapping, *format, *rounding, *model;
-    const char *arith;  /**< null unless the model is float */
-    const char *unit;   /**< what a scene unit is; null where nothing says it */
-    const char *preset; /**< null where there are not several */
+    const char *arith;       /**< null unless the model is float */
+    const char *unit;        /**< what a scene unit is; null where nothing says it */
+    const char *preset;      /**< null where there are not several */
+    const dp_planes *planes; /**< what near and far may be, where a matrix was rounded; else null */
 } setup_fields;
 
 extern const column setup_columns[];
 
 /** Points into the set-up, which must stay where it is. The unit is that of its lengths, or null. */
 setup_fields setup_fields_of(const dp_setup *setup, const char *unit);
+
+/** The same of a camera that was asked for: its unit, and what its matrix leaves open of the planes. */
+setup_fields setup_fields_asked(const dp_setup *setup, const camera_asked *c);
+
+/** Near and far of them, to the digits that a matrix carries. */
+number_text setup_near(const setup_fields *f);
+number_text setup_far(const setup_fields *f);
 
 /** The model of its separations: a shader's are in binary32, too. */
 dp_model setup_model(const dp_setup *setup);
@@ -91,8 +99,11 @@ double camera_focus(const camera_asked *c);
 /** Writes it below a title. */
 void camera_say_focus(page *p, const camera_asked *c);
 
-/** Writes a set-up's label and unit, which is that of the page from here on. */
+/** Writes a set-up's label and unit, which is that of the page from here on, and what its planes may be. */
 void setup_title(page *p, const dp_setup *setup, const setup_fields *fields);
+
+/** The line that says what the planes may be, where a matrix leaves them open. */
+void setup_say_planes(page *p, const setup_fields *fields);
 
 /** The line that prints the code of a camera; nothing of one without a projection matrix, or orthographic. */
 void setup_say_code(page *p, const dp_spec *spec);

@@ -41,8 +41,10 @@ void slant_say(page *p, slant_line *line, const camera_asked *c, const dp_setup 
          c->raster == NULL ? arith : "");
     if (!theirs && c->raster != NULL)
         say_rasterizer(p, line, c->raster, t->subpixel, arith);
+    if (c->matrix.covered)
+        line(p, "that view of square pixels holds the one of --matrix, which is not centred, or has none");
     line(p, "triangles from z/%s to %s z, at most %s pixels, aspect ratio at most %s:1", number_full(t->depth).text,
-         number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
+         number_full(t->depth).text, number_full(t->pixels).text, number_up(t->slim, DIGITS).text);
 }
 
 number_text slant_words(const dp_triangles *t) {

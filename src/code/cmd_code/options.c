@@ -37,6 +37,7 @@ static const option_use uses[] = {
     OWN("mapping", HELP("mappings: @"), DEFAULT("reversed")),
     OWN("preset", ALSO("for code also the language of its users")),
     OWN("platform", ALSO("for code also the language of its API")),
+    OWN("matrix", ALSO(CAMERA_OF_TANGENTS)),
     OWN("fov", ALSO("of a matrix and of places")),
     OWN("viewport", HELP("the pixels of the view, of a matrix their shape"), DEFAULT("1920x1080")),
     OWN("ortho", .optional = "H",

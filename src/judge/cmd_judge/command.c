@@ -49,7 +49,7 @@ static void name(const judge_request *o, const judge_candidate *c, named *out) {
                    .trap = c->trap != NULL ? c->trap->name : NULL,
                    .right = c->trap != NULL ? c->trap->right : NULL,
                    .source = c->trap != NULL ? c->trap->source : c->output->source,
-                   .fields = setup_fields_of(&c->setup, camera_unit(&o->camera))};
+                   .fields = setup_fields_asked(&c->setup, &o->camera)};
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
@@ -212,8 +212,9 @@ static int read_pairs(const judge_request *o, judge_pairs *pairs) {
 static int run(report *r, const setups *all, output *out) {
     const judge_request *o = r->o;
     const bool near = option_given(o->line, "near"), far = option_given(o->line, "far");
-    const judge_open open =
-        o->camera.preset_count > 0 ? JUDGE_OPEN_NONE : (near ? 0 : JUDGE_OPEN_NEAR) | (far ? 0 : JUDGE_OPEN_FAR);
+    const judge_open open = camera_says_planes(&o->camera.said)
+                                ? JUDGE_OPEN_NONE
+                                : (near ? 0 : JUDGE_OPEN_NEAR) | (far ? 0 : JUDGE_OPEN_FAR);
     int status = EXIT_FINE;
     if (o->judge.pairs == NULL) {
         status = judge_shader(r, all, open);

@@ -479,7 +479,7 @@ static void describe(measuring *b) {
     }
     b->family = b->asked.family->name;
     b->measure = b->asked.family->measure;
-    b->fields = setup_fields_of(&b->asked.setup, camera_unit(&o->camera));
+    b->fields = setup_fields_asked(&b->asked.setup, &o->camera);
     b->limit = b->results[0].limit;
     order(b);
 }

@@ -169,7 +169,7 @@ static void name_setups(plotting *p) {
 /* The subtitle, which holds for all set-ups: the full label without the name in front. */
 static void subtitle_of(const plot_request *o, const figure_request *request, bool budgeted, char *out, size_t size) {
     char full[SETUP_LABEL_SIZE];
-    setup_fields fields = setup_fields_of(&request->setups[0], NULL);
+    setup_fields fields = setup_fields_asked(&request->setups[0], &o->camera);
     if (budgeted)
         setup_fields_budget(&request->setups[0], &fields);
     setup_label_as(&request->setups[0], &fields, full);

@@ -274,8 +274,9 @@ static void say_cameras(page *p, const comparison *c) {
     if (p->unit != NULL)
         append(more, sizeof more, ", lengths in %s", p->unit);
     if (o->camera.preset_count < 2) {
-        page_title(p, "near %s, far %s, %s%s", number_full(o->camera.znear).text, number_full(o->camera.zfar).text,
-                   o->camera.ortho ? "orthographic" : "perspective", more);
+        const setup_fields f = setup_fields_asked(&c->each->all.items[0], &o->camera);
+        page_title(p, "near %s, far %s, %s%s", setup_near(&f).text, setup_far(&f).text, f.projection, more);
+        setup_say_planes(p, &f);
         slant_say(p, page_title, &o->camera, NULL);
         return;
     }

@@ -60,7 +60,7 @@ static int take_setup(scene *s) {
     setups_release(&all);
     if (count != 1)
         return option_error("format", "and --mapping must name one camera here, got %zu", count);
-    s->fields = setup_fields_of(&s->setup, s->unit);
+    s->fields = setup_fields_asked(&s->setup, &s->o.camera);
     return EXIT_FINE;
 }
 
@@ -71,7 +71,7 @@ static void take_unit(scene *s) {
         if (fabs(s->model.metres * 1e9 - unit->nanometres) <= 1e-9 * unit->nanometres)
             s->o.camera.lengths.unit = unit;
     s->unit = camera_unit(&s->o.camera);
-    s->fields = setup_fields_of(&s->setup, s->unit);
+    s->fields = setup_fields_asked(&s->setup, &s->o.camera);
 }
 
 static int read_model(scene *s) {

@@ -42,7 +42,7 @@ static int take_look(scene *s) {
 static int take_view(scene *s, const model_camera *camera) {
     scene_request *o = &s->o;
     const char *name = o->scene.camera;
-    const bool by_preset = o->camera.preset_count > 0;
+    const bool by_preset = camera_says_planes(&o->camera.said);
     if (camera->ortho)
         return option_error("camera", "must be a perspective one, and '%s' is orthographic", name);
     if (!option_given(o->line, "near") && !by_preset)

@@ -180,6 +180,7 @@ static void *next_verdict(void *of, size_t i) {
     if (f == all->files + all->count)
         return NULL;
     all->verdict = verdict_of(f, &f->verdicts[i]);
+    all->verdict.setup.planes = camera_matrix_left_open(&f->verdicts[i].camera->matrix);
     all->verdict.triangles = check_is_slanted(&f->verdicts[i]) ? &all->verdict.slant : NULL;
     return &all->verdict;
 }

@@ -12,7 +12,7 @@
 enum { FIRST_STRETCH = 1 << 14, DEPTHS_MOST = 1 << 24, AGAIN_SHOWN = 3 };
 
 int solve_check_apart(const solve_request *o, solve_target target) {
-    const bool known = option_given(o->line, "far") || o->camera.preset_count > 0;
+    const bool known = option_given(o->line, "far") || camera_says_planes(&o->camera.said);
     const double near = target == SOLVE_FOR_NEAR ? 0.0 : o->camera.znear;
     const double most = target == SOLVE_FOR_FAR || !known ? HUGE_VAL : o->camera.zfar - near;
     if (!option_given(o->line, "separation") || o->separation <= most)

@@ -23,7 +23,8 @@ static bool is_logarithm(dp_mapping mapping) {
 }
 
 static bool is_known(const solve_request *o, const char *id) {
-    return option_given(o->line, id) || o->camera.preset_count > 0;
+    return option_given(o->line, id) || o->camera.preset_count > 0 ||
+           (o->camera.matrix.count == MATRIX_ENTRIES && strcmp(id, "format") != 0);
 }
 
 /* At a slant there is a guarantee of separations, and only of what is affine on the screen. */
@@ -62,6 +63,9 @@ static int check_target(const solve_request *o, solve_report *r) {
         return option_error("at", "does not apply to --for distance: --range LO:HI says from where");
     if (r->target != SOLVE_FOR_SEPARATION && !limited)
         return option_error("separation", "must be given (or --error), to solve for %s", option_word("for", r->target));
+    if ((r->target <= SOLVE_FOR_FAR || r->target == SOLVE_FOR_MAPPING) && o->camera.matrix.count == MATRIX_ENTRIES)
+        return option_error("matrix", "says near, far and mapping, and --for %s asks for one of them",
+                            option_word("for", r->target));
     if (r->target <= SOLVE_FOR_FAR && option_given(o->line, givens[r->target - SOLVE_FOR_NEAR]))
         return option_error("for", "solves for %s: leave out --%s", option_word("for", r->target),
                             option_word("for", r->target));

@@ -52,7 +52,7 @@ static void take_candidate(solving *s, const solve_candidate *c) {
     x->plane = c->solved ? &x->fields : NULL;
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
     s->setup = (dp_setup){.spec = c->spec};
-    x->setup = setup_fields_of(&s->setup, camera_unit(&s->report.o->camera));
+    x->setup = setup_fields_asked(&s->setup, &s->report.o->camera);
     x->model = option_word("model", c->spec.model);
 }
 

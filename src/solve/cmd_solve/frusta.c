@@ -32,7 +32,7 @@ typedef struct planning {
 static int check_frusta(const solve_request *o) {
     if (!option_given(o->line, "separation"))
         return option_error("separation", "must be given, to solve for frusta");
-    if (!(option_given(o->line, "far") || o->camera.preset_count > 0) || isinf(o->camera.zfar))
+    if (!(option_given(o->line, "far") || camera_says_planes(&o->camera.said)) || isinf(o->camera.zfar))
         return option_error("far", "must be finite, to solve for frusta: nothing is resolved at an infinite far plane");
     if (o->camera.format_count != 1)
         return option_error("format", "must be one format, to solve for frusta, got %zu", o->camera.format_count);
@@ -162,7 +162,7 @@ int solve_frusta(const solve_request *o) {
     if (solved != DP_OK)
         return setup_refused(&o->camera, &spec, solved);
     x.setup = (dp_setup){.spec = spec};
-    x.fields = setup_fields_of(&x.setup, camera_unit(&o->camera));
+    x.fields = setup_fields_asked(&x.setup, &o->camera);
     x.target = option_word("for", SOLVE_FOR_FRUSTA);
     x.possible = x.plan.possible;
     x.count = x.plan.count;

@@ -201,7 +201,7 @@ static bool is_cheapest(const solve_report *r) {
 }
 
 static bool nobody_gave(const solve_report *r, const char *option, solve_target solved) {
-    return !option_given(r->o->line, option) && r->o->camera.preset_count == 0 && r->target != solved;
+    return !option_given(r->o->line, option) && !camera_says_planes(&r->o->camera.said) && r->target != solved;
 }
 
 static unsigned conditions(const solve_report *r, const solve_candidate *c, double binary32) {
@@ -314,7 +314,10 @@ void solve_report_answer(page *p, void *item) {
     page_say(p, answer_words, told_columns, &t, when);
     solve_say_beyond(p, r);
     page_say(p, note_words, told_columns, &t, when);
-    slant_say(p, page_line, &r->o->camera, &(dp_setup){.spec = c->spec});
+    const dp_setup answered = {.spec = c->spec};
+    const setup_fields fields = setup_fields_asked(&answered, &r->o->camera);
+    slant_say(p, page_line, &r->o->camera, &answered);
+    setup_say_planes(p, &fields);
     if (c->possible)
         setup_say_code(p, &c->spec);
 }

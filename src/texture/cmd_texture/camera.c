@@ -34,10 +34,11 @@ int texture_camera_check(const texture_request *o) {
             return option_error(of_view[i], "conflicts with --ortho; --ortho=H says half the height of the view");
         angles += option_given(o->line, of_view[i]);
     }
+    angles += o->camera.matrix.count == MATRIX_TANGENTS;
     if (angles > 1 && option_given(o->line, "intrinsics"))
         return option_error("intrinsics", "conflicts with --fov and --hfov");
     if (o->image.radial && angles == 0)
-        return option_error("radial", "needs the rays: --fov, --hfov or --intrinsics");
+        return option_error("radial", "needs the rays: --fov, --hfov, --intrinsics or four tangents as --matrix");
     for (int i = 0; i < LAST_OPTIONS; i++) {
         any = any || option_given(o->line, last_options[i]);
         if (option_given(o->line, last_options[i]) && !looks_back)

@@ -79,8 +79,8 @@ static void words_of(const texture_request *o, const texture_source *s, const ch
     char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle];
     const char *unit = camera_unit(&o->camera);
     c->unit = unit;
-    const dp_setup shown = texture_matrix_shown(&s->matrix, &s->setup);
-    setup_label(&shown, true, label);
+    const setup_fields fields = setup_fields_asked(&s->setup, &o->camera);
+    setup_label_as(&s->setup, &fields, label);
     if (o->image.stereo.focal > 0)
         snprintf(label, sizeof label, "disparity, focal length %g pixels, baseline %g %s", o->image.stereo.focal,
                  o->image.stereo.baseline, unit != NULL ? unit : "scene units");

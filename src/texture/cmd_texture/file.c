@@ -73,10 +73,9 @@ static bool is_asked(const texture_request *o) {
 static bool is_open(const texture_request *o, const char *id) {
     const bool of_samples = option_is(id, "packing") || option_is(id, "metric");
     const bool of_lattice = option_given(o->line, "packing") || option_given(o->line, "format");
-    return !option_given(o->line, id) &&
-           !(of_samples                 ? is_asked(o)
-             : option_is(id, "lattice") ? of_lattice
-                                        : o->camera.preset_count > 0 || o->image.matrix != NULL);
+    return !option_given(o->line, id) && !(of_samples                 ? is_asked(o)
+                                           : option_is(id, "lattice") ? of_lattice
+                                                                      : camera_says_planes(&o->camera.said));
 }
 
 /* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */

@@ -174,12 +174,9 @@ static int parse_tint(asked_line *line, const option_row *row, const char *value
 
 /* clang-format off */
 static const option_row texture_rows[] = {
-    {"matrix", 0, "FILE",
-        "a projection matrix, 16 numbers in row order, for column vectors: gives the planes and the field of view; may "
-        "be off-centre, with an oblique near plane; NDC depth follows --mapping",
-        FILE_READ(matrix), .without = "as --near, --far and --fov give it", .group = "The depth texture"},
     {"last-eye", 0, "X,Y,Z",
-        "last frame's --eye, for motion blur", ORIGIN(last_eye), .without = "as in this frame"},
+        "last frame's --eye, for motion blur", ORIGIN(last_eye), .without = "as in this frame",
+        .group = "The depth texture"},
     {"last-look", 0, "X,Y,Z",
         "last frame's --look", ORIGIN(last_look), .without = "as in this frame"},
     {"synthetic", 0, "NAME",
@@ -281,13 +278,14 @@ static const option_use of_image[] = {
     GROUP_OF(figure_picture), TAKE("threads"), TAKE("packing"), TAKE("normal-format"), TAKE("channel"), TAKE("overlay"),
     OWN("range", HELP("the values of an effect that are black and white in its PNG"),
         WITHOUT("0:1, of a vector -1:1")),
-    TAKE("picture"), TAKE("tint"), TAKE("histogram"), TAKE("matrix"), END};
+    TAKE("picture"), TAKE("tint"), TAKE("histogram"), END};
 static const option_use of_position[] = {
     TAKE("fov"), TAKE("hfov"),
     TAKE("eye"), TAKE("look"), TAKE("size"), TAKE("pixel"), END};
 
 static const option_use uses[] = {
     OWN("format", WITHOUT("as the image has it; unorm24 with --synthetic; all with an effect alone")),
+    OWN("matrix", ALSO(CAMERA_OF_TANGENTS "; of an image also with an oblique near plane")),
     OWN("mapping", WITHOUT("as the image has it; d3d with --synthetic; all with an effect alone")),
     OWN("ortho", .optional = "H", HELP("orthographic projection, H half the height of the view"),
         WITHOUT("perspective; of H 5 scene units")),
@@ -324,7 +322,7 @@ static const option_rule rules[] = {
     CONFLICTS("metric", "packing", NULL),
     NEEDS("tint", "picture", NULL),
     CONFLICTS("histogram", "pixel", NULL),
-    CONFLICTS("matrix", "near far ortho fov hfov intrinsics log-c preset metric", NULL),
+    CONFLICTS("matrix", "intrinsics log-c", NULL),
     {.option = NULL}};
 /* clang-format on */
 
@@ -351,7 +349,7 @@ static int complete(void *request) {
     const effect_row *effect = o->image.effect;
     o->camera.spec.width = o->image.size[0];
     o->camera.spec.height = o->image.size[1];
-    const int status = camera_complete(&o->camera, &(camera_use){0});
+    const int status = camera_complete(&o->camera, &(camera_use){.imaged = asked_part(o) == 2});
     if (status == EXIT_FINE && effect != NULL && effect->eye01 && o->camera.znear < 0.0)
         return option_error("product",
                             "effect:%s sees eye depth as a share of far, which needs near not less than 0, got '%s'",

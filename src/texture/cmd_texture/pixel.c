@@ -167,7 +167,7 @@ static bool find(pixels *all) {
 
 /* Where the camera is known: of an image it is what the user says it was. */
 static bool has_camera(const pixels *all) {
-    return all->source->path == NULL || all->o->image.matrix != NULL || option_given(all->o->line, "fov") ||
+    return all->source->path == NULL || all->o->camera.matrix.count > 0 || option_given(all->o->line, "fov") ||
            option_given(all->o->line, "hfov") || option_given(all->o->line, "intrinsics") ||
            (option_given(all->o->line, "ortho") && *option_text(all->o->line, "ortho") != '\0');
 }
@@ -240,18 +240,17 @@ static void say_head(page *p, void *item) {
     const texture_source *s = all->source;
     char label[SETUP_LABEL_SIZE];
     p->unit = camera_unit(&all->o->camera);
-    const dp_setup shown = texture_matrix_shown(&s->matrix, &s->setup);
     page_text(p, "%s: %u x %u pixels, %s", all->synthetic != NULL ? all->synthetic : s->path, s->camera.width,
               s->camera.height,
               all->o->image.stereo.focal > 0 ? "disparity"
               : all->o->image.metric > 0     ? "metric depth"
-                                             : setup_label(&shown, true, label));
+                                             : setup_label_as(&s->setup, &all->setup, label));
     if (all->o->image.metric == 0)
         page_text(p, "format %s, mapping %s%s", all->format_from, all->mapping_from,
                   has_camera(all)   ? ""
                   : s->camera.ortho ? "; --ortho=H adds position and normal"
                                     : "; --fov adds position and normal");
-    texture_matrix_say_planes(&s->matrix, p);
+    setup_say_planes(p, &all->setup);
     output_char(p->out, '\n');
 }
 
@@ -339,7 +338,7 @@ int texture_pixel_write(const texture_request *o, const texture_source *source, 
                   .source = source,
                   .effect = effect,
                   .effect_name = effect != NULL ? effect->effect->name : NULL,
-                  .setup = setup_fields_of(&source->setup, camera_unit(&o->camera)),
+                  .setup = setup_fields_asked(&source->setup, &o->camera),
                   .source_path = source->path,
                   .synthetic = source->frame.synthetic != NULL ? source->frame.synthetic->name : NULL,
                   .format_from = texture_origin_name(source->format_from),

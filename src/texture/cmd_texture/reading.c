@@ -208,7 +208,7 @@ static void find_readings(const texture_request *o, texture_source *s) {
     s->reading_count = 0;
     if (o->image.metric > 0 || !find_pixel(s, &d))
         return;
-    if (s->mapping_from == ORIGIN_ASSUMED && o->image.matrix == NULL)
+    if (s->mapping_from == ORIGIN_ASSUMED && o->camera.matrix.count != MATRIX_ENTRIES)
         mappings_of(s, d);
     if (s->format_from == ORIGIN_ASSUMED && !s->camera.oblique.on &&
         (s->picture.type == IMAGE_U16 || s->picture.type == IMAGE_U32))

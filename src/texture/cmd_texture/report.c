@@ -234,7 +234,7 @@ static void name_all(statistics *r) {
     const grain *g = &s->grain;
     const bool is_metric = r->o->image.metric > 0, has_steps = g->kind == GRAIN_STEPS;
     const double none = (double)NAN;
-    r->setup = setup_fields_of(&s->setup, camera_unit(&r->o->camera));
+    r->setup = setup_fields_asked(&s->setup, &r->o->camera);
     r->named.synthetic = statistics_of_image(r) ? NULL : s->frame.synthetic->name;
     r->named.truth = statistics_of_image(r) ? NULL : "synthetic";
     r->named.packing = r->o->image.packing != NULL ? r->o->image.packing->name : NULL;

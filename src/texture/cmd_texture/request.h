@@ -27,7 +27,6 @@ typedef struct texture_asked {
     uint32_t size[2];       /**< --size: columns and rows */
     double eye[3], look[3]; /**< places: of the camera, and what it looks at */
     double last_eye[3], last_look[3];
-    const char *matrix; /**< file of a projection matrix, which then says the planes and the field of view */
     const synthetic_row *synthetic;
     named_number parameters[IMAGE_PARAMETERS_MAX];
     size_t parameter_count;

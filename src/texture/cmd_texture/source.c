@@ -154,15 +154,23 @@ static int choose_mapping(const texture_request *o, texture_source *s, dp_mappin
     return EXIT_FINE;
 }
 
-static int make_setup(const texture_request *o, texture_source *s, dp_setup *out) {
+static int make_setup(texture_request *o, texture_source *s, dp_setup *out) {
     texture_request one = *o;
     setups all = {0};
-    if (o->image.matrix != NULL && o->image.packing != NULL && o->image.packing->linear)
+    const bool by_matrix = o->camera.matrix.count == MATRIX_ENTRIES;
+    if (by_matrix && o->image.metric > 0)
+        return option_error("matrix", "conflicts with --metric");
+    if (by_matrix && o->image.packing != NULL && o->image.packing->linear)
         return option_error("matrix", "is for window depth, and %s holds eye depth: --fov says its camera", s->path);
     int status = o->image.metric > 0 ? EXIT_FINE : choose_format(o, s, &one.camera.formats[0]);
-    if (status == EXIT_FINE && (o->image.metric == 0 || o->image.matrix != NULL))
-        status =
-            o->image.matrix != NULL ? texture_matrix_open(o, s, &one) : choose_mapping(o, s, &one.camera.mappings[0]);
+    if (status == EXIT_FINE && by_matrix) {
+        status = texture_matrix_open(o, s);
+        const dp_format format = one.camera.formats[0];
+        one.camera = o->camera;
+        one.camera.formats[0] = format;
+    } else if (status == EXIT_FINE && o->image.metric == 0) {
+        status = choose_mapping(o, s, &one.camera.mappings[0]);
+    }
     one.camera.format_count = one.camera.mapping_count = 1;
     if (status == EXIT_FINE)
         status = setups_make(&one.camera, &all);
@@ -174,7 +182,7 @@ static int make_setup(const texture_request *o, texture_source *s, dp_setup *out
 }
 
 /* Metric depth lies on a lattice of its own; the planes that were given are for effects alone. */
-static int make_camera(const texture_request *o, texture_source *s) {
+static int make_camera(texture_request *o, texture_source *s) {
     const bool is_metric = o->image.metric > 0;
     int status = make_setup(o, s, is_metric ? &s->planes : &s->setup);
     camera_spec spec = o->camera.spec;
@@ -182,14 +190,16 @@ static int make_camera(const texture_request *o, texture_source *s) {
         spec.width = s->picture.width;
         spec.height = s->picture.height;
     }
-    if (status == EXIT_FINE)
+    if (status == EXIT_FINE && o->camera.matrix.count == 0)
         status = view_vertical(&o->camera, (int)spec.width, (int)spec.height, &spec.fov_y);
     if (status == EXIT_FINE)
         status = texture_camera_place(o, &spec);
     if (status != EXIT_FINE)
         return status;
     const double focal = o->image.stereo.focal, middle[] = {focal, focal, 0.5 * spec.width, 0.5 * spec.height};
-    const bool said = option_given(o->line, "intrinsics"), says_angle = s->matrix.path != NULL || said || focal > 0;
+    const bool said = option_given(o->line, "intrinsics"), says_angle = o->camera.matrix.count > 0 || said || focal > 0;
+    if (o->camera.matrix.count == MATRIX_TANGENTS)
+        texture_tangents_take(&o->camera.matrix, &s->matrix);
     if (said || focal > 0)
         texture_intrinsics_take(said ? o->camera.intrinsics : middle, (double[]){spec.width, spec.height}, &s->matrix);
     s->fov_y = says_angle ? s->matrix.fov[1] : spec.fov_y;

@@ -198,11 +198,7 @@ static void say_source(statistics *r, page *p) {
     if (r->o->image.metric > 0) {
         say_metric(r, p);
     } else {
-        const dp_setup shown = texture_matrix_shown(&s->matrix, &s->setup);
-        setup_fields titled = r->setup;
-        titled.znear = shown.spec.znear;
-        titled.zfar = shown.spec.zfar;
-        setup_title(p, &shown, &titled);
+        setup_title(p, &s->setup, &r->setup);
         if (s->matrix.path != NULL)
             texture_matrix_say(&s->matrix, p);
         say_origins(r, p);

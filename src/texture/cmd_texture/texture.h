@@ -25,12 +25,11 @@ enum { READINGS_MAX = 8, READINGS_SIZE = 512 };
 
 /** The projection matrix of --matrix. */
 typedef struct texture_matrix {
-    const char *path; /**< null: none */
+    const char *path; /**< null: none of 16 numbers */
     dp_projection taken;
     bool oblique;
     double fov[2];     /**< degrees, across and up; NaN where it is orthographic */
     double edges[4];   /**< left, right, bottom, top: slopes, or scene units where it is orthographic */
-    dp_planes planes;  /**< what near and far may be by the digits of the entries; equal where these are exact */
     const char *looks; /**< "+z", "-z" */
 } texture_matrix;
 
@@ -128,18 +127,16 @@ int texture_camera_place(const texture_request *o, camera_spec *spec);
 /** Last frame's camera: as `now`, but for what --last-eye and --last-look say. @return as texture_camera_check() */
 int texture_last_camera(const texture_request *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
 
-/** Reads the file of --matrix into s->matrix, and what it says of planes and mapping into `with`, whose format is
- * there.
+/** Takes --matrix apart, once the image has said its mapping: planes and mapping into the camera, the rest into
+ * s->matrix.
  *  @return an exit status, after one line on stderr */
-int texture_matrix_open(const texture_request *o, texture_source *s, texture_request *with);
+int texture_matrix_open(texture_request *o, texture_source *s);
+
+/** The frustum of four tangents; planes are not its matter. */
+void texture_tangents_take(const camera_matrix *m, texture_matrix *t);
 
 /** The frustum of --intrinsics, in a picture of such a size; planes are not its matter. */
 void texture_intrinsics_take(const double intrinsics[4], const double size[2], texture_matrix *t);
-
-/** The same set-up, for a title: its planes to the digits that the matrix carries, if there is one. And the line that
- *  says what they may be, where they are not exact. */
-dp_setup texture_matrix_shown(const texture_matrix *t, const dp_setup *setup);
-void texture_matrix_say_planes(const texture_matrix *t, page *p);
 
 /** For a report: its lines, and its columns, of a texture_matrix. */
 void texture_matrix_say(const texture_matrix *t, page *p);

@@ -89,7 +89,7 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     w->setup = &w->all.items[i];
     w->asked.setup = w->setup;
-    w->fields = setup_fields_of(w->setup, camera_unit(&w->o.camera));
+    w->fields = setup_fields_asked(w->setup, &w->o.camera);
     return w;
 }
 
