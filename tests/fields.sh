@@ -33,11 +33,13 @@ all_named plot interval
 all_named plot map -F unorm24
 all_named plot budget -F unorm24
 all_named plot needs tests/needs/village.need
-for what in formats mappings presets platforms apis engines rasterizers programs upscalers schemes encodings packings constants traps lattices sensors products effects synthetic positions normals figures; do all_named list $what; done
+for what in formats mappings presets platforms apis engines rasterizers programs upscalers schemes encodings packings constants traps lattices sensors products effects synthetic positions normals figures reads writes; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --separation 0.01
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --rasterize --sample 10
 all_named prepass --against fma --sample 100
+all_named convert unorm10 fp32 unorm10
+all_named convert unorm10 fp32 unorm10 --code 1,5
 "$DEPTHPREC" judge --pairs-for 20 | awk 'NR > 1 { print $1 "," 1 / (20 - 10 * $1) }' >"$scratch/pairs.csv"
 all_named judge --pairs "$scratch/pairs.csv" -n 0.05 -f 0.1
 all_named code

@@ -14,6 +14,7 @@ src/camera        | depthprec core system raster bias camera
 src/world         | depthprec core world
 src/quantity      | depthprec core quantity
 src/zfight        | depthprec core zfight
+src/convert       | depthprec core convert
 src/raster        | depthprec core raster
 src/shadow        | depthprec core bias image shader shadow
 src/windows       | system windows

@@ -198,6 +198,9 @@ check "32. half a step" agrees '<=' 'd24 / 2 - 1e-16' 'd24 / 2 + 1e-16'
 check "33. EQUAL behind another order" answers 0 \
     'depthprec prepass -F d24 -m d3d --program once --against separate --sample 100000' 'EQUAL'
 check "33. not safe: most vertices differ, by more than a code" agrees ' separate' 50 100
+check "33. a copy of D24 read back by 2^24" answers 0 'depthprec convert d24 d32f d24 --write cut:2^24' 'EQUAL     fails'
+# c + c/(2^24 - 1), in floats 2^-24 apart from 2^23 on: each of that half is rounded up.
+check "33. half of its codes" agrees 'changed' '2 ^ 23 - 0.5' '2 ^ 23 + 0.5'
 check "34. a unit in Unity" answers 0 'depthprec bias --preset unity --units 1 --at 10m' 'brings a layer nearer'
 # Window depth 0.0297 is in [2^-6, 2^-5): r is 2^-29, and a depth of z^2/n wide.
 check "34. by the formula" agrees '9.999999379' '-1.001 * width(10, 0.3, 1000, 2 ^ -29)' '-0.999 * width(10, 0.3, 1000, 2 ^ -29)'

@@ -72,8 +72,8 @@ DP_API const dp_format_row *dp_format_get(size_t index);
 
 /**
  * Finds the formats that a name stands for: a canonical name, an alias in the spelling of an API (letter case is
- * ignored), "rg", "unormN" with N = 1..32, or "floatE.M" or "floatE.MbB" with E = 2..8, M = 1..23, B = 1..2^E-1
- * (2^(E-1)-1 if not given).
+ * ignored), "rg", "20e4" (D24FS8, float4.20b15), "unormN" with N = 1..32, or "floatE.M" or "floatE.MbB" with E = 2..8,
+ * M = 1..23, B = 1..2^E-1 (2^(E-1)-1 if not given).
  *
  * @param out  receives the formats; "depth24plus" of WebGPU leaves the choice to the implementation and gives two
  * @return the number of formats, 1 or 2; 0 when the name is unknown or an argument is null

@@ -53,6 +53,7 @@ typedef struct command_row {
     one(check) \
     one(zfight) \
     one(prepass) \
+    one(convert) \
     one(bias) \
     one(world) \
     one(scene) \

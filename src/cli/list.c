@@ -11,6 +11,7 @@
 #include "camera/unit.h"
 #include "camera/upscaler.h"
 #include "code/language.h"
+#include "convert/convert.h"
 #include "core/append.h"
 #include "method/method.h"
 #include "plot/figure.h"
@@ -369,6 +370,8 @@ static const topic topics[] = {
      "how a vertex program makes clip coordinates, for prepass",
      {.rows = &vertex_program_table},
      .bound = "bound"},
+    {"reads", "how convert reads integer codes, for --read", {.rows = &convert_read_table}, .bound = "bound"},
+    {"writes", "how convert writes numbers as codes, for --write", {.rows = &convert_write_table}, .bound = "bound"},
     {"upscalers",
      "how far apart along z upscalers take two samples as separate surfaces",
      {.rows = &upscaler_table, .tell = tell_upscaler},

@@ -79,12 +79,23 @@ static const struct {
      {"unorm24", "fp32"}},
 };
 
+/* Formats of old hardware that the grammar below has. D24FS8 of Direct3D 9 and Xenos: 20 bits and an exponent of 4. */
+static const struct {
+    const char *names, *format;
+} others[] = {
+    {"20e4 d24f d24fs8 D3DFMT_D24FS8", "float4.20b15"},
+};
+
 static const char *const rounding_names[DP_ROUNDING_COUNT] = {
     [DP_ROUND_NEAREST] = "nearest", [DP_ROUND_EVEN] = "even", [DP_ROUND_ZERO] = "zero",
 };
 /* clang-format on */
 
-enum { ROW_COUNT = sizeof rows / sizeof rows[0], CHOICE_COUNT = sizeof choices / sizeof choices[0] };
+enum {
+    ROW_COUNT = sizeof rows / sizeof rows[0],
+    CHOICE_COUNT = sizeof choices / sizeof choices[0],
+    OTHER_COUNT = sizeof others / sizeof others[0]
+};
 
 size_t dp_format_count(void) {
     return ROW_COUNT;
@@ -187,6 +198,9 @@ size_t dp_format_parse(const char *name, dp_format out[2]) {
     for (size_t i = 0; i < CHOICE_COUNT; i++)
         if (dp_word_among(name, choices[i].names))
             return (size_t)(parse_row(choices[i].format[0], &out[0]) + parse_row(choices[i].format[1], &out[1]));
+    for (size_t i = 0; i < OTHER_COUNT; i++)
+        if (dp_word_among(name, others[i].names))
+            name = others[i].format;
     return (size_t)(parse_row(name, out) || parse_unorm(name, out) || parse_float(name, out));
 }
 

@@ -35,6 +35,7 @@ static const struct {
     {BIT(list), "list synthetic"},
     {BIT(judge), "judge --pairs tests/pairs/reversed.csv --csv"},
     {BIT(code), "code"},
+    {BIT(convert), "convert unorm10 fp32 unorm10"},
 };
 
 #define ALL (~0U)
@@ -201,6 +202,8 @@ static const struct {
     {"sky", ALL, "0.0001"},
     {"language", ALL, "glsl"},
     {"what", ALL, "linearize"},
+    {"read", ALL, "exact"},
+    {"write", ALL, "nearest"},
     {"report", ALL, "text"},
     {"color", ALL, "auto"},
 };

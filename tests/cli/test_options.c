@@ -7,6 +7,7 @@
 #include "cli/cmd_list/request.h"
 #include "code/cmd_code/request.h"
 #include "code/language.h"
+#include "convert/cmd_convert/request.h"
 #include "judge/cmd_judge/request.h"
 #include "method/cmd_methods/request.h"
 #include "parsed.h"
@@ -48,23 +49,23 @@ static const char *needed(const char *command, const char *name) {
     return NULL;
 }
 
-/* One option behind a command, and its operand; `line` is what was said on stderr, without its line feed. */
+/* One option behind a command, and its operands; `line` is what was said on stderr, without its line feed. */
 static int parse(asked_line *o, const char *command, const char *id, const char *value, char line[1024]) {
     char words[32], name[64], given[128], beside[32];
     snprintf(words, sizeof words, "%s", command);
     snprintf(name, sizeof name, "--%s", id);
     snprintf(given, sizeof given, "%s", value != NULL ? value : "");
     snprintf(beside, sizeof beside, "%s", needed(command, id) != NULL ? needed(command, id) : "");
-    char *const operand = strchr(words, ' ');
-    char *argv[7] = {(char[]){"depthprec"}, words, name};
+    char *operand = strchr(words, ' ');
+    char *argv[10] = {(char[]){"depthprec"}, words, name};
     int argc = 3;
     if (value != NULL)
         argv[argc++] = given;
     if (*beside != '\0')
         argv[argc++] = beside;
-    if (operand != NULL) {
-        argv[argc++] = operand + 1;
-        *operand = '\0';
+    for (; operand != NULL; operand = strchr(operand, ' ')) {
+        *operand++ = '\0';
+        argv[argc++] = operand;
     }
     size_t i = 0;
     while (tried[i] != NULL && strcmp(tried[i], id) != 0)
@@ -489,7 +490,9 @@ TEST(test_flags) {
         const char *command;
         const char *id;
         size_t field, size;
-    } flags[] = {{"table", "ortho", WORD_AT(table, camera.ortho)},
+    } flags[] = {{"convert d24 d24", "saturate", WORD_AT(convert, saturate)},
+                 {"convert d24 fp16", "flush", WORD_AT(convert, flush)},
+                 {"table", "ortho", WORD_AT(table, camera.ortho)},
                  {"budget", "linearize", WORD_AT(budget, origin.terms.linearize)},
                  {"table", "constants", WORD_AT(table, constants)},
                  {"zfight", "rasterize", WORD_AT(zfight, drawn)},
@@ -594,6 +597,40 @@ TEST(test_optional) {
 
 static bool near_to(double a, double b) {
     return fabs(a - b) <= 1e-15 * fabs(b);
+}
+
+/* A way and its factor. */
+TEST(test_copies) {
+    static const struct {
+        const char *id, *given, *way;
+        double factor;
+    } rows[] = {{"read", "Exact", "exact", 0},
+                {"read", "divide:2^24", "divide", 0x1p24},
+                {"read", "product:3", "product", 3},
+                {"write", "NEAREST", "nearest", 0},
+                {"write", "floor", "cut", 0},
+                {"write", "trunc:0xFFFFFF", "cut", 16777215},
+                {"write", "half:2^0", "half", 1},
+                {"write", "rint:2^32", "round", 0x1p32},
+                {"write", "round:16777216", "round", 0x1p24},
+                {"write", "shift", "shift", 0}};
+    static const char *const wrong[][2] = {
+        {"read", "cut"},        {"read", "exact:2"},    {"write", "divide"},         {"write", "cut:"},
+        {"write", "cut:0"},     {"write", "cut:0.5"},   {"write", "cut:16777217"},   {"write", "cut:2^33"},
+        {"write", "cut:2^-1"},  {"write", "cut:2^1.5"}, {"write", "cut:8589934592"}, {"write", ":2"},
+        {"write", "nearest:4"}, {"write", "cut:4:4"}};
+    tally t = {.name = "copies"};
+    char line[1024] = "";
+    asked_line o = {.request = NULL};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        TALLY(&t, parse(&o, "convert d24 d16 d24", rows[i].id, rows[i].given, line) == EXIT_FINE, "%s", line);
+        const convert_rule rule = *rows[i].id == 'r' ? ASKED(convert, o)->read : ASKED(convert, o)->write;
+        TALLY(&t, strcmp(rule.way->name, rows[i].way) == 0 && near_to(rule.factor, rows[i].factor), "%s: %s:%g",
+              rows[i].given, rule.way->name, rule.factor);
+    }
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        TALLY(&t, parse(&o, "convert d24 d16 d24", wrong[i][0], wrong[i][1], line) == EXIT_USAGE, "%s", wrong[i][1]);
+    tally_end(&t);
 }
 
 TEST(test_boxes) {

@@ -64,6 +64,9 @@ static void say_other_formats(page *p, void *of) {
               "formats for teaching: N = 1..32 bits; E = 2..8 exponent bits, M = 1..23 mantissa bits, bias B = "
               "1..2^E-1");
     output_char(p->out, '\n');
+    page_title(p, "20e4, D24FS8");
+    page_note(p, "", "float4.20b15: Direct3D 9, Xbox 360");
+    output_char(p->out, '\n');
     page_title(p, "depth24plus, depth24plus-stencil8");
     page_note(p, "", "unorm24 or fp32, as the implementation chooses: both are shown");
     output_char(p->out, '\n');
