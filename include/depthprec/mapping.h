@@ -43,6 +43,14 @@ typedef enum dp_mapping {
 /** The curve that a mapping follows under a perspective projection. */
 typedef enum dp_curve { DP_CURVE_PERSPECTIVE = 0, DP_CURVE_LINEAR, DP_CURVE_LOG } dp_curve;
 
+/** Who gives a fragment its depth. */
+typedef enum dp_writer {
+    DP_WRITTEN_BY_MATRIX = 0, /**< the pipeline interpolates what a projection matrix made of vertices */
+    DP_WRITTEN_BY_FRAGMENT,   /**< a fragment shader */
+    DP_WRITTEN_BY_VERTEX,     /**< a vertex shader, and the pipeline interpolates it, as vertices.h has it */
+    DP_WRITTEN_BY_EITHER      /**< one of the two shaders: the program chooses */
+} dp_writer;
+
 /** A mapping and its properties. The index of its row is its dp_mapping. */
 typedef struct dp_mapping_row {
     const char *name;
@@ -54,7 +62,7 @@ typedef struct dp_mapping_row {
     int ortho;          /**< has an orthographic form */
     int log_from_near;  /**< LOG: near is stored as 0 */
     int log_over_near;  /**< LOG: the logarithm is that of z/n, and has no C */
-    int per_fragment;   /**< never written by a vertex shader and interpolated, as vertices.h has it */
+    dp_writer written;  /**< in a perspective; an orthographic depth is the matrix's */
     int rank;           /**< how much it asks of a renderer: 0 nothing */
     const char *effort; /**< what that is; "" when nothing */
     const char *note;

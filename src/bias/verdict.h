@@ -26,6 +26,7 @@ typedef struct bias_verdict {
     double z;             /**< of the witness, scene units; this and its codes are NaN without one */
     double code, moved;   /**< what is stored there of the layer below, and of the biased one */
     bool short_of_gap;    /**< the witness is told apart, but by less than the gap */
+    bool clipped;         /**< the witness is brought before the near plane (remedy.h) */
     bool next;            /**< it is enough where drivers take the exponent n + 1, as some may and not all do */
     bool turned;          /**< with the other sign it is enough */
     bool clamped;         /**< without its clamp it is enough */

@@ -6,6 +6,8 @@
 #include <stdio.h>
 
 #include "bias/bias.h"
+#include "bias/limits.h"
+#include "bias/remedy.h"
 #include "camera/platform.h"
 #include "camera/presets.h"
 #include "camera/unit.h"
@@ -192,6 +194,12 @@ static void tell_api(const void *of, list_item *item) {
                row->mapping != NULL ? ", " : "", row->format);
 }
 
+static void tell_remedy(const void *of, list_item *item) {
+    const remedy *row = of;
+    append(item->bound, sizeof item->bound, "%s%s%s; it costs: %s; reversed: %s", row->amount,
+           row->amount[0] != '\0' ? ": worth " : "", row->worth, row->cost, row->turned);
+}
+
 static void tell_rasterizer(const void *of, list_item *item) {
     static const char *const clippings[] = {
         [RASTER_CLIP_PIECES] = "new vertices, each piece with its own plane",
@@ -358,6 +366,11 @@ static const topic topics[] = {
      "what one unit of depth bias is, for bias --api",
      {.rows = &bias_api_table, .tell = tell_api},
      .bound = "rule"},
+    {"limits", "what no depth bias does", {.rows = &bias_limit_table}, .bound = "bound"},
+    {"remedies",
+     "what is written in place of a depth bias, for bias --remedy",
+     {.rows = &remedy_table, .tell = tell_remedy},
+     .bound = "worth"},
     {"engines",
      "the shadow biases of engines, for shadow --engine",
      {.rows = &shadow_engine_table, .tell = tell_engine},

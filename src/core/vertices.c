@@ -21,7 +21,8 @@ static dp_vertex_error error_of(const dp_setup *setup, double z, double depth) {
     const double before = z - z1, behind = z2 - z;
     dp_vertex_error e = {0};
     const int affine = setup->curve == DP_CURVE_PERSPECTIVE || setup->spec.ortho;
-    if (affine || dp_mapping_get(setup->spec.mapping)->per_fragment || !(before > 0.0 && behind > 0.0))
+    if (affine || dp_mapping_get(setup->spec.mapping)->written == DP_WRITTEN_BY_FRAGMENT ||
+        !(before > 0.0 && behind > 0.0))
         return e;
     const double part = behind * (before / (z * (z2 - z1))); /* the weights are part z1/before and part z2/behind */
     if (setup->curve == DP_CURVE_LINEAR) {

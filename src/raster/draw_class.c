@@ -29,9 +29,13 @@ bool draw_is_class(const draw_camera *camera) {
     return camera->target.row == &by_class;
 }
 
-/* Whether depth is affine on the screen, so that the pipeline's at vertices is interpolated. */
+/* Whether the pipeline makes the depth of vertices from a matrix, and interpolates it. */
 static bool is_affine(const draw_camera *camera) {
     return camera->setup.spec.ortho || camera->setup.curve == DP_CURVE_PERSPECTIVE;
+}
+
+static bool is_per_vertex(const draw_camera *camera) {
+    return dp_mapping_get(camera->setup.spec.mapping)->written == DP_WRITTEN_BY_VERTEX;
 }
 
 raster_status draw_class_init(draw_camera *camera, const dp_setup *setup) {
@@ -45,7 +49,18 @@ raster_status draw_class_init(draw_camera *camera, const dp_setup *setup) {
 
 /* Window depth as a vertex has it, or what stands for the depth that a fragment writes. */
 static float value_at(const draw_camera *camera, float z) {
-    return is_affine(camera) ? dp_pipeline_window(&camera->pipeline, z) : (float)camera->setup.spec.znear / z;
+    return is_affine(camera)       ? dp_pipeline_window(&camera->pipeline, z)
+           : is_per_vertex(camera) ? (float)dp_window(&camera->setup, (double)z)
+                                   : (float)camera->setup.spec.znear / z;
+}
+
+/* The code of what was interpolated. */
+static uint32_t code_of(const draw_camera *camera, float value) {
+    const dp_setup *setup = &camera->setup;
+    const float znear = (float)setup->spec.znear, depth = fminf(fmaxf(value, 0.0F), 1.0F);
+    return is_affine(camera)       ? dp_pipeline_convert(&camera->pipeline, value)
+           : is_per_vertex(camera) ? dp_format_encode(&setup->spec.format, setup->spec.rounding, (double)depth)
+                                   : dp_code(setup, (double)(znear / value));
 }
 
 /* A coordinate on the grid, from the centre of pixel 0. */
@@ -81,12 +96,10 @@ raster_status draw_class_set_up(const draw_camera *camera, const double place[3]
 
 void draw_class_convert(const draw_camera *camera, const float *depth, int count, uint32_t *code) {
     const dp_format *format = &camera->setup.spec.format;
-    const bool affine = is_affine(camera);
-    const bool as_it_is = affine && format->kind == DP_FORMAT_FLOAT && format->bits == 31 && format->bias == 127;
-    const float znear = (float)camera->setup.spec.znear;
+    const bool as_it_is =
+        is_affine(camera) && format->kind == DP_FORMAT_FLOAT && format->bits == 31 && format->bias == 127;
     for (int i = 0; i < count && !as_it_is; i++)
-        code[i] = affine ? dp_pipeline_convert(&camera->pipeline, depth[i])
-                         : dp_code(&camera->setup, (double)(znear / depth[i]));
+        code[i] = code_of(camera, depth[i]);
     if (as_it_is)
         memcpy(code, depth, (size_t)count * sizeof *code);
 }

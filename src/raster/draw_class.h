@@ -3,8 +3,9 @@
  * @file draw_class.h  Triangles as the class of a set-up describes them, whatever it stores: vertices on its grid,
  * their depths by its pipeline, and a plane of binary32 that is anchored at the first of them.
  *
- * A linear or logarithmic depth is written by the fragment: near/z is interpolated in that plane, and the depth of what
- * it gives is the set-up's code of that z, correctly rounded. The same of what no rasterizer of raster.h stores.
+ * A depth that a vertex shader writes is interpolated. Another linear or logarithmic one is written by the fragment:
+ * near/z is interpolated in that plane, and the depth of what it gives is the set-up's code of that z, correctly
+ * rounded. The same of what no rasterizer of raster.h stores.
  */
 #ifndef RASTER_DRAW_CLASS_H
 #define RASTER_DRAW_CLASS_H

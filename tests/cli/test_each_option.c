@@ -107,6 +107,7 @@ static const struct {
     {"vertices", "box"},
     {"api", "vulkan"},
     {"units", "-3"},
+    {"remedy", "ndc:1e-5"},
     {"factor", "-2"},
     {"clamp", "-1e-7"},
     {"slope", "0.1"},

@@ -391,6 +391,23 @@ typedef struct stored {
     const char *name;
 } stored;
 
+/* What the vertices' depths make of a place, by the plane through them on the screen: d and how much it changes over a
+ * pixel. */
+static double interpolated(const stored *s, const dp_setup *exact, const double window[2], double side, double *slope) {
+    double v[3][3];
+    for (int i = 0; i < 3; i++) {
+        const double *place = s->t->place[s->at][i];
+        v[i][0] = s->p->camera.target.width / 2.0 + place[0] / place[2] / side;
+        v[i][1] = s->p->camera.target.height / 2.0 + place[1] / place[2] / side;
+        v[i][2] = dp_window(exact, place[2]);
+    }
+    const double x1 = v[1][0] - v[0][0], y1 = v[1][1] - v[0][1], z1 = v[1][2] - v[0][2];
+    const double x2 = v[2][0] - v[0][0], y2 = v[2][1] - v[0][1], z2 = v[2][2] - v[0][2], area = x1 * y2 - x2 * y1;
+    const double a = (z1 * y2 - z2 * y1) / area, b = (x1 * z2 - x2 * z1) / area;
+    *slope = fabs(a) + fabs(b);
+    return v[0][2] + a * (window[0] - v[0][0]) + b * (window[1] - v[0][1]);
+}
+
 static void judge_codes(void *context, int x, int y, int count, const uint32_t *key) {
     stored *s = context;
     const double *n = s->t->normal[s->at], off = 16.0 * 0x1p-24;
@@ -416,6 +433,12 @@ static void judge_codes(void *context, int x, int y, int count, const uint32_t *
         uint32_t a = dp_code(&exact, lo), b = dp_code(&exact, hi);
         a = turned ? top - a : a;
         b = turned ? top - b : b;
+        if (spec.mapping == DP_MAPPING_OSGEARTH) { /* which its vertices have */
+            double change;
+            const double d = interpolated(s, &exact, window, side, &change), reach = change / 16.0;
+            a = dp_format_encode(&spec.format, spec.rounding, fmin(fmax(d - reach, 0.0), 1.0));
+            b = dp_format_encode(&spec.format, spec.rounding, fmin(fmax(d + reach, 0.0), 1.0));
+        }
         const double spare = 4.0 + 0x1p-20 * (spec.format.kind == DP_FORMAT_FLOAT ? 0.0 : (double)top);
         TALLY(s->y,
               spec.format.bits > 24 || ((double)key[i] >= (double)a - spare && (double)key[i] <= (double)b + spare),

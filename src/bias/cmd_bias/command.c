@@ -80,6 +80,12 @@ static void judge(biasing *b) {
     b->judged_lo = fmin(bias_gap_from(b), b->judged_hi);
     b->facing = bias_judged_of(&facing, &b->state, &goal, b->judged_lo, b->judged_hi);
     b->sloped = (bias_judged){.what = NULL};
+    if (b->o->remedy != NULL) {
+        b->facing = bias_judged_remedy(setup, b->o->remedy, b->o->amount, goal.gap, b->judged_lo, b->judged_hi);
+        b->missed = b->missed || b->facing.v.answer != BIAS_ENOUGH;
+        b->pushed = bias_pushed_remedy(setup, b->o->remedy, b->o->amount, &b->facing, b->judged_lo, b->judged_hi);
+        return;
+    }
     goal.slope = b->o->bias.slope;
     if (b->when & OF_SLOPES)
         b->sloped = bias_judged_of(setup, &b->state, &goal, b->judged_lo, b->judged_hi);
@@ -144,9 +150,10 @@ static void fill_row(biasing *b, double z, bias_row *r) {
     if (b->each.triangles != NULL && !ranged)
         r->guarantee = each_setup_guarantee(&b->each, z);
     if (!ranged)
-        r->effect = bias_at(setup, &state, b->o->bias.slope, z);
+        r->effect = b->o->remedy != NULL ? remedy_at(setup, b->o->remedy, b->o->amount, z)
+                                         : bias_at(setup, &state, b->o->bias.slope, z);
     r->one_unit = r->effect.limited ? (double)NAN : fabs(r->effect.shift);
-    r->held = r->effect.limited ? "clamped to a plane" : "";
+    r->held = !r->effect.limited ? "" : b->o->remedy != NULL ? "clipped" : "clamped to a plane";
     b->limited = b->limited || r->effect.limited;
     if (b->when & SEVERAL)
         write_call(b, r);
@@ -210,11 +217,11 @@ static const column row_columns[] = {
     {TEXT_FIELD(bias_row, api, "api", -16, 0), .when = SEVERAL},
     {FIELD(bias_row, gap.lo, "lo", "scene"), .when = OF_RANGE},
     {FIELD(bias_row, gap.hi, "hi", "scene"), .when = OF_RANGE},
-    {FIELD(bias_row, effect.r.least, "r", ""), SHOWN("r", 12, DIGITS), .when = ONE_API},
-    {FIELD(bias_row, effect.r.most, "r_most", ""), .when = ONE_API},
+    {FIELD(bias_row, effect.r.least, "r", ""), SHOWN("r", 12, DIGITS), .when = ONE_API | OF_BIAS},
+    {FIELD(bias_row, effect.r.most, "r_most", ""), .when = ONE_API | OF_BIAS},
     {FIELD(bias_row, effect.r.least, "r", ""), .when = OF_DEPTHS},
     {FIELD(bias_row, effect.r.most, "r_most", ""), .when = OF_DEPTHS},
-    {FIELD(bias_row, effect.m, "slope", "per pixel"), .when = ONE_API},
+    {FIELD(bias_row, effect.m, "slope", "per pixel"), .when = ONE_API | OF_BIAS},
     {TEXT_FIELD(bias_row, effect.m, "slope", 12, DIGITS), .when = ONE_API | WITH_SLOPE, .spare = 2},
     {FIELD(bias_row, one_unit, "one_unit", "scene"), SHOWN("one unit", 13, DIGITS), .when = ONE_API | INVERSE},
     {FIELD(bias_row, apart.units, "units_apart", ""), SHOWN("resolved", 17, DIGITS_Z), .outward = true,
@@ -262,7 +269,8 @@ static const column range_columns[] = {{FIELD(biasing, over.lo, "lo", "scene")},
 
 static const column setup_report[] = {
     {PART(biasing, each.fields, NULL, setup_columns)},
-    {FIELD(biasing, apis, "api", ""), .only = AS_CSV, .when = ONE_API},
+    {FIELD(biasing, apis, "api", ""), .only = AS_CSV, .when = ONE_API | OF_BIAS},
+    {FIELD(biasing, o_remedy, "remedy", ""), .only = AS_CSV, .when = BIAS_OF_REMEDY},
     {FIELD(biasing, state.factor, "factor", ""), .when = ONE_API | WITH_TRIANGLES},
     {LIST("rows", row_columns, next_row)},
     {GROUP("range", range_columns), .only = AS_JSON, .when = ONE_API | INVERSE},
@@ -273,11 +281,13 @@ static const column setup_report[] = {
     {.kind = COLUMN_END}};
 
 static const column columns[] = {
-    {FIELD(biasing, apis, "api", ""), .only = AS_JSON},
-    {FIELD(biasing, units, "units", ""), .only = AS_JSON, .when = ONE_API},
-    {FIELD(biasing, factor, "factor", ""), .only = AS_JSON, .when = ONE_API},
-    {FIELD(biasing, state.clamp, "clamp", ""), .only = AS_JSON, .when = ONE_API},
-    {FIELD(biasing, slope, "slope", ""), .only = AS_JSON},
+    {FIELD(biasing, apis, "api", ""), .only = AS_JSON, .when = OF_BIAS},
+    {FIELD(biasing, o_remedy, "remedy", ""), .only = AS_JSON, .when = BIAS_OF_REMEDY},
+    {FIELD(biasing, amount, "amount", ""), .only = AS_JSON, .when = BIAS_OF_REMEDY},
+    {FIELD(biasing, units, "units", ""), .only = AS_JSON, .when = ONE_API | OF_BIAS},
+    {FIELD(biasing, factor, "factor", ""), .only = AS_JSON, .when = ONE_API | OF_BIAS},
+    {FIELD(biasing, state.clamp, "clamp", ""), .only = AS_JSON, .when = ONE_API | OF_BIAS},
+    {FIELD(biasing, slope, "slope", ""), .only = AS_JSON, .when = OF_BIAS},
     {FIELD(biasing, factor, "factor", ""), .only = AS_JSON, .when = SEVERAL},
     {FIELD(biasing, gap, "gap", "scene"), .only = AS_JSON},
     {PART(biasing, each.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
@@ -381,7 +391,8 @@ static int take_drawn(biasing *b) {
 /* The conditions of columns, but for how many places there are. */
 static unsigned conditions(const bias_request *o) {
     const unsigned of_several = SEVERAL | (option_given(o->line, "at") ? OF_DEPTHS : OF_RANGE);
-    return (option_given(o->line, "units") ? EFFECT : INVERSE) | (o->bias.api == NULL ? of_several : ONE_API) |
+    return (option_given(o->line, "units") || o->remedy != NULL ? EFFECT : INVERSE) |
+           (o->remedy != NULL ? BIAS_OF_REMEDY : OF_BIAS) | (o->bias.api == NULL ? of_several : ONE_API) |
            (o->bias.separation > 0.0 ? WITH_GAP : 0) | (o->bias.slope > 0.0 ? WITH_SLOPE : 0) |
            (o->bias.slope > 0.0 || o->camera.triangles.width > 0 ? OF_SLOPES : 0) | (o->out.full ? VERBOSE : 0) |
            (o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0) | (o->drawn ? DRAWN : 0);
@@ -401,20 +412,22 @@ static bool suits_beside(const biasing *b) {
 int cmd_bias(void *request) {
     const bias_request *o = request;
     const bias_api *api = o->bias.api;
-    const bool given = option_given(o->line, "units");
+    const bool given = option_given(o->line, "units") || o->remedy != NULL;
     biasing b = {.o = o,
                  .when = conditions(o),
                  .chosen = chooses_factor(o),
                  .state = {.clamp = o->bias.clamp},
                  .gap = given && o->bias.separation == 0.0 ? (double)NAN : o->bias.separation,
-                 .slope = o->bias.slope};
+                 .slope = o->bias.slope,
+                 .o_remedy = o->remedy != NULL ? o->remedy->name : NULL,
+                 .amount = o->remedy != NULL && o->remedy->amount[0] != '\0' ? o->amount : (double)NAN};
     int status = check_slant(o);
     if (status != EXIT_FINE)
         return status;
     b.api = platform_bias(o->camera.platform, bias_asked_api(&o->bias, 0));
     b.apis = api != NULL ? api->name : option_text(o->line, "api");
     b.units_sent = units_sent(o, &b.api);
-    b.units = !given ? (double)NAN : isinf(o->bias.units) ? b.units_sent : o->bias.units;
+    b.units = !option_given(o->line, "units") ? (double)NAN : isinf(o->bias.units) ? b.units_sent : o->bias.units;
     b.factor = b.chosen ? (double)NAN : o->bias.factor;
     status = api != NULL ? check_one(o, &b.api) : check_several(o);
     if (status != EXIT_FINE)
@@ -424,6 +437,8 @@ int cmd_bias(void *request) {
         status = resolve(&b, o);
     if (status == EXIT_FINE)
         status = take_drawn(&b);
+    if (status == EXIT_FINE)
+        status = bias_check_remedy(o->remedy, &b.each.all);
     if ((b.when & OF_DEPTHS) && b.each.at.count > 1)
         b.when |= OF_PLACES;
     if (suits_beside(&b))

@@ -6,6 +6,7 @@
 
 #include "core/append.h"
 #include "core/elementary.h"
+#include "report/number.h"
 
 enum { DIGITS = 9, DIGITS_PUSHED = 4 };
 
@@ -40,6 +41,26 @@ void bias_judged_by(bias_judged *j, double z, double code, double moved) {
     j->v.moved = moved;
 }
 
+bias_judged bias_judged_remedy(const dp_setup *setup, const remedy *row, double amount, double gap, double lo,
+                               double hi) {
+    bias_judged j = {.what = "facing", .asked = "facing the camera"};
+    j.v = remedy_judge(setup, row, amount, gap, lo, hi);
+    j.answer = answers[j.v.answer];
+    if (!isnan(j.v.units))
+        append(j.call, sizeof j.call, "--remedy %s:%s", row->name,
+               (row->grows ? number_up : number_down)(j.v.units, DIGITS).text);
+    return j;
+}
+
+bias_pushed bias_pushed_remedy(const dp_setup *setup, const remedy *row, double amount, const bias_judged *least,
+                               double lo, double hi) {
+    const bias_push most = remedy_push(setup, row, amount, lo, hi);
+    bias_pushed p = {.shift = most.shift, .z = most.z, .least = (double)NAN, .degrees = (double)NAN};
+    if (!isnan(least->v.units))
+        p.least = -remedy_at(setup, row, least->v.units, most.z).shift + 0.0; /* no -0 */
+    return p;
+}
+
 bias_pushed bias_pushed_of(const dp_setup *setup, const bias_state *state, const bias_judged *least, double lo,
                            double hi) {
     const dp_triangles *t = &setup->spec.triangles;
@@ -55,9 +76,13 @@ bias_pushed bias_pushed_of(const dp_setup *setup, const bias_state *state, const
     return p;
 }
 
-bool bias_is_missed(const dp_setup *setup) {
-    return setup->curve != DP_CURVE_PERSPECTIVE && !setup->spec.ortho &&
-           !dp_mapping_get(setup->spec.mapping)->ndc_signed;
+int bias_check_remedy(const remedy *row, const setups *all) {
+    for (size_t i = 0; row != NULL && i < all->count; i++)
+        if (!remedy_suits(row, &all->items[i]))
+            return option_error("remedy", "%s has no effect with %s%s: name another means, or mapping", row->name,
+                                dp_mapping_get(all->items[i].spec.mapping)->name,
+                                all->items[i].spec.ortho ? ", orthographic" : "");
+    return EXIT_FINE;
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -76,6 +101,7 @@ const column bias_judged_columns[] = {
     {FIELD(bias_judged, v.code, "code", "")},
     {FIELD(bias_judged, v.moved, "code_moved", "")},
     {FIELD(bias_judged, v.short_of_gap, "short_of_gap", "")},
+    {FIELD(bias_judged, v.clipped, "clipped", ""), .when = BIAS_OF_REMEDY},
     {FIELD(bias_judged, v.next, "enough_next", "")},
     {FIELD(bias_judged, v.turned, "enough_turned", "")},
     {FIELD(bias_judged, v.clamped, "enough_unclamped", "")},
@@ -91,13 +117,24 @@ const column bias_pushed_columns[] = {
 
 /* ---- Words ------------------------------------------------------------------------------------------------------- */
 
-enum { IS_ENOUGH = 1, HAS_WITNESS = 2, SHORT = 4, PARTLY = 8, NARROWER = 16, NEXT = 32, TURNED = 64, CLAMPED = 128 };
+enum {
+    IS_ENOUGH = 1,
+    HAS_WITNESS = 2,
+    SHORT = 4,
+    PARTLY = 8,
+    NARROWER = 16,
+    NEXT = 32,
+    TURNED = 64,
+    CLAMPED = 128,
+    CLIPPED = 256
+};
 
 static const column said_columns[] = {
     {GROUP(NULL, bias_judged_columns)}, WORD(bias_judged, what), {.kind = COLUMN_END}};
 
 static const sentence judged_words[] = {
     NOTE("{what}", "enough from {from} to {to}", IS_ENOUGH),
+    ELSE("not enough: at z = {z} the near plane clips the layer", HAS_WITNESS | CLIPPED),
     ELSE("not enough: at z = {z} it brings the layer nearer by less than the separation", HAS_WITNESS | SHORT),
     ELSE("not enough: at z = {z} the layer is stored as {code_moved}, the one below as {code}", HAS_WITNESS),
     ELSE("not proven from {lo} to {hi}: neither a proof nor a depth where it fails", 0),
@@ -123,7 +160,7 @@ void bias_say_judged(page *p, bias_judged *j, double lo, double hi) {
              (!open ? IS_ENOUGH : 0) | (v->answer == BIAS_NOT_ENOUGH ? HAS_WITNESS : 0) |
                  (v->short_of_gap ? SHORT : 0) | (open && !isnan(v->from) ? PARTLY : 0) |
                  (is_narrower(v, lo, hi) ? NARROWER : 0) | (v->next ? NEXT : 0) | (v->turned ? TURNED : 0) |
-                 (v->clamped ? CLAMPED : 0));
+                 (v->clamped ? CLAMPED : 0) | (v->clipped ? CLIPPED : 0));
 }
 
 static const sentence pushed_words[] = {

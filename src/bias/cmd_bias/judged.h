@@ -4,9 +4,15 @@
 #define BIAS_CMD_BIAS_JUDGED_H
 
 #include "bias/cmd_bias/call.h"
+#include "bias/limits.h"
+#include "bias/remedy.h"
 #include "bias/verdict.h"
+#include "camera/cmd/setups.h"
 #include "report/report.h"
 #include "report/sentence.h"
+
+/** The condition of columns of what is written in place of a bias. */
+enum { BIAS_OF_REMEDY = 1 << 14 };
 
 /** One question: surfaces that face the camera, that have a slope, or have any. */
 typedef struct bias_judged {
@@ -24,12 +30,17 @@ typedef struct bias_pushed {
     double degrees;  /**< the angle of a surface that changes as much from one pixel to the next; NaN without a view */
 } bias_pushed;
 
-/** Whether a fragment shader may write the depth, which no API then biases: an orthographic depth is interpolated, and
- * so is the clip z that osgearth's vertices have. */
-bool bias_is_missed(const dp_setup *setup);
-
 /** Judges a bias as the goal asks; one that is missed is none. */
 bias_judged bias_judged_of(const dp_setup *setup, const bias_state *state, const bias_goal *goal, double lo, double hi);
+
+/** Refuses a means that has no effect in some set-up; null: there is none. @return an exit status */
+int bias_check_remedy(const remedy *row, const setups *all);
+
+/** The same of what is written in place of a bias, and how far that pushes. */
+bias_judged bias_judged_remedy(const dp_setup *setup, const remedy *row, double amount, double gap, double lo,
+                               double hi);
+bias_pushed bias_pushed_remedy(const dp_setup *setup, const remedy *row, double amount, const bias_judged *least,
+                               double lo, double hi);
 
 /** Makes a verdict that is open "not enough", by a pixel that was drawn: where, and as what both layers are stored. */
 void bias_judged_by(bias_judged *j, double z, double code, double moved);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command bias and its options. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "bias/cmd_bias/request.h"
@@ -75,12 +76,40 @@ static const option_row bias_rows[] = {
         .without = "until it is resolved"},
     END};
 
+static const name_list remedies = {.rows = &remedy_table};
+
+/* NAME, or NAME:X where it has a number. */
+static int parse_remedy(asked_line *line, const option_row *row, const char *value, void *group) {
+    bias_request *o = group;
+    const size_t length = strcspn(value, ":");
+    char name[32];
+    list_item found;
+    (void)line;
+    snprintf(name, sizeof name, "%.*s", (int)length, value);
+    if (length >= sizeof name || !names_find(row->names, name, NULL, &found))
+        return option_unknown(row, name);
+    o->remedy = found.row;
+    const bool numbered = o->remedy->amount[0] != '\0';
+    if (!numbered && value[length] == '\0')
+        return EXIT_FINE;
+    if (!numbered)
+        return option_refuse(row, "must be %s, which has no number, got '%s'", o->remedy->name, value);
+    if (value[length] == '\0' || !number_parse(value + length + 1, NUMBER_FINITE, &o->amount) ||
+        !(o->amount >= o->remedy->least && o->amount <= o->remedy->most))
+        return option_refuse(row, "must be %s:X, X from %g to %g (%s), got '%s'", o->remedy->name, o->remedy->least,
+                             o->remedy->most, o->remedy->amount, value);
+    return EXIT_FINE;
+}
+
 #undef GROUP_TYPE
 #define GROUP_TYPE bias_request
 static const option_row check_rows[] = {
     {"check", 0, NULL,
         "exit with status 1 unless the bias given is enough all over the range, also at the slants that are asked "
         "about", FLAG(checked)},
+    {"remedy", 0, "NAME:X",
+        "in place of a bias: another means, and its number, judged as a bias is, of layers that face the camera: @",
+        .parse = parse_remedy, INTO(const remedy *, remedy), .names = &remedies, .without = "a bias"},
     {"rasterize", 0, NULL,
         "also draw the layers as random triangles of random planes at any slant, by --raster: how many pixels fight "
         "with the bias given, and one that does", FLAG(drawn)},
@@ -142,7 +171,8 @@ static const option_use uses[] = {
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 
 static const option_rule rules[] = {
-    NEEDS("check", "units", ": it is a bias that is judged"),
+    CONFLICTS("remedy", "api units factor clamp slope viewport raster rasterize", ", which are of a bias"),
+    NEEDS("check", "units remedy", ": it is a bias that is judged"),
     CONFLICTS("rasterize", "slope", ", which draws surfaces at any slant"),
     CONFLICTS("rasterize", "ortho", ", which draws perspectives"),
     NEEDS("rasterize", "units", ": it is a bias that is drawn"),
@@ -168,5 +198,6 @@ const command_row command_bias = {
     .example = "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
     "  depthprec bias --api all --separation 0.02 --at 300\n"
     "  depthprec bias --api webgpu -F depth24plus --separation 0.01 --range 1:100\n"
+    "  depthprec bias -F d24 -m gl --remedy ndc:1e-5 --at 20,500\n"
     "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n"};
 /* clang-format on */

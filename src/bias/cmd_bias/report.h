@@ -27,7 +27,8 @@ enum {
     WITH_TRIANGLES = 512,
     OF_PLACES = 1024, /**< at several depths */
     OF_SLOPES = 2048, /**< of surfaces that need not face the camera */
-    DRAWN = 4096
+    DRAWN = 4096,
+    OF_BIAS = 8192 /**< not of what is written in place of one */
 };
 
 /** The units that reach a goal from lo to hi; all NaN where lo is beyond hi. */
@@ -58,7 +59,8 @@ typedef struct biasing {
     each_setup each;
     const bias_request *o;
     unsigned when;
-    const char *apis;
+    const char *apis, *o_remedy;      /**< o_remedy: name of what is written in place of a bias */
+    double amount;                    /**< its number */
     double units_sent;                /**< as the platform sends them */
     bool chosen;                      /**< the factor is the least that is enough at any slant */
     double units, gap, factor, slope; /**< as asked; NaN where something else is */

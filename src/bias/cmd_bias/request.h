@@ -4,6 +4,7 @@
 #define BIAS_CMD_BIAS_REQUEST_H
 
 #include "bias/bias.h"
+#include "bias/remedy.h"
 #include "cli/output/output.h"
 
 typedef struct bias_asked {
@@ -23,9 +24,11 @@ extern const option_use bias_brought[];
 typedef struct bias_request {
     CAMERA_REQUEST;
     bias_asked bias;
-    bool checked;       /**< --check */
-    bool drawn;         /**< --rasterize */
-    const char *render; /**< file of a picture; null when not given */
+    bool checked;         /**< --check */
+    const remedy *remedy; /**< in place of a bias; null: none */
+    double amount;        /**< its number */
+    bool drawn;           /**< --rasterize */
+    const char *render;   /**< file of a picture; null when not given */
 } bias_request;
 
 /** The API of that index among those that are asked for; null behind the last. */

@@ -20,9 +20,7 @@ static void say_state(page *p, const biasing *b) {
     if (b->when & EFFECT)
         append(text, sizeof text, ", units %s", number_full(s->units).text);
     if ((b->when & EFFECT) && isinf(b->o->bias.units) && s->api->whole)
-        append(text, sizeof text,
-               " (%s in 32 bits, as a cast that saturates makes it; in C it is undefined, and x86 "
-               "makes -2147483648 of either sign)",
+        append(text, sizeof text, " (%s in 32 bits, as a cast that saturates makes it)",
                number_full(b->o->bias.units).text);
     if (s->factor != 0.0 && isfinite(s->factor))
         append(text, sizeof text, ", factor %s", number_full(s->factor).text);
@@ -31,6 +29,15 @@ static void say_state(page *p, const biasing *b) {
     if (b->o->bias.slope > 0.0)
         append(text, sizeof text, ", slope %s per pixel", camera_length(b->each.here, b->o->bias.slope, 0).text);
     page_text(p, "%s", text);
+}
+
+/* "ndc: NDC z - e, or clip z - e w, e = 1e-05": what is written in place of a bias. */
+static void say_remedy(page *p, const biasing *b) {
+    const remedy *r = b->o->remedy;
+    if (r->amount[0] == '\0')
+        page_text(p, "%s: %s", r->name, r->note);
+    else
+        page_text(p, "%s: %s, %.1s = %s", r->name, r->note, r->amount, number_full(b->o->amount).text);
 }
 
 /* "To be resolved from z = 0.1 to 1000:", the goal that several APIs are to reach. */
@@ -57,7 +64,7 @@ void bias_say_setup(page *p, void *item) {
         bias_say_answer(p, &b->facing, &b->sloped);
     each_setup_title(p, item);
     slant_say(p, page_title, &b->o->camera, &b->each.slanted);
-    (b->when & ONE_API ? say_state : say_goal)(p, b);
+    (b->when & BIAS_OF_REMEDY ? say_remedy : b->when & ONE_API ? say_state : say_goal)(p, b);
 }
 
 const column bias_need_columns[] = {{FIELD(bias_need, what, "what", "")},
@@ -177,7 +184,22 @@ static void say_choice(page *p, const biasing *b) {
                   open);
 }
 
-static const char missed[] = "no API biases a depth that a fragment shader writes: add units times r there";
+/* What the bias does not do there, --full: anywhere. */
+static void say_limits(page *p, const biasing *b) {
+    const bias_use use = {.setup = b->each.setup,
+                          .state = &b->state,
+                          .slanted = b->each.triangles != NULL,
+                          .infinite = (b->when & EFFECT) && isinf(b->o->bias.units),
+                          .lo = b->judged_lo,
+                          .hi = b->judged_hi};
+    const bool given = (b->when & EFFECT) && (b->when & OF_BIAS);
+    for (size_t i = 0; bias_limit_get(i) != NULL; i++) {
+        const bias_limit *row = bias_limit_get(i);
+        const bool always = row == bias_limit_find("written"); /* also where none is given */
+        if (row->applies != NULL ? (given || always) && row->applies(&use) : given && (b->when & VERBOSE))
+            page_line(p, "%s", row->said);
+    }
+}
 
 /* The slope factor of surfaces at any slant. */
 static void say_factor(page *p, const biasing *b) {
@@ -200,7 +222,14 @@ static void say_verdict(page *p, biasing *b) {
     if (b->when & DRAWN)
         bias_say_trial(p, &b->trial);
     bias_say_pushed(p, &b->pushed);
-    page_line(p, "a %s bias brings a layer nearer", bias_sign(b->each.setup) < 0 ? "negative" : "positive");
+    if (b->when & OF_BIAS) {
+        page_line(p, "a %s bias brings a layer nearer", bias_sign(b->each.setup) < 0 ? "negative" : "positive");
+        return;
+    }
+    const remedy *r = b->o->remedy;
+    page_note(p, "worth", "%s", r->worth);
+    page_note(p, "costs", "%s", r->cost);
+    page_note(p, "reversed", "%s", r->turned);
 }
 
 void bias_say_notes(page *p, void *item) {
@@ -213,8 +242,8 @@ void bias_say_notes(page *p, void *item) {
         say_range(p, b);
     else
         say_verdict(p, b);
-    if (bias_is_missed(b->each.setup))
-        page_line(p, "%s", missed);
+    if (b->when & OF_BIAS)
+        say_limits(p, b);
     if (b->each.triangles != NULL)
         page_line(p, "resolved: one plane drawn as different triangles, each at least a pixel high");
     if (!one) {
@@ -222,6 +251,8 @@ void bias_say_notes(page *p, void *item) {
         return;
     }
     say_factor(p, b);
+    if (b->when & BIAS_OF_REMEDY)
+        return;
     if (b->limited && (b->when & EFFECT))
         page_line(p, "a biased depth outside [0, 1] is clamped to the plane");
     say_r(p, b);
@@ -253,7 +284,7 @@ void bias_say_calls(page *p, void *item) {
     if (b->fails)
         page_line(p, "-: no bias suffices; ask about that format and mapping alone to see where one does");
     if (misses)
-        page_line(p, "%s", missed);
+        page_line(p, "%s", bias_limit_find("written")->said);
     if (*say_measured(p, b->o, NULL, open) != '\0' && integer)
         page_line(p, "%s: in integer formats r is the implementation's choice, 2^-N is assumed", open);
     output_char(p->out, '\n');

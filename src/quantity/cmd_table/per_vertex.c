@@ -7,7 +7,7 @@ enum { DIGITS = 4, DIGITS_Z = 9 };
 
 bool per_vertex_matters(const dp_setup *setup) {
     const dp_mapping_row *row = dp_mapping_get(setup->spec.mapping);
-    return row->curve != DP_CURVE_PERSPECTIVE && !row->per_fragment;
+    return row->written == DP_WRITTEN_BY_VERTEX || row->written == DP_WRITTEN_BY_EITHER;
 }
 
 per_vertex per_vertex_at(const dp_setup *setup, double z, double depth, double separation) {

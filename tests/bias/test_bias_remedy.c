@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What is written in place of a bias: verdicts and what it is worth, against window depths in long double of formulas
+ * that are written here; what does not apply; and what a bias does not do, told where it applies.
+ */
+#include "bias/limits.h"
+#include "bias/remedy.h"
+#include "core/bits.h"
+#include "printed.h"
+
+/* ---- The formulas ------------------------------------------------------------------------------------------------ */
+
+static long double window_of(const dp_spec *s, long double near, long double z) {
+    const long double far = 1.0L / (long double)s->zfar;
+    const bool reversed = dp_mapping_get(s->mapping)->reversed != 0;
+    const long double d =
+        s->ortho ? (z - near) / ((long double)s->zfar - near) : (1.0L - near / z) / (1.0L - near * far);
+    return reversed ? (s->ortho ? ((long double)s->zfar - z) / ((long double)s->zfar - near)
+                                : (near / z - near * far) / (1.0L - near * far))
+                    : d;
+}
+
+/* The window depth that the layer has, exactly. */
+static long double layer_of(const dp_spec *s, const char *what, long double x, long double z) {
+    const bool reversed = dp_mapping_get(s->mapping)->reversed != 0;
+    const long double near = s->znear, d = window_of(s, near, z);
+    if (strcmp(what, "ndc") == 0)
+        return d + (reversed ? x : -x) * (dp_mapping_get(s->mapping)->ndc_signed ? 0.5L : 1.0L);
+    if (strcmp(what, "ray") == 0)
+        return window_of(s, near, z - x * z);
+    if (strcmp(what, "normal") == 0)
+        return window_of(s, near, z - x);
+    if (strcmp(what, "near") == 0)
+        return window_of(s, x * near, z);
+    return reversed ? (1.0L - x) + x * d : x * d;
+}
+
+static uint64_t code_of(const dp_format *f, long double d) {
+    const double held = (double)(float)fminl(fmaxl(d, 0.0L), 1.0L);
+    return f->kind == DP_FORMAT_UNORM ? (uint64_t)floorl((long double)held * f->code_max + 0.5L)
+                                      : dp_bits32((float)held);
+}
+
+/* Whether the layer is seen before its wall at z: not clipped, and stored nearer. */
+static bool is_seen(const dp_spec *s, const char *what, double x, double z) {
+    const bool reversed = dp_mapping_get(s->mapping)->reversed != 0;
+    const long double layer = layer_of(s, what, x, z), d = window_of(s, s->znear, z);
+    const uint64_t a = code_of(&s->format, layer), b = code_of(&s->format, d);
+    return !(reversed ? layer > 1.0L + 1e-15L : layer < -1e-15L) && (reversed ? a > b : a < b);
+}
+
+/* ---- Random ones ------------------------------------------------------------------------------------------------- */
+
+static bool draw_setup(rng *r, dp_setup *setup, double *lo, double *hi) {
+    static const char *const formats[] = {"unorm16", "unorm24", "fp32"};
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    dp_format_parse(formats[rng_below(r, 3)], found);
+    spec.format = found[0];
+    spec.mapping = (dp_mapping)rng_below(r, DP_MAPPING_GL_REVERSED + 1);
+    spec.ortho = rng_below(r, 5) == 0;
+    spec.znear = rng_log(r, 0.01, 10.0);
+    spec.zfar = spec.znear * rng_log(r, 3.0, 1e5);
+    *lo = spec.znear * rng_log(r, 1.0, sqrt(spec.zfar / spec.znear));
+    *hi = *lo * rng_log(r, 1.0, spec.zfar / *lo);
+    return dp_setup_init(setup, &spec) == DP_OK && *lo < *hi;
+}
+
+static double draw_amount(rng *r, const remedy *row, double least) {
+    const double by = rng_below(r, 3) == 0 ? 1.0 : rng_log(r, 0.1, 10.0);
+    const double zero = row->grows ? row->least : row->most;
+    const double x =
+        isnan(least) ? zero + (row->grows ? 1.0 : -1.0) * rng_log(r, 1e-7, 1e-2) : zero + (least - zero) * by;
+    return fmin(fmax(x, row->least), row->most);
+}
+
+TEST(random_remedies) {
+    rng r = rng_make("bias remedies");
+    tally enough = {.name = "enough"}, witness = {.name = "not enough"}, worth = {.name = "worth"};
+    uint64_t answers[8][3] = {{0}};
+    const uint64_t count = test_cases(600, 4000, 100000);
+    for (uint64_t i = 0; i < count;) {
+        dp_setup setup;
+        double lo, hi;
+        const size_t which = (size_t)rng_below(&r, remedy_table.count - 1); /* the last compares no depth */
+        const remedy *row = remedy_get(which);
+        if (!draw_setup(&r, &setup, &lo, &hi) || !remedy_suits(row, &setup))
+            continue;
+        const dp_spec *s = &setup.spec;
+        const double least = remedy_judge(&setup, row, row->grows ? row->least : row->most, 0.0, lo, hi).units;
+        const double x = draw_amount(&r, row, least);
+        const bias_verdict v = remedy_judge(&setup, row, x, 0.0, lo, hi);
+        i++;
+        answers[which][v.answer]++;
+        if (x == least)
+            TALLY(&enough, v.answer == BIAS_ENOUGH, "%s %s: the least is not enough", row->name, s->format.name);
+        for (int k = 0; k < 100 && v.answer == BIAS_ENOUGH; k++) {
+            const double z = k == 0 ? lo : k == 1 ? hi : rng_log(&r, lo, hi);
+            TALLY(&enough, is_seen(s, row->name, x, z),
+                  "%s %s %s ortho %d near %.17g far %.17g: %.17g at %.17g is not enough", row->name, s->format.name,
+                  dp_mapping_get(s->mapping)->name, s->ortho, s->znear, s->zfar, x, z);
+        }
+        if (v.answer == BIAS_NOT_ENOUGH)
+            TALLY(&witness, !is_seen(s, row->name, x, v.z) && v.z >= lo && v.z <= hi,
+                  "%s %s %s ortho %d near %.17g far %.17g: %.17g at %.17g is enough", row->name, s->format.name,
+                  dp_mapping_get(s->mapping)->name, s->ortho, s->znear, s->zfar, x, v.z);
+        const double z = rng_log(&r, lo, hi), to = remedy_at(&setup, row, x, z).to;
+        const long double there = to > 0.0 ? window_of(s, s->znear, to) : 0.0L, exact = layer_of(s, row->name, x, z);
+        if (exact > 0.0L && exact < 1.0L)
+            TALLY(&worth, fabsl(there - exact) <= 1e-13L * (1.0L + fabsl(exact)), "%s %.17g at %.17g: %.17g", row->name,
+                  x, z, to);
+        const bias_push push = remedy_push(&setup, row, x, lo, hi);
+        TALLY(&worth, -remedy_at(&setup, row, x, z).shift <= push.shift * (1.0 + 1e-9) + 1e-300,
+              "%s: %.17g at %.17g is more than %.17g", row->name, -remedy_at(&setup, row, x, z).shift, z, push.shift);
+    }
+    for (size_t i = 0; i + 1 < remedy_table.count; i++) {
+        print_message("# %s: %llu enough, %llu not, %llu not proven\n", remedy_get(i)->name,
+                      (unsigned long long)answers[i][BIAS_ENOUGH], (unsigned long long)answers[i][BIAS_NOT_ENOUGH],
+                      (unsigned long long)answers[i][BIAS_NOT_PROVEN]);
+        assert_true(answers[i][BIAS_ENOUGH] > 5 && answers[i][BIAS_NOT_ENOUGH] > 5);
+    }
+    tally_end(&enough);
+    tally_end(&witness);
+    tally_end(&worth);
+}
+
+/* ---- By hand ----------------------------------------------------------------------------------------------------- */
+
+/* A constant pull of NDC that is .5 at 20 is 195 at 500: 1/z' = 1/z + c. */
+TEST(by_hand) {
+    const double near = 0.1, far = 1000.0, c = 1 / 19.5 - 1 / 20.0, e = 2 * c / (1 / near - 1 / far);
+    json_t *root = json_printed(0, "bias -F d24 -m gl --remedy ndc:%.17g --at 20,500", e);
+    assert_relative(number_at(root, "setups[0].rows[0].shift"), -0.5, 1e-12);
+    assert_relative(number_at(root, "setups[0].rows[1].shift"), 500 / (1 + 500 * c) - 500, 1e-12);
+    assert_true(fabs(number_at(root, "setups[0].rows[1].shift") + 195) < 0.5);
+    json_decref(root);
+    check_says(0, "Enough facing the camera", "bias -F d24 -m d3d --remedy normal:0.0597 --at 1,223 --check");
+    check_says(1, "Not enough facing", "bias -F d24 -m d3d --remedy normal:0.01 --range 1:500 --check");
+    check_says(1, "clips the layer", "bias -F d24 -m d3d --remedy ndc:0.5 --range .1:1 --check");
+    check_says(0, "without a depth test", "bias -F d24 -m d3d --remedy stencil --range 1:500 --check");
+    check_says(0, "Enough", "bias -F fp32 -m log --remedy ray:1e-3 --range 1:500 --check");
+    static const refused_row rows[] = {{"--remedy ndc", "ndc:X", 2},
+                                       {"--remedy ndc:3", "from 0 to 2", 2},
+                                       {"--remedy stencil:1", "no number", 2},
+                                       {"--remedy glue:1", "ndc", 2},
+                                       {"--remedy ndc:1 --units 2", "--remedy", 2},
+                                       {"--remedy ndc:1 --viewport 64x64", "--remedy", 2}};
+    CHECK_REFUSED("bias -F d24 -m d3d", rows);
+    check_says(2, "has no effect with log", "bias -F d24 -m log --remedy ndc:1e-5");
+    check_says(2, "orthographic", "bias -F d24 -m d3d --ortho --remedy ray:1e-5");
+}
+
+/* The least is told so that it is enough as it is printed. */
+TEST(told_is_enough) {
+    static const char *const names[] = {"ndc", "ray", "normal", "near", "range"};
+    for (int i = 0; i < 5; i++) {
+        json_t *root =
+            json_printed(0, "bias -F d24 -m gl --remedy %s:%s --range 1:300", names[i], i == 3 || i == 4 ? "1" : "0");
+        check_says(0, "Enough", "bias -F d24 -m gl %s --range 1:300 --check", text_at(root, "setups[0].facing.call"));
+        json_decref(root);
+    }
+}
+
+/* What a bias does not do is said where it applies, and nowhere else. */
+TEST(limits_where_they_apply) {
+    check_says_all(0, "bias --api d3d11 -F fp32 -m reversed --units 2 --range 1:100",
+                   SAID("r doubles", "!triangles alone", "!no infinity"));
+    check_says_all(0, "bias --api d3d11 -F fp32 -m reversed --units 2 --range 1:1.01", SAID("!r doubles"));
+    check_says_all(0, "bias --api d3d11 -F d24 -m d3d --units 2 --full",
+                   SAID("triangles alone", "centroid", "!r doubles"));
+    check_says_all(0, "bias --api d3d11 -F d24 -m d3d --units -inf", SAID("no infinity"));
+    check_says_all(0, "bias --api vulkan -F d24 -m d3d --units -inf", SAID("!no infinity"));
+    check_says_all(0, "bias --api vulkan -F d24 -m d3d --units -9 --clamp=-1 --viewport 640x480",
+                   SAID("the clamp holds the sum"));
+    check_says_all(0, "bias --api vulkan -F d24 -m d3d --units -9 --clamp=-1", SAID("!the clamp holds the sum"));
+    /* Who writes the depth: osgEarth's vertices do, and it is interpolated. */
+    for (unsigned m = 0; m < DP_MAPPING_COUNT; m++) {
+        dp_spec spec = dp_spec_default();
+        dp_setup setup;
+        spec.mapping = (dp_mapping)m;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        assert_int_equal(bias_is_missed(&setup), m >= DP_MAPPING_LINEAR && m != DP_MAPPING_OSGEARTH);
+    }
+}
