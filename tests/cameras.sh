@@ -21,16 +21,18 @@ by_key() { # by_key FIELD
     awk -F '\t' -v OFS='\t' -v at="$1" '{
         key = $at
         if (key ~ / /) {
+            if (key ~ /^raster must be spec-/) key = "-"
             sub(/^(an?|the) /, "", key)
             if (key ~ /^infinite far/) key = "far"
             if (key ~ /^orthographic/) key = "ortho"
+            sub(/^triangleClass/, "triangle", key)
             if (key ~ /^constant C/ || key ~ /^logC/) key = "log_c"
             if (key ~ /^not a format/) key = "format"
             if (key ~ /^this set-up does not have that model/) key = "model"
             if (key ~ /^not a variant of binary32/) key = "arith"
             if (key ~ /^triangles need a perspective/) key = "viewport"
             if (key ~ /^triangle/) key = "triangle"
-            sub(/ .*/, "", key)
+            sub(/[: ].*/, "", key)
             $at = key
         }
         print
@@ -49,13 +51,14 @@ judge() { # judge FIRST_DOOR FIELDS
 }
 say() {
     mkdir "$scratch/python" && cp -r src/python/depthprec "$scratch/python" && cp "$B/libdepthprec.so.0" "$scratch/python/depthprec" &&
+        mkdir "$scratch/python/depthprec/bin" && ln -s "$DEPTHPREC" "$scratch/python/depthprec/bin/depthprec" &&
         PYTHONPATH=$scratch/python python3 tests/camera/doors.py "$DEPTHPREC" "$scratch/table" | by_key 5 >"$scratch/said"
 }
 say_npm() {
-    mkdir "$scratch/npm" && cp src/npm/index.js "$scratch/npm/index.mjs" &&
+    mkdir "$scratch/npm" && cp src/npm/*.js src/web/engine.js src/web/command.js "$B"/npm/*.data.js "$scratch/npm" &&
         printf 'export default "%s";\n' "$(base64 -w0 "$B/npm/core.wasm")" >"$scratch/npm/core.data.js" &&
         echo '{"type": "module"}' >"$scratch/npm/package.json" && cp tests/camera/doors.mjs "$scratch/npm" &&
-        node "$scratch/npm/doors.mjs" "$scratch/npm/index.mjs" "$scratch/table" | by_key 2 >"$scratch/by_npm" &&
+        node "$scratch/npm/doors.mjs" "$scratch/npm/index.js" "$scratch/table" | by_key 2 >"$scratch/by_npm" &&
         paste "$scratch/said" "$scratch/by_npm" | awk -F '\t' -v OFS='\t' '$1 == $6 { print $1, $2, $3, $4, $5, $7 }' >"$scratch/all" &&
         mv "$scratch/all" "$scratch/said"
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The door of the library's module: what index.js asks of it. It keeps no camera: whoever asks lays the bytes of a
+ * The door of the library's module: what camera.js asks of it. It keeps no camera: whoever asks lays the bytes of a
  * set-up into `setup` before. Numbers, words and elements go through memory that is always there, so that nothing is
  * allocated, nothing is freed, and the memory never moves.
  */
@@ -16,7 +16,7 @@ _Static_assert(DP_TASK_CODE == 0 && DP_TASK_EYE == 1 && DP_TASK_LO == 5 && DP_TA
                    DP_TASK_SEPARATION == 8 && DP_TASK_INTERVAL == 9 && DP_REAL_DOUBLE == 1 && DP_WORD_32 == 1 &&
                    DP_LAYOUT_ROWS == 1 && DP_LAYOUT_COLUMNS == 2 && DP_ERROR_DEPTH == 13 && DP_ERROR_MATRIX == 20 &&
                    DP_ERROR_CONVENTION == 21 && DP_ERROR_TRIANGLES == 19,
-               "index.js has these numbers");
+               "camera.js has these numbers");
 
 static dp_setup setup;
 static dp_batch batch;
@@ -83,7 +83,20 @@ EXPORT(formats) size_t door_formats(void) {
     return count;
 }
 
-/* Numbers 4 on: whether there are triangles, and their fields. @return what is wrong with them, or null */
+/* What a plane may be off by, however a rasterizer anchors it. */
+static dp_plane_error any_plane(void) {
+    dp_plane_error worst = {0};
+    for (int i = 0; i < DP_ANCHOR_COUNT; i++) {
+        const dp_plane_error *plane = &dp_anchor_get((dp_anchor)i)->plane;
+        worst.value = plane->value > worst.value ? plane->value : worst.value;
+        worst.box = plane->box > worst.box ? plane->box : worst.box;
+        worst.range = plane->range > worst.range ? plane->range : worst.range;
+        worst.origin = plane->origin > worst.origin ? plane->origin : worst.origin;
+    }
+    return worst;
+}
+
+/* Numbers 4 on: whether there are triangles, their fields, and of which planes. @return what is wrong, or null */
 static const char *read_triangles(dp_triangles *out) {
     const double *n = numbers + 5;
     *out = dp_triangles_default();
@@ -96,6 +109,8 @@ static const char *read_triangles(dp_triangles *out) {
     out->depth = n[6];
     out->pixels = n[7];
     out->slim = n[8];
+    if (n[9] != 0)
+        out->plane = any_plane();
     return dp_triangles_fault(out);
 }
 
@@ -162,7 +177,7 @@ EXPORT(windows) dp_status door_windows(int real, int bounds, size_t count) {
                             bounds ? blocks[3] : NULL, count);
 }
 
-/** The worst over the range in the first two numbers; the answer in the numbers, as index.js names them. */
+/** The worst over the range in the first two numbers; the answer in the numbers, as camera.js names them. */
 EXPORT(worst) dp_status door_worst(void) {
     const dp_setup guaranteed = dp_setup_guaranteed(&setup);
     dp_worst cells;

@@ -35,7 +35,9 @@ export interface CameraOptions {
     viewport?: readonly [number, number];
     /** Vertical, degrees. Default 60. */
     fov?: number;
-    /** Bits of the grid of vertices. Default 8. */
+    /** Any rasterizer that does what an API asks for; default a plane anchored at a vertex, of 8 bits. */
+    raster?: "spec-d3d" | "spec-vulkan" | "spec-gl";
+    /** Bits of the grid of vertices. Default 8, with a raster what it has at least. */
     subpixel?: number;
     /** Degrees. Default [0, 90]. */
     slant?: readonly [number, number];
@@ -71,7 +73,7 @@ export interface Worst {
 }
 
 /** A camera's planes and how its depth is stored, checked once; it does not change, and nothing has to be freed. */
-export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport">>> {
+export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport" | "raster" | "subpixel">>> {
     readonly near: number;
     readonly far: number;
     readonly format: string;
@@ -83,7 +85,8 @@ export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport">
     readonly logC: number;
     readonly viewport: readonly [number, number] | undefined;
     readonly fov: number;
-    readonly subpixel: number;
+    readonly raster: "spec-d3d" | "spec-vulkan" | "spec-gl" | undefined;
+    readonly subpixel: number | undefined;
     readonly slant: readonly [number, number];
     readonly triangleClass: readonly [number, number, number];
     /** The code of window depth 1. */
@@ -100,17 +103,23 @@ export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport">
     constructor(options?: CameraOptions);
 
     /**
-     * The camera of a 4x4 projection matrix, clip = M (x, y, z, 1): 16 numbers, or 4 rows of 4. A perspective tells whether
+     * The camera of a 4x4 projection matrix, clip = M (x, y, z, 1): 16 numbers, 4 rows of 4, or three.js's Matrix4. A perspective tells whether
      * it is reversed; whether NDC depth begins at 0 or at -1 only a reversed one with far >= 2 near tells, so `mapping` has
      * to be said else: "d3d" or "reversed" (0 to 1), "gl" or "gl-reversed" (-1 to 1). `layout`: "rows", "columns", else as
      * the fourth row tells. `near` and `far` are those of the entries as they are: numbers of 32 bits, if all are, else of 64
      * leave them between nearLeast and nearMost, farLeast and farMost. Throws where it is no projection, where its planes differ from pixel to pixel, and where more
      * than one convention fits, naming what each would be.
      */
-    static fromMatrix(matrix: Numbers | readonly Numbers[], options?: Omit<CameraOptions, "near" | "far" | "ortho"> & { layout?: "rows" | "columns" }): Camera;
+    static fromMatrix(matrix: Numbers | readonly Numbers[] | { readonly elements: readonly number[] }, options?: Omit<CameraOptions, "near" | "far" | "ortho"> & { layout?: "rows" | "columns" }): Camera;
 
-    /** The camera that an engine starts with: "unity", "unreal", "godot-forward", "three", ... (depthprec list presets). */
-    static preset(name: string, options?: CameraOptions): Promise<Camera>;
+    /** This camera but for what is named: a camera does not change. */
+    replace(changes: CameraOptions): Camera;
+
+    /**
+     * The camera that an engine starts with: "unity", "unreal", "godot-forward", "three", ... (depthprec list presets), its
+     * lengths in `unit`, "m", "cm", ..., else the engine's own. With a viewport its field of view and grid hold, too.
+     */
+    static preset(name: string, options?: CameraOptions & { unit?: string }): Promise<Camera>;
 
     /** The codes that are stored for eye depths, correctly rounded; outside [near, far] clamped, NaN in an array as near.
      *  Uint16Array for formats of at most 16 bits. */

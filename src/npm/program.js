@@ -53,11 +53,22 @@ export function begin({ Camera, DepthprecError, USUAL, only }) {
         const other = names.filter((name) => camera[name] !== USUAL[name]).map((name) => [whole ? kebab(name).replace("-", "_") : name, camera[name]]);
         if (viewport === undefined || whole || verb === "texture") return { near, far, format, mapping, ...Object.fromEntries(other) };
         const [depth, pixels, slim] = camera.triangleClass;
-        return { near, far, format, mapping, ...Object.fromEntries(other), viewport: viewport.join("x"), fov: camera.fov, subpixel: camera.subpixel,
+        return { near, far, format, mapping, ...Object.fromEntries(other), viewport: viewport.join("x"), fov: camera.fov, raster: camera.raster, subpixel: camera.subpixel,
             slant: slant.join(":"), triangleClass: `depth=${depth},pixels=${pixels},slim=${slim}` };
     }
 
-    const asked = (verb, { camera, ...options }) => wordsOf({ ...given(camera, verb), ...options });
+    const asked = (verb, { camera, ...options }) => ({ ...given(camera, verb), ...options });
+
+    // The JSON of a command; what it says of options names them as they are called here, without hyphens.
+    async function answer(words, options, more) {
+        try {
+            return await run([...words, "--json", ...wordsOf(options)], more);
+        } catch (error) {
+            if (!(error instanceof DepthprecError)) throw error;
+            const said = error.message.replace(/^-:\d+: /, "").replaceAll(/(?<![\w-])--([a-z][a-z\d-]*)/g, (_, name) => name.replaceAll(/-./g, (two) => two[1].toUpperCase()));
+            throw new DepthprecError(said, error.status);
+        }
+    }
 
     async function run(args, options) {
         const { input, text = false, fs } = only(options, ["input", "text", "fs"], "options of run");
@@ -127,11 +138,12 @@ export function begin({ Camera, DepthprecError, USUAL, only }) {
 
     return {
         run,
-        solve: (options) => run(["solve", "--json", "--quiet", ...asked("solve", object(options, "options"))]),
-        bias: (options) => run(["bias", "--json", "--quiet", ...asked("bias", object(options, "options"))]),
-        check: (requirements) => run(["check", "--json", "-"], { input: group(object(requirements, "requirements"), "\n") }),
+        answer,
+        solve: (options) => answer(["solve", "--quiet"], asked("solve", object(options, "options"))),
+        bias: (options) => answer(["bias", "--quiet"], asked("bias", object(options, "options"))),
+        check: (requirements) => answer(["check", "-"], {}, { input: group(object(requirements, "requirements"), "\n") }),
         async recognise(image, options = {}) {
-            const found = await run(["texture", "--json", "--quiet", ...asked("texture", object(options, "options")), "-"], { input: npy(object(image, "an image")) });
+            const found = await answer(["texture", "-", "--quiet"], asked("texture", object(options, "options")), { input: npy(object(image, "an image")) });
             const { samples, packing, metric = null, stereo = null, lattice = null, lossy, type, width, height, channels } = found;
             const own = found.recognised ?? { format: null, certain: null, reversed: null, why: null };
             return { ...own, samples, packing, metric, stereo, lattice, lossy, type, width, height, channels };

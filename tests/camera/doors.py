@@ -15,7 +15,7 @@ import depthprec
 program, table = sys.argv[1:]
 USUAL = {"near": "0.1", "far": "1000", "mapping": "d3d", "format": "fp32", "model": "exact"}
 LIBRARY = {"near", "far", "format", "mapping", "ortho", "rounding", "model", "arith", "log_c", "viewport", "fov",
-           "subpixel", "slant", "triangle"}
+           "subpixel", "slant", "triangle", "preset", "unit", "raster"}
 TRIANGLE = ("depth", "pixels", "slim")
 
 
@@ -78,11 +78,17 @@ def by_file(keys, at):
 
 def by_python(keys, at):
     given = {{"triangle": "triangle_class"}.get(key, key): keyword(key, value) for key, value in keys.items()}
+    if "preset" not in given and "unit" in given:
+        return "-"
     try:
-        camera = depthprec.Camera(**given)
+        camera = depthprec.Camera.preset(given.pop("preset"), **given) if "preset" in given else depthprec.Camera(**given)
         return show((camera.separation if keys["model"] == "float" else camera.lattice)(float(at)))
     except (depthprec.Error, TypeError, ValueError) as error:
         return str(error)
+
+
+def with_units(keys):
+    return any(re.search(r"[0-9][a-z]+$", keys.get(key, "")) for key in ("near", "far"))
 
 
 for number, line in enumerate(open(table, encoding="ascii"), 1):
@@ -92,4 +98,4 @@ for number, line in enumerate(open(table, encoding="ascii"), 1):
     depth = said.pop("at", "5")
     whole = {**({"model": "exact"} if "preset" in said else USUAL), **said}
     print(number, line.split("|")[0].strip(), by_line(whole, depth), by_file(whole, depth),
-          by_python(whole, depth) if set(whole) <= LIBRARY else "-", sep="\t", flush=True)
+          by_python(whole, depth) if set(whole) <= LIBRARY and not with_units(whole) else "-", sep="\t", flush=True)

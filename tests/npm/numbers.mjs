@@ -55,8 +55,21 @@ test("the worst: code 2 is widest, 8/21; at 12/7 code 3 is 2/7 off", () => {
 
 test("what a camera is", () => {
     assert.deepEqual({ ...small, viewport: null }, { near: 1, far: 2, format: "unorm2", mapping: "d3d", ortho: false, rounding: "nearest", model: "exact", arith: "ieee",
-        logC: 1, viewport: null, fov: 60, subpixel: 8, slant: [0, 90], triangleClass: [2, 512, 16], codeMax: 3, nearLeast: 1, nearMost: 1, farLeast: 2, farMost: 2, nearDigits: 17, farDigits: 17 });
+        logC: 1, viewport: null, fov: 60, raster: undefined, subpixel: undefined, slant: [0, 90], triangleClass: [2, 512, 16], codeMax: 3, nearLeast: 1, nearMost: 1, farLeast: 2, farMost: 2, nearDigits: 17, farDigits: 17 });
     assert.throws(() => { small.near = 3; }, TypeError);
+    const view = small.replace({ viewport: [320, 200] });
+    for (const [key, value] of Object.entries({ near: 0.5, far: 60, format: "fp32", mapping: "log", ortho: true, rounding: "even", model: "staged", arith: "fused",
+        logC: 3, viewport: [640, 480], fov: 30, raster: "spec-gl", subpixel: 4, slant: [1, 2], triangleClass: [2, 4, 3] })) {
+        const own = ["ortho", "mapping"].includes(key) ? small : view, other = own.replace({ [key]: value });
+        assert.deepEqual(other[key], value);
+        assert.notDeepEqual({ ...other }, { ...own });
+        assert.deepEqual({ ...other.replace({ [key]: own[key] }) }, { ...own });
+    }
+    for (const [key, value] of Object.entries({ fov: 30, raster: "spec-gl", subpixel: 4, slant: [0, 5], triangleClass: [2, 3, 4] })) refuses(() => new Camera({ [key]: value }), new RegExp(`^${key} needs a viewport`));
+    refuses(() => view.replace({ raster: "mesa" }), /^raster must be spec-d3d/);
+    refuses(() => view.replace({ raster: "spec-gl", subpixel: 3 }), /^subpixel must be at least 4/);
+    refuses(() => view.replace({ raster: "spec-d3d", subpixel: 8 }), /^subpixel does not apply/);
+    assert.ok(view.replace({ raster: "spec-d3d" }).separation(1.5) > view.separation(1.5));
     assert.equal(new Camera({ format: "D24", mapping: "GL" }).format, "unorm24");
     assert.equal(new Camera().far, 1000);
     const wide = new Camera({ viewport: [1920, 1080], slant: [0, 80] });
@@ -99,6 +112,7 @@ test("cameras of matrices", () => {
             near(c.far, 4, 1e-13);
             assert.deepEqual([c.mapping, c.format, c.ortho], [mapping, "unorm24", false]);
         }
+    assert.deepEqual({ ...Camera.fromMatrix({ elements: turned(all[2][1]) }) }, { ...Camera.fromMatrix(turned(all[2][1])) }); // as three.js has it
     assert.equal(Camera.fromMatrix(turned(all[2][1])).mapping, "reversed"); // which alone says all of itself
     assert.equal(Camera.fromMatrix(matrix(-1, -1), { mapping: "d3d" }).far, Infinity);
     const flat = Camera.fromMatrix(matrix(-1 / 3, -1 / 3, [0, 0, 0, 1]), { mapping: "d3d" });

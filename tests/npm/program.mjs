@@ -41,7 +41,16 @@ test("presets have the planes of the program's list", async () => {
         const c = await Camera.preset(name).catch((error) => (assert.match(error.message, /unorm24 or fp32/), Camera.preset(name, { format: "fp32" })));
         assert.deepEqual([c.near, c.far], [near, far], name);
     }
-    await refuses(() => Camera.preset("none"), /none/);
+    await refuses(() => Camera.preset("none"), /^preset: must be .*'none'/);
+    await refuses(() => Camera.preset("unity", { unit: "parsec" }), /^unit: must be/);
+    await refuses(() => solve({ near: 1, nera: 3 }), /^unknown option 'nera'; did you mean 'near'/);
+    await refuses(() => bias({ camera, logC: 3, at: 3 }), /^logC: needs one/);
+    await refuses(() => run("solve --nera 3"), /^unknown option '--nera'; did you mean '--near'/);
+    const core = await import("depthprec/core");
+    assert.deepEqual(Object.keys(core).sort(), ["Camera", "DepthprecError", "version"]);
+    assert.equal(core.Camera, Camera);
+    const alone = execFileSync(process.execPath, ["--input-type=module", "-e", 'import { Camera } from "depthprec/core"; console.log(new Camera().encode(5)); await Camera.preset("unity").catch((e) => console.log(e.message))'], { encoding: "utf8" });
+    assert.match(alone, new RegExp(`^${new Camera().encode(5)}\nCamera.preset runs the command: import from "depthprec"`));
 });
 
 test("images", async () => {

@@ -22,7 +22,7 @@ def depths(c, z):
 def answer(near, far, format, mapping, ortho, rounding, model, arith, *numbers):
     z = array.array("d", map(float, numbers))
     c = Camera(float(near), float(far), format, mapping, ortho=ortho == "1", rounding=rounding, model=model, arith=arith)
-    decoded = c.decode(c.window_depth(z), bounds=True)
+    decoded = c.decode_window(c.window_depth(z), bounds=True)
     try:
         worst = shown(c.worst(z[0], z[-1]))
     except Error as error:

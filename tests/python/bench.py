@@ -98,7 +98,7 @@ def main():
         measure(loop, "encode float64", camera, 0, 1, 1, camera.encode, wide, u)
         measure(loop, "decode to float32", camera, 1, 0, 1, camera.decode, codes, f)
         measure(loop, "decode to float64", camera, 1, 1, 1, camera.decode, codes, d)
-        measure(loop, "decode window depths float32", camera, "windows", 0, 1, camera.decode, camera.window_depth(z), f)
+        measure(loop, "decode window depths float32", camera, "windows", 0, 1, camera.decode_window, camera.window_depth(z), f)
         measure(loop, "window depth float32", camera, 7, 0, 1, camera.window_depth, z, f)
         if numpy:
             textbook(camera, z, codes)

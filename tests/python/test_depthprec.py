@@ -9,10 +9,13 @@ import json
 import math
 import os
 import pickle
+import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 import types
 import unittest
 import warnings
@@ -91,7 +94,7 @@ class Oracle(unittest.TestCase):
             c, exact = camera_of(s), Setup(s.near, s.far, s.format, s.mapping, s.ortho)
             codes = [r.randint(0, s.max) for _ in range(10)]
             d = array.array("d", [float(s.value(code)) for code in codes])
-            self.assertEqual(list(c.decode(d)), list(c.decode(codes)), repr(c))
+            self.assertEqual(list(c.decode_window(d)), list(c.decode(codes)), repr(c))
             self.assertEqual([exact.code(Fraction(x)) for x in d], codes)
 
     def test_intervals(self):
@@ -246,6 +249,8 @@ class Program(unittest.TestCase):
                 ({"mapping": "cesium", "log_c": 2.0}, ["--mapping=cesium", "--log-c=2"]),
                 *(({"arith": arith}, ["--arith=" + arith]) for arith in ("fused", "mesa", "nvidia")),
                 (view, []), ({**view, "fov": 35.0}, ["--fov=35"]), ({**view, "subpixel": 4}, ["--subpixel=4"]),
+                ({**view, "raster": "spec-gl"}, ["--raster=spec-gl"]), ({**view, "raster": "spec-d3d"}, ["--raster=spec-d3d"]),
+                ({**view, "raster": "spec-vulkan", "subpixel": 6}, ["--raster=spec-vulkan", "--subpixel=6"]),
                 ({**view, "slant": (10, 70)}, ["--slant=10:70"]),
                 ({**view, "triangle_class": (3, 64, 8)}, ["--triangle-class=depth=3,pixels=64,slim=8"])]
         self.assertEqual(set(usual) - {"model"}, {key for given, _ in keys for key in given} - {"mapping"})
@@ -289,6 +294,52 @@ class Program(unittest.TestCase):
                 c = Camera.preset(row["name"], format="fp32")
             self.assertEqual([c.near, c.far], [float(words[1]), float(words[3])])
             self.assertIn(c.mapping, words)
+
+    def test_said(self):
+        """What is refused is named as it was given, without hyphens."""
+        c = Camera()
+        for work, said in ((lambda: depthprec.solve(near=1, nera=3), "^unknown option 'nera'; did you mean 'near'"),
+                           (lambda: depthprec.solve(far="10km", separation=1), "^at: must be given"),
+                           (lambda: depthprec.bias(c, log_c=3, at=3), "^log_c: needs one"),
+                           (lambda: depthprec.solve(c, for_="nothing", at=3), "^for_: must be"),
+                           (lambda: depthprec.recognise("/none", metric="zz"), "^metric: must be"),
+                           (lambda: depthprec.plot("errr"), "^plot: FIGURE must be"),
+                           (lambda: Camera.preset("uniti"), "^preset: must be .*; did you mean 'unity'"),
+                           (lambda: Camera.preset("unity", unit="parsec"), "^unit: must be"),
+                           (lambda: depthprec.check({"cameras": {"a": {"nera": 1}}}), "^camera: has no key 'nera'"),
+                           (lambda: depthprec.run("solve --nera 3"), "^unknown option '--nera'; did you mean '--near'")):
+            with self.assertRaisesRegex(Error, said) as caught:
+                work()
+            self.assertGreater(caught.exception.status, 1)
+
+    def test_figures(self):
+        c = Camera(0.2, 500, "unorm24")
+        drawn = depthprec.plot("error", c)
+        want = depthprec.run("plot error -n 0.2 -f 500 -F unorm24 -m d3d --type svg -o -")
+        self.assertEqual(drawn.split("data: ")[1], want.split("data: ")[1])
+        self.assertEqual([type(drawn._repr_svg_()), drawn._repr_svg_()], [str, drawn])
+        path = os.path.join(tempfile.mkdtemp(), "error.svg")
+        drawn.save(path)
+        with open(path, encoding="utf-8") as file:
+            self.assertEqual(file.read(), drawn)
+        self.assertIn("<svg", depthprec.plot("needs", file="tests/needs/engine.need"))
+
+    def test_read(self):
+        """Eye depths of an image, by the formula: codes of 16 bits, and millimetres."""
+        codes = memoryview(array.array("H", [0, 1, 40000, 60000, 7, 65000])).cast("B").cast("H", (2, 3))
+        eye = memoryview(depthprec.read(codes, Camera(0.5, 50, "unorm16")))
+        self.assertEqual(eye.shape, (2, 3))
+        for got, code in zip(sum(eye.tolist(), []), sum(codes.tolist(), [])):
+            self.assertLess(relative(got, 1 / (2 - Fraction(code, 65535) * (2 - Fraction(1, 50)))), Fraction(1, 10 ** 6))
+        metres = memoryview(depthprec.read(codes, metric="mm"))
+        self.assertLess(abs(metres.tolist()[0][2] - 40), 1e-5)
+        for wrong, said in (("/none.png", "/none.png"), ("-x", r"\./-x")):
+            with self.assertRaisesRegex(Error, said):
+                depthprec.read(wrong)
+
+    def test_lists(self):
+        self.assertEqual(depthprec.presets(), json.loads(program("list", "presets", "--json"))["items"])
+        self.assertEqual([row["name"] for row in depthprec.formats()][:1], ["fp16"])
 
     def test_recognised(self):
         r = generator("recognised")
@@ -468,7 +519,7 @@ class Memory(unittest.TestCase):
 
     def methods(self):
         c = self.camera
-        return (c.encode, c.decode, c.window_depth, c.separation, c.lattice, c.interval)
+        return (c.encode, c.decode, c.decode_window, c.window_depth, c.separation, c.lattice, c.interval)
 
     def test_kinds(self):
         c = self.camera
@@ -511,7 +562,7 @@ class Memory(unittest.TestCase):
 
     def test_bounds(self):
         c = self.camera
-        z, lo, hi = c.decode(array.array("f", [0.9, 0.99, math.nan]), bounds=True)
+        z, lo, hi = c.decode_window(array.array("f", [0.9, 0.99, math.nan]), bounds=True)
         self.assertTrue(all(a <= b <= d for a, b, d in zip(lo[:2], z, hi)) and math.isnan(z[2]) and math.isnan(hi[2]))
         exact = c.decode([16609443], bounds=True)
         self.assertEqual([x[0] for x in exact], list(c.decode(16609443, bounds=True)))
@@ -537,6 +588,59 @@ class Memory(unittest.TestCase):
             with self.assertRaises((ValueError, TypeError)):
                 c.window_depth(array.array("d", self.depths), out=wrong)
 
+    def test_types(self):
+        """float16 counts as float32, and the order of bytes changes nothing: packed by struct."""
+        c, few = self.camera, [1, 2, 900]
+        for code, kind, element, values in (("e", "f2", None, [0.5, 1, 7, 999]), ("f", "f4", ctypes.c_float, self.depths),
+                                            ("d", "f8", ctypes.c_double, self.depths), ("H", "u2", ctypes.c_uint16, few),
+                                            ("i", "i4", ctypes.c_int32, few), ("q", "i8", ctypes.c_int64, few)):
+            for order in "<>":
+                raw = struct.pack("%s%d%s" % (order, len(values), code), *values)
+                given = [] if numpy is None else [numpy.frombuffer(raw, order + kind)]
+                if element is not None:
+                    ordered = getattr(element, "__ctype_be__" if order == ">" else "__ctype_le__")
+                    given.append((ordered * len(values)).from_buffer_copy(raw))
+                exact = [struct.unpack("<f", struct.pack("<f", x))[0] if code in "ef" else x for x in values]
+                for memory in given:
+                    self.assertEqual(list(c.encode(memory)), [c.encode(x) for x in exact], (code, order))
+                    apart = memoryview(c.separation(memory))
+                    self.assertEqual(apart.format, "f" if code in "ef" else "d")
+                    if code in "Hiq":
+                        self.assertEqual(list(c.decode(memory)), [c.decode(x) for x in values])
+                    elif code == "d":
+                        self.assertEqual(list(apart), [c.separation(x) for x in exact])
+
+    def test_two_decodes(self):
+        """Codes and window depths have functions of their own, and each refuses what is the other's."""
+        c = self.camera
+        self.assertEqual([c.decode(1), c.decode_window(1), c.decode_window(1.0)], [c.decode(1), 1000, 1000])
+        self.assertLess(c.decode(1), 0.100001)
+        self.assertEqual(list(c.decode_window([0, 1])), [0.1, 1000])
+        for wrong in (1.0, 0.5, True, [0.5], array.array("f", [1]), array.array("d", [0.5])):
+            with self.assertRaisesRegex(TypeError, "window depths are for decode_window"):
+                c.decode(wrong)
+        for wrong in (array.array("I", [1]), array.array("H", [0]), memoryview(array.array("q", [1]))):
+            with self.assertRaisesRegex(TypeError, "codes are for decode"):
+                c.decode_window(wrong)
+        for wrong in (-0.1, 1.5, math.nan, 2):
+            with self.assertRaises(Error):
+                c.decode_window(wrong)
+
+    def test_interrupt(self):
+        """Ctrl-C is heard between blocks, and blocks change no bit, in place either."""
+        c, z = self.camera, array.array("d", [0.1 + k * 3e-4 for k in range(600000)])
+        codes = c.encode(z)
+        for k in (0, (1 << 13) - 1, 1 << 13, (1 << 18) - 1, 1 << 18, 599999):
+            self.assertEqual(codes[k], c.encode(z[k]))
+        both = z[:20000]
+        want = [c.separation(x) for x in both[8190:8195]]
+        self.assertEqual(list(c.separation(both, out=both)[8190:8195]), want)
+        begun = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            threading.Timer(0.05, lambda: signal.raise_signal(signal.SIGINT)).start()
+            c.separation(array.array("d", [5.0]) * 100000000, out=array.array("d", bytes(800000000)))
+        self.assertLess(time.monotonic() - begun, 20)
+
     def test_overlap(self):
         """In place where nothing that is still to be read is written."""
         c = self.camera
@@ -549,7 +653,7 @@ class Memory(unittest.TestCase):
         self.assertEqual(c.decode(codes, out=memoryview(codes).cast("B").cast("f")).tolist(), want.tolist())
         shifted = memoryview(array.array("d", self.depths))
         for given, out, method in ((shifted[1:], shifted[:-1], c.separation), (shifted[:-1], shifted[1:], c.interval),
-                                   (shifted, shifted, c.decode),
+                                   (shifted, shifted, c.decode_window),
                                    (memoryview(codes)[:2], memoryview(codes).cast("B").cast("d"), c.decode)):
             with self.assertRaisesRegex(ValueError, "must not overlap"):
                 method(given, out=out)
@@ -580,12 +684,12 @@ class Memory(unittest.TestCase):
                 with self.assertRaises((TypeError, ValueError), msg=(method, given)):
                     method(given)
             for number in (math.nan,) if method == c.encode else (math.nan, -1.0, math.inf):
-                with self.assertRaises(ValueError):
+                with self.assertRaises(TypeError if method == c.decode else ValueError):
                     method(number)
         odd = array.array("d", [math.nan, math.inf, -math.inf, -0.0, 5e-324, 1e308, -1e308, 0.1, 1000])
         self.assertEqual(list(map(math.isnan, c.separation(odd))), [True] * 7 + [False] * 2)
         self.assertEqual(list(c.encode(odd)), [0, c.code_max, 0, 0, 0, c.code_max, 0, 0, c.code_max])
-        self.assertEqual(c.decode(array.array("d", [-1, 2]))[0], 0.1)
+        self.assertEqual(c.decode_window(array.array("d", [-1, 2]))[0], 0.1)
         self.assertEqual(c.encode(10 ** 400), c.code_max)
 
     def test_random_bytes(self):
@@ -596,11 +700,13 @@ class Memory(unittest.TestCase):
             raw = bytes(r.getrandbits(8) for _ in range(8 * 16))
             for code in "fdBHIQ":
                 given = memoryview(raw).cast(code)
-                for method in (c.encode, c.decode, c.window_depth, c.separation, c.lattice, c.interval):
+                for method in (c.encode, c.decode, c.decode_window, c.window_depth, c.separation, c.lattice, c.interval):
                     try:
                         method(given)
                     except ValueError:
                         self.assertEqual([code, method], ["Q", c.decode])
+                    except TypeError:
+                        self.assertEqual(method, c.decode if code in "fd" else c.decode_window)
 
     def test_large(self):
         c = self.camera
@@ -641,8 +747,7 @@ class Memory(unittest.TestCase):
         self.assertEqual(c.decode(numpy.array([1, 2, 3])).tolist(), [c.decode(k) for k in (1, 2, 3)])
         self.assertEqual(c.encode(numpy.float32(2)), c.encode(2.0))
         self.assertEqual(c.decode(numpy.uint16(2)), c.decode(2))
-        for wrong in (numpy.array(["a"]), numpy.zeros(3, complex), numpy.zeros(3, ">f8"), numpy.array([None]),
-                      numpy.zeros(3, numpy.float16), numpy.array(["2020-01-01"], "datetime64[D]"),
+        for wrong in (numpy.array(["a"]), numpy.zeros(3, complex), numpy.array([None]), numpy.array(["2020-01-01"], "datetime64[D]"),
                       numpy.zeros(2, "f4,f4")):
             with self.assertRaises((TypeError, ValueError)):
                 c.encode(wrong)
@@ -664,6 +769,12 @@ class Cameras(unittest.TestCase):
                             ({"log_c": 0, "mapping": "log"}, "C of the log"),
                             ({"format": "depth24plus"}, "unorm24 or fp32"), ({"viewport": (0, 5)}, "viewport must"),
                             ({"viewport": (1, 2, 3)}, "viewport must be 2 numbers"),
+                            *(({key: value}, key + " needs a viewport") for key, value in (
+                                ("fov", 30), ("raster", "spec-gl"), ("subpixel", 4), ("slant", (0, 5)),
+                                ("triangle_class", (2, 3, 4)))),
+                            ({"viewport": (64, 48), "raster": "mesa"}, "raster must be spec-d3d"),
+                            ({"viewport": (64, 48), "raster": "spec-gl", "subpixel": 3}, "subpixel must be at least 4"),
+                            ({"viewport": (64, 48), "raster": "spec-d3d", "subpixel": 8}, "subpixel does not apply"),
                             ({"viewport": (2**32 + 1920, 1080)}, "viewport must have sides"),
                             ({"mapping": "log", "ortho": True}, "orthographic")):
             with self.subTest(given), self.assertRaisesRegex(Error, said):
@@ -673,8 +784,12 @@ class Cameras(unittest.TestCase):
                 Camera(**given)
         with self.assertRaises(AttributeError):
             Camera().nothing
-        with self.assertRaises(AttributeError):
+        with self.assertRaisesRegex(AttributeError, r"does not change: camera.replace\(near=3\) makes another"):
             Camera().near = 3
+        with self.assertRaisesRegex(AttributeError, "no attribute 'nera'"):
+            Camera().nera = 3
+        with self.assertRaisesRegex(TypeError, "nera"):
+            Camera().replace(nera=3)
         for lo, hi in ((5, 1), (0, 5), (1, math.inf), (math.nan, 5)):
             with self.assertRaisesRegex(Error, "a range must"):
                 Camera().worst(lo, hi)
@@ -686,6 +801,20 @@ class Cameras(unittest.TestCase):
             self.assertEqual([same, hash(same), same.encode(3)], [c, hash(c), c.encode(3)])
         self.assertNotEqual(c, Camera(0.25, 50, "D24", "GL"))
         self.assertIn("near", dir(c))
+        for key, value in {"near": 0.5, "far": 60.0, "format": "fp32", "mapping": "log", "ortho": True, "rounding": "even",
+                           "model": "staged", "arith": "fused", "log_c": 3.0, "viewport": (640, 480), "fov": 30.0,
+                           "raster": "spec-gl", "subpixel": 4, "slant": (1, 2), "triangle_class": (2.0, 4.0, 3.0)}.items():
+            own = c if key in ("ortho", "mapping") else c.replace(viewport=(320, 200))
+            other = own.replace(**{key: value})
+            self.assertEqual(other, Camera(**{**own._given, key: value}))
+            self.assertNotEqual(other, own)
+            self.assertEqual(other.replace(**{key: own._given[key]}), own)
+        rounded = Camera.from_matrix(array.array("f", sum(Matrix().matrix(0.1, 1e5, "d3d"), [])), "d3d")
+        moved = rounded.replace(near=0.25)
+        self.assertEqual([moved.near_least, moved.near_digits, moved.far_least], [0.25, 17, rounded.far_least])
+        page = c._repr_html_()
+        self.assertIn("%.3g" % c.separation(0.25 * 200 ** 0.5), page)
+        self.assertIn("<td>", Camera(1, math.inf)._repr_html_())
         wide = Camera(viewport=(1920, 1080), slant=(0, 80))
         self.assertGreater(wide.separation(10.0), 5 * Camera().separation(10.0))
         self.assertEqual(wide.lattice(10.0), Camera().lattice(10.0))
@@ -739,7 +868,7 @@ def layout():
     numbers.update({"DP_ERROR_" + k: v for v, k in enumerate(_core.STATUSES) if v})
     numbers.update({"DP_LAYOUT_" + (k or "found").upper(): v for k, v in _core.LAYOUTS.items()})
     numbers.update({"DP_REAL_FLOAT": 0, "DP_REAL_DOUBLE": 1, "DP_WORD_16": 0, "DP_WORD_32": 1,
-                    "DP_MAPPING_COUNT": _core.MAPPING_FOUND, "DP_TASK_COUNT": len(_core.TASK),
+                    "DP_MAPPING_COUNT": _core.MAPPING_FOUND, "DP_ANCHOR_COUNT": _core.ANCHORS, "DP_TASK_COUNT": len(_core.TASK),
                     "DP_STATUS_COUNT": len(_core.STATUSES), "DP_MODEL_COUNT": len(_core.MODELS)})
     for name, value in numbers.items():
         lines.append('printf("%s %%d\\n", (int)%s);' % (name, name))

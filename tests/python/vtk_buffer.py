@@ -82,8 +82,8 @@ def main():
                                     triangle_class=(8.0, 1024.0, 64.0))
         if not (math.isclose(camera.near, near, rel_tol=1e-9) and math.isclose(camera.far, far, rel_tol=1e-6)):
             sys.exit("near %r and far %r were set, %r are found" % (near, far, camera))
-        read = camera.decode(depths)
-        other = Camera(camera.near, camera.far, "fp32", "reversed").decode(depths)
+        read = camera.decode_window(depths)
+        other = Camera(camera.near, camera.far, "fp32", "reversed").decode_window(depths)
         for (x, y), depth, z, mistaken in zip(rays(), depths, read, other):
             steep = 1 - x * across - y * along
             if depth == 1 or steep <= 0.2:

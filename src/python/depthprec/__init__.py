@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
 """What a depth buffer resolves, exact and proven.
 
-Ten names: Camera (with encode, decode, window_depth, separation, lattice, interval and worst), solve, check, recognise,
-bias and run. Depths are eye depths along the view axis, in scene units; window depths are from 0 to 1; codes are what
+Camera has encode, decode, decode_window, window_depth, separation, lattice, interval and worst; solve, check, recognise,
+bias, plot, read, presets, formats and run are commands. Depths are eye depths along the view axis, in scene units; window depths are from 0 to 1; codes are what
 the buffer stores.
 
-Arrays are any memory of float32, float64 or integers: numpy, array.array, memoryview, lists. Contiguous input is not
-copied, other threads run meanwhile, and results come as the kind that was given. `out` takes the result into memory of
+Arrays are any memory of float16, float32, float64 or integers, in either order of bytes: numpy, array.array,
+memoryview, lists. Contiguous input of float32, float64 and codes is not copied, float16 becomes float32, other threads run meanwhile, and results come as the kind that was given. `out` takes the result into memory of
 the caller's. A number in gives a number out.
 
-Camera is the library itself (MIT). The five functions run the command beside it, a program of its own
+Camera is the library itself (MIT). The functions run the command beside it, a program of its own
 (GPL-3.0-or-later). Every formula and bound is derived in depthprec(7).
 """
 import ctypes as _ctypes
@@ -20,9 +20,10 @@ from functools import partial as _partial
 
 from . import _arrays, _core
 from ._core import Error
-from ._program import bias, check, recognise, run, solve
+from ._program import Figure, answer as _answer, bias, check, formats, plot, presets, read, recognise, run, solve
 
-__all__ = ["Camera", "Decoded", "Error", "Worst", "bias", "check", "recognise", "run", "solve"]
+__all__ = ["Camera", "Decoded", "Error", "Figure", "Worst", "bias", "check", "formats", "plot", "presets", "read",
+           "recognise", "run", "solve"]
 __version__ = _core.version().decode()
 
 Decoded = _namedtuple("Decoded", "z lo hi")
@@ -34,7 +35,7 @@ Worst.__doc__ = """The worst over a range, proven bounds over every depth in it;
 
 
 class Camera:
-    """A camera's planes and how its depth is stored, checked once; it does not change.
+    """A camera's planes and how its depth is stored, checked once; it does not change: replace() makes another.
 
     near, far  scene units: near in [1e-12, 1e12], far at most 1e18 or math.inf, or up to 1e28 with near and C times
                it at most 1e30; orthographic: either sign, or 0
@@ -47,7 +48,9 @@ class Camera:
     arith      the binary32 arithmetic that separation() counts: "ieee", "fused", ... (depthprec list arithmetics)
     log_c      the constant C of logarithmic mappings
     viewport   (width, height) in pixels: separation() then holds for slanted triangles; with them fov (vertical,
-               degrees), subpixel (bits), slant ((lo, hi), degrees), triangle_class ((depth, pixels, slim))
+               degrees), slant ((lo, hi), degrees), triangle_class ((depth, pixels, slim)), raster and subpixel
+    raster     "spec-d3d", "spec-vulkan", "spec-gl": any rasterizer that does what the API asks for, with at least
+               `subpixel` bits, 4 where it is None; None: a plane anchored at a vertex, of 8 bits or `subpixel`
 
     near_least, near_most, near_digits and far_least, far_most, far_digits are what from_matrix() says of its planes; of
     other cameras the planes themselves, and 17.
@@ -58,8 +61,8 @@ class Camera:
     __slots__ = ("_given", "_planes", "_setups", "_calls", "_words", "_direct")
 
     def __init__(self, near=0.1, far=1000.0, format="fp32", mapping="d3d", *, ortho=False, rounding="nearest",
-                 model="exact", arith="ieee", log_c=1.0, viewport=None, fov=60.0, subpixel=8, slant=(0.0, 90.0),
-                 triangle_class=(2.0, 512.0, 16.0)):
+                 model="exact", arith="ieee", log_c=1.0, viewport=None, fov=60.0, raster=None, subpixel=None,
+                 slant=(0.0, 90.0), triangle_class=(2.0, 512.0, 16.0)):
         spec = _core.spec_default()
         spec.znear, spec.zfar = _arrays.real(near, "near"), _arrays.real(far, "far")
         formats = (_core.Format * 2)()
@@ -76,17 +79,23 @@ class Camera:
         spec.model = _index(_core.MODELS, model, "model", "MODEL")
         spec.ortho, spec.log_c = bool(ortho), _arrays.real(log_c, "log_c")
         if viewport is not None:
-            spec.triangles = _triangles(viewport, fov, subpixel, slant, triangle_class)
+            spec.triangles = _triangles(viewport, fov, raster, subpixel, slant, triangle_class)
+            subpixel = spec.triangles.subpixel if subpixel is not None else None
+        else:
+            view = {"fov": fov, "raster": raster, "subpixel": subpixel, "slant": tuple(slant),
+                    "triangle_class": tuple(triangle_class)}
+            for name in (name for name, value in view.items() if value != Camera.__init__.__kwdefaults__[name]):
+                raise Error("%s needs a viewport: surfaces face the camera" % name)
         setup = _core.Setup()
         _core.demand(_core.setup_init(setup, spec))
         self._setups, self._calls, self._words = {"own": setup}, {}, "HI" if spec.format.bits <= 16 else "I"
-        self._direct = {format for format, code in _arrays.KINDS.items() if code in "fd" + self._words}
+        self._direct = {format for format, code in _arrays.KINDS.items() if code in self._words}
         self._given = {"near": spec.znear, "far": spec.zfar, "format": spec.format.name.decode(),
                        "mapping": _core.mapping_get(spec.mapping)[0].decode(), "ortho": bool(ortho),
                        "rounding": rounding, "model": model, "arith": _core.arith_get(spec.arith)[0].decode(),
                        "log_c": spec.log_c,
                        "viewport": None if viewport is None else (spec.triangles.width, spec.triangles.height),
-                       "fov": fov, "subpixel": subpixel, "slant": tuple(slant),
+                       "fov": fov, "raster": raster, "subpixel": subpixel, "slant": tuple(slant),
                        "triangle_class": tuple(triangle_class)}
         self._planes = {"near_least": spec.znear, "near_most": spec.znear, "far_least": spec.zfar,
                         "far_most": spec.zfar, "near_digits": 17, "far_digits": 17}
@@ -128,26 +137,54 @@ class Camera:
         return made
 
     @classmethod
-    def preset(cls, name, **more):
-        """The camera that an engine starts with, in its own units: "unity", "unreal", "godot-forward", "three", ...
+    def preset(cls, name, *, unit=None, **more):
+        """The camera that an engine starts with: "unity", "unreal", "godot-forward", "three", ...; presets() has them with
+        their sources.
 
-        `run("list presets")` has them with their sources; `more` replaces what is given there.
+        unit  "m", "cm", ...: the length of a scene unit, to which planes and the constant C are converted; None: the
+              engine's own
+        more  near, far, format, ... of Camera in place of the engine's. With a viewport its field of view and the grid
+              of its vertices hold, too, where none are named
+
         Runs the command. Raises Error for another name, and where the engine leaves the format open.
         """
-        words = ["table", "--json", "--quiet", "--preset", _core.word(name, "a preset")]
-        setups = run(words + (["--format", more["format"]] if "format" in more else []))["setups"]
-        if len(setups) > 1:
+        asked = {key: more[key] for key in ("near", "far", "format", "mapping", "ortho", "log_c") if key in more}
+        if more.get("viewport") is not None:
+            asked.update({key: more[key] for key in ("fov", "raster", "subpixel") if key in more},
+                         viewport="%sx%s" % _several(more["viewport"], "viewport", 2))
+        found = _answer(["table", "--quiet"], {"preset": _core.word(name, "a preset"), "unit": unit, **asked})
+        if len(found["setups"]) > 1:
             raise Error("the format of %s is %s, as the implementation chooses: name one"
-                        % (name, " or ".join(setup["format"] for setup in setups)))
-        row = setups[0]
-        far = _math.inf if row["far"] is None else row["far"]
-        return cls(**{"near": row["near"], "far": far, "mapping": row["mapping"], "format": row["format"], **more})
+                        % (name, " or ".join(setup["format"] for setup in found["setups"])))
+        row, seen = found["setups"][0], found.get("triangles")
+        own = {key: row[key] for key in ("near", "mapping", "format", "log_c") if key in row}
+        own["far"] = _math.inf if row["far"] is None else row["far"]
+        if seen is not None:
+            own.update(fov=seen["fov"])
+            if seen.get("raster") is not None and not {"raster", "subpixel"} & set(more):
+                own.update(raster=seen["raster"])
+        return cls(**{**more, **own})
 
     def __getattr__(self, name):
         for fields in () if name.startswith("_") else (self._given, self._planes):
             if name in fields:
                 return fields[name]
         raise AttributeError("'Camera' has no attribute '%s'" % name)
+
+    def __setattr__(self, name, value):
+        if not name.startswith("_"):
+            raise AttributeError("a camera does not change: camera.replace(%s=%r) makes another" % (name, value)
+                                 if name in self._given else "'Camera' has no attribute '%s'" % name)
+        object.__setattr__(self, name, value)
+
+    def replace(self, **changes):
+        """This camera but for what is named: ``camera.replace(near=0.5, format="d24")``. Raises as Camera does."""
+        made = Camera(**{**self._given, **changes})
+        made._planes = {name: value if name.split("_")[0] in changes else self._planes[name]
+                        for name, value in made._planes.items()}
+        return made
+
+    __replace__ = replace
 
     def __dir__(self):
         return [*super().__dir__(), *self._given, *self._planes]
@@ -159,6 +196,14 @@ class Camera:
         shown += [repr(self._given[name]) for name in ("format", "mapping")]
         shown += ["%s=%r" % (name, self._given[name]) for name in usual if self._given[name] != usual[name]]
         return ("<Camera of a matrix: %s>" if rounded else "Camera(%s)") % ", ".join(shown)
+
+    def _repr_html_(self):
+        depths = [] if _math.isinf(self.far) or self.near <= 0 else \
+            [self.near * (self.far / self.near) ** (i / 4) for i in range(1, 4)]
+        rows = "".join("<tr><td>%.4g</td><td>%.3g</td><td>%.3g</td></tr>" % (z, self.separation(z), self.lattice(z))
+                       for z in depths or [self.near + k for k in (1.0, 10.0, 100.0)])
+        return "<p><code>%s</code></p><table><tr><th>z</th><th>guaranteed separation</th><th>of the lattice</th></tr>%s" \
+               "</table>" % (repr(self).replace("<", "&lt;").replace(">", "&gt;"), rows)
 
     def _plane(self, name):
         """A plane in the digits that it has, and between what it lies."""
@@ -196,32 +241,52 @@ class Camera:
             return self._number("code", _number(z, "an eye depth"), write=_ctypes.c_uint32)
         return self._fill("code", z, read, out)
 
-    def decode(self, values, *, bounds=False, out=None):
-        """The eye depths that codes, or window depths, give back.
+    def decode(self, codes, *, bounds=False, out=None):
+        """The eye depths that codes give back; those of window depths are decode_window()'s.
 
-        values  codes (integers of any width; above code_max they count as code_max), or window depths (float32 or
-                float64; outside [0, 1] clamped, NaN gives NaN), each of which counts as the nearest code
+        codes   integers of any width; above code_max they count as code_max, a single one must be at most that
         bounds  also the ends of the cells: every surface that is stored so lies from lo to hi. Those of float32 are
                 rounded outward
         out     float32 or float64, as many elements; with bounds three of them
 
-        Returns scene units, with bounds Decoded(z, lo, hi): float64 of codes, else the type of the window depths. Codes
-        to float32, into `out`, are within 1.85e-7 relative and the fastest. math.inf for the code of an infinite far.
-        In the model "float" a code has no cell: lo and hi are NaN. A single code must be at most code_max, a single
-        window depth in [0, 1].
+        Returns scene units, float64, with bounds Decoded(z, lo, hi). To float32, into `out`, they are within 1.85e-7
+        relative and the fastest. math.inf for the code of an infinite far. In the model "float" a code has no cell: lo
+        and hi are NaN.
         Source: depthprec(3), DP_TASK_EYE, _LO and _HI: dp_stored() and dp_cell_of().
         """
-        read = _arrays.given(values, "codes or window depths", self._direct)
-        if read is None:
-            return self._decode_number(values, bounds)
-        if not bounds:
-            return self._fill("eye", values, read, out)
-        outs = (None,) * 3 if out is None else tuple(out)
-        if len(outs) != 3:
-            raise ValueError("out must be three arrays with bounds, got %d" % len(outs))
-        for run in (False, True):  # all are looked at before one is written
-            outs = [self._fill(name, values, read, each, run) for name, each in zip(Decoded._fields, outs)]
-        return Decoded(*outs)
+        read = _arrays.given(codes, "codes", self._direct)
+        if read is not None:
+            return self._decoded(codes, read, bounds, out)
+        code = codes.item() if hasattr(codes, "item") else codes
+        if isinstance(code, bool) or not isinstance(code, int):
+            raise TypeError("a code must be a whole number: window depths are for decode_window(), got %r" % (code,))
+        if not 0 <= code <= self.code_max:
+            raise Error("a code must be from 0 to %d, got %d" % (self.code_max, code))
+        got = [self._number(name, code, read=_ctypes.c_uint32) for name in (("eye", "lo", "hi") if bounds else ("eye",))]
+        return Decoded(*got) if bounds else got[0]
+
+    def decode_window(self, depths, *, bounds=False, out=None):
+        """The eye depths that window depths give back, as they are read from a buffer: each counts as the nearest code.
+
+        depths       float16, float32 or float64; outside [0, 1] clamped, NaN gives NaN; a single one must be in [0, 1]
+        bounds, out  as decode() has them; out of the type of the depths
+
+        Returns the type of the depths, float32 of float16.
+        Source: depthprec(3), dp_batch_windows().
+        """
+        read = _arrays.given(depths, "window depths")
+        if read is not None:
+            kind = None if isinstance(depths, (list, tuple)) else memoryview(depths)
+            if kind is not None and kind.nbytes and _arrays.element(kind)[0] not in "efd":
+                raise TypeError("window depths must be float16, float32 or float64: codes are for decode(), got %s"
+                                % _arrays.name_of(kind))
+            return self._decoded(depths, read, bounds, out)
+        depth = _number(depths, "a window depth")
+        if not 0 <= depth <= 1:
+            raise Error("a window depth must be from 0 to 1, got %r" % depth)
+        given, got = _ctypes.c_double(depth), [_ctypes.c_double() for _ in range(3)]
+        _core.demand(_core.batch_windows(self._setups["own"], 1, _ctypes.byref(given), *map(_ctypes.byref, got), 1))
+        return Decoded(*(x.value for x in got)) if bounds else got[0].value
 
     def window_depth(self, z, *, out=None):
         """The window depth in [0, 1] of eye depths, before the buffer rounds it: within 2^-50 relative, and rounded
@@ -331,9 +396,21 @@ class Camera:
         kind = name, read.format, write.format
         call, in_place = self._calls.get(kind) or self._call(*kind)
         start, to, count = _arrays.places(read, write, in_place)
-        if run:
-            call(start, to, count)
+        # Between blocks Ctrl-C is heard: at most some milliseconds each.
+        block = 1 << 13 if name in ("separation", "lattice", "interval") else 1 << 18
+        for at in range(0, count if run else 0, block):
+            call(start + at * read.itemsize, to + at * write.itemsize, min(block, count - at))
         return out
+
+    def _decoded(self, values, read, bounds, out):
+        if not bounds:
+            return self._fill("eye", values, read, out)
+        outs = (None,) * 3 if out is None else tuple(out)
+        if len(outs) != 3:
+            raise ValueError("out must be three arrays with bounds, got %d" % len(outs))
+        for run in (False, True):  # all are looked at before one is written
+            outs = [self._fill(name, values, read, each, run) for name, each in zip(Decoded._fields, outs)]
+        return Decoded(*outs)
 
     def _map(self, name, z, out):
         read = _arrays.given(z, "eye depths")
@@ -351,23 +428,6 @@ class Camera:
         call(_ctypes.byref(read(value)), _ctypes.byref(got), 1)
         return got.value
 
-    def _decode_number(self, value, bounds):
-        code = value if isinstance(value, int) and not isinstance(value, bool) else \
-            value.item() if hasattr(value, "item") else value
-        if isinstance(code, int) and not isinstance(code, bool):
-            if not 0 <= code <= self.code_max:
-                raise Error("a code must be from 0 to %d, got %d" % (self.code_max, code))
-        else:
-            depth = _number(code, "a code or a window depth")
-            if not 0 <= depth <= 1:
-                raise Error("a window depth must be from 0 to 1, got %r" % depth)
-            given, got = _ctypes.c_double(depth), [_ctypes.c_double() for _ in range(3)]
-            _core.demand(_core.batch_windows(self._setups["own"], 1, _ctypes.byref(given), *map(_ctypes.byref, got), 1))
-            return Decoded(*(x.value for x in got)) if bounds else got[0].value
-        names = ("eye", "lo", "hi") if bounds else ("eye",)
-        got = [self._number(name, code, read=_ctypes.c_uint32) for name in names]
-        return Decoded(*got) if bounds else got[0]
-
     def _options(self, command):
         """As options of the command, or keys of a requirement file."""
         usual = Camera.__init__.__kwdefaults__
@@ -377,7 +437,7 @@ class Camera:
         given.update({name: self._given[name] for name in names if self._given[name] != usual[name]})
         if self.viewport is not None and command not in taken:
             depth, pixels, slim = self.triangle_class
-            given.update(viewport="%dx%d" % self.viewport, fov=self.fov, subpixel=self.subpixel,
+            given.update(viewport="%dx%d" % self.viewport, fov=self.fov, raster=self.raster, subpixel=self.subpixel,
                          slant="%r:%r" % self.slant,
                          triangle_class="depth=%r,pixels=%r,slim=%r" % (depth, pixels, slim))
         return given
@@ -406,13 +466,24 @@ def _index(names, name, what, status):
     return names.index(name)
 
 
-def _triangles(viewport, fov, subpixel, slant, triangle_class):
+def _triangles(viewport, fov, raster, subpixel, slant, triangle_class):
     made = _core.triangles_default()
     made.width, made.height = (_arrays.whole(side, "viewport") for side in _several(viewport, "viewport", 2))
     made.slant_lo, made.slant_hi = (_arrays.real(end, "slant") for end in _several(slant, "slant", 2))
     made.depth, made.pixels, made.slim = (
         _arrays.real(most, "triangle_class") for most in _several(triangle_class, "triangle_class", 3))
-    made.fov_y, made.subpixel = _arrays.real(fov, "fov"), _arrays.whole(subpixel, "subpixel")
+    made.fov_y = _arrays.real(fov, "fov")
+    if raster is not None:
+        if _core.word(raster, "raster") not in _core.RASTERS:
+            raise Error("raster must be %s or None, got %r" % (", ".join(_core.RASTERS), raster))
+        anchors = [_core.anchor_get(i).contents.plane for i in range(_core.ANCHORS)]
+        made.plane = _core.PlaneError(*(max(getattr(plane, name) for plane in anchors)
+                                        for name, _ in _core.PlaneError._fields_))
+        made.subpixel, fixed = _core.RASTERS[raster]
+        if subpixel is not None and (fixed or not _arrays.whole(subpixel, "subpixel") >= made.subpixel):
+            raise Error("subpixel %s with %s, got %s" % ("does not apply" if fixed else "must be at least 4", raster, subpixel))
+    if subpixel is not None:
+        made.subpixel = _arrays.whole(subpixel, "subpixel")
     fault = _core.triangles_fault(made)
     if fault is not None:
         raise Error(fault.decode(), _core.STATUSES.index("TRIANGLES"))

@@ -11,6 +11,8 @@ import sys
 
 # Types of elements, as the struct module and array.array call them; those of this machine's order of bytes.
 _HERE = ("", "@", "=", "<" if sys.byteorder == "little" else ">")
+_INTEGERS = {1: "bB", 2: "hH", 4: "iI", 8: "qQ"}  # by how many bytes they have, which the order of bytes decides, too
+_NAMES = {"e": "float16", "f": "float32", "d": "float64"}
 KINDS = {order + code: code for order in _HERE for code in "fdbBhHiIlLqQnN"}
 REALS = {format for format, code in KINDS.items() if code in "fd"}
 _lent = (ctypes.c_char * 0).from_buffer
@@ -100,26 +102,50 @@ def given(values, what, direct=REALS):
         view = _from_list(values)
     if view.format in direct and view.c_contiguous and view.ndim and (_LENDS or not view.readonly):
         return view
-    return _copied(view, what, direct) if view.ndim else None
+    return _copied(values, view, what, direct) if view.ndim else None
 
 
-def _copied(view, what, direct):
-    """In the order of the indices; what is not `direct` as uint32 where codes are asked, else as double."""
-    code, target = KINDS.get(view.format), "I" if "I" in direct else "d"
-    if code is None:
-        raise TypeError("%s must be float32, float64 or integers in the order of this machine's bytes, got '%s'"
-                        % (what, view.format))
-    raw, numpy = bytearray(view.tobytes()), numpy_module()
-    if view.format in direct:
-        return _shaped(memoryview(raw).cast(code), view.shape)
-    elements = memoryview(raw).cast(code) if numpy is None else numpy.frombuffer(raw, code)
-    if target == "I" and view.nbytes and code not in "BH":
-        least, most = min(elements.tolist()), max(elements.tolist())
-        if least < 0 or most > 0xFFFFFFFF:
-            raise ValueError("codes must be from 0 to 4294967295, got %d" % (least if least < 0 else most))
-    if numpy is None:
-        return _shaped(memoryview(array.array(target, elements)), view.shape)
-    return memoryview(elements.astype(target).reshape(view.shape))
+def element(view):
+    """The type of elements, "e" of float16, and whether their bytes are in the other order; None of what is no number."""
+    order, letter = (view.format[0], view.format[1:]) if view.format[:1] in tuple("@=<>!") else ("", view.format)
+    if letter in tuple("bBhHiIlLqQnN"):
+        letter = _INTEGERS[view.itemsize][letter.isupper()]
+    elif letter not in _NAMES:
+        return None, False
+    return letter, order not in _HERE and view.itemsize > 1
+
+
+def name_of(view):
+    """A type of elements as numpy calls it."""
+    code, _ = element(view)
+    return _NAMES.get(code) or "%sint%d" % ("" if code.islower() else "u", 8 * view.itemsize) if code else repr(view.format)
+
+
+def _copied(values, view, what, direct):
+    """In the order of the indices; what is not `direct` as uint32 where codes are asked, else float16 as float32 and
+    integers as double."""
+    (code, swapped), codes, numpy = element(view), "f" not in direct, numpy_module()
+    if code is None or (codes and code in _NAMES and view.nbytes) or (code == "e" and numpy is None):
+        raise TypeError("%s must be %s, got %s" % (what, "integers: window depths are for decode_window()" if codes
+                                                   else "float16, float32, float64 or integers", name_of(view)))
+    target = code if code in direct and code != "e" else "I" if codes else "f" if code == "e" else "d"
+    if numpy is not None:
+        found = values if isinstance(values, numpy.ndarray) else \
+            numpy.frombuffer(view.tobytes(), ("<>"[(sys.byteorder == "little") == swapped]) + code).reshape(view.shape)
+        if codes and found.size and code not in "BH":
+            _refuse_codes(int(found.min()), int(found.max()))
+        return memoryview(numpy.ascontiguousarray(found, target))
+    flat = array.array(code, view.tobytes())
+    if swapped:
+        flat.byteswap()
+    if codes and flat and code not in "BH":
+        _refuse_codes(min(flat), max(flat))
+    return _shaped(memoryview(flat if flat.typecode == target else array.array(target, flat)), view.shape)
+
+
+def _refuse_codes(least, most):
+    if least < 0 or most > 0xFFFFFFFF:
+        raise ValueError("codes must be from 0 to 4294967295, got %d" % (least if least < 0 else most))
 
 
 def _shaped(view, shape):

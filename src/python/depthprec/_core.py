@@ -16,6 +16,8 @@ STATUSES = ("OK", "NULL", "NEAR", "FAR", "PLANES", "INFINITE", "ORTHO", "LOG_C",
             "CONVENTION")  # DP_OK, DP_ERROR_...
 LAYOUTS = {None: 0, "rows": 1, "columns": 2}
 MAPPING_FOUND = 10  # DP_MAPPING_COUNT
+ANCHORS = 4  # DP_ANCHOR_COUNT
+RASTERS = {"spec-d3d": (8, True), "spec-vulkan": (4, False), "spec-gl": (4, False)}  # bits; whether they are all
 
 
 def _structure(title, /, **fields):
@@ -25,6 +27,7 @@ def _structure(title, /, **fields):
 Format = _structure("dp_format", name=c_char * 16, kind=c_int, bits=c_int, exponent_bits=c_int, mantissa_bits=c_int,
                     bias=c_int, code_max=c_uint32)
 PlaneError = _structure("dp_plane_error", value=c_double, box=c_double, range=c_double, origin=c_double)
+AnchorRow = _structure("dp_anchor_row", name=c_char_p, plane=PlaneError, note=c_char_p)
 Triangles = _structure("dp_triangles", width=c_int, height=c_int, fov_y=c_double, subpixel=c_int, plane=PlaneError,
                        slant_lo=c_double, slant_hi=c_double, depth=c_double, pixels=c_double, slim=c_double)
 Spec = _structure("dp_spec", znear=c_double, zfar=c_double, ortho=c_int, mapping=c_int, format=Format, rounding=c_int,
@@ -46,7 +49,7 @@ MatrixFault = _structure("dp_matrix_fault", rule=c_char_p, got=c_double * 4)
 Planes = _structure("dp_planes", near_least=c_double, near_most=c_double, far_least=c_double, far_most=c_double,
                     near_digits=c_int, far_digits=c_int)
 
-STRUCTURES = (Format, PlaneError, Triangles, Spec, Setup, Batch, Worst, SeparationWorst, Projection, MatrixFault,
+STRUCTURES = (Format, PlaneError, AnchorRow, Triangles, Spec, Setup, Batch, Worst, SeparationWorst, Projection, MatrixFault,
               Planes)
 
 
@@ -69,6 +72,7 @@ mapping_parse = _function("dp_mapping_parse", c_int, c_char_p, POINTER(c_int))
 arith_parse = _function("dp_arith_parse", c_int, c_char_p, POINTER(c_size_t))
 mapping_get = _function("dp_mapping_get", POINTER(c_char_p), c_int)  # a row begins with its name
 arith_get = _function("dp_arith_get", POINTER(c_char_p), c_size_t)
+anchor_get = _function("dp_anchor_get", POINTER(AnchorRow), c_int)
 path_best = _function("dp_path_best", c_int)
 batch_init = _function("dp_batch_init", c_int, POINTER(Batch), POINTER(Setup), c_int, c_int, c_int, c_int)
 batch_run = _function("dp_batch_run", None, POINTER(Batch), c_void_p, c_void_p, c_size_t)

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: MIT
 """The command depthprec, a program of its own beside this file: GPL-3.0-or-later, as the library is not."""
+import ast
 import json
+import keyword
 import math
 import os
+import re
 import shlex
 import struct
 import subprocess
+import sys
+import tempfile
 import warnings
 
 from . import _arrays
@@ -73,6 +78,22 @@ def _argument(value):
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
+def answer(words, options, **more):
+    """The JSON of a command; what it says of options names them as they are called here, without hyphens."""
+    try:
+        return run([*words, "--json", *words_of(options)], **more)
+    except Error as error:
+        raise Error(_plain(str(error)), error.status) from None
+
+
+def _plain(said):
+    def name(found):
+        bare = found.group(1).replace("-", "_")
+        return bare + "_" if keyword.iskeyword(bare) else bare
+
+    return re.sub(r"(?<![\w-])--([a-z][a-z0-9-]*)", name, re.sub(r"^-:\d+: ", "", said))
+
+
 def solve(camera=None, **options):
     """The near or far plane, format, mapping or distance that a separation asks for.
 
@@ -82,7 +103,7 @@ def solve(camera=None, **options):
 
     Returns the JSON of depthprec-solve(1): ``["answer"]["near"]``, ``["possible"]``, ... Raises Error.
     """
-    return run(["solve", "--json", "--quiet", *_asked(camera, "solve", options)])
+    return answer(["solve", "--quiet"], _asked(camera, "solve", options))
 
 
 def bias(camera=None, **options):
@@ -90,7 +111,7 @@ def bias(camera=None, **options):
 
     Options and JSON are those of ``depthprec bias``; else as solve().
     """
-    return run(["bias", "--json", "--quiet", *_asked(camera, "bias", options)])
+    return answer(["bias", "--quiet"], _asked(camera, "bias", options))
 
 
 def check(requirements):
@@ -103,7 +124,7 @@ def check(requirements):
     Returns the JSON of depthprec-check(1), also where one is missed. Raises Error.
     """
     if isinstance(requirements, dict):
-        return run(["check", "--json", "-"], input=_group(requirements, "\n"))
+        return answer(["check", "-"], {}, input=_group(requirements, "\n"))
     return run(["check", "--json", "--", os.fspath(requirements)])
 
 
@@ -120,19 +141,88 @@ def recognise(image, camera=None, **options):
     and ``lattice``.
     Raises Error where it is no depth image, with what it looks like.
     """
-    words = ["texture", "--json", "--quiet", *_asked(camera, "texture", options)]
-    if isinstance(image, (str, os.PathLike)):
-        found = run([*words, "--", os.fspath(image)])
-    else:
-        found = run([*words, "-"], input=_npy(image))
+    asked = _asked(camera, "texture", options)
+    path, input = _source(image)
+    found = answer(["texture", path, "--quiet"], asked, input=input)
     kept = ("samples", "packing", "metric", "stereo", "lattice", "lossy", "type", "width", "height", "channels")
     own = found.get("recognised") or dict.fromkeys(("format", "certain", "reversed", "why"))
     return {**own, **{name: found.get(name) for name in kept}}
 
 
+class Figure(str):
+    """The text of an SVG file, which a notebook shows."""
+
+    def _repr_svg_(self):
+        return str(self)
+
+    def save(self, path):
+        """Writes it to a file."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self)
+
+
+def plot(figure, camera=None, *, file=None, **options):
+    """A figure of ``depthprec list figures``, as SVG: ``plot("error", camera)``, ``plot("needs", file="game.need")``.
+
+    camera, options  as solve(), those of ``depthprec plot``; file is its FILE
+
+    Returns Figure, a str that a notebook shows and that has save(path). Raises Error.
+    """
+    words = ["plot", figure, *([] if file is None else [_path(file)]), "--type=svg", "--output=-", "--quiet"]
+    try:
+        return Figure(run([*words, *words_of(_asked(camera, "plot", options))], text=True))
+    except Error as error:
+        raise Error(_plain(str(error)), error.status) from None
+
+
+def read(image, camera=None, product="eye", **options):
+    """The pixels of a depth image as an array: eye depths, or another of ``depthprec list products``.
+
+    image            a path, .png, .exr, .tif, .npy, ..., or an array, as recognise() takes them
+    camera, options  as solve(), those of ``depthprec texture``: ``read("0001.png", metric="mm")``
+
+    Returns numpy's array where numpy is there, else a memoryview, of float32 or float64, (height, width) or (height,
+    width, channels). Raises Error.
+    """
+    path, input = _source(image)
+    with tempfile.TemporaryDirectory() as folder:
+        made = os.path.join(folder, "made.npy")
+        asked = {"product": product, **_asked(camera, "texture", options), "output": made}
+        answer(["texture", path, "--quiet"], asked, input=input)
+        with open(made, "rb") as file:
+            data = file.read()
+    size = struct.unpack_from("<H", data, 8)[0]
+    head, numpy = ast.literal_eval(data[10:10 + size].decode()), _arrays.numpy_module()
+    flat = bytearray(data[10 + size:])
+    if numpy is not None:
+        return numpy.frombuffer(flat, head["descr"]).reshape(head["shape"])
+    return memoryview(flat).cast({"f4": "f", "f8": "d"}[head["descr"][1:]], head["shape"])
+
+
+def presets():
+    """The engines that Camera.preset() knows, dicts of name, aliases, note, camera (in words) and source."""
+    return answer(["list", "presets"], {})["items"]
+
+
+def formats():
+    """The depth formats with names of their own, dicts of name, aliases, note, bound and source."""
+    return answer(["list", "formats"], {})["items"]
+
+
 def _asked(camera, command, options):
     given = {} if camera is None else camera._options(command)
-    return words_of({**given, **options})
+    return {**given, **options}
+
+
+def _source(image):
+    """The FILE of an image, and what that reads where it is "-"."""
+    return (_path(image), None) if isinstance(image, (str, os.PathLike)) else ("-", _npy(image))
+
+
+def _path(path):
+    """A path that no command takes for an option."""
+    path = os.fspath(path)
+    return os.path.join(".", path) if path.startswith("-") else path
 
 
 def _group(group, end=" "):
@@ -174,11 +264,11 @@ def _npy(image):
     except TypeError:
         raise TypeError("an image must be an array of numbers or a path, got %s" % type(image).__name__) from None
     kinds = {"e": "f2", "f": "f4", "d": "f8", "B": "u1", "H": "u2", "I": "u4"}
-    if view.format.lstrip("@=<") not in kinds:
-        raise TypeError("an image must be of float16, float32, float64, uint8, uint16 or uint32, got '%s'"
-                        % view.format)
-    order = "<" if struct.pack("=H", 1)[0] else ">"
-    head = "{'descr': '%s%s', 'fortran_order': False, 'shape': %r, }" % (order, kinds[view.format.lstrip("@=<")],
-                                                                         tuple(view.shape))
+    code, swapped = _arrays.element(view)
+    if code not in kinds:
+        raise TypeError("an image must be of float16, float32, float64, uint8, uint16 or uint32, got %s"
+                        % _arrays.name_of(view))
+    order = "<>"[(sys.byteorder == "little") == swapped]
+    head = "{'descr': '%s%s', 'fortran_order': False, 'shape': %r, }" % (order, kinds[code], tuple(view.shape))
     head += " " * (-(len(head) + 11) % 64) + "\n"
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head.encode() + view.tobytes()
