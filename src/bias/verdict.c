@@ -7,6 +7,12 @@
 #include "core/elementary.h"
 #include "core/search.h"
 
+const char *bias_answer_name(bias_answer answer) {
+    static const char *const names[] = {
+        [BIAS_NOT_PROVEN] = "not proven", [BIAS_ENOUGH] = "enough", [BIAS_NOT_ENOUGH] = "not enough"};
+    return names[answer];
+}
+
 /* ---- What is proven ---------------------------------------------------------------------------------------------- */
 
 /* The goal, with the factor and the clamp of a bias, both towards the camera. */

@@ -17,6 +17,9 @@
 
 typedef enum bias_answer { BIAS_NOT_PROVEN = 0, BIAS_ENOUGH, BIAS_NOT_ENOUGH } bias_answer;
 
+/** "not proven", "enough", "not enough". */
+const char *bias_answer_name(bias_answer answer);
+
 typedef struct bias_verdict {
     bias_answer answer;
     double lo, hi;        /**< the part of the range that is judged: where some bias is enough; NaN where none is */

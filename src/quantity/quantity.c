@@ -67,6 +67,7 @@ static const quantity_row rows[QUANTITY_COUNT] = {
     [QUANTITY_ERROR] = {"error", NULL, "error of the stored depth", NULL, "worst |decoded depth \u2212 z|",
                         "scene units", error_at, error_over, error_of},
     [QUANTITY_TIES] = {"ties", NULL, "share of ties and swaps", NULL, NULL, NULL, NULL, NULL, NULL},
+    [QUANTITY_BIAS] = {"bias", NULL, "bias", NULL, NULL, NULL, NULL, NULL, NULL},
     [QUANTITY_INTERVAL] = {"interval", NULL, NULL, NULL, "z-fighting interval", "scene units", interval_at,
                            interval_over, interval_of},
     [QUANTITY_DENSITY] = {"density", NULL, NULL, NULL, "codes, fewest", "per scene unit of depth", NULL, NULL,

@@ -16,6 +16,7 @@ typedef enum quantity_kind {
     QUANTITY_SEPARATION = 0, /**< dp_separation(): how far behind z a surface must lie to be told apart */
     QUANTITY_ERROR,          /**< |stored - z|; of computed depths at most, whatever a shader's log2 */
     QUANTITY_TIES,           /**< the share of neighbouring binary32 depths that are not stored in order */
+    QUANTITY_BIAS,           /**< a depth bias that is given, and the least that is enough; judged by bias/verdict.h */
     QUANTITY_INTERVAL,       /**< the width of the cell of z: depths in it share a code */
     QUANTITY_DENSITY,        /**< how many codes a scene unit of depth has at least */
     QUANTITY_COUNT

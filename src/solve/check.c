@@ -6,6 +6,7 @@
 #include "core/bits.h"
 #include "core/engine.h"
 #include "quantity/quantity.h"
+#include "solve/biased.h"
 #include "world/reach.h"
 
 /* A limit that the exact lattice misses by this factor, no arithmetic can save: see check.h. */
@@ -20,7 +21,8 @@ const char *check_method_name(check_method method) {
 }
 
 bool check_is_slanted(const check_verdict *v) {
-    return v->asked->kind == QUANTITY_SEPARATION && v->setup.spec.triangles.width > 0;
+    return (v->asked->kind == QUANTITY_SEPARATION || v->asked->kind == QUANTITY_BIAS) &&
+           v->setup.spec.triangles.width > 0;
 }
 
 /* The verdict that a set-up gives in its own model. */
@@ -110,6 +112,17 @@ static bool judge_ties(const check_request *request, const need *n, const dp_set
     return true;
 }
 
+static void judge_bias(const need *n, const dp_setup *asked, check_verdict *v) {
+    const bias_verdict b = need_bias(n, asked, &v->setup);
+    v->method = b.answer == BIAS_NOT_ENOUGH ? CHECK_LATTICE : CHECK_GUARANTEE;
+    v->answer = b.answer;
+    v->passed = b.answer == BIAS_ENOUGH;
+    v->value = b.units;
+    v->factor = b.factor;
+    v->z = b.z;
+    v->code = isfinite(b.code) ? (uint32_t)b.code : 0;
+}
+
 size_t check_count(const need_file *file) {
     size_t count = 0;
     for (size_t i = 0; i < file->count; i++)
@@ -129,9 +142,11 @@ long check_all(const check_request *request, check_verdict *out) {
                 judge_separation(n, camera, &camera->setups[k], out);
             else if (n->kind == QUANTITY_ERROR)
                 judge_error(n, camera, &camera->setups[k], out);
+            else if (n->kind == QUANTITY_BIAS)
+                judge_bias(n, &camera->setups[k], out);
             else if (!judge_ties(request, n, &camera->setups[k], out))
                 return -1;
-            if (n->kind != QUANTITY_ERROR && isfinite(out->z))
+            if ((n->kind == QUANTITY_SEPARATION || n->kind == QUANTITY_TIES) && isfinite(out->z))
                 out->code = dp_code(&out->setup, out->z);
             failed += !out->passed;
         }

@@ -7,12 +7,14 @@
  *                 where it refuses, else the guaranteed separation. That of slanted surfaces where the camera says
  *                 what draws them; the other two are of depths at a point.
  *     error       dp_worst_over(), or the error at a single depth
- *     ties        none for certain where the guarantee is below one binary32 step of z; else counted, depth by depth,
- *                 or drawn at random where the range holds more than CHECK_CENSUS_MAX depths
+ *     bias        bias_judge(), facing the camera and, where the camera says what draws surfaces, at any slant or for
+ * the slope that is given ties        none for certain where the guarantee is below one binary32 step of z; else
+ * counted, depth by depth, or drawn at random where the range holds more than CHECK_CENSUS_MAX depths
  */
 #ifndef SOLVE_CHECK_H
 #define SOLVE_CHECK_H
 
+#include "bias/verdict.h"
 #include "solve/requirement.h"
 
 enum { CHECK_CENSUS_MAX = 1 << 28, CHECK_SAMPLE = 1 << 24, CHECK_SEED = 1 };
@@ -32,6 +34,8 @@ typedef struct check_verdict {
     const need_camera *camera;
     dp_setup setup; /**< in the model that decided */
     check_method method;
+    bias_answer answer; /**< of a bias; `value` is then the least units that are enough, beside that factor, else NaN */
+    double factor;
     double value;  /**< at z; where `separation` decided over a range, all others are at most 2^-10 above it */
     double z;      /**< the depth where it is worst; NaN where there is none to name */
     uint32_t code; /**< stored there; of no meaning where z is NaN or infinite */

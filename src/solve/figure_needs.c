@@ -42,7 +42,7 @@ static void check_requirements(needs *s, chart *out) {
         return;
     check_all(&(check_request){.file = file, .count = no_ties}, s->verdicts);
     for (size_t i = 0; i < all; i++)
-        if (s->verdicts[i].asked->kind == QUANTITY_TIES) {
+        if (s->verdicts[i].asked->kind == QUANTITY_TIES || s->verdicts[i].asked->kind == QUANTITY_BIAS) {
             s->ties++;
         } else {
             s->passed += s->verdicts[i].passed;
@@ -159,7 +159,7 @@ static void write_subtitle(const needs *s, chart *out) {
     snprintf(text, sizeof text, "%.100s: %zu met, %zu missed", path_name(file->path), s->passed, s->count - s->passed);
     out->unit = file->unit[0] != '\0' ? file->unit : NULL;
     if (s->ties > 0)
-        append(text, sizeof text, "; not shown: %zu of ties", s->ties);
+        append(text, sizeof text, "; not shown: %zu of ties and biases", s->ties);
     notes_clean(out->subtitle, sizeof out->subtitle, text);
 }
 

@@ -7,15 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solve/biased.h"
 #include "solve/model.h"
 #include "solve/reader.h"
 #include "system/input.h"
 
 /* ---- A requirement, key by key ----------------------------------------------------------------------------------- */
 
-enum { KEY_NAME, KEY_CAMERA, KEY_AT, KEY_RANGE, KEY_SEPARATION, KEY_ERROR, KEY_TIES, KEY_COUNT };
+enum { KEY_NAME, KEY_CAMERA, KEY_AT, KEY_RANGE, KEY_SEPARATION, KEY_ERROR, KEY_TIES, KEY_BIAS, KEY_COUNT };
 
-static const char *const keys[] = {"name", "camera", "at", "range", "separation", "error", "ties", NULL};
+static const char *const keys[] = {"name", "camera", "at", "range", "separation", "error", "ties", "bias", NULL};
 
 static bool known_camera(reader *r, const setting *s, size_t *out) {
     const char *name;
@@ -128,10 +129,12 @@ static bool read_need(reader *r, setting *group, bool listed, need *n) {
         n->hi = n->lo;
     if (!in_planes(r, found[where], n))
         return false;
-    const int what = one_of(r, group, found, KEY_SEPARATION, KEY_TIES, "one of separation, error and ties");
+    const int what = one_of(r, group, found, KEY_SEPARATION, KEY_BIAS, "one of separation, error, ties and bias");
     if (what < 0)
         return false;
     n->kind = (quantity_kind)(what - KEY_SEPARATION);
+    if (n->kind == QUANTITY_BIAS)
+        return reader_bias(r, found[what], n);
     return read_limit(r, found[what], n) && suits(r, found[what], n);
 }
 

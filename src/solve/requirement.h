@@ -14,6 +14,7 @@
 
 #include <stdbool.h>
 
+#include "bias/bias.h"
 #include "camera/matrix.h"
 #include "camera/profile.h"
 #include "depthprec/depthprec.h"
@@ -44,6 +45,8 @@ typedef struct need {
     quantity_kind kind; /**< that it limits */
     double limit;       /**< largest that passes; a length or a share */
     double lo, hi;      /**< the range; equal for a single depth */
+    bias_state bias;    /**< of a BIAS: the one given; `limit` is its units */
+    bias_goal goal;     /**< likewise: slope and gap */
 } need;
 
 typedef struct need_file {

@@ -254,6 +254,49 @@ TEST(the_quick_model_first) {
     }
 }
 
+/* A bias: what is met, by numbers that test_bias_verdict has proven; D24 by hand. */
+TEST(biases) {
+    static const struct {
+        const char *camera, *what;
+        bool passed;
+        double value; /* the least units; NaN: none */
+    } cases[] = {
+        {"", "range = [1, 100]; bias = { api = \"gl\"; units = -2; factor = -1; };", true, -1},
+        {"", "range = [1, 100]; bias = { api = \"gl\"; units = 0; };", false, -1},
+        {"", "range = [1, 100]; bias = { api = \"gl\"; units = 2; };", false, -1},
+        {"", "at = 5; bias = { api = \"d3d11\"; units = -2; };", true, -2},
+        {"", "at = 5; bias = { api = \"d3d12\"; units = -5; clamp = -1e-8; };", false, -2},
+        {"viewport = [1920, 1080]; subpixel = 8; fov = 60;",
+         "range = [1, 100]; bias = { api = \"gl\"; units = -10; factor = -1; };", true, -10},
+        {"viewport = [1920, 1080]; subpixel = 8; fov = 60;",
+         "range = [1, 100]; bias = { api = \"gl\"; units = -2; factor = -1; };", false, -10},
+        {"viewport = [1920, 1080]; subpixel = 8; fov = 60;",
+         "range = [1, 100]; bias = { api = \"gl\"; units = -9; factor = -1; };", false, -10},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[256];
+        snprintf(text, sizeof text, "near = 0.1; far = 1000; mapping = \"gl\"; format = \"unorm24\"; %s",
+                 cases[i].camera);
+        judged j = judge_one(text, cases[i].what);
+        const check_verdict *v = &j.verdicts[0];
+        if (v->passed != cases[i].passed || v->value != cases[i].value || j.failed != !v->passed)
+            fail_msg("%s: %d, least %.17g", cases[i].what, v->passed, v->value);
+        if (v->answer == BIAS_NOT_ENOUGH)
+            assert_true(v->z >= v->asked->lo && v->z <= v->asked->hi && v->code == dp_code(&v->setup, v->z));
+        done(&j);
+    }
+    /* What a fragment shader writes has none. */
+    judged j = judge_one("near = 0.1; far = 1000; mapping = \"log\"; log_c = 1; format = \"unorm24\";",
+                         "at = 5; bias = { api = \"gl\"; units = -100; };");
+    assert_true(!j.verdicts[0].passed && isnan(j.verdicts[0].value));
+    done(&j);
+    /* A gap: 1 cm at 10 m is n dz/z^2 of the window and 16777 codes and more. */
+    j = judge_one("near = 0.1; far = 1000; mapping = \"gl\"; format = \"unorm24\";",
+                  "at = 10; bias = { api = \"gl\"; units = -167; separation = \"1 cm\"; };");
+    assert_true(!j.verdicts[0].passed && j.verdicts[0].value == -168);
+    done(&j);
+}
+
 TEST(ties_are_counted_when_needed) {
     static const char reversed[] =
         "near = 0.1; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"float\";";

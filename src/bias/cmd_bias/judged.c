@@ -10,9 +10,6 @@
 
 enum { DIGITS = 9, DIGITS_PUSHED = 4 };
 
-static const char *const answers[] = {
-    [BIAS_NOT_PROVEN] = "not proven", [BIAS_ENOUGH] = "enough", [BIAS_NOT_ENOUGH] = "not enough"};
-
 bias_judged bias_judged_of(const dp_setup *setup, const bias_state *given, const bias_goal *goal, double lo,
                            double hi) {
     const bool lost = bias_is_missed(setup);
@@ -25,7 +22,7 @@ bias_judged bias_judged_of(const dp_setup *setup, const bias_state *given, const
                               : goal->slope > 0.0 ? "at the slope"
                                                   : "facing the camera",
                      .v = bias_judge(setup, state, goal, lo, hi)};
-    j.answer = answers[j.v.answer];
+    j.answer = bias_answer_name(j.v.answer);
     if (lost)
         j.v.units = j.v.factor = (double)NAN;
     if (!isnan(j.v.units))
@@ -35,7 +32,7 @@ bias_judged bias_judged_of(const dp_setup *setup, const bias_state *given, const
 
 void bias_judged_by(bias_judged *j, double z, double code, double moved) {
     j->v.answer = BIAS_NOT_ENOUGH;
-    j->answer = answers[BIAS_NOT_ENOUGH];
+    j->answer = bias_answer_name(BIAS_NOT_ENOUGH);
     j->v.z = z;
     j->v.code = code;
     j->v.moved = moved;
@@ -45,7 +42,7 @@ bias_judged bias_judged_remedy(const dp_setup *setup, const remedy *row, double 
                                double hi) {
     bias_judged j = {.what = "facing", .asked = "facing the camera"};
     j.v = remedy_judge(setup, row, amount, gap, lo, hi);
-    j.answer = answers[j.v.answer];
+    j.answer = bias_answer_name(j.v.answer);
     if (!isnan(j.v.units))
         append(j.call, sizeof j.call, "--remedy %s:%s", row->name,
                (row->grows ? number_up : number_down)(j.v.units, DIGITS).text);

@@ -7,12 +7,26 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "bias/cmd_bias/call.h"
 #include "camera/cmd/setups.h"
 #include "camera/cmd/slant.h"
 #include "cli/junit.h"
+#include "core/append.h"
 #include "report/sentence.h"
 
 enum { DIGITS = 6 };
+
+/* A bias that is judged. */
+typedef struct biased {
+    const char *answer;         /* "not enough" */
+    char given[BIAS_CALL_SIZE]; /* as programs write it */
+    char least[BIAS_CALL_SIZE]; /* the least that is enough; "" where none is */
+} biased;
+
+static const column biased_columns[] = {{FIELD(biased, answer, "answer", "")},
+                                        {FIELD(biased, given, "given", "")},
+                                        {FIELD(biased, least, "least", "")},
+                                        {.kind = COLUMN_END}};
 
 /* A verdict, and what of it is named elsewhere. */
 typedef struct verdict {
@@ -27,6 +41,8 @@ typedef struct verdict {
     double code;                /* NaN where there is none */
     const char *phrase, *among; /* in a sentence: "separation" ", facing" */
     number_text shown, allowed;
+    biased of_bias;
+    const biased *biased; /* null where no bias is judged */
 } verdict;
 
 static const column verdict_columns[] = {
@@ -45,6 +61,7 @@ static const column verdict_columns[] = {
     {FIELD(verdict, code, "code", "")},
     {FIELD(verdict, method, "method", "")},
     {FIELD(verdict, found.passed, "passed", "")},
+    {PART(verdict, biased, "bias", biased_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {FIELD(verdict, surfaces, "surfaces", "")},
     {FIELD(verdict, measured, "measured", ""), .only = AS_JSON, .optional = true},
     {PART(verdict, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
@@ -52,6 +69,17 @@ static const column verdict_columns[] = {
 
 static number_text surfaces(const check_verdict *v) {
     return check_is_slanted(v) ? slant_words(&v->setup.spec.triangles) : (number_text){"facing"};
+}
+
+static biased biased_of(const check_verdict *v) {
+    biased b = {.answer = bias_answer_name(v->answer)};
+    if (v->asked->kind != QUANTITY_BIAS)
+        return b;
+    append(b.given, sizeof b.given, "%s",
+           bias_call(v->asked->bias.api, v->asked->bias.units, v->asked->bias.factor).text);
+    if (!isnan(v->value))
+        append(b.least, sizeof b.least, "%s", bias_call(v->asked->bias.api, v->value, v->factor).text);
+    return b;
 }
 
 static verdict verdict_of(const check_file *f, const check_verdict *v) {
@@ -72,6 +100,7 @@ static verdict verdict_of(const check_file *f, const check_verdict *v) {
                                dp_arith_get(v->setup.spec.arith)->name},
                      .surfaces = check_is_slanted(v) ? "any slant" : "facing",
                      .code = isfinite(v->z) ? v->code : (double)NAN,
+                     .of_bias = biased_of(v),
                      .phrase = kind->note,
                      .shown = number_in(compared.value, kind->unit != NULL ? unit : NULL),
                      .allowed = number_in(compared.limit, kind->unit != NULL ? unit : NULL)};
@@ -79,25 +108,41 @@ static verdict verdict_of(const check_file *f, const check_verdict *v) {
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
-static const column said_columns[] = {{GROUP(NULL, verdict_columns)}, WORD(verdict, phrase),    WORD(verdict, among),
-                                      NUMBER(verdict, shown),         NUMBER(verdict, allowed), {.kind = COLUMN_END}};
+static const column said_columns[] = {{GROUP(NULL, verdict_columns)},
+                                      {PART(verdict, of_bias, NULL, biased_columns)},
+                                      WORD(verdict, phrase),
+                                      WORD(verdict, among),
+                                      NUMBER(verdict, shown),
+                                      NUMBER(verdict, allowed),
+                                      {.kind = COLUMN_END}};
 
-enum { OF_RANGE = 1 };
+enum { OF_RANGE = 1, OF_BIAS = 2, WITNESS = 4, LEAST = 8 };
 
-static const sentence said[] = {PROSE("{phrase} {shown} from {lo} to {hi}, allowed {allowed}", OF_RANGE),
-                                ELSE("{phrase} {shown} at {z} (code {code}){among}, allowed {allowed}", 0),
-                                ELSE("{phrase} {shown} at {z}{among}, allowed {allowed}", 0),
-                                ELSE("{phrase} {shown}{among}, allowed {allowed}", 0), SENTENCE_END};
+static const sentence said[] = {
+    PROSE("bias {given} {answer}: at {z} (code {code}){among}; the least that is enough: {least}",
+          OF_BIAS | WITNESS | LEAST),
+    ELSE("bias {given} {answer}: at {z} (code {code}){among}; no bias is", OF_BIAS | WITNESS),
+    ELSE("bias {given} {answer} from {lo} to {hi}{among}; the least that is enough: {least}", OF_BIAS | LEAST),
+    ELSE("bias {given} {answer} from {lo} to {hi}{among}; no bias is", OF_BIAS),
+    ELSE("{phrase} {shown} from {lo} to {hi}, allowed {allowed}", OF_RANGE),
+    ELSE("{phrase} {shown} at {z} (code {code}){among}, allowed {allowed}", 0),
+    ELSE("{phrase} {shown} at {z}{among}, allowed {allowed}", 0),
+    ELSE("{phrase} {shown}{among}, allowed {allowed}", 0),
+    SENTENCE_END};
 
 /* "separation 0.00149 m at 50 m (code 123), facing, allowed 0.001 m"; what is promised is rounded up */
 static const char *sentence_of(const check_file *f, const check_verdict *v, char out[SENTENCE_SIZE]) {
     const page p = {.unit = f->file.unit[0] != '\0' ? f->file.unit : NULL};
     char among[NUMBER_SIZE + 4] = "";
     verdict x = verdict_of(f, v);
-    if (v->asked->kind == QUANTITY_SEPARATION)
+    if (v->asked->kind == QUANTITY_SEPARATION || v->asked->kind == QUANTITY_BIAS)
         snprintf(among, sizeof among, ", %s", surfaces(v).text);
     x.among = among;
-    return sentence_first(&p, said, said_columns, &x, v->asked->kind != QUANTITY_TIES ? 0 : OF_RANGE, out);
+    const bool bias = v->asked->kind == QUANTITY_BIAS;
+    const unsigned when = v->asked->kind == QUANTITY_TIES ? OF_RANGE : bias ? OF_BIAS : 0;
+    return sentence_first(&p, said, said_columns, &x,
+                          when | (bias && isfinite(v->z) ? WITNESS : 0) | (x.of_bias.least[0] != '\0' ? LEAST : 0),
+                          out);
 }
 
 /* Which GPU the promises for a camera are for. */
@@ -181,6 +226,7 @@ static void *next_verdict(void *of, size_t i) {
         return NULL;
     all->verdict = verdict_of(f, &f->verdicts[i]);
     all->verdict.setup.planes = camera_matrix_left_open(&f->verdicts[i].camera->matrix);
+    all->verdict.biased = f->verdicts[i].asked->kind == QUANTITY_BIAS ? &all->verdict.of_bias : NULL;
     all->verdict.triangles = check_is_slanted(&f->verdicts[i]) ? &all->verdict.slant : NULL;
     return &all->verdict;
 }
